@@ -36,7 +36,7 @@ run: .venv/installed $(PAGE)  ## the running lab, on http://127.0.0.1:8000/ (POR
 dev: .venv/installed $(PAGE)  ## the lab, and the page rebuilt as you type (on the port that Vite says)
 	@$(BIN)/svsa serve --port 8000 & $(WEB) run dev
 
-bench-demo: .venv/installed $(PAGE)  ## the lab on the emulated rig
+bench-demo: .venv/installed $(PAGE)  ## the lab on the emulator
 	@$(BIN)/svsa emulator --idle-s 30 & $(BIN)/svsa serve --port $(PORT) --bench svsa/hardware/emulator/bench.toml
 
 test: .venv/installed $(PAGE)  ## nearly every promise of the lab, where it is soonest shown, and the main ways

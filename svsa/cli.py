@@ -70,7 +70,7 @@ def describe(
 def reproduce(
     figure: Annotated[
         list[str] | None,
-        typer.Option(help="4a, 4b, 5, or on the emulated rig 6a, 6b, 7; 4a, 4b and 5 if left out."),
+        typer.Option(help="4a, 4b, 5, or on the emulator 6a, 6b, 7; 4a, 4b and 5 if left out."),
     ] = None,
     output: Annotated[Path, typer.Option(help="Folder for the pictures.")] = Path("figures"),
     as_json: Annotated[

@@ -57,8 +57,8 @@ class ParameterError(SvsaError, ValueError):
 
     def __init__(self, *violations: Violation, file: str = "") -> None:
         self.violations, self.file = violations, file
-        told = " ".join(violation.message for violation in violations)
-        super().__init__(f"{file}: {told}" if file else told)
+        reported = " ".join(violation.message for violation in violations)
+        super().__init__(f"{file}: {reported}" if file else reported)
 
     def __reduce__(self) -> tuple[Callable[..., Self], tuple[Violation, ...]]:
         """To another process and back with every violation."""

@@ -22,7 +22,7 @@ from svsa.runs.batch import run_configurations
 from svsa.runs.paper import FIGURES
 from svsa.simulation.plant.loads import ConstantLoad
 from tests.analysis.identification.excited_run import build_configuration, build_run, play
-from tests.hardware.emulator.in_process_rig import start_in_process
+from tests.hardware.emulator.in_process_emulator import start_in_process
 from tests.runs.paper.golden import GENERIC
 from tests.runs.session.sessions import EVERY_EFFECT, SHOWN_IN_BATCHES
 
@@ -53,12 +53,12 @@ def start(module: str, *arguments: str, **variables: str) -> subprocess.Popen[by
 
 
 def compile_bench() -> None:
-    """The bench's tick, which calls any law, and the emulated rig."""
-    with start_in_process() as rig:
-        bench = LockstepBench(rig, FIGURES["4a"].build_configuration("ndobc"), TICKS)
+    """The bench's tick, which calls any law, and the emulator."""
+    with start_in_process() as emulator:
+        bench = LockstepBench(emulator, FIGURES["4a"].build_configuration("ndobc"), TICKS)
         bench.prepare()
         bench.start()
-        rig.control.load(ConstantLoad(torque_nm=(1.0, 0.0, 0.0)))
+        emulator.control.load(ConstantLoad(torque_nm=(1.0, 0.0, 0.0)))
         bench.tick(TICKS)
         bench.loop.tick(bench.now(), TICKS)
         bench.close()

@@ -77,7 +77,7 @@ def note_compilation(item: pytest.Item) -> Iterator[None]:
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
     """Tell what `tests.compile_all` has not compiled before."""
-    told = [
+    reported = [
         f"{report.nodeid}: {dict(report.user_properties)[COMPILED]}"
         for reports in terminalreporter.stats.values()
         for report in reports
@@ -85,9 +85,9 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
         and report.when == "call"
         and COMPILED in dict(report.user_properties)
     ]
-    if told:
+    if reported:
         terminalreporter.section("compiled inside a test")
-    for line in told:
+    for line in reported:
         terminalreporter.write_line(line)
 
 
@@ -100,6 +100,6 @@ def shared_lab() -> Iterator[Lab]:
 @pytest.fixture
 def lab(shared_lab: Lab) -> Iterator[Lab]:
     """The shared lab, begun anew; it stands still after the test."""
-    shared_lab.begin_anew()
+    shared_lab.restart()
     yield shared_lab
     shared_lab.client.post(shared_lab.session + "/pause")

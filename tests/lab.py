@@ -50,7 +50,7 @@ class Lab(NamedTuple):
         answer = self.client.post(self.session + "/experiment", json=request)
         return answer.raise_for_status().json()
 
-    def begin_anew(self) -> None:
+    def restart(self) -> None:
         """On Figure 4A: one lane, no load, no recording."""
         self.client.delete(self.session + "/recording")
         self.client.put(self.session + "/lanes", json={"comparisons": []}).raise_for_status()

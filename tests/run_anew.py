@@ -54,7 +54,7 @@ class RunAnew:
         return True
 
     def pytest_terminal_summary(self, terminalreporter: pytest.TerminalReporter) -> None:
-        told = [
+        reported = [
             f"{report.nodeid}: {words}"
             for reports in terminalreporter.stats.values()
             for report in reports
@@ -62,9 +62,9 @@ class RunAnew:
             for name, words in report.user_properties
             if name == TOLD
         ]
-        if told:
+        if reported:
             terminalreporter.section("the machine stood still: run anew")
-        for line in told:
+        for line in reported:
             terminalreporter.write_line(line)
 
     def pytest_unconfigure(self) -> None:

@@ -18,7 +18,7 @@ LONGEST = (
     *("test_schema_fuzz", "test_identification", "test_attacks", "test_stream", "test_cluster"),
     *("test_can_plant_faults", "test_closed_loop", "test_private_sessions", "test_class"),
     *("test_replay_page", "test_bench_check", "test_stability_command", "test_run_anew"),
-    *("test_bench_plants", "test_bench_faults", "test_schema_doors", "test_exercises"),
+    *("test_bench_plants", "test_bench_faults", "test_schema_auth", "test_exercises"),
     *("test_leaderboard", "test_extras", "test_execution", "test_compilation"),
     *("test_studies", "test_design", "test_script", "test_life", "test_view"),
     *("test_falsifier", "test_layout", "test_bench", "test_control", "test_accessibility"),

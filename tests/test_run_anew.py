@@ -134,11 +134,11 @@ def test_only_what_failed_while_the_machine_stood_still_is_run_anew(said: str) -
 
 
 def test_the_summary_says_what_was_run_anew_and_how_late_the_machine_was(said: str) -> None:
-    _, _, told = said.partition("the machine stood still: run anew")
-    lines = [line for line in told.splitlines() if "where it relies on 0.2 s" in line]
+    _, _, reported = said.partition("the machine stood still: run anew")
+    lines = [line for line in reported.splitlines() if "where it relies on 0.2 s" in line]
     names = [line.split(":")[2].split()[0].removeprefix("test_") for line in lines]
     assert sorted(names) == ["fails_always", "fails_always", "fails_once", "is_set_up_late"], said
     late = [float(line.partition("late by ")[2].split()[0]) for line in lines]
     assert min(late) > 0.2
-    assert "(call: AssertionError: the first time" in told
-    assert "(setup: AssertionError: the lab does not start" in told
+    assert "(call: AssertionError: the first time" in reported
+    assert "(setup: AssertionError: the lab does not start" in reported

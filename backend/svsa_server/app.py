@@ -18,7 +18,12 @@ from svsa.runs.session.session import Session
 from svsa.teaching.course.file import read_course
 from svsa.teaching.course.progress import ProgressStore
 from svsa_server.access.audit import AuditLog, Auditor
-from svsa_server.access.authentication import ClassDoor, Door, OpenDoor, SecretDoor
+from svsa_server.access.authentication import (
+    Authentication,
+    ClassAuthentication,
+    OpenAuthentication,
+    SecretAuthentication,
+)
 from svsa_server.access.class_keys import ClassKeys
 from svsa_server.access.guard import AccessGuard, read_person
 from svsa_server.access.memberships import FILE, Memberships
@@ -84,7 +89,7 @@ def build_app(
     they are open already. host: the address that is listened on.
     """
     config = config or Settings()
-    door = build_door(config, keys)
+    authentication = build_authentication(config, keys)
     app = FastAPI(
         title="SVSA Lab",
         version=svsa.__version__,
@@ -93,7 +98,7 @@ def build_app(
         docs_url=None,
         redoc_url=None,
     )
-    app.state.door = door
+    app.state.authentication = authentication
     app.state.config = config
     app.state.host = host
     app.state.shared = shared
@@ -109,7 +114,7 @@ def build_app(
     )
     app.add_middleware(
         AccessGuard,
-        door=door,
+        authentication=authentication,
         hosts=config.host_names,
         find_owner=find_owner,
         rates=build_rates(config) if config.classroom else None,
@@ -120,7 +125,7 @@ def build_app(
     install_error_handlers(app)
     app.router.routes.extend(build_routes())
     app.router.routes.extend(build_page_routes())
-    install_openapi(app, build_routes, needs_secret=door.kind != "open")
+    install_openapi(app, build_routes, needs_secret=authentication.kind != "open")
     return app
 
 
@@ -162,13 +167,13 @@ def build_routes() -> list[BaseRoute]:
     return [route for part in parts for route in part.router.routes]
 
 
-def build_door(config: Settings, keys: ClassKeys | None = None) -> Door:
+def build_authentication(config: Settings, keys: ClassKeys | None = None) -> Authentication:
     """How people come in, as it is configured."""
     if config.classroom:
         folder = find_data_folder()
         keys = keys or ClassKeys.open(folder)[0]
-        return ClassDoor(keys, People(), Memberships(folder / FILE))
-    return SecretDoor(config.secret_text) if config.secret_text else OpenDoor()
+        return ClassAuthentication(keys, People(), Memberships(folder / FILE))
+    return SecretAuthentication(config.secret_text) if config.secret_text else OpenAuthentication()
 
 
 def open_lti(config: Settings) -> "LtiTool | None":

@@ -51,8 +51,8 @@ class ResponsiveApp:
 
     def __init__(self, app: FastAPI, shared: Session) -> None:
         self._thread, self._shared = AppThread(app), shared
-        door, hosts = app.state.door, app.state.config.host_names
-        self._guard = AccessGuard(self._answer, door, hosts, _find_owner)
+        authentication, hosts = app.state.authentication, app.state.config.host_names
+        self._guard = AccessGuard(self._answer, authentication, hosts, _find_owner)
         self.is_stuck = False
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:

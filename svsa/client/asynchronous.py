@@ -183,8 +183,8 @@ class AsyncSession:
         """Everybody may command again."""
         await asyncio.to_thread(self.session.give_control_back)
 
-    async def tell_bench(self, call: Callable[[RemoteBench], None]) -> None:
-        """A call of the bench, as `await session.tell_bench(RemoteBench.arm)`."""
+    async def report_bench(self, call: Callable[[RemoteBench], None]) -> None:
+        """A call of the bench, as `await session.report_bench(RemoteBench.arm)`."""
         await asyncio.to_thread(call, self.session.bench)
 
     @asynccontextmanager

@@ -36,23 +36,23 @@ _BY_KIND: dict[str, type[SvsaError]] = {"not_now": StateError, "held": ControlEr
 _BY_STATUS = {401: AccessError, 403: AccessError}
 
 
-def build_refusal(status: int, told: Any) -> SvsaError:
-    """The error for an answer of this status; told: its body, a problem (RFC 9457) or anything.
+def build_refusal(status: int, reported: Any) -> SvsaError:
+    """The error for an answer of this status; reported: its body, a problem (RFC 9457) or anything.
 
     A refused value is a `ParameterError` with name, value, unit and bound, as of `simulate`.
     """
-    if not isinstance(told, dict):
+    if not isinstance(reported, dict):
         return _BY_STATUS.get(status, LabError)(f"The lab answered {status}.")
-    detail = str(told.get("detail", f"The lab answered {status}."))
-    if violations := told.get("violations"):
+    detail = str(reported.get("detail", f"The lab answered {status}."))
+    if violations := reported.get("violations"):
         return ParameterError(*map(_read_violation, violations))
-    _, _, kind = str(told.get("type")).rpartition(":")
+    _, _, kind = str(reported.get("type")).rpartition(":")
     return _BY_KIND.get(kind, _BY_STATUS.get(status, LabError))(detail)
 
 
-def _read_violation(told: dict[str, Any]) -> Violation:
+def _read_violation(reported: dict[str, Any]) -> Violation:
     names = ("name", "value", "unit", "bound", "limits", "finding")
-    return Violation(**{name: told[name] for name in names})
+    return Violation(**{name: reported[name] for name in names})
 
 
 API = "/api/v1"
@@ -178,10 +178,10 @@ class Connection:
             answer = self._http.get(f"/requests/{name}")
         except httpx.TransportError:
             return None
-        told = _read_json(answer)
+        reported = _read_json(answer)
         if answer.status_code in (401, 403):
-            raise build_refusal(answer.status_code, told)
-        return told if answer.is_success else None
+            raise build_refusal(answer.status_code, reported)
+        return reported if answer.is_success else None
 
 
 def _read_json(answer: httpx.Response) -> Any:
@@ -199,7 +199,7 @@ class Acted:
     time_s: float
 
 
-class SessionDoor:
+class SessionConnection:
     """A session by its name. acted: when the last command acted; None before the first."""
 
     def __init__(self, connection: Connection, name: str) -> None:

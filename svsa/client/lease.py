@@ -2,13 +2,13 @@
 
 import time
 
-from svsa.client.connection import ControlError, SessionDoor
+from svsa.client.connection import ControlError, SessionConnection
 from svsa.errors import ParameterError, Violation
 
 WAIT_S = 0.5
 
 
-class ControlledDoor(SessionDoor):
+class ControlledConnection(SessionConnection):
     """A session that one client at a time may be in control of."""
 
     def take_control(

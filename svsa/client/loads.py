@@ -6,7 +6,7 @@ from typing import Any
 
 from pydantic import TypeAdapter
 
-from svsa.client.connection import SessionDoor
+from svsa.client.connection import SessionConnection
 from svsa.simulation.plant.loads import Load
 
 _LOAD: TypeAdapter[Load] = TypeAdapter(Load)
@@ -26,11 +26,11 @@ class AppliedLoad:
 class Loads:
     """What loads a session: iterate over them, add one, take one or all off."""
 
-    def __init__(self, session: SessionDoor) -> None:
+    def __init__(self, session: SessionConnection) -> None:
         self._session = session
 
     def __iter__(self) -> Iterator[AppliedLoad]:
-        return iter([_read(told) for told in self._session.read_state()["loads"]])
+        return iter([_read(reported) for reported in self._session.read_state()["loads"]])
 
     def __len__(self) -> int:
         return len(self._session.read_state()["loads"])
@@ -50,6 +50,8 @@ class Loads:
         self._session.call("DELETE", "/loads")
 
 
-def _read(told: dict[str, Any]) -> AppliedLoad:
-    load = _LOAD.validate_python(told["load"])
-    return AppliedLoad(told["id"], told["start_s"], told["end_s"], told["active"], load)
+def _read(reported: dict[str, Any]) -> AppliedLoad:
+    load = _LOAD.validate_python(reported["load"])
+    return AppliedLoad(
+        reported["id"], reported["start_s"], reported["end_s"], reported["active"], load
+    )

@@ -3,14 +3,14 @@
 import time
 from typing import Any, Literal
 
-from svsa.client.lease import ControlledDoor
+from svsa.client.lease import ControlledConnection
 from svsa.errors import Fault, FaultError, StateError
 
 MAX_STEP_TICKS = 10_000
 LOOK_S = 0.05
 
 
-class MovingDoor(ControlledDoor):
+class RunningConnection(ControlledConnection):
     """A session whose time goes on when it is told to: a simulation, or a bench in real time."""
 
     @property

@@ -3,7 +3,7 @@
 import time
 from typing import Self
 
-from svsa.client.connection import LabError, SessionDoor
+from svsa.client.connection import LabError, SessionConnection
 from svsa.client.runs import RemoteRuns
 from svsa.runs.result.result import Result
 
@@ -18,7 +18,7 @@ class Recording:
     hidden by it.
     """
 
-    def __init__(self, session: SessionDoor, runs: RemoteRuns, run_id: str) -> None:
+    def __init__(self, session: SessionConnection, runs: RemoteRuns, run_id: str) -> None:
         self._session, self._runs, self.run_id = session, runs, run_id
 
     def __enter__(self) -> Self:

@@ -38,11 +38,11 @@ class RemoteRuns:
         search: words that must stand in it. filters: as those of `GET /runs`: tag, law, load,
         figure, plant, sort.
         """
-        page, told = 1, {"total": 1}
-        while (page - 1) * PAGE_SIZE < told["total"]:
+        page, reported = 1, {"total": 1}
+        while (page - 1) * PAGE_SIZE < reported["total"]:
             query = filters | {"search": search, "page": page, "page_size": PAGE_SIZE}
-            told = self._connection.read("/runs", **query)
-            yield from told["runs"]
+            reported = self._connection.read("/runs", **query)
+            yield from reported["runs"]
             page += 1
 
     def read(self, run_id: str) -> dict[str, Any]:

@@ -7,9 +7,9 @@ from typing import Any, Literal
 from pydantic import TypeAdapter
 
 from svsa.actuators.parameters import ActuatorParameters
-from svsa.client.connection import Connection, SessionDoor
+from svsa.client.connection import Connection, SessionConnection
 from svsa.client.loads import Loads
-from svsa.client.motion import MovingDoor
+from svsa.client.motion import RunningConnection
 from svsa.client.recording import Recording
 from svsa.client.runs import RemoteRuns
 from svsa.client.stream import BlockStream
@@ -24,7 +24,7 @@ _POSITION: TypeAdapter[PositionReference] = TypeAdapter(PositionReference)
 _STIFFNESS: TypeAdapter[StiffnessReference] = TypeAdapter(StiffnessReference)
 
 
-class RemoteSession(MovingDoor):
+class RemoteSession(RunningConnection):
     """A session by its name; every property is asked of the lab when it is read.
 
     Setting one returns when the lab has taken it, and `acted` says at which tick it holds; what is
@@ -106,8 +106,8 @@ class RemoteSession(MovingDoor):
     @property
     def gains(self) -> Gains:
         """Coefficients of Eq 25, of laws that take such."""
-        told = self._read("gains")
-        return Gains(**{name: tuple(told[name]) for name in Gains.model_fields})
+        reported = self._read("gains")
+        return Gains(**{name: tuple(reported[name]) for name in Gains.model_fields})
 
     @gains.setter
     def gains(self, gains: Gains) -> None:
@@ -212,7 +212,7 @@ class RemoteSession(MovingDoor):
 class RemoteBench:
     """What only a bench can be told; a simulated session raises `StateError`."""
 
-    def __init__(self, session: SessionDoor) -> None:
+    def __init__(self, session: SessionConnection) -> None:
         self._session = session
 
     @property

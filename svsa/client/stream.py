@@ -88,7 +88,7 @@ class BlockStream:
         self._name = f"The stream of session {session} at {connection.url}"
         self._duration_s, self._patience_s = duration_s, connection.patience_s
         self._until: float | None = None
-        self._told_at = time.monotonic()
+        self._reported_at = time.monotonic()
 
     def __iter__(self) -> Iterator[Block]:
         while True:
@@ -140,7 +140,7 @@ class BlockStream:
         block = reader.read(message)
         if block is None:
             return None, False
-        self._told_at = time.monotonic()
+        self._reported_at = time.monotonic()
         if self._until is None:
             self._until = float(block.time_s[0]) + self._duration_s
         inside = block.time_s < self._until - block.period_s / 2
@@ -152,9 +152,9 @@ class BlockStream:
 
     def _check_patience(self, error: Exception) -> None:
         if isinstance(error, InvalidStatus) and error.response.status_code in (401, 403):
-            told = error.response.body or b"null"
-            raise build_refusal(error.response.status_code, json.loads(told)) from None
-        if time.monotonic() - self._told_at > self._patience_s:
+            reported = error.response.body or b"null"
+            raise build_refusal(error.response.status_code, json.loads(reported)) from None
+        if time.monotonic() - self._reported_at > self._patience_s:
             raise LabError(f"{self._name} broke off: {error}.") from None
 
 
@@ -174,12 +174,12 @@ class BlockReader:
     def read(self, message: str | bytes) -> Block | None:
         """The block in a message; None for one that tells of the session."""
         if isinstance(message, str):
-            told = json.loads(message)
-            if told["type"] == "error":
-                raise LabError(told["message"])
-            if told["type"] == "hello":
-                self._hello = told
-            self._lanes = {lane["id"]: lane["lane"] for lane in told["state"]["lanes"]}
+            reported = json.loads(message)
+            if reported["type"] == "error":
+                raise LabError(reported["message"])
+            if reported["type"] == "hello":
+                self._hello = reported
+            self._lanes = {lane["id"]: lane["lane"] for lane in reported["state"]["lanes"]}
             return None
         channels = self._hello["channels"]
         batch = unpack_batch(message, len(channels))

@@ -35,9 +35,9 @@ def list_law_names() -> tuple[str, ...]:
     return tuple(_find_entries())
 
 
-def list_law_inks() -> dict[str, int]:
+def list_law_line_styles() -> dict[str, int]:
     """Of every law that is installed the look that is its own in every picture, from 0."""
-    return {name: ink for ink, name in enumerate(list_law_names())}
+    return {name: line_style for line_style, name in enumerate(list_law_names())}
 
 
 def check_installed(name: str) -> str:
@@ -88,8 +88,8 @@ def _load_law(name: str) -> Law | str:
     try:
         law = entry.load()
     except Exception as error:
-        told = f"{type(error).__name__}: {error}"
-        return f"The law {name} of the package {package} does not load: {told}"
+        reported = f"{type(error).__name__}: {error}"
+        return f"The law {name} of the package {package} does not load: {reported}"
     if not isinstance(law, Law) or law.name != name:
         found = f"the law {law.name}" if isinstance(law, Law) else f"a {type(law).__name__}"
         return f"The package {package} announces the law {name}, but brings {found}."

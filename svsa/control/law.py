@@ -150,8 +150,8 @@ class Law:
             raise
         except Exception as error:
             first, *_ = str(error).strip().split("\n")
-            told = f"{type(error).__name__}: {first}"
-            raise LawError(f"The law {self.name} does not compile: {told}") from error
+            reported = f"{type(error).__name__}: {first}"
+            raise LawError(f"The law {self.name} does not compile: {reported}") from error
 
 
 def _name_front(memory: np.dtype) -> tuple[str, ...]:

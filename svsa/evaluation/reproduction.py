@@ -36,7 +36,7 @@ def reproduce(
 ) -> list[Reproduction]:
     """Run figures of the paper with FL and NDOBC, with the figure's load at 5 s.
 
-    Figures 6A, 6B and 7 run on the emulated rig, through CAN, in lockstep. progress: told
+    Figures 6A, 6B and 7 run on the emulator, through CAN, in lockstep. progress: told
     the share done. Raises `FaultError` if a run leaves the domain of the model,
     `ParameterError` for a figure that does not exist.
     """
@@ -51,9 +51,9 @@ def reproduce(
 def _run_figure(key: str, law: str, progress: Callable[[float], None]) -> Reproduction:
     if key in BENCH_FIGURES:
         require_extra("bench")
-        from svsa.hardware.emulator.experiment import run_on_rig
+        from svsa.hardware.emulator.experiment import run_on_emulator
 
-        result = run_on_rig(get_figure(key), law, DURATION_S, progress)
+        result = run_on_emulator(get_figure(key), law, DURATION_S, progress)
     else:
         result = simulate(key, law)
     if result.fault is not None:

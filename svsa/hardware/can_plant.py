@@ -261,7 +261,7 @@ class CanPlant:
         return self._beats.stops if self._beats is not None else 0
 
     def _find_age(self, slot: Slot) -> float:
-        """Since this heartbeat, s. Without heartbeats, only an emulated rig goes unsupervised."""
+        """Since this heartbeat, s. Without heartbeats, only an emulator goes unsupervised."""
         if self._beats is not None:
             return self._beats.age_s(slot)
         return 0.0 if slot == "supervisor" and self.emulated else math.inf

@@ -1,4 +1,4 @@
-"""The time of a bench: the clock on the wall, or an emulated rig's own in lockstep."""
+"""The time of a bench: the clock on the wall, or an emulator's own in lockstep."""
 
 import ctypes
 import sys
@@ -118,7 +118,7 @@ class WallClock:
 
 
 class LockstepClock:
-    """An emulated rig's time, which goes on when it is waited for and not otherwise."""
+    """An emulator's time, which goes on when it is waited for and not otherwise."""
 
     def __init__(self) -> None:
         self._bus: can.BusABC | None = None
@@ -126,41 +126,41 @@ class LockstepClock:
         self._frames: list[can.Message] = []
 
     def bind(self, bus: can.BusABC) -> None:
-        """Ask the rig for its time; raises `ClockError` where it does not answer."""
+        """Ask the emulator for its time; raises `ClockError` where it does not answer."""
         self._bus = bus
         self._now_us = self._advance(0)
 
     def now(self) -> float:
-        """The rig's time, s."""
+        """The emulator's time, s."""
         return self._now_us * 1e-6
 
     def wait_until(self, deadline: float) -> None:
-        """Let the rig go on to this time; its frames are kept for `take_frames`."""
+        """Let the emulator go on to this time; its frames are kept for `take_frames`."""
         wanted = round(deadline * 1e6)
         if wanted > self._now_us:
             self._now_us = self._advance(wanted)
 
     def _advance(self, time_us: int) -> int:
-        """Returns the rig's time, µs, which the echo tells."""
+        """Returns the emulator's time, µs, which the echo tells."""
         if self._bus is None:
-            raise ClockError("The clock of a rig in lockstep has no bus to go on with.")
+            raise ClockError("The clock of an emulator in lockstep has no bus to go on with.")
         ask = can.Message(arbitration_id=ADVANCE_ID, is_extended_id=True, data=encode_time(time_us))
         self._bus.send(ask)
         while (message := self._bus.recv(_ECHO_S)) is not None:
             if message.is_extended_id and message.arbitration_id == ADVANCE_ID:
                 return self._check(decode_time(message.data), time_us)
             self._frames.append(message)
-        raise ClockError(f"The rig did not go on within {_ECHO_S:g} s: is it in lockstep?")
+        raise ClockError(f"The emulator did not go on within {_ECHO_S:g} s: is it in lockstep?")
 
     @staticmethod
-    def _check(told_us: int, asked_us: int) -> int:
-        """A rig whose time goes on by itself has not come as far as it is asked to."""
-        if told_us < asked_us:
+    def _check(reported_us: int, requested_us: int) -> int:
+        """An emulator whose time goes on by itself has not come as far as it is asked to."""
+        if reported_us < requested_us:
             raise ClockError(
-                f"The rig is at {told_us * 1e-6:g} s and was asked to go on to"
-                f" {asked_us * 1e-6:g} s: start it with --lockstep."
+                f"The emulator is at {reported_us * 1e-6:g} s and was asked to go on to"
+                f" {requested_us * 1e-6:g} s: start it with --lockstep."
             )
-        return told_us
+        return reported_us
 
     def take_frames(self) -> list[can.Message]:
         """Frames of the bus that came while waiting."""
@@ -168,7 +168,7 @@ class LockstepClock:
         return frames
 
     def convert(self, timestamp: float, arrival: float) -> float:
-        """The rig stamps its frames with its own time."""
+        """The emulator stamps its frames with its own time."""
         return timestamp
 
     def find_lateness(self, deadline: float) -> float:

@@ -130,7 +130,7 @@ class DesignSettings(Checked):
 
 
 class EmulatorSettings(Checked):
-    """Where an emulated rig is told what happens to it, and whose time it has."""
+    """Where an emulator is told what happens to it, and whose time it has."""
 
     control_port: Whole = quantity("", "Its control port", ge=1, le=65535)
     lockstep: Flag = quantity(

@@ -47,8 +47,10 @@ class Homing:
         if not by.strip():
             raise ParameterError(Violation("by", by, "", "the name of who looked at the mark"))
         if step != self.next_step:
-            told = AXIS_WORDS[self.next_step] if self.next_step else "nothing is left"
-            raise StateError(f"The next mark to confirm is not that of {AXIS_WORDS[step]}: {told}.")
+            reported = AXIS_WORDS[self.next_step] if self.next_step else "nothing is left"
+            raise StateError(
+                f"The next mark to confirm is not that of {AXIS_WORDS[step]}: {reported}."
+            )
         self.confirmed[step] = by
 
     def reset(self) -> None:

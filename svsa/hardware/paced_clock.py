@@ -1,7 +1,7 @@
-"""The time of a rig in lockstep that goes no faster than the clock on the wall.
+"""The time of an emulator in lockstep that goes no faster than the clock on the wall.
 
-On a machine that is busy, loop and rig become slow together: feedback stays as young as it is on
-a bench, and no tick is missed. What has processes of its own, heartbeats above all, goes by the
+On a machine that is busy, loop and emulator become slow together: feedback stays as young as it is
+on a bench, and no tick is missed. What has processes of its own, heartbeats above all, goes by the
 wall all the same.
 """
 
@@ -15,7 +15,7 @@ CATCH_UP_S = 0.05
 
 
 class PacedClock(LockstepClock):
-    """`LockstepClock` in real time, or slower: the wall is `_ahead_s` ahead of the rig."""
+    """`LockstepClock` in real time, or slower: the wall is `_ahead_s` ahead of the emulator."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -23,9 +23,9 @@ class PacedClock(LockstepClock):
         self._ahead_s = -math.inf
 
     def wait_until(self, deadline: float) -> None:
-        """Let the rig go on to this time, once it is due on the wall.
+        """Let the emulator go on to this time, once it is due on the wall.
 
-        A rig that had no loop for a while has gone on by itself: it is not waited for again.
+        An emulator that had no loop for a while has gone on by itself: it is not waited for again.
         """
         if math.isinf(self._ahead_s):
             self._ahead_s = self._wall.now() - self.now()
@@ -41,6 +41,6 @@ class PacedClock(LockstepClock):
 
 
 def choose_clock(bench: BenchFile) -> BenchClock:
-    """The clock that a bench goes by: the wall's, unless its rig waits for the loop."""
+    """The clock that a bench goes by: the wall's, unless its emulator waits for the loop."""
     is_lockstep = bench.emulator is not None and bench.emulator.lockstep
     return PacedClock() if is_lockstep else WallClock()

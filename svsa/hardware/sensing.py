@@ -34,7 +34,7 @@ class Sensing:
     """Feedback of two drives and a deflection encoder.
 
     zero: counts of the deflection encoder at φ = 0. ages_s, current_a, counts: of the last reading.
-    emulated: the bus says that it is an emulated rig. lost: the bus failed, and has to be
+    emulated: the bus says that it is an emulator. lost: the bus failed, and has to be
     opened again.
     """
 

@@ -37,7 +37,7 @@ def explain_problems(
         elif not _is_noise(path, problem, paths, problems):
             field = (fields or {}).get(path[0]) if path else None
             here.append(_explain_problem(path, problem, field))
-    return [told for path, here in violations.items() for told in _join(path, here)]
+    return [reported for path, here in violations.items() for reported in _join(path, here)]
 
 
 def _find_path(loc: Sequence[Any], named: int) -> tuple[Any, ...]:

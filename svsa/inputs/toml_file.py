@@ -65,14 +65,14 @@ def _follow(table: str, counts: Counter[str]) -> str:
     return path + last
 
 
-def tell_place(place: str, text: str, names: Iterable[str]) -> str:
+def describe_place(place: str, text: str, names: Iterable[str]) -> str:
     """Where these values stand in a text, as an error tells it: "mine.toml, lines 3 and 7".
 
     place: the name of its file, or "".
     """
     lines = sorted(set(find_lines(text, names)))
-    told = f"{'lines' if len(lines) > 1 else 'line'} {' and '.join(map(str, lines))}"
-    return ", ".join(filter(None, (place, told if lines else "")))
+    reported = f"{'lines' if len(lines) > 1 else 'line'} {' and '.join(map(str, lines))}"
+    return ", ".join(filter(None, (place, reported if lines else "")))
 
 
 def _find_nearest(lines: dict[str, int], name: str) -> int | None:

@@ -176,8 +176,8 @@ def specialize(function: Callable[..., Any], name: str, **given: Any) -> Any:
 
 
 class _CompilationListener(event.Listener):
-    def __init__(self, tell: Callable[[str], None]) -> None:
-        self._tell = tell
+    def __init__(self, report: Callable[[str], None]) -> None:
+        self._tell = report
 
     def on_start(self, event: event.Event) -> None:
         pass
@@ -187,12 +187,12 @@ class _CompilationListener(event.Listener):
             self._tell(event.data["dispatcher"].py_func.__name__)
 
 
-def watch_compilation(tell: Callable[[str], None]) -> contextlib.AbstractContextManager[None]:
-    """While this is open, `tell` gets the name of every function once it is compiled.
+def watch_compilation(report: Callable[[str], None]) -> contextlib.AbstractContextManager[None]:
+    """While this is open, `report` gets the name of every function once it is compiled.
 
     What comes out of the cache is not told: it takes no time.
     """
-    return event.install_listener("numba:compile", _CompilationListener(tell))
+    return event.install_listener("numba:compile", _CompilationListener(report))
 
 
 def is_compiled_before(function: Any) -> bool:

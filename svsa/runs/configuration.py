@@ -207,16 +207,16 @@ def write_design(path: Path | str, design: Design, source: str) -> None:
     Path(path).write_text(format_design(design, lambda _: source), encoding="utf-8")
 
 
-def format_design(design: Design, tell_source: Callable[[str], str]) -> str:
-    """The text of a parameter file. tell_source: what stands as the source of a section's values,
-    of a name as "gains" or "parameters.esp".
+def format_design(design: Design, describe_source: Callable[[str], str]) -> str:
+    """The text of a parameter file. describe_source: what stands as the source of a section's
+    values, of a name as "gains" or "parameters.esp".
     """
     sections = design.model_dump(mode="json")
     laws = {
-        law: _add_source(table, tell_source(f"parameters.{law}"))
+        law: _add_source(table, describe_source(f"parameters.{law}"))
         for law, table in sections.pop("parameters").items()
     }
-    written = {name: _add_source(table, tell_source(name)) for name, table in sections.items()}
+    written = {name: _add_source(table, describe_source(name)) for name, table in sections.items()}
     return tomli_w.dumps(written | ({"parameters": laws} if laws else {}))
 
 

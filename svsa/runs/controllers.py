@@ -62,8 +62,8 @@ def name_controllers(controllers: Iterable[Controller]) -> dict[Controller, str]
     differing = {law: _find_differing(numbers) for law, numbers in alike.items()}
     names: dict[Controller, str] = {}
     for one, numbers in described.items():
-        told = differing[one.place, one.law]
-        apart = (f"{symbol} {value}" for symbol, value in numbers.items() if symbol in told)
+        reported = differing[one.place, one.law]
+        apart = (f"{symbol} {value}" for symbol, value in numbers.items() if symbol in reported)
         names[one] = " ".join(filter(None, (one.place, get_title(one.law), *apart)))
     return _number_doubles(names)
 

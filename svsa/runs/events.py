@@ -34,13 +34,13 @@ def list_events(
     configuration: Configuration,
     commands: Iterable[Command],
     fault: Fault | None = None,
-    told: Iterable[Event] = (),
+    reported: Iterable[Event] = (),
 ) -> list[Event]:
     """The events of a run that was given these commands, in the order of time.
 
     A load that comes and goes is one event each, whether it was planned or commanded; one that
-    never ends has an end at no tick of the run. fault: what the run ended in, or None. told: what
-    a bench said of itself meanwhile.
+    never ends has an end at no tick of the run. fault: what the run ended in, or None. reported:
+    what a bench said of itself meanwhile.
     """
     commands, law = list(commands), configuration.law
     found: list[tuple[float, str, str]] = []
@@ -52,7 +52,7 @@ def list_events(
         if start < end:
             found.append((start, "load_on", describe_onset(load)))
             found.append((end, "load_off", describe_end(load)))
-    found += [(event.tick, event.kind, event.label) for event in told]
+    found += [(event.tick, event.kind, event.label) for event in reported]
     if fault is not None:
         found.append((fault.tick, "fault", label_fault(fault.code)))
     period_s = configuration.sampling.period_s

@@ -7,7 +7,7 @@ import numpy as np
 
 from svsa.actuators.signals import CHANNEL_INDEX
 from svsa.errors import StateError
-from svsa.simulation.loop.tally import RECOVERY_SHARE, SETTLED_S
+from svsa.simulation.loop.tally import RECOVERY_SHARE, STEADY_STATE_S
 
 MEASURED = (
     "position_error_rad",
@@ -29,7 +29,7 @@ class Metrics:
     2 % of its peak for 0.5 s; None while it has not. What comes later does not change it. (Until
     the error is last beyond 0.1°, as some compare laws, is another time: in Figure 4A on the rig
     0.24 s instead of 0.15 s for NDOBC, 0.32 s instead of 0.31 s for FL with integral action.)
-    settled_position_error_rad: the steady error, rms over the last 0.5 s; None for a stretch
+    steady_state_position_error_rad: the steady error, rms over the last 0.5 s; None for a stretch
     shorter than 1 s.
     """
 
@@ -43,7 +43,7 @@ class Metrics:
     integral_position_error_rad_s: float
     effort_n2m2_s: float
     recovery_time_s: float | None
-    settled_position_error_rad: float | None
+    steady_state_position_error_rad: float | None
 
 
 class RunningMetrics:
@@ -58,7 +58,7 @@ class RunningMetrics:
         self._last_outside = 0
         self._last_size = math.inf
         self._recovered: int | None = None
-        self._settled = math.ceil(SETTLED_S / period_s - 1e-9)
+        self._settled = math.ceil(STEADY_STATE_S / period_s - 1e-9)
         self._newest = np.empty(0)
 
     def update(self, samples: np.ndarray) -> None:
@@ -126,14 +126,14 @@ class RunningMetrics:
             ),
             effort_n2m2_s=float(squares[2] + squares[3]) * self._period,
             recovery_time_s=None if self._recovered is None else self._recovered * self._period,
-            settled_position_error_rad=self._measure_settled(),
+            steady_state_position_error_rad=self._measure_steady_state(),
         )
 
     @property
     def _has_ended(self) -> bool:
         return len(self._newest) == self._settled and bool(np.isnan(self._newest).all())
 
-    def _measure_settled(self) -> float | None:
+    def _measure_steady_state(self) -> float | None:
         if self._count < 2 * self._settled:
             return None
         known = self._newest[~np.isnan(self._newest)]

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, NamedTuple
 
-from svsa.control.installed import list_law_inks
+from svsa.control.installed import list_law_line_styles
 from svsa.errors import StateError
 from svsa.runs.command import (
     ApplyLoad,
@@ -41,9 +41,9 @@ MAX_WINDOWS = 1000
 MAX_STRETCHES = 1000
 LONGEST_LABEL = 200
 _MORE = " …"
-# An ink's colour and dash are those of its remainders.
-INK_COLORS = 5
-INK_DASHES = 4
+# A line style's colour and dash are those of its remainders.
+LINE_COLORS = 5
+LINE_DASHES = 4
 
 WindowKind = Literal["start", "load", "unload", "change", "stop"]
 
@@ -66,13 +66,13 @@ class Window:
 class Stretch(NamedTuple):
     """A controller on a lane, ticks first … end − 1; end None: until now.
 
-    number: of the controller, in the order in which they came, from 1. ink: which look its
+    number: of the controller, in the order in which they came, from 1. line_style: which look its
     curves have, from 0; no two controllers that are kept share one.
     """
 
     controller: Controller
     number: int
-    ink: int
+    line_style: int
     first_tick: int
     end_tick: int | None = None
 
@@ -200,31 +200,33 @@ class Timeline:
         for lane, controller in zip(self.lanes, present, strict=True):
             if not lane or lane[-1].end_tick is not None:
                 number = self._numbers.setdefault(controller, len(self._numbers) + 1)
-                lane.append(Stretch(controller, number, self._find_ink(controller, present), tick))
+                lane.append(
+                    Stretch(controller, number, self._find_line_style(controller, present), tick)
+                )
 
-    def _find_ink(self, controller: Controller, present: Sequence[Controller]) -> int:
+    def _find_line_style(self, controller: Controller, present: Sequence[Controller]) -> int:
         """The one that it has, its law's own where its colour is free, else the first that is.
 
         A colour is free where no curve that is kept has it, nor is it that of another law that
         controls a lane now; where none is, where no lane has it now; then what looks otherwise.
         """
-        used = {one.controller: one.ink for lane in self.lanes for one in lane}
+        used = {one.controller: one.line_style for lane in self.lanes for one in lane}
         if controller in used:
             return used[controller]
-        customary = list_law_inks()
+        customary = list_law_line_styles()
         own = customary.get(controller.law)
         kept = set(used.values())
         now = {used[one] for one in present if one in used}
         owed = {customary[one.law] for one in present if one.law in customary} - {own}
         for avoided in (kept, now):
-            colors = {ink % INK_COLORS for ink in avoided}
-            if own is not None and own not in kept and own % INK_COLORS not in colors:
+            colors = {line_style % LINE_COLORS for line_style in avoided}
+            if own is not None and own not in kept and own % LINE_COLORS not in colors:
                 return own
-            colors |= {ink % INK_COLORS for ink in owed}
-            for ink in range(INK_COLORS * INK_DASHES):
-                if ink not in kept and ink % INK_COLORS not in colors:
-                    return ink
-        return next(ink for ink in itertools.count() if ink not in kept | owed)
+            colors |= {line_style % LINE_COLORS for line_style in owed}
+            for line_style in range(LINE_COLORS * LINE_DASHES):
+                if line_style not in kept and line_style % LINE_COLORS not in colors:
+                    return line_style
+        return next(line_style for line_style in itertools.count() if line_style not in kept | owed)
 
 
 def read_timeline(

@@ -44,11 +44,11 @@ FRAMES = {
 def run_attacked_class(**settings: str) -> Iterator[Lab]:
     """A class, whose client here is the instructor's."""
     with tempfile.TemporaryDirectory(prefix="svsa-test-") as folder:
-        _, told = ClassKeys.open(Path(folder))
-        assert told is not None
+        _, reported = ClassKeys.open(Path(folder))
+        assert reported is not None
         patience = {"silence_s": str(SILENCE_S), "control_s": "1"}
         with run_lab(data=folder, classroom="1", **patience, **settings) as lab:
-            lab.client.headers["Authorization"] = f"Bearer {told.instructor_token}"
+            lab.client.headers["Authorization"] = f"Bearer {reported.instructor_token}"
             yield lab
 
 
@@ -238,7 +238,7 @@ def main() -> None:
     """Print what became of each attack, and of the recording."""
     joins = int(sys.argv[1]) if len(sys.argv) > 1 else 10_000
 
-    def tell(name: str, attack: Callable[[], object]) -> None:
+    def report(name: str, attack: Callable[[], object]) -> None:
         began, begin = time.monotonic(), lab.read()
         found = attack()
         late = lab.read()["stretched_s"] - begin["stretched_s"]
@@ -254,13 +254,13 @@ def main() -> None:
         print(f"at rest: {read_memory_mb(lab):.0f} MB, {count_sockets(lab)} sockets")
         with recorded(lab, "attacked") as run_id:
             first = lab.read()["tick"]
-            tell("20 who stop reading, dropped and MB", lambda: stop_reading(lab, 20))
-            tell("100 halves of a request, ended and s", lambda: send_halves(lab, 100))
-            tell("10 MB, length said", lambda: send_body(lab, chunked=False)[0][:12])
-            tell("10 MB in chunks", lambda: send_body(lab, chunked=True)[0][:12])
-            tell(f"{joins} wrong codes", lambda: dict(guess_codes(lab, joins)))
-            tell("malformed frames", lambda: send_frames(lab))
-            tell(
+            report("20 who stop reading, dropped and MB", lambda: stop_reading(lab, 20))
+            report("100 halves of a request, ended and s", lambda: send_halves(lab, 100))
+            report("10 MB, length said", lambda: send_body(lab, chunked=False)[0][:12])
+            report("10 MB in chunks", lambda: send_body(lab, chunked=True)[0][:12])
+            report(f"{joins} wrong codes", lambda: dict(guess_codes(lab, joins)))
+            report("malformed frames", lambda: send_frames(lab))
+            report(
                 "30 replays at once",
                 lambda: dict(Counter(one.status_code for one in ask_for_replays(lab, shown, 30))),
             )

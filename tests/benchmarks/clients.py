@@ -20,7 +20,7 @@ from tests.lab import Lab, run_lab
 OBSERVER = "/api/v1/sessions/lab/observer"
 
 
-def watch_beside(address: str, count: int, seconds: float) -> None:
+def watch_in_parallel(address: str, count: int, seconds: float) -> None:
     """So many streams of one session, in a process of their own."""
 
     async def watch_all() -> None:
@@ -91,7 +91,7 @@ def main() -> None:
     with run_lab() as lab:
         lab.load_figure()
         asked = (lab.stream_url, count - 1, seconds + 3.0)
-        others = multiprocessing.get_context("spawn").Process(target=watch_beside, args=asked)
+        others = multiprocessing.get_context("spawn").Process(target=watch_in_parallel, args=asked)
         others.start()
         time.sleep(2.0)
         begin = lab.read()

@@ -62,11 +62,11 @@ def main() -> None:
             page.evaluate(TIME_BRUSHES)
             for number in range(BRUSHES):
                 drag(page, plane, number)
-            told = page.get_by_text("runs in the brush").inner_text()
+            reported = page.get_by_text("runs in the brush").inner_text()
             times = page.evaluate("() => window.brushed")
         browser.close()
     load = f"load of the machine {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores"
-    print(f"{told}; shown after {shown_s:.1f} s; {load}")
+    print(f"{reported}; shown after {shown_s:.1f} s; {load}")
     middle, longest = statistics.median(times), max(times)
     print(f"a brush is painted after {middle:.0f} ms (median of {BRUSHES}; at most {longest:.0f})")
 

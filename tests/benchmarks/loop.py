@@ -2,7 +2,7 @@
 
     python -m tests.benchmarks.loop [SECONDS] [CLIENTS] [FIGURE] [LAW]
 
-The emulated rig against the clock, `svsa serve --bench` on it, so many stream clients, one of
+The emulator against the clock, `svsa serve --bench` on it, so many stream clients, one of
 the paper's figures with its load at 5 s. Prints lateness, cost of a tick, skipped ticks,
 memory of the loop's process, and whether the run ended in a fault.
 """
@@ -15,8 +15,8 @@ import tempfile
 import time
 from pathlib import Path
 
-from svsa.hardware.emulator.experiment import RIG_BENCH
-from svsa.hardware.emulator.launch import start_rig
+from svsa.hardware.emulator.experiment import EMULATOR_BENCH
+from svsa.hardware.emulator.launch import start_emulator
 from svsa.runs.paper import CABLE_PULL, get_figure
 from tests.benchmarks.sessions import watch
 from tests.lab import Lab, run_lab
@@ -27,11 +27,11 @@ LOOP = "svsa.hardware.realtime.process"
 def write_bench(folder: Path, port: int, control_port: int) -> Path:
     """The rig's bench file with these ports, and its calibration."""
     path = folder / "bench.toml"
-    text = RIG_BENCH.read_text(encoding="utf-8")
+    text = EMULATOR_BENCH.read_text(encoding="utf-8")
     text = text.replace("port = 29536", f"port = {port}")
     text = text.replace("control_port = 29537", f"control_port = {control_port}")
     path.write_text(text, encoding="utf-8")
-    record = RIG_BENCH.with_name("bench.calibration.toml")
+    record = EMULATOR_BENCH.with_name("bench.calibration.toml")
     shutil.copy(record, folder / "bench.calibration.toml")
     return path
 
@@ -92,9 +92,9 @@ def main() -> None:
     law = sys.argv[4] if len(sys.argv) > 4 else "ndobc"
     with (
         tempfile.TemporaryDirectory(prefix="svsa-bench-") as folder,
-        start_rig(lockstep=False) as rig,
+        start_emulator(lockstep=False) as emulator,
     ):
-        path = write_bench(Path(folder), rig.port, rig.control_port)
+        path = write_bench(Path(folder), emulator.port, emulator.control_port)
         with run_lab("--bench", str(path)) as lab:
             prepare(lab, figure, law)
             before, after = asyncio.run(run(lab, seconds, clients))

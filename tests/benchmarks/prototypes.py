@@ -15,13 +15,13 @@ from svsa.evaluation.ranking.results import load_published
 from tests.evaluation.ranking.prototypes import PROTOTYPES, Cell, Prototype, compare
 
 
-def tell(cell: Cell) -> str:
+def report(cell: Cell) -> str:
     """One cell, as "0.313 / 0.31" or "44 / 24 ×1.83"."""
-    told = f"{_tell_number(cell.found)} / {_tell_number(cell.figure)}"
-    return told if cell.holds else f"**{told} ×{cell.ratio:.3g}**"
+    reported = f"{_format_number(cell.found)} / {_format_number(cell.figure)}"
+    return reported if cell.holds else f"**{reported} ×{cell.ratio:.3g}**"
 
 
-def _tell_number(value: float) -> str:
+def _format_number(value: float) -> str:
     if math.isnan(value):
         return "–"
     return f"{value:.3g}" if math.isfinite(value) else "none"
@@ -33,7 +33,7 @@ def format_table(laws: Sequence[str]) -> str:
         load_published().get_row(law) for law in PROTOTYPES
     ]
     lines = [("law", *Prototype._fields), ("---",) * (1 + len(Prototype._fields))]
-    lines += [(row.law, *map(tell, compare(row))) for row in rows]
+    lines += [(row.law, *map(report, compare(row))) for row in rows]
     return "\n".join(f"| {' | '.join(cells)} |" for cells in lines)
 
 

@@ -22,14 +22,14 @@ LONGEST_MS = 90_000
 def joined_at(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, str]]:
     """Where a class is behind Caddy, and its code."""
     data, folder = tmp_path_factory.mktemp("class"), tmp_path_factory.mktemp("caddy")
-    _, told = ClassKeys.open(data)
-    assert told is not None
+    _, reported = ClassKeys.open(data)
+    assert reported is not None
     port = find_free_port()
     with (
         run_lab("--class", "--root-path", ROOT, data=str(data)) as lab,
         run_caddy(folder, port, lab.url.rpartition(":")[2]),
     ):
-        yield f"https://localhost:{port}{ROOT}/", told.code
+        yield f"https://localhost:{port}{ROOT}/", reported.code
 
 
 @pytest.fixture

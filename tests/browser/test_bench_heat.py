@@ -19,7 +19,7 @@ HEAT_FAULT = {
     "tick": 5728,
     "time_s": 5.728,
     "message": "Motor 2 was held back by heat: End of the spiral.",
-    "values": {"motor2_heat": 1.0, "motor2_asked_nm": 5.0, "motor2_held_to_nm": 1.27},
+    "values": {"motor2_heat": 1.0, "motor2_commanded_nm": 5.0, "motor2_held_to_nm": 1.27},
 }
 
 

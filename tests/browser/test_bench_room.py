@@ -47,11 +47,11 @@ def test_a_fault_is_told_on_a_phone_with_the_details_opened(
     find_details(page).click()
     expect(find_bench(page).get_by_text("Motor 1 says nothing.")).to_be_visible()
     page.evaluate("scrollTo(0, 0)")
-    told = page.get_by_role("alert").filter(has_text="Quick stop.").get_by_text("Quick stop.")
+    reported = page.get_by_role("alert").filter(has_text="Quick stop.").get_by_text("Quick stop.")
     hang = page.get_by_role("button", name="Hang 3 kg")
 
     def is_above_the_load() -> bool:
-        words = get_box(told)
+        words = get_box(reported)
         return words["y"] + words["height"] < get_box(hang)["y"]
 
     until(page, is_above_the_load)

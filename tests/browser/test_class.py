@@ -7,7 +7,7 @@ from typing import NamedTuple
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
-from svsa_server.access.class_keys import ClassKeys, ToldOnce
+from svsa_server.access.class_keys import ClassKeys, ShownOnce
 from tests.browser.test_accessibility import PHONE, WIDE, expect_no_violation
 from tests.lab import Lab, run_lab
 
@@ -18,16 +18,16 @@ class Room(NamedTuple):
     """A class as a process, and its code and token."""
 
     lab: Lab
-    told: ToldOnce
+    reported: ShownOnce
 
 
 @pytest.fixture(scope="module")
 def room(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Room]:
     folder: Path = tmp_path_factory.mktemp("class")
-    _, told = ClassKeys.open(folder)
-    assert told is not None
+    _, reported = ClassKeys.open(folder)
+    assert reported is not None
     with run_lab("--class", data=str(folder)) as lab:
-        yield Room(lab, told)
+        yield Room(lab, reported)
 
 
 @pytest.fixture
@@ -73,9 +73,9 @@ def test_two_students_join_wait_and_hand_over(open_page, room: Room) -> None:
     expect(ada.get_by_text("That is not the code of this class.")).to_be_visible()
     expect_no_violation(ada, WIDE, PHONE)
     ada.set_viewport_size({"width": 1280, "height": 720})
-    join(ada, "Ada", room.told.code)
-    bob = open_page(f"/#join={room.told.code}")
-    expect(bob.get_by_label("Class code")).to_have_value(room.told.code)
+    join(ada, "Ada", room.reported.code)
+    bob = open_page(f"/#join={room.reported.code}")
+    expect(bob.get_by_label("Class code")).to_have_value(room.reported.code)
     assert "#" not in bob.url
     join(bob, "Bob")
 
@@ -105,7 +105,7 @@ def test_a_page_that_was_opened_outside_is_there_once_one_is_in(open_page, room:
     exercises = page.get_by_role("region", name="Exercises").get_by_role("listitem")
     page.get_by_role("button", name="I am the instructor").click()
     expect(exercises).to_have_count(0)
-    page.get_by_label("Instructor token").fill(room.told.instructor_token)
+    page.get_by_label("Instructor token").fill(room.reported.instructor_token)
     page.get_by_role("button", name="Enter").click()
     expect(exercises).to_have_count(7)
     expect(page.get_by_text("This lab is a class")).to_have_count(0)
@@ -113,9 +113,9 @@ def test_a_page_that_was_opened_outside_is_there_once_one_is_in(open_page, room:
 
 def test_the_instructor_sees_who_is_here_locks_and_shows_a_code(open_page, room: Room) -> None:
     student, teacher = open_page(), open_page()
-    join(student, "Eve", room.told.code)
+    join(student, "Eve", room.reported.code)
     teacher.get_by_role("button", name="I am the instructor").click()
-    teacher.get_by_label("Instructor token").fill(room.told.instructor_token)
+    teacher.get_by_label("Instructor token").fill(room.reported.instructor_token)
     teacher.get_by_role("button", name="Enter").click()
     expect(find_control(teacher)).to_be_visible()
     teacher.get_by_role("button", name="Class", exact=True).click()

@@ -147,8 +147,8 @@ def test_a_recording_is_begun_told_and_ended(page: Page, still_lab: Lab) -> None
     expect(note).to_be_visible()
 
     def is_above_the_work() -> bool:
-        told = get_box(note)
-        return told["y"] + told["height"] <= get_box(page.locator(".lab"))["y"]
+        reported = get_box(note)
+        return reported["y"] + reported["height"] <= get_box(page.locator(".lab"))["y"]
 
     until(page, is_above_the_work)
     assert still_lab.read()["recording"] is None

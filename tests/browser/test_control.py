@@ -1,4 +1,4 @@
-"""Two pages on one lab: who is in control; and the dead-man's switch of an emulated rig."""
+"""Two pages on one lab: who is in control; and the dead-man's switch of an emulator."""
 
 import re
 import time
@@ -8,7 +8,7 @@ import pytest
 from playwright.sync_api import BrowserContext, Locator, Page, expect
 
 from tests.browser.test_page import go_to_page, open_page
-from tests.hardware.live_bench import FAIR_S, start_live_rig, write_bench
+from tests.hardware.live_bench import FAIR_S, start_live_emulator, write_bench
 from tests.lab import Lab, run_lab
 from tests.server.sessions.bench_lab import BenchLab
 
@@ -114,11 +114,13 @@ def test_a_reload_keeps_control_and_closing_the_page_frees_it(
 
 @pytest.fixture(scope="module")
 def bench(tmp_path_factory: pytest.TempPathFactory) -> Iterator[BenchLab]:
-    """The emulated rig with a dead-man's switch."""
-    with start_live_rig() as rig:
-        path = write_bench(tmp_path_factory.mktemp("bench"), rig, dead_man=True, operator_s=1.0)
+    """The emulator with a dead-man's switch."""
+    with start_live_emulator() as emulator:
+        path = write_bench(
+            tmp_path_factory.mktemp("bench"), emulator, dead_man=True, operator_s=1.0
+        )
         with run_lab("--bench", str(path), control_s=CONTROL_S) as lab:
-            yield BenchLab(lab, rig)
+            yield BenchLab(lab, emulator)
 
 
 def open_bench(context: BrowserContext, bench: BenchLab) -> Page:

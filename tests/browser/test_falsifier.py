@@ -22,9 +22,9 @@ def search(page: Page, lab: Lab) -> Locator:
     page.get_by_label("Length of a run, s").fill("8")
     page.get_by_label("Runs at most").fill("64")
     page.get_by_role("button", name="Search").press("Enter")
-    told = page.get_by_role("region", name=re.compile("^NDOBC: "))
-    expect(told).to_contain_text("The simplest load that still does it", timeout=WORKER_MS)
-    expect(told).to_contain_text(re.compile(r"pulse of .* N·m on the link"), timeout=WORKER_MS)
+    reported = page.get_by_role("region", name=re.compile("^NDOBC: "))
+    expect(reported).to_contain_text("The simplest load that still does it", timeout=WORKER_MS)
+    expect(reported).to_contain_text(re.compile(r"pulse of .* N·m on the link"), timeout=WORKER_MS)
     laws = page.get_by_role("region", name="Laws under this load")
     expect(laws).to_contain_text("All 2 went through without a fault.", timeout=WORKER_MS)
     for name in ("Load", "Position error", "Stiffness error"):

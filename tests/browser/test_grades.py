@@ -42,8 +42,8 @@ def grade(page: Page, lab: Lab) -> Locator:
     expect(page.get_by_role("button", name="All is graded")).to_be_disabled()
     points.press("Enter")
     expect(points).to_have_attribute("aria-pressed", "true")
-    told = page.get_by_role("table", name="Points by criterion")
-    expect(told.get_by_text("Nothing was predicted.").first).to_be_visible()
+    reported = page.get_by_role("table", name="Points by criterion")
+    expect(reported.get_by_text("Nothing was predicted.").first).to_be_visible()
     return table
 
 

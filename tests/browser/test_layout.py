@@ -78,8 +78,8 @@ def test_four_controllers_and_the_last_event_are_read_whole_on_a_phone(
 
     def are_read_whole() -> bool:
         table, plots = (get_box(visited.locator(one)) for one in (".comparison", ".plots"))
-        told, box = get_box(title.locator("span")), get_box(title)
-        is_within = box["y"] <= told["y"] <= box["y"] + box["height"] - told["height"] + 1
+        reported, box = get_box(title.locator("span")), get_box(title)
+        is_within = box["y"] <= reported["y"] <= box["y"] + box["height"] - reported["height"] + 1
         return is_within and table["width"] <= plots["width"] + 1
 
     until(visited, are_read_whole)

@@ -39,12 +39,12 @@ def test_a_low_list_of_plots_shows_whole_ones_and_says_how_many_are_below(visite
         many = plots.count() - count_seen()
         return visited.get_by_role("button", name=re.compile(f"^{many} more plots? below"))
 
-    def are_whole_and_told() -> bool:
+    def are_whole_and_named() -> bool:
         canvases = visited.locator(".plots-stage .plot-canvas").all()
         is_high = all(get_box(one)["height"] >= LEAST_MEASURED_PX for one in canvases)
         return is_high and visited.evaluate(WHOLE_PLOTS) and find_below().is_visible()
 
-    until(visited, are_whole_and_told)
+    until(visited, are_whole_and_named)
     last = plots.nth(count_seen())
     find_below().press("Enter")
     until(visited, lambda: get_box(last)["y"] < 500)
@@ -79,7 +79,7 @@ def test_a_list_of_plots_shows_whole_ones_where_legends_have_two_rows(
 
 
 # What a recording of before has left says so for 20 s.
-DISMISS_NEWS = """() => {
+DISMISS_NOTICES = """() => {
     for (const one of document.querySelectorAll(".banner.is-news button.quiet")) one.click();
 }"""
 
@@ -95,7 +95,7 @@ def test_opened_details_of_a_bench_leave_room_for_the_actuator_and_two_plots(
     expect(visited.locator(".bench-details")).to_be_visible()
 
     def leave_room() -> bool:
-        visited.evaluate(DISMISS_NEWS)
+        visited.evaluate(DISMISS_NOTICES)
         foot = get_box(visited.locator(".plots-foot"))["y"]
         plots = [get_box(one) for one in visited.locator(".plots-stage > .plot").all()]
         whole = [one for one in plots if one["y"] + one["height"] <= foot + 2]

@@ -82,7 +82,7 @@ def test_a_law_that_fails_is_told_where(page: Page, lab_with_board: Lab) -> None
     )
     page.get_by_role("button", name="Submit", exact=True).press("Enter")
     expect(page.get_by_role("heading", name=re.compile("^Measur.*: Broken"))).to_be_in_viewport()
-    told = page.get_by_role("alert").filter(has_text="It did not get onto the board.")
-    expect(told).to_contain_text(
+    reported = page.get_by_role("alert").filter(has_text="It did not get onto the board.")
+    expect(reported).to_contain_text(
         "line 2: NameError: name 'spring' is not defined", timeout=WORKER_MS
     )

@@ -110,7 +110,7 @@ def test_the_table_of_the_lanes_stays_in_its_column(page: Page, still_lab: Lab) 
     for width in (1280, 1440):
         resize(page, width, 720)
         until(page, partial(is_as_wide_as_the_view, page))
-    still_lab.begin_anew()
+    still_lab.restart()
 
 
 def is_as_wide_as_the_view(page: Page) -> bool:
@@ -130,5 +130,5 @@ def test_an_exercise_is_done_and_submitted_by_keyboard(page: Page, lab: Lab, nam
     most = f"{exercise.max_points:g}"
     is_free = any(isinstance(one, Experiment) and one.free for one in exercise.steps)
     points = r"[\d.]+" if is_free else most
-    told = page.get_by_text(re.compile(f"Submitted: {points} of {most} points"))
-    expect(told.first).to_be_visible()
+    reported = page.get_by_text(re.compile(f"Submitted: {points} of {most} points"))
+    expect(reported.first).to_be_visible()

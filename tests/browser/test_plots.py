@@ -31,7 +31,7 @@ SPAN = """() => {
 @pytest.fixture(scope="module")
 def opened(kept_pages: KeptPage, shared_lab: Lab) -> Iterator[Page]:
     """The one page of these tests, on a session that stands at 25 s at first."""
-    shared_lab.begin_anew()
+    shared_lab.restart()
     shared_lab.jump(25)
     page = kept_pages.get()
     leave_3d_empty(page)
@@ -63,10 +63,10 @@ def find_axis(page: Page) -> Locator:
 
 def wait_for_span(page: Page, condition: str = "true") -> tuple[float, float]:
     """From and to of the time axis, s, as it tells them to a screen reader; once they are so."""
-    told = page.wait_for_function(
+    reported = page.wait_for_function(
         f"() => {{ const [from, to] = ({SPAN})(); return ({condition}) && [from, to]; }}"
     )
-    start, end = told.json_value()
+    start, end = reported.json_value()
     return start, end
 
 

@@ -29,11 +29,11 @@ def test_the_table_is_sorted_chosen_from_and_left_for_a_run(page: Page, still_la
     expect(table.get_by_role("button", name=re.compile("2 Hz: .*, best"))).to_have_text(
         f"{least.sine_2hz_rms_deg:.3g}"
     )
-    faulted = [row.law for row in load_published().rows if row.unloading_peak_deg is None]
+    faulted = [row.law for row in load_published().rows if row.load_removal_peak_deg is None]
     title = get_title(next(law for law in faulted if law != "ndobc"))
     table.get_by_role("button", name=title, exact=True).press("Enter")
     expect(page.get_by_role("heading", name=title, exact=True)).to_be_visible()
-    cell = re.compile(rf"^{re.escape(title)}, Unloading: \D")
+    cell = re.compile(rf"^{re.escape(title)}, Load removal: \D")
     table.get_by_role("button", name=cell).press("Enter")
     page.wait_for_url(re.compile(r"\?session="))
     expect(page.get_by_text("Private session.")).to_be_visible()
@@ -47,7 +47,7 @@ def test_a_run_that_ndobc_would_end_is_seen_alone_with_the_reason(
     open_page(page, still_lab)
     go_to_page(page, "Ranking")
     title = get_title("fl")
-    cell = re.compile(rf"^{re.escape(title)}, Unloading: ")
+    cell = re.compile(rf"^{re.escape(title)}, Load removal: ")
     page.get_by_role("button", name=cell).press("Enter")
     page.wait_for_url(re.compile(r"\?session="))
     note = page.get_by_role("note").filter(has_text="nothing was put beside")

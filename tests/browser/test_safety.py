@@ -103,13 +103,13 @@ def test_the_stop_does_not_look_like_an_emergency_stop(
         box = stop.bounding_box()
         assert box is not None
         areas.append(box["width"] * box["height"])
-        ground, ink = stop.evaluate(
+        ground, line_style = stop.evaluate(
             "one => [getComputedStyle(one).backgroundColor, getComputedStyle(one).color]"
         )
-        for colour in (ground, ink):
+        for colour in (ground, line_style):
             red, green, blue = (int(part) for part in re.findall(r"\d+", colour)[:3])
             assert max(red, green, blue) - min(red, green, blue) < 30, colour
-        assert abs(read_lightness(ground) - read_lightness(ink)) > 150
+        assert abs(read_lightness(ground) - read_lightness(line_style)) > 150
     assert areas[1] > 1.4 * areas[0]
 
 

@@ -102,12 +102,12 @@ def test_the_experiment_as_a_script_repeats_it_and_disturbs_nobody(
     done = run_script(code, tmp_path)
     assert done.returncode == 0, done.stdout + done.stderr
 
-    told = [
+    reported = [
         f"{lane['name']}: rms position error {lane['in_window']['rms_position_error_rad']:.3e} rad"
         f" since {before['window']['start_s']:.3f} s"
         for lane in before["lanes"]
     ]
-    assert done.stdout.splitlines() == [*told, f"reached {before['time_s']:.3f} s"]
+    assert done.stdout.splitlines() == [*reported, f"reached {before['time_s']:.3f} s"]
     assert lab.read() == before
     assert len(lab.client.get("/api/v1/sessions").json()) == sessions
 

@@ -73,7 +73,7 @@ def test_a_wrong_text_is_told_with_its_line_and_nothing_is_begun(page: Page, stu
     assert {one["name"] for one in kept} == {"short", "decided"}
 
 
-SHARES_DRAWN = """panel => [...panel.querySelectorAll("dl > div")].map(row =>
+SHARES_SHOWN = """panel => [...panel.querySelectorAll("dl > div")].map(row =>
     [...row.querySelectorAll("dd")].map(one => [one.querySelector("i"), one].map(
         each => each.getBoundingClientRect().width)).map(([bar, whole]) => bar / whole))"""
 
@@ -82,13 +82,13 @@ def test_the_bars_of_what_decides_it_are_as_long_as_its_sobol_indices(
     page: Page, studied: Lab
 ) -> None:
     asked = studied.client.get("/api/v1/studies/decided/sensitivity").raise_for_status()
-    (told,) = asked.json()
-    own, total = told["first_order"], told["total_order"]
+    (reported,) = asked.json()
+    own, total = reported["first_order"], reported["total_order"]
     names = sorted(total, key=lambda name: -total[name]["value"])
     expected = [min(1.0, max(0.0, of[name]["value"])) for name in names for of in (own, total)]
     assert max(expected) > 0.3
     page.goto(studied.url + "/?studies=decided")
     panel = page.get_by_role("region", name="What decides it")
     expect(panel).to_be_visible(timeout=WORKER_MS)
-    drawn = [share for row in panel.evaluate(SHARES_DRAWN) for share in row]
+    drawn = [share for row in panel.evaluate(SHARES_SHOWN) for share in row]
     assert drawn == pytest.approx(expected, abs=0.01)

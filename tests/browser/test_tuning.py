@@ -91,7 +91,7 @@ def test_the_panel_leaves_the_settings_and_the_transport_in_reach(
     controls = page.get_by_role("group", name="Controls", exact=True)
     transport = page.get_by_role("button", name="Run", exact=True)
 
-    def is_below_and_beside(width: int) -> bool:
+    def is_below_and_next_to(width: int) -> bool:
         box, run = get_box(panel), get_box(transport)
         right = box["x"] + box["width"]
         is_left = width < 1121 or right <= get_box(controls)["x"]
@@ -99,4 +99,4 @@ def test_the_panel_leaves_the_settings_and_the_transport_in_reach(
 
     for width, height in ((1280, 720), (820, 1180), (390, 844)):
         resize(page, width, height)
-        until(page, partial(is_below_and_beside, width))
+        until(page, partial(is_below_and_next_to, width))

@@ -26,19 +26,19 @@ def do_experiment(lab: httpx.Client) -> dict:
     name = lab.post("/api/v1/sessions", json=with_law).raise_for_status().json()["session"]
     path = f"/api/v1/sessions/{name}"
 
-    def tell(method: str, below: str, body: object = None) -> None:
+    def report(method: str, below: str, body: object = None) -> None:
         lab.request(method, path + below, json=body).raise_for_status()
 
-    tell("POST", "/pause")
-    tell("PUT", "/stiffness", {"kind": "constant", "stiffness_nm_per_rad": 20.0})
-    tell("PUT", "/position", {"kind": "constant", "position_rad": 0.0})
-    tell("POST", "/reset")
-    tell("POST", "/step", {"ticks": 500})
-    tell("PUT", "/position", {"kind": "constant", "position_rad": 0.1})
-    tell("POST", "/loads", {"kind": "constant", "torque_nm": [0.5, 0.0, 0.0]})
-    tell("POST", "/step", {"ticks": 500})
-    tell("PUT", "/law", {"law": "fl"})
-    tell("POST", "/step", {"ticks": 500})
+    report("POST", "/pause")
+    report("PUT", "/stiffness", {"kind": "constant", "stiffness_nm_per_rad": 20.0})
+    report("PUT", "/position", {"kind": "constant", "position_rad": 0.0})
+    report("POST", "/reset")
+    report("POST", "/step", {"ticks": 500})
+    report("PUT", "/position", {"kind": "constant", "position_rad": 0.1})
+    report("POST", "/loads", {"kind": "constant", "torque_nm": [0.5, 0.0, 0.0]})
+    report("POST", "/step", {"ticks": 500})
+    report("PUT", "/law", {"law": "fl"})
+    report("POST", "/step", {"ticks": 500})
     return lab.get(path + "/origin").raise_for_status().json()
 
 
@@ -73,8 +73,8 @@ def start_script(path: Path, token: str, *arguments: str) -> subprocess.Popen[st
 
 def expect_done(script: subprocess.Popen[str], laws: tuple[str, ...]) -> float:
     """Where it came to, s; of each lane it has told its error."""
-    told, _ = script.communicate(timeout=LONGEST_S)
-    assert script.returncode == 0, told
-    *lanes, last = told.splitlines()
-    assert [line.partition(":")[0] for line in lanes] == [*laws], told
+    reported, _ = script.communicate(timeout=LONGEST_S)
+    assert script.returncode == 0, reported
+    *lanes, last = reported.splitlines()
+    assert [line.partition(":")[0] for line in lanes] == [*laws], reported
     return float(last.removeprefix("reached ").removesuffix(" s"))

@@ -15,8 +15,8 @@ class FaultyLine:
 
     def __init__(self, lab_url: str) -> None:
         self._lab = ("127.0.0.1", urlsplit(lab_url).port)
-        self._door = socket.create_server(("127.0.0.1", 0))
-        self.url = f"http://127.0.0.1:{self._door.getsockname()[1]}"
+        self._listener = socket.create_server(("127.0.0.1", 0))
+        self.url = f"http://127.0.0.1:{self._listener.getsockname()[1]}"
         self.break_requests = self.break_answers = 0
         self._open: list[socket.socket] = []
         self._losing: set[socket.socket] = set()
@@ -28,13 +28,13 @@ class FaultyLine:
         self._open.clear()
 
     def close(self) -> None:
-        self._door.close()
+        self._listener.close()
         self.cut()
 
     def _accept(self) -> None:
         with contextlib.suppress(OSError):
             while True:
-                near, _ = self._door.accept()
+                near, _ = self._listener.accept()
                 far = socket.create_connection(self._lab)
                 self._open += (near, far)
                 threading.Thread(target=self._carry_up, args=(near, far), daemon=True).start()

@@ -14,7 +14,7 @@ from tests.lab import run_lab
 
 @pytest.fixture
 def server(shared_lab: Server) -> Iterator[Server]:
-    shared_lab.begin_anew()
+    shared_lab.restart()
     yield shared_lab
     shared_lab.client.post(shared_lab.session + "/pause")
 

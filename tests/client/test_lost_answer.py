@@ -17,8 +17,8 @@ def ask(*outcomes: tuple[int, object]) -> object:
         if request.method == "POST":
             raise httpx.ReadError("lost")
         if "/requests/" in request.url.path:
-            status, told = waiting.pop(0)
-            return httpx.Response(status, json=told)
+            status, reported = waiting.pop(0)
+            return httpx.Response(status, json=reported)
         return httpx.Response(200, json=STATE)
 
     with Connection("http://lab", patience_s=30.0) as connection:
@@ -31,7 +31,7 @@ def ask(*outcomes: tuple[int, object]) -> object:
 
 
 @pytest.mark.parametrize(
-    "told",
+    "reported",
     [
         (503, {"type": "urn:svsa:problem:busy", "detail": "Too much."}),
         (502, "Bad Gateway"),
@@ -41,9 +41,9 @@ def ask(*outcomes: tuple[int, object]) -> object:
         (200, {"outcome": "pending", "status": None, "age_s": 1.0}),
     ],
 )
-def test_it_is_asked_again_where_that_says_nothing_of_it(told: tuple[int, object]) -> None:
+def test_it_is_asked_again_where_that_says_nothing_of_it(reported: tuple[int, object]) -> None:
     carried_out = {"outcome": "carried_out", "status": 200, "age_s": 9.0}
-    assert ask(told, (200, carried_out)) == STATE
+    assert ask(reported, (200, carried_out)) == STATE
 
 
 def test_what_the_lab_refuses_to_tell_is_not_asked_again() -> None:
@@ -52,12 +52,12 @@ def test_what_the_lab_refuses_to_tell_is_not_asked_again() -> None:
 
 
 @pytest.mark.parametrize(
-    ("told", "words"),
+    ("reported", "words"),
     [
         ({"outcome": "refused", "status": 409}, "refused with 409"),
         ({"outcome": "unknown", "age_s": 0}, "nobody knows whether"),
     ],
 )
-def test_what_is_known_of_it_is_said(told: dict[str, object], words: str) -> None:
+def test_what_is_known_of_it_is_said(reported: dict[str, object], words: str) -> None:
     with pytest.raises(LabError, match=words):
-        ask((200, told))
+        ask((200, reported))

@@ -1,6 +1,6 @@
 """Every law that is installed: live, recorded, simulated again, in a batch — always the same bits.
 
-On the emulated rig: `tests.hardware.test_closed_loop`.
+On the emulator: `tests.hardware.test_closed_loop`.
 """
 
 from pathlib import Path

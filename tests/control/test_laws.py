@@ -18,7 +18,7 @@ from svsa.control.law import Law
 from svsa.numerics.compilation import compiled, watch_compilation
 from svsa.runs.command import SetLaw, build_command
 from svsa.runs.controllers import list_controllers, name_controllers
-from svsa.runs.records.wording import tell_law
+from svsa.runs.records.wording import describe_law
 from svsa.runs.replay import replay
 from svsa.runs.run import Run
 from svsa.runs.session.simulated import SimulatedSession
@@ -256,9 +256,9 @@ def test_a_law_that_does_not_compile_is_named_and_changes_nothing(install):
 def test_the_lab_starts_without_the_laws_that_do_not_work(install, capsys):
     install(broken="missing", stumble="STUMBLE")
     prepare()
-    told = capsys.readouterr().err
-    assert "The law broken of the package" in told
-    assert "The law stumble does not compile" in told
+    reported = capsys.readouterr().err
+    assert "The law broken of the package" in reported
+    assert "The law stumble does not compile" in reported
 
 
 def test_what_was_recorded_with_a_law_that_does_not_load_has_its_name(install):
@@ -266,7 +266,7 @@ def test_what_was_recorded_with_a_law_that_does_not_load_has_its_name(install):
     configuration = build_configuration(law="broken", parameters={"broken": {"rate": 2.0}})
     (controller,) = list_controllers(configuration, is_bench=False)
     assert name_controllers([controller]) == {controller: "broken (does not load)"}
-    assert tell_law("broken") == "broken"
+    assert describe_law("broken") == "broken"
 
 
 def test_a_law_without_a_name_or_with_an_estimate_that_nobody_finds_is_none():

@@ -12,9 +12,9 @@ from svsa.actuators.signals import Disturbance, Torque
 from svsa.control.installed import get_law
 from svsa.control.law import Setting
 from svsa.control.laws.ndobc_s import CAP, Memory, build, compute_poles, feel_shaking, feel_surprise
-from svsa.evaluation.ranking.cost import compute_shake
+from svsa.evaluation.ranking.cost import compute_torque_change
 from svsa.evaluation.ranking.measure import Entry, measure_rms, run_scenario
-from svsa.evaluation.ranking.scenarios import UNLOADINGS
+from svsa.evaluation.ranking.scenarios import LOAD_REMOVALS
 from svsa.simulation.plant.effects import RIG, SensorNoise
 from tests.actuators.prototype import NOMINAL
 
@@ -83,7 +83,7 @@ def test_a_load_surprises_at_once_and_what_it_does_next_is_forgotten_in_time():
 
 
 def test_what_swings_on_is_no_surprise_and_slows_the_law_down():
-    """±3 N·m at 9 Hz, as after an unloading in saturation: the law gives way and stays so."""
+    """±3 N·m at 9 Hz, as after a load removal in saturation: the law gives way and stays so."""
     parameters = begin()[0]
     time = np.arange(0.0, 8.0, 0.001)
     gate, a, omega = be_surprised(3.0 * np.sin(2.0 * math.pi * 9.0 * time))
@@ -108,7 +108,7 @@ def test_under_five_times_the_noise_it_errs_and_shakes_less_than_both():
         run = svsa.simulate("4a", law, effects=LOUD, duration_s=12.0)
         assert run.fault is None
         error = math.degrees(run.measure(8.0, 12.0).rms_position_error_rad)
-        found[law] = (error, compute_shake(run))
+        found[law] = (error, compute_torque_change(run))
     for comparison in ("ndobc", "ndobc_w"):
         assert found["ndobc_s"][0] < found[comparison][0]
         assert found["ndobc_s"][1] < 0.9 * found[comparison][1]
@@ -117,11 +117,11 @@ def test_under_five_times_the_noise_it_errs_and_shakes_less_than_both():
 @pytest.mark.parametrize("number", [0, 6, 12])
 def test_after_an_unloading_it_comes_to_rest_where_ndobc_w_swings_on(number):
     """σ = 12, 3 to 5 s later: 0.7° rms, of which a peak without a fault says nothing."""
-    unloading = UNLOADINGS[number]
-    end = unloading.measured_s + 5.0
+    load_removal = LOAD_REMOVALS[number]
+    end = load_removal.measured_s + 5.0
     found = {}
     for law in ("ndobc_w", "ndobc_s"):
-        run = run_scenario(unloading._replace(duration_s=end), Entry(law))
+        run = run_scenario(load_removal._replace(duration_s=end), Entry(law))
         found[law] = measure_rms(run, end - 2.0, end)
     assert found["ndobc_s"] < 0.05
     assert found["ndobc_w"] > 0.5

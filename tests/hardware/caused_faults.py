@@ -1,4 +1,4 @@
-"""What can be made to go wrong on the emulated rig, and the faults of which it leads to one."""
+"""What can be made to go wrong on the emulator, and the faults of which it leads to one."""
 
 import math
 from collections.abc import Callable
@@ -17,12 +17,12 @@ from svsa.hardware.emulator.faults import (
     CurrentOffset,
     DriveName,
     DropFrames,
+    EmulatorFault,
     FrozenEncoder,
     LateFrames,
     Node,
     ReversedEncoder,
     ReversedMotor,
-    RigFault,
     Silence,
     Stall,
     ZeroedCounter,
@@ -47,12 +47,12 @@ class Case(NamedTuple):
     codes: set[str]
 
 
-def inject(fault: RigFault) -> Callable[[Bench], Any]:
-    return lambda b: b.rig.control.fault(fault)
+def inject(fault: EmulatorFault) -> Callable[[Bench], Any]:
+    return lambda b: b.emulator.control.fault(fault)
 
 
 def load(*torque_nm: Any) -> Callable[[Bench], Any]:
-    return lambda b: b.rig.control.load(ConstantLoad.model_validate({"torque_nm": torque_nm}))
+    return lambda b: b.emulator.control.load(ConstantLoad.model_validate({"torque_nm": torque_nm}))
 
 
 def lose_supervisor(b: Bench) -> None:
@@ -64,7 +64,7 @@ def quick_stop(b: Bench) -> None:
 
 
 def intrude(b: Bench) -> None:
-    """Another program on the bus resets the drives, and waits until the rig has heard it."""
+    """Another program on the bus resets the drives, and waits until the emulator has heard it."""
     bus = can_plant.open_bus(b.bench.bus)
     for frame in build_broadcast_resets(b.bench):
         bus.send(frame)
@@ -140,7 +140,7 @@ def check_stopped(b: Bench, case: Case, begin_s: float) -> None:
     assert all(math.isfinite(value) for value in fault.values.values())
     assert b.loop.run.tick == b.sink.done, "the server waits for a sample of every tick"
     b.plant.quick_stop(b.now(), "a second cause")
-    b.rig.control.fault(BusErrors())
+    b.emulator.control.fault(BusErrors())
     b.watch(30)
     assert b.plant.fault is fault
     assert b.read_currents() == [0, 0]

@@ -1,4 +1,4 @@
-"""The bench file of a rig that is a process of its own, on a machine that may be busy."""
+"""The bench file of an emulator that is a process of its own, on a machine that may be busy."""
 
 import contextlib
 import tomllib
@@ -7,45 +7,48 @@ from typing import Any
 
 import tomli_w
 
-from svsa.hardware.emulator.launch import RunningRig, start_rig
+from svsa.hardware.emulator.launch import RunningEmulator, start_emulator
 
-from .wired_bench import RIG_BENCH
+from .wired_bench import EMULATOR_BENCH
 
 PATIENT = {"loop_s": 1.0, "supervisor_s": 2.0, "server_s": 60.0}
 """How long the processes of a bench wait for one another."""
 LATE = {"stale_zero_s": 0.9, "stale_fault_s": 1.0, "missed_ticks": 900}
-"""Beside these, against the clock only: a rig that is not let run, or a loop. It has to stand
+"""Beside these, against the clock only: an emulator that is not let run, or a loop. It has to stand
 still meanwhile: what moves on feedback this old is soon as fast as it may be."""
 
 START_SILENCE_S, IDLE_S = 300.0, 600.0
-"""A loop may take longer to start on a busy machine than on a bench, and a rig waits longer."""
+"""A loop may start later on a busy machine than on a bench, and an emulator waits longer."""
 STALL_S = PATIENT["loop_s"]
-"""The machine may stand still for so long: nobody misses a loop, and the rig waits for it."""
+"""The machine may stand still for so long: nobody misses a loop, and the emulator waits for it."""
 FAIR_S = 0.5 * STALL_S
 """A metronome that was late by more tells of a machine on which a loop may have been, too."""
 
 
-def start_live_rig() -> contextlib.AbstractContextManager[RunningRig]:
-    """A rig in lockstep beside a loop in real time, with the loop's own claim to the processor.
+def start_live_emulator() -> contextlib.AbstractContextManager[RunningEmulator]:
+    """An emulator in lockstep beside a loop in real time, with the loop's own claim to the
+    processor.
 
     It waits for the loop, so that nothing of it is late on a busy machine; without one its time
     goes on all the same, which a test needs that takes the loop away.
     """
-    return start_rig(True, IDLE_S, "--real-time", "--alone-s", str(STALL_S))
+    return start_emulator(True, IDLE_S, "--real-time", "--alone-s", str(STALL_S))
 
 
-def write_bench(folder: Path, rig: RunningRig, lockstep: bool = True, **safety: Any) -> Path:
-    """The rig's bench file with this rig's ports, and its calibration record beside it.
+def write_bench(
+    folder: Path, emulator: RunningEmulator, lockstep: bool = True, **safety: Any
+) -> Path:
+    """The emulator's bench file with this emulator's ports, and its calibration record beside it.
 
-    lockstep: as the rig was started. safety: what differs from the patience that it needs.
+    lockstep: as the emulator was started. safety: what differs from the patience that it needs.
     """
-    bench: dict[str, Any] = tomllib.loads(RIG_BENCH.read_text(encoding="utf-8"))
-    bench["bus"]["options"]["port"] = rig.port
-    bench["emulator"] = {"control_port": rig.control_port, "lockstep": lockstep}
+    bench: dict[str, Any] = tomllib.loads(EMULATOR_BENCH.read_text(encoding="utf-8"))
+    bench["bus"]["options"]["port"] = emulator.port
+    bench["emulator"] = {"control_port": emulator.control_port, "lockstep": lockstep}
     bench.setdefault("timing", {})["start_silence_s"] = START_SILENCE_S
     bench["safety"] |= PATIENT | ({} if lockstep else LATE) | safety
     path = folder / "bench.toml"
     path.write_text(tomli_w.dumps(bench), encoding="utf-8")
-    record = RIG_BENCH.with_name("bench.calibration.toml")
+    record = EMULATOR_BENCH.with_name("bench.calibration.toml")
     path.with_name(record.name).write_text(record.read_text(encoding="utf-8"), encoding="utf-8")
     return path

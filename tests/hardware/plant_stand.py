@@ -12,9 +12,9 @@ from svsa.hardware.clock import LockstepClock
 from svsa.hardware.drives.conversion import build_motor_scale, compute_current_ma
 from svsa.hardware.drives.phase import Phase
 from svsa.hardware.emulator.experiment import connect_bench
-from svsa.hardware.emulator.launch import RunningRig
+from svsa.hardware.emulator.launch import RunningEmulator
 from svsa.hardware.emulator.mechanics import Mechanics
-from svsa.hardware.emulator.parameters import RigParameters
+from svsa.hardware.emulator.parameters import EmulatorParameters
 from svsa.hardware.file import BenchFile, BusSettings, read_bench
 from svsa.hardware.reading import Reading
 from svsa.hardware.realtime.configuration import (
@@ -26,7 +26,7 @@ from svsa.hardware.realtime.loop import BenchLoop
 from svsa.hardware.realtime.sample_array import SampleArray
 from svsa.hardware.safety.machine import BenchStatus, Conditions, Machine
 from svsa.runs.paper import get_figure
-from tests.hardware.wired_bench import RIG_BENCH
+from tests.hardware.wired_bench import EMULATOR_BENCH
 
 AT_REST = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 UNDISTURBED = Disturbance(0.0, 0.0, 0.0)
@@ -48,7 +48,7 @@ class SimulatedPlant:
         self._guard = build_guard(bench)
         self._machine = Machine(bench, self._guard, [])
         self._scales = (build_motor_scale(bench.motor1), build_motor_scale(bench.motor2))
-        self.mechanics = Mechanics(RigParameters())
+        self.mechanics = Mechanics(EmulatorParameters())
         self.now_s = 0.0
 
     def __getattr__(self, name: str) -> Any:
@@ -171,7 +171,7 @@ class Stand:
 
 
 def stand_simulated() -> Iterator[Stand]:
-    bench = read_bench(RIG_BENCH)
+    bench = read_bench(EMULATOR_BENCH)
     plant = SimulatedPlant(bench)
 
     def wait(until: float) -> None:
@@ -184,13 +184,13 @@ def stand_simulated() -> Iterator[Stand]:
     plant.close()
 
 
-def stand_emulated(rig: RunningRig, interface: str) -> Iterator[Stand]:
-    bench = connect_bench(rig)
+def stand_emulated(emulator: RunningEmulator, interface: str) -> Iterator[Stand]:
+    bench = connect_bench(emulator)
     if interface == "slcan":
         bench = bench.changed(
             bus=BusSettings(
                 interface="slcan",
-                channel=rig.slcan,
+                channel=emulator.slcan,
                 options={"sleep_after_open": 0.0},
                 timestamps="arrival",
             ),
@@ -199,10 +199,10 @@ def stand_emulated(rig: RunningRig, interface: str) -> Iterator[Stand]:
     clock = LockstepClock()
     plant = CanPlant(bench, find_calibration(bench), clock, build_guard(bench))
     plant.open()
-    rig.control.home()
+    emulator.control.home()
 
     def describe() -> tuple[State, list[float], list[Any]]:
-        state = rig.control.read_state()
+        state = emulator.control.read_state()
         drives = state["drives"].values()
         return (
             State(**state["x"]),

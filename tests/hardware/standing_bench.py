@@ -36,12 +36,12 @@ def main(path: Path) -> None:
             wake(session)
             session.clear()
     say("runs")
-    told = ""
+    reported = ""
     while True:
         wake(session)
-        if session.fault is not None and session.fault.message != told:
-            told = session.fault.message
-            say(f"{session.fault.code} {told}")
+        if session.fault is not None and session.fault.message != reported:
+            reported = session.fault.message
+            say(f"{session.fault.code} {reported}")
 
 
 def say(words: str) -> None:

@@ -9,12 +9,12 @@ import tomli_w
 
 from svsa.errors import ParameterError
 from svsa.hardware.file import read_bench
-from tests.hardware.wired_bench import RIG_BENCH
+from tests.hardware.wired_bench import EMULATOR_BENCH
 
 
 def write(folder: Path, **changes: Any) -> Path:
-    """The rig's bench file with fields replaced, as section__name=value; None leaves it out."""
-    sections = tomllib.loads(RIG_BENCH.read_text(encoding="utf-8"))
+    """The emulator's bench file with fields replaced: section__name=value, None to leave one out."""
+    sections = tomllib.loads(EMULATOR_BENCH.read_text(encoding="utf-8"))
     for name, value in changes.items():
         section, field = name.split("__")
         if value is None:
@@ -27,9 +27,9 @@ def write(folder: Path, **changes: Any) -> Path:
 
 
 def test_the_rigs_own_file_lacks_nothing() -> None:
-    bench = read_bench(RIG_BENCH)
+    bench = read_bench(EMULATOR_BENCH)
     assert bench.find_missing() == []
-    assert bench.path == str(RIG_BENCH)
+    assert bench.path == str(EMULATOR_BENCH)
 
 
 def test_what_belongs_to_a_motor_has_no_default(tmp_path: Path) -> None:

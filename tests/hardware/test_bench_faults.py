@@ -1,8 +1,8 @@
-"""Every fault that can be caused is caused, on the emulated rig while it runs Figure 4A.
+"""Every fault that can be caused is caused, on the emulator while it runs Figure 4A.
 
-In lockstep, in this process. What counts is what the rig's own drives
-were told, in the rig's time, and where its true mechanism went; physics decides which of several
-faults comes first, so some causes name more than one.
+In lockstep, in this process. What counts is what the emulator's own drives
+were told, in the emulator's time, and where its true mechanism went; physics decides which of
+several faults comes first, so some causes name more than one.
 """
 
 import math
@@ -27,7 +27,7 @@ from svsa.hardware.safety.faults import FAULTS
 from svsa.hardware.safety.guard import OVERLOAD
 from svsa.hardware.safety.machine import BenchStatus
 from tests.exhaustive import exhaust
-from tests.hardware.emulator.in_process_rig import InProcessRig, start_in_process
+from tests.hardware.emulator.in_process_emulator import InProcessEmulator, start_in_process
 
 from .caused_faults import (
     CASES,
@@ -43,7 +43,7 @@ from .watched_bench import FIGURE, Bench, make_ready
 
 
 @pytest.fixture(scope="module")
-def rig() -> Iterator[InProcessRig]:
+def emulator() -> Iterator[InProcessEmulator]:
     with start_in_process() as running:
         yield running
 
@@ -51,8 +51,8 @@ def rig() -> Iterator[InProcessRig]:
 class Place:
     """The one bench of this module: READY for each test, made anew after one that failed."""
 
-    def __init__(self, rig: InProcessRig) -> None:
-        self._rig = rig
+    def __init__(self, emulator: InProcessEmulator) -> None:
+        self._rig = emulator
         self._bench: Bench | None = None
 
     def get(self) -> Bench:
@@ -68,8 +68,8 @@ class Place:
 
 
 @pytest.fixture(scope="module")
-def place(rig: InProcessRig) -> Iterator[Place]:
-    made = Place(rig)
+def place(emulator: InProcessEmulator) -> Iterator[Place]:
+    made = Place(emulator)
     yield made
     made.close()
 
@@ -106,7 +106,7 @@ def test_an_encoder_that_is_wrong_from_the_start_lets_nothing_run_away(
 
     A deflection that stays near zero may go on: it moves nothing wrong.
     """
-    ready.rig.control.fault(fault(node=node))
+    ready.emulator.control.fault(fault(node=node))
     ready.start()
     ready.begin_watch()
     ready.tick_until_fault()
@@ -134,10 +134,10 @@ def test_a_not_finite_torque_is_never_sent(ready: Bench, monkeypatch: pytest.Mon
 def test_a_third_of_all_frames_lost_is_borne(ready: Bench) -> None:
     """Below the 5 ms nothing happens to the run: x̂ bridges what is missing."""
     for node in NODES:
-        ready.rig.control.fault(DropFrames(node=node, probability=0.3))
+        ready.emulator.control.fault(DropFrames(node=node, probability=0.3))
     ready.run(1000)
     asked = math.radians(60.0) * math.sin(2.0 * math.pi * 0.2 * 1.0)
-    assert ready.rig.control.read_state()["x"]["q"] == pytest.approx(asked, abs=0.05)
+    assert ready.emulator.control.read_state()["x"]["q"] == pytest.approx(asked, abs=0.05)
     ready.plant.quick_stop(ready.now(), "a test")
     ready.tick(2)
     ready.recover()
@@ -149,7 +149,7 @@ def test_a_drive_without_its_cable_holds_its_current_and_the_other_is_stopped(
 ) -> None:
     """What no software can cover, said plainly: the supply must be cut by the button."""
     ready.run()
-    ready.rig.control.fault(Unplugged(node=node))
+    ready.emulator.control.fault(Unplugged(node=node))
     ready.tick(30)
     assert ready.plant.fault is not None
     assert ready.plant.fault.code == "stale_feedback"
@@ -161,7 +161,7 @@ def test_a_drive_without_its_cable_holds_its_current_and_the_other_is_stopped(
 
 def test_a_motor_that_is_too_warm_ends_it_even_at_rest(ready: Bench) -> None:
     """The drive of the weak motor makes 15 A by itself while nothing is asked of it."""
-    ready.rig.control.fault(CurrentOffset(node="motor2", offset_a=15))
+    ready.emulator.control.fault(CurrentOffset(node="motor2", offset_a=15))
     ready.tick_until_fault()
     assert ready.plant.fault is not None
     assert ready.plant.fault.code == "overload"
@@ -172,7 +172,7 @@ def test_a_motor_that_is_too_warm_ends_it_even_at_rest(ready: Bench) -> None:
 
 
 def test_a_drive_that_does_not_answer_is_named_while_arming(ready: Bench) -> None:
-    ready.rig.control.fault(Silence(node="motor2"))
+    ready.emulator.control.fault(Silence(node="motor2"))
     begin = ready.now()
     ready.plant.arm(begin)
     ready.tick(round(FAULTS["drive_silent"].within_s / ready.bench.timing.period_s))
@@ -191,11 +191,11 @@ def test_a_drive_that_does_not_answer_is_named_while_arming(ready: Bench) -> Non
     ],
 )
 def test_a_limit_of_the_bench_file_ends_the_run(
-    place: Place, rig: InProcessRig, safety: dict[str, float], code: str
+    place: Place, emulator: InProcessEmulator, safety: dict[str, float], code: str
 ) -> None:
     """The figure itself goes beyond a limit this low: no fault has to be injected."""
     place.close()
-    bench = make_ready(rig, **safety)
+    bench = make_ready(emulator, **safety)
     try:
         bench.start()
         begin = bench.begin_watch()
@@ -206,10 +206,10 @@ def test_a_limit_of_the_bench_file_ends_the_run(
 
 
 def test_the_operators_silence_ramps_to_zero_without_a_fault(
-    place: Place, rig: InProcessRig
+    place: Place, emulator: InProcessEmulator
 ) -> None:
     place.close()
-    bench = make_ready(rig, dead_man=True)
+    bench = make_ready(emulator, dead_man=True)
     try:
         bench.beats.stopped["operator"] = -1.0
         with pytest.raises(StateError, match="switch"):
@@ -230,11 +230,11 @@ def test_the_operators_silence_ramps_to_zero_without_a_fault(
 
 
 def test_it_neither_starts_before_home_nor_arms_uncalibrated(
-    place: Place, rig: InProcessRig, tmp_path: Any
+    place: Place, emulator: InProcessEmulator, tmp_path: Any
 ) -> None:
     place.close()
-    bench = Bench(rig)
-    rig.control.home()
+    bench = Bench(emulator)
+    emulator.control.home()
     try:
         bench.plant.arm(bench.now())
         bench.tick_until(BenchStatus.READY)
@@ -247,14 +247,14 @@ def test_it_neither_starts_before_home_nor_arms_uncalibrated(
             bench.start()
     finally:
         bench.close()
-    elsewhere = connect_bench(rig).changed(path=str(tmp_path / "bench.toml"))
-    bare = LockstepBench(rig, FIGURE, 1, elsewhere)
+    elsewhere = connect_bench(emulator).changed(path=str(tmp_path / "bench.toml"))
+    bare = LockstepBench(emulator, FIGURE, 1, elsewhere)
     try:
         with pytest.raises(StateError, match="no calibration record"):
             bare.plant.arm(bare.now())
         bare.tick(5)
         assert bare.plant.status is BenchStatus.OFF
-        drives = rig.control.read_state()["drives"].values()
+        drives = emulator.control.read_state()["drives"].values()
         assert [drive["mode"] for drive in drives] == [None, None]
     finally:
         bare.close()

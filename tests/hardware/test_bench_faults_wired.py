@@ -1,8 +1,8 @@
-"""Faults whose causes come over the wire itself, with the rig in a process of its own."""
+"""Faults whose causes come over the wire itself, with the emulator in a process of its own."""
 
 import pytest
 
-from svsa.hardware.emulator.launch import start_rig
+from svsa.hardware.emulator.launch import start_emulator
 from tests.exhaustive import exhaust
 
 from .caused_faults import CASES, check_stopped
@@ -18,8 +18,8 @@ from .watched_bench import make_ready
 )
 def test_over_sockets_it_ends_the_same(name: str) -> None:
     """As `test_bench_faults` has it in one process."""
-    with start_rig(lockstep=True) as rig:
-        bench = make_ready(rig)
+    with start_emulator(lockstep=True) as emulator:
+        bench = make_ready(emulator)
         try:
             bench.run()
             begin = bench.begin_watch()

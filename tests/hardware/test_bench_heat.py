@@ -1,4 +1,4 @@
-"""A load that a motor does not bear for long, on the emulated rig in lockstep, from cold.
+"""A load that a motor does not bear for long, on the emulator in lockstep, from cold.
 
 The printed 3 kg have 2 N·m on motor 2, which bears 1.22 N·m for ever.
 """
@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import pytest
 
 from svsa.errors import Fault
-from svsa.hardware.emulator.experiment import RIG_BENCH
+from svsa.hardware.emulator.experiment import EMULATOR_BENCH
 from svsa.hardware.endurance import Endurance, find_endurance
 from svsa.hardware.file import read_bench
 from svsa.hardware.realtime.configuration import build_bench_configuration
@@ -20,7 +20,7 @@ from svsa.hardware.realtime.process import LoopProcess
 from svsa.hardware.safety.heartbeat import Heartbeats
 from svsa.hardware.safety.machine import BenchStatus
 from svsa.simulation.plant.loads import ConstantLoad, Load, MassLoad, PaperLoad, PulseLoad
-from tests.hardware.emulator.in_process_rig import start_in_process
+from tests.hardware.emulator.in_process_emulator import start_in_process
 
 from .watched_bench import FIGURE, Bench, make_ready
 
@@ -30,7 +30,7 @@ BEFORE_TICKS, LONGEST_TICKS = 2000, 10_000
 LASTING_NM = 1.16 * 50.0 * 0.9 * 0.0234
 
 
-class Told(NamedTuple):
+class Reported(NamedTuple):
     """What the loop's process shared and said while the load hung."""
 
     seconds: float
@@ -40,9 +40,9 @@ class Told(NamedTuple):
 
 
 @pytest.fixture(scope="module")
-def told() -> Told:
-    with start_in_process() as rig:
-        bench = make_ready(rig)
+def reported() -> Reported:
+    with start_in_process() as emulator:
+        bench = make_ready(emulator)
         memory, beats = LoopMemory.create(), Heartbeats.create()
         memory.fields["heat"] = LEFT_HEAT
         ours, theirs = socket.socketpair()
@@ -68,10 +68,10 @@ def told() -> Told:
             bench.close()
 
 
-def hang_paper_load(bench: Bench, process: LoopProcess, memory: LoopMemory, link: Link) -> Told:
+def hang_paper_load(bench: Bench, process: LoopProcess, memory: LoopMemory, link: Link) -> Reported:
     bench.start()
     bench.tick(BEFORE_TICKS)
-    bench.rig.control.load(PaperLoad())
+    bench.emulator.control.load(PaperLoad())
     begin, held, messages = bench.now(), None, []
     for _ in range(LONGEST_TICKS):
         bench.tick()
@@ -83,37 +83,37 @@ def hang_paper_load(bench: Bench, process: LoopProcess, memory: LoopMemory, link
         if bench.plant.fault is not None:
             assert held is not None
             allowed = float(memory.fields["allowed_nm"][1])
-            return Told(held, allowed, messages, bench.plant.fault)
+            return Reported(held, allowed, messages, bench.plant.fault)
     raise AssertionError("the motor bore it")
 
 
-def test_the_fault_that_it_ends_in_names_the_heat_first(told: Told) -> None:
-    assert told.fault.code == "lever_end"
-    assert told.fault.message.startswith("Motor 2 was held back by heat")
-    assert "End of the spiral" in told.fault.message
-    assert told.fault.values["motor2_heat"] > 0.9
-    assert LASTING_NM <= told.allowed_nm < 2.0
+def test_the_fault_that_it_ends_in_names_the_heat_first(reported: Reported) -> None:
+    assert reported.fault.code == "lever_end"
+    assert reported.fault.message.startswith("Motor 2 was held back by heat")
+    assert "End of the spiral" in reported.fault.message
+    assert reported.fault.values["motor2_heat"] > 0.9
+    assert LASTING_NM <= reported.allowed_nm < 2.0
 
 
-def test_the_loop_tells_which_motor_is_held_back_before_the_fault(told: Told) -> None:
-    said = [(message["status"], message["held_back"]) for message in told.messages]
+def test_the_loop_tells_which_motor_is_held_back_before_the_fault(reported: Reported) -> None:
+    said = [(message["status"], message["held_back"]) for message in reported.messages]
     assert said[0] == (BenchStatus.RUN, [])
     assert (BenchStatus.RUN, ["motor2"]) in said
     assert said[-1] == (BenchStatus.FAULT, ["motor2"])
 
 
-def test_it_is_foretold_from_the_twin(told: Told) -> None:
-    """The twin has no friction and less noise: the rig's motor is warm a little earlier."""
+def test_it_is_foretold_from_the_twin(reported: Reported) -> None:
+    """The twin has no friction and less noise: the emulator's motor is warm a little earlier."""
     foretold = foretell(PaperLoad())
     assert foretold is not None
     assert foretold.motor == "motor2"
     assert foretold.lasting_torque_nm == pytest.approx(LASTING_NM)
     assert foretold.torque_nm > 1.8
-    assert 0.6 * foretold.seconds < told.seconds < 1.4 * foretold.seconds
+    assert 0.6 * foretold.seconds < reported.seconds < 1.4 * foretold.seconds
 
 
 def foretell(*loads: Load) -> Endurance | None:
-    bench = read_bench(RIG_BENCH)
+    bench = read_bench(EMULATOR_BENCH)
     return find_endurance(bench, build_bench_configuration(bench, FIGURE), loads)
 
 

@@ -12,7 +12,7 @@ import pytest
 
 from svsa.actuators.signals import CHANNEL_INDEX, Torque
 from svsa.errors import StateError
-from svsa.hardware.emulator.launch import RunningRig, start_rig
+from svsa.hardware.emulator.launch import RunningEmulator, start_emulator
 from svsa.hardware.safety.machine import BenchStatus
 from tests.exhaustive import exhaust
 from tests.hardware.plant_stand import NO_TORQUE, Stand, stand_emulated, stand_simulated
@@ -23,17 +23,17 @@ TRACKED_NM_PER_RAD = 1.0
 
 
 @pytest.fixture(scope="module")
-def rig() -> Iterator[RunningRig]:
-    with start_rig(lockstep=True) as running:
+def emulator() -> Iterator[RunningEmulator]:
+    with start_emulator(lockstep=True) as running:
         yield running
 
 
 @pytest.fixture(params=exhaust(PLANTS, PLANTS[:2]))
-def stand(request: pytest.FixtureRequest, rig: RunningRig) -> Iterator[Stand]:
+def stand(request: pytest.FixtureRequest, emulator: RunningEmulator) -> Iterator[Stand]:
     if request.param == "simulated":
         yield from stand_simulated()
     else:
-        yield from stand_emulated(rig, request.param)
+        yield from stand_emulated(emulator, request.param)
 
 
 def test_at_rest_it_stays_at_rest(stand: Stand) -> None:

@@ -15,15 +15,15 @@ from svsa.hardware.calibration import (
     write_calibration,
 )
 from svsa.hardware.drives.bus import BusError
-from svsa.hardware.emulator.emulator import Rig
+from svsa.hardware.emulator.emulator import Emulator
 from svsa.hardware.emulator.faults import DropFrames
-from svsa.hardware.emulator.parameters import RigDeflection, RigParameters
+from svsa.hardware.emulator.parameters import EmulatedDeflection, EmulatorParameters
 from svsa.hardware.encoders.source import EncoderError
 from svsa.hardware.file import read_bench
 from svsa.hardware.homing import STEPS, Homing
 from svsa.hardware.zero import calibrate, read_deflection_zero
 from svsa.simulation.plant.loads import ConstantLoad
-from tests.hardware.emulator.bus_in_time import RIG_BENCH, RigBus, copy_bench
+from tests.hardware.emulator.bus_in_time import EMULATOR_BENCH, EmulatorBus, copy_bench
 
 MOTOR_CHANGES = [
     ("gear_ratio = 50.0", "gear_ratio = 51.0"),
@@ -36,7 +36,7 @@ MOTOR_CHANGES = [
 
 @pytest.fixture
 def bench(tmp_path):
-    """The rig's bench without its record."""
+    """The emulator's bench without its record."""
     path = copy_bench(tmp_path)
     path.with_name("bench.calibration.toml").unlink()
     return read_bench(path)
@@ -137,12 +137,16 @@ def test_signs_are_noted_in_a_record_of_this_bench_only(bench):
 
 def test_the_rigs_own_record_fits_its_bench_file():
     """Else `svsa emulator` and the figures through CAN would not arm."""
-    bench = read_bench(RIG_BENCH)
+    bench = read_bench(EMULATOR_BENCH)
     assert list_problems(bench, find_calibration(bench)) == []
 
 
 def test_calibrating_reads_the_zero_and_says_who_and_when(bench):
-    bus = RigBus(Rig(RigParameters(deflection=RigDeflection(offset_counts=-321, phase_s=0.0008))))
+    bus = EmulatorBus(
+        Emulator(
+            EmulatorParameters(deflection=EmulatedDeflection(offset_counts=-321, phase_s=0.0008))
+        )
+    )
     path, calibration = calibrate(bench, confirm_all(" Ada "), bus.open, bus.now)
     assert (calibration.deflection_zero_counts, calibration.by) == (-321, "Ada")
     assert datetime.fromisoformat(calibration.date).tzinfo is not None
@@ -155,14 +159,14 @@ def test_calibrating_reads_the_zero_and_says_who_and_when(bench):
 
 def test_calibrating_again_keeps_signs_that_were_confirmed_for_these_settings(bench):
     write_calibration(bench, build(bench))
-    bus = RigBus()
+    bus = EmulatorBus()
     assert calibrate(bench, confirm_all(), bus.open, bus.now)[1].signs_confirmed
     write_calibration(bench, build(bench, fingerprint="another"))
     assert not calibrate(bench, confirm_all(), bus.open, bus.now)[1].signs_confirmed
 
 
 def test_nothing_is_written_before_every_mark_is_confirmed(bench):
-    homing, bus = Homing(), RigBus()
+    homing, bus = Homing(), EmulatorBus()
     homing.confirm("link", "Ada")
     with pytest.raises(StateError, match="Motor 1 has not"):
         calibrate(bench, homing, bus.open, bus.now)
@@ -170,16 +174,16 @@ def test_nothing_is_written_before_every_mark_is_confirmed(bench):
 
 
 def test_a_link_that_still_swings_is_not_taken_for_a_zero(bench):
-    bus = RigBus()
-    bus.rig.add_load(ConstantLoad(torque_nm=(0.5, 0.0, 0.0)))
+    bus = EmulatorBus()
+    bus.emulator.add_load(ConstantLoad(torque_nm=(0.5, 0.0, 0.0)))
     with pytest.raises(StateError, match="let go of the link"):
         calibrate(bench, confirm_all(), bus.open, bus.now)
     assert find_calibration(bench) is None
 
 
 def test_a_silent_encoder_and_a_missing_bus_have_no_zero(bench):
-    bus = RigBus()
-    bus.rig.inject(DropFrames(node="deflection"))
+    bus = EmulatorBus()
+    bus.emulator.inject(DropFrames(node="deflection"))
     with pytest.raises(EncoderError, match="bench-check"):
         read_deflection_zero(bench, bus.open, bus.now)
     assert not bus.is_open

@@ -12,7 +12,7 @@ from svsa.hardware.drives.robomodule import Feedback, encode
 from svsa.hardware.emulator.frame import Frame
 from svsa.hardware.file import read_bench
 from svsa.hardware.safety.machine import BenchStatus
-from tests.hardware.wired_bench import AT_REST, RIG_BENCH, FakeBeats, WiredBench
+from tests.hardware.wired_bench import AT_REST, EMULATOR_BENCH, FakeBeats, WiredBench
 
 PUSH = Torque(0.5, 0.2)
 
@@ -29,8 +29,10 @@ def test_arms_step_by_step_and_starts_at_zero() -> None:
         assert b.now > 1.0, "500 ms after the reset and again after the mode"
         b.tick(3)
         assert {current for _, _, current in b.read_currents()} == {0}
-        assert [d.mode for d in b.rig.drives.values()] == [2, 2]
-        assert [d.errors for d in b.rig.drives.values()] == [0, 0], "the drives took every command"
+        assert [d.mode for d in b.emulator.drives.values()] == [2, 2]
+        assert [d.errors for d in b.emulator.drives.values()] == [0, 0], (
+            "the drives took every command"
+        )
 
 
 def test_opening_resets_the_drives_which_may_hold_a_current() -> None:
@@ -68,7 +70,7 @@ def test_an_axis_that_moved_since_its_reset_is_not_at_its_mark() -> None:
 
 
 def test_an_uncalibrated_bench_does_not_arm_and_says_why() -> None:
-    bench = read_bench(RIG_BENCH)
+    bench = read_bench(EMULATOR_BENCH)
     bench = bench.changed(motor2=bench.motor2.changed(sign=None))
     with WiredBench(bench) as b, pytest.raises(StateError, match=r"motor2\.sign is not given"):
         b.plant.arm(b.now)
@@ -82,7 +84,7 @@ def test_returns_the_torque_of_whole_milliamperes() -> None:
         assert sent == pytest.approx((one * 50 * 0.9 * 0.0396e-3, two * 50 * 0.9 * 0.0234e-3))
         assert sent.u1 == pytest.approx(0.5, abs=0.9e-3), "within half a mA of what was asked"
         b.tick(10, PUSH)
-        target = b.rig.drives["motor1"].target_nm
+        target = b.emulator.drives["motor1"].target_nm
         assert target == pytest.approx(sent.u1, rel=1e-9), "and that is what the drive holds"
 
 
@@ -152,8 +154,8 @@ def test_a_dead_mans_switch_that_nobody_can_hold_keeps_it_still() -> None:
 
 def test_without_a_supervisor_only_an_emulated_rig_gets_ready() -> None:
     with WiredBench() as b:
-        b.rig._beat = lambda: None  # a bus that does not say EMULATED
-        b.rig._events = [event for event in b.rig._events if event[0] != 100_000]
+        b.emulator._beat = lambda: None  # a bus that does not say EMULATED
+        b.emulator._events = [event for event in b.emulator._events if event[0] != 100_000]
         b.plant.arm(b.now)
         b.tick_until(BenchStatus.FAULT)
         assert b.plant.fault is not None
@@ -191,7 +193,7 @@ def test_close_leaves_zero_current_and_drives_without_mode() -> None:
     b.plant.close()
     b.clock.wait_until(b.now + 0.01)
     assert b.read_currents(begin)[-2:] == [(b.find_zero_time(begin), n, 0) for n in (1, 2)]
-    assert [d.mode for d in b.rig.drives.values()] == [None, None]
+    assert [d.mode for d in b.emulator.drives.values()] == [None, None]
     b.plant.close()
     b.wire.shutdown()
 

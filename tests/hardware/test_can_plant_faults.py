@@ -15,7 +15,7 @@ from svsa.hardware.emulator.faults import (
     BusErrors,
     CurrentOffset,
     DropFrames,
-    RigFault,
+    EmulatorFault,
     Silence,
     Stall,
 )
@@ -35,8 +35,8 @@ def _ask(**asked: object) -> Cause:
     return lambda b: b.ask(**asked)
 
 
-def _inject(fault: RigFault) -> Cause:
-    return lambda b: b.rig.inject(fault)
+def _inject(fault: EmulatorFault) -> Cause:
+    return lambda b: b.emulator.inject(fault)
 
 
 def _say(frame: Frame) -> Cause:
@@ -62,7 +62,7 @@ def _lose_supervisor(b: WiredBench) -> None:
     b.beats.ages["supervisor"] = 0.101
 
 
-def _shake(b: WiredBench) -> None:
+def _torque_change(b: WiredBench) -> None:
     for turn in range(11):
         b.ask(known=AT_REST._replace(dtheta2=3.0 * (-1) ** turn))
 
@@ -122,7 +122,7 @@ MOVING = {
         _ask(known=AT_REST._replace(theta1=2.8, q=2.4)),
         _ask(known=AT_REST._replace(theta1=-2.4, q=-2.6)),
     ],
-    "vibration": [_shake],
+    "vibration": [_torque_change],
     "implausible": [_ask(estimate=Disturbance(0.0, -12.5, 0.0))],
     "deflection_limit": [_ask(known=AT_REST._replace(q=0.74))],
     "lever_end": [_ask(known=AT_REST._replace(theta2=2.9))],
@@ -179,7 +179,7 @@ def test_every_fault_ends_in_zero_current_in_time(
         b.tick(100, PUSH)
         assert b.find_zero_time(begin) - begin <= FAULTS[code].within_s + 1e-9
         assert len(b.find_resets(begin)) == 1
-        assert [drive.target_nm for drive in b.rig.drives.values()] == [0.0, 0.0]
+        assert [drive.target_nm for drive in b.emulator.drives.values()] == [0.0, 0.0]
         after = [current for time_s, _, current in b.read_currents(at) if time_s > at]
         assert len(after) >= 2 * 98, "zero again in every tick"
         assert set(after) == {0}
@@ -188,7 +188,7 @@ def test_every_fault_ends_in_zero_current_in_time(
 def test_a_drive_that_makes_current_of_its_own_is_an_overload() -> None:
     with WiredBench() as b:
         b.make_ready()
-        b.rig.inject(CurrentOffset(node="motor2", offset_a=15.0))
+        b.emulator.inject(CurrentOffset(node="motor2", offset_a=15.0))
         b.tick_until(BenchStatus.FAULT, 0.2)
         assert b.plant.fault is not None
         assert b.plant.fault.code == "overload"
@@ -196,7 +196,7 @@ def test_a_drive_that_makes_current_of_its_own_is_an_overload() -> None:
 
 def test_a_drive_that_says_nothing_is_named_while_arming() -> None:
     with WiredBench() as b:
-        b.rig.inject(Silence(node="motor2"))
+        b.emulator.inject(Silence(node="motor2"))
         b.plant.arm(b.now)
         begin = b.now
         b.tick_until(BenchStatus.FAULT)
@@ -253,7 +253,7 @@ def test_the_first_fault_stays_until_it_is_cleared_and_then_all_begins_again() -
 
 def test_faults_of_before_do_not_count_after_arming() -> None:
     with WiredBench() as b:
-        b.rig.inject(BusErrors(count=3))
+        b.emulator.inject(BusErrors(count=3))
         b.clock.say(Frame(0x01D, b"\x01" + b"\x55" * 7), b.now)
         b.tick(5)
         assert b.plant.status is BenchStatus.OFF

@@ -9,11 +9,13 @@ from svsa.hardware.clock import DRIFT, SPIN_S, ClockError, LockstepClock, WallCl
 from svsa.hardware.emulation import ADVANCE_ID, decode_time, encode_time
 from svsa.hardware.file import read_bench
 from svsa.hardware.paced_clock import CATCH_UP_S, PacedClock, choose_clock
-from tests.hardware.wired_bench import RIG_BENCH
+from tests.hardware.wired_bench import EMULATOR_BENCH
 
 
 class Adapter:
-    """A bus that answers as a rig in lockstep, or not at all. alone_us: how far it went alone."""
+    """A bus that answers as an emulator in lockstep, or not at all. alone_us: how far it went
+    alone.
+    """
 
     def __init__(self, answers: bool = True) -> None:
         self.asked: list[int] = []
@@ -68,8 +70,8 @@ def test_frames_stamped_by_a_clock_of_its_own() -> None:
     for tick in range(100):
         sent = 1000.0 + 0.001 * tick
         waited = 0.0009 - 1e-5 * (tick % 90)
-        told = clock.convert(sent - 993.0, sent + waited)
-    assert told == pytest.approx(sent, abs=2e-5)
+        reported = clock.convert(sent - 993.0, sent + waited)
+    assert reported == pytest.approx(sent, abs=2e-5)
 
 
 def test_a_drifting_clock_is_followed() -> None:
@@ -78,8 +80,8 @@ def test_a_drifting_clock_is_followed() -> None:
     clock.bind(None)  # pyright: ignore[reportArgumentType]
     for tick in range(36_000):
         arrival = 50.0 + 0.1 * tick
-        told = clock.convert(7.0 + 0.1 * tick * (1.0 - 0.5 * DRIFT), arrival)
-    assert told == pytest.approx(arrival, abs=1e-4)
+        reported = clock.convert(7.0 + 0.1 * tick * (1.0 - 0.5 * DRIFT), arrival)
+    assert reported == pytest.approx(arrival, abs=1e-4)
 
 
 def test_late_frames_are_told_as_late_and_a_new_origin_is_found() -> None:
@@ -131,7 +133,7 @@ def tick(clock: PacedClock, ticks: int) -> list[float]:
     for _ in range(ticks):
         deadline += 0.001
         clock.wait_until(deadline)
-        assert clock.now() == pytest.approx(deadline), "the rig is never ahead of the loop"
+        assert clock.now() == pytest.approx(deadline), "the emulator is never ahead of the loop"
         late.append(clock.find_lateness(deadline))
     return late
 
@@ -155,11 +157,11 @@ def test_a_paced_rig_keeps_step_with_the_wall_and_waits_for_a_late_loop() -> Non
 
 def test_a_rig_that_went_on_alone_is_not_waited_for() -> None:
     """While a loop was loading: its first tick is late, and the next is due a tick later."""
-    clock, wall, rig = PacedClock(), Wall(), Adapter()
+    clock, wall, emulator = PacedClock(), Wall(), Adapter()
     clock._wall = wall  # pyright: ignore[reportAttributeAccessIssue]
-    clock.bind(rig)  # pyright: ignore[reportArgumentType]
+    clock.bind(emulator)  # pyright: ignore[reportArgumentType]
     for alone_s in (3.0, 8.0):
-        rig.alone_us, wall.time = round(alone_s * 1e6), wall.time + 3.0
+        emulator.alone_us, wall.time = round(alone_s * 1e6), wall.time + 3.0
         clock.wait_until(clock.now() + 0.001)
         assert clock.now() == alone_s
         begin = wall.time
@@ -168,7 +170,7 @@ def test_a_rig_that_went_on_alone_is_not_waited_for() -> None:
 
 
 def test_the_bench_file_says_whether_the_rig_waits() -> None:
-    bench = read_bench(RIG_BENCH)
+    bench = read_bench(EMULATOR_BENCH)
     assert isinstance(choose_clock(bench), WallClock)
     assert bench.emulator is not None
     waits = bench.changed(emulator=bench.emulator.changed(lockstep=True))

@@ -1,4 +1,4 @@
-"""The bench's own loop on the emulated rig in lockstep: in this process, once through sockets."""
+"""The bench's own loop on the emulator in lockstep: in this process, once through sockets."""
 
 import numpy as np
 import pytest
@@ -6,14 +6,14 @@ import pytest
 from svsa.actuators.signals import CHANNEL_INDEX
 from svsa.control.installed import list_law_names
 from svsa.hardware.emulator.experiment import LockstepBench, connect_bench
-from svsa.hardware.emulator.launch import start_rig
+from svsa.hardware.emulator.launch import start_emulator
 from svsa.hardware.safety.machine import BenchStatus
 from svsa.runs.command import SetPosition, SetStiffness
 from svsa.runs.paper import FIGURES, LOAD_TIME_S, get_figure
 from svsa.simulation.plant.loads import ConstantLoad
 from svsa.simulation.reference.sine import ConstantPosition
 from tests.exhaustive import exhaust
-from tests.hardware.emulator.in_process_rig import start_in_process
+from tests.hardware.emulator.in_process_emulator import start_in_process
 from tests.runs.session.sessions import SHOWN_IN_BATCHES
 
 TICKS = 3000
@@ -30,23 +30,23 @@ def run(law, start=start_in_process):
 def run_and_remember(law, start=start_in_process, load=LOAD):
     """The same under this load; its samples, and what the law remembers at the end."""
     assert LOADED_S < LOAD_TIME_S
-    with start() as rig:
-        bench = LockstepBench(rig, FIGURES["4a"].build_configuration(law), TICKS)
+    with start() as emulator:
+        bench = LockstepBench(emulator, FIGURES["4a"].build_configuration(law), TICKS)
         try:
             bench.prepare()
             bench.start()
-            rig.control.load(load, at_s=bench.now() + LOADED_S)
+            emulator.control.load(load, at_s=bench.now() + LOADED_S)
             bench.tick(TICKS)
             assert bench.plant.fault is None
             assert bench.plant.status is BenchStatus.RUN
             assert bench.plant.emulated
             assert bench.plant.skipped_commands == 0
-            drives = rig.control.read_state()["drives"].values()
+            drives = emulator.control.read_state()["drives"].values()
             assert [drive["errors"] for drive in drives] == [0, 0]
             memory = bench.loop.run.lanes[0].memory.copy()
         finally:
             bench.close()
-        after = rig.control.read_state()["drives"].values()
+        after = emulator.control.read_state()["drives"].values()
         assert [(drive["mode"], drive["commanded_ma"]) for drive in after] == [(None, 0)] * 2
         return bench.sink.samples, memory
 
@@ -103,8 +103,8 @@ def test_every_law_does_the_same_twice_on_the_bench_s_own_loop(law: str) -> None
 
 def play_in_lockstep(law: str) -> np.ndarray:
     ticks = 250
-    with start_in_process() as rig:
-        bench = LockstepBench(rig, FIGURES["4a"].build_configuration(law), ticks)
+    with start_in_process() as emulator:
+        bench = LockstepBench(emulator, FIGURES["4a"].build_configuration(law), ticks)
         try:
             bench.prepare()
             bench.start()
@@ -117,8 +117,8 @@ def play_in_lockstep(law: str) -> np.ndarray:
 
 @pytest.mark.exhaustive
 def test_through_sockets_the_same_run_gives_the_same_samples_to_the_bit(compensated):
-    """With the rig in a process of its own: what holds in this process holds over the wire."""
-    assert np.array_equal(run("ndobc", start_rig), compensated, equal_nan=True)
+    """With the emulator in a process of its own: what holds in this process holds over the wire."""
+    assert np.array_equal(run("ndobc", start_emulator), compensated, equal_nan=True)
 
 
 @pytest.mark.exhaustive
@@ -136,8 +136,8 @@ def test_a_series_and_a_chirp_are_followed_through_the_wire() -> None:
     hold = FIGURES["4a"].build_configuration(load=False).changed(position=ConstantPosition())
     recorded = []
     for _ in range(2):
-        with start_in_process() as rig:
-            bench = LockstepBench(rig, hold, TICKS)
+        with start_in_process() as emulator:
+            bench = LockstepBench(emulator, hold, TICKS)
             try:
                 bench.prepare()
                 bench.start()
@@ -160,11 +160,11 @@ def test_a_series_and_a_chirp_are_followed_through_the_wire() -> None:
 def test_500_hz_tracks_as_well() -> None:
     """At σ = 60 N·m/rad, from 1 s on; the drives' feedback comes every 2 ms then."""
     ticks = 1000
-    with start_in_process() as rig:
-        bench = connect_bench(rig)
+    with start_in_process() as emulator:
+        bench = connect_bench(emulator)
         bench = bench.changed(timing=bench.timing.changed(period_s=0.002))
         wanted = get_figure("6b").build_configuration(load=False)
-        loop = LockstepBench(rig, wanted, ticks, bench=bench)
+        loop = LockstepBench(emulator, wanted, ticks, bench=bench)
         try:
             loop.prepare()
             loop.start()

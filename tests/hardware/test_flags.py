@@ -11,9 +11,9 @@ from svsa.hardware.encoders.can_node import CanNodeSettings
 from svsa.hardware.encoders.serial_line import SerialLineSettings
 from svsa.hardware.file import EmulatorSettings, read_bench
 from svsa.inputs.checked import Checked
-from tests.hardware.wired_bench import RIG_BENCH
+from tests.hardware.wired_bench import EMULATOR_BENCH
 
-BENCH = read_bench(RIG_BENCH)
+BENCH = read_bench(EMULATOR_BENCH)
 FLAGS: list[tuple[Checked, str]] = [
     *((CanNodeSettings(id=0x700), name) for name in ("extended", "big_endian", "signed")),
     (SerialLineSettings(port="/dev/ttyUSB0"), "binary"),
@@ -33,7 +33,7 @@ def test_a_flag_is_true_or_false(settings: Checked, name: str, value: Any) -> No
 @pytest.mark.parametrize("value", ["1", '"true"', '"on"'])
 def test_signs_count_as_confirmed_by_nothing_but_true(tmp_path: Path, value: str) -> None:
     """A bench whose record says so may arm: a slip of the hand must not."""
-    text = RIG_BENCH.with_name("bench.calibration.toml").read_text(encoding="utf-8")
+    text = EMULATOR_BENCH.with_name("bench.calibration.toml").read_text(encoding="utf-8")
     assert "signs_confirmed = true" in text
     bench = BENCH.changed(path=str(tmp_path / "bench.toml"))
     record = tmp_path / "bench.calibration.toml"

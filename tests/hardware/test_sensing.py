@@ -12,11 +12,11 @@ from svsa.actuators.signals import State, Torque
 from svsa.hardware.calibration import Calibration, compute_fingerprint
 from svsa.hardware.drives.drive import COMMAND_GATE_S
 from svsa.hardware.drives.robomodule import Command, split_id
-from svsa.hardware.emulator.parameters import RigDeflection, RigParameters
+from svsa.hardware.emulator.parameters import EmulatedDeflection, EmulatorParameters
 from svsa.hardware.file import read_bench
 from svsa.hardware.safety.machine import BenchStatus
 from tests.hardware import wired_bench
-from tests.hardware.wired_bench import AT_REST, RIG_BENCH, WiredBench
+from tests.hardware.wired_bench import AT_REST, EMULATOR_BENCH, WiredBench
 
 PUSH = Torque(0.8, 0.25)
 HOLD = Torque(0.02, 0.01)  # less than the friction holds: the axes stay at their marks
@@ -26,13 +26,13 @@ COUNT_PHI_RAD = 2.0 * math.pi / 8000
 
 
 def build_bench(monkeypatch, signs, zero):
-    """A rig and a bench file of these signs (motor 1, motor 2, deflection), and its record."""
-    parameters, bench = RigParameters(), read_bench(RIG_BENCH)
+    """An emulator and a bench file of these signs (motor 1, 2, deflection), and its record."""
+    parameters, bench = EmulatorParameters(), read_bench(EMULATOR_BENCH)
     for part, sign in zip(("motor1", "motor2", "deflection"), signs, strict=True):
         turned = getattr(parameters, part).changed(sign=sign)
         parameters = parameters.changed(**{part: turned})
         bench = bench.changed(**{part: getattr(bench, part).changed(sign=sign)})
-    assert isinstance(parameters.deflection, RigDeflection)
+    assert isinstance(parameters.deflection, EmulatedDeflection)
     deflection = parameters.deflection.changed(offset_counts=zero)
     parameters = parameters.changed(deflection=deflection)
     calibration = Calibration(
@@ -50,15 +50,15 @@ def build_bench(monkeypatch, signs, zero):
 def test_whatever_the_wiring_a_positive_torque_grows_the_angle_and_all_is_measured_as_it_is(
     signs, monkeypatch
 ):
-    """The truth is the rig's, at the very moment of the reading; the bench knows its velocity.
+    """The truth is the emulator's, at the very moment of the reading; the bench knows its velocity.
 
     Half a count of rounding, and what a velocity changes within the age of a frame.
     """
     with build_bench(monkeypatch, signs, ZERO_COUNTS) as b:
         b.make_run()
         for _ in range(60):
-            b.tick(1, PUSH, known=b.rig.mechanics.read(b.rig.now_us))
-            truth: State = b.rig.mechanics.read(b.rig.now_us)
+            b.tick(1, PUSH, known=b.emulator.mechanics.read(b.emulator.now_us))
+            truth: State = b.emulator.mechanics.read(b.emulator.now_us)
             y = b.plant.read(b.now, truth).measurement
             assert y is not None
             assert y.theta1 == pytest.approx(truth.theta1, abs=COUNT1_RAD)
@@ -74,8 +74,8 @@ def test_without_the_velocity_the_age_of_a_frame_is_an_error_many_times_a_count(
     with build_bench(monkeypatch, (1, 1, 1), 0) as b:
         b.make_run()
         for _ in range(60):
-            b.tick(1, PUSH, known=b.rig.mechanics.read(b.rig.now_us))
-        truth = b.rig.mechanics.read(b.rig.now_us)
+            b.tick(1, PUSH, known=b.emulator.mechanics.read(b.emulator.now_us))
+        truth = b.emulator.mechanics.read(b.emulator.now_us)
         y = b.plant.read(b.now, AT_REST).measurement
         assert y is not None
         assert truth.theta1 - y.theta1 > 3.0 * COUNT1_RAD

@@ -1,13 +1,13 @@
-"""A bench on the emulated rig in lockstep that moves Figure 4A and is watched tick by tick."""
+"""A bench on the emulator in lockstep that moves Figure 4A and is watched tick by tick."""
 
 from collections.abc import Callable
 from typing import Any
 
 from svsa.hardware.emulator.experiment import LockstepBench, connect_bench
-from svsa.hardware.emulator.launch import RunningRig
+from svsa.hardware.emulator.launch import RunningEmulator
 from svsa.hardware.safety.machine import BenchStatus
 from svsa.runs.paper import get_figure
-from tests.hardware.emulator.in_process_rig import InProcessRig
+from tests.hardware.emulator.in_process_emulator import InProcessEmulator
 
 FIGURE = get_figure("4a").build_configuration(load=False)
 MOVING_TICKS = 500
@@ -15,8 +15,8 @@ LONGEST_TICKS = 700
 KEPT_TICKS = 2 * (MOVING_TICKS + LONGEST_TICKS)
 
 
-class RigBeats:
-    """Heartbeats in the rig's time: `stopped` is when a slot fell silent, s."""
+class EmulatorBeats:
+    """Heartbeats in the emulator's time: `stopped` is when a slot fell silent, s."""
 
     def __init__(self) -> None:
         self.now: Callable[[], float] = lambda: 0.0
@@ -28,16 +28,16 @@ class RigBeats:
 
 
 class Bench(LockstepBench):
-    """A bench on the rig that has been brought to READY, and watched tick by tick.
+    """A bench on the emulator that has been brought to READY, and watched tick by tick.
 
     fastest, farthest: the true |dq|, |dθ1|, |dθ2| and |q| since `watch` began. last_current_s:
-    when a drive that hears was last told anything but zero, in the rig's time.
+    when a drive that hears was last told anything but zero, in the emulator's time.
     """
 
-    def __init__(self, rig: RunningRig | InProcessRig, **safety: Any) -> None:
-        bench, self.beats = connect_bench(rig), RigBeats()
+    def __init__(self, emulator: RunningEmulator | InProcessEmulator, **safety: Any) -> None:
+        bench, self.beats = connect_bench(emulator), EmulatorBeats()
         bench = bench.changed(safety=bench.safety.changed(**safety))
-        super().__init__(rig, FIGURE, KEPT_TICKS, bench, self.beats)  # pyright: ignore[reportArgumentType]
+        super().__init__(emulator, FIGURE, KEPT_TICKS, bench, self.beats)  # pyright: ignore[reportArgumentType]
         self.beats.now = self.now
         self.fastest, self.farthest = {"dq": 0.0, "dtheta1": 0.0, "dtheta2": 0.0}, 0.0
         self.last_current_s = 0.0
@@ -54,7 +54,7 @@ class Bench(LockstepBench):
         self.loop.tick(self.now(), ticks)
 
     def begin_watch(self) -> float:
-        """Forget what was fastest and farthest; the rig's time now, s."""
+        """Forget what was fastest and farthest; the emulator's time now, s."""
         self.fastest, self.farthest = dict.fromkeys(self.fastest, 0.0), 0.0
         self.last_current_s = self.now()
         return self.now()
@@ -70,7 +70,7 @@ class Bench(LockstepBench):
                 self.watch()
 
     def look(self) -> None:
-        state = self.rig.control.read_state()
+        state = self.emulator.control.read_state()
         for name in self.fastest:
             self.fastest[name] = max(self.fastest[name], abs(state["x"][name]))
         self.farthest = max(self.farthest, abs(state["x"]["q"]))
@@ -79,27 +79,27 @@ class Bench(LockstepBench):
 
     def read_currents(self, state: dict[str, Any] | None = None) -> list[int]:
         """What both drives were told, mA; a drive without power makes none."""
-        drives = (state or self.rig.control.read_state())["drives"].values()
+        drives = (state or self.emulator.control.read_state())["drives"].values()
         return [drive["commanded_ma"] if drive["powered"] else 0 for drive in drives]
 
     def recover(self) -> None:
-        """Clear the fault, mend the rig, set it to its marks, and arm it again."""
+        """Clear the fault, mend the emulator, set it to its marks, and arm it again."""
         self.plant.clear(self.now())
         assert self.plant.status is BenchStatus.OFF
         assert self.plant.fault is None
         self.beats.stopped.clear()
-        self.rig.control.clear_faults()
-        self.rig.control.set_loads(())
-        self.rig.control.home()
+        self.emulator.control.clear_faults()
+        self.emulator.control.set_loads(())
+        self.emulator.control.home()
         self.prepare()
         assert self.plant.status is BenchStatus.READY
         assert self.read_currents() == [0, 0]
 
 
-def make_ready(rig: RunningRig | InProcessRig, **safety: Any) -> Bench:
-    bench = Bench(rig, **safety)
-    rig.control.clear_faults()
-    rig.control.set_loads(())
-    rig.control.home()
+def make_ready(emulator: RunningEmulator | InProcessEmulator, **safety: Any) -> Bench:
+    bench = Bench(emulator, **safety)
+    emulator.control.clear_faults()
+    emulator.control.set_loads(())
+    emulator.control.home()
     bench.prepare()
     return bench

@@ -1,6 +1,6 @@
-"""The emulated rig on a bus inside this process, in virtual time: no socket, no waiting.
+"""The emulator on a bus inside this process, in virtual time: no socket, no waiting.
 
-python-can's `virtual` interface carries the frames; the rig goes on when the plant's clock
+python-can's `virtual` interface carries the frames; the emulator goes on when the plant's clock
 does. Everything that the plant sends is kept, with its time, as a sniffer on the wire would.
 """
 
@@ -14,16 +14,16 @@ from svsa.actuators.signals import Disturbance, State, Torque
 from svsa.hardware.calibration import find_calibration
 from svsa.hardware.can_plant import CanPlant
 from svsa.hardware.drives.robomodule import Command, decode, split_id
-from svsa.hardware.emulator.emulator import Rig
+from svsa.hardware.emulator.emulator import Emulator
 from svsa.hardware.emulator.frame import Frame
-from svsa.hardware.emulator.parameters import RigParameters
+from svsa.hardware.emulator.parameters import EmulatorParameters
 from svsa.hardware.file import BenchFile, read_bench
 from svsa.hardware.reading import Reading
 from svsa.hardware.realtime.configuration import build_guard
 from svsa.hardware.realtime.loop import BenchLoop
 from svsa.hardware.safety.machine import BenchStatus
 
-RIG_BENCH = Path(__file__).parents[2] / "svsa" / "hardware" / "emulator" / "bench.toml"
+EMULATOR_BENCH = Path(__file__).parents[2] / "svsa" / "hardware" / "emulator" / "bench.toml"
 AT_REST = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 UNDISTURBED = Disturbance(0.0, 0.0, 0.0)
 NO_TORQUE = Torque(0.0, 0.0)
@@ -39,10 +39,10 @@ class Sent(NamedTuple):
 
 
 class VirtualClock:
-    """Time that goes on when it is waited for, and takes the rig along."""
+    """Time that goes on when it is waited for, and takes the emulator along."""
 
-    def __init__(self, rig: Rig, wire: can.BusABC) -> None:
-        self._rig, self._wire = rig, wire
+    def __init__(self, emulator: Emulator, wire: can.BusABC) -> None:
+        self._rig, self._wire = emulator, wire
         self.sent: list[Sent] = []
         self.mute = False
 
@@ -59,7 +59,7 @@ class VirtualClock:
         return []
 
     def collect(self) -> None:
-        """Give the rig what the plant has sent."""
+        """Give the emulator what the plant has sent."""
         while (message := self._wire.recv(0)) is not None:
             data = bytes(message.data)
             self.sent.append(Sent(self.now(), message.arbitration_id, data))
@@ -95,22 +95,22 @@ class FakeBeats:
 
 
 class WiredBench:
-    """Plant, rig and clock, wired together. A context manager."""
+    """Plant, emulator and clock, wired together. A context manager."""
 
     def __init__(
         self,
         bench: BenchFile | None = None,
-        parameters: RigParameters | None = None,
+        parameters: EmulatorParameters | None = None,
         beats: Any = None,
         **safety: Any,
     ) -> None:
         channel = f"bench-{next(_channels)}"
-        written = bench or read_bench(RIG_BENCH)
+        written = bench or read_bench(EMULATOR_BENCH)
         bus = written.bus.changed(interface="virtual", channel=channel, options={})
         self.bench = written.changed(bus=bus, safety=written.safety.changed(**safety))
-        self.rig = Rig(parameters)
+        self.emulator = Emulator(parameters)
         self.wire = can.Bus(interface="virtual", channel=channel, preserve_timestamps=True)
-        self.clock = VirtualClock(self.rig, self.wire)
+        self.clock = VirtualClock(self.emulator, self.wire)
         calibration = find_calibration(self.bench)
         self.guard = build_guard(self.bench)
         self.plant = CanPlant(self.bench, calibration, self.clock, self.guard, beats)

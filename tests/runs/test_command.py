@@ -95,11 +95,11 @@ def test_the_loads_of_a_run_are_those_that_its_commands_tell(given_loads, number
             taken = command.apply(run)
         except svsa.StateError:
             return
-    told = {load.number: load for load in list_loads(run.configuration, commands)}
+    reported = {load.number: load for load in list_loads(run.configuration, commands)}
     assert taken is not None
-    assert told[number] == taken._replace(end_tick=min(taken.end_tick, commands[-1].tick))
+    assert reported[number] == taken._replace(end_tick=min(taken.end_tick, commands[-1].tick))
     for load in run.loads:
-        assert told[load.number] == load
+        assert reported[load.number] == load
 
 
 def test_a_load_told_off_twice_ended_the_first_time():

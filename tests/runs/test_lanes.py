@@ -264,10 +264,10 @@ def test_a_lane_set_otherwise_keeps_its_past_and_gets_a_name_of_its_own():
     assert np.all(np.isfinite(read_samples(session, 1)))
     lanes = session.journal.timeline.list_stretches()
     names = session.journal.timeline.name_stretches(lanes)
-    told = [[(names[s.number], s.first_tick, s.end_tick) for s in lane] for lane in lanes]
-    assert told == [
+    reported = [[(names[s.number], s.first_tick, s.end_tick) for s in lane] for lane in lanes]
+    assert reported == [
         [("FL + I a 54.6", 0, None)],
         [("FL + I a 54.6 (2)", 0, 60), ("FL + I a 40", 60, None)],
     ]
-    assert len({s.ink for lane in lanes for s in lane}) == 3
+    assert len({s.line_style for lane in lanes for s in lane}) == 3
     assert session.journal.timeline.window.label == "FL + I set beside"

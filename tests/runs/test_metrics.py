@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from svsa.actuators.signals import CHANNEL_INDEX, CHANNELS
-from svsa.runs.metrics import SETTLED_S, RunningMetrics, compute_metrics
+from svsa.runs.metrics import STEADY_STATE_S, RunningMetrics, compute_metrics
 
 T = 0.001
 
@@ -87,7 +87,7 @@ def test_an_error_that_stays_has_not_recovered():
 def test_recovery_needs_half_a_second_inside():
     """An error that has only just come in may go out again."""
     late = np.zeros(1000)
-    inside = round(SETTLED_S / T)
+    inside = round(STEADY_STATE_S / T)
     late[: 1000 - inside + 1] = 1.0
     assert compute_metrics(build_samples(1000, position_error_rad=late), T).recovery_time_s is None
     late[1000 - inside] = 0.0
@@ -113,7 +113,7 @@ def test_what_a_loop_missed_is_in_no_sum_and_no_peak_and_time_goes_on():
     whole, known = compute_metrics(samples, T), np.delete(samples, np.s_[700:720], axis=0)
     expected = vars(compute_metrics(known, T)) | {"duration_s": 2.0}
     assert vars(whole) == pytest.approx(expected)
-    assert vars(whole)["settled_position_error_rad"] == pytest.approx(3.0 / np.sqrt(2.0))
+    assert vars(whole)["steady_state_position_error_rad"] == pytest.approx(3.0 / np.sqrt(2.0))
 
 
 @pytest.mark.parametrize(("missed", "recovered_s"), [((300, 320), 0.2), ((190, 220), 0.22)])
@@ -170,7 +170,7 @@ def test_the_settled_error_is_that_of_the_end_however_the_samples_come():
     for rows in np.array_split(samples, [1, 990, 2004, 2490]):
         running.update(rows)
     assert running.summarize() == compute_metrics(samples, T)
-    settled = running.summarize().settled_position_error_rad
+    settled = running.summarize().steady_state_position_error_rad
     assert settled == pytest.approx(3.0 / np.sqrt(2.0), rel=1e-12)
-    assert compute_metrics(samples[:999], T).settled_position_error_rad is None
-    assert compute_metrics(samples[:1000], T).settled_position_error_rad == pytest.approx(4.0)
+    assert compute_metrics(samples[:999], T).steady_state_position_error_rad is None
+    assert compute_metrics(samples[:1000], T).steady_state_position_error_rad == pytest.approx(4.0)

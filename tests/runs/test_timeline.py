@@ -20,7 +20,7 @@ from svsa.runs.command import (
     build_command,
 )
 from svsa.runs.controllers import name_controllers
-from svsa.runs.timeline import INK_COLORS, Timeline, Window, read_timeline
+from svsa.runs.timeline import LINE_COLORS, Timeline, Window, read_timeline
 from tests.runs.session.scripts import play_busy_session
 from tests.runs.session.sessions import build_configuration, build_session
 
@@ -29,7 +29,7 @@ FASTER = svsa.ObserverBandwidth(bandwidth_rad_per_s=(120.0, 120.0, 120.0))
 STIFFER = svsa.Gains.from_poles([-80.0] * 4, [-60.0] * 2)
 
 
-def tell(timeline: Timeline) -> list[list[tuple[str, int, int | None]]]:
+def report(timeline: Timeline) -> list[list[tuple[str, int, int | None]]]:
     """Of every lane: name, first tick, end."""
     lanes = timeline.list_stretches()
     names = name_controllers(one.controller for lane in lanes for one in lane)
@@ -41,13 +41,15 @@ def test_laws_that_change_places_leave_the_past_its_names():
     session.step(30)
     session.change(SetLaws(argument=("fl", "ndobc")))
     session.step(10)
-    assert tell(session.journal.timeline) == [
+    assert report(session.journal.timeline) == [
         [("NDOBC", 0, 30), ("FL", 30, None)],
         [("FL", 0, 30), ("NDOBC", 30, None)],
     ]
-    inks = [[one.ink for one in lane] for lane in session.journal.timeline.list_stretches()]
+    line_styles = [
+        [one.line_style for one in lane] for lane in session.journal.timeline.list_stretches()
+    ]
     first, other = (list_law_names().index(law) for law in ("ndobc", "fl"))
-    assert inks == [[first, other], [other, first]]
+    assert line_styles == [[first, other], [other, first]]
 
 
 def test_a_comparison_begins_where_it_began_and_takes_nobodys_past():
@@ -56,7 +58,7 @@ def test_a_comparison_begins_where_it_began_and_takes_nobodys_past():
     session.change(SetComparisons(argument=(FL,)))
     session.step(20)
     session.change(SetComparisons(argument=(NDOBC, FL)))
-    assert tell(session.journal.timeline) == [
+    assert report(session.journal.timeline) == [
         [("NDOBC", 0, None)],
         [("NDOBC (2)", 40, None)],
         [("FL", 20, None)],
@@ -69,16 +71,16 @@ def test_one_law_with_other_gains_is_told_apart_by_them():
     session.change(SetObserver(argument=FASTER))
     session.step(10)
     session.change(SetGains(argument=STIFFER))
-    names = [name for name, _, _ in tell(session.journal.timeline)[0]]
+    names = [name for name, _, _ in report(session.journal.timeline)[0]]
     assert names == ["NDOBC β 60 ωq 60 ωσ 40", "NDOBC β 120 ωq 60 ωσ 40", "NDOBC β 120 ωq 80 ωσ 60"]
-    assert len({one.ink for one in session.journal.timeline.list_stretches()[0]}) == 3
+    assert len({one.line_style for one in session.journal.timeline.list_stretches()[0]}) == 3
 
 
 def test_what_a_law_does_not_use_makes_it_no_other():
     session = build_session(law="fl")
     session.step(10)
     session.change(SetObserver(argument=FASTER))
-    assert tell(session.journal.timeline) == [[("FL", 0, None)]]
+    assert report(session.journal.timeline) == [[("FL", 0, None)]]
 
 
 def test_a_change_and_back_within_a_tick_is_no_stretch():
@@ -86,7 +88,7 @@ def test_a_change_and_back_within_a_tick_is_no_stretch():
     session.step(10)
     session.change(SetLaw(argument="fl"))
     session.change(SetLaw(argument="ndobc"))
-    assert tell(session.journal.timeline) == [[("NDOBC", 0, None)]]
+    assert report(session.journal.timeline) == [[("NDOBC", 0, None)]]
 
 
 def test_a_law_has_its_own_ink_again_when_the_other_is_no_longer_kept():
@@ -96,7 +98,7 @@ def test_a_law_has_its_own_ink_again_when_the_other_is_no_longer_kept():
         session.step(tick - session.run.tick)
         session.change(SetObserver(argument=observer))
         timeline.take(session.journal.commands[-1])
-    assert [one.ink for one in timeline.list_stretches()[0]] == [1, 0]
+    assert [one.line_style for one in timeline.list_stretches()[0]] == [1, 0]
 
 
 def test_laws_side_by_side_have_each_a_colour_of_its_own_and_the_first_two_their_own():
@@ -104,18 +106,20 @@ def test_laws_side_by_side_have_each_a_colour_of_its_own_and_the_first_two_their
     for comparisons in itertools.combinations(laws[1:], 3):
         lanes = tuple(svsa.Lane(law=law) for law in comparisons)
         timeline = Timeline(build_configuration(law=laws[0], comparisons=lanes))
-        inks = [lane[-1].ink for lane in timeline.list_stretches()]
-        assert len({ink % INK_COLORS for ink in inks}) == len(inks), comparisons
-        assert inks[0] == 0
-        assert inks[1] == 1 or comparisons[0] != laws[1]
+        line_styles = [lane[-1].line_style for lane in timeline.list_stretches()]
+        assert len({line_style % LINE_COLORS for line_style in line_styles}) == len(line_styles), (
+            comparisons
+        )
+        assert line_styles[0] == 0
+        assert line_styles[1] == 1 or comparisons[0] != laws[1]
 
 
 def test_a_law_that_follows_another_of_its_colour_takes_a_free_one():
     laws = list_law_names()
     timeline = Timeline(build_configuration(law=laws[0]))
-    timeline.take(build_command(10, "law", laws[INK_COLORS]))
-    first, second = (one.ink for one in timeline.list_stretches()[0])
-    assert first % INK_COLORS != second % INK_COLORS
+    timeline.take(build_command(10, "law", laws[LINE_COLORS]))
+    first, second = (one.line_style for one in timeline.list_stretches()[0])
+    assert first % LINE_COLORS != second % LINE_COLORS
 
 
 def test_a_bench_and_its_twin_stay_in_the_names():
@@ -124,7 +128,7 @@ def test_a_bench_and_its_twin_stay_in_the_names():
     session.step(5)
     session.change(SetLaw(argument="fl"))
     timeline.take(session.journal.commands[-1])
-    assert tell(timeline) == [
+    assert report(timeline) == [
         [("Bench NDOBC", 0, 5), ("Bench FL", 5, None)],
         [("Twin NDOBC", 0, 5), ("Twin FL", 5, None)],
         [("FL", 0, None)],

@@ -33,8 +33,8 @@ def refuse(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture, *argu
 
 def test_listening_beyond_loopback_without_a_secret_is_refused(monkeypatch, capsys) -> None:
     monkeypatch.delenv("SVSA_SECRET", raising=False)
-    told = refuse(monkeypatch, capsys, "--host", "0.0.0.0", "--port", "0")
-    assert "SVSA_SECRET" in told
+    reported = refuse(monkeypatch, capsys, "--host", "0.0.0.0", "--port", "0")
+    assert "SVSA_SECRET" in reported
 
 
 def test_a_short_secret_is_refused(monkeypatch, capsys) -> None:
@@ -45,8 +45,8 @@ def test_a_short_secret_is_refused(monkeypatch, capsys) -> None:
 def test_a_port_in_use_is_told(monkeypatch, capsys, tmp_path: Path) -> None:
     monkeypatch.setenv("SVSA_DATA", str(tmp_path))
     with socket.create_server(("127.0.0.1", 0)) as taken:
-        told = refuse(monkeypatch, capsys, "--port", str(taken.getsockname()[1]))
-    assert "Cannot listen on 127.0.0.1" in told
+        reported = refuse(monkeypatch, capsys, "--port", str(taken.getsockname()[1]))
+    assert "Cannot listen on 127.0.0.1" in reported
 
 
 def test_requests_from_other_sites_are_refused(lab: Lab) -> None:
@@ -130,8 +130,12 @@ def test_a_service_manager_ends_the_lab_quickly_though_somebody_looks_on() -> No
 
 
 def test_an_open_lab_has_neither_class_nor_persons(lab) -> None:
-    told = lab.client.get("/api/v1/access").json()
-    assert (told["door"], told["inside"], told["role"]) == ("open", True, "instructor")
+    reported = lab.client.get("/api/v1/access").json()
+    assert (reported["authentication"], reported["inside"], reported["role"]) == (
+        "open",
+        True,
+        "instructor",
+    )
     body = {"name": "Ada", "code": "x"}
     assert lab.client.post("/api/v1/join", json=body).status_code == 409
     assert lab.client.post("/api/v1/tokens", json={}).status_code == 409

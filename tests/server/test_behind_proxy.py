@@ -18,7 +18,7 @@ from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
 import svsa
-from svsa_server.access.class_keys import ClassKeys, ToldOnce
+from svsa_server.access.class_keys import ClassKeys, ShownOnce
 from tests.lab import run_lab
 
 pytestmark = pytest.mark.exhaustive
@@ -33,7 +33,7 @@ class Proxied(NamedTuple):
     """A class behind Caddy. url: that of the proxy, without the path. root: its certificate."""
 
     url: str
-    told: ToldOnce
+    reported: ShownOnce
     trust: ssl.SSLContext
     root: Path
 
@@ -92,15 +92,15 @@ def wait_for_trust(root: Path, port: int) -> ssl.SSLContext:
 @pytest.fixture(scope="module")
 def proxied(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Proxied]:
     data, folder = tmp_path_factory.mktemp("class"), tmp_path_factory.mktemp("caddy")
-    _, told = ClassKeys.open(data)
-    assert told is not None
+    _, reported = ClassKeys.open(data)
+    assert reported is not None
     port = find_free_port()
     with (
         run_lab("--class", "--root-path", ROOT, data=str(data)) as lab,
         run_caddy(folder, port, lab.url.rpartition(":")[2]) as trust,
     ):
         root = folder / CERTIFICATE
-        yield Proxied(f"https://localhost:{port}", told, trust, root)
+        yield Proxied(f"https://localhost:{port}", reported, trust, root)
 
 
 def test_the_page_and_all_that_it_loads_are_below_the_path(proxied: Proxied) -> None:
@@ -118,7 +118,7 @@ def test_the_page_and_all_that_it_loads_are_below_the_path(proxied: Proxied) -> 
 def test_who_joins_has_a_cookie_of_that_path_for_tls_alone(proxied: Proxied) -> None:
     with proxied.open_browser() as browser:
         assert browser.get("/api/v1/sessions").status_code == 401
-        body = {"name": "Ada", "code": proxied.told.code}
+        body = {"name": "Ada", "code": proxied.reported.code}
         cookie = browser.post("/api/v1/join", json=body).raise_for_status().headers["set-cookie"]
         for word in ("Secure", "HttpOnly", "SameSite=strict", f"Path={ROOT}"):
             assert word in cookie
@@ -132,7 +132,7 @@ def test_who_joins_has_a_cookie_of_that_path_for_tls_alone(proxied: Proxied) -> 
 
 def test_the_schema_and_the_link_to_join_name_the_path(proxied: Proxied) -> None:
     with proxied.open_browser() as browser:
-        token = {"secret": proxied.told.instructor_token}
+        token = {"secret": proxied.reported.instructor_token}
         browser.post("/api/v1/login", json=token).raise_for_status()
         assert browser.get("/openapi.json").json()["servers"][0] == {"url": ROOT}
         renewed = browser.post("/api/v1/class/code").raise_for_status().json()
@@ -142,7 +142,7 @@ def test_the_schema_and_the_link_to_join_name_the_path(proxied: Proxied) -> None
 
 def test_streams_and_the_3d_view_come_through(proxied: Proxied) -> None:
     instructor = proxied.open_browser()
-    token = {"secret": proxied.told.instructor_token}
+    token = {"secret": proxied.reported.instructor_token}
     instructor.post("/api/v1/login", json=token).raise_for_status()
     cookie = f"svsa_access={instructor.cookies['svsa_access']}"
     base = proxied.url.replace("https", "wss") + ROOT
@@ -164,6 +164,6 @@ def test_the_client_of_a_script_comes_through(
     proxied: Proxied, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("SSL_CERT_FILE", str(proxied.root))
-    lab = svsa.connect(proxied.url + ROOT, token=proxied.told.instructor_token)
+    lab = svsa.connect(proxied.url + ROOT, token=proxied.reported.instructor_token)
     block = next(iter(lab.session.stream("position_rad", duration_s=1.0)))
     assert len(block["position_rad"]) > 0

@@ -12,7 +12,7 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
 from svsa_server.responsive import SILENT_S
-from tests.hardware.live_bench import FAIR_S, start_live_rig, write_bench
+from tests.hardware.live_bench import FAIR_S, start_live_emulator, write_bench
 from tests.hardware.safety.survivors import LOAD
 from tests.lab import END_TIMEOUT_S, PATIENCE_S, Lab, run_lab
 from tests.server.blocked_lab import BLOCKING, BLOCKING_WAKE, PROGRAM
@@ -80,17 +80,17 @@ def test_sigterm_ends_a_server_whose_session_blocks() -> None:
 @pytest.mark.wall_clock(stall_s=FAIR_S)
 def test_the_quick_stop_reaches_a_bench_whose_session_blocks(tmp_path: Path) -> None:
     with (
-        start_live_rig() as rig,
-        run_lab("--bench", str(write_bench(tmp_path, rig)), program=PROGRAM) as lab,
+        start_live_emulator() as emulator,
+        run_lab("--bench", str(write_bench(tmp_path, emulator)), program=PROGRAM) as lab,
     ):
-        bench = BenchLab(lab, rig)
+        bench = BenchLab(lab, emulator)
         with bench.running():
             bench.ask("/position", {"kind": "constant", "position_rad": 0.2}, "PUT")
-            rig.control.load(LOAD)
+            emulator.control.load(LOAD)
             wait_until(lambda: not bench.is_at_zero(), bench.describe)
             with blocked(lab):
-                told = lab.client.post(lab.session + "/quick-stop")
-                assert "passed to the loop of the bench" in told.json()["detail"]
+                reported = lab.client.post(lab.session + "/quick-stop")
+                assert "passed to the loop of the bench" in reported.json()["detail"]
                 assert lab.client.post(STOP).status_code == 204
                 wait_until(bench.is_at_zero)
         assert end_blocked(lab, signal.SIGINT) == 1

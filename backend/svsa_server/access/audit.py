@@ -22,7 +22,7 @@ FILE = "audit.jsonl"
 _MAX_BYTES, _FILES = 10 * 1024 * 1024, 5
 _PLAIN = "%(message)s"
 NOWHERE = {"run": None, "tick": None, "in_control": None}
-"""Of what is not about a session; `HostedSession.tell_instant` has it of one."""
+"""Of what is not about a session; `HostedSession.read_instant` has it of one."""
 
 
 class AuditLog:
@@ -99,5 +99,5 @@ class Auditor:
             path=path,
             status=status,
             session=session,
-            **(hosted.tell_instant() if hosted else NOWHERE),
+            **(hosted.read_instant() if hosted else NOWHERE),
         )

@@ -65,14 +65,14 @@ def read_audit(folder: Path, operations: list[Operation], asked: Question) -> di
         if asked.until and line["time"] > asked.until:
             continue
         newest = newest or line["time"]
-        told = tell(line, operations, known)
-        kinds.add(told["kind"])
-        if told["person"] is not None:
-            people.setdefault(told["person"], told["name"] or told["person"])
-        if not _is_asked_for(told, asked):
+        reported = report(line, operations, known)
+        kinds.add(reported["kind"])
+        if reported["person"] is not None:
+            people.setdefault(reported["person"], reported["name"] or reported["person"])
+        if not _is_asked_for(reported, asked):
             continue
         if first <= total < first + asked.page_size:
-            found.append(told)
+            found.append(reported)
         total += 1
     return {
         "lines": found,
@@ -83,15 +83,15 @@ def read_audit(folder: Path, operations: list[Operation], asked: Question) -> di
     }
 
 
-def _is_asked_for(told: dict[str, Any], asked: Question) -> bool:
+def _is_asked_for(reported: dict[str, Any], asked: Question) -> bool:
     return (
-        (not asked.person or told["person"] == asked.person)
-        and (not asked.kind or told["kind"] == asked.kind)
-        and (asked.refused is None or told["refused"] is asked.refused)
+        (not asked.person or reported["person"] == asked.person)
+        and (not asked.kind or reported["kind"] == asked.kind)
+        and (asked.refused is None or reported["refused"] is asked.refused)
     )
 
 
-def tell(
+def report(
     line: dict[str, Any],
     operations: list[Operation],
     known: dict[tuple[str, str], Operation | None],

@@ -20,19 +20,19 @@ REFUSAL_DELAY_S = 0.5
 REMOVED = "The instructor has removed you from the class."
 T = TypeVar("T")
 
-DoorKind = Literal["open", "secret", "class"]
+AuthenticationKind = Literal["open", "secret", "class"]
 
 
-class Door(Protocol):
+class Authentication(Protocol):
     """Says who calls. kind: how one comes in.
 
     patience: what whoever gave a wrong secret waits for before the answer.
     """
 
-    kind: DoorKind
+    kind: AuthenticationKind
     patience: "Patience"
 
-    def tell_needed(self, headers: Headers) -> tuple[str, str]:
+    def describe_needed(self, headers: Headers) -> tuple[str, str]:
         """What a stranger is told, kind and text."""
         ...
 
@@ -57,15 +57,15 @@ class Patience:
             await asyncio.sleep(REFUSAL_DELAY_S)
 
 
-class OpenDoor:
+class OpenAuthentication:
     """A lab on loopback: whoever is on this machine is in."""
 
-    kind: DoorKind = "open"
+    kind: AuthenticationKind = "open"
 
     def __init__(self) -> None:
         self.patience = Patience()
 
-    def tell_needed(self, headers: Headers) -> tuple[str, str]:
+    def describe_needed(self, headers: Headers) -> tuple[str, str]:
         """Nothing: there are no strangers."""
         return "", ""
 
@@ -78,17 +78,17 @@ class OpenDoor:
         return ""
 
 
-class SecretDoor:
+class SecretAuthentication:
     """A lab with a shared secret, checked in constant time: as bearer token, or as cookie."""
 
-    kind: DoorKind = "secret"
+    kind: AuthenticationKind = "secret"
 
     def __init__(self, secret: str) -> None:
         self._secret = secret.encode()
         self._cookie = hmac.new(self._secret, b"svsa access cookie", hashlib.sha256).hexdigest()
         self.patience = Patience()
 
-    def tell_needed(self, headers: Headers) -> tuple[str, str]:
+    def describe_needed(self, headers: Headers) -> tuple[str, str]:
         """The secret."""
         return "secret_needed", "This lab needs its shared secret (bearer token or login)."
 
@@ -103,13 +103,13 @@ class SecretDoor:
         return self._cookie if hmac.compare_digest(secret.encode(), self._secret) else None
 
 
-class ClassDoor:
+class ClassAuthentication:
     """A class: students join with a name and the code, the instructor has a token.
 
     What they carry is good as long as the instructor has not removed them.
     """
 
-    kind: DoorKind = "class"
+    kind: AuthenticationKind = "class"
 
     def __init__(self, keys: ClassKeys, people: People, members: Memberships) -> None:
         self.keys, self.people, self.members = keys, people, members
@@ -134,7 +134,7 @@ class ClassDoor:
         _, membership = self._read(headers)
         return membership is not None and membership.is_ended
 
-    def tell_needed(self, headers: Headers) -> tuple[str, str]:
+    def describe_needed(self, headers: Headers) -> tuple[str, str]:
         """To join; who was removed is told that."""
         if self.is_removed(headers):
             return "removed", REMOVED

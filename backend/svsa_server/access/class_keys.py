@@ -28,7 +28,7 @@ _TOKEN_PREFIX = "svsa-instructor-"  # noqa: S105
 _SCRYPT = {"n": 2**14, "r": 8, "p": 1}
 
 
-class ToldOnce(NamedTuple):
+class ShownOnce(NamedTuple):
     """What stands nowhere else after it was told."""
 
     code: str
@@ -53,21 +53,23 @@ class ClassKeys:
         self._signer = URLSafeTimedSerializer(self._key, salt="svsa person")
 
     @classmethod
-    def open(cls, folder: Path) -> tuple["ClassKeys", ToldOnce | None]:
+    def open(cls, folder: Path) -> tuple["ClassKeys", ShownOnce | None]:
         """The keys of the class in this folder, made if there are none and then told once."""
         path = folder / FILE
-        told = None
+        reported = None
         if not path.exists():
-            told = ToldOnce(_draw_code(_CODE_LENGTH), _TOKEN_PREFIX + secrets.token_urlsafe(32))
+            reported = ShownOnce(
+                _draw_code(_CODE_LENGTH), _TOKEN_PREFIX + secrets.token_urlsafe(32)
+            )
             _write(
                 path,
                 {
-                    **_hash_anew(told.code),
-                    "instructor_sha256": _digest(told.instructor_token).hex(),
+                    **_hash_with_salt(reported.code),
+                    "instructor_sha256": _digest(reported.instructor_token).hex(),
                     "signing_key": secrets.token_hex(32),
                 },
             )
-        return cls(path), told
+        return cls(path), reported
 
     def is_code(self, code: str) -> bool:
         """Whether this is the class code, however it is spaced; takes some 50 ms."""
@@ -80,7 +82,7 @@ class ClassKeys:
     def renew_code(self) -> str:
         """A new class code; who has joined stays, the old one lets nobody in any more."""
         code = _draw_code(_CODE_LENGTH)
-        hashed = _hash_anew(code)
+        hashed = _hash_with_salt(code)
         kept = json.loads(self._path.read_text(encoding="utf-8"))
         _write(self._path, kept | hashed)
         self._salt, self._code = (base64.b64decode(hashed[name]) for name in ("salt", "code"))
@@ -118,7 +120,7 @@ def _draw_code(length: int) -> str:
     return "-".join(drawn[at : at + _GROUP] for at in range(0, length, _GROUP))
 
 
-def _hash_anew(code: str) -> dict[str, str]:
+def _hash_with_salt(code: str) -> dict[str, str]:
     salt = secrets.token_bytes(16)
     return {
         "salt": base64.b64encode(salt).decode(),

@@ -13,7 +13,12 @@ from starlette.datastructures import Headers
 from starlette.exceptions import HTTPException
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from svsa_server.access.authentication import REMOVED, ClassDoor, Door, read_bearer
+from svsa_server.access.authentication import (
+    REMOVED,
+    Authentication,
+    ClassAuthentication,
+    read_bearer,
+)
 from svsa_server.access.origin import is_own_name, is_same_origin, read_host
 from svsa_server.access.owned import Kind, Owner, begin_claims
 from svsa_server.access.permissions import FROM_ELSEWHERE, WEBSOCKET, find_permission
@@ -49,12 +54,17 @@ class AccessGuard:
     def __init__(
         self,
         app: ASGIApp,
-        door: Door,
+        authentication: Authentication,
         hosts: frozenset[str],
         find_owner: FindOwner,
         rates: Rates | None = None,
     ) -> None:
-        self._app, self._door, self._hosts, self._find_owner = app, door, hosts, find_owner
+        self._app, self._authentication, self._hosts, self._find_owner = (
+            app,
+            authentication,
+            hosts,
+            find_owner,
+        )
         self._rates = rates
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -70,8 +80,12 @@ class AccessGuard:
             return
         person = scope[PERSON]
         begin_claims(person, partial(self._find_owner, scope))
-        if scope["type"] == "websocket" and person and isinstance(self._door, ClassDoor):
-            await self._connect(scope, receive, send, self._door.people.connected(person))
+        if (
+            scope["type"] == "websocket"
+            and person
+            and isinstance(self._authentication, ClassAuthentication)
+        ):
+            await self._connect(scope, receive, send, self._authentication.people.connected(person))
         else:
             await self._app(scope, _bound_body(scope, receive), send)
 
@@ -103,7 +117,7 @@ class AccessGuard:
             message = "Requests from the pages of other sites are refused."
             raise Refusal(403, "other_origin", message)
         host = read_host(scope)
-        if self._door.kind == "open":
+        if self._authentication.kind == "open":
             if not is_loopback(host):
                 message = f"This lab answers to localhost only, not to {host!r}."
                 raise Refusal(403, "unknown_host", message)
@@ -119,14 +133,14 @@ class AccessGuard:
         method = scope.get("method", WEBSOCKET)
         permission = find_permission(method, find_path(scope)).permission
         headers = Headers(scope=scope)
-        person = self._door.admit(headers)
+        person = self._authentication.admit(headers)
         self._count(scope, person)
         if permission.role is None or person is EVERYBODY:
             return person
         if person is None:
             if read_bearer(headers):
-                await self._door.patience.wait()
-            raise Refusal(401, *self._door.tell_needed(headers))
+                await self._authentication.patience.wait()
+            raise Refusal(401, *self._authentication.describe_needed(headers))
         if person.role < permission.role:
             message = f"This needs the role {permission.role.word}; yours is {person.role.word}."
             raise Refusal(403, "not_allowed", message)

@@ -34,9 +34,9 @@ def read_host(scope: Scope) -> str:
         return ""
 
 
-def is_own_name(host: str, told: frozenset[str]) -> bool:
-    """Whether a lab beyond loopback answers to this name. told: names that it was given."""
-    if is_loopback(host) or host.lower() in told | _find_own_names():
+def is_own_name(host: str, reported: frozenset[str]) -> bool:
+    """Whether a lab beyond loopback answers to this name. reported: names that it was given."""
+    if is_loopback(host) or host.lower() in reported | _find_own_names():
         return True
     try:
         ipaddress.ip_address(host)
@@ -47,12 +47,12 @@ def is_own_name(host: str, told: frozenset[str]) -> bool:
 
 def find_outward_address() -> str | None:
     """The machine's address in its network; None where it is in none. Nothing is sent."""
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as door:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as authentication:
         try:
-            door.connect(_ELSEWHERE)
+            authentication.connect(_ELSEWHERE)
         except OSError:
             return None
-        found = door.getsockname()[0]
+        found = authentication.getsockname()[0]
     return None if is_loopback(found) else found
 
 

@@ -15,7 +15,7 @@ from svsa.errors import ParameterError, SvsaError, Violation
 from svsa.runs.configuration import read_design
 from svsa.runs.records.catalogue.runs import find_data_folder
 from svsa.teaching.course.file import read_course
-from svsa_server.access.class_keys import FILE, ClassKeys, ToldOnce
+from svsa_server.access.class_keys import FILE, ClassKeys, ShownOnce
 from svsa_server.access.connections import BoundHttp, BoundWebSocket
 from svsa_server.access.origin import EVERYWHERE
 from svsa_server.commands.compiling import compile_laws
@@ -110,7 +110,7 @@ def run_server(
     listener = bind(chosen, port)
     # A bench's loop cannot wait for a compiler: it has every law before it begins.
     prepare((PAPERS_LAW, BASELINE) if bench is None else None)
-    keys, told = ClassKeys.open(find_data_folder()) if config.classroom else (None, None)
+    keys, reported = ClassKeys.open(find_data_folder()) if config.classroom else (None, None)
     from svsa_server.app import build_app  # late: a refusal above should not wait for it
     from svsa_server.responsive import ResponsiveApp
     from svsa_server.sessions.laboratory import build_shared_session
@@ -134,7 +134,7 @@ def run_server(
     )
     server.announcement = describe_address(host, chosen, listener.getsockname()[1])
     if keys is not None:
-        server.announcement += f"\n{describe_class(told)}"
+        server.announcement += f"\n{describe_class(reported)}"
     try:
         with compile_laws(), watch_keyboard(shared.stop_from_keyboard) as watched:
             if watched and bench:
@@ -153,16 +153,16 @@ def _bound_exit(is_stuck: bool) -> None:
     exiting.start()
 
 
-def describe_class(told: ToldOnce | None) -> str:
+def describe_class(reported: ShownOnce | None) -> str:
     """What lets people into the class; told once, at its first start."""
-    if told is None:
+    if reported is None:
         return (
             "A class: its code and instructor token are those of its first start. The instructor's"
             f" page makes a new code; without {FILE} in SVSA_DATA the next start makes both anew."
         )
     return (
-        f"A class. Students join with their name and the code [bold]{told.code}[/].\n"
-        f"The instructor's token: [bold]{told.instructor_token}[/]\n"
+        f"A class. Students join with their name and the code [bold]{reported.code}[/].\n"
+        f"The instructor's token: [bold]{reported.instructor_token}[/]\n"
         "Neither is shown again, nor kept but as a hash."
     )
 

@@ -38,22 +38,22 @@ def search(folder: JobFolder, asked: Asked) -> bool:
         asked.adversary,
         runs=asked.runs,
         seed=asked.seed,
-        on_generation=lambda done, worst: folder.tell(done, asked.runs),
+        on_generation=lambda done, worst: folder.report(done, asked.runs),
         on_worse=keep_worst,
         is_cancelled=folder.is_cancelled,
     )
-    folder.tell(len(found.severities), asked.runs)
+    folder.report(len(found.severities), asked.runs)
     keep_worst(found.as_found)
     steps = [] if found.shrunk is None else [*found.shrunk.steps]
     (folder.path / _STEPS).write_text(json.dumps(steps), encoding="utf-8")
-    compared = run_scenario(found.scenario, list_beside(asked.adversary.law))
+    compared = run_scenario(found.scenario, list_baselines(asked.adversary.law))
     outcomes = make_plain([one._asdict() for one in compared])
     (folder.path / _OUTCOMES).write_text(json.dumps(outcomes), encoding="utf-8")
     (folder.path / _SCENARIO).write_text(format_scenario(found.scenario), encoding="utf-8")
     return found.is_complete
 
 
-def list_beside(law: str) -> tuple[str, str]:
+def list_baselines(law: str) -> tuple[str, str]:
     """A law, and NDOBC beside it; beside NDOBC what the paper compares it with."""
     return law, BASELINE if law == PAPERS_LAW else PAPERS_LAW
 

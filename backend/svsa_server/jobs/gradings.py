@@ -34,7 +34,7 @@ def grade_all(folder: JobFolder, asked: Asked) -> bool:
         asked.runs,
         Book(asked.book),
         asked.again,
-        folder.tell,
+        folder.report,
         folder.is_cancelled,
         WORKERS,
     )

@@ -37,7 +37,7 @@ class JobFolder:
         self._written_s = -PERIOD_S
         self._progress = Progress()
 
-    def tell(self, done: int, total: int) -> None:
+    def report(self, done: int, total: int) -> None:
         """Say how far it is; as often as one likes, it is written five times a second."""
         now = time.monotonic()
         self._told.append((now, done))

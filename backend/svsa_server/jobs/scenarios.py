@@ -28,7 +28,7 @@ def run_laws(scenario: LoadScenario, laws: tuple[str, ...]) -> dict[str, Any]:
         curves[: len(one.errors), at : at + _ERRORS] = one.errors[:ticks]
     thinned = decimate(curves.round(DIGITS), POINTS)
     columns = thinned.values.T.tolist()
-    told = [
+    reported = [
         {
             **outcome._asdict(),
             "position_error_rad": columns[_TORQUES + _ERRORS * number],
@@ -38,9 +38,9 @@ def run_laws(scenario: LoadScenario, laws: tuple[str, ...]) -> dict[str, Any]:
     ]
     return make_plain(
         {
-            "told": list_attack(scenario.attack),
+            "description": list_attack(scenario.attack),
             "time_s": trace.time_s[thinned.rows].tolist(),
             "torque_nm": thinned.values[:, :_TORQUES].tolist(),
-            "laws": told,
+            "laws": reported,
         }
     )

@@ -21,7 +21,7 @@ def run(folder: JobFolder, stored: StoredStudy) -> bool:
         stored,
         workers=MAX_WORKERS if MAX_WORKERS > 1 else 0,
         rows_a_part=ROWS_A_PART,
-        progress=folder.tell,
+        progress=folder.report,
         is_cancelled=folder.is_cancelled,
     )
 

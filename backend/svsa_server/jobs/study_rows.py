@@ -46,14 +46,14 @@ def read_row(stored: StoredStudy, row: int) -> dict[str, Any]:
 
 
 def thin_out(rows: pa.Table, laws: int, most: int) -> pa.Table:
-    """At most so many rows: draws by lot, the same whoever asks, each under every law."""
+    """At most so many rows: samples by lot, the same whoever asks, each under every law."""
     numbers = rows[DRAW].to_numpy()
-    draws = np.unique(numbers)
+    samples = np.unique(numbers)
     wanted = max(1, most // laws)
-    if len(draws) <= wanted:
+    if len(samples) <= wanted:
         return rows
-    lot = np.random.Generator(np.random.Philox(len(draws)))
-    kept = lot.choice(draws, wanted, replace=False)
+    lot = np.random.Generator(np.random.Philox(len(samples)))
+    kept = lot.choice(samples, wanted, replace=False)
     return rows.filter(pa.array(np.isin(numbers, kept)))
 
 
@@ -67,12 +67,12 @@ def pack_rows(stored: StoredStudy, columns: Sequence[str], most: int) -> bytes:
     names = [ROW, *(name for name in columns if name != ROW)]
     whole = read_columns(stored, [*dict.fromkeys([*names, DRAW])])
     rows = thin_out(whole, len(stored.study.laws), most)
-    packed, told = [], []
+    packed, reported = [], []
     for name in names:
         values, labels = _pack_column(rows[name].combine_chunks())
         packed.append(values.astype("<f8").tobytes())
-        told.append({"name": name} | ({} if labels is None else {"labels": labels}))
-    header = {"rows": rows.num_rows, "total": whole.num_rows, "columns": told}
+        reported.append({"name": name} | ({} if labels is None else {"labels": labels}))
+    header = {"rows": rows.num_rows, "total": whole.num_rows, "columns": reported}
     text = json.dumps(header).encode()
     text += b" " * (-(len(text) + 4) % 8)
     return b"".join([struct.pack("<I", len(text)), text, *packed])

@@ -27,11 +27,13 @@ def enter(folder: JobFolder, asked: Asked) -> bool:
     board = Board(asked.board)
     first = 0 if asked.law is None else board.season.run_count
 
-    def tell_missing(done: int, total: int) -> None:
-        folder.tell(first + done, first + total)
+    def report_missing(done: int, total: int) -> None:
+        folder.report(first + done, first + total)
 
     if asked.law is not None:
-        entry = submit(board, asked.name, asked.law, folder.tell, folder.is_cancelled, asked.author)
+        entry = submit(
+            board, asked.name, asked.law, folder.report, folder.is_cancelled, asked.author
+        )
         if entry is None:
             return False
-    return measure_missing(board, tell_missing, folder.is_cancelled)
+    return measure_missing(board, report_missing, folder.is_cancelled)

@@ -29,7 +29,7 @@ def search(folder: JobFolder, asked: Asked) -> bool:
 
         def note(trial: Trial) -> None:
             lines.write(json.dumps(describe_trial(trial)) + "\n")
-            folder.tell(trial.number + 1, asked.budget + 1)
+            folder.report(trial.number + 1, asked.budget + 1)
 
         tuned = tune(
             asked.law,

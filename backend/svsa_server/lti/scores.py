@@ -121,9 +121,9 @@ class ScoreSender:
                 "scope": SCORE_SCOPE,
             },
         )
-        told = answer.raise_for_status().json()
-        token = str(told["access_token"])
-        self._tokens[platform] = now + float(told.get("expires_in", 0)) - _ASSERTION_S, token
+        reported = answer.raise_for_status().json()
+        token = str(reported["access_token"])
+        self._tokens[platform] = now + float(reported.get("expires_in", 0)) - _ASSERTION_S, token
         return token
 
     def _note(self, link: Link, grade: Grade, problem: str) -> None:

@@ -14,7 +14,7 @@ from joserfc.errors import JoseError
 from joserfc.jwk import KeySet
 from joserfc.jws import extract_compact
 
-from svsa_server.access.authentication import REMOVED, ClassDoor
+from svsa_server.access.authentication import REMOVED, ClassAuthentication
 from svsa_server.access.memberships import Membership
 from svsa_server.access.roles import Person, Role
 from svsa_server.lti.keys import PlatformKeys, open_key
@@ -96,20 +96,22 @@ class LtiTool:
         keys = await self._keys.get(login.platform.keyset_url, kid)
         return login.platform, read_launch(login.platform, keys, token, login.nonce)
 
-    async def admit(self, door: ClassDoor, platform: Platform, launch: Launch) -> Person:
+    async def admit(
+        self, authentication: ClassAuthentication, platform: Platform, launch: Launch
+    ) -> Person:
         """The member of the class that the platform's user is, the same at each launch.
 
         Raises `LaunchError` for who was removed from the class.
         """
-        told = "\n".join((platform.issuer, platform.client_id, launch.user))
-        id_ = f"p-{hashlib.sha256(told.encode()).hexdigest()[:24]}"
-        known, role = door.members.find(id_), _ROLES[launch.role]
+        reported = "\n".join((platform.issuer, platform.client_id, launch.user))
+        id_ = f"p-{hashlib.sha256(reported.encode()).hexdigest()[:24]}"
+        known, role = authentication.members.find(id_), _ROLES[launch.role]
         if known is not None and known.is_ended:
             raise LaunchError(REMOVED)
         before = known or Membership(Person(id_, launch.name, role))
-        person = door.people.come(before.person._replace(role=role))
+        person = authentication.people.come(before.person._replace(role=role))
         if known is None or person != known.person:
-            await asyncio.to_thread(door.members.keep, before._replace(person=person))
+            await asyncio.to_thread(authentication.members.keep, before._replace(person=person))
         return person
 
     def find_landing(self, launch: Launch, base: str, course: Collection[str]) -> str:

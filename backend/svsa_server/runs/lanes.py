@@ -1,5 +1,5 @@
 """The lanes of a session or a recorded run on every page, in 3D and in a replay: who controlled
-them, from when on, under which name and in which ink.
+them, from when on, under which name and in which line style.
 """
 
 from collections.abc import Sequence
@@ -33,7 +33,7 @@ def list_record_stretches(record: Record, timeline: Timeline | None) -> list[lis
         return _build(timeline, timeline.list_stretches(), period_s)
     whole = {"start_tick": 0, "start_s": 0.0, "end_tick": None, "end_s": None}
     return [
-        [StretchState(number=lane + 1, name=name, ink=lane, **whole)]
+        [StretchState(number=lane + 1, name=name, line_style=lane, **whole)]
         for lane, name in enumerate(record.header.lanes)
     ]
 
@@ -45,10 +45,10 @@ def name_lanes(stretches: Sequence[Sequence[StretchState]]) -> list[str]:
 
 def build_window(window: Window, period_s: float) -> WindowState:
     """A window with its times."""
-    return WindowState(**_tell_window(window, period_s))
+    return WindowState(**_describe_window(window, period_s))
 
 
-def _tell_window(window: Window, period_s: float) -> dict[str, Any]:
+def _describe_window(window: Window, period_s: float) -> dict[str, Any]:
     end = window.end_tick
     return {
         "kind": window.kind,
@@ -70,7 +70,7 @@ def list_ended_windows(session: Session, since_tick: int = 0) -> list[EndedWindo
     first_tick = max(0, session.run.tick - round(KEPT_S / period_s))
     windows = journal.timeline.list_windows(first_tick, session.run.tick + 1)
     return [
-        EndedWindowState(**_tell_window(window, period_s), lanes=ended[window.first_tick])
+        EndedWindowState(**_describe_window(window, period_s), lanes=ended[window.first_tick])
         for window in windows
         if window.end_tick is not None
         and window.end_tick >= since_tick
@@ -87,7 +87,7 @@ def _build(
             StretchState(
                 number=one.number,
                 name=names[one.number],
-                ink=one.ink,
+                line_style=one.line_style,
                 start_tick=one.first_tick,
                 start_s=one.first_tick * period_s,
                 end_tick=one.end_tick,

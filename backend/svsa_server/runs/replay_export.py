@@ -58,7 +58,7 @@ def _place(record: Record, stretch: StretchState) -> LaneStretch:
     end = record.tick_count
     if stretch.end_tick is not None:
         end = min(end, stretch.end_tick - record.first_tick)
-    return LaneStretch(stretch.name, stretch.ink, stretch.number, first, end)
+    return LaneStretch(stretch.name, stretch.line_style, stretch.number, first, end)
 
 
 def compute_hung_mass(record: Record) -> np.ndarray:

@@ -21,9 +21,9 @@ async def open_bench(session: Session, console: Console | None = None) -> None:
     if not isinstance(session, BenchSession):
         return
     console = console or Console(stderr=True, soft_wrap=True)
-    tell = show_steps(console)
+    report = show_steps(console)
     try:
-        await take_turn(session.open, tell)
+        await take_turn(session.open, report)
     except SvsaError as error:
         console.print(str(error), style="bold red", markup=False, highlight=False)
         console.print(_WAY_BACK.format(session.name), markup=False, highlight=False)
@@ -33,13 +33,13 @@ async def open_bench(session: Session, console: Console | None = None) -> None:
 
 def show_steps(console: Console) -> Callable[[str, float], None]:
     """What prints a line every ten seconds: what a bench's loop does, and since when."""
-    told_s = 0.0
+    reported_s = 0.0
 
-    def tell(step: str, seconds: float) -> None:
-        nonlocal told_s
-        if seconds - told_s >= REPEAT_S:
-            told_s = seconds
+    def report(step: str, seconds: float) -> None:
+        nonlocal reported_s
+        if seconds - reported_s >= REPEAT_S:
+            reported_s = seconds
             text = f"The bench is {step} ({seconds:.0f} s) …"
             console.print(text, highlight=False, markup=False)
 
-    return tell
+    return report

@@ -18,7 +18,7 @@ FRESH_S = 3.0
 
 
 @dataclass(frozen=True, eq=False)
-class Told:
+class Reported:
     """Up to where a stream knows the past: of which run, which lanes, and under which names."""
 
     run_number: int
@@ -27,7 +27,7 @@ class Told:
     names: Mapping[int, str]
 
     @classmethod
-    def all_of(cls, hosted: HostedSession) -> "Told":
+    def all_of(cls, hosted: HostedSession) -> "Reported":
         """The past up to now."""
         session = hosted.session
         timeline = session.journal.timeline
@@ -35,7 +35,7 @@ class Told:
         lane_ids = tuple(timeline.lane_ids)
         return cls(session.journal.run_number, session.run.tick, lane_ids, names)
 
-    def find_since(self, now: "Told") -> int:
+    def find_since(self, now: "Reported") -> int:
         """From which tick on the past is to be told; 0, all, where it reads otherwise now."""
         if (self.run_number, self.lane_ids) != (now.run_number, now.lane_ids):
             return 0
@@ -46,27 +46,27 @@ class Told:
         return self.tick
 
 
-class News(NamedTuple):
+class Broadcast(NamedTuple):
     """A message, and what its reader knows then."""
 
     text: str
-    told: Told
+    reported: Reported
 
 
-def write_news(hosted: HostedSession, told: Told) -> News:
+def write_broadcast(hosted: HostedSession, reported: Reported) -> Broadcast:
     """The message of a stream after a change: made once for all clients that are told the same.
 
     What moves by itself in it is of the first that was told.
     """
     control, queue = build_control(hosted), build_queue(hosted.lease)
-    key = (told, control.mine, queue and queue.place)
-    return hosted.news.get(hosted.version, key, lambda: _write(hosted, told, build_state))
+    key = (reported, control.mine, queue and queue.place)
+    return hosted.broadcast.get(hosted.version, key, lambda: _write(hosted, reported, build_state))
 
 
-def write_progress(hosted: HostedSession, told: Told, period: Hashable) -> News:
+def write_progress(hosted: HostedSession, reported: Reported, period: Hashable) -> Broadcast:
     """What moves by itself, for a stream that was told of every change: once in each period."""
     version = (hosted.version, period)
-    return hosted.progress.get(version, told, lambda: _write(hosted, told, build_progress))
+    return hosted.progress.get(version, reported, lambda: _write(hosted, reported, build_progress))
 
 
 def is_fresh(hosted: HostedSession) -> bool:
@@ -76,10 +76,12 @@ def is_fresh(hosted: HostedSession) -> bool:
 
 
 def _write(
-    hosted: HostedSession, told: Told, build: Callable[[HostedSession, int], SessionProgress]
-) -> News:
+    hosted: HostedSession,
+    reported: Reported,
+    build: Callable[[HostedSession, int], SessionProgress],
+) -> Broadcast:
     version = (hosted.version, hosted.session.run.tick)
-    now = hosted.told.get(version, None, lambda: Told.all_of(hosted))
-    since = told.find_since(now)
+    now = hosted.reported.get(version, None, lambda: Reported.all_of(hosted))
+    since = reported.find_since(now)
     message = StateMessage(since_tick=since, state=build(hosted, since))
-    return News(message.model_dump_json(), now)
+    return Broadcast(message.model_dump_json(), now)

@@ -13,5 +13,5 @@ def note_settled(log: AuditLog, hosted: HostedSession, settled: Settled) -> None
         person=settled.who.client,
         name=settled.who.name,
         session=hosted.session.name,
-        **hosted.tell_instant(),
+        **hosted.read_instant(),
     )

@@ -37,11 +37,11 @@ class HostedSession:
     """A session, and what is the server's own of it. Times are monotonic, s.
 
     session: what people start, pause and change. `lease`: who is in control of it. `excitation`:
-    what is being played on it, or None. `news`, `progress`, `told`, `batches`: what its streams are
-    sent in each `round`, made once for all. `last_use`: when it was last asked for; infinite for
-    one that never ends by itself. `owner`: the id of the person whose it is; empty for everybody's.
-    `note`: what whoever it was opened for is to know of it. `instance`: no other session has it,
-    also none of this name before or after.
+    what is being played on it, or None. `broadcast`, `progress`, `reported`, `batches`: what its
+    streams are sent in each `round`, made once for all. `last_use`: when it was last asked for;
+    infinite for one that never ends by itself. `owner`: the id of the person whose it is; empty for
+    everybody's. `note`: what whoever it was opened for is to know of it. `instance`: no other
+    session has it, also none of this name before or after.
     note_settled: told whom the lease let go without having been asked.
     """
 
@@ -59,7 +59,11 @@ class HostedSession:
         self.lease = lease or ControlLease(session.name)
         self.excitation: Excitation | None = None
         self.last_use = last_use
-        self.news, self.progress, self.told = Versioned[Any](), Versioned[Any](), Versioned[Any]()
+        self.broadcast, self.progress, self.reported = (
+            Versioned[Any](),
+            Versioned[Any](),
+            Versioned[Any](),
+        )
         self.batches = Versioned[bytes]()
         self.round = Round()
         self._streams: Counter[str | None] = Counter()
@@ -115,7 +119,7 @@ class HostedSession:
         self._changes += 1
         self.touch()
 
-    def tell_instant(self) -> dict[str, int | str | None]:
+    def read_instant(self) -> dict[str, int | str | None]:
         """Run and tick of this instant, and the client in control."""
         holder = self.lease.holder
         return {

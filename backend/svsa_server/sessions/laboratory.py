@@ -11,7 +11,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from svsa.errors import StateError
-from svsa.hardware.emulator.control import RigControl, RigError
+from svsa.hardware.emulator.control import EmulatorControl, EmulatorError
 from svsa.hardware.file import read_bench
 from svsa.hardware.session.session import BenchSession
 from svsa.runs.command import Command
@@ -194,8 +194,8 @@ def build_shared_session(bench: Path | None, design: Design | None = None) -> Se
     return session
 
 
-class RigHands(Hands):
-    """Does to an emulated rig what a person does to a bench, one after another, in a thread."""
+class EmulatorOperator(Hands):
+    """Does to an emulator what a person does to a bench, one after another, in a thread."""
 
     def __init__(self, control_port: int) -> None:
         self._port = control_port
@@ -207,28 +207,28 @@ class RigHands(Hands):
 
     def set_to_marks(self) -> None:
         """Set the mechanism to its zero marks; time passes until it stands there."""
-        done = self._thread.submit(self._tell, RigControl.home)
+        done = self._thread.submit(self._tell, EmulatorControl.home)
         end = time.monotonic() + LONGEST_HANDS_S
         while not done.done():
             if time.monotonic() > end:
                 raise StateError(
-                    "The emulated rig was not set to its marks: it has not answered within"
-                    f" {LONGEST_HANDS_S:g} s. Restart the rig, then arm again."
+                    "The emulator was not set to its marks: it has not answered within"
+                    f" {LONGEST_HANDS_S:g} s. Restart the emulator, then arm again."
                 )
             let_pass(HANDS_S)
 
-    def _tell(self, say: Callable[[RigControl], object]) -> None:
+    def _tell(self, say: Callable[[EmulatorControl], object]) -> None:
         try:
-            with RigControl(self._port, timeout_s=0.2) as control:
+            with EmulatorControl(self._port, timeout_s=0.2) as control:
                 say(control)
-        except RigError as error:
-            _log.warning("The emulated rig was not told. %s", error)
+        except EmulatorError as error:
+            _log.warning("The emulator was not told. %s", error)
 
 
 def find_hands(bench: Path) -> Hands:
-    """Who stands at the bench: a person, or the stand-in of its emulated rig."""
+    """Who stands at the bench: a person, or the stand-in of its emulator."""
     emulator = read_bench(bench).emulator
-    return RigHands(emulator.control_port) if emulator else Hands()
+    return EmulatorOperator(emulator.control_port) if emulator else Hands()
 
 
 def build_name() -> str:

@@ -32,7 +32,7 @@ def _read_comparisons(session: Session) -> tuple[ComparisonPose, ...]:
         position = math.nan if newest is None else float(newest[CHANNEL_INDEX["position_rad"]])
         if math.isfinite(position):
             present = stretches[-1]
-            poses.append(ComparisonPose(present.name, position, present.ink))
+            poses.append(ComparisonPose(present.name, position, present.line_style))
     return tuple(poses)
 
 

@@ -135,10 +135,10 @@ def _summarize(session: Session, lane: int) -> dict[str, Metrics | None]:
         kind: None if lanes is None or (place := places[kind]) is None else lanes[place]
         for kind, lanes in kinds.items()
     }
-    return {kind: one and _tell_known(one.summarize()) for kind, one in running.items()}
+    return {kind: one and _drop_unknown(one.summarize()) for kind, one in running.items()}
 
 
-def _tell_known(metrics: Metrics | None) -> Metrics | None:
+def _drop_unknown(metrics: Metrics | None) -> Metrics | None:
     """None for a lane that has ended, whose numbers would be of what was before."""
     return None if metrics is None or math.isnan(metrics.rms_position_error_rad) else metrics
 

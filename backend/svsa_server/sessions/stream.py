@@ -25,7 +25,7 @@ from svsa_server.schemas.lab.stream import (
     StreamRequest,
     lay_out_batch,
 )
-from svsa_server.sessions.broadcast import Told, is_fresh, write_news, write_progress
+from svsa_server.sessions.broadcast import Reported, is_fresh, write_broadcast, write_progress
 from svsa_server.sessions.cursor import SampleCursor
 from svsa_server.sessions.hosted import HostedSession
 from svsa_server.sessions.state import build_state
@@ -98,21 +98,25 @@ async def _send(
     websocket: WebSocket, hosted: HostedSession, cursor: SampleCursor, channels: tuple[str, ...]
 ) -> None:
     with contextlib.suppress(WebSocketDisconnect, RuntimeError):
-        version, told_in = hosted.version, _count_periods(hosted, time.monotonic())
-        told = Told.all_of(hosted)
+        version, sent_in = hosted.version, _count_periods(hosted, time.monotonic())
+        reported = Reported.all_of(hosted)
         await websocket.send_text(_greet(hosted, cursor, channels))
         slow = False
         while not hosted.session.closed:
             now = time.monotonic()
-            news, period = None, _count_periods(hosted, now)
+            broadcast, period = None, _count_periods(hosted, now)
             if hosted.version != version:
-                version, told_in, news = hosted.version, period, write_news(hosted, told)
-            elif period != told_in:
-                told_in, news = period, write_progress(hosted, told, period)
+                version, sent_in, broadcast = (
+                    hosted.version,
+                    period,
+                    write_broadcast(hosted, reported),
+                )
+            elif period != sent_in:
+                sent_in, broadcast = period, write_progress(hosted, reported, period)
             batch = cursor.take_batch(slow)
-            if news is not None:
-                told = news.told
-                await websocket.send_text(news.text)
+            if broadcast is not None:
+                reported = broadcast.reported
+                await websocket.send_text(broadcast.text)
             if batch is not None:
                 await websocket.send_bytes(batch)
             slow = time.monotonic() - now > SLOW_AFTER_S

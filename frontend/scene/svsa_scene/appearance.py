@@ -42,7 +42,9 @@ INKS: tuple[Rgb, ...] = (
     (184, 84, 148),
     (214, 140, 10),
 )
-"""The `INK_COLORS` of curves, in the order of the page: `frontend/web/src/core/plots/inks.ts`."""
+"""The `LINE_COLORS` of curves, in the order of the page:
+`frontend/web/src/core/plots/linestyles.ts`.
+"""
 MAX_COMPARISONS = 3
 
 _STIFFNESS_RANGE = (1.7, 150.56)
@@ -68,9 +70,9 @@ def get_stiffness_color(step: int) -> Rgb:
     return red, green, blue
 
 
-def get_ink_color(ink: int) -> Rgb:
+def get_line_color(line_style: int) -> Rgb:
     """Colour of the curves of this ink."""
-    return INKS[ink % len(INKS)]
+    return INKS[line_style % len(INKS)]
 
 
 def make_material(finish: Finish) -> PBRMaterial:

@@ -17,7 +17,7 @@ class Comparisons:
         self._moved = moved
         self._scene = scene = server.scene
         self._names = [""] * look.MAX_COMPARISONS
-        self._inks = [number + 1 for number in range(look.MAX_COMPARISONS)]
+        self._line_styles = [number + 1 for number in range(look.MAX_COMPARISONS)]
         self._frames = [
             scene.add_frame(f"/a/r{number}", show_axes=False, visible=False)
             for number in range(look.MAX_COMPARISONS)
@@ -39,8 +39,8 @@ class Comparisons:
         for number, frame in enumerate(self._frames):
             comparison = comparisons[number] if number < len(comparisons) else None
             name = comparison.name if comparison else ""
-            if comparison and comparison.ink != self._inks[number]:
-                self._inks[number] = comparison.ink
+            if comparison and comparison.line_style != self._line_styles[number]:
+                self._line_styles[number] = comparison.line_style
                 self._paint(number)
             if name != self._names[number]:
                 self._names[number] = name
@@ -52,6 +52,6 @@ class Comparisons:
 
     def _paint(self, number: int) -> None:
         """The outline in its ink, in place of the one before."""
-        finish = look.Finish(look.get_ink_color(self._inks[number]), 0.0, 0.7, 0.75)
+        finish = look.Finish(look.get_line_color(self._line_styles[number]), 0.0, 0.7, 0.75)
         solid = mechanism.export(mechanism.build_comparison, finish, number)
         self._scene.add_glb(f"/a/r{number}/solid", solid)

@@ -10,12 +10,12 @@ from typing import NamedTuple
 class ComparisonPose:
     """Where the link of another lane is.
 
-    name: of who controls it, as it is read. position_rad: its q. ink: colour of its curves.
+    name: of who controls it, as it is read. position_rad: its q. line_style: colour of its curves.
     """
 
     name: str
     position_rad: float
-    ink: int = 0
+    line_style: int = 0
 
 
 POSE_CHANNELS = (
@@ -48,13 +48,13 @@ def draw_nothing_unknown(values: Mapping[str, float]) -> dict[str, float]:
 
 
 class LaneStretch(NamedTuple):
-    """Who controlled a lane of a recorded run. name: as it is read. ink: of its curves.
+    """Who controlled a lane of a recorded run. name: as it is read. line_style: of its curves.
 
     number: which controller. first, end: ticks from the first sample, end not included.
     """
 
     name: str
-    ink: int
+    line_style: int
     number: int
     first: int
     end: int

@@ -132,7 +132,7 @@ def _write_stretch(stretch: LaneStretch, period_s: float) -> dict[str, Any]:
     return {
         "number": stretch.number,
         "name": stretch.name,
-        "ink": stretch.ink,
+        "line_style": stretch.line_style,
         "start_s": stretch.first * period_s,
         "end_s": stretch.end * period_s,
     }

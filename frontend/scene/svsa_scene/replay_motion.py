@@ -135,7 +135,7 @@ def _add_ghost(
     server: viser.ViserServer, lane: int, stretch: LaneStretch, name: str
 ) -> viser.SceneNodeHandle:
     node = f"/a/lane{lane}c{stretch.number}"
-    finish = look.Finish(look.get_ink_color(stretch.ink), 0.0, 0.8, 0.45)
+    finish = look.Finish(look.get_line_color(stretch.line_style), 0.0, 0.8, 0.45)
     frame = server.scene.add_frame(
         node,
         show_axes=False,

@@ -14,14 +14,14 @@ export interface Series {
   value: number[];
 }
 
-export interface DebugDoor {
+export interface DebugAccess {
   channels(): string[];
   series(channel: string, lane?: number): Series;
 }
 
 declare global {
   interface Window {
-    svsa: DebugDoor;
+    svsa: DebugAccess;
   }
 }
 
@@ -40,6 +40,6 @@ function series(channel: string, lane = 1): Series {
   return { time: Array.from(time), value: Array.from(value) };
 }
 
-export function openDebugDoor(): void {
+export function installDebugAccess(): void {
   window.svsa = { channels: () => [...samples.ring.channels], series };
 }

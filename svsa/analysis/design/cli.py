@@ -68,16 +68,16 @@ def _build_loop_table(reports: "list[Report]") -> Table:
     rows: list[tuple[str, list[str]]] = [
         ("slowest real part, rad/s", [f"{one.stability.loop.slowest:.2f}" for one in reports]),
         ("least damping", [f"{one.stability.loop.least_damping:.2f}" for one in reports]),
-        ("e per ẇ2, ° per N·m/s", [_tell_degrees(one.stability.gain.ramp) for one in reports]),
-        ("  by the formula", [_tell_degrees(one.stability.formula) for one in reports]),
-        ("  simulated ramps", [_tell_ramps(one) for one in reports]),
-        ("  the worst ẇ2 can do", [_tell_degrees(one.stability.gain.worst) for one in reports]),
-        ("  floor as β → ∞", [_tell_degrees(one.stability.floor) for one in reports]),
-        ("|w2 − ŵ2| per ẇ2, s", [_tell_lag(one) for one in reports]),
-        ("fastest β on the rig, rad/s", [_tell_fastest(one, 1) for one in reports]),
-        ("  with two samples of delay", [_tell_fastest(one, 2) for one in reports]),
-        ("  ideal", [_tell_fastest(one, 0) for one in reports]),
-        ("share that comes to rest", [_tell_share(one) for one in reports]),
+        ("e per ẇ2, ° per N·m/s", [_format_degrees(one.stability.gain.ramp) for one in reports]),
+        ("  by the formula", [_format_degrees(one.stability.formula) for one in reports]),
+        ("  simulated ramps", [_format_ramps(one) for one in reports]),
+        ("  the worst ẇ2 can do", [_format_degrees(one.stability.gain.worst) for one in reports]),
+        ("  floor as β → ∞", [_format_degrees(one.stability.floor) for one in reports]),
+        ("|w2 − ŵ2| per ẇ2, s", [_format_lag(one) for one in reports]),
+        ("fastest β on the rig, rad/s", [_format_fastest(one, 1) for one in reports]),
+        ("  with two samples of delay", [_format_fastest(one, 2) for one in reports]),
+        ("  ideal", [_format_fastest(one, 0) for one in reports]),
+        ("share that comes to rest", [_format_share(one) for one in reports]),
     ]
     for one in reports:
         table.add_column(f"{one.sigma:g}", justify="right")
@@ -100,40 +100,40 @@ def _build_range_table(reports: "list[Report]") -> Table:
     for one in reports:
         table.add_column(f"σ = {one.sigma:g}", justify="right")
     for rows in zip(*(one.stability.ranges for one in reports), strict=True):
-        ends = [_tell_range(row) for row in rows]
+        ends = [_format_range(row) for row in rows]
         table.add_row(rows[0].symbol, f"{rows[0].present:.2f}", *ends)
     return table
 
 
-def _tell_range(found: "StableRange") -> str:
+def _format_range(found: "StableRange") -> str:
     if found.high is None:
         return "all" if found.low is None else f"from {found.low:.2f}"
     return f"up to {found.high:.2f}" if found.low is None else f"{found.low:.2f} – {found.high:.2f}"
 
 
-def _tell_degrees(gain: float | None) -> str:
+def _format_degrees(gain: float | None) -> str:
     if gain is None:
         return "–"
     return f"{math.degrees(gain):.4f}" if math.isfinite(gain) else "none: w itself stays"
 
 
-def _tell_ramps(report: "Report") -> str:
+def _format_ramps(report: "Report") -> str:
     if not math.isfinite(report.stability.gain.ramp):
         return "–"
     return ", ".join("fault" if r.fault else f"{math.degrees(r.gain):.4f}" for r in report.ramps)
 
 
-def _tell_lag(report: "Report") -> str:
+def _format_lag(report: "Report") -> str:
     lags = [ramp.lag for ramp in report.ramps if ramp.lag is not None]
     return f"{lags[-1]:.4f}" if lags else "–"
 
 
-def _tell_fastest(report: "Report", delay: int) -> str:
+def _format_fastest(report: "Report", delay: int) -> str:
     if not report.is_observed:
         return "–"
     beta: Any = report.fastest[delay]
     return "over 1000" if beta is None else f"{beta:.0f}"
 
 
-def _tell_share(report: "Report") -> str:
+def _format_share(report: "Report") -> str:
     return "–" if report.share is None else f"{report.share:.2f}"

@@ -88,9 +88,9 @@ def build_report(
     configuration: Configuration,
     sigmas: Sequence[float],
     starts: int,
-    tell: Callable[[float], None] = lambda share: None,
+    report: Callable[[float], None] = lambda share: None,
 ) -> list[Report]:
-    """A report for each stiffness, N·m/rad. tell: is given the share of the maps that is done."""
+    """A report for each stiffness, N·m/rad. report: is given the share of the maps that is done."""
     for sigma in sigmas:
         configuration.limits.check_stiffness("stiffness", sigma, sigma)
     done, total = 0, max(1, len(sigmas) * starts**2)
@@ -106,7 +106,7 @@ def build_report(
         on_rig = configuration.changed(effects=RIG)
         for cell, fate in find_fates(on_rig, sigma, build_map(starts), order_cells(starts)):
             fates[cell], done = fate, done + 1
-            tell(done / total)
+            report(done / total)
         is_observed = get_law(configuration.law).estimate == "observer"
         share = compute_share(list(fates.values())) if fates else None
         reports.append(Report(sigma, stability, ramps, fastest, is_observed, fates, share))

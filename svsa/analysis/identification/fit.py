@@ -61,8 +61,8 @@ def fit(evidence: Evidence, progress: Progress = lambda _: None) -> Fit:
     centre, starts = guess_parameters(evidence), guess_states(evidence)[segments]
     few = slice(None, None, _ROUGH_SHARE)
     problem = Problem(evidence, segments[few], residual, centre, SHAPE)
-    tell = _build_teller(progress, 0)
-    point, _ = _minimize(problem, Point(centre, starts[few]), _ROUGH, tell)
+    report = _build_teller(progress, 0)
+    point, _ = _minimize(problem, Point(centre, starts[few]), _ROUGH, report)
     point = Point(point.values, starts)
     for step in range(1, _MAX_PASSES):
         problem = Problem(evidence, segments, residual, centre)
@@ -102,7 +102,7 @@ def compute_covariance(problem: Problem, point: Point) -> np.ndarray:
 
 
 def _minimize(
-    problem: Problem, point: Point, tolerance: float, tell: Callable[[int], None]
+    problem: Problem, point: Point, tolerance: float, report: Callable[[int], None]
 ) -> tuple[Point, np.ndarray]:
     """Levenberg–Marquardt until the cost falls by less than this share of it.
 
@@ -111,7 +111,7 @@ def _minimize(
     normal = problem.linearize(point)
     cost, damping = problem.compute_cost(normal.squares, point.values), 1e-3
     for iteration in range(_MAX_ITERATIONS):
-        tell(iteration)
+        report(iteration)
         while True:
             trial = problem.step(normal, point, damping)
             found = problem.compute_cost(problem.compute_squares(trial), trial.values)

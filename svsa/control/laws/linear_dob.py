@@ -33,8 +33,9 @@ class PolesAndFilter(LawParameters):
     """Poles on the real axis and the corner of the Q-filters.
 
     Of 512 Sobol points (a 42–50, p 15–60, β 90–400), 27 hold every column of the prototypes'
-    figures (`python -m tests.benchmarks.prototypes`) with no fault in 48 unloadings: of these the
-    least cost of the training runs, 0.873. `svsa tune`'s 46.5, 59.7, 136 cost 0.878, and 16 faults.
+    figures (`python -m tests.benchmarks.prototypes`) with no fault in 48 load removals: of these
+    the least cost of the training runs, 0.873. `svsa tune`'s 46.5, 59.7, 136 cost 0.878, and 16
+    faults.
     """
 
     position_pole_rad_per_s: Number = quantity(

@@ -27,7 +27,7 @@ second choice stands.
 
 In the table it is better than NDOBC in every column but the recovery on the rig, 0.18 s against
 0.15 s: one run, where in the rehearsal it is the faster one by a sixth, in 18 of 20. On the
-emulated rig, through CAN, ten of twelve numbers are better; Figure 6A's peak is 5.0° (NDOBC's
+emulator, through CAN, ten of twelve numbers are better; Figure 6A's peak is 5.0° (NDOBC's
 4.9°), and 6B recovers in 0.35 s (0.21 s), from a peak half as high. Outside the columns NDOBC
 keeps three things. It shakes the motors less where nothing is loud: 0.4 N·m a tick against 1.1 at
 σ = 15 on the rig, and 0.02 against 1.0 at σ = 60. It holds a little more torque noise. And a half

@@ -14,7 +14,7 @@ with ŵ of an observer that knows the rate of the load, and five things that sat
 
 It assumes that limits and the domain are known, and that the nominal model is near: with M half
 and B1 one and a half times the nominal ones it fails as NDOBC does, and under five times the
-noise of the encoders its poles at 70 rad/s shake the motors more than NDOBC's. No unloading is a
+noise of the encoders its poles at 70 rad/s shake the motors more than NDOBC's. No load removal is a
 fault; at σ = 12, though, it swings on by 0.7° rms after some, for as long as one looks.
 """
 

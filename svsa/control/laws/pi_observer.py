@@ -29,7 +29,7 @@ class PolesAndObserver(LawParameters):
 
     Of 64 Sobol points (a 58.5–62, p 35–70, ω 148–168) and 30 steps from the best, those that hold
     every column of the prototypes' figures (`python -m tests.benchmarks.prototypes`): near the one
-    of the fewest faults in 48 unloadings. Cost of the training runs 0.84; 0.82 with 61.6, 49.5,
+    of the fewest faults in 48 load removals. Cost of the training runs 0.84; 0.82 with 61.6, 49.5,
     151.
     """
 

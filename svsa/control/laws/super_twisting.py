@@ -28,9 +28,9 @@ class Sliding(LawParameters):
 
     Of 1024 Sobol points (λ 50–100, p 25–90, L1 1.5e6–4e7, L2 2e4–4e5, L0 6e3–5e4, layers 7–60 ms)
     and 4034 more between and about the best of them, four hold every column of the prototypes'
-    figures (`python -m tests.benchmarks.prototypes`), a step of 3 N·m on the link and the unloading
-    at σ = 15: of these the one with the least peaks. It costs 1.03 on the training runs, where
-    `svsa tune` alone finds 0.67, and 48 faults in 48 unloadings; these have 16.
+    figures (`python -m tests.benchmarks.prototypes`), a step of 3 N·m on the link and the load
+    removal at σ = 15: of these the one with the least peaks. It costs 1.03 on the training runs,
+    where `svsa tune` alone finds 0.67, and 48 faults in 48 load removals; these have 16.
     """
 
     position_pole_rad_per_s: Number = quantity(

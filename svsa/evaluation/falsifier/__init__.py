@@ -1,6 +1,6 @@
 """The falsifier: within bounds, what hurts a law most, and the simplest load that still does it.
 
-found = svsa.falsify.falsify(svsa.falsify.read_adversary("blow"))
+found = svsa.falsify.falsify(svsa.falsify.read_adversary("impulse"))
 svsa.falsify.write_scenario("worst.toml", found.scenario)
 svsa.falsify.run_scenario(svsa.falsify.read_scenario("worst.toml"), ("ndobc", "esp"))
 """

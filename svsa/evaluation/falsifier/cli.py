@@ -68,20 +68,20 @@ def search_command(
     if picture is not None:
         _check_writable("picture", picture)
     known = read_search(path, adversary, seed, "cma")
-    with _show_progress(adversary, runs, len(known)) as tell:
-        found = find(adversary, runs=runs, seed=seed, known=known, on_generation=tell)
+    with _show_progress(adversary, runs, len(known)) as report:
+        found = find(adversary, runs=runs, seed=seed, known=known, on_generation=report)
     scenario = found.scenario
     write_scenario(path, scenario)
-    compared = run_scenario(scenario, _list_beside(adversary.law))
+    compared = run_scenario(scenario, _list_baselines(adversary.law))
     if as_json:
         write_json(_describe(found, path) | {"laws": [one._asdict() for one in compared]})
     else:
-        _tell_found(found)
+        _print_found(found)
         Console().print(_build_table(compared))
     if picture is not None:
         from svsa.evaluation.falsifier.picture import save_picture
 
-        save_picture(scenario, _list_beside(adversary.law), picture)
+        save_picture(scenario, _list_baselines(adversary.law), picture)
         _messages.print(f"Picture: {picture}", highlight=False)
     _messages.print(f"Kept as {path}. Other laws: svsa falsify run {path} --laws all")
     if not found.is_complete:
@@ -114,7 +114,7 @@ def run_command(
         require_extra("plot")
     scenario = open_scenario(source)
     if laws is None:
-        names = _list_beside(scenario.found.law if scenario.found else PAPERS_LAW)
+        names = _list_baselines(scenario.found.law if scenario.found else PAPERS_LAW)
     else:
         names = list_law_names() if laws == "all" else tuple(map(str.strip, laws.split(",")))
     compared = run_scenario(scenario, names)
@@ -152,19 +152,21 @@ def compare_command(
     """The search against as many random draws: the run of the first fault, a row a seed."""
     from svsa.evaluation.falsifier.file import read_adversary
     from svsa.evaluation.falsifier.race import race
-    from svsa.evaluation.falsifier.wording import tell_severity
+    from svsa.evaluation.falsifier.wording import format_severity
     from svsa.evaluation.studies.tables import write_json
 
     adversary = read_adversary(source, **({} if law is None else {"law": law}))
-    with _show_progress(adversary, 2 * runs * seeds) as tell:
-        raced = race(adversary, runs, range(seeds), tell)
+    with _show_progress(adversary, 2 * runs * seeds) as report:
+        raced = race(adversary, runs, range(seeds), report)
     if as_json:
         write_json(raced._asdict() | {"laps": [lap._asdict() for lap in raced.laps]})
         return
     table = Table("seed", "CMA-ES", "random", title=adversary.title, title_justify="left")
     for lap in raced.laps:
         cells = [
-            f"fault at run {run}" if run else f"none in {runs}: {tell_severity(adversary.harm, x)}"
+            f"fault at run {run}"
+            if run
+            else f"none in {runs}: {format_severity(adversary.harm, x)}"
             for run, x in ((lap.cma_run, lap.cma_worst), (lap.random_run, lap.random_worst))
         ]
         table.add_row(str(lap.seed), *cells)
@@ -172,7 +174,7 @@ def compare_command(
     Console().print(raced.message)
 
 
-def _list_beside(law: str) -> tuple[str, ...]:
+def _list_baselines(law: str) -> tuple[str, ...]:
     """A law, and NDOBC beside it; beside NDOBC what the paper compares it with."""
     return law, BASELINE if law == PAPERS_LAW else PAPERS_LAW
 
@@ -202,38 +204,38 @@ def _describe(found: "Falsified", path: Path) -> dict[str, object]:
     }
 
 
-def _tell_found(found: "Falsified") -> None:
-    from svsa.evaluation.falsifier.wording import tell_attack, tell_severity
+def _print_found(found: "Falsified") -> None:
+    from svsa.evaluation.falsifier.wording import describe_attack, format_severity
 
     console, a = Console(highlight=False), found.adversary
-    nothing = tell_severity(a.harm, found.nothing)
+    nothing = format_severity(a.harm, found.nothing)
     console.print(f"{get_title(a.law)} without it: {nothing}")
     console.print(f"Found at run {found.run} of {len(found.severities)}: {found.outcome}")
-    console.print(f"  {tell_attack(found.attack)}")
+    console.print(f"  {describe_attack(found.attack)}")
     if found.shrunk is not None:
         simple = found.shrunk
         console.print(f"Made simple by {simple.runs} runs: {simple.outcome}")
-        console.print(f"  {tell_attack(simple.attack)}")
+        console.print(f"  {describe_attack(simple.attack)}")
 
 
 def _build_table(compared: "list[LawOutcome]") -> Table:
     """What came of each law; the metrics of a run in a fault are those until then."""
-    from svsa.evaluation.studies.tables import tell_unit, tell_value
+    from svsa.evaluation.studies.tables import format_unit, format_value
     from svsa.runs.fault import label_fault
 
     names = {
         "peak_position_error_rad": "peak",
-        "settled_position_error_rad": "settled",
+        "steady_state_position_error_rad": "settled",
         "recovery_time_s": "recovery",
         "peak_stiffness_error_nm_per_rad": "peak of σ",
     }
     table = Table("law", "ends", title="Position error and stiffness error", title_justify="left")
-    for name, told in names.items():
-        heading = escape(f"{told}\n[{tell_unit(name)}]")
+    for name, reported in names.items():
+        heading = escape(f"{reported}\n[{format_unit(name)}]")
         table.add_column(heading, justify="right", no_wrap=True)
     for one in compared:
         end = "whole" if one.fault is None else f"{label_fault(one.fault)}, {one.fault_s:.3f} s"
-        cells = [tell_value(name, one.metrics[name]) for name in names]
+        cells = [format_value(name, one.metrics[name]) for name in names]
         table.add_row(get_title(one.law), end, *cells)
     return table
 
@@ -243,7 +245,7 @@ def _show_progress(
     adversary: "Adversary", runs: int, known: int = 0
 ) -> Iterator[Callable[[int, float], None]]:
     """A bar with rate and time left. known: runs of before, which do not count in the rate."""
-    from svsa.evaluation.falsifier.wording import tell_worst
+    from svsa.evaluation.falsifier.wording import describe_worst
 
     columns = (
         TextColumn("{task.description}"),
@@ -255,8 +257,8 @@ def _show_progress(
     with Progress(*columns, console=_messages, transient=True) as bar:
         task = bar.add_task(f"{get_title(adversary.law)}: compiling …", total=runs, completed=known)
 
-        def tell(done: int, worst: float) -> None:
-            text = f"{get_title(adversary.law)}: {tell_worst(adversary.harm, worst)}"
+        def report(done: int, worst: float) -> None:
+            text = f"{get_title(adversary.law)}: {describe_worst(adversary.harm, worst)}"
             bar.update(task, completed=max(done, known), description=text)
 
-        yield tell
+        yield report

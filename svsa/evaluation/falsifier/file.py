@@ -9,7 +9,7 @@ from svsa.errors import ParameterError, Violation
 from svsa.evaluation.falsifier.adversary import Adversary
 from svsa.evaluation.falsifier.scenario import LoadScenario
 from svsa.inputs.checked import Checked
-from svsa.inputs.toml_file import parse_toml, read_toml, tell_place
+from svsa.inputs.toml_file import describe_place, parse_toml, read_toml
 
 ADVERSARY_FILE, SCENARIO_FILE = "adversary file", "scenario file"
 ADVERSARY_FOLDER = Path(__file__).parent / "builtin"
@@ -71,5 +71,5 @@ def _build(
         return kind(**sections | changes)
     except ParameterError as error:
         names = [violation.name for violation in error.violations if violation.name not in changes]
-        there = tell_place(place, text, names) if names else ""
+        there = describe_place(place, text, names) if names else ""
         raise ParameterError(*error.violations, file=there) from None

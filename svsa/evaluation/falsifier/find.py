@@ -12,7 +12,7 @@ from svsa.evaluation.falsifier.measure import Measured, measure_attacks
 from svsa.evaluation.falsifier.scenario import Attack, Finding, LoadScenario
 from svsa.evaluation.falsifier.search import Method, search
 from svsa.evaluation.falsifier.shrink import Shrunk, shrink
-from svsa.evaluation.falsifier.wording import tell_outcome, tell_worst
+from svsa.evaluation.falsifier.wording import describe_outcome, describe_worst
 from svsa.inputs.checked import check_number
 from svsa.inputs.extras import __version__
 
@@ -181,16 +181,16 @@ def falsify(
     check_number("runs", runs, "", 1, MAX_RUNS)
     check_number("seed", seed, "", 0, 2**63 - 1)
 
-    def tell_worse(number: int, attack: Attack, severity: float) -> None:
-        told = tell_worst(adversary.harm, severity)
+    def report_worse(number: int, attack: Attack, severity: float) -> None:
+        reported = describe_worst(adversary.harm, severity)
         search = method, seed, number, number
-        on_worse(_describe(adversary, attack, adversary.duration_s, (told, told), search))
+        on_worse(_describe(adversary, attack, adversary.duration_s, (reported, reported), search))
 
-    one = _Search(adversary, runs, known, tell_worse)
+    one = _Search(adversary, runs, known, report_worse)
     nothing = one.measure([Attack((), {})])
     if not np.isfinite(nothing.severity[0]):
-        told = tell_outcome(nothing, 0, adversary.harm)
-        raise FalsifierError(f"{adversary.law} needs no adversary: without any load, {told}.")
+        reported = describe_outcome(nothing, 0, adversary.harm)
+        raise FalsifierError(f"{adversary.law} needs no adversary: without any load, {reported}.")
     is_complete = False
 
     def judge(shares: np.ndarray) -> np.ndarray:
@@ -220,7 +220,7 @@ def falsify(
         nothing=float(nothing.severity[0]),
         run=number + 1,
         attack=attack,
-        outcome=tell_outcome(found, 0, adversary.harm),
+        outcome=describe_outcome(found, 0, adversary.harm),
         shrunk=simple,
         is_complete=is_complete,
     )

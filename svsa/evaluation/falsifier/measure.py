@@ -59,9 +59,9 @@ def judge(outcome: dict[str, Any], harm: Harm, duration_s: float, limits: Limits
 def _strain(outcome: dict[str, Any], limits: Limits) -> np.ndarray:
     """How near a whole run is to a fault: peak torques over their limits, and ‰ of time at them.
 
-    A law that loses its actuator fights for it first. Errors tell less: of blows on NDOBC with the
-    rig's effects those that end in a fault, made 3 % smaller, stand behind a quarter of all blows
-    by their position error, and before all others by this.
+    A law that loses its actuator fights for it first. Errors tell less: of impulses on NDOBC with
+    the rig's effects those that end in a fault, made 3 % smaller, stand behind a quarter of all
+    impulses by their position error, and before all others by this.
     """
     peaks = (
         outcome["peak_torque1_nm"] / limits.torque1_nm,

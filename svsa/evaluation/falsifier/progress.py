@@ -18,8 +18,8 @@ SUFFIX = ".search"
 def keep_search(path: Path, found: Falsified) -> Path:
     """Keep what a search has run that writes to `path`; the file where it is."""
     beside = path.with_name(path.name + SUFFIX)
-    told = _describe(found.adversary, found.seed, found.method)
-    content = told | {"severities": [_write(value) for value in found.severities.tolist()]}
+    reported = _describe(found.adversary, found.seed, found.method)
+    content = reported | {"severities": [_write(value) for value in found.severities.tolist()]}
     replace_file(beside, json.dumps(content).encode())
     return beside
 
@@ -42,8 +42,8 @@ def forget_search(path: Path) -> None:
 
 
 def _describe(adversary: Adversary, seed: int, method: Method) -> dict[str, Any]:
-    told: dict[str, Any] = {"version": __version__, "seed": seed, "method": method}
-    return told | {"adversary": adversary.model_dump(mode="json")}
+    reported: dict[str, Any] = {"version": __version__, "seed": seed, "method": method}
+    return reported | {"adversary": adversary.model_dump(mode="json")}
 
 
 def _write(value: float) -> float | str:

@@ -41,7 +41,7 @@ def race(
         for method in ("cma", "random"):
             begun = done
 
-            def tell(count: int, worst: float, begun: int = begun) -> None:
+            def report(count: int, worst: float, begun: int = begun) -> None:
                 progress(begun + count, worst)
 
             one = falsify(
@@ -49,7 +49,7 @@ def race(
                 runs=runs,
                 seed=seed,
                 method=method,
-                on_generation=tell,
+                on_generation=report,
                 is_shrunk=False,
             )
             found.append((one.run if one.is_fault else None, one.severity))

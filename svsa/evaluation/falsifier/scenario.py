@@ -83,8 +83,10 @@ def check_setting(base: Configuration, path: str, value: Any) -> None:
     try:
         change_settings(base, {path: value})
     except ParameterError as error:
-        told = error.violations[0].message.removesuffix(".")
-        violation = Violation(f"settings.{path}", value, "", "", {}, f"with {value!r:.40}, {told}")
+        reported = error.violations[0].message.removesuffix(".")
+        violation = Violation(
+            f"settings.{path}", value, "", "", {}, f"with {value!r:.40}, {reported}"
+        )
         raise ParameterError(violation) from None
 
 

@@ -19,7 +19,7 @@ from svsa.evaluation.falsifier.simpler import (
     list_rounder,
     list_smaller,
 )
-from svsa.evaluation.falsifier.wording import tell_outcome
+from svsa.evaluation.falsifier.wording import describe_outcome
 from svsa.runs.configuration import Configuration
 
 KEPT_SHARE = 0.95
@@ -53,8 +53,8 @@ def shrink(adversary: Adversary, base: Configuration, attack: Attack, found: Mea
                 one.simplify(make(one.attack, place, base))
         if not one.remove():
             break
-    told = tell_outcome(one.measure([one.attack]), 0, adversary.harm)
-    return Shrunk(one.attack, one.duration_s, told, one.runs, tuple(one.steps))
+    reported = describe_outcome(one.measure([one.attack]), 0, adversary.harm)
+    return Shrunk(one.attack, one.duration_s, reported, one.runs, tuple(one.steps))
 
 
 class _Shrinking:
@@ -89,7 +89,7 @@ class _Shrinking:
             return False
         step = allowed[held[0]]
         self.attack = step.attack
-        self.steps.append(step.told)
+        self.steps.append(step.reported)
         return True
 
     def shorten_run(self) -> None:

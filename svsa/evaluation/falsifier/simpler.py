@@ -19,7 +19,7 @@ NUMBERS = {
 }
 
 
-def tell_number(template: str, value: float) -> str:
+def format_run_number(template: str, value: float) -> str:
     """The number in its words, with a minus sign and no hyphen."""
     return template.format(value).replace("-", "−")
 
@@ -28,7 +28,7 @@ class Step(NamedTuple):
     """An attack, and in words what makes it simpler than the one before."""
 
     attack: Attack
-    told: str
+    reported: str
 
 
 class Place(NamedTuple):
@@ -107,15 +107,15 @@ def _set(attack: Attack, place: Place, value: float) -> Step:
         settings = {**attack.settings, place.name: value}
         return Step(attack._replace(settings=settings), f"{place.name} = {value:g}")
     load, new = attack.loads[place.load], value
-    told = tell_number(NUMBERS.get(place.name, "from {:g} s"), value)
+    reported = format_run_number(NUMBERS.get(place.name, "from {:g} s"), value)
     if place.body is not None:
         torque = list(getattr(load, place.name))
         torque[place.body] = value
         new: Any = tuple(torque)
-        told = tell_number("{:g} N·m on ", value) + BODIES[place.body]
+        reported = format_run_number("{:g} N·m on ", value) + BODIES[place.body]
     loads = list(attack.loads)
     loads[place.load] = load.changed(**{place.name: new})
-    return Step(attack._replace(loads=tuple(loads)), f"{load.kind}: {told}")
+    return Step(attack._replace(loads=tuple(loads)), f"{load.kind}: {reported}")
 
 
 def _count_bodies(load: Load) -> int:

@@ -6,64 +6,64 @@ from typing import Any
 from svsa.evaluation.falsifier.adversary import Harm
 from svsa.evaluation.falsifier.measure import METRIC, Measured
 from svsa.evaluation.falsifier.scenario import Attack
-from svsa.evaluation.falsifier.simpler import BODIES, NUMBERS, tell_number
+from svsa.evaluation.falsifier.simpler import BODIES, NUMBERS, format_run_number
 from svsa.evaluation.studies.outcome import REFUSED
-from svsa.evaluation.studies.tables import tell_metric, tell_unit, tell_value
+from svsa.evaluation.studies.tables import format_metric, format_unit, format_value
 from svsa.runs.fault import label_fault
 from svsa.simulation.plant.loads import Load
 
 
-def tell_outcome(measured: Measured, row: int, harm: Harm) -> str:
+def describe_outcome(measured: Measured, row: int, harm: Harm) -> str:
     """The fault that a run ended in, or how much it hurt."""
     fault = measured.outcome["fault"][row]
     if fault == REFUSED:
         return "refused: its settings do not go together"
-    return label_fault(fault) if fault else tell_severity(harm, float(measured.severity[row]))
+    return label_fault(fault) if fault else format_severity(harm, float(measured.severity[row]))
 
 
-def tell_worst(harm: Harm, severity: float) -> str:
+def describe_worst(harm: Harm, severity: float) -> str:
     """How much the worst run of a search hurts so far, which fault it is not yet known."""
     if math.isinf(severity):
         return "a fault" if severity > 0.0 else "settings that do not go together"
-    return tell_severity(harm, severity)
+    return format_severity(harm, severity)
 
 
-def tell_severity(harm: Harm, severity: float) -> str:
+def format_severity(harm: Harm, severity: float) -> str:
     """How much a run without a fault hurts, with its unit; see `measure.judge`."""
     if harm == "fault":
         return f"no fault, strain {severity:.3g}"
     metric = METRIC[harm]
-    return f"{tell_metric(metric)} {tell_value(metric, severity)} {tell_unit(metric)}"
+    return f"{format_metric(metric)} {format_value(metric, severity)} {format_unit(metric)}"
 
 
-def tell_attack(attack: Attack) -> str:
+def describe_attack(attack: Attack) -> str:
     """Loads and settings in one line."""
     return "; ".join(list_attack(attack)) or "nothing"
 
 
 def list_attack(attack: Attack) -> list[str]:
     """Each of its loads, and each of its settings, in words."""
-    loads = [_tell_load(load) for load in attack.loads]
-    settings = [f"{path} = {_tell_value(value)}" for path, value in attack.settings.items()]
+    loads = [_describe_load(load) for load in attack.loads]
+    settings = [f"{path} = {_format_value(value)}" for path, value in attack.settings.items()]
     return [*loads, *settings]
 
 
-def _tell_load(load: Load) -> str:
+def _describe_load(load: Load) -> str:
     torque = getattr(load, "torque_nm", ())
     sizes = [
-        tell_number("{:g} N·m on ", size) + body
+        format_run_number("{:g} N·m on ", size) + body
         for size, body in zip(torque, BODIES, strict=False)
         if size != 0.0
     ]
-    told = [f"{load.kind} of {' and '.join(sizes)}" if sizes else load.kind]
-    told += [] if load.start_s is None else [f"from {load.start_s:g} s"]
-    told += [
-        tell_number(template, value)
+    reported = [f"{load.kind} of {' and '.join(sizes)}" if sizes else load.kind]
+    reported += [] if load.start_s is None else [f"from {load.start_s:g} s"]
+    reported += [
+        format_run_number(template, value)
         for name, template in NUMBERS.items()
         if (value := getattr(load, name, None)) is not None
     ]
-    return ", ".join(told)
+    return ", ".join(reported)
 
 
-def _tell_value(value: Any) -> str:
-    return tell_number("{:g}", value) if isinstance(value, float) else str(value)
+def _format_value(value: Any) -> str:
+    return format_run_number("{:g}", value) if isinstance(value, float) else str(value)

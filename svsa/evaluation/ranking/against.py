@@ -98,15 +98,17 @@ _STEPS = (
 )
 _FAILS = (
     ("draw", "Draws"), ("model", "One thing far off"), ("corner", "All inertias far off"),
-    ("step", "Great steps"), ("blow", "Blows"), ("lag", "Lag"), ("delay", "Delay"),
+    ("step", "Great steps"), ("impulse", "Impulses"), ("lag", "Lag"), ("delay", "Delay"),
     ("push", "Pushes"), ("shaken", "Torque noise"),
 )  # fmt: skip
 CONTESTS = (
     *(Contest(f"{title}: peak", "°", runs, _mean(_peak)) for runs, title in _STEPS),
     *(Contest(f"{title}: settled", "°", runs, _geometric(_settled)) for runs, title in _STEPS),
     *(Contest(f"{title}: recovery", "s", runs, _mean(_recovery)) for runs, title in _STEPS),
-    Contest("Unloadings: worst peak", "°", "unloading", lambda runs: max(map(_peak, runs))),
-    Contest("Unloadings: worst settled", "°", "unloading", lambda runs: max(map(_settled, runs))),
+    Contest("Load removals: worst peak", "°", "load_removal", lambda runs: max(map(_peak, runs))),
+    Contest(
+        "Load removals: worst settled", "°", "load_removal", lambda runs: max(map(_settled, runs))
+    ),
     Contest("Sines: rms", "°", "sine", _geometric(_rms)),
     Contest("Sines, soft: rms", "°", "sine_soft", _geometric(_rms)),
     Contest("Mass: rms", "°", "mass", _geometric(_rms)),
@@ -135,13 +137,13 @@ def measure_passage(scenario: Scenario, result: Result) -> Passage:
 
 
 def rehearse(
-    entry: Entry, runs: Mapping[str, Sequence[Scenario]], tell: Tell = lambda done: None
+    entry: Entry, runs: Mapping[str, Sequence[Scenario]], report: Tell = lambda done: None
 ) -> dict[str, tuple[Passage, ...]]:
-    """How a law goes through runs of the rehearsal. tell: is given the share that is done."""
+    """How a law goes through runs of the rehearsal. report: is given the share that is done."""
     found = {}
     for number, (name, scenarios) in enumerate(runs.items()):
         found[name] = tuple(measure_passage(one, run_scenario(one, entry)) for one in scenarios)
-        tell((number + 1) / len(runs))
+        report((number + 1) / len(runs))
     return found
 
 
@@ -149,13 +151,13 @@ def compare(
     entry: Entry,
     comparison: Entry,
     contests: Sequence[Contest] = CONTESTS,
-    tell: Tell = lambda done: None,
+    report: Tell = lambda done: None,
 ) -> tuple[Standing, ...]:
     """A law beside its comparison in each contest."""
     asked = {one.runs for one in contests}
     runs = {name: scenarios for name, scenarios in build_rehearsal().items() if name in asked}
-    mine = rehearse(entry, runs, lambda done: tell(0.5 * done))
-    theirs = rehearse(comparison, runs, lambda done: tell(0.5 + 0.5 * done))
+    mine = rehearse(entry, runs, lambda done: report(0.5 * done))
+    theirs = rehearse(comparison, runs, lambda done: report(0.5 + 0.5 * done))
     return tuple(
         Standing(one, one.combine(mine[one.runs]), one.combine(theirs[one.runs]))
         for one in contests

@@ -25,7 +25,7 @@ def against(
     with Progress(console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task(f"{get_title(law)} and {get_title(comparison)}", total=1.0)
         standings = compare(
-            Entry(law), Entry(comparison), tell=lambda done: bar.update(task, completed=done)
+            Entry(law), Entry(comparison), report=lambda done: bar.update(task, completed=done)
         )
     if as_json:
         typer.echo(json.dumps({"contests": [_to_json(one) for one in standings]}, indent=2))

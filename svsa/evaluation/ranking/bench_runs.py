@@ -1,4 +1,4 @@
-"""The paper's bench figures under any law, on the emulated rig, as a file and beside a comparison.
+"""The paper's bench figures under any law, on the emulator, as a file and beside a comparison.
 
 Through CAN, in lockstep: twelve numbers a law, which are the same every time.
 """
@@ -11,12 +11,12 @@ from typing import Any, Self
 from pydantic import ValidationError
 
 from svsa.errors import ParameterError, Violation
-from svsa.evaluation.ranking.row import RigErrors
+from svsa.evaluation.ranking.row import RecoveryErrors
 from svsa.inputs.checked import Checked, quantity
 from svsa.runs.paper import BENCH_FIGURES
 
 PUBLISHED = Path(__file__).parent / "bench_results.json"
-NUMBERS = tuple(RigErrors.model_fields)
+NUMBERS = tuple(RecoveryErrors.model_fields)
 """Of each figure: error before, peak, steady, and recovery."""
 
 
@@ -27,7 +27,7 @@ class BenchRun(Checked):
     figure: str = quantity("", "Key of the figure: 6a, 6b or 7")
     version: str = quantity("", "Version of the lab that measured it")
     fault: str | None = quantity("", "Code of the fault that ended the run")
-    errors: RigErrors = quantity("", "Position errors")
+    errors: RecoveryErrors = quantity("", "Position errors")
 
     def is_no_worse(self, comparison: "BenchRun", number: str) -> bool:
         """Whether this number is there, and no greater than the comparison's if that is there."""
@@ -65,10 +65,10 @@ class BenchRuns(Checked):
         """What `svsa ranking bench --json` prints."""
         return {
             "comparison": comparison,
-            "laws": [self._tell_law(law, comparison) for law in self.laws],
+            "laws": [self._describe_law(law, comparison) for law in self.laws],
         }
 
-    def _tell_law(self, law: str, comparison: str) -> dict[str, Any]:
+    def _describe_law(self, law: str, comparison: str) -> dict[str, Any]:
         no_worse, count = self.count_no_worse(law, comparison)
         figures = {
             run.figure: {**run.errors.model_dump(), "fault": run.fault}

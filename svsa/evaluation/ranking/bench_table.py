@@ -12,7 +12,7 @@ SHORT = dict(zip(NUMBERS, ("before", "peak", "settled", "recov."), strict=True))
 LONG = dict(zip(NUMBERS, ("rms 1–5 s", "peak", "rms 8–20 s", "recovery"), strict=True))
 
 
-def tell_number(run: BenchRun, number: str, unit: bool = True) -> str:
+def format_run_number(run: BenchRun, number: str, unit: bool = True) -> str:
     """A number of a run, ° or s; else "fault", or "never" of an error that does not settle."""
     value: float | None = getattr(run.errors, number)
     if value is None:
@@ -26,7 +26,7 @@ def build_table(runs: BenchRuns, comparison: str) -> Table:
     table = Table(
         box=SIMPLE_HEAD,
         padding=(0, 1, 0, 0),
-        title="Position errors [°] as the emulated rig measures them, through CAN",
+        title="Position errors [°] as the emulator measures them, through CAN",
         title_justify="left",
         caption=f"Before: rms 1–5 s; peak 5–7 s; settled: rms 8–20 s; recov.: s. No worse: in how"
         f" many numbers than {get_title(comparison)}, in bold. Load: 2 N·m on the link from 5 s.",
@@ -51,7 +51,7 @@ def build_table(runs: BenchRuns, comparison: str) -> Table:
 
 def _build_cell(run: BenchRun, comparison: BenchRun, number: str) -> Text:
     is_better = run.law != comparison.law and run.is_no_worse(comparison, number)
-    return Text(tell_number(run, number, unit=False), style="bold" if is_better else "")
+    return Text(format_run_number(run, number, unit=False), style="bold" if is_better else "")
 
 
 def format_bench(runs: BenchRuns, comparison: str) -> str:
@@ -62,7 +62,7 @@ def format_bench(runs: BenchRuns, comparison: str) -> str:
     lines = [head, ("---",) * len(head)]
     for law in runs.laws:
         cells = {
-            run.figure: " / ".join(tell_number(run, number, unit=False) for number in NUMBERS)
+            run.figure: " / ".join(format_run_number(run, number, unit=False) for number in NUMBERS)
             for run in runs.list_runs(law)
         }
         no_worse, count = runs.count_no_worse(law, comparison)
@@ -76,24 +76,24 @@ def build_section(runs: BenchRuns, law: str) -> list[str]:
     if law not in runs.laws:
         return []
     lines = [
-        f"| on the emulated rig, through CAN | {get_title(law)} | NDOBC |",
+        f"| on the emulator, through CAN | {get_title(law)} | NDOBC |",
         "| --- | --- | --- |",
     ]
     lines += [
-        f"| Figure {one.figure.upper()}: {name} | {tell_number(one, number)}"
-        f" | {tell_number(other, number)} |"
+        f"| Figure {one.figure.upper()}: {name} | {format_run_number(one, number)}"
+        f" | {format_run_number(other, number)} |"
         for one, other in runs.pair(law, PAPERS_LAW)
         for number, name in LONG.items()
     ]
-    return ["", *lines, "", *_tell_ends(runs.list_runs(law)), *_tell_count(runs, law)]
+    return ["", *lines, "", *_describe_ends(runs.list_runs(law)), *_describe_count(runs, law)]
 
 
-def _tell_ends(runs: tuple[BenchRun, ...]) -> list[str]:
+def _describe_ends(runs: tuple[BenchRun, ...]) -> list[str]:
     ends = [f"Figure {one.figure.upper()}: {label_fault(one.fault)}" for one in runs if one.fault]
     return [f"Ended early by the bench: {'; '.join(ends).lower()}.", ""] if ends else []
 
 
-def _tell_count(runs: BenchRuns, law: str) -> list[str]:
+def _describe_count(runs: BenchRuns, law: str) -> list[str]:
     versions = " and ".join(sorted({run.version for run in runs.list_runs(law)}))
     no_worse, count = runs.count_no_worse(law, PAPERS_LAW)
     beside = "" if law == PAPERS_LAW else f"No worse than NDOBC in {no_worse} of {count}. "

@@ -84,7 +84,7 @@ def run_ranking(
 def print_seed(
     secret: Annotated[Path, typer.Argument(help="File with the season's secret.")],
 ) -> None:
-    """Print the seed of a season's draws: HMAC-SHA256 of its secret and the suite's version."""
+    """Print the seed of a season's trials: HMAC-SHA256 of its secret and the suite's version."""
     print(f"{_read_seed(secret):016x}")
 
 
@@ -122,15 +122,15 @@ def _measure(names: list[str], seed: int) -> Results:
 
 
 def _build_table(results: Results) -> Table:
-    draws = "the public seed" if results.is_public else f"seed {results.seed}"
+    trials = "the public seed" if results.is_public else f"seed {results.seed}"
     table = Table(
         box=SIMPLE_HEAD,
         padding=(0, 1, 0, 0),
-        title=f"Position errors [°]: suite {results.suite}, draws of {draws}",
+        title=f"Position errors [°]: suite {results.suite}, trials of {trials}",
         title_justify="left",
         caption="ideal, peak, settled, recov.: Figure 4A ideal, and on the rig (s). Score: 0.5"
-        " robustness + 0.3 draws held + 0.2 accuracy. Of 48, worst: unloadings that end in a fault,"
-        " and rms 3–5 s after the worst. Fails, of 100: a fault, or above 1° in the last"
+        " robustness + 0.3 trials held + 0.2 accuracy. Of 48, worst: load removals that end in a"
+        " fault, and rms 3–5 s after the worst. Fails, of 100: a fault, or above 1° in the last"
         " second. Step: largest on the link, N·m. --markdown names the faults.",
         caption_justify="left",
     )

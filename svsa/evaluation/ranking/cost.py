@@ -9,21 +9,21 @@ from svsa.runs.configuration import Configuration
 from svsa.runs.result.result import Result
 from svsa.runs.result.simulate import simulate
 
-STIFFNESS_SHARE, SHAKE_SHARE = 0.1, 0.3
+STIFFNESS_WEIGHT, TORQUE_CHANGE_WEIGHT = 0.1, 0.3
 MIN_FAULT, MAX_FAULT = 6.0, 12.0
 
 
 class RunCost(NamedTuple):
     """What a run costs, and of what.
 
-    position_error_deg, stiffness_error_nm_per_rad: rms. shake_nm: see `compute_shake`. fault: its
-    code, or "".
+    position_error_deg, stiffness_error_nm_per_rad: rms. torque_change_nm: see
+    `compute_torque_change`. fault: its code, or "".
     """
 
     cost: float
     position_error_deg: float = 0.0
     stiffness_error_nm_per_rad: float = 0.0
-    shake_nm: float = 0.0
+    torque_change_nm: float = 0.0
     fault: str = ""
 
 
@@ -37,15 +37,18 @@ def compute_cost(result: Result, duration_s: float) -> RunCost:
     if not len(result.samples):
         return RunCost(MAX_FAULT, fault=fault)
     error = math.degrees(_compute_rms(result.position_error_rad))
-    stiffness, shake = _compute_rms(result.stiffness_error_nm_per_rad), compute_shake(result)
-    cost = error + STIFFNESS_SHARE * stiffness + SHAKE_SHARE * shake
+    stiffness, shake = (
+        _compute_rms(result.stiffness_error_nm_per_rad),
+        compute_torque_change(result),
+    )
+    cost = error + STIFFNESS_WEIGHT * stiffness + TORQUE_CHANGE_WEIGHT * shake
     if fault:
         survived = len(result.samples) * result.configuration.sampling.period_s / duration_s
         cost = max(cost, MAX_FAULT - (MAX_FAULT - MIN_FAULT) * min(survived, 1.0))
     return RunCost(min(cost, MAX_FAULT), error, stiffness, shake, fault)
 
 
-def compute_shake(result: Result) -> float:
+def compute_torque_change(result: Result) -> float:
     """rms of √(Δu1² + Δu2²) a tick, N·m: how much a law shakes the motors."""
     if len(result.samples) < 2:
         return 0.0

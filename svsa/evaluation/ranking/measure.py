@@ -8,11 +8,12 @@ from typing import NamedTuple
 import numpy as np
 
 from svsa.control.parameters import LawParameters
-from svsa.evaluation.ranking.row import FigureErrors, Outcome, RigErrors, Row, SweepOutcome
-from svsa.evaluation.ranking.samples import build_draws
+from svsa.evaluation.ranking.row import FigureErrors, Outcome, RecoveryErrors, Row, SweepOutcome
 from svsa.evaluation.ranking.scenarios import (
     CORNERS,
     IDEAL_4A,
+    LOAD_REMOVAL,
+    LOAD_REMOVALS,
     MASS,
     MAX_STEP_NM,
     OFF_S,
@@ -20,14 +21,13 @@ from svsa.evaluation.ranking.scenarios import (
     SINE_2HZ,
     SINGLE,
     STEP_NM,
-    UNLOADING,
-    UNLOADINGS,
     Scenario,
     build_link_step,
 )
 from svsa.evaluation.ranking.score import build_parts, compute_score
 from svsa.evaluation.ranking.seeds import PUBLIC_SEED
 from svsa.evaluation.ranking.sweeps import Sweep, build_sweeps
+from svsa.evaluation.ranking.trials import build_trials
 from svsa.evaluation.reproduction import compute_table_row
 from svsa.inputs.extras import __version__
 from svsa.runs.paper import STEADY_S
@@ -62,20 +62,20 @@ def run_scenario(scenario: Scenario, entry: Entry) -> Result:
     return simulate(configuration, duration_s=scenario.duration_s)
 
 
-def measure_law(entry: Entry, tell: Tell = lambda done: None, seed: int = PUBLIC_SEED) -> Row:
-    """The row of a law. tell: is given the share that is done. seed: of the draws' season."""
+def measure_law(entry: Entry, report: Tell = lambda done: None, seed: int = PUBLIC_SEED) -> Row:
+    """The row of a law. report: is given the share that is done. seed: of the trials' season."""
     results = {scenario.name: run_scenario(scenario, entry) for scenario in SINGLE}
-    tell(0.15)
-    unloaded = {one.name: measure_rest(run_scenario(one, entry)) for one in UNLOADINGS}
+    report(0.15)
+    unloaded = {one.name: measure_rest(run_scenario(one, entry)) for one in LOAD_REMOVALS}
     worst = max(unloaded, key=lambda name: _or_infinite(unloaded[name]))
-    tell(0.3)
+    report(0.3)
     largest_step = find_largest_step(entry)
-    tell(0.4)
-    draws = [(one, run_scenario(one, entry)) for one in build_draws(seed)]
-    errors = [measure_rms(result, one.measured_s, one.duration_s) for one, result in draws]
+    report(0.4)
+    trials = [(one, run_scenario(one, entry)) for one in build_trials(seed)]
+    errors = [measure_rms(result, one.measured_s, one.duration_s) for one, result in trials]
     middle = median(map(_or_infinite, errors))
-    failed = tuple(one.name for one, result in draws if not has_held(result, one))
-    tell(0.65)
+    failed = tuple(one.name for one, result in trials if not has_held(result, one))
+    report(0.65)
     sweeps = tuple(
         tally_sweep(
             sweep,
@@ -83,38 +83,40 @@ def measure_law(entry: Entry, tell: Tell = lambda done: None, seed: int = PUBLIC
         )
         for sweep in build_sweeps()
     )
-    tell(0.95)
+    report(0.95)
     outcomes = tuple(build_outcome(scenario, results[scenario.name]) for scenario in SINGLE)
-    parts = build_parts(sweeps, len(draws), len(failed), [one.rms_deg for one in outcomes])
+    parts = build_parts(sweeps, len(trials), len(failed), [one.rms_deg for one in outcomes])
     ideal, rig = results[IDEAL_4A.name], results[RIG_4A.name]
     return Row(
         law=entry.law,
         version=__version__,
         ideal_4a=FigureErrors(**_measure_figure(ideal)),
-        rig_4a=build_rig_errors(rig),
-        unloading_peak_deg=measure_peak(results[UNLOADING.name], OFF_S, UNLOADING.duration_s),
-        unloading_faults_of_48=sum(error is None for error in unloaded.values()),
-        unloading_settled_deg=unloaded[worst],
+        rig_4a=build_recovery_errors(rig),
+        load_removal_peak_deg=measure_peak(
+            results[LOAD_REMOVAL.name], OFF_S, LOAD_REMOVAL.duration_s
+        ),
+        load_removal_faults_of_48=sum(error is None for error in unloaded.values()),
+        load_removal_steady_state_deg=unloaded[worst],
         sine_2hz_rms_deg=measure_rms(results[SINE_2HZ.name], *STEADY_S),
         mass_rms_deg=measure_rms(results[MASS.name], *STEADY_S),
-        draws_median_deg=middle if math.isfinite(middle) else None,
-        draws_faults=sum(result.fault is not None for _, result in draws),
-        draws_fails=len(failed),
+        trials_median_deg=middle if math.isfinite(middle) else None,
+        trials_faults=sum(result.fault is not None for _, result in trials),
+        trials_fails=len(failed),
         largest_link_step_nm=largest_step,
         score=compute_score(parts),
         parts=parts,
         sweeps=sweeps,
         outcomes=outcomes,
-        unloadings_failed=tuple(name for name, error in unloaded.items() if error is None),
-        unloading_worst=worst,
-        draws_failed=failed,
+        load_removals_failed=tuple(name for name, error in unloaded.items() if error is None),
+        load_removal_worst=worst,
+        trials_failed=failed,
         corners_fails_of_8=sum(not has_held(run_scenario(one, entry), one) for one in CORNERS),
     )
 
 
-def build_rig_errors(result: Result) -> RigErrors:
+def build_recovery_errors(result: Result) -> RecoveryErrors:
     """The errors of a figure's run of 20 s with its load at 5 s; None where it ended early."""
-    return RigErrors(**_measure_figure(result), recovery_s=_find_recovery(result))
+    return RecoveryErrors(**_measure_figure(result), recovery_s=_find_recovery(result))
 
 
 def measure_rest(result: Result) -> float | None:

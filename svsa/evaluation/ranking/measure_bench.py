@@ -1,4 +1,4 @@
-"""Laws in the paper's bench figures on the emulated rig, several at once."""
+"""Laws in the paper's bench figures on the emulator, several at once."""
 
 import os
 import signal
@@ -11,23 +11,23 @@ from threading import Event
 
 from svsa.errors import FaultError
 from svsa.evaluation.ranking.bench_runs import NUMBERS, BenchRun, BenchRuns
-from svsa.evaluation.ranking.measure import Tell, build_rig_errors
-from svsa.evaluation.ranking.row import RigErrors
+from svsa.evaluation.ranking.measure import Tell, build_recovery_errors
+from svsa.evaluation.ranking.row import RecoveryErrors
 from svsa.evaluation.workers import choose_start, start_workers
 from svsa.inputs.extras import __version__, require_extra
 from svsa.runs.paper import DURATION_S, get_figure
 
 POLL_S = 0.2
 Job = tuple[str, str]
-TellOf = Callable[[int, float], None]
+ReportOf = Callable[[int, float], None]
 
 
 def measure_on_bench(
-    laws: Sequence[str], figures: Sequence[str], tell: Tell = lambda done: None
+    laws: Sequence[str], figures: Sequence[str], report: Tell = lambda done: None
 ) -> BenchRuns:
     """Runs of laws in figures, by as many processes as there are processors.
 
-    tell: is given the share that is done. Raises `MissingExtraError` without the extra `bench`.
+    report: is given the share that is done. Raises `MissingExtraError` without the extra `bench`.
     """
     require_extra("bench")
     jobs = list(product(laws, figures))
@@ -36,29 +36,33 @@ def measure_on_bench(
 
     def note(number: int, share: float) -> None:
         shares[number] = share
-        tell(sum(shares) / len(jobs))
+        report(sum(shares) / len(jobs))
 
     if workers > 1:
         return BenchRuns(runs=_measure_side_by_side(jobs, workers, note))
     return BenchRuns(runs=tuple(measure_run(n, job, note) for n, job in enumerate(jobs)))
 
 
-def measure_run(number: int, job: Job, tell: TellOf) -> BenchRun:
-    """A law in a figure of 20 s, its load at 5 s. tell: is given `number` and the share done."""
-    from svsa.hardware.emulator.experiment import run_on_rig
+def measure_run(number: int, job: Job, report: ReportOf) -> BenchRun:
+    """A law in a figure of 20 s, its load at 5 s. report: is given `number` and the share done."""
+    from svsa.hardware.emulator.experiment import run_on_emulator
 
     law, figure = job
-    fault, errors = None, RigErrors(**dict.fromkeys(NUMBERS))
+    fault, errors = None, RecoveryErrors(**dict.fromkeys(NUMBERS))
     try:
-        result = run_on_rig(get_figure(figure), law, DURATION_S, lambda done: tell(number, done))
-        errors = build_rig_errors(result)
+        result = run_on_emulator(
+            get_figure(figure), law, DURATION_S, lambda done: report(number, done)
+        )
+        errors = build_recovery_errors(result)
     except FaultError as error:
         fault = error.fault.code
-    tell(number, 1.0)
+    report(number, 1.0)
     return BenchRun(law=law, figure=figure, version=__version__, fault=fault, errors=errors)
 
 
-def _measure_side_by_side(jobs: Sequence[Job], workers: int, tell: TellOf) -> tuple[BenchRun, ...]:
+def _measure_side_by_side(
+    jobs: Sequence[Job], workers: int, report: ReportOf
+) -> tuple[BenchRun, ...]:
     """In processes of their own, which report their progress through a queue.
 
     Ctrl-C reaches this process only; the runs end at their next report, and with them their
@@ -67,12 +71,12 @@ def _measure_side_by_side(jobs: Sequence[Job], workers: int, tell: TellOf) -> tu
     manager = SyncManager(ctx=choose_start())
     manager.start(signal.signal, (signal.SIGINT, signal.SIG_IGN))
     with manager, start_workers(workers) as pool:
-        told, ends = manager.Queue(), manager.Event()
-        asked = [pool.submit(_measure_apart, n, job, told, ends) for n, job in enumerate(jobs)]
+        reported, ends = manager.Queue(), manager.Event()
+        asked = [pool.submit(_measure_apart, n, job, reported, ends) for n, job in enumerate(jobs)]
         try:
             while wait(asked, POLL_S).not_done and not any(map(_has_failed, asked)):
-                _pass_on(told, tell)
-            _pass_on(told, tell)
+                _pass_on(reported, report)
+            _pass_on(reported, report)
             return tuple(one.result() for one in asked)
         finally:
             ends.set()
@@ -83,16 +87,18 @@ def _has_failed(asked: Future[BenchRun]) -> bool:
     return asked.done() and asked.exception() is not None
 
 
-def _pass_on(told: Queue[tuple[int, float]], tell: TellOf) -> None:
-    while not told.empty():
-        tell(*told.get())
+def _pass_on(reported: Queue[tuple[int, float]], report: ReportOf) -> None:
+    while not reported.empty():
+        report(*reported.get())
 
 
-def _measure_apart(number: int, job: Job, told: Queue[tuple[int, float]], ends: Event) -> BenchRun:
-    def tell(number: int, share: float) -> None:
+def _measure_apart(
+    number: int, job: Job, reported: Queue[tuple[int, float]], ends: Event
+) -> BenchRun:
+    def report(number: int, share: float) -> None:
         if ends.is_set():
             raise KeyboardInterrupt
-        told.put((number, share))
+        reported.put((number, share))
 
-    tell(number, 0.0)
-    return measure_run(number, job, tell)
+    report(number, 0.0)
+    return measure_run(number, job, report)

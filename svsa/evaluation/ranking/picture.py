@@ -14,12 +14,18 @@ from svsa.control.installed import BASELINE, PAPERS_LAW, get_title
 from svsa.evaluation.ranking.measure import Entry, run_scenario
 from svsa.evaluation.ranking.results import Results
 from svsa.evaluation.ranking.row import Row
-from svsa.evaluation.ranking.scenarios import RIG_4A, SINE_2HZ, UNLOADING, Scenario, build_link_step
+from svsa.evaluation.ranking.scenarios import (
+    LOAD_REMOVAL,
+    RIG_4A,
+    SINE_2HZ,
+    Scenario,
+    build_link_step,
+)
 from svsa.runs.fault import label_fault
 from svsa.runs.result.law_style import COLORS, style_law
 
 BAD, GOOD, MARKED = "#c0892b", "#0072B2", "#1b2733"
-PARTS = (("robustness", "#0072B2", 0.5), ("draws", "#009E73", 0.3), ("accuracy", "#CC79A7", 0.2))
+PARTS = (("robustness", "#0072B2", 0.5), ("trials", "#009E73", 0.3), ("accuracy", "#CC79A7", 0.2))
 SWEEPS = ("model", "noise", "torque\nnoise", "torque\nlag", "delay", "pushes")
 
 
@@ -35,12 +41,12 @@ class Panel(NamedTuple):
 PANELS = (
     Panel("4A on the rig: peak [°]", lambda row: row.rig_4a.peak_deg, "rig_4a"),
     Panel("… settled [°]", lambda row: row.rig_4a.steady_deg, "rig_4a"),
-    Panel("unloading: peak [°]", lambda row: row.unloading_peak_deg, "unloading"),
-    Panel("faults of 48 unloadings", lambda row: row.unloading_faults_of_48, is_log=False),
-    Panel("… settled, worst [°]", lambda row: row.unloading_settled_deg),
+    Panel("load removal: peak [°]", lambda row: row.load_removal_peak_deg, "load_removal"),
+    Panel("faults of 48 load removals", lambda row: row.load_removal_faults_of_48, is_log=False),
+    Panel("… settled, worst [°]", lambda row: row.load_removal_steady_state_deg),
     Panel("2 Hz: rms [°]", lambda row: row.sine_2hz_rms_deg, "sine_2hz"),
     Panel("3 kg: rms [°]", lambda row: row.mass_rms_deg, "mass"),
-    Panel("draws that fail, of 100", lambda row: row.draws_fails, is_log=False),
+    Panel("trials that fail, of 100", lambda row: row.trials_fails, is_log=False),
     Panel("largest step [N·m]", lambda row: row.largest_link_step_nm, is_log=False),
 )
 
@@ -77,8 +83,10 @@ def _draw_panel(axes: Axes, panel: Panel, rows: Sequence[Row]) -> None:
     for at, row in enumerate(rows):
         value, fault = panel.read(row), row.faults.get(panel.scenario, "")
         if value is None:
-            told = label_fault(fault).lower() if fault else "never" if panel.scenario else "fault"
-            axes.text(0.03, at, told, va="center", fontsize=7.5, color="#a8201a",
+            reported = (
+                label_fault(fault).lower() if fault else "never" if panel.scenario else "fault"
+            )
+            axes.text(0.03, at, reported, va="center", fontsize=7.5, color="#a8201a",
                       transform=axes.get_yaxis_transform())  # fmt: skip
             continue
         color = GOOD if panel.title.startswith("largest") else BAD
@@ -104,7 +112,7 @@ class Loss(NamedTuple):
 
 
 LOSSES = (
-    Loss("The load is taken off at 8 s", UNLOADING, (7.8, 9.0)),
+    Loss("The load is taken off at 8 s", LOAD_REMOVAL, (7.8, 9.0)),
     Loss("2.5 N·m come on the link at 5 s", build_link_step(2.5), (4.8, 6.0)),
     Loss("1.5 N·m at 2 Hz on the link", SINE_2HZ, (4.8, 6.0)),
 )
@@ -134,10 +142,10 @@ def _draw_run(axes: Axes, loss: Loss, law: str, style: dict[str, Any]) -> None:
     time, degrees = result.time_s[shown], np.degrees(result.position_error_rad[shown])
     axes.plot(time, degrees, **style)
     if result.fault is not None and result.time_s[-1] < loss.window[1]:
-        told = f"{get_title(law)}: {label_fault(result.fault.code).lower()}"
+        reported = f"{get_title(law)}: {label_fault(result.fault.code).lower()}"
         axes.plot(time[-1], degrees[-1], "X", color=style["color"], markersize=10)
         axes.annotate(
-            told,
+            reported,
             (time[-1], degrees[-1]),
             (9, -3),
             textcoords="offset points",
@@ -147,13 +155,13 @@ def _draw_run(axes: Axes, loss: Loss, law: str, style: dict[str, Any]) -> None:
 
 
 def save_law(results: Results, law: str, path: Path) -> None:
-    """A law beside NDOBC: figure 4A on the rig, unloading, and the six sweeps."""
+    """A law beside NDOBC: figure 4A on the rig, load removal, and the six sweeps."""
     beside = BASELINE if law == PAPERS_LAW else PAPERS_LAW
     picture = Picture(figsize=(11.0, 3.6), layout="constrained")
     grid = picture.add_gridspec(1, 3, width_ratios=(1.25, 1.25, 1.0))
-    rig, unloading = picture.add_subplot(grid[0, 0]), picture.add_subplot(grid[0, 1])
+    rig, load_removal = picture.add_subplot(grid[0, 0]), picture.add_subplot(grid[0, 1])
     web: Any = picture.add_subplot(grid[0, 2], projection="polar")
-    shown_in = ((rig, RIG_4A, (4.8, 6.2)), (unloading, UNLOADING, (7.8, 9.2)))
+    shown_in = ((rig, RIG_4A, (4.8, 6.2)), (load_removal, LOAD_REMOVAL, (7.8, 9.2)))
     for name in (beside, law):
         style = style_law(name)
         for axes, scenario, window in shown_in:
@@ -165,9 +173,9 @@ def save_law(results: Results, law: str, path: Path) -> None:
                 axes.plot(result.time_s[-1], degrees[-1], "x", color=style["color"], markersize=9)
         _draw_web(web, results.get_row(name), style)
     rig.set(title="Figure 4A on the rig: the load comes", ylabel="Position error [°]")
-    unloading.set(title="Unloading (×: fault)", ylabel="Position error [°]")
+    load_removal.set(title="Load removal (×: fault)", ylabel="Position error [°]")
     web.set_title("Share of six sweeps that held", fontsize=10)
-    for axes in (rig, unloading):
+    for axes in (rig, load_removal):
         axes.set_xlabel("Time [s]")
         axes.title.set_fontsize(10)
         axes.grid(alpha=0.25)

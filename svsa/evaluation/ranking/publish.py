@@ -41,7 +41,7 @@ class Column(NamedTuple):
     scenario: str = ""
     is_high_better: bool = False
 
-    def tell(self, row: Row) -> str:
+    def format_cell(self, row: Row) -> str:
         """The number, or why there is none."""
         value = self.read(row)
         if value is not None:
@@ -71,15 +71,17 @@ COLUMNS = (
     Column("Figure 4A on the rig: peak", "°", lambda row: row.rig_4a.peak_deg, "rig_4a"),
     Column("Figure 4A on the rig: settled", "°", lambda row: row.rig_4a.steady_deg, "rig_4a"),
     Column("Figure 4A on the rig: recovery", " s", lambda row: row.rig_4a.recovery_s, "rig_4a"),
-    Column("Unloading: peak", "°", lambda row: row.unloading_peak_deg, "unloading"),
-    Column("Faults of 48 unloadings", "", lambda row: row.unloading_faults_of_48),
-    Column("Worst of 48 unloadings: settled", "°", lambda row: row.unloading_settled_deg),
+    Column("Load removal: peak", "°", lambda row: row.load_removal_peak_deg, "load_removal"),
+    Column("Faults of 48 load removals", "", lambda row: row.load_removal_faults_of_48),
+    Column(
+        "Worst of 48 load removals: settled", "°", lambda row: row.load_removal_steady_state_deg,
+    ),
     Column("1.5 N·m at 2 Hz: rms", "°", lambda row: row.sine_2hz_rms_deg, "sine_2hz"),
     Column("3 kg on the arm: rms", "°", lambda row: row.mass_rms_deg, "mass"),
-    Column("Blows of 3 N·m: rms", "°", _read_rms("pulses"), "pulses"),
+    Column("Impulses of 3 N·m: rms", "°", _read_rms("pulses"), "pulses"),
     Column("Five times the noise: rms", "°", _read_rms("noise_5"), "noise_5"),
-    Column("100 draws: median rms", "°", lambda row: row.draws_median_deg),
-    Column("100 draws: how many fail", "", lambda row: row.draws_fails),
+    Column("100 trials: median rms", "°", lambda row: row.trials_median_deg),
+    Column("100 trials: how many fail", "", lambda row: row.trials_fails),
     Column("±50 % corners: how many of 8 fail", "", lambda row: row.corners_fails_of_8),
     Column(
         "Largest step on the link", " N·m", lambda row: row.largest_link_step_nm,
@@ -89,7 +91,7 @@ COLUMNS = (
 
 
 def build_law_page(results: Results, bench: BenchRuns, name: str) -> str:
-    """The page of a law, Markdown. bench: runs on the emulated rig, where it has some."""
+    """The page of a law, Markdown. bench: runs on the emulator, where it has some."""
     law, row, papers = get_law(name), results.get_row(name), results.get_row(PAPERS_LAW)
     count = len(results.rows)
     lines = [
@@ -98,7 +100,7 @@ def build_law_page(results: Results, bench: BenchRuns, name: str) -> str:
         law.summary,
         "",
         f"![{law.title} beside {'FL' if name == PAPERS_LAW else 'NDOBC'}: figure 4A on the rig,"
-        f" unloading, and the six sweeps](pictures/{name}.png)",
+        f" load removal, and the six sweeps](pictures/{name}.png)",
         "",
         f"$${law.equation}$$",
         "",
@@ -115,13 +117,14 @@ def build_law_page(results: Results, bench: BenchRuns, name: str) -> str:
     ]
     for column in COLUMNS:
         place = column.find_place(row, results.rows)
-        lines.append(f"| {column.title} | {column.tell(row)} | {column.tell(papers)} | {place} |")
+        cells = (column.title, column.format_cell(row), column.format_cell(papers), str(place))
+        lines.append(f"| {' | '.join(cells)} |")
     lines += ["", "| sweep | held | NDOBC |", "| --- | --- | --- |"]
     for one, other in zip(row.sweeps, papers.sweeps, strict=True):
         lines.append(f"| {one.title} | {one.share:.0%} | {other.share:.0%} |")
     lines += [
         "",
-        _tell_provenance(results, [row]),
+        _describe_provenance(results, [row]),
         *build_section(bench, name),
         "",
         "[All laws](README.md)",
@@ -172,7 +175,7 @@ def _judge(results: Results, row: Row) -> list[str]:
     ]
 
 
-def _tell_provenance(results: Results, rows: Sequence[Row]) -> str:
+def _describe_provenance(results: Results, rows: Sequence[Row]) -> str:
     versions = " and ".join(sorted({row.version for row in rows}))
     return (
         f"Simulated by SVSA Lab {versions} with the law's defaults; suite {results.suite}, draws of"
@@ -182,14 +185,14 @@ def _tell_provenance(results: Results, rows: Sequence[Row]) -> str:
 
 
 def build_index(results: Results, bench: BenchRuns) -> str:
-    """The list of laws, best score first, and those that ran on the emulated rig."""
+    """The list of laws, best score first, and those that ran on the emulator."""
     rows = sorted(results.rows, key=lambda row: -row.score)
     lines = [
         "# The laws",
         "",
         "A page for each, with its idea, equation, needs, and where it wins and fails. All are run"
         " on the same plant, limits, noise and loads; the page *Ranking* of the lab opens any of"
-        " these runs. The score is 0.5 robustness + 0.3 share of draws held + 0.2 accuracy.",
+        " these runs. The score is 0.5 robustness + 0.3 share of trials held + 0.2 accuracy.",
         "",
         "| law | score | what it does |",
         "| --- | --- | --- |",
@@ -197,7 +200,7 @@ def build_index(results: Results, bench: BenchRuns) -> str:
     for row in rows:
         summary = get_law(row.law).summary
         lines.append(f"| [{get_title(row.law)}]({row.law}.md) | {row.score:.2f} | {summary} |")
-    lines += ["", _tell_provenance(results, rows), "", "## On the emulated rig", ""]
+    lines += ["", _describe_provenance(results, rows), "", "## On the emulator", ""]
     lines += [
         "The paper's bench figures through CAN, frame by frame, in lockstep: position errors in"
         " degrees as the bench measures them (rms 1–5 s, peak after the cable's 2 N·m at 5 s, rms"

@@ -11,9 +11,9 @@ from itertools import product
 
 import numpy as np
 
-from svsa.evaluation.ranking.samples import build_draw
 from svsa.evaluation.ranking.scenarios import INERTIAS, Scenario
 from svsa.evaluation.ranking.sweeps import MODELLED
+from svsa.evaluation.ranking.trials import build_trial
 from svsa.simulation.plant.effects import IDEAL, RIG, CurrentLag, Effects, Friction, SensorNoise
 from svsa.simulation.plant.loads import (
     ConstantLoad,
@@ -25,7 +25,7 @@ from svsa.simulation.plant.loads import (
 )
 from svsa.simulation.reference.sine import SinePosition
 
-SEED, DRAWS_SEED, DRAWS = 20240611, 777001, 48
+SEED, TRIALS_SEED, TRIALS = 20240611, 777001, 48
 BEGIN_S = 2.0
 """When measuring begins, and a load acts that comes once."""
 END_S, REST_S, EARLY_S = 5.0, 6.0, 0.8
@@ -108,7 +108,7 @@ def _build_runs(chance: _Chance) -> Iterator[Scenario]:
     """One after another, each called by its column."""
     yield from _build_steps(chance)
     yield from _build_moving(chance)
-    yield from _build_draws()
+    yield from _build_trials()
     yield from _build_wrong_models(chance)
     yield from _build_hard(chance)
     yield from _build_again(chance)
@@ -140,7 +140,7 @@ def _build_steps(chance: _Chance) -> Iterator[Scenario]:
         position = chance.draw_reference()
         torque = (1.0 if k % 2 else -1.0) * draw(1.8, 2.1)
         gone = _pulse((torque, torque, torque), 0.7, 1.3)
-        yield _run("unloading", stiffness, position, gone, duration_s=REST_S)
+        yield _run("load_removal", stiffness, position, gone, duration_s=REST_S)
 
 
 def _build_moving(chance: _Chance) -> Iterator[Scenario]:
@@ -168,9 +168,9 @@ def _build_moving(chance: _Chance) -> Iterator[Scenario]:
         )
 
 
-def _build_draws() -> Iterator[Scenario]:
-    for number in range(DRAWS):
-        yield build_draw(number, DRAWS_SEED)._replace(name="draw", duration_s=REST_S)
+def _build_trials() -> Iterator[Scenario]:
+    for number in range(TRIALS):
+        yield build_trial(number, TRIALS_SEED)._replace(name="draw", duration_s=REST_S)
 
 
 def _build_wrong_models(chance: _Chance) -> Iterator[Scenario]:
@@ -185,12 +185,12 @@ def _build_wrong_models(chance: _Chance) -> Iterator[Scenario]:
 
 
 def _build_hard(chance: _Chance) -> Iterator[Scenario]:
-    """Great steps on the link, blows, lag, delay and pushes."""
+    """Great steps on the link, impulses, lag, delay and pushes."""
     for torque, side in product((2.7, 4.2, 5.6, 7.2, 8.2), (0.0, 1.0)):
         yield _run("step", 15.0, _build_sine(0.2, 60.0, side), _step((torque, 0.0, 0.0)))
     for torque in (2.6, 3.2, -3.0):
-        blow = _pulse((torque, 0.0, 0.0), BEGIN_S, 0.11)
-        yield _run("blow", 15.5, chance.draw_reference(), blow)
+        impulse = _pulse((torque, 0.0, 0.0), BEGIN_S, 0.11)
+        yield _run("impulse", 15.5, chance.draw_reference(), impulse)
     load = _step((2.0, 2.0, 2.0))
     for lag_ms in (1.5, 2.5, 3.5, 6.0):
         lag = RIG.changed(current_lag=CurrentLag(time_constant_s=lag_ms / 1000.0))

@@ -20,11 +20,11 @@ PUBLISHED = Path(__file__).parent / "results.json"
 
 
 class Results(Checked):
-    """Rows, and the suite and the draws that they were measured on."""
+    """Rows, and the suite and the trials that they were measured on."""
 
     suite: str = quantity("", "Version of the suite")
-    is_public: bool = quantity("", "Whether the draws are those of the public seed")
-    seed: str = quantity("", "Seed of the draws, in hexadecimal")
+    is_public: bool = quantity("", "Whether the trials are those of the public seed")
+    seed: str = quantity("", "Seed of the trials, in hexadecimal")
     rows: tuple[Row, ...] = quantity("", "A row a law")
 
     @classmethod
@@ -81,19 +81,21 @@ def load_published() -> Results:
 
 
 def measure_laws(
-    laws: Sequence[str], seed: int = PUBLIC_SEED, tell: Callable[[float], None] = lambda done: None
+    laws: Sequence[str],
+    seed: int = PUBLIC_SEED,
+    report: Callable[[float], None] = lambda done: None,
 ) -> Results:
     """The rows of laws in the order given, by as many processes as there are processors.
 
-    tell: is given the share that is done.
+    report: is given the share that is done.
     """
     rows: dict[str, Row] = {}
     if len(laws) == 1:
-        rows[laws[0]] = measure_law(Entry(laws[0]), tell, seed)
+        rows[laws[0]] = measure_law(Entry(laws[0]), report, seed)
     else:
         for row in _measure_side_by_side(laws, seed):
             rows[row.law] = row
-            tell(len(rows) / len(laws))
+            report(len(rows) / len(laws))
     return Results.build([rows[law] for law in laws], seed)
 
 

@@ -9,14 +9,14 @@ TABLE = (
     "law",
     "ideal_4a",
     "rig_4a",
-    "unloading_peak_deg",
-    "unloading_faults_of_48",
-    "unloading_settled_deg",
+    "load_removal_peak_deg",
+    "load_removal_faults_of_48",
+    "load_removal_steady_state_deg",
     "sine_2hz_rms_deg",
     "mass_rms_deg",
-    "draws_median_deg",
-    "draws_faults",
-    "draws_fails",
+    "trials_median_deg",
+    "trials_faults",
+    "trials_fails",
     "largest_link_step_nm",
     "score",
 )
@@ -31,7 +31,7 @@ class FigureErrors(Checked):
     steady_deg: Number | None = quantity("°", "rms after it, 8–20 s")
 
 
-class RigErrors(FigureErrors):
+class RecoveryErrors(FigureErrors):
     """With the time until the error stays within 2 % of its peak."""
 
     recovery_s: Number | None = quantity("s", "Recovery; None if it does not settle")
@@ -63,7 +63,7 @@ class ScoreParts(Checked):
     """What the score is made of: 0.5 robustness + 0.3 draws + 0.2 accuracy."""
 
     robustness: Number = quantity("1", "Mean of the six sweeps' shares", ge=0, le=1)
-    draws: Number = quantity("1", "Share of the draws that held", ge=0, le=1)
+    trials: Number = quantity("1", "Share of the trials that held", ge=0, le=1)
     accuracy: Number = quantity("1", "Mean of 1 − tanh(rms / 1°), 0 for a fault", ge=0, le=1)
 
 
@@ -73,17 +73,17 @@ class Row(Checked):
     law: str = quantity("", "Name of the law")
     version: str = quantity("", "Version of the lab that measured it")
     ideal_4a: FigureErrors = quantity("", "Figure 4A, ideal")
-    rig_4a: RigErrors = quantity("", "Figure 4A on the rig")
-    unloading_peak_deg: Number | None = quantity("°", "Peak after the load is taken off")
-    unloading_faults_of_48: Whole = quantity("", "Unloadings that ended in a fault", ge=0)
-    unloading_settled_deg: Number | None = quantity(
+    rig_4a: RecoveryErrors = quantity("", "Figure 4A on the rig")
+    load_removal_peak_deg: Number | None = quantity("°", "Peak after the load is taken off")
+    load_removal_faults_of_48: Whole = quantity("", "Load removals that ended in a fault", ge=0)
+    load_removal_steady_state_deg: Number | None = quantity(
         "°", "rms 3–5 s after the load is taken off, worst of 48; None if one ended in a fault"
     )
     sine_2hz_rms_deg: Number | None = quantity("°", "rms under 1.5 N·m at 2 Hz")
     mass_rms_deg: Number | None = quantity("°", "rms under 3 kg")
-    draws_median_deg: Number | None = quantity("°", "Median of the draws' rms, None if a fault")
-    draws_faults: Whole = quantity("", "Draws that ended in a fault", ge=0)
-    draws_fails: Whole = quantity(
+    trials_median_deg: Number | None = quantity("°", "Median of the trials' rms, None if a fault")
+    trials_faults: Whole = quantity("", "Draws that ended in a fault", ge=0)
+    trials_fails: Whole = quantity(
         "", "Draws that ended in a fault, or with more than 1° in the last second", ge=0
     )
     largest_link_step_nm: Number = quantity("N·m", "Largest step on the link that is survived")
@@ -91,13 +91,13 @@ class Row(Checked):
     parts: ScoreParts = quantity("", "Parts of the score")
     sweeps: tuple[SweepOutcome, ...] = quantity("", "The six sweeps of robustness")
     outcomes: tuple[Outcome, ...] = quantity("", "Every scenario that is told by itself")
-    unloadings_failed: tuple[str, ...] = quantity(
-        "", "Names of the unloadings that ended in a fault"
+    load_removals_failed: tuple[str, ...] = quantity(
+        "", "Names of the load removals that ended in a fault"
     )
-    unloading_worst: str = quantity(
-        "", "Name of the unloading that settled worst; the first of those that ended in a fault"
+    load_removal_worst: str = quantity(
+        "", "Name of the load removal that settled worst; the first of those that ended in a fault"
     )
-    draws_failed: tuple[str, ...] = quantity("", "Names of the draws that did not hold")
+    trials_failed: tuple[str, ...] = quantity("", "Names of the trials that did not hold")
     corners_fails_of_8: Whole = quantity("", "±50 % corners that ended in a fault or above 1°")
 
     @property

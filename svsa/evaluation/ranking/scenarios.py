@@ -92,7 +92,7 @@ RIG_4B = Scenario("rig_4b", "Figure 4B on the rig", (PAPER,), figure="4b")
 RIG_5 = Scenario("rig_5", "Figure 5 on the rig", (PAPER,), figure="5")
 
 
-def _build_unloading(
+def _build_load_removal(
     name: str, title: str, stiffness: float, off_s: float, after_s: float
 ) -> Scenario:
     """The paper's load, taken off at a time, s. after_s: how long the run then goes on."""
@@ -109,10 +109,12 @@ def _build_unloading(
 
 
 OFF_S = 8.0
-UNLOADING = _build_unloading("unloading", "The paper's load taken off at 8 s", 15.0, OFF_S, PEAK_S)
-UNLOADINGS = tuple(
-    _build_unloading(
-        f"unloading_{stiffness:g}_{phase}",
+LOAD_REMOVAL = _build_load_removal(
+    "load_removal", "The paper's load taken off at 8 s", 15.0, OFF_S, PEAK_S
+)
+LOAD_REMOVALS = tuple(
+    _build_load_removal(
+        f"load_removal_{stiffness:g}_{phase}",
         f"Load taken off at σ = {stiffness:g}, {phase}/16 of the period",
         stiffness,
         OFF_S + phase * 5.0 / 16.0,
@@ -132,7 +134,7 @@ SINE_2HZ = Scenario(
 MASS = Scenario("mass", "3 kg on the arm", (MassLoad(start_s=LOAD_TIME_S),), measured_s=8.0)
 PULSES = Scenario(
     "pulses",
-    "Blows of 3 N·m for 0.1 s on the link",
+    "Impulses of 3 N·m for 0.1 s on the link",
     tuple(
         PulseLoad(torque_nm=(way * 3.0, 0.0, 0.0), start_s=LOAD_TIME_S + at, duration_s=0.1)
         for way, at in ((1.0, 0.0), (-1.0, 1.3), (1.0, 2.6), (-1.0, 3.9))
@@ -197,7 +199,7 @@ SINGLE = (
     RIG_4A,
     RIG_4B,
     RIG_5,
-    UNLOADING,
+    LOAD_REMOVAL,
     SINE_2HZ,
     MASS,
     PULSES,

@@ -1,6 +1,6 @@
 """The score: one number of what a law bears, in the manner of the double pendulum's benchmark.
 
-score = 0.5 robustness + 0.3 share of draws that held + 0.2 accuracy. It says nothing of faults,
+score = 0.5 robustness + 0.3 share of trials that held + 0.2 accuracy. It says nothing of faults,
 which therefore stand beside it: a law that ends in a fault and one that is a degree off both fail.
 """
 
@@ -10,7 +10,7 @@ from statistics import mean
 
 from svsa.evaluation.ranking.row import ScoreParts, SweepOutcome
 
-ROBUSTNESS, DRAWS, ACCURACY = 0.5, 0.3, 0.2
+ROBUSTNESS, TRIALS, ACCURACY = 0.5, 0.3, 0.2
 REFERENCE_DEG = 1.0
 
 
@@ -20,19 +20,19 @@ def compute_accuracy(errors_deg: Iterable[float | None]) -> float:
 
 
 def build_parts(
-    sweeps: Sequence[SweepOutcome], draws: int, fails: int, errors_deg: Iterable[float | None]
+    sweeps: Sequence[SweepOutcome], trials: int, fails: int, errors_deg: Iterable[float | None]
 ) -> ScoreParts:
-    """The parts of a law's score. draws: how many were made, fails: of them did not hold.
+    """The parts of a law's score. trials: how many were made, fails: of them did not hold.
 
     errors_deg: rms in the scenarios that are told one by one.
     """
     return ScoreParts(
         robustness=mean(sweep.share for sweep in sweeps),
-        draws=1.0 - fails / draws,
+        trials=1.0 - fails / trials,
         accuracy=compute_accuracy(errors_deg),
     )
 
 
 def compute_score(parts: ScoreParts) -> float:
     """0.5 robustness + 0.3 draws + 0.2 accuracy, from 0 to 1."""
-    return ROBUSTNESS * parts.robustness + DRAWS * parts.draws + ACCURACY * parts.accuracy
+    return ROBUSTNESS * parts.robustness + TRIALS * parts.trials + ACCURACY * parts.accuracy

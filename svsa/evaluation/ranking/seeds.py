@@ -13,7 +13,7 @@ one."""
 def derive_seed(secret: bytes, version: str = SUITE_VERSION) -> int:
     """The seed of a season, 64 bits of HMAC-SHA256(secret, version).
 
-    Whoever does not know the secret cannot tune for the draws; published afterwards, it lets
+    Whoever does not know the secret cannot tune for the trials; published afterwards, it lets
     anybody compute them again.
     """
     return int.from_bytes(hmac.digest(secret, version.encode(), hashlib.sha256)[:8], "big")

@@ -51,8 +51,8 @@ def _build(
     """vary: a run made another by a value, by which of the repeats it is, and by the seed."""
 
     def build_run(value: float, repeat: int) -> Scenario:
-        told = f"{title}: {value:g} {unit}" if unit != "1" else f"{title}: × {value:.3g}"
-        plain = Scenario(f"{name}_{value:.3g}_{repeat}", told, (_LOAD,), duration_s=DURATION_S)
+        reported = f"{title}: {value:g} {unit}" if unit != "1" else f"{title}: × {value:.3g}"
+        plain = Scenario(f"{name}_{value:.3g}_{repeat}", reported, (_LOAD,), duration_s=DURATION_S)
         return vary(plain, value, repeat, seed)
 
     runs = tuple(tuple(build_run(value, one) for one in range(repeats)) for value in values)

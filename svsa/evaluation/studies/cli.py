@@ -88,7 +88,7 @@ def compare_command(
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
 ) -> None:
-    """Laws on the same draws: the first less each other, or each less itself in another study."""
+    """Laws on the same samples: the first less each other, or each less itself in another study."""
     from svsa.evaluation.studies.store import open_study, read_rows
     from svsa.evaluation.studies.summary import pair_laws, pair_studies
     from svsa.evaluation.studies.tables import build_pairing_table, write_json
@@ -119,21 +119,21 @@ def replay_command(
     from svsa.evaluation.studies.metrics import METRICS
     from svsa.evaluation.studies.replay import record_replay, replay_row
     from svsa.evaluation.studies.store import open_study
-    from svsa.evaluation.studies.tables import tell_metric, write_json
+    from svsa.evaluation.studies.tables import format_metric, write_json
     from svsa.runs.records.catalogue.runs import Catalogue
 
     stored = open_study(name)
     replay = replay_row(stored, row)
     run_id = record_replay(stored, replay, Catalogue()).id if keep else None
     if as_json:
-        told = {"row": row, "run_id": run_id, "metrics": replay.metrics}
-        write_json(told | {"identical": not replay.differing, "differing": replay.differing})
+        reported = {"row": row, "run_id": run_id, "metrics": replay.metrics}
+        write_json(reported | {"identical": not replay.differing, "differing": replay.differing})
     else:
         table = Table("metric", "unit", "table", "replay", title_justify="left")
         table.title = f"Row {row} of study {name}: {replay.kept['law']}"
         for metric in stored.study.metrics:
             values = f"{replay.kept[metric]!r}", f"{replay.metrics[metric]!r}"
-            table.add_row(tell_metric(metric), METRICS[metric], *values)
+            table.add_row(format_metric(metric), METRICS[metric], *values)
         Console().print(table)
         ended = replay.result.fault
         _messages.print(ended.message if ended else "It went to its end.")

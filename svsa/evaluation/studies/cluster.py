@@ -1,6 +1,6 @@
 """Past one machine: the parts of a study run by the workers of a Dask cluster.
 
-A part is a function of the study and its draws alone, so that one whose worker was lost is run
+A part is a function of the study and its samples alone, so that one whose worker was lost is run
 again by another. Parts come as the bytes that are kept: whoever asks for them writes, no more.
 """
 

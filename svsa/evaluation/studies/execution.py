@@ -1,4 +1,4 @@
-"""Running a study: stretches of draws to whoever runs them, rows to its folder."""
+"""Running a study: stretches of samples to whoever runs them, rows to its folder."""
 
 import os
 from collections.abc import Callable, Iterator
@@ -57,7 +57,7 @@ def run_study(
 
 
 def _cut(spans: list[Span], length: int, is_cancelled: Callable[[], bool]) -> Iterator[Span]:
-    """Spans no longer than this many draws, until they are cancelled."""
+    """Spans no longer than this many samples, until they are cancelled."""
     for first, stop in spans:
         for begin in range(first, stop, length):
             if is_cancelled():

@@ -7,7 +7,7 @@ from typing import Any
 
 from svsa.errors import ParameterError, Violation
 from svsa.evaluation.studies.study import Study
-from svsa.inputs.toml_file import parse_toml, read_toml, tell_place
+from svsa.inputs.toml_file import describe_place, parse_toml, read_toml
 
 STUDY_FILE = "study file"
 OBJECT = "STUDY"
@@ -63,7 +63,7 @@ def _build(sections: dict[str, Any], text: str, place: str, changes: dict[str, A
         return Study(**sections | changes)
     except ParameterError as error:
         names = [violation.name for violation in error.violations if violation.name not in changes]
-        there = tell_place(place, text, names) if names else ""
+        there = describe_place(place, text, names) if names else ""
         raise ParameterError(*error.violations, file=there) from None
 
 

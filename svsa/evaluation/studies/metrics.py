@@ -7,13 +7,13 @@ from pydantic import AfterValidator
 
 from svsa.actuators.domain import INSIDE
 from svsa.errors import ParameterError, Violation
-from svsa.simulation.loop.tally import SETTLED_S
+from svsa.simulation.loop.tally import STEADY_STATE_S
 
 METRICS = {
     "rms_position_error_rad": "rad",
     "peak_position_error_rad": "rad",
     "last_position_error_rad": "rad",
-    "settled_position_error_rad": "rad",
+    "steady_state_position_error_rad": "rad",
     "recovery_time_s": "s",
     "integral_position_error_rad_s": "rad·s",
     "rms_stiffness_error_nm_per_rad": "N·m/rad",
@@ -54,15 +54,15 @@ def compute_metrics(
     counts = np.where(counts > 0, counts, np.nan)
     measured = counts / counts
     squares = summaries["torque1_squares"] + summaries["torque2_squares"]
-    settled = np.ceil(SETTLED_S / periods - 1e-9)
+    settled = np.ceil(STEADY_STATE_S / periods - 1e-9)
     is_settled = (summaries["code"] == INSIDE) & (counts >= 2 * settled)
     recovered = np.where(summaries["recovered"] < 0.0, np.nan, summaries["recovered"])
     return {
         "rms_position_error_rad": np.sqrt(summaries["position_squares"] / counts),
         "peak_position_error_rad": summaries["position_peak"] * measured,
         "last_position_error_rad": np.abs(summaries["position_last"]) * measured,
-        "settled_position_error_rad": np.sqrt(
-            np.where(is_settled, summaries["settled_squares"] / settled, np.nan)
+        "steady_state_position_error_rad": np.sqrt(
+            np.where(is_settled, summaries["steady_state_squares"] / settled, np.nan)
         ),
         "recovery_time_s": recovered * periods,
         "integral_position_error_rad_s": summaries["position_absolute"] * periods * measured,

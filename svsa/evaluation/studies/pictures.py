@@ -19,7 +19,7 @@ from svsa.evaluation.studies.replay import replay_row
 from svsa.evaluation.studies.store import StoredStudy
 from svsa.evaluation.studies.study import Study
 from svsa.evaluation.studies.summary import SUCCEEDED, Sensitivity
-from svsa.evaluation.studies.tables import convert_shown, tell_metric, tell_unit
+from svsa.evaluation.studies.tables import convert_shown, format_metric, format_unit
 from svsa.evaluation.studies.work import LAW, ROW
 from svsa.runs.result.law_style import style_law
 from svsa.runs.result.plot import label_axes
@@ -85,7 +85,7 @@ def draw_distributions(study: Study, rows: pa.Table) -> Picture:
                 **style_law(law),
             )
         label_axes(axes, "Runs below [%]")
-        axes.set_xlabel(f"{tell_metric(name)} [{tell_unit(name)}]")
+        axes.set_xlabel(f"{format_metric(name)} [{format_unit(name)}]")
         axes.set_xscale("log")
         axes.set_ylim(0.0, 101.0)
     return picture
@@ -107,11 +107,11 @@ def draw_success(study: Study, rows: pa.Table, x: str, y: str) -> Picture:
         axes.set_facecolor("#cccccc")
         axes.pcolormesh(*edges, share.T, norm=SHARE, cmap=COLORS)
         axes.set_title(get_title(law))
-        axes.set_xlabel(_tell_setting(x))
+        axes.set_xlabel(_format_setting(x))
         for axis, column in (("x", x), ("y", y)):
             if _is_log(study, column):
                 axes.set(**{f"{axis}scale": "log"})
-    panels[0].set_ylabel(_tell_setting(y))
+    panels[0].set_ylabel(_format_setting(y))
     picture.colorbar(ScalarMappable(SHARE, COLORS), ax=panels, label="Succeeded [%]")
     return picture
 
@@ -138,7 +138,7 @@ def draw_sensitivity(indices: Sequence[Sensitivity]) -> Picture:
                 ecolor="black",
                 capsize=2,
             )
-        axes.set_yticks(places, [_tell_setting(name) for name in names])
+        axes.set_yticks(places, [_format_setting(name) for name in names])
         axes.set_xlabel(f"Share of the variance of {one.outcome}, {get_title(one.law)}")
         axes.axvline(0.0, color="#444444", linewidth=0.8)
         axes.legend(loc="lower right", fontsize="small")
@@ -209,5 +209,5 @@ def _is_log(study: Study, column: str) -> bool:
     return one.kind == "log_uniform" or getattr(one, "spacing", "") == "log"
 
 
-def _tell_setting(column: str) -> str:
+def _format_setting(column: str) -> str:
     return column.replace(".factor", " ×")

@@ -101,7 +101,7 @@ def record_replay(
     owner: id of who asked for it, in a class.
     """
     varied = {one.column: replay.kept[one.column] for one in stored.study.vary}
-    told = [
+    reported = [
         f"{name}: {value:g}" if isinstance(value, float) else f"{name}: {value}"
         for name, value in varied.items()
     ]
@@ -112,7 +112,7 @@ def record_replay(
         session=f"study {stored.name}",
         name=f"Study {stored.name}, row {replay.row}",
         tags=("study", stored.name[:50]),
-        notes="\n".join((stored.study.title, *told)),
+        notes="\n".join((stored.study.title, *reported)),
         lanes=("lane1",),
         configuration=replay.configuration.model_dump(mode="json"),
         seed=replay.configuration.seed,

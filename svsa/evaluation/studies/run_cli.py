@@ -50,13 +50,13 @@ def run_command(
     known, read = _find_study(source, runs)
     stored = keep_study(name or known, read)
     begun = time.monotonic()
-    with _show_progress(stored) as tell:
-        done = _run(stored, workers, scheduler, tell)
+    with _show_progress(stored) as report:
+        done = _run(stored, workers, scheduler, report)
     rows = count_done(stored) * len(stored.study.laws)
-    told = f"{rows} of {stored.study.row_count} runs of study {stored.name} are done"
-    _messages.print(f"{told} ({time.monotonic() - begun:.0f} s this time): {stored.folder}")
+    reported = f"{rows} of {stored.study.row_count} runs of study {stored.name} are done"
+    _messages.print(f"{reported} ({time.monotonic() - begun:.0f} s this time): {stored.folder}")
     if not done:
-        again = _tell_again(source, runs=runs, name=name, workers=workers, scheduler=scheduler)
+        again = _describe_repeat(source, runs=runs, name=name, workers=workers, scheduler=scheduler)
         _messages.print(f"Go on with: svsa study run {again}")
         raise typer.Exit(INTERRUPTED)
     _messages.print(f"What came of it: svsa study show {stored.name}")
@@ -87,18 +87,18 @@ def _run(
     stored: "StoredStudy",
     workers: int | None,
     scheduler: str | None,
-    tell: Callable[[int, int], None],
+    report: Callable[[int, int], None],
 ) -> bool:
     """Run what is not done, here or on a cluster; whether all is done then."""
     from svsa.evaluation.studies.execution import WORKERS, run_study
 
     if scheduler is None:
-        return run_study(stored, workers or WORKERS, progress=tell)
+        return run_study(stored, workers or WORKERS, progress=report)
     from svsa.evaluation.studies.cluster import open_cluster
 
     with open_cluster(scheduler, workers or WORKERS) as cluster:
         rows_a_part = cluster.choose_rows_a_part(stored.study.row_count)
-        return run_study(stored, 0, rows_a_part, tell, run_parts=cluster.run_parts)
+        return run_study(stored, 0, rows_a_part, report, run_parts=cluster.run_parts)
 
 
 @contextmanager
@@ -115,16 +115,16 @@ def _show_progress(stored: "StoredStudy") -> Iterator[Callable[[int, int], None]
         task = bar.add_task(stored.name, total=stored.study.row_count, rate="")
         first: list[tuple[float, int]] = []
 
-        def tell(done: int, total: int) -> None:
+        def report(done: int, total: int) -> None:
             first.append((time.monotonic(), done))
             passed, more = first[-1][0] - first[0][0], done - first[0][1]
             rate = f"{more / passed:.0f} runs/s" if passed > 0.0 else "compiling …"
             bar.update(task, completed=done, total=total, rate=rate)
             del first[1:]
 
-        yield tell
+        yield report
 
 
-def _tell_again(source: str, **options: object) -> str:
+def _describe_repeat(source: str, **options: object) -> str:
     given = [f"--{name} {value}" for name, value in options.items() if value is not None]
     return " ".join([source, *given])

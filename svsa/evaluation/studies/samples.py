@@ -16,8 +16,8 @@ _WORDS = 4
 """Of 64 bits, that Philox makes of one count."""
 
 
-class Draws(NamedTuple):
-    """The draws first, first + 1, …
+class ParameterSamples(NamedTuple):
+    """The samples first, first + 1, …
 
     seeds: of each, for the sensor noise. values: of each variation those that were drawn.
     """
@@ -32,8 +32,8 @@ class Draws(NamedTuple):
         return len(self.seeds)
 
 
-def draw(study: Study, first: int, count: int) -> Draws:
-    """The draws `first` to `first + count − 1` of a study.
+def draw(study: Study, first: int, count: int) -> ParameterSamples:
+    """The samples `first` to `first + count − 1` of a study.
 
     Draws of one grid, and of one set for sensitivity, have the same chance: what differs between
     them is what varies.
@@ -52,7 +52,7 @@ def draw(study: Study, first: int, count: int) -> Draws:
         else:
             is_second = (study.sampling == "sensitivity") & ((cells == 1) | (cells == number + 2))
             values.append(variation.draw(np.where(is_second, *shares[::-1, :, number])))
-    return Draws(first, (words[samples - begin, 0] >> np.uint64(1)).tolist(), values)
+    return ParameterSamples(first, (words[samples - begin, 0] >> np.uint64(1)).tolist(), values)
 
 
 def _make_words(study: Study, begin: int, end: int) -> np.ndarray:
@@ -83,15 +83,17 @@ def _make_shares(study: Study, words: np.ndarray, begin: int, end: int) -> np.nd
     return np.stack([shares[:, :count], shares[:, -count:]])
 
 
-def build_configurations(study: Study, law: str, draws: Draws) -> list[Configuration | None]:
-    """The runs of these draws under a law; None where the settings do not go together."""
+def build_configurations(
+    study: Study, law: str, samples: ParameterSamples
+) -> list[Configuration | None]:
+    """The runs of these samples under a law; None where the settings do not go together."""
     base = study.build_base(law)
     present = [read_setting(base, variation.path) for variation in study.vary]
     built: list[Configuration | None] = []
-    for row, seed in enumerate(draws.seeds):
+    for row, seed in enumerate(samples.seeds):
         changes: dict[str, Any] = {
             variation.path: scale(variation, at, values[row])
-            for variation, at, values in zip(study.vary, present, draws.values, strict=True)
+            for variation, at, values in zip(study.vary, present, samples.values, strict=True)
         }
         try:
             built.append(change_settings(base, changes).model_copy(update={"seed": seed}))

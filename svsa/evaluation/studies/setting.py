@@ -162,10 +162,10 @@ def _step_into(whole: Configuration, value: Any, step: Step) -> Any:
         return whole.get_parameters(Lane(law=check_installed(str(step))))
     if isinstance(value, Checked) and step in type(value).model_fields:
         return getattr(value, str(step))
-    raise ParameterError(Violation("", step, "", _tell_steps(value)))
+    raise ParameterError(Violation("", step, "", _describe_steps(value)))
 
 
-def _tell_steps(value: Any) -> str:
+def _describe_steps(value: Any) -> str:
     """What there is below a value."""
     if isinstance(value, tuple):
         return (

@@ -43,11 +43,11 @@ def name_setting(configuration: Configuration, path: str) -> SettingName:
             words, unit, parts = field.symbol or field.meaning, field.unit, field.parts
         elif isinstance(step, int) and step < len(parts):
             words = parts[step]
-    whose = _tell_whose(configuration, parse_path(path))
+    whose = _describe_owner(configuration, parse_path(path))
     return SettingName(whose + words, "" if unit == "1" else unit)
 
 
-def _tell_whose(configuration: Configuration, steps: tuple[Step, ...]) -> str:
+def _describe_owner(configuration: Configuration, steps: tuple[Step, ...]) -> str:
     first, *rest = steps
     if first == "nominal" and rest:
         return "Nominal: "

@@ -23,6 +23,7 @@ from svsa.evaluation.studies.work import build_schema, list_repeating
 from svsa.inputs.extras import __version__
 from svsa.inputs.file_lock import try_lock
 from svsa.runs.records.catalogue.runs import find_data_folder
+from svsa.runs.records.former_words import METRICS, translate_fields
 from svsa.runs.records.header import replace_file
 
 STUDY_FILE, TABLE_FILE, PARTS, LOCK_FILE = "study.json", "rows.parquet", "parts", "lock"
@@ -31,7 +32,7 @@ _PART = re.compile(r"(\d+)-(\d+)\.parquet")
 _NAME = re.compile(r"[0-9A-Za-z][0-9A-Za-z_.-]{0,63}", re.ASCII)
 
 Span = tuple[int, int]
-"""The draws from the first to before the second number."""
+"""The samples from the first to before the second number."""
 
 
 class StudyError(SvsaError):
@@ -108,14 +109,24 @@ def open_study(name: str, root: Path | None = None) -> StoredStudy:
     folder = root / name
     try:
         written = json.loads((folder / STUDY_FILE).read_text(encoding="utf-8"))
-        study = Study(**written["study"])
-        told = written["created"], written["version"], written.get("owner", "")
-        return StoredStudy(name, study, folder, *told)
+        study = Study(**_translate_definition(written["study"]))
+        reported = written["created"], written["version"], written.get("owner", "")
+        return StoredStudy(name, study, folder, *reported)
     except FileNotFoundError:
         known = ", ".join(one.name for one in list_studies(root)) or "none"
         raise StudyError(f"There is no study {name} in {root}; there: {known}.") from None
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise StudyError(f"Study {name} cannot be read: {error}") from None
+
+
+def _translate_definition(written: dict[str, Any]) -> dict[str, Any]:
+    """Give the metrics of a former study their present names."""
+    present = dict(written)
+    if "success" in present:
+        present["success"] = translate_fields(present["success"], METRICS)
+    if "metrics" in present:
+        present["metrics"] = [METRICS.get(name, name) for name in present["metrics"]]
+    return present
 
 
 def read_owner(name: str, root: Path | None = None) -> str | None:
@@ -179,12 +190,12 @@ def delete_study(stored: StoredStudy) -> None:
 
 
 def write_part(stored: StoredStudy, span: Span, content: bytes) -> None:
-    """Keep the rows of these draws, a Parquet file."""
+    """Keep the rows of these samples, a Parquet file."""
     replace_file(stored.folder / PARTS / f"{span[0]:010d}-{span[1]:010d}.parquet", content)
 
 
 def list_parts(stored: StoredStudy) -> list[tuple[Span, Path]]:
-    """The files that hold rows, each with its draws, in order; what another holds is left out."""
+    """The files that hold rows, each with its samples, in order; what another holds is left out."""
     parts: list[tuple[Span, Path]] = []
     table = stored.folder / TABLE_FILE
     if table.exists():
@@ -199,20 +210,20 @@ def list_parts(stored: StoredStudy) -> list[tuple[Span, Path]]:
 
 
 def find_missing(stored: StoredStudy) -> list[Span]:
-    """The stretches of draws that are not done."""
+    """The stretches of samples that are not done."""
     missing: list[Span] = []
     reached = 0
     for (first, stop), _ in list_parts(stored):
         if first > reached:
             missing.append((reached, first))
         reached = stop
-    if reached < stored.study.draw_count:
-        missing.append((reached, stored.study.draw_count))
+    if reached < stored.study.sample_count:
+        missing.append((reached, stored.study.sample_count))
     return missing
 
 
 def count_done(stored: StoredStudy) -> int:
-    """How many draws are done."""
+    """How many samples are done."""
     return sum(stop - first for (first, stop), _ in list_parts(stored))
 
 
@@ -249,7 +260,7 @@ def _regroup(paths: list[Path]) -> Iterator[pa.Table]:
     for path in paths:
         with pq.ParquetFile(path) as file:
             for number in range(file.num_row_groups):
-                waiting.append(file.read_row_group(number))
+                waiting.append(_translate(file.read_row_group(number)))
                 while sum(map(len, waiting)) >= ROWS_A_GROUP:
                     joined = pa.concat_tables(waiting)
                     yield joined.slice(0, ROWS_A_GROUP)
@@ -258,9 +269,22 @@ def _regroup(paths: list[Path]) -> Iterator[pa.Table]:
         yield pa.concat_tables(waiting)
 
 
+def _read_part(path: Path, columns: list[str] | None) -> pa.Table:
+    if columns is not None:
+        former = {present: name for name, present in METRICS.items()}
+        there = pq.read_schema(path).names
+        columns = [one if one in there else former.get(one, one) for one in columns]
+    return _translate(pq.read_table(path, columns=columns))
+
+
+def _translate(table: pa.Table) -> pa.Table:
+    """Give the columns of a former study their present names."""
+    return table.rename_columns([METRICS.get(name, name) for name in table.column_names])
+
+
 def read_rows(stored: StoredStudy, columns: list[str] | None = None) -> pa.Table:
     """All rows that are done, of some columns or of all; raises `StudyError` where none is."""
-    tables: list[Any] = [pq.read_table(path, columns=columns) for _, path in list_parts(stored)]
+    tables = [_read_part(path, columns) for _, path in list_parts(stored)]
     if not tables:
         raise StudyError(f"Of study {stored.name} nothing is done: `svsa study run` it first.")
     return pa.concat_tables(tables)

@@ -23,24 +23,28 @@ Sampling = Literal["random", "sobol", "sensitivity"]
 
 
 class Study(Checked):
-    """Runs of one actuator with varied settings, the same draws under each law.
+    """Runs of one actuator with varied settings, the same samples under each law.
 
     base: the configuration that all begin from: `figure` of the paper, and settings in its place.
-    runs: how many draws; where there are grids, of the whole grid; for `sensitivity` how many base
-    samples, a power of two. sampling: independent draws, Sobol's sequence, or the pairs of it of
-    which Sobol indices are made. metrics: columns of the table in this order; success may ask for
-    others. Raises `ParameterError` for every wrong value, those of the base and of what varies
+    runs: how many samples; where there are grids, of the whole grid; for `sensitivity` how many
+    base samples, a power of two. sampling: independent samples, Sobol's sequence, or the pairs of
+    it of which Sobol indices are made. metrics: columns of the table in this order; success may ask
+    for others. Raises `ParameterError` for every wrong value, those of the base and of what varies
     among them.
     """
 
     title: str = quantity("", "What the study is about", max_length=200)
     base: dict[str, Any] = quantity("", "Settings that all runs begin from", default={FIGURE: "4a"})
     laws: tuple[InstalledLaw, ...] = quantity(
-        "", "Laws, each on the same draws", min_length=1, max_length=MAX_LAWS, default=(PAPERS_LAW,)
+        "",
+        "Laws, each on the same samples",
+        min_length=1,
+        max_length=MAX_LAWS,
+        default=(PAPERS_LAW,),
     )
     vary: Variations = quantity("", "What varies", default=())
-    runs: Whole = quantity("", "How many draws", ge=1, le=MAX_RUNS)
-    seed: Whole = quantity("", "Seed of all draws", ge=0, le=2**63 - 1, default=0)
+    runs: Whole = quantity("", "How many samples", ge=1, le=MAX_RUNS)
+    seed: Whole = quantity("", "Seed of all samples", ge=0, le=2**63 - 1, default=0)
     sampling: Sampling = quantity("", "How is drawn", default="random")
     duration_s: Number = quantity("s", "How long a run is", gt=0, le=3600, default=DURATION_S)
     measure_from_s: Number = quantity("s", "From when on it is measured", ge=0, default=0.0)
@@ -61,8 +65,8 @@ class Study(Checked):
             base = self.build_base(law)
             for number, variation in enumerate(self.vary):
                 check_variation(base, variation, f"vary[{number}]")
-        if self.draw_count > MAX_RUNS:
-            bound = f"so few that there are at most {MAX_RUNS} draws, not {self.draw_count}"
+        if self.sample_count > MAX_RUNS:
+            bound = f"so few that there are at most {MAX_RUNS} samples, not {self.sample_count}"
             raise ParameterError(Violation("runs", self.runs, "", bound))
         return self
 
@@ -90,20 +94,20 @@ class Study(Checked):
 
     @property
     def cells(self) -> int:
-        """How many draws belong to one sample: those of the grid, or of the base sample's set."""
+        """How many samples belong to one sample: those of the grid, or of the base sample's set."""
         if self.sampling == "sensitivity":
             return len(self.vary) + 2
         return math.prod(len(variation.levels) or 1 for variation in self.vary)
 
     @property
-    def draw_count(self) -> int:
-        """How many draws there are, each of which every law runs."""
+    def sample_count(self) -> int:
+        """How many samples there are, each of which every law runs."""
         return self.runs * self.cells
 
     @property
     def row_count(self) -> int:
         """How many runs there are."""
-        return self.draw_count * len(self.laws)
+        return self.sample_count * len(self.laws)
 
     def build_base(self, law: str) -> Configuration:
         """What the runs of a law begin from; raises `ParameterError`."""
@@ -144,8 +148,10 @@ def check_variation(base: Configuration, variation: Variation, name: str) -> Non
         try:
             change_settings(base, {variation.path: scale(variation, present, value)})
         except ParameterError as error:
-            told = f"with {value!r:.40} there, {error.violations[0].message.removesuffix('.')}"
-            raise ParameterError(Violation(f"{name}.{field}", value, "", "", {}, told)) from None
+            reported = f"with {value!r:.40} there, {error.violations[0].message.removesuffix('.')}"
+            raise ParameterError(
+                Violation(f"{name}.{field}", value, "", "", {}, reported)
+            ) from None
 
 
 def scale(variation: Variation, present: Any, value: Any) -> Any:

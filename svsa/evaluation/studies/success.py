@@ -23,8 +23,8 @@ class Success(Checked):
     last_position_error_rad: Number | None = _at_most(
         "last_position_error_rad", "|q_d − q| in the last sample"
     )
-    settled_position_error_rad: Number | None = _at_most(
-        "settled_position_error_rad", "rms of q_d − q over the last 0.5 s"
+    steady_state_position_error_rad: Number | None = _at_most(
+        "steady_state_position_error_rad", "rms of q_d − q over the last 0.5 s"
     )
     recovery_time_s: Number | None = _at_most(
         "recovery_time_s", "Until |q_d − q| stays within 2 % of its peak for 0.5 s"

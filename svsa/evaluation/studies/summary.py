@@ -42,11 +42,11 @@ class LawSummary(NamedTuple):
 
 
 class Pairing(NamedTuple):
-    """One law less another on the same draws.
+    """One law less another on the same samples.
 
     success: difference of the shares, of all pairs. differences: of each metric that both keep the
     mean difference over the `whole` pairs of which neither ended in a fault, and of which both have
-    it (some never recover). only_one, only_other: how many draws only one of them succeeded on.
+    it (some never recover). only_one, only_other: how many samples only one of them succeeded on.
     """
 
     one: str
@@ -106,7 +106,7 @@ def pair_laws(rows: pa.Table, one: str, other: str) -> Pairing:
 
 
 def pair_studies(first: StoredStudy, second: StoredStudy) -> list[Pairing]:
-    """Each law that both have, in the first less in the second, on the same draws.
+    """Each law that both have, in the first less in the second, on the same samples.
 
     Raises `StudyError` where the two did not draw the same.
     """
@@ -129,9 +129,9 @@ def pair_studies(first: StoredStudy, second: StoredStudy) -> list[Pairing]:
 
 
 def pair_rows(one: pa.Table, other: pa.Table, name: str, other_name: str) -> Pairing:
-    """Rows of the same draws, in the same order, one less the other."""
+    """Rows of the same samples, in the same order, one less the other."""
     if one[DRAW].to_pylist() != other[DRAW].to_pylist():
-        raise StudyError(f"{name} and {other_name} have not run the same draws yet.")
+        raise StudyError(f"{name} and {other_name} have not run the same samples yet.")
     refused = np.zeros(len(one), dtype=bool)
     ended = np.zeros(len(one), dtype=bool)
     for side in (one, other):
@@ -174,7 +174,7 @@ def estimate_sensitivity(study: Study, rows: pa.Table, law: str, outcome: str) -
     own = rows.filter(pc.field(LAW) == law)
     samples = 1 << max(len(own) // study.cells, 1).bit_length() - 1
     if samples * study.cells > len(own):
-        raise StudyError("There is no whole set of draws yet.")
+        raise StudyError("There is no whole set of samples yet.")
     own = own[: samples * study.cells]
     ended = own.num_rows - own["fault"].null_count
     if outcome != SUCCEEDED and ended:

@@ -23,15 +23,15 @@ _DEGREES = {"rad": "°", "rad·s": "°·s"}
 def build_summary_tables(study: Study, laws: Sequence[LawSummary]) -> list[Table]:
     """Success and faults in one table, the quantiles of every metric that is kept in the other."""
     asked = " and ".join(
-        f"{tell_metric(name)} ≤ {tell_value(name, value)} {tell_unit(name)}"
+        f"{format_metric(name)} ≤ {format_value(name, value)} {format_unit(name)}"
         for name, value in study.success.list_bounds().items()
     )
     success = Table("law", "runs", "success (95 %)", "faults", title_justify="left")
     success.title = f"{study.title}. Success: no fault{f' and {asked}' if asked else ''}"
     for law in laws:
         faults = ", ".join(f"{count} {code}" for code, count in law.faults.items()) or "none"
-        refused = f", and {law.refused} draws refused" if law.refused else ""
-        share = tell_share(law.success)
+        refused = f", and {law.refused} samples refused" if law.refused else ""
+        share = format_share(law.success)
         success.add_row(get_title(law.law), str(law.runs), share, faults + refused)
     quantiles = Table("metric", "unit", title_justify="left")
     span = f"{study.measure_from_s:g}–{study.duration_s:g} s"
@@ -39,8 +39,8 @@ def build_summary_tables(study: Study, laws: Sequence[LawSummary]) -> list[Table
     for law in laws:
         quantiles.add_column(get_title(law.law), justify="right")
     for name in study.metrics:
-        cells = [" / ".join(tell_value(name, x) for x in law.quantiles[name]) for law in laws]
-        quantiles.add_row(tell_metric(name), tell_unit(name), *cells)
+        cells = [" / ".join(format_value(name, x) for x in law.quantiles[name]) for law in laws]
+        quantiles.add_row(format_metric(name), format_unit(name), *cells)
     return [success, quantiles]
 
 
@@ -48,14 +48,15 @@ def build_pairing_table(pairing: Pairing) -> Table:
     """One law less another, with the intervals of the mean difference."""
     table = Table("metric", "unit", "mean difference", "95 %", title_justify="left")
     table.title = (
-        f"{pairing.one} less {pairing.other}, {pairing.pairs} draws. Success:"
+        f"{pairing.one} less {pairing.other}, {pairing.pairs} samples. Success:"
         f" {100 * pairing.success.value:+.2f} points ({100 * pairing.success.low:+.2f} to"
         f" {100 * pairing.success.high:+.2f}); only the first on {pairing.only_one}, only the"
-        f" second on {pairing.only_other}. Below: the {pairing.whole} draws on which both are whole"
+        f" second on {pairing.only_other}. Below: the {pairing.whole} samples on which both are"
+        " whole"
     )
     for name, one in pairing.differences.items():
-        ends = f"{tell_value(name, one.low)} to {tell_value(name, one.high)}"
-        table.add_row(tell_metric(name), tell_unit(name), tell_value(name, one.value), ends)
+        ends = f"{format_value(name, one.low)} to {format_value(name, one.high)}"
+        table.add_row(format_metric(name), format_unit(name), format_value(name, one.value), ends)
     return table
 
 
@@ -73,12 +74,12 @@ def build_sensitivity_table(one: Sensitivity) -> Table:
     return table
 
 
-def tell_metric(name: str) -> str:
+def format_metric(name: str) -> str:
     """A metric in words, without its unit."""
     return _UNIT.sub("", name).replace("_", " ")
 
 
-def tell_value(metric: str, value: float) -> str:
+def format_value(metric: str, value: float) -> str:
     """A metric's value in the unit that people read, to three digits."""
     if math.isinf(value):
         return "never" if metric == RECOVERY else "fault"
@@ -88,16 +89,16 @@ def tell_value(metric: str, value: float) -> str:
 
 
 def convert_shown(metric: str, values: Any) -> Any:
-    """A metric's value, or an array of them, in the unit of `tell_unit`."""
+    """A metric's value, or an array of them, in the unit of `format_unit`."""
     return np.degrees(values) if METRICS[metric] in _DEGREES else values
 
 
-def tell_unit(metric: str) -> str:
-    """The unit of `tell_value`."""
+def format_unit(metric: str) -> str:
+    """The unit of `format_value`."""
     return _DEGREES.get(METRICS[metric], METRICS[metric])
 
 
-def tell_share(share: Interval) -> str:
+def format_share(share: Interval) -> str:
     """A share in percent with its interval, to so many digits that what differs reads so.
 
     Of a million runs that all succeeded the lower end is no 100 %.
@@ -105,12 +106,12 @@ def tell_share(share: Interval) -> str:
     if math.isnan(share.value):
         return "–"
     ends = {0.0, 1.0, *(round(one, _MAX_DECIMALS) for one in share)}
-    told = (
+    reported = (
         [f"{100 * one:.{decimals}f}" for one in share]
         for decimals in range(_DECIMALS, _MAX_DECIMALS)
         if len({f"{100 * one:.{decimals}f}" for one in ends}) == len(ends)
     )
-    value, low, high = next(told)
+    value, low, high = next(reported)
     return f"{value} % ({low} to {high})"
 
 

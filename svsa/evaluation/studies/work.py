@@ -1,4 +1,4 @@
-"""A stretch of a study's draws, run under every law: the rows of its table."""
+"""A stretch of a study's samples, run under every law: the rows of its table."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -8,7 +8,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from svsa.evaluation.studies.outcome import build_outcome, build_refused
-from svsa.evaluation.studies.samples import Draws, build_configurations, draw
+from svsa.evaluation.studies.samples import ParameterSamples, build_configurations, draw
 from svsa.evaluation.studies.study import Study
 from svsa.evaluation.studies.success import Success
 from svsa.runs.batch import run_configurations
@@ -49,39 +49,39 @@ def list_repeating(schema: pa.Schema) -> Any:  # pyarrow declares a bool and tak
 
 
 def run_part(study: Study, first: int, count: int) -> bytes:
-    """The rows of the draws `first` to `first + count − 1` as a Parquet file."""
+    """The rows of the samples `first` to `first + count − 1` as a Parquet file."""
     sink = pa.BufferOutputStream()
-    rows = run_draws(study, first, count)
+    rows = run_trials(study, first, count)
     pq.write_table(rows, sink, use_dictionary=list_repeating(rows.schema))
     return sink.getvalue().to_pybytes()
 
 
-def run_draws(study: Study, first: int, count: int) -> pa.Table:
-    """The rows of the draws `first` to `first + count − 1`."""
-    draws, schema = draw(study, first, count), build_schema(study)
-    tables = [_run_law(study, draws, number, schema) for number in range(len(study.laws))]
+def run_trials(study: Study, first: int, count: int) -> pa.Table:
+    """The rows of the samples `first` to `first + count − 1`."""
+    samples, schema = draw(study, first, count), build_schema(study)
+    tables = [_run_law(study, samples, number, schema) for number in range(len(study.laws))]
     return pa.concat_tables(tables).sort_by(ROW).combine_chunks()
 
 
-def _run_law(study: Study, draws: Draws, number: int, schema: pa.Schema) -> pa.Table:
+def _run_law(study: Study, samples: ParameterSamples, number: int, schema: pa.Schema) -> pa.Table:
     """The rows of one of the study's laws."""
     law = study.laws[number]
     outcome = measure_runs(
-        build_configurations(study, law, draws),
+        build_configurations(study, law, samples),
         study.duration_s,
         study.measure_from_s,
         study.success,
     )
-    numbers = np.arange(draws.first, draws.first + draws.size)
+    numbers = np.arange(samples.first, samples.first + samples.size)
     values = {
         variation.column: variation.label(drawn)
-        for variation, drawn in zip(study.vary, draws.values, strict=True)
+        for variation, drawn in zip(study.vary, samples.values, strict=True)
     }
     columns: dict[str, Any] = {
         ROW: numbers * len(study.laws) + number,
         DRAW: numbers,
-        LAW: [law] * draws.size,
-        SEED: draws.seeds,
+        LAW: [law] * samples.size,
+        SEED: samples.seeds,
         **values,
         **outcome,
     }

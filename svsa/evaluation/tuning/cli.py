@@ -52,8 +52,8 @@ def tune(
         def follow(trial: "Trial") -> None:
             nonlocal best
             best = min(best, trial.cost)
-            told = f"{get_title(law)}: best {best:.4g}"
-            bar.update(task, completed=trial.number, description=told)
+            reported = f"{get_title(law)}: best {best:.4g}"
+            bar.update(task, completed=trial.number, description=reported)
 
         tuned = search(
             law,
@@ -109,8 +109,8 @@ def _build_cost_table(tuned: "Tuned") -> Table:
     for column in ("before", "tuned", "rms e, °", "rms eσ, N·m/rad", "shake, N·m"):
         table.add_column(column, justify="right")
     for run, old, new in zip(tuned.runs, tuned.start.runs, tuned.best.runs, strict=True):
-        numbers = (new.position_error_deg, new.stiffness_error_nm_per_rad, new.shake_nm)
-        told = (f"{number:.3g}" for number in numbers)
-        table.add_row(run.name, f"{old.cost:.4f}", new.fault or f"{new.cost:.4f}", *told)
+        numbers = (new.position_error_deg, new.stiffness_error_nm_per_rad, new.torque_change_nm)
+        reported = (f"{number:.3g}" for number in numbers)
+        table.add_row(run.name, f"{old.cost:.4f}", new.fault or f"{new.cost:.4f}", *reported)
     table.add_row("mean", f"{tuned.start.cost:.4f}", f"{tuned.best.cost:.4f}")
     return table

@@ -25,8 +25,9 @@ SIGN_STEPS = (
 )
 
 _LOCKSTEP_ADVICE = (
-    "A rig in lockstep lets time go on only when its loop asks for it, and the check waits for the"
-    " clock: start the rig without --lockstep, and set lockstep = false in the bench file."
+    "An emulator in lockstep lets time go on only when its loop asks for it, and the check waits"
+    " for the clock: start the emulator without --lockstep, and set lockstep = false in the bench"
+    " file."
 )
 
 
@@ -51,7 +52,9 @@ def check_bench(
         return
     yield _describe_file(bench)
     if bench.emulator is not None and bench.emulator.lockstep:
-        yield CheckStep("bus", Result.FAIL, "not tried: the rig is in lockstep", _LOCKSTEP_ADVICE)
+        yield CheckStep(
+            "bus", Result.FAIL, "not tried: the emulator is in lockstep", _LOCKSTEP_ADVICE
+        )
         return
     steps: list[CheckStep] = []
     try:

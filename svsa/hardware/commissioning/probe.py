@@ -78,7 +78,7 @@ class Traffic:
 class Probe:
     """A bench's bus and its deflection encoder.
 
-    emulated: an emulated rig said so. encoder_failure: why the deflection encoder cannot be
+    emulated: an emulator said so. encoder_failure: why the deflection encoder cannot be
     read, or None. Everything that talks or listens raises `BusError` where the bus is gone.
     """
 

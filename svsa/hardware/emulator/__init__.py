@@ -1,1 +1,1 @@
-"""The emulated rig: a process that behaves on the wire as the bench does."""
+"""The emulator: a process that behaves on the wire as the bench does."""

@@ -1,4 +1,4 @@
-"""`svsa emulator`: the emulated rig as a command."""
+"""`svsa emulator`: the emulator as a command."""
 
 import math
 import signal
@@ -24,7 +24,7 @@ def emulator(
         ),
     ] = None,
     file: Annotated[
-        Path | None, typer.Option(help="What the rig is made of (TOML); else the prototype.")
+        Path | None, typer.Option(help="What the emulator is made of (TOML); else the prototype.")
     ] = None,
     idle_s: Annotated[
         float, typer.Option(min=0, help="End after so long without a client; 0: never.")
@@ -44,18 +44,20 @@ def emulator(
     printed terminal as to a slcan adapter. Reachable from this machine only.
     """
     from svsa.hardware.emulator.control import ControlServer
-    from svsa.hardware.emulator.emulator import Rig
-    from svsa.hardware.emulator.parameters import RigParameters, read_rig
-    from svsa.hardware.emulator.process import RigProcess
+    from svsa.hardware.emulator.emulator import Emulator
+    from svsa.hardware.emulator.parameters import EmulatorParameters, read_emulator_parameters
+    from svsa.hardware.emulator.process import EmulatorProcess
     from svsa.hardware.emulator.slcan import SlcanServer
     from svsa.hardware.emulator.socketcand import SocketcandServer
-    from svsa.hardware.schedule import RIG_PRIORITY, request_real_time
+    from svsa.hardware.schedule import EMULATOR_PRIORITY, request_real_time
 
-    machine = Rig(read_rig(file) if file else RigParameters())
+    machine = Emulator(read_emulator_parameters(file) if file else EmulatorParameters())
     host = "127.0.0.1"
     serial, network = SlcanServer(), SocketcandServer(host, port)
     control = ControlServer(machine, host, control_port)
-    process = RigProcess(machine, [network, serial], control, lockstep, idle_s, alone_s or math.inf)
+    process = EmulatorProcess(
+        machine, [network, serial], control, lockstep, idle_s, alone_s or math.inf
+    )
 
     def stop(*_: object) -> None:
         process.stopped = True
@@ -64,12 +66,12 @@ def emulator(
         signal.signal(number, stop)
     mode = "EMULATED, lockstep" if lockstep else "EMULATED"
     print(
-        f"SVSA rig: socketcand {host}:{network.port}, slcan {serial.path},"
+        f"SVSA emulator: socketcand {host}:{network.port}, slcan {serial.path},"
         f" control {host}:{control.port} ({mode})",
         flush=True,
     )
     if real_time if real_time is not None else not lockstep:
-        request_real_time(RIG_PRIORITY)  # hardware does not wait for other programs
+        request_real_time(EMULATOR_PRIORITY)  # hardware does not wait for other programs
     try:
         process.run()
     finally:

@@ -1,4 +1,4 @@
-"""What happens to the rig, told from outside: JSON lines over TCP on this machine.
+"""What happens to the emulator, told from outside: JSON lines over TCP on this machine.
 
     {"do": "load", "load": {"kind": "mass"}, "at_s": 5.0}    {"do": "set_loads", "loads": [...]}
     {"do": "fault", "fault": {"kind": "freeze", "node": "deflection"}}
@@ -16,25 +16,25 @@ from typing import Any, Self
 from pydantic import TypeAdapter, ValidationError
 
 from svsa.errors import ParameterError, SvsaError, Violation
-from svsa.hardware.emulator.emulator import Rig
-from svsa.hardware.emulator.faults import RigFault
+from svsa.hardware.emulator.emulator import Emulator
+from svsa.hardware.emulator.faults import EmulatorFault
 from svsa.inputs.explanation import explain
 from svsa.simulation.plant.loads import Load
 
 MAX_LINE_BYTES = 1 << 20
 _LOAD = TypeAdapter(Load)
-_FAULT = TypeAdapter(RigFault)
+_FAULT = TypeAdapter(EmulatorFault)
 
 
-class RigError(SvsaError):
-    """The rig refused, or is not there."""
+class EmulatorError(SvsaError):
+    """The emulator refused, or is not there."""
 
 
 class ControlServer:
-    """Serves the control port for a rig; never waits."""
+    """Serves the control port for an emulator; never waits."""
 
-    def __init__(self, rig: Rig, host: str, port: int) -> None:
-        self._rig = rig
+    def __init__(self, emulator: Emulator, host: str, port: int) -> None:
+        self._rig = emulator
         self._listener = socket.create_server((host, port))
         self._listener.setblocking(False)
         self._clients: dict[socket.socket, bytearray] = {}
@@ -76,61 +76,61 @@ class ControlServer:
         self._clients.clear()
 
 
-def answer(rig: Rig, line: bytes) -> dict[str, Any]:
-    """Do what one line says, and what to answer; nothing it says breaks the rig."""
+def answer(emulator: Emulator, line: bytes) -> dict[str, Any]:
+    """Do what one line says, and what to answer; nothing it says breaks the emulator."""
     try:
         wanted = json.loads(line)
         if not isinstance(wanted, dict):
             raise ParameterError(Violation("command", wanted, "", "an object with named fields"))
-        return {"ok": True, **_do(rig, wanted)}
+        return {"ok": True, **_do(emulator, wanted)}
     except ValidationError as error:
         return {"ok": False, "message": str(ParameterError(*explain(error)))}
     except (SvsaError, ValueError, RecursionError) as error:
         return {"ok": False, "message": str(error)}
 
 
-def _do(rig: Rig, wanted: dict[str, Any]) -> dict[str, Any]:
+def _do(emulator: Emulator, wanted: dict[str, Any]) -> dict[str, Any]:
     at_s = wanted.get("at_s")
     if at_s is not None and (not isinstance(at_s, int | float) or not 0 <= at_s <= 1e6):
-        raise ParameterError(Violation("at_s", at_s, "s", "a time of the rig from 0 to 1e6 s"))
-    at_us = rig.now_us if at_s is None else round(at_s * 1e6)
+        raise ParameterError(Violation("at_s", at_s, "s", "a time of the emulator from 0 to 1e6 s"))
+    at_us = emulator.now_us if at_s is None else round(at_s * 1e6)
     happen: Callable[[], None]
     match wanted.get("do"):
         case "state":
-            return describe(rig)
+            return describe(emulator)
         case "load":
             load = _LOAD.validate_python(wanted.get("load"))
-            happen = lambda: rig.add_load(load)  # noqa: E731
+            happen = lambda: emulator.add_load(load)  # noqa: E731
         case "set_loads":
             loads = [_LOAD.validate_python(load) for load in wanted.get("loads", [])]
-            happen = lambda: rig.set_loads(loads)  # noqa: E731
+            happen = lambda: emulator.set_loads(loads)  # noqa: E731
         case "fault":
             fault = _FAULT.validate_python(wanted.get("fault"))
-            happen = lambda: rig.inject(fault)  # noqa: E731
+            happen = lambda: emulator.inject(fault)  # noqa: E731
         case "clear_faults":
-            happen = rig.clear_faults
+            happen = emulator.clear_faults
         case "home":
-            happen = rig.home
+            happen = emulator.home
         case other:
             bound = "one of state, load, set_loads, fault, clear_faults, home"
             raise ParameterError(Violation("do", other, "", bound))
-    if at_us <= rig.now_us:
+    if at_us <= emulator.now_us:
         happen()
     else:
-        rig.schedule(at_us, happen)
-    return {"time_s": rig.now_us * 1e-6}
+        emulator.schedule(at_us, happen)
+    return {"time_s": emulator.now_us * 1e-6}
 
 
-def describe(rig: Rig) -> dict[str, Any]:
+def describe(emulator: Emulator) -> dict[str, Any]:
     """The truth of this moment: time, state, torques, drives."""
-    made, x = rig.mechanics.torque, rig.mechanics.read(rig.now_us)
+    made, x = emulator.mechanics.torque, emulator.mechanics.read(emulator.now_us)
     return {
-        "time_s": rig.now_us * 1e-6,
-        "time_us": rig.now_us,
-        "frames": rig.frames,
+        "time_s": emulator.now_us * 1e-6,
+        "time_us": emulator.now_us,
+        "frames": emulator.frames,
         "x": x._asdict(),
         "torque_nm": [made.u1, made.u2],
-        "loads": rig.mechanics.load_count,
+        "loads": emulator.mechanics.load_count,
         "drives": {
             name: {
                 "mode": drive.mode,
@@ -142,19 +142,19 @@ def describe(rig: Rig) -> dict[str, Any]:
                 "powered": drive.powered,
                 "stalled": drive.stalled,
             }
-            for (name, drive), torque in zip(rig.drives.items(), made, strict=True)
+            for (name, drive), torque in zip(emulator.drives.items(), made, strict=True)
         },
     }
 
 
-class RigControl:
-    """A client of a rig's control port. Raises `RigError` where it refuses or is gone."""
+class EmulatorControl:
+    """A client of an emulator's control port. Raises `EmulatorError` if it refuses or is gone."""
 
     def __init__(self, port: int, timeout_s: float = 5.0) -> None:
         try:
             self._socket = socket.create_connection(("127.0.0.1", port), timeout_s)
         except OSError as error:
-            raise RigError(f"There is no emulated rig at control port {port}: {error}.") from None
+            raise EmulatorError(f"There is no emulator at control port {port}: {error}.") from None
         self._file = self._socket.makefile("rwb")
 
     def ask(self, do: str, **fields: Any) -> dict[str, Any]:
@@ -163,23 +163,23 @@ class RigControl:
             self._file.write(json.dumps({"do": do, **fields}).encode() + b"\n")
             self._file.flush()
             line = self._file.readline()
-            told = json.loads(line)
+            reported = json.loads(line)
         except (OSError, ValueError) as error:
-            raise RigError(f"The emulated rig does not answer: {error}.") from None
-        if not told.pop("ok"):
-            raise RigError(told["message"])
-        return told
+            raise EmulatorError(f"The emulator does not answer: {error}.") from None
+        if not reported.pop("ok"):
+            raise EmulatorError(reported["message"])
+        return reported
 
     def set_loads(self, loads: tuple[Load, ...]) -> None:
         """These loads, and no others, are on from now on."""
         self.ask("set_loads", loads=[_LOAD.dump_python(load, mode="json") for load in loads])
 
     def load(self, load: Load, at_s: float | None = None) -> None:
-        """Put a load on, now or at a time of the rig."""
+        """Put a load on, now or at a time of the emulator."""
         self.ask("load", load=_LOAD.dump_python(load, mode="json"), at_s=at_s)
 
-    def fault(self, fault: RigFault, at_s: float | None = None) -> None:
-        """Make something go wrong, now or at a time of the rig."""
+    def fault(self, fault: EmulatorFault, at_s: float | None = None) -> None:
+        """Make something go wrong, now or at a time of the emulator."""
         self.ask("fault", fault=fault.model_dump(mode="json"), at_s=at_s)
 
     def clear_faults(self) -> None:

@@ -23,7 +23,7 @@ from svsa.hardware.drives.robomodule import (
     split_id,
 )
 from svsa.hardware.emulator.frame import Frame
-from svsa.hardware.emulator.parameters import RigMotor
+from svsa.hardware.emulator.parameters import EmulatedMotor
 
 SETTLE_US = 500_000
 ERROR_PERIOD_US = 100_000
@@ -39,7 +39,7 @@ class EmulatedDrive:
     `svsa.hardware.emulator.faults`.
     """
 
-    def __init__(self, motor: RigMotor) -> None:
+    def __init__(self, motor: EmulatedMotor) -> None:
         self.motor = motor
         self.address = Address(motor.group, motor.number)
         self._ids = {

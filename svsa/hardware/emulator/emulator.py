@@ -1,4 +1,4 @@
-"""The rig: drives, encoder node and mechanics on one bus, in the order of their events.
+"""The emulator: drives, encoder node and mechanics on one bus, in the order of their events.
 
 Time is whole microseconds since the start. A frame takes 0.13 ms (1 Mbit/s); where several
 wait, the lowest identifier goes first. The same frames in at the same times, and the same
@@ -20,11 +20,11 @@ from svsa.hardware.emulator.faults import (
     BusErrors,
     CurrentOffset,
     DropFrames,
+    EmulatorFault,
     FrozenEncoder,
     LateFrames,
     ReversedEncoder,
     ReversedMotor,
-    RigFault,
     Silence,
     Stall,
     Unplugged,
@@ -32,7 +32,7 @@ from svsa.hardware.emulator.faults import (
 )
 from svsa.hardware.emulator.frame import Frame
 from svsa.hardware.emulator.mechanics import Mechanics
-from svsa.hardware.emulator.parameters import RigClock, RigParameters
+from svsa.hardware.emulator.parameters import EmulatorClock, EmulatorParameters
 from svsa.simulation.plant.loads import Load
 
 FRAME_US = 130
@@ -43,14 +43,14 @@ _ERROR_FRAME_US = 1000
 Said = tuple[int, Frame, Any]
 
 
-class Rig:
+class Emulator:
     """The bench on the wire. `advance_to` returns what was said meanwhile.
 
     now_us: µs. frames: how many have been on the bus.
     """
 
-    def __init__(self, parameters: RigParameters | None = None) -> None:
-        self.parameters = parameters or RigParameters()
+    def __init__(self, parameters: EmulatorParameters | None = None) -> None:
+        self.parameters = parameters or EmulatorParameters()
         p = self.parameters
         self.mechanics = Mechanics(p)
         self.drives = {"motor1": EmulatedDrive(p.motor1), "motor2": EmulatedDrive(p.motor2)}
@@ -107,7 +107,7 @@ class Rig:
         """Somebody sets the mechanism to its marks by hand, and lets go of it."""
         self.mechanics.home(self.now_us)
 
-    def inject(self, fault: RigFault) -> None:
+    def inject(self, fault: EmulatorFault) -> None:
         """Make something go wrong, from now on."""
         match fault:
             case DropFrames():
@@ -161,7 +161,7 @@ class Rig:
         one, two = self.drives.values()
         self.mechanics.set_target(self.now_us, Torque(one.target_nm, two.target_nm))
 
-    def _beat_at(self, clock: RigClock, number: int, happen: Callable[[int], None]) -> None:
+    def _beat_at(self, clock: EmulatorClock, number: int, happen: Callable[[int], None]) -> None:
         """Have it happen at every ms of this clock, from beat `number` on."""
 
         def beat() -> None:

@@ -4,13 +4,13 @@ import math
 
 from svsa.hardware.drives.robomodule import FILLER
 from svsa.hardware.emulator.frame import Frame
-from svsa.hardware.emulator.parameters import RigDeflection
+from svsa.hardware.emulator.parameters import EmulatedDeflection
 
 
 class EncoderNode:
     """Counts of φ as int32, big-endian, in the first four bytes."""
 
-    def __init__(self, parameters: RigDeflection) -> None:
+    def __init__(self, parameters: EmulatedDeflection) -> None:
         self._id = parameters.can_id
         self._sign = parameters.sign
         self._counts_a_rad = parameters.counts_per_rev / (2.0 * math.pi)

@@ -1,25 +1,25 @@
-"""Between a rig and its clients: frames in, time on where it is asked for, frames out."""
+"""Between an emulator and its clients: frames in, time on where it is asked for, frames out."""
 
 from typing import Any
 
 from svsa.hardware.emulation import ADVANCE_ID, EMULATED_DATA, EMULATED_ID, decode_time, encode_time
-from svsa.hardware.emulator.emulator import Rig
+from svsa.hardware.emulator.emulator import Emulator
 from svsa.hardware.emulator.frame import Frame, FrameServer
 
 LONGEST_STEP_US = 10_000_000
 
 
 class Exchange:
-    """Carries frames between a rig and the clients of its servers.
+    """Carries frames between an emulator and the clients of its servers.
 
     lockstep: time goes on only when a client asks for it with `ADVANCE_ID`. origin_s: what the
-    stamps of frames count from, s, in the rig's time. `asked`: how often time was asked for.
+    stamps of frames count from, s, in the emulator's time. `asked`: how often time was asked for.
     """
 
     def __init__(
-        self, rig: Rig, servers: list[FrameServer], lockstep: bool, origin_s: float = 0.0
+        self, emulator: Emulator, servers: list[FrameServer], lockstep: bool, origin_s: float = 0.0
     ) -> None:
-        self._rig, self._servers = rig, servers
+        self._rig, self._servers = emulator, servers
         self._lockstep, self._origin_s = lockstep, origin_s
         self.asked = 0
 
@@ -34,7 +34,7 @@ class Exchange:
         self._flush()
 
     def advance_to(self, time_us: int) -> None:
-        """Let the rig go on to this time, and say what it says meanwhile."""
+        """Let the emulator go on to this time, and say what it says meanwhile."""
         self._advance_to(time_us)
         self._flush()
 

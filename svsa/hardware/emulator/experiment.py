@@ -1,4 +1,4 @@
-"""A figure of the paper on the emulated rig: through CAN, in lockstep, faster than real time.
+"""A figure of the paper on the emulator: through CAN, in lockstep, faster than real time.
 
 The same loop, plant and limits as on a bench; time goes on when the loop asks for it, so that
 a run gives the same samples every time.
@@ -11,7 +11,7 @@ from svsa.errors import FaultError, StateError
 from svsa.hardware.calibration import find_calibration
 from svsa.hardware.can_plant import CanPlant
 from svsa.hardware.clock import LockstepClock
-from svsa.hardware.emulator.launch import RunningRig, start_rig
+from svsa.hardware.emulator.launch import RunningEmulator, start_emulator
 from svsa.hardware.file import BenchFile, read_bench
 from svsa.hardware.realtime.configuration import (
     build_bench_configuration,
@@ -26,28 +26,28 @@ from svsa.runs.configuration import Configuration
 from svsa.runs.paper import LOAD_TIME_S, Figure
 from svsa.runs.result.result import Result
 
-RIG_BENCH = Path(__file__).parent / "bench.toml"
+EMULATOR_BENCH = Path(__file__).parent / "bench.toml"
 ARMING_S = 5.0
 SETTLING_S = 0.2
 
 
 class LockstepBench:
-    """The emulated rig behind the bench's own loop, a tick at a time.
+    """The emulator behind the bench's own loop, a tick at a time.
 
     wanted: law, references and loads of the run. ticks: how many samples are kept. bench:
-    the bench file, else that of the emulated rig. beats: heartbeats, where they are watched.
+    the bench file, else that of the emulator. beats: heartbeats, where they are watched.
     """
 
     def __init__(
         self,
-        rig: RunningRig,
+        emulator: RunningEmulator,
         wanted: Configuration,
         ticks: int,
         bench: BenchFile | None = None,
         beats: Heartbeats | None = None,
     ) -> None:
-        self.rig = rig
-        self.bench = bench or connect_bench(rig)
+        self.emulator = emulator
+        self.bench = bench or connect_bench(emulator)
         self.sink = SampleArray(ticks)
         self._clock = LockstepClock()
         calibration, guard = find_calibration(self.bench), build_guard(self.bench)
@@ -59,7 +59,7 @@ class LockstepBench:
         self._deadline = self.now()
 
     def now(self) -> float:
-        """The rig's time, s."""
+        """The emulator's time, s."""
         return self._clock.now()
 
     def tick(self, count: int = 1) -> None:
@@ -80,7 +80,7 @@ class LockstepBench:
             self.tick()
 
     def prepare(self) -> None:
-        """Arm, and confirm the zero marks at which the rig stands."""
+        """Arm, and confirm the zero marks at which the emulator stands."""
         self.plant.arm(self.now())
         self.tick_until(BenchStatus.READY)
         while (step := self.plant.homing_step) is not None:
@@ -96,27 +96,27 @@ class LockstepBench:
         self.plant.close()
 
 
-def connect_bench(rig: RunningRig) -> BenchFile:
-    """The rig's bench file, with the ports of this rig."""
-    bench = read_bench(RIG_BENCH)
-    options = {**bench.bus.options, "port": rig.port}
+def connect_bench(emulator: RunningEmulator) -> BenchFile:
+    """The emulator's bench file, with the ports of this emulator."""
+    bench = read_bench(EMULATOR_BENCH)
+    options = {**bench.bus.options, "port": emulator.port}
     return bench.changed(bus=bench.bus.changed(options=options))
 
 
-def run_on_rig(
+def run_on_emulator(
     figure: Figure, law: str, duration_s: float, progress: Callable[[float], None]
 ) -> Result:
-    """Run a figure with its load on the emulated rig; progress: told the share done.
+    """Run a figure with its load on the emulator; progress: told the share done.
 
     Raises `FaultError` where the run ends in a fault.
     """
-    with start_rig(lockstep=True) as rig:
-        bench = LockstepBench(rig, figure.build_configuration(law), round(duration_s / 0.001))
+    with start_emulator(lockstep=True) as emulator:
+        bench = LockstepBench(emulator, figure.build_configuration(law), round(duration_s / 0.001))
         try:
             bench.prepare()
             bench.start()
             onset = bench.now() + LOAD_TIME_S
-            rig.control.load(figure.hung.changed(start_s=None), at_s=onset)
+            emulator.control.load(figure.hung.changed(start_s=None), at_s=onset)
             ticks = len(bench.sink.samples)
             for tick in range(ticks):
                 bench.tick()

@@ -95,7 +95,7 @@ class CurrentOffset(Checked):
     offset_a: Number = quantity("A", "How much more", ge=-15, le=15)
 
 
-RigFault = Annotated[
+EmulatorFault = Annotated[
     DropFrames
     | LateFrames
     | FrozenEncoder

@@ -1,7 +1,7 @@
 """A frame on the emulated bus, and what every server of frames to clients offers.
 
 A server only carries: it hears frames from its clients and says frames to them. What a frame
-that one client sends does to the others is the bus's affair: the rig says it to all with
+that one client sends does to the others is the bus's affair: the emulator says it to all with
 `send(frame, time_s, but=client)`, on this server and on the other ones.
 """
 
@@ -34,7 +34,7 @@ class FrameServer(Protocol):
         ...
 
     def take_arrivals(self) -> list[Any]:
-        """Clients that began to listen since the last call: the rig greets them."""
+        """Clients that began to listen since the last call: the emulator greets them."""
         ...
 
     @property
@@ -43,7 +43,7 @@ class FrameServer(Protocol):
         ...
 
     def send(self, frame: Frame, time_s: float, to: Any = None, but: Any = None) -> None:
-        """Say a frame at the rig's time: to all who listen, to one of them, or to all but one."""
+        """Send a frame at the emulator's time: to all clients, to one, or to all but one."""
         ...
 
     def flush(self) -> None:

@@ -1,4 +1,4 @@
-"""Start an emulated rig as a process of its own, and end it."""
+"""Start an emulator as a process of its own, and end it."""
 
 import contextlib
 import re
@@ -7,25 +7,27 @@ import sys
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from svsa.hardware.emulator.control import RigControl, RigError
+from svsa.hardware.emulator.control import EmulatorControl, EmulatorError
 
 START_S = 60.0
 _READY = re.compile(r"socketcand 127\.0\.0\.1:(\d+), slcan (\S+), control 127\.0\.0\.1:(\d+)")
 
 
-class RunningRig(NamedTuple):
-    """Where a rig is: the port of socketcand, the pty of slcan, the control port."""
+class RunningEmulator(NamedTuple):
+    """Where an emulator is: the port of socketcand, the pty of slcan, the control port."""
 
     port: int
     slcan: str
     control_port: int
-    control: RigControl
+    control: EmulatorControl
     process: subprocess.Popen[str]
 
 
 @contextlib.contextmanager
-def start_rig(lockstep: bool = True, idle_s: float = 120.0, *options: str) -> Iterator[RunningRig]:
-    """A rig on free ports of this machine, ended at the end; raises `RigError`."""
+def start_emulator(
+    lockstep: bool = True, idle_s: float = 120.0, *options: str
+) -> Iterator[RunningEmulator]:
+    """An emulator on free ports of this machine, ended at the end; raises `EmulatorError`."""
     command = [
         sys.executable,
         "-m",
@@ -47,13 +49,13 @@ def start_rig(lockstep: bool = True, idle_s: float = 120.0, *options: str) -> It
     )
     try:
         if process.stdout is None:
-            raise RigError("The emulated rig has no output.")
+            raise EmulatorError("The emulator has no output.")
         line = process.stdout.readline()
         found = _READY.search(line)
         if found is None:
-            raise RigError(f"The emulated rig did not start: {line.strip() or 'it said nothing'}")
-        with RigControl(int(found[3])) as control:
-            yield RunningRig(int(found[1]), found[2], int(found[3]), control, process)
+            raise EmulatorError(f"The emulator did not start: {line.strip() or 'it said nothing'}")
+        with EmulatorControl(int(found[3])) as control:
+            yield RunningEmulator(int(found[1]), found[2], int(found[3]), control, process)
     finally:
         process.terminate()
         process.wait(START_S)

@@ -13,7 +13,7 @@ from svsa.actuators.dynamics import Actuator, build_actuator
 from svsa.actuators.lever import compute_lever_ratio_slope
 from svsa.actuators.signals import State, Torque
 from svsa.errors import StateError
-from svsa.hardware.emulator.parameters import RigParameters
+from svsa.hardware.emulator.parameters import EmulatorParameters
 from svsa.numerics.compilation import compiled
 from svsa.numerics.packed import pack, view_field
 from svsa.simulation.loop.lane import AT_REST, NO_TORQUE
@@ -71,7 +71,7 @@ class Mechanics:
     for, N·m at the gearbox outputs.
     """
 
-    def __init__(self, parameters: RigParameters) -> None:
+    def __init__(self, parameters: EmulatorParameters) -> None:
         p = parameters
         effects = Effects(friction=p.friction, current_lag=p.current_lag, gravity=p.gravity)
         slope = compute_lever_ratio_slope(p.actuator.spiral_reduction)
@@ -98,7 +98,7 @@ class Mechanics:
 
     @property
     def load_count(self) -> int:
-        """How many loads hang on the rig or are still to come."""
+        """How many loads hang on the emulator or are still to come."""
         return sum(load.end_tick > self._tick for load in self._loads)
 
     def read(self, time_us: int) -> State:
@@ -125,12 +125,12 @@ class Mechanics:
             self._asked[:] = target
 
     def add_load(self, time_us: int, load: Load) -> int:
-        """Hang a load on; its `start_s` is the rig's time. Returns its number.
+        """Hang a load on; its `start_s` is the emulator's time. Returns its number.
 
         Raises `StateError` where too many hang there.
         """
         if self.load_count >= MAX_LOADS:
-            raise StateError(f"{MAX_LOADS} loads are on the rig: take some off first.")
+            raise StateError(f"{MAX_LOADS} loads are on the emulator: take some off first.")
         now = max(self._tick, -(-time_us // GRID_US))
         self._load_count += 1
         loads = [*self._loads, schedule_load(self._load_count, load, now, _PERIOD_S)]

@@ -19,14 +19,14 @@ HOME_STIFFNESS_NM_PER_RAD = 30.0
 Sign = Literal[-1, 1]
 
 
-class RigClock(Checked):
+class EmulatorClock(Checked):
     """When a part speaks: every whole ms of its own clock, which began at `phase_s`."""
 
-    phase_s: Number = quantity("s", "First beat after the rig's start", ge=0, le=0.001)
+    phase_s: Number = quantity("s", "First beat after the emulator's start", ge=0, le=0.001)
     drift: Number = quantity("1", "How much longer its ms is", ge=-0.01, le=0.01, default=0.0)
 
 
-class RigMotor(RigClock):
+class EmulatedMotor(EmulatorClock):
     """A drive, its motor, gearbox and encoder. Torque and angle are at the gearbox output."""
 
     group: Whole = quantity("", "Group of the drive's address", ge=0, le=7, default=0)
@@ -46,7 +46,7 @@ class RigMotor(RigClock):
         return self.sign * self.gear_ratio * self.efficiency * self.torque_constant_nm_per_a
 
 
-class RigDeflection(RigClock):
+class EmulatedDeflection(EmulatorClock):
     """The deflection encoder, a node of its own: counts as i32 big-endian, every ms."""
 
     can_id: Whole = quantity("", "Its standard identifier", ge=0, le=0x7FF, default=0x700)
@@ -63,7 +63,7 @@ def _compute_home_ratio() -> float:
     return float(compute_lever_ratio_for_stiffness(HOME_STIFFNESS_NM_PER_RAD, K))
 
 
-class RigParameters(Checked):
+class EmulatorParameters(Checked):
     """All that the emulated bench is made of; left out, the prototype of Table 1.
 
     The parts speak at different moments of each ms, none of them at the loop's. Supply
@@ -81,9 +81,9 @@ class RigParameters(Checked):
     lever_ratio_min: Number = quantity("1", "Lower stop of μ", gt=0, lt=1, default=0.25)
     lever_ratio_max: Number = quantity("1", "Upper stop of μ", gt=0, lt=1, default=0.83)
     deflection_max_rad: Number = quantity("rad", "Stop of |φ|", gt=0, le=1.5, default=0.75)
-    motor1: RigMotor = RigMotor(number=1, torque_constant_nm_per_a=0.0396, phase_s=0.0003)
-    motor2: RigMotor = RigMotor(number=2, torque_constant_nm_per_a=0.0234, phase_s=0.0005)
-    deflection: RigDeflection = RigDeflection(phase_s=0.0008)
+    motor1: EmulatedMotor = EmulatedMotor(number=1, torque_constant_nm_per_a=0.0396, phase_s=0.0003)
+    motor2: EmulatedMotor = EmulatedMotor(number=2, torque_constant_nm_per_a=0.0234, phase_s=0.0005)
+    deflection: EmulatedDeflection = EmulatedDeflection(phase_s=0.0008)
     current_lag: CurrentLag | None = quantity("", "Lag of the current loops", default=CurrentLag())
     friction: Friction | None = quantity("", "Motor friction", default=Friction())
     gravity: LinkGravity | None = quantity("", "Weight of the link", default=None)
@@ -101,6 +101,6 @@ class RigParameters(Checked):
         return self
 
 
-def read_rig(path: Path | str) -> RigParameters:
-    """Read a rig's file (TOML); raises `ParameterError` for every wrong value."""
-    return RigParameters(**read_toml(path, "rig file"))
+def read_emulator_parameters(path: Path | str) -> EmulatorParameters:
+    """Read an emulator's file (TOML); raises `ParameterError` for every wrong value."""
+    return EmulatorParameters(**read_toml(path, "rig file"))

@@ -1,4 +1,4 @@
-"""The rig's process: frames in, time on, frames out; against the clock or in lockstep."""
+"""The emulator's process: frames in, time on, frames out; against the clock or in lockstep."""
 
 import math
 import select
@@ -6,7 +6,7 @@ import time
 from typing import Any
 
 from svsa.hardware.emulator.control import ControlServer
-from svsa.hardware.emulator.emulator import Rig
+from svsa.hardware.emulator.emulator import Emulator
 from svsa.hardware.emulator.exchange import Exchange
 from svsa.hardware.emulator.frame import FrameServer
 
@@ -15,10 +15,10 @@ GRAIN_S = 0.00025
 """Against the clock frames come so late at most, and then together, as from an adapter on USB."""
 
 
-class RigProcess:
-    """Serves a rig to its clients until told to stop, or idle for `idle_s` (0: for ever).
+class EmulatorProcess:
+    """Serves an emulator to its clients until told to stop, or idle for `idle_s` (0: for ever).
 
-    lockstep: time goes on only when a client asks for it. Frames are stamped with the rig's
+    lockstep: time goes on only when a client asks for it. Frames are stamped with the emulator's
     time then, and with the time of day against the clock, as adapters do. alone_s: where nobody
     asks any more for so long, it goes on by itself until somebody does, as a machine whose loop
     is gone.
@@ -26,17 +26,17 @@ class RigProcess:
 
     def __init__(
         self,
-        rig: Rig,
+        emulator: Emulator,
         servers: list[FrameServer],
         control: ControlServer,
         lockstep: bool,
         idle_s: float = 0.0,
         alone_s: float = math.inf,
     ) -> None:
-        self._rig, self._servers, self._control = rig, servers, control
+        self._rig, self._servers, self._control = emulator, servers, control
         self._lockstep, self._idle_s = lockstep, idle_s
         self._start = time.monotonic()
-        self._exchange = Exchange(rig, servers, lockstep, 0.0 if lockstep else time.time())
+        self._exchange = Exchange(emulator, servers, lockstep, 0.0 if lockstep else time.time())
         self._last_use = self._start
         self._alone_s, self._asked = alone_s, 0
         self._alone_since, self._left_us = math.inf, 0

@@ -114,7 +114,7 @@ class SlcanServer:
         return [self] if arrived else []
 
     def send(self, frame: Frame, time_s: float, to: Any = None, but: Any = None) -> None:
-        """Say a frame at the rig's time; times go along, in ms modulo a minute, after Z1."""
+        """Say a frame at the emulator's time; times go along, in ms modulo a minute, after Z1."""
         if not self._channel or but is self or (to is not None and to is not self):
             return
         if frame.error:

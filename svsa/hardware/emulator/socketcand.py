@@ -162,7 +162,7 @@ class SocketcandServer:
         return arrivals
 
     def send(self, frame: Frame, time_s: float, to: Any = None, but: Any = None) -> None:
-        """Say a frame at the rig's time to all who listen, to one, or to all but one."""
+        """Say a frame at the emulator's time to all who listen, to one, or to all but one."""
         if to is not None:
             chosen = [to] if to in self._clients else []
         else:

@@ -89,23 +89,23 @@ class BenchProcesses:
         """Since they were started, s."""
         return time.monotonic() - self._begun_s
 
-    def wait_until_ready(self, silence_s: float, tell: Teller) -> None:
+    def wait_until_ready(self, silence_s: float, report: Teller) -> None:
         """Wait as long as the loop gets on: a first compilation takes what it takes.
 
-        tell: hears what it is doing, with the seconds since its start. Raises `BenchError` where
+        report: hears what it is doing, with the seconds since its start. Raises `BenchError` where
         the loop cannot open the bench, ends, or says nothing for silence_s; both are ended then.
         """
         try:
-            self._wait_until_ready(silence_s, tell)
+            self._wait_until_ready(silence_s, report)
         except (LinkClosedError, BenchError) as error:
             self.failure = f"The bench cannot be opened: {error}"
             self.end()
             raise BenchError(self.failure) from None
 
-    def _wait_until_ready(self, silence_s: float, tell: Teller) -> None:
+    def _wait_until_ready(self, silence_s: float, report: Teller) -> None:
         heard = time.monotonic()
         while time.monotonic() - heard < silence_s:
-            tell(self.step, self.age_s)
+            report(self.step, self.age_s)
             self._rest(LISTEN_S)
             try:
                 self._read()
@@ -172,7 +172,7 @@ class BenchProcesses:
             raise BenchError(self._describe_silence()) from None
         raise BenchError(f"The loop of the bench did not answer within {self.patience_s:g} s.")
 
-    def tell(self, wanted: str, argument: Any = None) -> None:
+    def report(self, wanted: str, argument: Any = None) -> None:
         """As `request`, without waiting to hear what becomes of it."""
         if self.listens:
             with contextlib.suppress(LinkClosedError):

@@ -149,8 +149,8 @@ class LoopProcess:
                 plant.arm(now)
             case "start":
                 start = loop.start(now)
-                told = {"mu0": start.mu0, "x": start.x, "run": loop.number}
-                return told | {"motion": loop.read_motion()}
+                reported = {"mu0": start.mu0, "x": start.x, "run": loop.number}
+                return reported | {"motion": loop.read_motion()}
             case "stop":
                 plant.stop(now, argument)
             case "quick_stop":
@@ -211,9 +211,9 @@ def main(arguments: list[str]) -> int:
     path, memory_name, heartbeat_name, descriptor = arguments
     link = Link.from_descriptor(int(descriptor))
     memory, beats = LoopMemory.attach(memory_name), Heartbeats.attach(heartbeat_name)
-    tell = Progress(link)
+    report = Progress(link)
     try:
-        tell("opening the bus")
+        report("opening the bus")
         bench = read_bench(path)
         clock = choose_clock(bench)
         plant = CanPlant(bench, find_calibration(bench), clock, build_guard(bench), beats)
@@ -223,10 +223,10 @@ def main(arguments: list[str]) -> int:
         return 1
     try:
         (first,) = link.receive(FIRST_MESSAGE_S)
-        tell("loading the compiled loop")
+        report("loading the compiled loop")
         laws = PreparedLaws()
         try:
-            with watch_compilation(tell.count_function):
+            with watch_compilation(report.count_function):
                 loop = BenchLoop(
                     plant,
                     read_actuation(bench),
@@ -235,11 +235,11 @@ def main(arguments: list[str]) -> int:
                     memory,
                     laws.bind,
                 )
-                warm_up(loop, laws, tell)
+                warm_up(loop, laws, report)
         except SvsaError as error:
             link.send({"event": "failed", "message": str(error)})
             return 1
-        tell("asking for real time")
+        report("asking for real time")
         link.send({"event": "ready", "notes": request_real_time(LOOP_PRIORITY)})
         LoopProcess(loop, plant, clock, bench.safety.server_s, link, memory, beats, laws).run()
     except LinkClosedError:

@@ -22,7 +22,7 @@ _LEVELS_RAD = [0.0, 0.1, 0.2]
 _TORQUE_NM = [0.1, 0.0, 0.0]
 
 
-def warm_up(loop: BenchLoop, laws: PreparedLaws, tell: Callable[[str], None]) -> None:
+def warm_up(loop: BenchLoop, laws: PreparedLaws, report: Callable[[str], None]) -> None:
     """Use every law and every kind of command once, and leave the loop as it was.
 
     From then on `laws` looks up what is prepared, and computes nothing. A law that fails is
@@ -31,17 +31,17 @@ def warm_up(loop: BenchLoop, laws: PreparedLaws, tell: Callable[[str], None]) ->
     Args:
         loop: At rest; its laws are bound by `laws`.
         laws: Of the loop.
-        tell: Is called with each step.
+        report: Is called with each step.
     """
     configuration = loop.run.configuration
     names = list_law_names()
     for number, name in enumerate(names, 1):
-        tell(f"loading the control laws: {name}, {number} of {len(names)}")
+        report(f"loading the control laws: {name}, {number} of {len(names)}")
         try:
             _use(loop, "law", name)
         except SvsaError as error:
             laws.refused[name] = str(error)
-    tell("loading the references, loads and effects")
+    report("loading the references, loads and effects")
     loop.load(configuration)
     ready = [name for name in names if name not in laws.refused]
     for kind, argument in list_changes(configuration, ready):

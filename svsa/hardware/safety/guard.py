@@ -95,7 +95,7 @@ class MotorGuard:
             return alarm
         values = {
             f"{self.name}_heat": self.winding.heat,
-            f"{self.name}_asked_nm": held.asked_nm,
+            f"{self.name}_commanded_nm": held.commanded_nm,
             f"{self.name}_held_to_nm": held.allowed_nm,
         }
         words = describe_held_back(self.name, held, self.winding)

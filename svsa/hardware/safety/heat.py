@@ -26,7 +26,7 @@ def _compute_scale(motor: MotorSettings) -> float:
 class HeldBack(NamedTuple):
     """A torque that heat did not allow, of what the motor gives cold, and what it did, N·m."""
 
-    asked_nm: float
+    commanded_nm: float
     allowed_nm: float
 
 
@@ -96,8 +96,8 @@ def describe_held_back(name: str, held: HeldBack, winding: Winding) -> str:
     return (
         f"{motor.capitalize()} was held back by heat: its winding had {100.0 * winding.heat:.0f} %"
         f" of the heat that it bears, and gave {held.allowed_nm:.3g} N·m at most where"
-        f" {held.asked_nm:.3g} N·m were asked for ({winding.lasting_nm:.3g} N·m is what it bears"
-        " for ever)."
+        f" {held.commanded_nm:.3g} N·m were asked for ({winding.lasting_nm:.3g} N·m is what it"
+        " bears for ever)."
     )
 
 

@@ -39,9 +39,9 @@ class Verified(NamedTuple):
     share_as_limited: float
 
     @property
-    def told(self) -> str:
+    def description(self) -> str:
         """The same in words."""
-        what = "an emulated rig" if self.plant == "emulated" else "a bench"
+        what = "an emulator" if self.plant == "emulated" else "a bench"
         beside = {0: "", 1: ", and the simulated lane beside it"}.get(
             self.lanes, f", and the {self.lanes} simulated lanes beside it"
         )

@@ -26,18 +26,18 @@ class FaultLatch:
         """Whether it holds a fault that the loop has told of itself."""
         return self.fault is not None and self.fault.code not in LOSSES
 
-    def take_own(self, told: Fault | None) -> bool:
+    def take_own(self, reported: Fault | None) -> bool:
         """What the loop tells of its fault, None for none; whether another is held now."""
-        if told is None:
+        if reported is None:
             if self.is_own:
                 self.fault = None
             return False
-        return not self.is_own and self._hold(told)
+        return not self.is_own and self._hold(reported)
 
     def take_loss(self, loss: Fault) -> bool:
         """The loop is lost; whether another fault is held now. Its words may come to say more."""
-        is_told = self.fault is not None and self.fault.message == loss.message
-        return not (self.is_own or is_told) and self._hold(loss)
+        is_reported = self.fault is not None and self.fault.message == loss.message
+        return not (self.is_own or is_reported) and self._hold(loss)
 
     def _hold(self, fault: Fault) -> bool:
         is_known = self.fault is not None and self.fault.code == fault.code
@@ -61,14 +61,14 @@ class HeatEvents:
             is_on = axis in held
             if is_on or moving:
                 kind = "held_back" if is_on else "held_back_no_more"
-                journal.tell(kind, describe_heat(axis, is_on))
+                journal.report(kind, describe_heat(axis, is_on))
         self._axes = held
 
 
 class BenchReport:
     """States, each taken in once, and the fault that is latched; what they say enters the journal.
 
-    `told_status`: the loop's own word. `problems`: what is not known yet of the bench or not right
+    `loop_status`: the loop's own word. `problems`: what is not known yet of the bench or not right
     with it. `homing_step`: the axis whose mark is next, None where all were confirmed.
     """
 
@@ -79,7 +79,7 @@ class BenchReport:
 
     def begin(self) -> None:
         """The loop was started anew: nothing has been told yet."""
-        self.told_status = BenchStatus.OFF
+        self.loop_status = BenchStatus.OFF
         self.homing_step: Axis | None = STEPS[0].name
         self._heat = HeatEvents()
         self._latch = FaultLatch()
@@ -96,27 +96,29 @@ class BenchReport:
     @property
     def status(self) -> BenchStatus:
         """As the loop says; FAULT where it cannot be believed any more."""
-        return self.told_status if self.fault is None else BenchStatus.FAULT
+        return self.loop_status if self.fault is None else BenchStatus.FAULT
 
     def look_for_stop(self, states: list[dict[str, Any]]) -> None:
         """A ramp begins a window before its first sample is taken in."""
-        ramps = any(told["status"] == BenchStatus.RAMP for told in states)
-        if ramps and self.told_status is BenchStatus.RUN:
+        ramps = any(reported["status"] == BenchStatus.RAMP for reported in states)
+        if ramps and self.loop_status is BenchStatus.RUN:
             self._journal.begin_stop()
 
     def take(self, states: list[dict[str, Any]]) -> None:
         """What the loop has told, in its order."""
-        for told in states:
-            self.problems, self.homing_step = told["problems"], told["homing_step"]
-            self._heat.log(told["held_back"], BenchStatus(told["status"]) in MOVING, self._journal)
-            if self._latch.take_own(Fault(**told["fault"]) if told["fault"] else None):
+        for reported in states:
+            self.problems, self.homing_step = reported["problems"], reported["homing_step"]
+            self._heat.log(
+                reported["held_back"], BenchStatus(reported["status"]) in MOVING, self._journal
+            )
+            if self._latch.take_own(Fault(**reported["fault"]) if reported["fault"] else None):
                 self._log_fault()
-            self.told_status = BenchStatus(told["status"])
+            self.loop_status = BenchStatus(reported["status"])
             self._journal.version += 1
 
     def look_for_loss(self) -> None:
         """Latch what has become of a loop that does not tick, as far as it is known."""
-        loss, run = self._loop.find_settled_loss(), self._journal.run
+        loss, run = self._loop.find_lasting_loss(), self._journal.run
         if loss is None:
             return
         held = self.fault
@@ -127,4 +129,4 @@ class BenchReport:
 
     def _log_fault(self) -> None:
         if self.fault is not None:
-            self._journal.log_fault(self.fault, ends_run=self.told_status in MOVING)
+            self._journal.log_fault(self.fault, ends_run=self.loop_status in MOVING)

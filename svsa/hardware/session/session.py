@@ -74,13 +74,13 @@ class BenchSession:
         self._run = run
         self.journal.begin(run)
 
-    def open(self, tell: Teller = keep_quiet) -> None:
+    def open(self, notify: Teller = keep_quiet) -> None:
         """Wait until the bench may be armed; raises `BenchError` where it cannot be opened.
 
-        tell: hears what the loop does meanwhile.
+        notify: hears what the loop does meanwhile.
         """
         try:
-            self.loop.open(tell)
+            self.loop.open(notify)
         finally:
             self.journal.version += 1
 
@@ -116,7 +116,7 @@ class BenchSession:
 
     @property
     def plant(self) -> PlantKind:
-        """A bench, or the emulated rig."""
+        """A bench, or the emulator."""
         return "emulated" if self.emulated else "bench"
 
     @property
@@ -159,7 +159,7 @@ class BenchSession:
         """Clear the latched fault: FAULT → OFF; loop and supervisor begin anew if one is gone."""
         if self.loop.loss is not None or not self.loop.processes.supervisor_alive:
             self.restart()
-        elif self.report.told_status is BenchStatus.FAULT:
+        elif self.report.loop_status is BenchStatus.FAULT:
             self._ask("clear")
         self.report.clear()
         self.journal.version += 1
@@ -175,11 +175,11 @@ class BenchSession:
             raise StateError("The bench is moving: stop it before its loop is started anew.")
         self.journal.version += 1
         try:
-            self.loop.restart(self._begin_anew)
+            self.loop.restart(self._restart)
         finally:
             self.journal.version += 1
 
-    def _begin_anew(self) -> None:
+    def _restart(self) -> None:
         configuration = self.run.configuration
         self.journal.stop_recording()
         self.loop.launch(configuration)
@@ -226,7 +226,7 @@ class BenchSession:
 
     def halt(self, why: str = PROGRAM_ERROR) -> None:
         """Ramp to zero torque, without waiting for the loop to say that it does."""
-        self.loop.processes.tell("stop", why)
+        self.loop.processes.report("stop", why)
 
     def quick_stop(self) -> None:
         """The quick stop: zero current now, latched, even where the loop does not listen."""
@@ -260,24 +260,24 @@ class BenchSession:
         if self.loop.starting:
             return
         self.loop.processes.beats.beat("server")
-        told = self.loop.take_states()
-        self.report.look_for_stop(told)
+        reported = self.loop.take_states()
+        self.report.look_for_stop(reported)
         if not self._commands.is_pending:
             self.journal.advance(self._run.count_ready())
-        self.report.take(told)
+        self.report.take(reported)
         self.report.look_for_loss()
         if self.watched or self.bench_status is not BenchStatus.RUN:
             self._unwatched_since = now
         elif self.bench.safety.needs_watcher and now - self._unwatched_since > UNWATCHED_S:
             self._unwatched_since = now
-            self.loop.processes.tell("stop", "nobody watches")
+            self.loop.processes.report("stop", "nobody watches")
 
     def _ask(self, wanted: str, argument: object = None) -> dict[str, Any]:
         """Have the loop do it; what it says of its state is known when this returns."""
         answer = self.loop.ask(wanted, argument)
-        told = self.loop.take_states()
-        self.report.look_for_stop(told)
-        self.report.take(told)
+        reported = self.loop.take_states()
+        self.report.look_for_stop(reported)
+        self.report.take(reported)
         return answer
 
     def change(self, command: Command) -> None:

@@ -25,7 +25,7 @@ UNKNOWN_S = 0.25
 SILENT = 2.0
 """So many times `loop_s`, by which a loop may be late: the supervisor comes before the server."""
 LISTENED_S = 3.0 * EMULATED_PERIOD_S
-"""Who has heard no rig on the bus for so long has none."""
+"""Who has heard no emulator on the bus for so long has none."""
 
 
 class SupervisedLoop:
@@ -48,13 +48,13 @@ class SupervisedLoop:
         )
         self.memory = self.processes.memory
 
-    def open(self, tell: Teller = keep_quiet) -> None:
+    def open(self, report: Teller = keep_quiet) -> None:
         """Wait until the bench may be armed; raises `BenchError` where it cannot be opened.
 
-        tell: hears what the loop does meanwhile.
+        report: hears what the loop does meanwhile.
         """
         try:
-            self.processes.wait_until_ready(self._timing.start_silence_s, tell)
+            self.processes.wait_until_ready(self._timing.start_silence_s, report)
         finally:
             self.starting = False
 
@@ -98,7 +98,7 @@ class SupervisedLoop:
         """Whether the supervisor is there and its heartbeat fresh."""
         return is_supervised(self.processes)
 
-    def find_settled_loss(self) -> Loss | None:
+    def find_lasting_loss(self) -> Loss | None:
         """As `loss`, once it is known who stops the drives, or could have been."""
         loss = self.loss
         is_unknown = loss is not None and loss.stopped_by is None

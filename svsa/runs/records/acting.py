@@ -57,14 +57,14 @@ def read_acting(header: RecordHeader, commands: Commands, first_tick: int, ticks
     A command at a sample's tick acts on that sample: one given after the last acted on none.
     """
     end = first_tick + max(ticks, 1)
-    commands = _tell_by_lanes(header.configuration.get("comparisons"), commands)
+    commands = _name_by_lanes(header.configuration.get("comparisons"), commands)
     return Acting(
         {name: _follow(name, header.configuration, commands, first_tick, end) for name in SETTINGS},
         _find_loads(header, commands, first_tick, end),
     )
 
 
-def _tell_by_lanes(comparisons: Any, commands: Commands) -> Commands:
+def _name_by_lanes(comparisons: Any, commands: Commands) -> Commands:
     """What was given to some lanes, as a law of the first and all lanes beside it."""
     split: Commands = []
     for tick, command in commands:

@@ -15,10 +15,10 @@ from svsa.runs.records.wording import (
     UNKNOWN,
     describe_effects,
     describe_lanes,
+    describe_law,
     describe_load,
     describe_motion,
     describe_stiffness,
-    tell_law,
 )
 
 Value = str | float | bool | None
@@ -81,11 +81,11 @@ def _list_rows(record: Record) -> Rows:
     effects = acting.get_values("effects")[0]
     if effects is not None and effects.noise is not None:
         rows[_GROUPS["effects"], "Seed of the noise", ""] = str(header.seed)
-    rows[_LOADS, "Loads", ""] = _tell_loads(acting, record)
+    rows[_LOADS, "Loads", ""] = _describe_loads(acting, record)
     for setting in SETTINGS:
         if changes := acting.settings[setting][1:]:
-            told = [_tell_change(setting, value, tick, record) for tick, value in changes]
-            rows[_CHANGED, _TITLES[setting], ""] = "; ".join(told)
+            reported = [_describe_change(setting, value, tick, record) for tick, value in changes]
+            rows[_CHANGED, _TITLES[setting], ""] = "; ".join(reported)
     rows[_RECORD, "Recorded on", ""] = header.plant
     rows[_RECORD, "Version of svsa", ""] = header.version
     return rows
@@ -96,7 +96,7 @@ def _flatten(setting: str, value: Any) -> Iterator[tuple[tuple[str, str], Value]
     if value is None:
         yield (_TITLES[setting], ""), UNKNOWN
     elif setting == "law":
-        yield ("Law", ""), tell_law(value)
+        yield ("Law", ""), describe_law(value)
     elif setting == "comparisons":
         yield ("Beside it", ""), describe_lanes(value) or "nothing"
         for number, lane in enumerate(value, 2):
@@ -120,24 +120,24 @@ def _flatten(setting: str, value: Any) -> Iterator[tuple[tuple[str, str], Value]
 def _flatten_gains(gains: Gains, lane: str) -> Iterator[tuple[tuple[str, str], Value]]:
     for axis, roots in (("position", gains.position_roots), ("stiffness", gains.stiffness_roots)):
         name = f"{lane}{axis} poles, {_ANGULAR}"
-        yield (name[:1].upper() + name[1:], ""), tell_poles(roots)
+        yield (name[:1].upper() + name[1:], ""), format_poles(roots)
 
 
 def _flatten_parameters(
     law: str, parameters: LawParameters, lane: str
 ) -> Iterator[tuple[tuple[str, str], Value]]:
-    for symbol, told in parameters.describe().items():
-        name = f"{lane}{tell_law(law)} {symbol}"
-        yield (name[:1].upper() + name[1:], ""), told
+    for symbol, reported in parameters.describe().items():
+        name = f"{lane}{describe_law(law)} {symbol}"
+        yield (name[:1].upper() + name[1:], ""), reported
 
 
 def _flatten_observer(observer: Any, lane: str) -> Iterator[tuple[tuple[str, str], Value]]:
     name = f"{lane}observer β of link, motor 1, motor 2, {_ANGULAR}"
-    told = ", ".join(f"{beta:g}" for beta in observer.bandwidth_rad_per_s)
-    yield (name[:1].upper() + name[1:], ""), told
+    reported = ", ".join(f"{beta:g}" for beta in observer.bandwidth_rad_per_s)
+    yield (name[:1].upper() + name[1:], ""), reported
 
 
-def tell_poles(roots: Sequence[complex]) -> str:
+def format_poles(roots: Sequence[complex]) -> str:
     """Poles to three digits, one of four at one place as "−60 (4×)"."""
     texts: list[str] = []
     for root in roots:
@@ -163,29 +163,31 @@ def _flatten_model(model: BaseModel) -> Iterator[tuple[tuple[str, str], Value]]:
             yield from _flatten_model(value)
         elif value is not None:
             is_plain = isinstance(value, str | bool | int | float)
-            told = value if is_plain else ", ".join(map(str, value))
-            yield (name, "" if unit == "1" else unit), told
+            reported = value if is_plain else ", ".join(map(str, value))
+            yield (name, "" if unit == "1" else unit), reported
 
 
-def _tell_loads(acting: Acting, record: Record) -> str:
+def _describe_loads(acting: Acting, record: Record) -> str:
     if acting.loads is None:
         return UNKNOWN
-    told = [f"{describe_load(on.load)} {_tell_time(on.start_tick, record)}" for on in acting.loads]
-    return "; ".join(told) or NO_LOAD
+    reported = [
+        f"{describe_load(on.load)} {_format_time(on.start_tick, record)}" for on in acting.loads
+    ]
+    return "; ".join(reported) or NO_LOAD
 
 
-def _tell_change(setting: str, value: Any, tick: int, record: Record) -> str:
-    told = UNKNOWN if value is None else _TELL[setting](value)
-    return f"{told} {_tell_time(tick, record)}"
+def _describe_change(setting: str, value: Any, tick: int, record: Record) -> str:
+    reported = UNKNOWN if value is None else _TELL[setting](value)
+    return f"{reported} {_format_time(tick, record)}"
 
 
-def _tell_time(tick: int, record: Record) -> str:
+def _format_time(tick: int, record: Record) -> str:
     since = (tick - record.first_tick) * record.header.period_s
     return f"after {since:.6g} s" if since > 0 else "from the start"
 
 
-def _tell_model(value: BaseModel) -> str:
-    return ", ".join(f"{name}: {told}" for (name, _), told in _flatten_model(value))
+def _format_model(value: BaseModel) -> str:
+    return ", ".join(f"{name}: {reported}" for (name, _), reported in _flatten_model(value))
 
 
 _TITLES = {
@@ -205,14 +207,14 @@ _TITLES = {
 _TELL: dict[str, Callable[[Any], str]] = {
     "position": describe_motion,
     "stiffness": describe_stiffness,
-    "law": tell_law,
+    "law": describe_law,
     "comparisons": describe_lanes,
-    "gains": lambda gains: ", ".join(str(told) for _, told in _flatten_gains(gains, "")),
+    "gains": lambda gains: ", ".join(str(reported) for _, reported in _flatten_gains(gains, "")),
     "parameters": lambda value: ", ".join(
-        f"{name} {told}" for (name, _), told in _flatten("parameters", value)
+        f"{name} {reported}" for (name, _), reported in _flatten("parameters", value)
     ),
     "observer": lambda observer: ", ".join(f"{b:g}" for b in observer.bandwidth_rad_per_s),
     "effects": describe_effects,
-    "actuator": _tell_model,
-    "nominal": _tell_model,
+    "actuator": _format_model,
+    "nominal": _format_model,
 }

@@ -18,6 +18,12 @@ STEPS = {"hand-in": "submit"}
 """Steps of the exercises of the package."""
 SUBMISSIONS = "handed-in"
 """Folder of the submissions of a course."""
+METRICS = {"settled_position_error_rad": "steady_state_position_error_rad"}
+"""Metrics in the catalogue of runs, and columns and criteria of studies."""
+RESULTS = {"told": "description", "draws": "trials", "draws_held": "trials_held"}
+"""Fields of grades and of entries of the leaderboard."""
+SCENARIOS = {"unloading": "load_removal", "draw_": "trial_", "unloading_": "load_removal_"}
+"""Scenarios of the ranking, by the beginning of their names."""
 
 
 def translate_fields(written: Any, words: dict[str, str]) -> Any:
@@ -30,6 +36,27 @@ def translate_fields(written: Any, words: dict[str, str]) -> Any:
     if not isinstance(written, dict):
         return written
     return {words.get(name, name): value for name, value in written.items()}
+
+
+def translate_results(written: Any) -> Any:
+    """Rename the fields of a grade or an entry of the leaderboard, and the scenarios in it.
+
+    Args:
+        written: A value read from JSON.
+    """
+    if isinstance(written, list):
+        return [translate_results(one) for one in written]
+    if not isinstance(written, dict):
+        return written
+    present = {name: translate_results(one) for name, one in written.items()}
+    if isinstance(scenario := present.get("scenario"), str):
+        present["scenario"] = _translate_scenario(scenario)
+    return translate_fields(present, RESULTS)
+
+
+def _translate_scenario(name: str) -> str:
+    kind, underscore, rest = name.partition("_")
+    return SCENARIOS.get(kind + underscore, kind + underscore) + rest
 
 
 def translate_command(command: dict[str, Any]) -> dict[str, Any]:

@@ -77,7 +77,7 @@ def summarize(
     """
     found = tuple(metrics for lane in lanes if (metrics := lane.summarize()) is not None)
     if window.load_ended:
-        found = tuple(replace(metrics, settled_position_error_rad=None) for metrics in found)
+        found = tuple(replace(metrics, steady_state_position_error_rad=None) for metrics in found)
     numbers = [value for lane in found for value in vars(lane).values() if value is not None]
     return found if all(map(math.isfinite, numbers)) else None
 

@@ -18,11 +18,11 @@ from svsa.runs.records.wording import (
     compute_mean,
     describe_effects,
     describe_lanes,
+    describe_law,
     describe_load,
     describe_motion,
     describe_stiffness,
     follow,
-    tell_law,
 )
 from svsa.simulation.reference.paper import References, find_figure
 
@@ -136,7 +136,9 @@ def _describe_laws(acting: Acting, header: RecordHeader) -> str:
     every = [lanes or () for lanes in acting.get_values("comparisons")]
     if any(1 + len(lanes) != len(header.lanes) for lanes in every):
         every = [()]
-    first = follow(UNKNOWN if law is None else tell_law(law) for law in acting.get_values("law"))
+    first = follow(
+        UNKNOWN if law is None else describe_law(law) for law in acting.get_values("law")
+    )
     is_twin = header.plant != "simulated" and bool(every[0])
     beside = follow(describe_lanes(lanes[1:] if is_twin else lanes) for lanes in every)
     others = ["twin", beside] if is_twin else [beside]

@@ -57,10 +57,10 @@ def describe_motion(reference: PositionReference | None) -> str:
         case None:
             return UNKNOWN
         case ConstantPosition():
-            return f"held at {_tell_degrees(reference.position_rad)}"
+            return f"held at {_format_degrees(reference.position_rad)}"
         case SinePosition():
-            mean = f"{_tell_degrees(reference.offset_rad)} ± " if reference.offset_rad else ""
-            return f"{mean}{_tell_degrees(reference.amplitude_rad)} {reference.frequency_hz:g} Hz"
+            mean = f"{_format_degrees(reference.offset_rad)} ± " if reference.offset_rad else ""
+            return f"{mean}{_format_degrees(reference.amplitude_rad)} {reference.frequency_hz:g} Hz"
     return str(reference.kind).replace("_", " ")
 
 
@@ -78,15 +78,15 @@ def describe_stiffness(reference: StiffnessReference | None) -> str:
 
 def describe_lanes(lanes: Sequence[Lane]) -> str:
     """Controllers side by side: "FL", "FL vs NDOBC (own gains)"."""
-    return VERSUS.join(f"{tell_law(lane.law)}{_tell_own(lane)}" for lane in lanes)
+    return VERSUS.join(f"{describe_law(lane.law)}{_describe_own(lane)}" for lane in lanes)
 
 
-def tell_law(name: str) -> str:
+def describe_law(name: str) -> str:
     """The title of a law, or the name of one that cannot be used here."""
     return get_law(name).title if is_usable(name) else name
 
 
-def _tell_own(lane: Lane) -> str:
+def _describe_own(lane: Lane) -> str:
     return " (own gains)" if lane.gains or lane.observer or lane.parameters else ""
 
 
@@ -100,7 +100,7 @@ def compute_mean(reference: StiffnessReference | None) -> float | None:
     return None
 
 
-def _tell_degrees(angle_rad: float) -> str:
+def _format_degrees(angle_rad: float) -> str:
     return f"{math.degrees(angle_rad):.4g}°"
 
 
@@ -113,17 +113,17 @@ def describe_load(load: Load) -> str:
             arm = "" if load.arm_m == PAPER_ARM_M else f" at {1000 * load.arm_m:g} mm"
             return f"{load.mass_kg:g} kg mass{arm}"
         case ConstantLoad():
-            return _tell_torque(load.torque_nm)
+            return _format_torque(load.torque_nm)
         case PushLoad():
             return "push"
         case PulseLoad():
-            return f"pulse {_tell_torque(load.torque_nm)}"
+            return f"pulse {_format_torque(load.torque_nm)}"
         case SineLoad():
-            return f"sine {_tell_torque(load.torque_nm)} {load.frequency_hz:g} Hz"
+            return f"sine {_format_torque(load.torque_nm)} {load.frequency_hz:g} Hz"
     return "torque series"
 
 
-def _tell_torque(torque_nm: Sequence[float]) -> str:
+def _format_torque(torque_nm: Sequence[float]) -> str:
     link, *motors = (f"{value:.3g}" for value in torque_nm)
     return f"{link} N·m" if not any(torque_nm[1:]) else f"{', '.join((link, *motors))} N·m"
 

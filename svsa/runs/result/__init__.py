@@ -1,1 +1,1 @@
-"""Whole runs in hand, simulated, on the emulated rig or recorded: numbers and pictures."""
+"""Whole runs in hand, simulated, on the emulator or recorded: numbers and pictures."""

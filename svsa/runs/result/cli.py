@@ -11,7 +11,7 @@ from rich.console import Console
 from rich.table import Table
 
 from svsa.errors import ParameterError, SvsaError, Violation
-from svsa.inputs.toml_file import read_toml, tell_place
+from svsa.inputs.toml_file import describe_place, read_toml
 
 if TYPE_CHECKING:
     from svsa.runs.records.verdict import Tolerance, Verdict
@@ -69,7 +69,7 @@ def read_tolerances(path: Path) -> "dict[str, Tolerance]":
             violations += error.within(name).violations
     if violations:
         names = [violation.name for violation in violations]
-        place = tell_place(str(path), path.read_text(encoding="utf-8"), names)
+        place = describe_place(str(path), path.read_text(encoding="utf-8"), names)
         raise ParameterError(*violations, file=place)
     return read
 
@@ -83,12 +83,12 @@ def build_verdict_table(verdict: "Verdict") -> list[Table | str]:
         cells = f"{one.worst_s:.6g} s", f"{one.value:.6g}", band
         table.add_row(one.lane, one.channel, one.unit, held, *cells)
     failed = sum(not one.held for one in verdict.channels)
-    told = f"{failed} of {len(verdict.channels)} channels not held" if failed else "All held"
-    told += f" over {verdict.ticks} ticks"
+    reported = f"{failed} of {len(verdict.channels)} channels not held" if failed else "All held"
+    reported += f" over {verdict.ticks} ticks"
     if verdict.own_ticks != verdict.other_ticks:
         lengths = f"not as long: {verdict.own_ticks} and {verdict.other_ticks} ticks"
-        told = f"Not held: {lengths}. {told}"
-    return [table, f"{told}."]
+        reported = f"Not held: {lengths}. {reported}"
+    return [table, f"{reported}."]
 
 
 def _plain(value: Any) -> Any:

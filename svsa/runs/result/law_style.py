@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from svsa.control.installed import get_title, list_law_inks
+from svsa.control.installed import get_title, list_law_line_styles
 from svsa.control.law import NAME
 
 REFERENCE_STYLE = {"color": "#444444", "linestyle": "--", "linewidth": 1.2, "zorder": 3}
@@ -17,9 +17,11 @@ def style_law(law: str) -> dict[str, Any]:
     Twenty looks of which no two share both colour and dash; neighbours share neither. What is no
     installed law is drawn in black.
     """
-    ink = list_law_inks().get(law)
+    line_style = list_law_line_styles().get(law)
     look = (
-        (OWN_COLOR, "-") if ink is None else (COLORS[ink % len(COLORS)], DASHES[ink % len(DASHES)])
+        (OWN_COLOR, "-")
+        if line_style is None
+        else (COLORS[line_style % len(COLORS)], DASHES[line_style % len(DASHES)])
     )
     return {"color": look[0], "linestyle": look[1], "linewidth": 1.3, "label": name_law(law)}
 

@@ -145,12 +145,12 @@ class Result(Channels):
 
     def _tell(self) -> dict[str, str]:
         """What the run was, as attributes that every format of a file can hold."""
-        told = {"law": self.law, "configuration": self.configuration.model_dump_json()}
+        reported = {"law": self.law, "configuration": self.configuration.model_dump_json()}
         if self.name:
-            told["name"] = self.name
+            reported["name"] = self.name
         if self.fault is not None:
-            told["fault"] = self.fault.message
-        return told
+            reported["fault"] = self.fault.message
+        return reported
 
     def _describe(self) -> tuple[str, str]:
         """The run in two lines: what it is, and how it went."""

@@ -15,14 +15,14 @@ if TYPE_CHECKING:
 TIME = "time_s"
 
 
-def build_dataframe(samples: np.ndarray, told: Mapping[str, str]) -> pandas.DataFrame:
+def build_dataframe(samples: np.ndarray, reported: Mapping[str, str]) -> pandas.DataFrame:
     """A row a tick, a column a channel; `attrs` has the units and what is told of the run."""
     table = pandas.DataFrame(samples, columns=list(CHANNEL_NAMES))
-    table.attrs.update(told, units={channel.name: channel.unit for channel in CHANNELS})
+    table.attrs.update(reported, units={channel.name: channel.unit for channel in CHANNELS})
     return table
 
 
-def build_dataset(samples: np.ndarray, told: Mapping[str, str]) -> "xarray.Dataset":
+def build_dataset(samples: np.ndarray, reported: Mapping[str, str]) -> "xarray.Dataset":
     """A variable a channel along `time_s`, each with `units` and `long_name`.
 
     Raises `MissingExtraError` where xarray, of the extra of that name, is not installed.
@@ -36,4 +36,4 @@ def build_dataset(samples: np.ndarray, told: Mapping[str, str]) -> "xarray.Datas
         for channel, values in columns
     }
     time = variables.pop(TIME)
-    return xarray.Dataset(variables, coords={TIME: time}, attrs=dict(told))
+    return xarray.Dataset(variables, coords={TIME: time}, attrs=dict(reported))

@@ -135,7 +135,7 @@ class Journal:
         self.events.append(Event(self.run.tick, self.run.time_s, kind, label))
         self.version += 1
 
-    def tell(self, kind: str, label: str) -> None:
+    def report(self, kind: str, label: str) -> None:
         """Enter what a bench says of itself at the present tick: a record keeps it too."""
         self.log(kind, label)
         self._told.append(self.events[-1])

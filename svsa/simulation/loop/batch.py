@@ -174,8 +174,10 @@ def _specialize(control: Any, memory: Any, layout: Beginning) -> Any:
     name = f"advance_groups_{hashlib.sha256(text.encode()).hexdigest()[:16]}"
     compute, view = compute_one_by_one, borrow
     if control:
-        told = is_measuring(control)
-        compute = specialize(compute_side_by_side, f"compute_{name}", law=control, is_told=told)
+        reported = is_measuring(control)
+        compute = specialize(
+            compute_side_by_side, f"compute_{name}", law=control, is_reported=reported
+        )
         view = build_record(memory)
     return specialize(advance_groups, name, compute=compute, read=build_reader(layout), view=view)
 

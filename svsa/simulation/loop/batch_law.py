@@ -47,8 +47,8 @@ _SIGNALS = (AT_REST, NO_REFERENCE, UNDISTURBED, NO_TORQUE)
 @cache
 def _compile(control: Any, nominal: Any, constants: Any, memory: Any) -> bool:
     signals = [find_kind(_lay_out(signal)) for signal in _SIGNALS]
-    told = [find_kind(_lay_out(UNMOVED))] if is_measuring(control) else []
-    kinds = nominal, constants, VectorRecord(memory), *signals, numba.float64, *told
+    reported = [find_kind(_lay_out(UNMOVED))] if is_measuring(control) else []
+    kinds = nominal, constants, VectorRecord(memory), *signals, numba.float64, *reported
     try:
         control.get_call_template(kinds, {})
     except NumbaError:
@@ -121,7 +121,7 @@ def compute_one_by_one(
 
 
 law: Any = None
-is_told: Any = None
+is_reported: Any = None
 """Of `compute_side_by_side`: a law's function, and whether it is told what was measured."""
 
 
@@ -140,7 +140,7 @@ def compute_side_by_side(
     tick: int,
 ) -> Torque:
     """u of all eight at once, `Torque`, N·m: `law` compiled for vectors."""
-    if is_told:
+    if is_reported:
         measured = read_positions(effects, state, tick)
         return law(nominal, constants, memory, x, reference, estimate, applied, period, measured)
     return law(nominal, constants, memory, x, reference, estimate, applied, period)

@@ -61,7 +61,7 @@ class _Address(NamedTuple):
     function: int
 
 
-def _build_ask(typing: Any, address: Any, told: Any) -> Any:
+def _build_ask(typing: Any, address: Any, reported: Any) -> Any:
     """Call the function at an address with that of a record."""
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
@@ -71,17 +71,17 @@ def _build_ask(typing: Any, address: Any, told: Any) -> Any:
         builder.call(asked, [builder.bitcast(arguments[1], record)])
         return context.get_dummy_value()
 
-    return types.void(types.int64, told), generate
+    return types.void(types.int64, reported), generate
 
 
 _ask: Any = intrinsic(_build_ask)
 
 
 @compiled
-def _compute_asked(
+def _compute_commanded(
     nominal: Any,
     address: Any,
-    told: Any,
+    reported: Any,
     x: State,
     reference: Reference,
     estimate: Disturbance,
@@ -90,17 +90,17 @@ def _compute_asked(
     measured: Positions,
 ) -> Torque:
     """What the controller answers, as `svsa.control.law.Law.control`."""
-    to = told.reference
+    to = reported.reference
     to.q, to.dq, to.ddq, to.dddq, to.ddddq = reference[:5]
     to.sigma, to.dsigma, to.ddsigma = reference[5:]
-    at = told.x
+    at = reported.x
     at.q, at.dq, at.theta1, at.dtheta1, at.theta2, at.dtheta2 = x
-    told.estimate.w2, told.estimate.w4, told.estimate.w6 = estimate
-    told.applied.u1, told.applied.u2 = applied
-    y = told.measured
+    reported.estimate.w2, reported.estimate.w4, reported.estimate.w6 = estimate
+    reported.applied.u1, reported.applied.u2 = applied
+    y = reported.measured
     y.q, y.theta1, y.theta2 = measured
-    _ask(address.function, told)
-    return Torque(told.answer.u1, told.answer.u2)
+    _ask(address.function, reported)
+    return Torque(reported.answer.u1, reported.answer.u2)
 
 
 def advance_stepwise(
@@ -126,8 +126,8 @@ def advance_stepwise(
             time = tick * blocks.period
             given = Reference(*words[:8]), State(*words[8:14]), Disturbance(*words[14:17])
             torque, positions = Torque(*words[17:19]), Positions(*words[19:22])
-            told: dict[str, tuple[float, ...]] = {"applied": torque, "measured": positions}
-            answer = controller(time, *given, **{name: told[name] for name in named})
+            reported: dict[str, tuple[float, ...]] = {"applied": torque, "measured": positions}
+            answer = controller(time, *given, **{name: reported[name] for name in named})
             words[22:] = _read_torque(answer)
         except BaseException as error:
             raised.append(error)
@@ -136,9 +136,9 @@ def advance_stepwise(
 
     called = _Call(ask)
     address = ctypes.cast(called, ctypes.c_void_p).value or 0
-    nominal, constants, told = pack(blocks.nominal), pack(_Address(address)), pack(_ZEROS)
-    law: BoundLaw = bind(_compute_asked, nominal, constants, told, False)
-    begun = lane._replace(memory=told.view(np.float64))
+    nominal, constants, reported = pack(blocks.nominal), pack(_Address(address)), pack(_ZEROS)
+    law: BoundLaw = bind(_compute_commanded, nominal, constants, reported, False)
+    begun = lane._replace(memory=reported.view(np.float64))
     with hold_signals() as held:
         ended, done, code = advance(blocks, law, inputs, begun, first, samples)
     if raised:

@@ -14,7 +14,7 @@ from svsa.numerics.simd.choice import choose, greatest
 from svsa.simulation.loop.lane import Blocks
 
 RECOVERY_SHARE = 0.02
-SETTLED_S = 0.5
+STEADY_STATE_S = 0.5
 AT_LIMIT = 0.999
 
 
@@ -29,9 +29,9 @@ class Window(NamedTuple):
 class Tally(NamedTuple):
     """Of a run's measured ticks: sums of squares and sizes, peaks and what came last, SI.
 
-    settled_squares: of the position error, of the last 0.5 s. recovered: the measured tick from
-    which on the position error stayed within 2 % of its peak until then for 0.5 s, −1 while it has
-    not; inside: that from which on it is within now. limited: ticks in which a motor made its
+    steady_state_squares: of the position error, of the last 0.5 s. recovered: the measured tick
+    from which on the position error stayed within 2 % of its peak until then for 0.5 s, −1 while it
+    has not; inside: that from which on it is within now. limited: ticks in which a motor made its
     limit, to 0.1 %.
     """
 
@@ -46,7 +46,7 @@ class Tally(NamedTuple):
     torque2_peak: float
     position_last: float
     stiffness_last: float
-    settled_squares: float
+    steady_state_squares: float
     inside: float
     recovered: float
     limited: float
@@ -72,7 +72,7 @@ _U1, _U2 = CHANNEL_INDEX["torque1_nm"], CHANNEL_INDEX["torque2_nm"]
 @compiled
 def build_window(begin: int, end: int, period: float) -> Window:
     """`Window` of a run of `end` ticks of `period`, s."""
-    return Window(begin, end, math.ceil(SETTLED_S / period - 1e-9))
+    return Window(begin, end, math.ceil(STEADY_STATE_S / period - 1e-9))
 
 
 @compiled
@@ -121,7 +121,7 @@ def measure(
         greatest(t.torque2_peak, u2),
         choose(counts, position, t.position_last),
         choose(counts, stiffness, t.stiffness_last),
-        t.settled_squares + late * late,
+        t.steady_state_squares + late * late,
         inside,
         choose(stayed, inside, t.recovered),
         choose(is_limited, t.limited + 1.0, t.limited),

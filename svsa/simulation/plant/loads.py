@@ -199,8 +199,8 @@ def continue_push(
     if isinstance(load, PushLoad) and load.start_s is None:
         for held in loads:
             if isinstance(held.load, PushLoad) and held.is_on(tick):
-                told = schedule_load(held.number, load, tick, period)
-                return told._replace(start_tick=held.start_tick)
+                reported = schedule_load(held.number, load, tick, period)
+                return reported._replace(start_tick=held.start_tick)
     return None
 
 

@@ -22,8 +22,8 @@ def list_command(folder: _Folder = None) -> None:
     table = Table("", "exercise", "title", "steps", "points", "min", title_justify="left")
     table.title = "Exercises"
     for one in read_course(folder or find_course_folder()):
-        told = one.name, one.title, str(len(one.steps)), f"{one.max_points:g}", str(one.minutes)
-        table.add_row(str(one.number), *told)
+        reported = one.name, one.title, str(len(one.steps)), f"{one.max_points:g}", str(one.minutes)
+        table.add_row(str(one.number), *reported)
     Console().print(table)
 
 
@@ -36,5 +36,5 @@ def check_command(
 
     for file in files:
         one = read_exercise(file)
-        told = f"{len(one.steps)} steps, {one.max_points:g} points"
-        Console().print(f"{file}: {one.title}: {told}, right.", highlight=False, soft_wrap=True)
+        reported = f"{len(one.steps)} steps, {one.max_points:g} points"
+        Console().print(f"{file}: {one.title}: {reported}, right.", highlight=False, soft_wrap=True)

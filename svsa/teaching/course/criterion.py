@@ -9,7 +9,7 @@ from svsa.inputs.checked import Checked, Number, quantity
 from svsa.teaching.course.submission import StepName
 
 MAX_POINTS = 100
-Told = Annotated[str, Field(max_length=1000)]
+FeedbackText = Annotated[str, Field(max_length=1000)]
 
 
 class Criterion(Checked):
@@ -20,9 +20,9 @@ class Criterion(Checked):
     low: Number | None = quantity("", "Least value, in its unit", default=None)
     high: Number | None = quantity("", "Greatest value, in its unit", default=None)
     points: Number = quantity("", "Points", gt=0, le=MAX_POINTS, default=1.0)
-    right: Told = quantity("", "Told where it is right", default="")
-    too_low: Told = quantity("", "Told below", default="")
-    too_high: Told = quantity("", "Told above", default="")
+    right: FeedbackText = quantity("", "Told where it is right", default="")
+    too_low: FeedbackText = quantity("", "Told below", default="")
+    too_high: FeedbackText = quantity("", "Told above", default="")
 
     @model_validator(mode="after")
     def _check(self) -> Self:

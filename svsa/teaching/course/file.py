@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from svsa.errors import ParameterError, Violation
-from svsa.inputs.toml_file import parse_toml, tell_place
+from svsa.inputs.toml_file import describe_place, parse_toml
 from svsa.teaching.course.exercise import Exercise
 
 EXERCISE_FILE = "exercise file"
@@ -139,4 +139,4 @@ def _locate(error: ParameterError, place: str, front: str) -> ParameterError:
         where = ", ".join(filter(None, (place, line)))
         return ParameterError(replace(first, name=name), file=where)
     names = [violation.name for violation in error.violations]
-    return ParameterError(*error.violations, file=tell_place(place, front, names))
+    return ParameterError(*error.violations, file=describe_place(place, front, names))

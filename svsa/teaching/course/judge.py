@@ -120,8 +120,8 @@ def _judge_prediction(
         points = step.points
     elif off <= step.half_within:
         points = step.points / 2.0
-    told = f"You predicted {_write(float(answer), step.unit)}; the run gave"
-    feedback = f"{told} {_write(seen.value, step.unit)}. {step.feedback}".strip()
+    reported = f"You predicted {_write(float(answer), step.unit)}; the run gave"
+    feedback = f"{reported} {_write(seen.value, step.unit)}. {step.feedback}".strip()
     return none._replace(points=points, feedback=feedback, time_s=seen.time_s)
 
 
@@ -164,8 +164,8 @@ def _find_problem(step: Experiment, run: Opened | None) -> tuple[str, float | No
     difference = step.find_difference(run)
     if difference is None:
         return None
-    told = f"This is not the run that is asked for: {difference.message}. Set it up again."
-    return told, difference.time_s
+    reported = f"This is not the run that is asked for: {difference.message}. Set it up again."
+    return reported, difference.time_s
 
 
 def _judge_criterion(
@@ -177,15 +177,15 @@ def _judge_criterion(
         return none._replace(feedback=f"{measure.label}: {seen.problem.rstrip('.')}.")
     is_low = c.low is not None and seen.value < c.low
     is_high = c.high is not None and seen.value > c.high
-    told = f"{measure.label}: {_write(seen.value, measure.shown_unit)}"
-    asked = _tell_range(c, measure.shown_unit)
+    reported = f"{measure.label}: {_write(seen.value, measure.shown_unit)}"
+    asked = _format_range(c, measure.shown_unit)
     if not is_low and not is_high:
-        return none._replace(points=c.points, feedback=f"{told}. {c.right}".strip())
+        return none._replace(points=c.points, feedback=f"{reported}. {c.right}".strip())
     why = c.too_low if is_low else c.too_high
-    return none._replace(feedback=f"{told}, asked: {asked}. {why}".strip())
+    return none._replace(feedback=f"{reported}, asked: {asked}. {why}".strip())
 
 
-def _tell_range(criterion: Criterion, unit: str) -> str:
+def _format_range(criterion: Criterion, unit: str) -> str:
     low, high = criterion.low, criterion.high
     if low is None:
         return f"at most {_write(high or 0.0, unit)}"
@@ -204,5 +204,5 @@ def _judge_choice(step: Explain, answer: Answer | None) -> CriterionResult:
 
 
 def _write(value: float, unit: str) -> str:
-    told = f"{value:.3g}" if abs(value) < 1000 else f"{value:.0f}"
-    return f"{told}{'' if unit == '°' else ' '}{unit}".rstrip()
+    reported = f"{value:.3g}" if abs(value) < 1000 else f"{value:.0f}"
+    return f"{reported}{'' if unit == '°' else ' '}{unit}".rstrip()

@@ -101,7 +101,7 @@ class Measure(Checked):
         time, values = lane.time_s, lane[self.channel]
         rows = (time >= self.from_s - 1e-9) & (time < end_s - 1e-9)
         if self.to_s is not None and not _reaches(result, self.to_s):
-            return Measured(None, _end(result), _tell_end(result, self.to_s))
+            return Measured(None, _end(result), _describe_end(result, self.to_s))
         if not rows.any() or np.isnan(values[rows]).any():
             return Measured(None, None, "the run has no such samples")
         value, row = _STATISTICS[self.statistic](self, lane, values[rows], rows)
@@ -120,7 +120,7 @@ def _end(result: Result) -> float | None:
     return float(result.time_s[-1]) if len(result.time_s) else None
 
 
-def _tell_end(result: Result, wanted_s: float) -> str:
+def _describe_end(result: Result, wanted_s: float) -> str:
     if result.fault is not None:
         return f"the run ended before {wanted_s:g} s: {result.fault.message}"
     return f"the run ended before {wanted_s:g} s"

@@ -136,8 +136,8 @@ def keep_run(
         return progress
     progress = progress.with_step(step, run=run, results=own, done=True)
     for name in dict.fromkeys(one.step for one in results if one.step != step):
-        told = tuple(one for one in results if one.step == name)
-        progress = progress.with_step(name, results=told)
+        reported = tuple(one for one in results if one.step == name)
+        progress = progress.with_step(name, results=reported)
     return progress
 
 

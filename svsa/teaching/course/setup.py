@@ -99,8 +99,8 @@ class Setup(Checked):
             time_s = command.tick * result.configuration.sampling.period_s
             if isinstance(command, Stop):
                 if time_s < self.duration_s:
-                    told = f"the bench was stopped at {time_s:.3g} s, before its end"
-                    return Difference(told, time_s)
+                    reported = f"the bench was stopped at {time_s:.3g} s, before its end"
+                    return Difference(reported, time_s)
             elif command.tick > 0:
                 field = _FIELDS.get(command.kind, command.kind)
                 return Difference(f"{field} was changed at {time_s:.3g} s, during the run", time_s)

@@ -6,7 +6,7 @@ from pydantic import model_validator
 
 from svsa.errors import ParameterError, Violation
 from svsa.inputs.checked import BY_KIND, Checked, Flag, Number, quantity
-from svsa.teaching.course.criterion import MAX_POINTS, Criterion, Told
+from svsa.teaching.course.criterion import MAX_POINTS, Criterion, FeedbackText
 from svsa.teaching.course.measure import Measure, read_number
 from svsa.teaching.course.on_bench import check_for_bench
 from svsa.teaching.course.setup import Setup
@@ -47,7 +47,7 @@ class Predict(_Step):
     half_within: Number = quantity("1", "Share for half of them", gt=0, le=1000, default=0.5)
     by_factor: Flag = quantity("", "By how many times, not by how much", default=False)
     points: Number = quantity("", "Points", gt=0, le=MAX_POINTS, default=2.0)
-    feedback: Told = quantity("", "Why it is so, told with the judgement", default="")
+    feedback: FeedbackText = quantity("", "Why it is so, told with the judgement", default="")
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -131,7 +131,7 @@ class Option(Checked):
     name: StepName
     text: str = quantity("", "The answer", min_length=1, max_length=500)
     right: Flag = quantity("", "Whether it is right", default=False)
-    feedback: Told = quantity("", "Told where it was chosen", default="")
+    feedback: FeedbackText = quantity("", "Told where it was chosen", default="")
 
 
 class Explain(_Step):

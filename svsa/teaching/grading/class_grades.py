@@ -48,7 +48,7 @@ def grade_class(
     runs: Path,
     book: Book,
     again: bool = False,
-    tell: Callable[[int, int], None] = lambda done, total: None,
+    report: Callable[[int, int], None] = lambda done, total: None,
     is_cancelled: Callable[[], bool] = lambda: False,
     workers: int = 1,
 ) -> bool:
@@ -59,7 +59,7 @@ def grade_class(
     """
     workers = min(workers, len(files)) or 1
     graded = grade_side_by_side(files, exercises, runs, book, workers, again)
-    tell(0, len(files))
+    report(0, len(files))
     with closing(graded):
         for done, (path, take) in enumerate(graded, 1):
             if is_cancelled():
@@ -72,7 +72,7 @@ def grade_class(
                 _refuse(path, book, str(error))
             else:
                 book.refuse(given.submission, "")
-            tell(done, len(files))
+            report(done, len(files))
     return True
 
 

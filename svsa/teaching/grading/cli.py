@@ -30,7 +30,7 @@ def grade_command(
     ] = None,
     practice: Annotated[
         bool,
-        typer.Option("--practice", help="One's own: public draws, no walls, nothing is kept."),
+        typer.Option("--practice", help="One's own: public trials, no walls, nothing is kept."),
     ] = False,
     runs: Annotated[Path | None, typer.Option(help="Folder of the runs; else SVSA_DATA's.")] = None,
     course: Annotated[
@@ -39,7 +39,7 @@ def grade_command(
     csv: _File = None,
     page: _File = None,
 ) -> None:
-    """Grade submissions: runs by exact replay, laws in a process of their own on secret draws.
+    """Grade submissions: runs by exact replay, laws in a process of their own on secret trials.
 
     What was graded before keeps its grade. --csv and --page tell all grades of the class.
     """
@@ -49,10 +49,10 @@ def grade_command(
     exercises = {one.name: one for one in read_course(course or find_course_folder())}
     kept = None if book is None else Book(book)
     found, refused = _grade_all(files, exercises, runs, kept)
-    told = found if kept is None else kept.list()
+    reported = found if kept is None else kept.list()
     for path, write in ((csv, write_csv), (page, write_page)):
         if path is not None:
-            path.write_text(write(told), encoding="utf-8")
+            path.write_text(write(reported), encoding="utf-8")
     Console().print(_build_table(found))
     for line in refused:
         _messages.print(f"[bold red]Refused:[/] {escape(line)}", highlight=False)

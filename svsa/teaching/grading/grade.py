@@ -16,7 +16,7 @@ from svsa.teaching.course.exercise import Exercise
 from svsa.teaching.course.judge import judge_submission
 from svsa.teaching.course.judgement import CriterionResult
 from svsa.teaching.course.steps import SubmitStep
-from svsa.teaching.grading.law_runs import judge_law, run_draws
+from svsa.teaching.grading.law_runs import judge_law, run_trials
 from svsa.teaching.grading.submitted_work import SubmittedWork
 from svsa.teaching.isolation.confinement import confine, leave_open
 from svsa.teaching.isolation.probe import check_isolation
@@ -36,13 +36,13 @@ class VerifiedRun(Checked):
     """A run that was submitted, and what was found when it was run again."""
 
     run_id: str = quantity("", "Id of the run")
-    told: str = quantity("", "What was verified of it")
+    description: str = quantity("", "What was verified of it")
 
 
 class Grade(Checked):
     """What a submission is worth, and what it was graded with.
 
-    submission: digest of everything that was submitted. seed: of the draws that its law went
+    submission: digest of everything that was submitted. seed: of the trials that its law went
     through, in hexadecimal, None without a law. is_isolated: false for a law that ran without
     walls, which is no grade for a class.
     """
@@ -54,7 +54,7 @@ class Grade(Checked):
     max_points: Number = quantity("", "Points that there are", gt=0)
     criteria: tuple[Criterion, ...] = quantity("", "Points by criterion")
     runs: tuple[VerifiedRun, ...] = quantity("", "Runs, and what was verified", default=())
-    seed: str | None = quantity("", "Seed of the draws", default=None)
+    seed: str | None = quantity("", "Seed of the trials", default=None)
     is_isolated: Flag = quantity("", "Whether its law had nothing but its task", default=True)
     version: str = quantity("", "Version of the lab", default=__version__)
 
@@ -67,15 +67,15 @@ def verify_run(catalogue: Catalogue, run_id: str) -> VerifiedRun:
     """
     record = catalogue.open(run_id)
     if record.header.plant != "simulated":
-        return VerifiedRun(run_id=run_id, told=verify_bench_record(record).told)
+        return VerifiedRun(run_id=run_id, description=verify_bench_record(record).description)
     found = compare_with_simulation(record)
     if not found.identical:
         tick, channel = found.first_difference or (found.ticks, "")
         raise RecordError(
             f"Run {run_id} does not replay: simulated again, {channel} differs at tick {tick}."
         )
-    told = f"Simulated again: its {found.ticks} samples are the same, bit for bit."
-    return VerifiedRun(run_id=run_id, told=told)
+    description = f"Simulated again: its {found.ticks} samples are the same, bit for bit."
+    return VerifiedRun(run_id=run_id, description=description)
 
 
 def grade(
@@ -84,7 +84,7 @@ def grade(
     """The grade of a submission. runs: folder of the runs, None for this machine's.
 
     secret: the class's, from which and from the law's text come its draws, so that one law is
-    worth the same whoever submits it; None for practice: public draws, and the law runs without
+    worth the same whoever submits it; None for practice: public trials, and the law runs without
     walls, as one's own. Raises `ParameterError` for a submission that does not fit the exercise,
     `NotIsolatedError` for a law where the machine cannot hold one.
     """
@@ -108,7 +108,7 @@ def grade(
         if secret is not None:
             check_isolation()
         seed = derive_seed(secret or b"practice", f"{SUITE_VERSION} {work.law_digest}")
-        criteria += judge_law(run_draws(law, seed, confine if secret else leave_open))
+        criteria += judge_law(run_trials(law, seed, confine if secret else leave_open))
     return Grade(
         student=submission.student,
         exercise=exercise.name,

@@ -1,11 +1,11 @@
 """A class's book: its secret, and every grade that was given, so that it stays as it is."""
 
+import json
 import os
 from pathlib import Path
 
-from pydantic import ValidationError
-
 from svsa.errors import ParameterError, StateError, Violation
+from svsa.runs.records.former_words import translate_results
 from svsa.teaching.grading.grade import Grade
 from svsa.teaching.grading.secret import keep_secret
 
@@ -63,6 +63,6 @@ class Book:
 
 def _read(path: Path) -> Grade:
     try:
-        return Grade.model_validate_json(path.read_bytes())
-    except (OSError, ValidationError) as error:
+        return Grade.model_validate(translate_results(json.loads(path.read_bytes())))
+    except (OSError, ValueError) as error:
         raise ParameterError(Violation("grade", path, "", f"a grade of svsa ({error})")) from None

@@ -9,18 +9,18 @@ import numpy as np
 from svsa.actuators.dynamics import build_actuator
 from svsa.control.installed import PAPERS_LAW
 from svsa.evaluation.ranking.measure import has_held, measure_rms
-from svsa.evaluation.ranking.samples import build_draw
 from svsa.evaluation.ranking.scenarios import Scenario
 from svsa.evaluation.ranking.score import compute_accuracy
+from svsa.evaluation.ranking.trials import build_trial
 from svsa.runs.blocks import compute_start_ratio
 from svsa.runs.result.result import Result
 from svsa.runs.result.simulate import simulate
 from svsa.teaching.course.judgement import CriterionResult
 from svsa.teaching.isolation.confinement import BOUNDS, Bounds, confine
 from svsa.teaching.isolation.process import LawProcess, Place
-from svsa.teaching.isolation.refusal import LawFaultError, tell_last_words
+from svsa.teaching.isolation.refusal import LawFaultError, describe_last_output
 
-DRAWS = 20
+TRIALS = 20
 """With six, luck decides 2.5 of 10 points of one and the same law."""
 LAW_STEP = "law"
 POINTS = {
@@ -56,23 +56,23 @@ def run_law(
     """One run of a law in a process of its own; raises `NotIsolatedError`."""
     configuration = scenario.build_configuration(PAPERS_LAW)
     model = build_actuator(configuration.nominal, compute_start_ratio(configuration))
-    told: list[tuple[float, float]] = []
+    reported: list[tuple[float, float]] = []
     try:
         with LawProcess(source, model, bounds, place) as law:
-            begin, told = perf_counter(), law.torques
+            begin, reported = perf_counter(), law.torques
             result = simulate(configuration, law, duration_s=scenario.duration_s)
             took_s, costs = perf_counter() - begin, sorted(law.cost_s)
     except LawFaultError as error:
         return LawRun(
-            scenario.name, False, None, str(error), error.output, torques=_pack_torques(told)
+            scenario.name, False, None, str(error), error.output, torques=_pack_torques(reported)
         )
     run = describe_run(scenario, result, took_s)
     cost_us = 1e6 * costs[len(costs) // 2] if costs else None
-    return run._replace(cost_us=cost_us, torques=_pack_torques(told))
+    return run._replace(cost_us=cost_us, torques=_pack_torques(reported))
 
 
-def _pack_torques(told: list[tuple[float, float]]) -> bytes:
-    return np.array(told, dtype=np.float64).tobytes()
+def _pack_torques(reported: list[tuple[float, float]]) -> bytes:
+    return np.array(reported, dtype=np.float64).tobytes()
 
 
 def run_installed(law: str, scenario: Scenario) -> LawRun:
@@ -95,21 +95,24 @@ def describe_run(scenario: Scenario, result: Result, took_s: float) -> LawRun:
     )
 
 
-def run_draws(
-    source: bytes, seed: int, place: Place = confine, tell: Callable[[float], None] = lambda _: None
+def run_trials(
+    source: bytes,
+    seed: int,
+    place: Place = confine,
+    report: Callable[[float], None] = lambda _: None,
 ) -> list[LawRun]:
-    """The law on the draws of a season; one that fails at its own part is not asked again.
+    """The law on the trials of a season; one that fails at its own part is not asked again.
 
-    tell: is given the share that is done.
+    report: is given the share that is done.
     """
     runs: list[LawRun] = []
-    for number in range(DRAWS):
-        scenario = build_draw(number, seed)
+    for number in range(TRIALS):
+        scenario = build_trial(number, seed)
         if runs and runs[-1].problem and runs[-1].cost_us is None:
             runs.append(runs[-1]._replace(scenario=scenario.name))
         else:
             runs.append(run_law(source, scenario, place=place))
-        tell((number + 1) / DRAWS)
+        report((number + 1) / TRIALS)
     return runs
 
 
@@ -128,16 +131,16 @@ def judge_law(runs: list[LawRun]) -> list[CriterionResult]:
     count = len(runs)
     first = next((run for run in runs if run.problem), None)
     ended = f" First: {first.problem}" if first else ""
-    if first and (said := tell_last_words(first.output)):
+    if first and (said := describe_last_output(first.output)):
         ended += f" It said: {said}"
     middle = sorted(run.rms_deg for run in whole if run.rms_deg is not None)
     rms = f"median rms {middle[len(middle) // 2]:.3g}°" if middle else "no run to its end"
-    told = (
+    reported = (
         (len(whole) / count, f"{len(whole)} of {count} did.{ended}"),
         (len(held) / count, f"{len(held)} of {count} did."),
         (accuracy, f"{rms}; the mean of 1 − tanh(rms / 1°) is {accuracy:.2f}."),
     )
     return [
         CriterionResult(LAW_STEP, name, most * share, most, feedback)
-        for (name, most), (share, feedback) in zip(POINTS.items(), told, strict=True)
+        for (name, most), (share, feedback) in zip(POINTS.items(), reported, strict=True)
     ]

@@ -1,7 +1,7 @@
 """A law tried before it is submitted: one run, on a scenario that everybody may see."""
 
 from svsa.evaluation.ranking.measure import SETTLED_DEG
-from svsa.evaluation.ranking.samples import build_draw
+from svsa.evaluation.ranking.trials import build_trial
 from svsa.teaching.course.kept_law import LONGEST_OUTPUT, KeptLaw
 from svsa.teaching.grading.law_runs import LawRun, run_law
 from svsa.teaching.isolation.confinement import Bounds, confine
@@ -10,7 +10,7 @@ from svsa.teaching.isolation.process import Place
 from svsa.teaching.isolation.refusal import NotIsolatedError
 
 BOUNDS = Bounds(cpu_s=20, start_s=10.0, whole_s=20.0)
-OPEN_DRAW = 0
+OPEN_TRIAL = 0
 
 
 def try_law(text: str, place: Place = confine) -> KeptLaw:
@@ -18,14 +18,14 @@ def try_law(text: str, place: Place = confine) -> KeptLaw:
 
     A machine that cannot hold a law leaves it untried, and says why.
     """
-    scenario = build_draw(OPEN_DRAW)
+    scenario = build_trial(OPEN_TRIAL)
     try:
         if place is confine:
             check_isolation()
         run = run_law(text.encode(), scenario, BOUNDS, place)
     except NotIsolatedError as error:
-        told = f"{error} At home svsa grade --practice tries it."
-        return KeptLaw(text=text, verdict="untried", feedback=told)
+        reported = f"{error} At home svsa grade --practice tries it."
+        return KeptLaw(text=text, verdict="untried", feedback=reported)
     return judge_trial(text, run)
 
 
@@ -36,11 +36,15 @@ def judge_trial(text: str, run: LawRun) -> KeptLaw:
         return KeptLaw(text=text, verdict="failed", feedback=run.problem, output=output)
     cost = f"An answer takes {run.cost_us:.0f} µs."
     if run.rms_deg is None:
-        told = f"{run.problem} {cost}"
-        return KeptLaw(text=text, verdict="ended", feedback=told)
+        reported = f"{run.problem} {cost}"
+        return KeptLaw(text=text, verdict="ended", feedback=reported)
     rms = f"{run.rms_deg:.3g}° rms from the load on"
     if run.held:
-        told = f"It went to its end: {rms}, and at most {SETTLED_DEG:g}° rms in the last second."
-        return KeptLaw(text=text, verdict="held", feedback=f"{told} {cost}")
-    told = f"It went to its end with {rms}, but more than {SETTLED_DEG:g}° rms in the last second."
-    return KeptLaw(text=text, verdict="ran", feedback=f"{told} {cost}")
+        reported = (
+            f"It went to its end: {rms}, and at most {SETTLED_DEG:g}° rms in the last second."
+        )
+        return KeptLaw(text=text, verdict="held", feedback=f"{reported} {cost}")
+    reported = (
+        f"It went to its end with {rms}, but more than {SETTLED_DEG:g}° rms in the last second."
+    )
+    return KeptLaw(text=text, verdict="ran", feedback=f"{reported} {cost}")

@@ -67,8 +67,8 @@ def _write_summary(grades: Sequence[Grade]) -> str:
     for exercise in dict.fromkeys(grade.exercise for grade in grades):
         shares = [one.points / one.max_points for one in grades if one.exercise == exercise]
         count = "1 submission" if len(shares) == 1 else f"{len(shares)} submissions"
-        told = f"mean {mean(shares):.0%}, median {median(shares):.0%}"
-        lines.append(f"<li>{escape(exercise)}: {count}, {told}</li>")
+        reported = f"mean {mean(shares):.0%}, median {median(shares):.0%}"
+        lines.append(f"<li>{escape(exercise)}: {count}, {reported}</li>")
     return f"<ul>{''.join(lines)}</ul>"
 
 
@@ -91,7 +91,8 @@ def _write_grade(grade: Grade, anchor: str) -> str:
     walls = "" if grade.is_isolated else "; practice: its law was not isolated"
     head = f"{escape(grade.student)}: {escape(grade.exercise)}"
     runs = "".join(
-        f"<p><small>Run {escape(one.run_id)}. {escape(one.told)}</small></p>" for one in grade.runs
+        f"<p><small>Run {escape(one.run_id)}. {escape(one.description)}</small></p>"
+        for one in grade.runs
     )
     heads = '<th>Step</th><th>Asked</th><th class="number">Points</th><th>Told</th>'
     return (

@@ -32,9 +32,9 @@ class SubmittedWork(NamedTuple):
     @property
     def digest(self) -> str:
         """SHA-256 of everything that was submitted, in hexadecimal."""
-        told = self.submission.model_dump_json(exclude={"law_file"}).encode()
+        reported = self.submission.model_dump_json(exclude={"law_file"}).encode()
         law = b"" if self.law is None else hashlib.sha256(self.law).digest()
-        return hashlib.sha256(hashlib.sha256(told).digest() + law).hexdigest()
+        return hashlib.sha256(hashlib.sha256(reported).digest() + law).hexdigest()
 
     @property
     def law_digest(self) -> str:

@@ -103,8 +103,8 @@ def read_torque(answer: Any) -> tuple[float, float]:
         u1, u2 = answer
         return float(u1), float(u2)
     except (TypeError, ValueError):
-        told = f"law must return two torques (u1, u2) in N·m, not {answer!r:.60}"
-        raise TypeError(told) from None
+        reported = f"law must return two torques (u1, u2) in N·m, not {answer!r:.60}"
+        raise TypeError(reported) from None
 
 
 def read(length: int) -> bytes:
@@ -141,8 +141,8 @@ def serve(path: Path, answers: int) -> None:
             if kind != TICK:
                 break
             always = Reference(*given[1:9]), State(*given[9:15]), Disturbance(*given[15:18])
-            told = {"applied": Torque(*given[18:20]), "measured": Positions(*given[20:23])}
-            answer = law(given[0], *always, **{name: told[name] for name in named})
+            reported = {"applied": Torque(*given[18:20]), "measured": Positions(*given[20:23])}
+            answer = law(given[0], *always, **{name: reported[name] for name in named})
             os.write(answers, ANSWER.pack(TORQUE, number, *read_torque(answer)))
     except BaseException as error:
         print_in_law(error)

@@ -79,8 +79,8 @@ class LawProcess:
     ) -> tuple[float, float]:
         """The law's torque, N·m."""
         begin = perf_counter()
-        told = (time_s, *reference, *x, *w, *applied, *measured)
-        torque = self._ask(TICK, told, TORQUE, self._bounds.answer_s)
+        reported = (time_s, *reference, *x, *w, *applied, *measured)
+        torque = self._ask(TICK, reported, TORQUE, self._bounds.answer_s)
         self.cost_s.append(perf_counter() - begin)
         self.torques.append(torque)
         return torque
@@ -107,11 +107,11 @@ class LawProcess:
         try:
             os.write(self._asking, ASK.pack(kind, int.from_bytes(number, "little"), *values))
         except BrokenPipeError:
-            raise self._tell_end() from None
+            raise self._describe_end() from None
         except BlockingIOError:
             raise self._fail("late", "The law does not read what it is asked.") from None
-        answered, told, u1, u2 = ANSWER.unpack(self._read_answer(wait_s))
-        if told != int.from_bytes(number, "little"):
+        answered, reported, u1, u2 = ANSWER.unpack(self._read_answer(wait_s))
+        if reported != int.from_bytes(number, "little"):
             raise self._fail("early", "The law answered what it was not asked.")
         if answered == FAILED:
             raise self._fail("error", "The law raised an error.")
@@ -126,15 +126,15 @@ class LawProcess:
             left_s = end_s - monotonic()
             if left_s <= 0 or not self._poll.poll(left_s * 1000):
                 whole_s = self._bounds.whole_s
-                told = (
+                reported = (
                     f"The law's run took more than {whole_s:g} s."
                     if end_s == self._end_s
                     else f"The law did not answer within {wait_s:g} s."
                 )
-                raise self._fail("late", told)
+                raise self._fail("late", reported)
             more = os.read(self._answers, ANSWER.size - len(got))
             if not more:
-                raise self._tell_end()
+                raise self._describe_end()
             got += more
         return got
 
@@ -144,7 +144,7 @@ class LawProcess:
         number, self._numbers = self._numbers[:8], self._numbers[8:]
         return number
 
-    def _tell_end(self) -> LawFaultError:
+    def _describe_end(self) -> LawFaultError:
         try:
             code = self._process.wait(_NO_MORE_S)
         except subprocess.TimeoutExpired:

@@ -37,7 +37,7 @@ class LawFaultError(SvsaError):
         return type(self), (self.code, str(self), self.output)
 
 
-def tell_last_words(output: str) -> str:
+def describe_last_output(output: str) -> str:
     """The last line that a law printed, with the line of its file that a traceback names; ""."""
     lines = output.strip().splitlines()
     if not lines:

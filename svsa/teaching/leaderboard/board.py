@@ -1,6 +1,7 @@
 """The board: a folder with the season's secret and an entry a file."""
 
 import hashlib
+import json
 import re
 from collections.abc import Callable
 from datetime import UTC, datetime
@@ -9,7 +10,7 @@ from pathlib import Path
 from typing import Annotated
 
 import numpy as np
-from pydantic import AfterValidator, ValidationError
+from pydantic import AfterValidator
 
 from svsa.control.installed import list_law_names
 from svsa.errors import ParameterError, StateError, Violation
@@ -17,6 +18,7 @@ from svsa.evaluation.ranking.seeds import SUITE_VERSION, derive_seed
 from svsa.inputs.checked import Checked, Flag, quantity
 from svsa.inputs.extras import __version__
 from svsa.runs.records.catalogue.runs import find_data_folder
+from svsa.runs.records.former_words import translate_results
 from svsa.runs.records.header import replace_file
 from svsa.teaching.grading.law_runs import run_installed, run_law
 from svsa.teaching.grading.secret import keep_secret
@@ -99,8 +101,8 @@ class Board:
     @property
     def began(self) -> str:
         """When the season's secret was drawn, UTC, ISO 8601."""
-        drawn_s = (self.folder / "secret").stat().st_mtime
-        return datetime.fromtimestamp(drawn_s, UTC).isoformat(timespec="seconds")
+        made_s = (self.folder / "secret").stat().st_mtime
+        return datetime.fromtimestamp(made_s, UTC).isoformat(timespec="seconds")
 
     def keep(self, entry: Entry, torques: bytes = b"") -> Entry:
         """Keep an entry, with what a law in a process of its own answered in its worst run."""
@@ -130,18 +132,18 @@ class Board:
 
 def measure_missing(
     board: Board,
-    tell: Tell = lambda done, total: None,
+    report: Tell = lambda done, total: None,
     is_cancelled: Callable[[], bool] = lambda: False,
 ) -> bool:
     """Measure the installed laws that have no entry; whether it came to its end.
 
-    tell: is given how many runs are done, and of how many.
+    report: is given how many runs are done, and of how many.
     """
     names, count = board.list_missing(), board.season.run_count
     for number, name in enumerate(names):
 
         def note(done: int, _: int, before: int = number * count) -> None:
-            tell(before + done, len(names) * count)
+            report(before + done, len(names) * count)
 
         found = measure_standing(board.season, partial(run_installed, name), note, is_cancelled)
         if found is None:
@@ -154,7 +156,7 @@ def submit(
     board: Board,
     name: str,
     source: bytes,
-    tell: Tell = lambda done, total: None,
+    report: Tell = lambda done, total: None,
     is_cancelled: Callable[[], bool] = lambda: False,
     author: str = "",
 ) -> Entry | None:
@@ -168,7 +170,7 @@ def submit(
     if before is not None:
         return before
     check_isolation()
-    found = measure_standing(board.season, go_isolated(source), tell, is_cancelled)
+    found = measure_standing(board.season, go_isolated(source), report, is_cancelled)
     if found is None:
         return None
     return board.keep(build_entry(key, name, False, found.standing, author), found.worst.torques)
@@ -211,7 +213,7 @@ def _is_present(entry: Entry) -> bool:
 
 def _read(path: Path) -> Entry:
     try:
-        return Entry.model_validate_json(path.read_bytes())
-    except (OSError, ValidationError) as error:
+        return Entry.model_validate(translate_results(json.loads(path.read_bytes())))
+    except (OSError, ValueError) as error:
         bound = f"an entry of the leaderboard ({error})"
         raise ParameterError(Violation("entry", path, "", bound)) from None

@@ -32,7 +32,7 @@ _messages = Console(stderr=True)
 _BOARD = typer.Option("--board", help="Folder of the season; else SVSA_DATA's leaderboard.")
 _JSON = typer.Option("--json", help="Print JSON.")
 _HEADINGS = (
-    "", "law", "by", "score", "95 %", "robust", "draws", "accuracy", "µs/tick", "worst",
+    "", "law", "by", "score", "95 %", "robust", "trials", "accuracy", "µs/tick", "worst",
 )  # fmt: skip
 MIN_WIDTH = 110
 """Columns of characters in which the table's numbers stand whole."""
@@ -46,7 +46,7 @@ def submit_command(
     author: Annotated[str, typer.Option(help="Who submits it, as the board shows it.")] = "",
     practice: Annotated[
         bool,
-        typer.Option("--practice", help="One's own: public draws, no walls, nothing is kept."),
+        typer.Option("--practice", help="One's own: public trials, no walls, nothing is kept."),
     ] = False,
     folder: Annotated[Path | None, _BOARD] = None,
     as_json: Annotated[bool, _JSON] = False,
@@ -58,17 +58,17 @@ def submit_command(
     source, called = read_law_file(file), name or file.stem
     if practice:
         go = go_isolated(source, leave_open)
-        with _show_progress("Practice") as tell:
-            found = measure_standing(build_season(PUBLIC_SEED), go, tell)
+        with _show_progress("Practice") as report:
+            found = measure_standing(build_season(PUBLIC_SEED), go, report)
         own = found and build_entry("practice", called, False, found.standing, author)
-        _show([own] if own else [], as_json, "practice on public draws, not isolated")
+        _show([own] if own else [], as_json, "practice on public trials, not isolated")
         return
     board = Board(folder)
-    with _show_progress(called) as tell:
-        entry = submit(board, called, source, tell, author=author)
-    with _show_progress("Laws of the lab") as tell:
-        measure_missing(board, tell)
-    _show(board.list(), as_json, "hidden draws", entry and entry.key)
+    with _show_progress(called) as report:
+        entry = submit(board, called, source, report, author=author)
+    with _show_progress("Laws of the lab") as report:
+        measure_missing(board, report)
+    _show(board.list(), as_json, "hidden trials", entry and entry.key)
 
 
 def leaderboard_command(
@@ -76,9 +76,9 @@ def leaderboard_command(
 ) -> None:
     """Show the season's entries, the best first; the lab's own laws are measured where missing."""
     board = Board(folder)
-    with _show_progress("Laws of the lab") as tell:
-        measure_missing(board, tell)
-    _show(board.list(), as_json, "hidden draws")
+    with _show_progress("Laws of the lab") as report:
+        measure_missing(board, report)
+    _show(board.list(), as_json, "hidden trials")
 
 
 @contextmanager
@@ -88,21 +88,21 @@ def _show_progress(title: str) -> Iterator[Tell]:
         yield lambda done, total: bar.update(task, completed=done, total=total)
 
 
-def _show(entries: Sequence[Entry], as_json: bool, draws: str, marked: str | None = None) -> None:
+def _show(entries: Sequence[Entry], as_json: bool, trials: str, marked: str | None = None) -> None:
     if as_json:
         print(json.dumps([one.model_dump(mode="json") for one in entries], indent=2))
         return
     screen = Console()
-    Console(width=max(screen.width, MIN_WIDTH)).print(_build_table(entries, draws, marked))
+    Console(width=max(screen.width, MIN_WIDTH)).print(_build_table(entries, trials, marked))
 
 
-def _build_table(entries: Sequence[Entry], draws: str, marked: str | None) -> Table:
+def _build_table(entries: Sequence[Entry], trials: str, marked: str | None) -> Table:
     table = Table(
         box=SIMPLE_HEAD,
         padding=(0, 1, 0, 0),
-        title=f"Leaderboard: {draws}",
+        title=f"Leaderboard: {trials}",
         title_justify="left",
-        caption="Score: 0.5 robustness + 0.3 draws held + 0.2 accuracy; 95 %: by the draws alone."
+        caption="Score: 0.5 robustness + 0.3 trials held + 0.2 accuracy; 95 %: by the trials alone."
         " µs a tick: by the clock, plant and, for a law in a process of its own (*), the way to it"
         " included. Worst: of the scenarios that everybody knows.",
         caption_justify="left",
@@ -124,7 +124,7 @@ def _build_cells(entry: Entry) -> tuple[str, ...]:
         f"{shown.score:.3f}",
         f"{shown.low:.3f}–{shown.high:.3f}",
         f"{shown.parts.robustness:.2f}",
-        f"{shown.draws_held}/{shown.draws}",
+        f"{shown.trials_held}/{shown.trials}",
         f"{shown.parts.accuracy:.2f}",
         "" if shown.tick_us is None else f"{shown.tick_us:.1f}",
         escape(f"{worst.scenario}: {error}"),

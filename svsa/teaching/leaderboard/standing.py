@@ -14,7 +14,7 @@ from svsa.evaluation.ranking.score import build_parts, compute_score
 from svsa.evaluation.studies.statistics import estimate_share
 from svsa.inputs.checked import Checked, Number, Whole, quantity
 from svsa.teaching.grading.law_runs import LawRun
-from svsa.teaching.isolation.refusal import tell_last_words
+from svsa.teaching.isolation.refusal import describe_last_output
 from svsa.teaching.leaderboard.season import Season
 
 MAX_S = 3600.0
@@ -36,19 +36,19 @@ class WorstRun(Checked):
 class Standing(Checked):
     """What a law shows in a season.
 
-    low, high: the score with the draws' share at the ends of its 95 % interval (Wilson). Chance in
+    low, high: the score with the trials' share at the ends of its 95 % interval (Wilson). Chance in
     the sweeps is not in it, nor what a law was tuned to in the scenarios that everybody knows.
     """
 
-    score: Number = quantity("1", "0.5 robustness + 0.3 draws + 0.2 accuracy", ge=0, le=1)
+    score: Number = quantity("1", "0.5 robustness + 0.3 trials + 0.2 accuracy", ge=0, le=1)
     low: Number = quantity("1", "Lower end of the score's 95 % interval", ge=0, le=1)
     high: Number = quantity("1", "Upper end of the score's 95 % interval", ge=0, le=1)
     parts: ScoreParts = quantity("", "Parts of the score")
     sweeps: tuple[SweepOutcome, ...] = quantity("", "The sweeps of robustness")
-    draws: Whole = quantity("", "How many draws there were", ge=1)
-    draws_held: Whole = quantity("", "Draws that held", ge=0)
+    trials: Whole = quantity("", "How many trials there were", ge=1)
+    trials_held: Whole = quantity("", "Trials that held", ge=0)
     tick_us: Number | None = quantity(
-        "µs", "Median over the draws of a tick by the clock, with plant, sensors and, for a law in"
+        "µs", "Median over the trials of a tick by the clock, with plant, sensors and, for a law in"
         " a process of its own, the way there and back", ge=0,
     )  # fmt: skip
     worst: WorstRun = quantity("", "The worst of the runs that are told one by one")
@@ -64,16 +64,16 @@ class Measured(NamedTuple):
 def measure_standing(
     season: Season,
     go: Go,
-    tell: Tell = lambda done, total: None,
+    report: Tell = lambda done, total: None,
     is_cancelled: Callable[[], bool] = lambda: False,
 ) -> Measured | None:
     """Put a law through a season; None where it was broken off.
 
-    go: its run of a scenario. tell: is given how many runs are done, and of how many. Raises
+    go: its run of a scenario. report: is given how many runs are done, and of how many. Raises
     `StateError` for a law that fails in the season's first run, or takes more than `MAX_S`.
     """
     found: dict[str, LawRun] = {}
-    told = {scenario.name for scenario in season.singles}
+    reported = {scenario.name for scenario in season.singles}
     end_s = monotonic() + MAX_S
     for scenario in _list_runs(season):
         if is_cancelled():
@@ -85,15 +85,15 @@ def measure_standing(
             )
         run = go(scenario)
         if not found and run.problem and run.tick_us is None:
-            raise StateError(_tell_failure(run))
-        found[scenario.name] = run if scenario.name in told else run._replace(torques=b"")
-        tell(len(found), season.run_count)
+            raise StateError(_describe_failure(run))
+        found[scenario.name] = run if scenario.name in reported else run._replace(torques=b"")
+        report(len(found), season.run_count)
     return _sum_up(season, found)
 
 
 def _list_runs(season: Season) -> Iterator[Scenario]:
     yield from season.singles
-    yield from season.draws
+    yield from season.trials
     for sweep in season.sweeps:
         for runs in sweep.runs:
             yield from runs
@@ -101,16 +101,16 @@ def _list_runs(season: Season) -> Iterator[Scenario]:
 
 def _sum_up(season: Season, found: dict[str, LawRun]) -> Measured:
     singles = [(one, found[one.name]) for one in season.singles]
-    draws = [found[one.name] for one in season.draws]
+    trials = [found[one.name] for one in season.trials]
     sweeps = tuple(
         tally_sweep(sweep, [[found[run.name].held for run in runs] for runs in sweep.runs])
         for sweep in season.sweeps
     )
-    count, held = len(draws), sum(run.held for run in draws)
+    count, held = len(trials), sum(run.held for run in trials)
     parts = build_parts(sweeps, count, count - held, [run.rms_deg for _, run in singles])
     _, *ends = estimate_share(held, count)
-    low, high = (compute_score(parts.changed(draws=end)) for end in ends)
-    ticks = [run.tick_us for run in draws if run.tick_us is not None]
+    low, high = (compute_score(parts.changed(trials=end)) for end in ends)
+    ticks = [run.tick_us for run in trials if run.tick_us is not None]
     scenario, run = max(singles, key=lambda one: _rank_badness(one[1]))
     standing = Standing(
         score=compute_score(parts),
@@ -118,8 +118,8 @@ def _sum_up(season: Season, found: dict[str, LawRun]) -> Measured:
         high=high,
         parts=parts,
         sweeps=sweeps,
-        draws=count,
-        draws_held=held,
+        trials=count,
+        trials_held=held,
         tick_us=median(ticks) if ticks else None,
         worst=WorstRun(
             scenario=run.scenario, title=scenario.title, rms_deg=run.rms_deg, problem=run.problem
@@ -132,6 +132,6 @@ def _rank_badness(run: LawRun) -> float:
     return math.inf if run.rms_deg is None else run.rms_deg
 
 
-def _tell_failure(run: LawRun) -> str:
-    said = tell_last_words(run.output)
+def _describe_failure(run: LawRun) -> str:
+    said = describe_last_output(run.output)
     return f"The law fails in its first run: {run.problem}" + (f" It said: {said}" if said else "")

@@ -16,9 +16,9 @@ def run(*options: str) -> str:
 
 
 def test_the_numbers_as_json():
-    told = json.loads(run("--json", "--starts", "3"))
-    at_15, at_60 = told["stability"]
-    assert told["law"] == "ndobc"
+    reported = json.loads(run("--json", "--starts", "3"))
+    at_15, at_60 = reported["stability"]
+    assert reported["law"] == "ndobc"
     assert at_15["slowest_rad_per_s"] == pytest.approx(-20.1, abs=0.05)
     assert at_60["slowest_rad_per_s"] == pytest.approx(-20.3, abs=0.05)
     assert at_15["error_deg_per_nm_per_s"]["formula"] == pytest.approx(0.168, abs=5e-4)
@@ -46,12 +46,12 @@ def test_a_law_without_an_observer_has_no_fastest_one():
 
 
 def test_poles_and_observer_are_those_that_were_asked_for():
-    told = json.loads(
+    reported = json.loads(
         run("--json", "--starts", "0", "--stiffness", "15", "--observer", "120", "--pole", "45")
     )["stability"][0]
-    assert told["share_that_comes_to_rest"] is None
-    faster = told["error_deg_per_nm_per_s"]["formula"]
-    assert faster == pytest.approx(told["error_deg_per_nm_per_s"]["simulated"][0], rel=0.01)
+    assert reported["share_that_comes_to_rest"] is None
+    faster = reported["error_deg_per_nm_per_s"]["formula"]
+    assert faster == pytest.approx(reported["error_deg_per_nm_per_s"]["simulated"][0], rel=0.01)
 
 
 def test_a_stiffness_outside_its_range_is_refused():

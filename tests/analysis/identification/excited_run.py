@@ -22,7 +22,7 @@ BENCH = svsa.Effects(
 
 
 def build_configuration(**changes):
-    """At rest at 30 N·m/rad, with what the emulated rig has."""
+    """At rest at 30 N·m/rad, with what the emulator has."""
     return Configuration(
         **dict(DESIGN),
         position=svsa.ConstantPosition(),

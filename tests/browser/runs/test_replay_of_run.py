@@ -44,11 +44,11 @@ def test_a_replay_that_is_refused_says_why_and_can_be_asked_for_again(
     answer = {"status": 503, "body": json.dumps(refusal), "content_type": MEDIA_TYPE}
     page.route("**/replay", lambda route: route.fulfill(**answer), times=1)
     page.goto(f"{lab.url}/?run={runs[1]}")
-    told = page.get_by_role("alert").filter(has_text="Too many wait: ask again in 5 s.")
-    expect(told).to_be_visible()
-    told.get_by_role("button", name="Try again").click()
+    reported = page.get_by_role("alert").filter(has_text="Too many wait: ask again in 5 s.")
+    expect(reported).to_be_visible()
+    reported.get_by_role("button", name="Try again").click()
     expect(find_replay(page).get_by_text("No replay")).to_be_visible()
-    expect(told).to_have_count(0)
+    expect(reported).to_have_count(0)
 
 
 def test_a_run_in_which_nothing_ran_says_so_in_place_of_a_replay(page: Page, lab: Lab) -> None:

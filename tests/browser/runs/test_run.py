@@ -74,11 +74,11 @@ def test_a_branch_is_a_private_session_that_stands_at_the_moment(
 def test_a_run_of_a_bench_cannot_be_branched_and_the_page_says_why(
     page: Page, lab: Lab, runs: tuple[str, str]
 ) -> None:
-    def tell_bench(route: Route) -> None:
+    def report_bench(route: Route) -> None:
         answer = route.fetch()
         route.fulfill(response=answer, json=answer.json() | {"plant": "emulated"})
 
-    page.route(f"**/api/v1/runs/{runs[0]}", tell_bench)
+    page.route(f"**/api/v1/runs/{runs[0]}", report_bench)
     page.goto(f"{lab.url}/?run={runs[0]}")
     expect(page.get_by_text("this one was recorded on a bench")).to_be_visible()
     expect(page.get_by_role("button", name=re.compile("^Branch"))).to_have_count(0)

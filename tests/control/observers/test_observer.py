@@ -135,10 +135,10 @@ def test_the_estimate_does_not_wind_up_while_the_torque_is_saturated():
     for part, torque in (("link", 0.02), ("motor1", 0.0), ("motor2", 0.0)):
         error = getattr(result, f"estimate_{part}_nm")[late] - torque
         assert np.abs(error).max() < 1e-3, part
-    assert abs(replay_with_asked_torque(result).w4) > 0.1
+    assert abs(replay_with_commanded_torque(result).w4) > 0.1
 
 
-def replay_with_asked_torque(result):
+def replay_with_commanded_torque(result):
     """What the last estimate of a run would be if the observer heard the law, not the limits."""
     mu0 = compute_lever_ratio_for_stiffness(60.0, NOMINAL.K)
     nominal, gains = build_actuator(DESIGN.actuator, mu0), build_gains(DESIGN.gains)

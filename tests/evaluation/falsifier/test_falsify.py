@@ -63,14 +63,14 @@ def test_a_planted_weakness_is_found_and_made_simple():
 
 def test_each_worse_run_is_told_as_a_scenario_that_is_as_bad():
     adversary = build_adversary(harm="peak", law="fl")
-    told = []
-    found = falsify(adversary, runs=320, on_worse=told.append, is_shrunk=False)
-    runs = [one.found.at_run for one in told]
+    reported = []
+    found = falsify(adversary, runs=320, on_worse=reported.append, is_shrunk=False)
+    runs = [one.found.at_run for one in reported]
     assert runs == sorted(set(runs))
     worst = np.maximum.accumulate(found.severities)
-    for one in told:
+    for one in reported:
         assert found.severities[one.found.at_run - 1] == worst[one.found.at_run - 1]
-    last = told[-1]
+    last = reported[-1]
     assert (last.found.at_run, last.loads) == (found.run, found.as_found.loads)
     (outcome,) = run_scenario(last, ("fl",))
     assert outcome.metrics["peak_position_error_rad"] == found.severity
@@ -148,7 +148,7 @@ def test_what_does_not_recover_hurts_more_than_what_does_and_a_fault_most():
         "last_position_error_rad": np.array([0.0, 0.1, 0.2, np.nan, 0.0]),
         "fault": [None, None, None, "deflection_limit", "refused"],
     }
-    severity = judge(outcome, "recovery", 2.0, read_adversary("blow").build_base().limits)
+    severity = judge(outcome, "recovery", 2.0, read_adversary("impulse").build_base().limits)
     assert severity.tolist() == [0.2, 2.1, 2.2, np.inf, -np.inf]
 
 
@@ -183,8 +183,8 @@ def test_an_axis_stays_within_its_ends():
 
 
 def test_ndobc_on_the_rig_faults_by_a_blow_that_random_draws_do_not_find_so_soon():
-    """`svsa falsify compare blow` does ten seeds."""
-    adversary = read_adversary("blow")
+    """`svsa falsify compare impulse` does ten seeds."""
+    adversary = read_adversary("impulse")
     assert max(term.torque_nm for term in adversary.terms) <= 2.0
     found = falsify(adversary, seed=0)
     assert found.is_fault

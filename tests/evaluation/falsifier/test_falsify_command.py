@@ -89,16 +89,16 @@ def search(*arguments, code=0):
 
 def test_what_is_found_is_kept_and_comes_back_from_its_file(tmp_path):
     (tmp_path / "pulse.toml").write_text(GOOD)
-    told = json.loads(search("--json", "--picture", "found.png").stdout)
-    assert told["fault"]
-    assert told["complete"]
-    assert told["file"] == "pulse-weak.toml"
+    reported = json.loads(search("--json", "--picture", "found.png").stdout)
+    assert reported["fault"]
+    assert reported["complete"]
+    assert reported["file"] == "pulse-weak.toml"
     assert (tmp_path / "found.png").stat().st_size > 10_000
     kept = read_scenario("pulse-weak.toml")
-    assert kept.model_dump(mode="json", exclude_none=True) == told["scenario"]
+    assert kept.model_dump(mode="json", exclude_none=True) == reported["scenario"]
     assert kept.found.law == "weak"
     again = json.loads(run("run", "pulse-weak.toml", "--json").stdout)
-    assert again["laws"] == told["laws"]
+    assert again["laws"] == reported["laws"]
     assert [law["law"] for law in again["laws"]] == ["weak", "ndobc"]
     assert [law["fault"] is None for law in again["laws"]] == [False, True]
     shown = run("run", "pulse-weak.toml", "--laws", "fl, weak").stdout
@@ -120,9 +120,9 @@ def test_ctrl_c_keeps_the_worst_so_far_and_the_same_command_goes_on(tmp_path, mo
 
     monkeypatch.setattr(finding, "measure_attacks", measure)
     outcome = search("--law", "fl", "--output", "part.toml", code=130)
-    told = " ".join(outcome.stderr.split())
-    assert "Broken off after 32 of 2000 runs" in told
-    assert "The same command goes on from there." in told
+    reported = " ".join(outcome.stderr.split())
+    assert "Broken off after 32 of 2000 runs" in reported
+    assert "The same command goes on from there." in reported
     assert read_scenario("part.toml").found.runs == 32
     assert (tmp_path / "part.toml.search").exists()
     search("--law", "fl", "--output", "part.toml")
@@ -155,12 +155,12 @@ def test_what_was_kept_of_another_search_is_left_alone(tmp_path):
 
 def test_random_draws_are_raced_seed_by_seed(tmp_path):
     (tmp_path / "pulse.toml").write_text(GOOD)
-    told = json.loads(
+    reported = json.loads(
         run("compare", "pulse.toml", "--seeds", "2", "--runs", "640", "--json").stdout
     )
-    assert [lap["seed"] for lap in told["laps"]] == [0, 1]
-    faults = sum(lap["cma_run"] is not None for lap in told["laps"])
-    assert f"CMA-ES found a fault with {faults}" in told["message"]
+    assert [lap["seed"] for lap in reported["laps"]] == [0, 1]
+    faults = sum(lap["cma_run"] is not None for lap in reported["laps"])
+    assert f"CMA-ES found a fault with {faults}" in reported["message"]
     assert "seed" in run("compare", "pulse.toml", "--seeds", "1", "--runs", "64").stdout
 
 
@@ -197,7 +197,7 @@ def test_a_scenario_s_loads_come_besides_those_of_its_base():
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "told"),
+    ("old", "new", "reported"),
     [
         ('"weak"', '"nobody"', r"line 2: law is 'nobody': it must be a law that is installed here"),
         (
@@ -223,15 +223,15 @@ def test_a_scenario_s_loads_come_besides_those_of_its_base():
         ("title =", "title", r"it must be a readable TOML file .*line 1"),
     ],
 )
-def test_a_wrong_adversary_is_told_with_its_line(tmp_path, old, new, told):
+def test_a_wrong_adversary_is_told_with_its_line(tmp_path, old, new, reported):
     path = tmp_path / "wrong.toml"
     path.write_text(GOOD.replace(old, new, 1))
-    with pytest.raises(ParameterError, match=r"(?s)wrong\.toml.*" + told):
+    with pytest.raises(ParameterError, match=r"(?s)wrong\.toml.*" + reported):
         read_adversary(path)
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "told"),
+    ("old", "new", "reported"),
     [
         (
             "duration_s = 1.0",
@@ -252,15 +252,15 @@ def test_a_wrong_adversary_is_told_with_its_line(tmp_path, old, new, told):
         ("frequency_hz = 2.0", "", r"line 14: loads\[1\]\.frequency_hz is missing"),
     ],
 )
-def test_a_wrong_scenario_is_told_with_its_line(tmp_path, old, new, told):
+def test_a_wrong_scenario_is_told_with_its_line(tmp_path, old, new, reported):
     path = tmp_path / "wrong.toml"
     path.write_text(SCENARIO.replace(old, new, 1))
-    with pytest.raises(ParameterError, match=r"(?s)wrong\.toml.*" + told):
+    with pytest.raises(ParameterError, match=r"(?s)wrong\.toml.*" + reported):
         read_scenario(path)
 
 
 def test_a_grid_and_too_many_loads_are_refused():
-    good = read_adversary("blow")
+    good = read_adversary("impulse")
     vary = [{"path": "effects.delay_samples", "kind": "grid", "values": [0, 1]}]
     with pytest.raises(ParameterError, match=r"vary\[0\]\.kind is 'grid'.*for an adversary"):
         good.changed(vary=vary)
@@ -271,10 +271,10 @@ def test_a_grid_and_too_many_loads_are_refused():
 
 def test_those_that_come_with_the_package_are_listed():
     names = list_adversaries()
-    assert {"blow", "everything"} <= set(names)
+    assert {"impulse", "everything"} <= set(names)
     listed = " ".join(run("list").stdout.split())
     assert all(name in listed for name in names)
-    with pytest.raises(ParameterError, match=r"adversary is 'nobody': .*blow"):
+    with pytest.raises(ParameterError, match=r"adversary is 'nobody': .*impulse"):
         read_adversary("nobody")
 
 
@@ -291,8 +291,8 @@ def test_a_scenario_is_kept_by_a_name_that_no_other_one_has(monkeypatch, tmp_pat
         keep_scenario("mine", scenario.changed(duration_s=2.0))
     path.with_name("broken.toml").write_text("title = 3")
     assert list_scenarios() == {"mine": scenario}
-    told = CliRunner().invoke(app, ["falsify", "run", "mine", "--laws", "fl", "--json"])
-    assert json.loads(told.stdout)["laws"][0]["law"] == "fl"
+    reported = CliRunner().invoke(app, ["falsify", "run", "mine", "--laws", "fl", "--json"])
+    assert json.loads(reported.stdout)["laws"][0]["law"] == "fl"
     for name in ("../mine", "", "a b"):
         with pytest.raises(ParameterError, match="1 to 64 letters"):
             keep_scenario(name, scenario)

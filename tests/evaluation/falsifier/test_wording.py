@@ -1,14 +1,14 @@
 """What is said of an attack."""
 
 from svsa.evaluation.falsifier.scenario import Attack
-from svsa.evaluation.falsifier.wording import tell_attack
+from svsa.evaluation.falsifier.wording import describe_attack
 from svsa.simulation.plant.loads import SineLoad
 
 
 def test_a_negative_number_has_a_minus_sign_and_no_hyphen():
     load = SineLoad(torque_nm=(-3.5, 0.0, 2.0), start_s=1.0, frequency_hz=2.0, phase_rad=-0.5)
-    told = tell_attack(Attack((load,), {"position.offset_rad": -0.25}))
-    assert "−3.5 N·m on the link" in told
-    assert "phase −0.5 rad" in told
-    assert "position.offset_rad = −0.25" in told
-    assert "-" not in told
+    reported = describe_attack(Attack((load,), {"position.offset_rad": -0.25}))
+    assert "−3.5 N·m on the link" in reported
+    assert "phase −0.5 rad" in reported
+    assert "position.offset_rad = −0.25" in reported
+    assert "-" not in reported

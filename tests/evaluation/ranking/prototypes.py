@@ -17,7 +17,7 @@ class Prototype(NamedTuple):
     """before, peak, steady: figure 4A, rms 1–5 s, peak, rms 8–20 s. rig_…: there; recovery: s.
 
     off: peak when the load is taken off at σ = 15. sine: rms under 1.5 N·m at 2 Hz. mass: rms
-    under 3 kg. faults: of 48 unloadings. step: largest on the link that is held, N·m. A run that
+    under 3 kg. faults: of 48 load removals. step: largest on the link that is held, N·m. A run that
     ends in a fault is an error without bound; what was not measured is not a number.
     """
 
@@ -92,12 +92,12 @@ def read_figures(row: Row) -> Prototype:
         rig.peak_deg,
         rig.steady_deg,
         rig.recovery_s,
-        row.unloading_peak_deg,
+        row.load_removal_peak_deg,
         row.sine_2hz_rms_deg,
         row.mass_rms_deg,
     )
-    told = (math.inf if error is None else error for error in errors)
-    return Prototype(*told, row.unloading_faults_of_48, row.largest_link_step_nm)
+    reported = (math.inf if error is None else error for error in errors)
+    return Prototype(*reported, row.load_removal_faults_of_48, row.largest_link_step_nm)
 
 
 def compare(row: Row) -> tuple[Cell, ...]:

@@ -44,7 +44,7 @@ def test_what_is_measured_of_a_run_is_what_its_samples_say():
 
 
 def test_what_ends_early_is_infinitely_far_off_and_fails():
-    run = build_rehearsal()["blow"][1]
+    run = build_rehearsal()["impulse"][1]
     result = run_scenario(run, Entry("ndobc"))
     assert result.fault is not None
     passage = measure_passage(run, result)
@@ -55,15 +55,21 @@ def test_what_ends_early_is_infinitely_far_off_and_fails():
 
 
 def test_a_law_is_no_worse_than_itself_unless_both_end_early():
-    contests = [find_contest(title) for title in ("Mass: rms", "Unloadings: worst peak")]
-    mass, unloading = compare(Entry("ndobc"), Entry("ndobc"), contests)
+    contests = [find_contest(title) for title in ("Mass: rms", "Load removals: worst peak")]
+    mass, load_removal = compare(Entry("ndobc"), Entry("ndobc"), contests)
     assert 0.0 < mass.law == mass.comparison < math.inf
     assert mass.is_no_worse
-    assert unloading.law == unloading.comparison == math.inf
-    assert not unloading.is_no_worse
+    assert load_removal.law == load_removal.comparison == math.inf
+    assert not load_removal.is_no_worse
 
 
-TELLING = ("Sines: rms", "Mass: rms", "Noise: rms", "All inertias far off: fails", "Blows: fails")
+TELLING = (
+    "Sines: rms",
+    "Mass: rms",
+    "Noise: rms",
+    "All inertias far off: fails",
+    "Impulses: fails",
+)
 
 
 @pytest.mark.parametrize("title", exhaust([one.title for one in CONTESTS], TELLING))
@@ -73,8 +79,8 @@ def test_ndobc_s_is_no_worse_than_the_papers_law_where_it_was_tuned(title):
 
 
 def test_the_command_tells_both_laws_and_where_one_ends_early(monkeypatch):
-    contests = tuple(find_contest(title) for title in ("Mass: rms", "Unloadings: worst peak"))
-    runs = {name: build_rehearsal()[name][:1] for name in ("mass", "unloading")}
+    contests = tuple(find_contest(title) for title in ("Mass: rms", "Load removals: worst peak"))
+    runs = {name: build_rehearsal()[name][:1] for name in ("mass", "load_removal")}
     monkeypatch.setattr("svsa.evaluation.ranking.against.build_rehearsal", lambda: runs)
     monkeypatch.setattr("svsa.evaluation.ranking.against.CONTESTS", contests)
     monkeypatch.setattr(
@@ -83,10 +89,10 @@ def test_the_command_tells_both_laws_and_where_one_ends_early(monkeypatch):
     answer = CliRunner().invoke(
         app, ["ranking", "against", "ndobc_w", "--json"], catch_exceptions=False
     )
-    mass, unloading = json.loads(answer.stdout)["contests"]
+    mass, load_removal = json.loads(answer.stdout)["contests"]
     assert mass["law"] < mass["comparison"]
     assert mass["is_no_worse"]
-    assert unloading["comparison"] is None
+    assert load_removal["comparison"] is None
     table = CliRunner().invoke(app, ["ranking", "against", "ndobc_w"], catch_exceptions=False)
     assert "no worse in 2 of 2" in table.stdout
     assert "fault" in table.stdout

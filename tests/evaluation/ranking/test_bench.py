@@ -19,11 +19,11 @@ from svsa.evaluation.ranking.bench_runs import (
 )
 from svsa.evaluation.ranking.bench_table import build_section
 from svsa.evaluation.ranking.measure_bench import measure_on_bench, measure_run
-from svsa.evaluation.ranking.row import RigErrors
+from svsa.evaluation.ranking.row import RecoveryErrors
 from svsa.runs.paper import BENCH_FIGURES
 from svsa.runs.result.simulate import simulate
 from tests.exhaustive import exhaust
-from tests.hardware.emulator.in_process_rig import start_in_process
+from tests.hardware.emulator.in_process_emulator import start_in_process
 
 SIMULATED = {"6a": "4a", "6b": "4b", "7": "5"}
 PAPERS = (0.02, 4.0, 0.02, 0.2)
@@ -34,7 +34,7 @@ def call(*arguments: str) -> str:
 
 
 def build_run(law: str, figure: str, numbers: tuple[float | None, ...], fault: str | None = None):
-    errors = RigErrors(**dict(zip(NUMBERS, numbers, strict=True)))
+    errors = RecoveryErrors(**dict(zip(NUMBERS, numbers, strict=True)))
     return BenchRun(law=law, figure=figure, version="0", fault=fault, errors=errors)
 
 
@@ -50,19 +50,19 @@ def played(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, str]]:
             raise FaultError(Fault("vibration", 0, 100, 0.1, "It shakes."))
         return simulate(SIMULATED[figure.key], law)
 
-    monkeypatch.setattr("svsa.hardware.emulator.experiment.run_on_rig", play)
+    monkeypatch.setattr("svsa.hardware.emulator.experiment.run_on_emulator", play)
     monkeypatch.setattr(os, "cpu_count", lambda: 1)
     return asked
 
 
 def test_a_law_is_told_beside_its_comparison_in_every_figure(played):
     """FL settles in none; the numbers are those of the run, and a fault has its name and none."""
-    told = json.loads(call("fl", "pd", "--json"))
+    reported = json.loads(call("fl", "pd", "--json"))
     assert played == [(law, key) for law in ("ndobc", "fl", "pd") for key in BENCH_FIGURES]
-    papers, fl, pd = told["laws"]
-    assert [one["law"] for one in told["laws"]] == ["ndobc", "fl", "pd"]
+    papers, fl, pd = reported["laws"]
+    assert [one["law"] for one in reported["laws"]] == ["ndobc", "fl", "pd"]
     assert (papers["no_worse"], fl["no_worse"], pd["no_worse"]) == (12, 0, 0)
-    assert {one["numbers"] for one in told["laws"]} == {12}
+    assert {one["numbers"] for one in reported["laws"]} == {12}
     assert fl["figures"]["6a"]["peak_deg"] == pytest.approx(12.06, rel=0.01)
     assert fl["figures"]["7"]["recovery_s"] is None
     assert fl["figures"]["6b"]["fault"] is None
@@ -101,12 +101,12 @@ def test_what_was_kept_is_renewed_and_shown_again(played, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("arguments", "told"),
+    ("arguments", "reported"),
     [(["fl", "--figure", "4a"], "one of 6a, 6b, 7"), (["nobody"], "installed here"),
      (["fl", "--comparison", "nobody"], "installed here")],
 )  # fmt: skip
-def test_what_there_is_not_is_refused_before_anything_runs(played, arguments, told):
-    with pytest.raises(svsa.ParameterError, match=told):
+def test_what_there_is_not_is_refused_before_anything_runs(played, arguments, reported):
+    with pytest.raises(svsa.ParameterError, match=reported):
         call(*arguments)
     assert not played
 
@@ -137,7 +137,7 @@ KEPT = {f"{run.law} {run.figure}": run for run in load_published_bench_runs().ru
 def test_what_was_kept_of_the_rig_is_what_it_gives(name, monkeypatch):
     """The rig in this process, which gives the same bits as through its sockets."""
     monkeypatch.setattr(
-        "svsa.hardware.emulator.experiment.start_rig", lambda lockstep: start_in_process()
+        "svsa.hardware.emulator.experiment.start_emulator", lambda lockstep: start_in_process()
     )
     kept = KEPT[name]
     found = measure_run(0, (kept.law, kept.figure), lambda number, done: None)

@@ -40,15 +40,15 @@ def test_the_papers_laws_give_their_rows_and_no_better(law):
     cells = {cell.column: cell for cell in compare(row)}
     for column in ("before", "peak", "steady", "rig_peak", "sine", "mass"):
         assert cells[column].found == pytest.approx(cells[column].figure, rel=0.05), column
-    assert row.unloading_faults_of_48 == {"fl": 0, "ndobc": 32}[law]
+    assert row.load_removal_faults_of_48 == {"fl": 0, "ndobc": 32}[law]
     assert row.largest_link_step_nm == cells["step"].figure
 
 
 def test_ndobc_w_answers_the_open_question():
-    """The paper leaves saturation open: no unloading is a fault, and 8 N·m are held at σ = 15."""
+    """The paper leaves saturation open: no load removal is a fault; 8 N·m are held at σ = 15."""
     row = measure("ndobc_w")
     assert row.faults == {}
-    assert row.unloading_faults_of_48 == 0
+    assert row.load_removal_faults_of_48 == 0
     assert row.largest_link_step_nm >= 8.0
     for column in ("sine_2hz_rms_deg", "mass_rms_deg"):
         assert getattr(row, column) < 0.5 * getattr(measure("ndobc"), column)
@@ -57,16 +57,16 @@ def test_ndobc_w_answers_the_open_question():
 def test_ndobc_s_is_better_than_the_papers_law_in_every_column_but_the_recovery():
     """The table's numbers one by one; the recovery, 0.18 s against 0.15 s, is NDOBC's."""
     row, papers = measure("ndobc_s"), measure("ndobc")
-    assert list(papers.faults) == ["unloading", "pulses"]
+    assert list(papers.faults) == ["load_removal", "pulses"]
     assert row.faults == {}
     for mine, theirs in ((row.ideal_4a, papers.ideal_4a), (row.rig_4a, papers.rig_4a)):
         for column, number in dict(theirs).items():
             assert (getattr(mine, column) < number) == (column != "recovery_s"), column
-    for column in ("sine_2hz_rms_deg", "mass_rms_deg", "draws_median_deg"):
+    for column in ("sine_2hz_rms_deg", "mass_rms_deg", "trials_median_deg"):
         assert getattr(row, column) < 0.9 * getattr(papers, column), column
-    assert row.unloading_faults_of_48 == 0 < papers.unloading_faults_of_48
-    assert row.draws_faults == 0 < papers.draws_faults
-    assert row.draws_fails == 0 < papers.draws_fails
+    assert row.load_removal_faults_of_48 == 0 < papers.load_removal_faults_of_48
+    assert row.trials_faults == 0 < papers.trials_faults
+    assert row.trials_fails == 0 < papers.trials_fails
     assert row.corners_fails_of_8 < papers.corners_fails_of_8
     assert row.largest_link_step_nm > 4.0 * papers.largest_link_step_nm
     assert row.score > papers.score + 0.15
@@ -81,27 +81,33 @@ def test_ndobc_s_is_better_than_the_papers_law_in_every_column_but_the_recovery(
 def test_whether_a_law_comes_to_rest_after_an_unloading_is_told_by_its_worst(law, rests):
     """NDOBC-W swings on by 0.7° rms at σ = 12, with no fault and a peak like the others'."""
     row = measure(law)
-    worst = find_scenario(row.unloading_worst)
+    worst = find_scenario(row.load_removal_worst)
     run = run_scenario(worst, Entry(law))
     end = worst.measured_s + 5.0
     assert run.time_s[-1] == pytest.approx(end, abs=0.002)
     error = np.degrees(run.position_error_rad[-2000:])
-    assert row.unloading_settled_deg == pytest.approx(math.sqrt(np.mean(error**2)), rel=1e-6)
-    assert row.unloading_settled_deg < 0.05 if rests else row.unloading_settled_deg > 0.5
-    assert rests or worst.name.startswith("unloading_12_")
+    assert row.load_removal_steady_state_deg == pytest.approx(
+        math.sqrt(np.mean(error**2)), rel=1e-6
+    )
+    assert (
+        row.load_removal_steady_state_deg < 0.05
+        if rests
+        else row.load_removal_steady_state_deg > 0.5
+    )
+    assert rests or worst.name.startswith("load_removal_12_")
 
 
 def test_a_fault_in_one_unloading_is_the_worst_of_them():
     row = measure("ndobc")
-    assert row.unloading_settled_deg is None
-    assert row.unloading_worst == row.unloadings_failed[0]
+    assert row.load_removal_steady_state_deg is None
+    assert row.load_removal_worst == row.load_removals_failed[0]
 
 
 @pytest.mark.exhaustive
 def test_a_pd_on_the_motors_knows_nothing_of_a_load_on_the_link():
     """The spring bends by 2 N·m at 15 N·m/rad, and a PD leaves it so: 8.5°, for ever.
 
-    A blow of 3 N·m bends it too far, and a half turn in 0.2 s has no flat feedforward.
+    An impulse of 3 N·m bends it too far, and a half turn in 0.2 s has no flat feedforward.
     """
     row = measure("pd")
     assert row.faults == {"pulses": "deflection_limit", "turn_180": "not_finite"}
@@ -163,9 +169,9 @@ DRAWN = {
 def test_a_hundred_draws_are_about_as_hard_as_those_of_the_prototypes(law):
     """Another hundred of the same kind differ by as much (seeds 1 and 2: NDOBC 9 and 12 fail)."""
     row, (middle, fails) = measure(law), DRAWN[law]
-    assert row.draws_median_deg == pytest.approx(middle, rel=0.4)
-    assert abs(row.draws_fails - fails) <= 8
-    assert row.draws_faults <= row.draws_fails
+    assert row.trials_median_deg == pytest.approx(middle, rel=0.4)
+    assert abs(row.trials_fails - fails) <= 8
+    assert row.trials_faults <= row.trials_fails
 
 
 def test_five_times_the_noise_is_where_ndobc_w_loses():

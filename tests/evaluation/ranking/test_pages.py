@@ -27,7 +27,7 @@ def test_a_number_of_a_page_is_that_of_its_row():
     page = build_law_page(load_published(), load_published_bench_runs(), "ndobc_w")
     row = load_published().get_row("ndobc_w")
     assert f"| 3 kg on the arm: rms | {row.mass_rms_deg:.3g}° | 0.314° | 2 |" in page
-    assert "Faults of 48 unloadings | 0 | 32 |" in page
+    assert "Faults of 48 load removals | 0 | 32 |" in page
 
 
 def test_the_index_and_the_readme_have_every_law():

@@ -16,14 +16,14 @@ KEYS = (
     "law",
     "ideal_4a",
     "rig_4a",
-    "unloading_peak_deg",
-    "unloading_faults_of_48",
-    "unloading_settled_deg",
+    "load_removal_peak_deg",
+    "load_removal_faults_of_48",
+    "load_removal_steady_state_deg",
     "sine_2hz_rms_deg",
     "mass_rms_deg",
-    "draws_median_deg",
-    "draws_faults",
-    "draws_fails",
+    "trials_median_deg",
+    "trials_faults",
+    "trials_fails",
     "largest_link_step_nm",
     "score",
 )
@@ -55,7 +55,7 @@ def test_a_row_as_json_and_as_markdown():
     assert row["law"] == "fl"
     assert row["rig_4a"]["recovery_s"] is None
     assert row["ideal_4a"]["peak_deg"] == pytest.approx(12.06, rel=0.01)
-    assert row["unloading_faults_of_48"] == 0
+    assert row["load_removal_faults_of_48"] == 0
     heading, rule, cells = run("fl", "--markdown").stdout.splitlines()
     assert heading == f"| {' | '.join(HEADINGS)} |"
     assert rule.count("---") == len(HEADINGS)
@@ -102,8 +102,8 @@ def test_the_row_of_a_named_law_is_renewed_in_the_file_that_keeps_it(tmp_path):
 def test_a_season_has_the_draws_of_its_secret(tmp_path):
     secret = tmp_path / "secret"
     secret.write_text("spring\n")
-    told = CliRunner().invoke(app, ["ranking", "seed", str(secret)], catch_exceptions=False)
-    assert int(told.stdout, 16) == derive_seed(b"spring")
+    reported = CliRunner().invoke(app, ["ranking", "seed", str(secret)], catch_exceptions=False)
+    assert int(reported.stdout, 16) == derive_seed(b"spring")
     secret.write_text("")
     with pytest.raises(svsa.ParameterError, match="not empty"):
         run("fl", "--secret", str(secret))

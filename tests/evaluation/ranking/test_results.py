@@ -49,7 +49,7 @@ def test_a_file_of_something_else_is_refused(tmp_path):
 
 
 def test_a_run_of_the_suite_is_found_by_its_name():
-    for name in ("rig_4a", "unloading_12_3", "draw_41", "link_step_2.5", "delay_3_0"):
+    for name in ("rig_4a", "load_removal_12_3", "trial_41", "link_step_2.5", "delay_3_0"):
         assert find_scenario(name).name == name
     with pytest.raises(svsa.ParameterError, match="scenario, such as"):
         find_scenario("nothing")
@@ -58,8 +58,8 @@ def test_a_run_of_the_suite_is_found_by_its_name():
 def test_names_of_what_failed_are_names_of_runs():
     names = {scenario.name for scenario in list_scenarios()}
     for row in load_published().rows:
-        assert {*row.unloadings_failed, *row.draws_failed, *row.faults} <= names
-        assert len(row.unloadings_failed) == row.unloading_faults_of_48
-        assert row.unloading_worst in (row.unloadings_failed[:1] or names)
-        assert (row.unloading_settled_deg is None) == bool(row.unloadings_failed)
-        assert len(row.draws_failed) == row.draws_fails
+        assert {*row.load_removals_failed, *row.trials_failed, *row.faults} <= names
+        assert len(row.load_removals_failed) == row.load_removal_faults_of_48
+        assert row.load_removal_worst in (row.load_removals_failed[:1] or names)
+        assert (row.load_removal_steady_state_deg is None) == bool(row.load_removals_failed)
+        assert len(row.trials_failed) == row.trials_fails

@@ -6,18 +6,18 @@ import hmac
 import pytest
 
 from svsa.evaluation.ranking.row import ScoreParts
-from svsa.evaluation.ranking.samples import DRAWS, build_draw, build_draws
-from svsa.evaluation.ranking.scenarios import CORNERS, INERTIAS, SINGLE, UNLOADINGS
+from svsa.evaluation.ranking.scenarios import CORNERS, INERTIAS, LOAD_REMOVALS, SINGLE
 from svsa.evaluation.ranking.score import compute_accuracy, compute_score
 from svsa.evaluation.ranking.seeds import PUBLIC_SEED, SUITE_VERSION, derive_seed, start_generator
 from svsa.evaluation.ranking.sweeps import build_sweeps
+from svsa.evaluation.ranking.trials import TRIALS, build_trial, build_trials
 from svsa.simulation.plant.effects import MAX_DELAY_SAMPLES
 
 
 def test_every_run_of_the_suite_has_a_name_of_its_own():
     swept = [run for sweep in build_sweeps() for runs in sweep.runs for run in runs]
-    names = [run.name for run in (*SINGLE, *UNLOADINGS, *CORNERS, *build_draws(), *swept)]
-    assert len(UNLOADINGS) == 48
+    names = [run.name for run in (*SINGLE, *LOAD_REMOVALS, *CORNERS, *build_trials(), *swept)]
+    assert len(LOAD_REMOVALS) == 48
     assert len(CORNERS) == 8
     assert len(set(names)) == len(names)
 
@@ -30,22 +30,22 @@ def test_a_season_has_the_seed_of_its_secret_and_of_the_suite():
 
 def test_a_draw_is_told_by_its_season_and_number_alone():
     season = derive_seed(b"spring")
-    assert build_draws(season)[7] == build_draw(7, season)
-    assert build_draw(7, season) != build_draw(7)
-    assert build_draw(7) != build_draw(8)
+    assert build_trials(season)[7] == build_trial(7, season)
+    assert build_trial(7, season) != build_trial(7)
+    assert build_trial(7) != build_trial(8)
     assert start_generator(3, 5).uniform() == start_generator(3, 5).uniform()
 
 
 def test_draws_lie_within_their_bounds_and_fill_them():
-    draws = build_draws()
-    assert len(draws) == DRAWS
+    trials = build_trials()
+    assert len(trials) == TRIALS
     for number in range(len(INERTIAS)):
-        ratios = [draw.plant[number][1] for draw in draws]
+        ratios = [draw.plant[number][1] for draw in trials]
         assert 0.5 <= min(ratios) < 0.6
         assert 1.4 < max(ratios) <= 1.5
-    assert {draw.effects.delay_samples for draw in draws} == {1, 2}
-    assert {draw.loads[0].kind for draw in draws} == {"constant", "pulse", "sine", "mass"}
-    assert len({draw.seed for draw in draws}) == DRAWS
+    assert {draw.effects.delay_samples for draw in trials} == {1, 2}
+    assert {draw.loads[0].kind for draw in trials} == {"constant", "pulse", "sine", "mass"}
+    assert len({draw.seed for draw in trials}) == TRIALS
 
 
 def test_a_plant_is_the_nominal_model_times_the_scenarios_ratios():
@@ -68,7 +68,7 @@ def test_the_six_sweeps_are_those_of_the_score():
 
 
 def test_a_score_is_half_robustness():
-    parts = ScoreParts(robustness=0.6, draws=0.9, accuracy=0.25)
+    parts = ScoreParts(robustness=0.6, trials=0.9, accuracy=0.25)
     assert compute_score(parts) == pytest.approx(0.5 * 0.6 + 0.3 * 0.9 + 0.2 * 0.25)
 
 

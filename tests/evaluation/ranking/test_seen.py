@@ -14,9 +14,9 @@ from svsa.runs.result.simulate import simulate
     ("law", "scenario", "laws"),
     [
         ("fl", "rig_4a", ["fl", "ndobc"]),
-        ("fl", "unloading", ["fl"]),
-        ("ndobc", "unloading", ["ndobc", "fl"]),
-        ("prescribed_performance", "unloading", ["prescribed_performance", "ndobc"]),
+        ("fl", "load_removal", ["fl"]),
+        ("ndobc", "load_removal", ["ndobc", "fl"]),
+        ("prescribed_performance", "load_removal", ["prescribed_performance", "ndobc"]),
     ],
 )
 def test_a_run_is_shown_to_its_own_end_with_its_own_samples(law, scenario, laws):
@@ -30,7 +30,7 @@ def test_a_run_is_shown_to_its_own_end_with_its_own_samples(law, scenario, laws)
 
 
 def test_why_a_law_is_alone_is_told_with_the_others_end():
-    found = find_scenario("unloading")
+    found = find_scenario("load_removal")
     fault = run_scenario(found, Entry("ndobc")).fault
     assert fault is not None
     alone = build_seen(found, "fl").alone

@@ -39,7 +39,7 @@ if __name__ == "__main__":
 
 
 def end_on_the_way(root: Path, how: signal.Signals, whom: str) -> StoredStudy:
-    """The study `one` of 400 draws in `root`, of which some are done, when its process was ended.
+    """The study `one` of 400 samples in `root`, of which some are done, when its process was ended.
 
     whom: who runs it, the number of workers or a scheduler's address.
     """

@@ -18,7 +18,7 @@ LOADED = {"figure": "4a", "loads": [{"kind": "constant", "torque_nm": [0, 0, 0],
 
 
 def build_study(**changes):
-    """40 draws under two laws: inertia, a step on the link, and effects."""
+    """40 samples under two laws: inertia, a step on the link, and effects."""
     given = {
         "title": "Short runs",
         "base": LOADED,

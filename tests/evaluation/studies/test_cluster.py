@@ -29,7 +29,7 @@ from tests.evaluation.studies.ended import end_on_the_way
 from tests.evaluation.studies.studies import build_study
 
 pytestmark = pytest.mark.long
-DRAWS = 400
+TRIALS = 400
 LOOPBACK = ("--host", "127.0.0.1", "--no-dashboard")
 WAIT_S = 300.0
 
@@ -47,12 +47,12 @@ def begin_worker(address, name):
 @contextlib.contextmanager
 def run_scheduler(folder):
     """A scheduler's address and its process."""
-    told = folder / "scheduler.json"
-    process = begin("scheduler", *LOOPBACK, "--port", "0", "--scheduler-file", str(told))
+    reported = folder / "scheduler.json"
+    process = begin("scheduler", *LOOPBACK, "--port", "0", "--scheduler-file", str(reported))
     try:
-        wait_until(told.exists)
-        wait_until(lambda: told.read_text().endswith("}"))
-        yield json.loads(told.read_text())["address"], process
+        wait_until(reported.exists)
+        wait_until(lambda: reported.read_text().endswith("}"))
+        yield json.loads(reported.read_text())["address"], process
     finally:
         process.kill()
         process.wait()
@@ -81,8 +81,8 @@ def cluster():
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory):
     """The bytes of the table as one process runs it in one go."""
-    stored = keep_study("one", build_study(runs=DRAWS), tmp_path_factory.mktemp("whole"))
-    assert run_study(stored, 0, 2 * DRAWS)
+    stored = keep_study("one", build_study(runs=TRIALS), tmp_path_factory.mktemp("whole"))
+    assert run_study(stored, 0, 2 * TRIALS)
     return read_table(stored)
 
 
@@ -111,8 +111,8 @@ def test_a_client_that_was_ended_leaves_what_another_goes_on_with(cluster, whole
 def test_what_a_lost_worker_had_is_run_by_another_once(cluster, whole, tmp_path):
     """It is held first, so that it has parts when it is killed, and given no chance to finish."""
     address, workers = cluster
-    stored = keep_study("one", build_study(runs=DRAWS), tmp_path)
-    had, told = [], []
+    stored = keep_study("one", build_study(runs=TRIALS), tmp_path)
+    had, reported = [], []
     with Client(address, set_as_default=False) as watcher, open_cluster(address, 0) as there:
         info = watcher.scheduler_info(n_workers=-1)["workers"]
         own = next(at for at, worker in info.items() if worker["name"] == "a")
@@ -124,26 +124,26 @@ def test_what_a_lost_worker_had_is_run_by_another_once(cluster, whole, tmp_path)
 
         killer = threading.Thread(target=kill)
 
-        def tell(done, total):
-            told.append(done)
-            if len(told) == 2:
+        def report(done, total):
+            reported.append(done)
+            if len(reported) == 2:
                 workers["a"].send_signal(signal.SIGSTOP)
                 killer.start()
 
-        assert run_study(stored, rows_a_part=16, progress=tell, run_parts=there.run_parts)
+        assert run_study(stored, rows_a_part=16, progress=report, run_parts=there.run_parts)
         killer.join()
     assert had
-    assert told == [16 * number for number in range(2 * DRAWS // 16 + 1)]
+    assert reported == [16 * number for number in range(2 * TRIALS // 16 + 1)]
     assert read_table(stored) == whole
 
 
 @pytest.mark.exhaustive
 def test_a_study_outlives_its_scheduler(whole, tmp_path):
-    stored = keep_study("one", build_study(runs=DRAWS), tmp_path)
+    stored = keep_study("one", build_study(runs=TRIALS), tmp_path)
     with run_scheduler(tmp_path) as (address, process):
         worker = begin_worker(address, "a")
 
-        def tell(done, total):
+        def report(done, total):
             if done == 48:
                 process.kill()
 
@@ -152,7 +152,7 @@ def test_a_study_outlives_its_scheduler(whole, tmp_path):
                 pytest.raises(StudyError, match=rf"{address} was lost.*svsa study run one"),
                 open_cluster(address, 0) as there,
             ):
-                run_study(stored, rows_a_part=16, progress=tell, run_parts=there.run_parts)
+                run_study(stored, rows_a_part=16, progress=report, run_parts=there.run_parts)
         finally:
             worker.kill()
             worker.wait()
@@ -173,7 +173,7 @@ def test_a_worker_of_another_version_is_refused(cluster, tmp_path, monkeypatch):
 @pytest.mark.exhaustive
 def test_the_command_runs_a_study_on_a_cluster_of_this_machine(whole, tmp_path, monkeypatch):
     monkeypatch.setenv("SVSA_DATA", str(tmp_path))
-    keep_study("one", build_study(runs=DRAWS))
+    keep_study("one", build_study(runs=TRIALS))
     run = ["study", "run", "one", "--scheduler", "local", "--workers", "1"]
     outcome = CliRunner().invoke(app, run, catch_exceptions=False)
     assert outcome.exit_code == 0

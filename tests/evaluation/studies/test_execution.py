@@ -10,7 +10,14 @@ import pytest
 from svsa.actuators.signals import CHANNEL_INDEX, CHANNELS
 from svsa.evaluation.studies.execution import run_study
 from svsa.evaluation.studies.samples import build_configurations, draw
-from svsa.evaluation.studies.store import StudyError, claim_study, keep_study, read_rows
+from svsa.evaluation.studies.store import (
+    STUDY_FILE,
+    StudyError,
+    claim_study,
+    keep_study,
+    open_study,
+    read_rows,
+)
 from svsa.runs.configuration import Configuration
 from svsa.runs.run import Run
 from tests.evaluation.studies.ended import end_on_the_way
@@ -46,6 +53,21 @@ def test_numbers_are_written_as_they_are_and_names_once(tmp_path):
     assert {"rms_position_error_rad", "peak_position_error_rad"} < numbers
     assert not any(columns[name].has_dictionary_page for name in numbers)
     assert columns["law"].has_dictionary_page
+
+
+def test_a_study_with_the_former_name_of_a_metric_is_read(tmp_path):
+    present, former = "steady_state_position_error_rad", "settled_position_error_rad"
+    stored = run_whole(tmp_path, success={present: 0.1})
+    path, rows = stored.folder / "rows.parquet", read_rows(stored)
+    names = [former if name == present else name for name in rows.column_names]
+    pq.write_table(rows.rename_columns(names), path)
+    definition = stored.folder / STUDY_FILE
+    definition.write_text(definition.read_text().replace(present, former))
+    again = open_study("one", tmp_path)
+    assert again.study == stored.study
+    assert read_rows(again).to_pandas().equals(rows.to_pandas())  # a NaN is the same
+    column = read_rows(again, ["law", present]).column(present)
+    assert column.to_pandas().equals(rows.column(present).to_pandas())
 
 
 def test_every_row_is_the_run_of_the_live_loop(tmp_path):
@@ -87,7 +109,7 @@ def test_a_study_of_another_version_is_not_mixed_with_runs_of_this_one(tmp_path,
 
 
 def test_settings_that_do_not_go_together_are_told_and_the_others_are_run(tmp_path):
-    """An upper limit of the stiffness below the reference's in some draws: nothing is run there."""
+    """An upper limit of the stiffness below the reference's in some samples: nothing is run."""
     limit = {
         "kind": "uniform",
         "path": "limits.stiffness_min_nm_per_rad",

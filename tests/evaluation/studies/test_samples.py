@@ -35,9 +35,9 @@ def test_another_seed_is_another_draw_and_every_run_has_its_own():
 
 def test_laws_are_run_on_the_same_draws():
     study = build_study()
-    draws = draw(study, 3, 5)
+    samples = draw(study, 3, 5)
     for one, other in zip(
-        *(build_configurations(study, law, draws) for law in study.laws), strict=True
+        *(build_configurations(study, law, samples) for law in study.laws), strict=True
     ):
         assert (one.law, other.law) == study.laws
         assert one.changed(law=other.law) == other
@@ -45,17 +45,17 @@ def test_laws_are_run_on_the_same_draws():
 
 def test_a_grid_is_gone_through_as_often_as_asked_with_the_same_chance_in_each_cell():
     study = build_study(vary=(*VARIED[:2], GRID), runs=2)
-    assert (study.cells, study.draw_count, study.row_count) == (3, 6, 12)
-    draws = draw(study, 0, 6)
-    assert draws.values[2] == [30, 60, 90, 30, 60, 90]
-    assert draws.values[0][0] == draws.values[0][2] != draws.values[0][3]
-    assert draws.seeds[0] == draws.seeds[2] != draws.seeds[3]
+    assert (study.cells, study.sample_count, study.row_count) == (3, 6, 12)
+    samples = draw(study, 0, 6)
+    assert samples.values[2] == [30, 60, 90, 30, 60, 90]
+    assert samples.values[0][0] == samples.values[0][2] != samples.values[0][3]
+    assert samples.seeds[0] == samples.seeds[2] != samples.seeds[3]
 
 
 def test_a_set_for_sensitivity_has_two_samples_and_each_with_one_value_of_the_other():
     study = build_study(sampling="sensitivity", runs=4)
     assert study.cells == len(VARIED) + 2
-    rows = list(zip(*draw(study, 0, study.draw_count).values, strict=True))
+    rows = list(zip(*draw(study, 0, study.sample_count).values, strict=True))
     for begin in range(0, len(rows), study.cells):
         a, b, *mixed = rows[begin : begin + study.cells]
         for number, row in enumerate(mixed):

@@ -40,9 +40,9 @@ def test_what_varies_in_the_studies_of_the_package_is_called_by_no_path():
     for name in list_built_in():
         study = read_study(name)[1]
         base = study.build_base(study.laws[0])
-        told = [name_variation(base, one) for one in study.vary]
-        assert len({one.words for one in told}) == len(told)
-        for variation, one in zip(study.vary, told, strict=True):
+        reported = [name_variation(base, one) for one in study.vary]
+        assert len({one.words for one in reported}) == len(reported)
+        for variation, one in zip(study.vary, reported, strict=True):
             assert variation.path.split(".")[-1] not in one.words
             assert one.words.endswith(" ×") == variation.relative
             assert not (variation.relative and one.unit)

@@ -16,13 +16,13 @@ from svsa.evaluation.studies.metrics import METRICS
 from svsa.evaluation.studies.replay import replay_row
 from svsa.evaluation.studies.store import StudyError, keep_study, open_study, read_rows
 from svsa.evaluation.studies.success import Success
-from svsa.evaluation.studies.work import ROW, run_draws
+from svsa.evaluation.studies.work import ROW, run_trials
 from tests.evaluation.studies.studies import SHORT_S, build_study
 
 
 @pytest.fixture(scope="module")
 def data(tmp_path_factory):
-    """A folder with two studies of the same draws, the second under less of a load."""
+    """A folder with two studies of the same samples, the second under less of a load."""
     folder = tmp_path_factory.mktemp("data")
     patch = pytest.MonkeyPatch()
     patch.setenv("SVSA_DATA", str(folder))
@@ -83,12 +83,12 @@ def test_a_study_of_some_metrics_keeps_shows_replays_and_draws_those(data, tmp_p
 def test_a_study_that_was_begun_before_one_could_choose_keeps_every_metric(data):
     path = data / "studies" / "one" / "study.json"
     written = json.loads(path.read_text())
-    told = path.read_bytes()
+    reported = path.read_bytes()
     assert tuple(written["study"].pop("metrics")) == tuple(METRICS)
     path.write_text(json.dumps(written))
     assert open_study("one").study == build_study()
     assert tuple(json.loads(run("show", "one", "--json"))["laws"][0]["quantiles"]) == tuple(METRICS)
-    path.write_bytes(told)
+    path.write_bytes(reported)
 
 
 @pytest.mark.parametrize("metric", METRICS)
@@ -98,7 +98,7 @@ def test_success_may_ask_for_any_metric(data, metric):
     bound = float(np.nanmedian(values[rows["fault"].is_null().to_numpy()])) or 1e-9
     study = build_study(success={metric: bound}, runs=8, metrics=(metric,))
     assert Success(**{metric: bound}).list_bounds() == {metric: bound}
-    found = run_draws(study, 0, 8)
+    found = run_trials(study, 0, 8)
     whole = found["fault"].is_null().to_numpy()
     expected = whole & (found[metric].to_numpy() <= bound)
     assert found["succeeded"].to_numpy().tolist() == expected.tolist()
@@ -129,22 +129,22 @@ def test_every_row_runs_again_to_the_same_bits(data):
 
 def assert_are_metrics(replay):
     """Those of the live loop under the same names, but for the order of its sums."""
-    told = replay.result.measure(0.05, SHORT_S)
-    for name in set(replay.metrics) & {field.name for field in dataclasses.fields(told)}:
-        value = getattr(told, name)
+    reported = replay.result.measure(0.05, SHORT_S)
+    for name in set(replay.metrics) & {field.name for field in dataclasses.fields(reported)}:
+        value = getattr(reported, name)
         expected = pytest.approx(math.nan if value is None else value, rel=1e-12, nan_ok=True)
         assert replay.metrics[name] == expected
-    return told.recovery_time_s is not None
+    return reported.recovery_time_s is not None
 
 
 def test_a_row_that_runs_again_is_a_recorded_run_of_the_lab(data):
-    told = json.loads(run("replay", "one", "1", "--json"))
-    assert told["identical"]
-    opened = svsa.open_run(told["run_id"])
+    reported = json.loads(run("replay", "one", "1", "--json"))
+    assert reported["identical"]
+    opened = svsa.open_run(reported["run_id"])
     assert opened.law == "fl"
     assert opened.name == "Study one, row 1"
-    assert svsa.resimulate(told["run_id"]).identical
-    entry = svsa.Catalogue().get(told["run_id"])
+    assert svsa.resimulate(reported["run_id"]).identical
+    entry = svsa.Catalogue().get(reported["run_id"])
     assert (entry.state, entry.tags) == ("complete", ("study", "one"))
 
 

@@ -27,7 +27,7 @@ values = [0, 1]
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "told"),
+    ("old", "new", "reported"),
     [
         ("runs = 10", "runs = 0", r"line 2: runs is 0: it must be at least 1"),
         (
@@ -62,21 +62,21 @@ values = [0, 1]
         ("runs = 10", "runs =", r"it must be a readable TOML file .*line 2"),
     ],
 )
-def test_a_wrong_value_is_told_with_its_line(tmp_path, old, new, told):
+def test_a_wrong_value_is_told_with_its_line(tmp_path, old, new, reported):
     path = tmp_path / "wrong.toml"
     path.write_text(GOOD.replace(old, new, 1))
-    with pytest.raises(ParameterError, match=r"(?s)wrong\.toml.*" + told):
+    with pytest.raises(ParameterError, match=r"(?s)wrong\.toml.*" + reported):
         read_study(path)
 
 
 def test_a_setting_varies_once_and_not_within_another(tmp_path):
     path = tmp_path / "wrong.toml"
-    for other, told in (
+    for other, reported in (
         ("actuator.link_inertia_kg_m2", "varied once"),
         ("actuator", "apart from the others"),
     ):
         path.write_text(GOOD.replace("effects.delay_samples", other))
-        with pytest.raises(ParameterError, match=told):
+        with pytest.raises(ParameterError, match=reported):
             read_study(path)
 
 

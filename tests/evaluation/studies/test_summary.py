@@ -21,7 +21,7 @@ from svsa.evaluation.studies.summary import (
     pair_rows,
     summarize_laws,
 )
-from svsa.evaluation.studies.tables import tell_share
+from svsa.evaluation.studies.tables import format_share
 from svsa.evaluation.studies.work import build_schema
 from tests.evaluation.studies.studies import build_study
 from tests.exhaustive import exhaust
@@ -82,13 +82,13 @@ def test_a_summary_counts_faults_as_failures_and_leaves_refused_draws_out():
 
 
 def test_a_share_that_is_not_all_never_reads_100_percent():
-    for count, total, told in (
+    for count, total, reported in (
         (10**6, 10**6, "100.0000 % (99.9996 to 100.0000)"),
         (0, 10**6, "0.0000 % (0.0000 to 0.0004)"),
         (10**6 - 1, 10**6, "99.99990 % (99.99943 to 99.99998)"),
         (8, 10, "80.00 % (49.02 to 94.33)"),
     ):
-        assert tell_share(estimate_share(count, total)) == told
+        assert format_share(estimate_share(count, total)) == reported
 
 
 def test_a_summary_is_of_the_metrics_that_are_kept_and_a_pairing_of_those_of_both():
@@ -102,7 +102,7 @@ def test_a_summary_is_of_the_metrics_that_are_kept_and_a_pairing_of_those_of_bot
     assert law.quantiles["effort_n2m2_s"] == [3.0] * 3
     assert tuple(pair_rows(rows, rows, "a", "b").differences) == kept
     common = pair_rows(rows, build_rows(other, [{"limit_share": 0.5}] * 2), "a", "b").differences
-    assert {name: told.value for name, told in common.items()} == {"limit_share": -0.25}
+    assert {name: reported.value for name, reported in common.items()} == {"limit_share": -0.25}
     drawn = one.changed(vary=ISHIGAMI, sampling="sensitivity", runs=2)
     with pytest.raises(ParameterError, match="one of succeeded, effort_n2m2_s, limit_share, peak"):
         estimate_sensitivity(drawn, rows, "ndobc", "rms_position_error_rad")

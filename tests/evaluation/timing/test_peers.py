@@ -75,13 +75,13 @@ def test_each_peer_is_told_by_the_cheapest_of_its_methods(monkeypatch: pytest.Mo
         "measure_in_turns",
         lambda works, _: {name: prices.get(name, 1.0) for name in works},
     )
-    told = comparison.measure_peers(1, DURATION_S)
-    assert list(told) == ["svsa", "scipy"]
-    assert told["svsa"].ratio == 1.0
-    assert told["svsa"].cpu_us_per_period == pytest.approx(10.0)
-    assert told["scipy"].ratio == pytest.approx(3.0)
-    assert told["scipy"].setting == "DOP853: 0.001"
-    assert 0.0 < told["scipy"].error_rad <= told["svsa"].error_rad
+    reported = comparison.measure_peers(1, DURATION_S)
+    assert list(reported) == ["svsa", "scipy"]
+    assert reported["svsa"].ratio == 1.0
+    assert reported["svsa"].cpu_us_per_period == pytest.approx(10.0)
+    assert reported["scipy"].ratio == pytest.approx(3.0)
+    assert reported["scipy"].setting == "DOP853: 0.001"
+    assert 0.0 < reported["scipy"].error_rad <= reported["svsa"].error_rad
 
 
 def test_a_peer_that_is_not_installed_is_left_out(monkeypatch: pytest.MonkeyPatch) -> None:

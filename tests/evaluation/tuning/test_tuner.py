@@ -11,7 +11,13 @@ from typer.testing import CliRunner
 import svsa
 from svsa.cli import app
 from svsa.control.installed import get_law, list_law_names
-from svsa.evaluation.ranking.cost import MAX_FAULT, MIN_FAULT, RunCost, compute_cost, compute_shake
+from svsa.evaluation.ranking.cost import (
+    MAX_FAULT,
+    MIN_FAULT,
+    RunCost,
+    compute_cost,
+    compute_torque_change,
+)
 from svsa.evaluation.tuning.file import format_tuned
 from svsa.evaluation.tuning.search_space import build_space
 from svsa.evaluation.tuning.training import TRAINING
@@ -132,7 +138,7 @@ def test_what_says_which_law_it_is_is_held_and_not_searched():
 
 
 @pytest.mark.parametrize(
-    ("law", "held", "told"),
+    ("law", "held", "reported"),
     [
         ("no_law", {}, "installed here"),
         ("ndobc", {"a": 1.0}, "takes the run's gains"),
@@ -140,8 +146,8 @@ def test_what_says_which_law_it_is_is_held_and_not_searched():
         ("pd", {"motor1_damping": 9.0}, "motor1_damping is 9"),
     ],
 )
-def test_what_cannot_be_searched_is_refused(law, held, told):
-    with pytest.raises(svsa.ParameterError, match=told):
+def test_what_cannot_be_searched_is_refused(law, held, reported):
+    with pytest.raises(svsa.ParameterError, match=reported):
         tune(law, budget=1, held=held, **SHORT)
 
 
@@ -150,8 +156,8 @@ def test_a_fault_costs_six_to_twelve_and_shaking_costs():
     e = math.degrees(math.sqrt(np.mean(run.position_error_rad**2)))
     sigma = math.sqrt(np.mean(run.stiffness_error_nm_per_rad**2))
     squares = np.diff(run.torque1_nm) ** 2 + np.diff(run.torque2_nm) ** 2
-    assert compute_shake(run) == pytest.approx(math.sqrt(np.mean(squares)), rel=1e-12)
-    expected = e + 0.1 * sigma + 0.3 * compute_shake(run)
+    assert compute_torque_change(run) == pytest.approx(math.sqrt(np.mean(squares)), rel=1e-12)
+    expected = e + 0.1 * sigma + 0.3 * compute_torque_change(run)
     found = compute_cost(run, 0.1)
     assert found.cost == pytest.approx(expected, rel=1e-12)
     assert found.fault == ""
@@ -192,10 +198,10 @@ def test_the_command_writes_a_file_or_prints_all_trials(tmp_path):
     table = runner.invoke(app, [*common, "--output", str(path)], catch_exceptions=False).stdout
     assert "position_pole_rad_per_s" in table
     assert all(run.name in table for run in TRAINING)
-    told = json.loads(runner.invoke(app, [*common, "--json"], catch_exceptions=False).stdout)
-    assert [trial["stage"] for trial in told["trials"]] == ["present", "sobol", "local"]
+    reported = json.loads(runner.invoke(app, [*common, "--json"], catch_exceptions=False).stdout)
+    assert [trial["stage"] for trial in reported["trials"]] == ["present", "sobol", "local"]
     written = svsa.read_design(path).parameters["fl_integral"]
-    assert written.position_pole_rad_per_s == told["best"]["values"][0]
-    assert told["best"]["cost"] == min(trial["cost"] for trial in told["trials"])
+    assert written.position_pole_rad_per_s == reported["best"]["values"][0]
+    assert reported["best"]["cost"] == min(trial["cost"] for trial in reported["trials"])
     with pytest.raises(svsa.ParameterError, match=r"hold is .a=b.: it must be NAME=VALUE"):
         runner.invoke(app, [*common, "--hold", "a=b"], catch_exceptions=False)

@@ -1,4 +1,4 @@
-"""A check of a bench's file on a rig's bus, over in time, and what it has sent."""
+"""A check of a bench's file on an emulator's bus, over in time, and what it has sent."""
 
 from svsa.hardware.commissioning import check_bench
 from svsa.hardware.drives.robomodule import (
@@ -20,7 +20,7 @@ def check(path, bus, move=False, watch=None):
 
 def assert_left_alone(bus):
     assert not bus.is_open
-    for drive in bus.rig.drives.values():
+    for drive in bus.emulator.drives.values():
         assert drive.current_ma == 0
         assert drive.mode is None or not drive.powered
 

@@ -1,13 +1,13 @@
-"""The bus of a rig, and the file of its bench."""
+"""The bus of an emulator, and the file of its bench."""
 
 import pytest
 
-from tests.hardware.emulator.bus_in_time import RigBus, copy_bench
+from tests.hardware.emulator.bus_in_time import EmulatorBus, copy_bench
 
 
 @pytest.fixture
 def bus():
-    return RigBus()
+    return EmulatorBus()
 
 
 @pytest.fixture

@@ -7,7 +7,7 @@ import pytest
 from svsa.hardware.calibration import find_calibration
 from svsa.hardware.commissioning import SIGN_STEPS, check_bench
 from svsa.hardware.commissioning.step import Result
-from svsa.hardware.emulator.emulator import Rig
+from svsa.hardware.emulator.emulator import Emulator
 from svsa.hardware.emulator.faults import (
     BusErrors,
     CurrentOffset,
@@ -18,14 +18,14 @@ from svsa.hardware.emulator.faults import (
     Silence,
     Stall,
 )
-from svsa.hardware.emulator.parameters import RigDeflection, RigParameters
+from svsa.hardware.emulator.parameters import EmulatedDeflection, EmulatorParameters
 from svsa.hardware.file import read_bench
 from svsa.hardware.homing import STEPS, Homing
 from svsa.hardware.zero import calibrate
 from svsa.simulation.plant.loads import ConstantLoad
 from tests.exhaustive import exhaust
 from tests.hardware.commissioning.checked_bench import check, find_current, list_currents
-from tests.hardware.emulator.bus_in_time import RigBus, copy_bench
+from tests.hardware.emulator.bus_in_time import EmulatorBus, copy_bench
 
 MOVING_S = 1.6
 
@@ -35,7 +35,7 @@ def test_a_healthy_bench_passes_every_step_without_moving(path, bus):
     assert {step.result for step in steps.values()} == {Result.OK}
     assert "EMULATED" in steps["bus"].measured
     assert all(current == 0 for _, _, current in list_currents(bus))
-    assert bus.rig.mechanics.read(bus.rig.now_us).theta1 == 0.0
+    assert bus.emulator.mechanics.read(bus.emulator.now_us).theta1 == 0.0
 
 
 def test_a_healthy_bench_that_moves_has_its_signs_confirmed(path, bus):
@@ -59,7 +59,7 @@ def test_pulses_stay_small_and_keep_the_gate_of_the_drives(path, bus):
     currents = list_currents(bus)
     assert max(abs(mA) for _, address, mA in currents if address.number == 1) <= 1350
     assert max(abs(mA) for _, address, mA in currents if address.number == 2) <= 174
-    x = bus.rig.mechanics.read(bus.rig.now_us)
+    x = bus.emulator.mechanics.read(bus.emulator.now_us)
     assert max(abs(x.theta1), abs(x.theta2)) < 0.1
     for number in (1, 2):
         times = [time for time, address, _ in currents if address.number == number]
@@ -135,7 +135,7 @@ REPEATED = [
 @pytest.mark.parametrize("case", exhaust(FAULTS + REPEATED, FAULTS), ids=lambda case: case[2])
 def test_a_fault_is_found_and_what_to_do_is_said(path, bus, case):
     fault, at_s, step, advice = case
-    bus.rig.schedule(round(at_s * 1e6), lambda: bus.rig.inject(fault))
+    bus.emulator.schedule(round(at_s * 1e6), lambda: bus.emulator.inject(fault))
     steps = check(path, bus, move=True, watch=lambda _: True)
     assert steps[step].result is Result.FAIL
     assert advice in steps[step].advice
@@ -143,23 +143,23 @@ def test_a_fault_is_found_and_what_to_do_is_said(path, bus, case):
 
 
 def test_no_motor_moves_where_an_encoder_is_silent(path, bus):
-    bus.rig.inject(DropFrames(node="deflection"))
+    bus.emulator.inject(DropFrames(node="deflection"))
     check(path, bus, move=True)
     assert all(current == 0 for _, _, current in list_currents(bus))
 
 
 def test_a_dead_motor_encoder_does_not_make_the_motor_run_away(path, bus):
     """The worst case of pulses that nothing measures: the shaft stays within a turn or so."""
-    bus.rig.inject(FrozenEncoder(node="motor1"))
+    bus.emulator.inject(FrozenEncoder(node="motor1"))
     steps = check(path, bus, move=True)
     assert steps["motor1: sign"].result is Result.FAIL
-    assert abs(bus.rig.mechanics.read(bus.rig.now_us).theta1) < 0.5
+    assert abs(bus.emulator.mechanics.read(bus.emulator.now_us).theta1) < 0.5
 
 
 def test_a_load_that_pulls_the_motor_is_not_taken_for_a_sign(path, bus):
-    bus.rig.schedule(
+    bus.emulator.schedule(
         round(MOVING_S * 1e6),
-        lambda: bus.rig.add_load(ConstantLoad(torque_nm=(0.0, 2.0, 0.0))),
+        lambda: bus.emulator.add_load(ConstantLoad(torque_nm=(0.0, 2.0, 0.0))),
     )
     steps = check(path, bus, move=True, watch=lambda _: True)
     assert Result.FAIL in {steps[name].result for name in steps if name in SIGN_STEPS}
@@ -172,13 +172,13 @@ def test_a_drive_at_another_address_is_found(tmp_path, bus):
 
 
 def test_a_drive_that_answers_nowhere_beside_one_that_does(path, bus):
-    bus.rig.inject(Silence(node="motor1"))
+    bus.emulator.inject(Silence(node="motor1"))
     assert "factory address" in check(path, bus)["motor1: drive 0.1"].advice
 
 
 def test_a_wrong_deflection_sign_of_the_bench_is_found(tmp_path):
-    rig = Rig(RigParameters(deflection=RigDeflection(sign=-1, phase_s=0.0008)))
-    steps = check(copy_bench(tmp_path), RigBus(rig), move=True)
+    emulator = Emulator(EmulatorParameters(deflection=EmulatedDeflection(sign=-1, phase_s=0.0008)))
+    steps = check(copy_bench(tmp_path), EmulatorBus(emulator), move=True)
     assert steps["deflection: sign"].result is Result.FAIL
 
 

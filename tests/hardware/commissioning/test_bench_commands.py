@@ -6,9 +6,9 @@ from typer.testing import CliRunner
 
 from svsa.hardware.calibration import find_calibration
 from svsa.hardware.cli import bench_check, bench_home
-from svsa.hardware.emulator.launch import start_rig
+from svsa.hardware.emulator.launch import start_emulator
 from svsa.hardware.file import read_bench
-from tests.hardware.emulator.bus_in_time import RIG_BENCH, copy_bench
+from tests.hardware.emulator.bus_in_time import EMULATOR_BENCH, copy_bench
 
 APP = Typer()
 APP.command("bench-check")(bench_check)
@@ -16,7 +16,7 @@ APP.command("bench-home")(bench_home)
 
 
 def test_the_command_moves_nothing_where_it_is_not_allowed_to(tmp_path):
-    """The answer no, and no rig behind the port: it is asked before anything is opened."""
+    """The answer no, and no emulator behind the port: it is asked before anything is opened."""
     result = CliRunner().invoke(
         APP, ["bench-check", str(copy_bench(tmp_path)), "--move"], input="n\n"
     )
@@ -39,17 +39,19 @@ def test_the_command_names_the_fields_of_the_bench_file_with_their_sections(tmp_
 
 
 @pytest.mark.exhaustive
-@pytest.mark.wall_clock(stall_s=read_bench(RIG_BENCH).safety.stale_fault_s)
+@pytest.mark.wall_clock(stall_s=read_bench(EMULATOR_BENCH).safety.stale_fault_s)
 def test_the_commands_over_a_socket_in_wall_clock_time(tmp_path):
-    """A rig in its own process, python-can in between: the record is written, all is left off."""
-    with start_rig(lockstep=False) as rig:
-        path = copy_bench(tmp_path, lambda text: text.replace("29536", str(rig.port)))
+    """An emulator in its own process, python-can in between: the record is written, all is left
+    off.
+    """
+    with start_emulator(lockstep=False) as emulator:
+        path = copy_bench(tmp_path, lambda text: text.replace("29536", str(emulator.port)))
         path.with_name("bench.calibration.toml").unlink()
         homed = CliRunner().invoke(APP, ["bench-home", str(path), "--by", "Ada"], input="y\ny\ny\n")
         assert homed.exit_code == 0, homed.output
         assert "run `svsa bench-check --move`" in " ".join(homed.output.split())
         checked = CliRunner().invoke(APP, ["bench-check", str(path), "--move"], input="y\ny\ny\n")
-        drives = rig.control.read_state()["drives"]
+        drives = emulator.control.read_state()["drives"]
     assert "motor2: direction" in checked.output, checked.output
     calibration = find_calibration(read_bench(path))
     assert calibration is not None and calibration.by == "Ada"

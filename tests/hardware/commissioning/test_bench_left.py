@@ -25,7 +25,7 @@ def test_a_bench_in_use_is_left_to_its_user(path, bus):
     """Another program sends currents: nothing but listening is done, above all no reset."""
     frame = Frame(build_id(Address(0, 1), Command.CURRENT), encode(Current(5000, 0)))
     for time_us in range(0, 400_000, 1000):
-        bus.rig.schedule(time_us, lambda: bus.rig.receive(frame, "the lab"))
+        bus.emulator.schedule(time_us, lambda: bus.emulator.receive(frame, "the lab"))
     steps = check(path, bus)
     assert steps["bus"].result is Result.FAIL
     assert "another program" in steps["bus"].advice

@@ -1,4 +1,4 @@
-"""The emulated rig as a python-can bus in virtual time: who waits for a frame moves time on."""
+"""The emulator as a python-can bus in virtual time: who waits for a frame moves time on."""
 
 import math
 from collections import deque
@@ -7,27 +7,27 @@ from pathlib import Path
 
 import can
 
-from svsa.hardware.emulator.emulator import Rig
+from svsa.hardware.emulator.emulator import Emulator
 from svsa.hardware.emulator.frame import Frame
 from svsa.hardware.file import BusSettings
 
-RIG_BENCH = Path(__file__).parents[3] / "svsa" / "hardware" / "emulator" / "bench.toml"
+EMULATOR_BENCH = Path(__file__).parents[3] / "svsa" / "hardware" / "emulator" / "bench.toml"
 
 
 def copy_bench(folder: Path, change: Callable[[str], str] = str) -> Path:
-    """The emulated rig's bench file and record in a folder of the test's own."""
+    """The emulator's bench file and record in a folder of the test's own."""
     for name in ("bench.toml", "bench.calibration.toml"):
-        (folder / name).write_text(RIG_BENCH.with_name(name).read_text("utf-8"), "utf-8")
+        (folder / name).write_text(EMULATOR_BENCH.with_name(name).read_text("utf-8"), "utf-8")
     path = folder / "bench.toml"
     path.write_text(change(path.read_text("utf-8")), "utf-8")
     return path
 
 
-class RigBus:
+class EmulatorBus:
     """What `can.BusABC` is to a probe. sent: every frame of the probe, with its time."""
 
-    def __init__(self, rig: Rig | None = None) -> None:
-        self.rig = rig or Rig()
+    def __init__(self, emulator: Emulator | None = None) -> None:
+        self.emulator = emulator or Emulator()
         self.sent: list[tuple[float, can.Message]] = []
         self.is_open = False
         self.before_send: Callable[[can.Message], None] = lambda _: None
@@ -38,25 +38,25 @@ class RigBus:
         return self  # pyright: ignore[reportReturnType]
 
     def now(self) -> float:
-        return self.rig.now_us * 1e-6
+        return self.emulator.now_us * 1e-6
 
     def send(self, message: can.Message, timeout: float | None = None) -> None:
         self.before_send(message)
         self.sent.append((self.now(), message))
-        self.rig.receive(Frame(message.arbitration_id, bytes(message.data)), self)
+        self.emulator.receive(Frame(message.arbitration_id, bytes(message.data)), self)
 
     def recv(self, timeout: float) -> can.Message | None:
-        end_us = self.rig.now_us + math.ceil(timeout * 1e6)
-        while not self._heard and self.rig.now_us < end_us:
-            self._advance_to(min(self.rig.next_event_us, end_us))
+        end_us = self.emulator.now_us + math.ceil(timeout * 1e6)
+        while not self._heard and self.emulator.now_us < end_us:
+            self._advance_to(min(self.emulator.next_event_us, end_us))
         return self._heard.popleft() if self._heard else None
 
     def sleep(self, duration_s: float) -> None:
-        """Who talks and listens here is not let run for so long; the rig goes on."""
-        self._advance_to(self.rig.now_us + round(duration_s * 1e6))
+        """Who talks and listens here is not let run for so long; the emulator goes on."""
+        self._advance_to(self.emulator.now_us + round(duration_s * 1e6))
 
     def _advance_to(self, end_us: int) -> None:
-        for time_us, frame, sender in self.rig.advance_to(end_us):
+        for time_us, frame, sender in self.emulator.advance_to(end_us):
             if sender is not self:
                 self._heard.append(
                     can.Message(

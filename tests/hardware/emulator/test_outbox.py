@@ -3,7 +3,7 @@
 import pytest
 
 from svsa.hardware.emulation import ADVANCE_ID, encode_time
-from svsa.hardware.emulator.emulator import Rig
+from svsa.hardware.emulator.emulator import Emulator
 from svsa.hardware.emulator.exchange import Exchange
 from svsa.hardware.emulator.frame import FULL_BYTES, Frame, Outbox
 
@@ -91,7 +91,7 @@ class OneClient:
 def test_a_tick_of_the_rig_reaches_its_client_at_once() -> None:
     """All frames of the time that has gone on, and the answer after them."""
     client = OneClient()
-    exchange = Exchange(Rig(), [client], lockstep=True)  # pyright: ignore[reportArgumentType]
+    exchange = Exchange(Emulator(), [client], lockstep=True)  # pyright: ignore[reportArgumentType]
     client.asked.append(Frame(ADVANCE_ID, encode_time(5_000), extended=True))
     exchange.serve(client)  # pyright: ignore[reportArgumentType]
     (said,) = client.pipe.texts

@@ -16,7 +16,7 @@ from svsa.hardware.emulator.socketcand import SocketcandServer
 from .wire_frames import DATA, FRAMES, GREETING
 
 HANG_S = 30.0
-RIG_TIME_S = 1234.000567
+EMULATOR_TIME_S = 1234.000567
 
 
 class Bus:
@@ -40,17 +40,17 @@ class Bus:
             heard = [each for server in servers for each in server.poll()]
             for server in servers:
                 for client in server.take_arrivals():
-                    server.send(GREETING, RIG_TIME_S, to=client)
+                    server.send(GREETING, EMULATOR_TIME_S, to=client)
             for client, frame in heard:
                 self.heard.append(frame)
                 for server in servers:
-                    server.send(frame, RIG_TIME_S, but=client)
+                    server.send(frame, EMULATOR_TIME_S, but=client)
             while not self.to_say.empty():
                 frame = self.to_say.get()
                 for server in servers:
-                    server.send(frame, RIG_TIME_S)
+                    server.send(frame, EMULATOR_TIME_S)
             if self.chatter:
-                self.socketcand.send(Frame(0x01B, DATA), RIG_TIME_S)
+                self.socketcand.send(Frame(0x01B, DATA), EMULATOR_TIME_S)
 
     def connect(self):
         return can.Bus(
@@ -117,7 +117,7 @@ def test_each_client_of_python_can_hears_the_others_and_not_itself(bus):
 
 def test_a_frame_has_the_time_of_the_rig_to_the_microsecond(bus):
     client = bus.connect()
-    assert hear(client).timestamp == pytest.approx(RIG_TIME_S, abs=1e-9)
+    assert hear(client).timestamp == pytest.approx(EMULATOR_TIME_S, abs=1e-9)
     client.shutdown()
 
 
@@ -127,7 +127,7 @@ def test_bus_trouble_is_an_error_frame(bus):
     bus.to_say.put(Frame(0x020, b"", error=True))
     message = hear(client)
     assert message.is_error_frame
-    assert message.timestamp == pytest.approx(RIG_TIME_S)
+    assert message.timestamp == pytest.approx(EMULATOR_TIME_S)
     bus.to_say.put(Frame(0x123, DATA))
     assert hear_frame(adapter) == Frame(0x123, DATA), "slcan has no error frames"
     client.shutdown()

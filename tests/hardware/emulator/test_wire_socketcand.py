@@ -50,7 +50,7 @@ class Peer:
     def enter(self):
         self.pump()
         assert self.read() == b"< hi >"
-        self.write(b"< open rig >")
+        self.write(b"< open emulator >")
         assert self.read() == b"< ok >"
         self.write(b"< rawmode >")
         assert self.read() == b"< ok >"

@@ -30,8 +30,8 @@ from svsa.runs.paper import get_figure
 from tests.hardware.wired_bench import WiredBench
 
 ARMING_TICKS, RAMP_TICKS = 1500, 500
-RIG_S = 0.1
-"""In which the rig, which is in this process, has loaded what it needs itself."""
+EMULATOR_S = 0.1
+"""In which the emulator, which is in this process, has loaded what it needs itself."""
 
 
 class LoadCounter(event.Listener):
@@ -60,7 +60,7 @@ class Rehearsal:
             SampleArray(1),
             self.laws.bind,
         )
-        wired.skip(RIG_S)
+        wired.skip(EMULATOR_S)
         warm_up(self.loop, self.laws, lambda step: None)
         wired.plant.catch_up()
         nobody: Any = SimpleNamespace(beat=lambda slot: None)

@@ -47,7 +47,7 @@ def start(monkeypatch):
     """Starts a bench whose loop says these messages, and gives what was told of it."""
 
     def begin(messages, silence_s):
-        link, told = ScriptedLink(messages), []
+        link, reported = ScriptedLink(messages), []
         theirs = types.SimpleNamespace(fileno=lambda: 0, close=lambda: None)
         process = types.SimpleNamespace(
             poll=lambda: None, wait=lambda: 0, terminate=lambda: None, kill=lambda: None
@@ -61,11 +61,11 @@ def start(monkeypatch):
         processes = BenchProcesses("bench.toml", configuration, link.rest)
         assert [*link.sent[0]] == ["configuration"], "a server that starts may be long in asking"
         try:
-            processes.wait_until_ready(silence_s, lambda *what: told.append(what))
+            processes.wait_until_ready(silence_s, lambda *what: reported.append(what))
         except BenchError as error:
             assert processes.failure == str(error), "whoever asks later is told, too"
             raise
-        return processes, told
+        return processes, reported
 
     return begin
 
@@ -77,12 +77,12 @@ def starting(step):
 def test_a_loop_that_gets_on_is_waited_for_and_shown(start):
     compiling = [(50.0 * n, starting(f"compiling, {n} functions")) for n in range(1, 8)]
     state = {"event": "state"}
-    processes, told = start(
+    processes, reported = start(
         [*compiling, (380.0, {"event": "ready", "notes": []}), (380, state)], 60
     )
     assert processes.events == [state], "what it says once it is ready is kept"
-    assert ("compiling, 7 functions", pytest.approx(360.0, abs=1.0)) in told
-    assert told[0] == ("starting its process", 0.0)
+    assert ("compiling, 7 functions", pytest.approx(360.0, abs=1.0)) in reported
+    assert reported[0] == ("starting its process", 0.0)
     processes.end()
     processes.free()
 
@@ -122,9 +122,9 @@ def test_every_compiled_function_is_told_once():
 
 def test_a_log_gets_a_line_every_ten_seconds():
     console = Console(file=io.StringIO(), force_terminal=False, width=100)
-    tell = show_steps(console)
+    report = show_steps(console)
     for second in range(25):
-        tell("compiling the loop", float(second))
+        report("compiling the loop", float(second))
     lines = console.file.getvalue().splitlines()
     assert [line for line in lines if line] == [
         "The bench is compiling the loop (10 s) …",

@@ -40,12 +40,12 @@ OWN_PARAMETERS = list_other_parameters()
 def test_first_uses_load_nothing_in_a_tick(state: str) -> None:
     """Every law, with other parameters too, and every kind of command, in a new process."""
     program = [sys.executable, "-m", "tests.hardware.realtime.first_uses", state]
-    told = json.loads(subprocess.run(program, check=True, stdout=subprocess.PIPE).stdout)
-    assert told["status"] == state
-    names = {name for name, _ in told["found"]}
+    reported = json.loads(subprocess.run(program, check=True, stdout=subprocess.PIPE).stdout)
+    assert reported["status"] == state
+    names = {name for name, _ in reported["found"]}
     assert names >= {*list_law_names(), *(f"parameters {law}" for law in OWN_PARAMETERS)}
     nothing = {"loads": 0, "modules": [], "refused": None}
-    assert {name: found for name, found in told["found"] if found != nothing} == {}
+    assert {name: found for name, found in reported["found"] if found != nothing} == {}
 
 
 def test_the_warm_up_has_every_kind_of_command_reference_and_load() -> None:

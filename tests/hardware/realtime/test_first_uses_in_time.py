@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from svsa.control.installed import PAPERS_LAW, list_law_names
-from svsa.hardware.emulator.launch import start_rig
+from svsa.hardware.emulator.launch import start_emulator
 from svsa.hardware.homing import STEPS
 from svsa.hardware.safety.machine import BenchStatus
 from svsa.hardware.session.session import BenchSession
@@ -41,8 +41,8 @@ def open_bench(folder: Path) -> Iterator[BenchSession]:
     figure = get_figure("4a").build_configuration(load=False)
     for law in list_law_names():  # as `svsa serve` does, so that its twin does not wait for them
         Run(figure.changed(law=law))
-    with start_rig(False, IDLE_S, "--real-time") as rig:
-        path = write_bench(folder, rig, lockstep=False)
+    with start_emulator(False, IDLE_S, "--real-time") as emulator:
+        path = write_bench(folder, emulator, lockstep=False)
         session = BenchSession("lab", path, figure.changed(position=ConstantPosition()))
         try:
             session.open()

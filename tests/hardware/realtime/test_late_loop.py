@@ -36,7 +36,7 @@ def begin(bench: WiredBench) -> BenchLoop:
 
 def read(bench: WiredBench) -> State:
     """The true state."""
-    return bench.rig.mechanics.read(bench.rig.now_us)
+    return bench.emulator.mechanics.read(bench.emulator.now_us)
 
 
 def test_a_late_tick_makes_no_velocity_that_is_not_there() -> None:

@@ -1,4 +1,6 @@
-"""What the drives are told when processes of a bench are killed or stopped, by the rig's clock."""
+"""What the drives are told when processes of a bench are killed or stopped, by the emulator's
+clock.
+"""
 
 import contextlib
 import os
@@ -11,7 +13,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-from svsa.hardware.emulator.launch import RunningRig
+from svsa.hardware.emulator.launch import RunningEmulator
 from svsa.simulation.plant.loads import ConstantLoad
 from tests.processes import find_child
 
@@ -25,8 +27,8 @@ SAID = "bench: "
 class Outcome(NamedTuple):
     """before_ma: what both drives were told as they came to hold.
 
-    zero_s: from the signal to zero, the rig's time. modes: what the drives are in at the end, None
-    after a reset.
+    zero_s: from the signal to zero, the emulator's time. modes: what the drives are in at the end,
+    None after a reset.
     """
 
     before_ma: list[int]
@@ -83,9 +85,9 @@ def find(process: int) -> Path:
 
 
 @contextlib.contextmanager
-def run_standing_bench(path: Path, rig: RunningRig) -> Iterator[StandingBench]:
-    rig.control.set_loads(())
-    rig.control.home()
+def run_standing_bench(path: Path, emulator: RunningEmulator) -> Iterator[StandingBench]:
+    emulator.control.set_loads(())
+    emulator.control.home()
     process = subprocess.Popen(
         [sys.executable, "-m", "tests.hardware.standing_bench", str(path)],
         cwd=Path(__file__).parents[3],
@@ -95,7 +97,7 @@ def run_standing_bench(path: Path, rig: RunningRig) -> Iterator[StandingBench]:
     bench = None
     try:
         bench = StandingBench(process)
-        rig.control.load(LOAD)
+        emulator.control.load(LOAD)
         yield bench
     finally:
         for each in (bench.ids if bench else {"server": process.pid}).values():
@@ -106,19 +108,19 @@ def run_standing_bench(path: Path, rig: RunningRig) -> Iterator[StandingBench]:
         process.stdout.close()
 
 
-def read_currents(rig: RunningRig) -> list[int]:
+def read_currents(emulator: RunningEmulator) -> list[int]:
     """What both drives hold, mA."""
-    return [drive["commanded_ma"] for drive in rig.control.read_state()["drives"].values()]
+    return [drive["commanded_ma"] for drive in emulator.control.read_state()["drives"].values()]
 
 
-def wait_until_held(rig: RunningRig) -> list[int]:
+def wait_until_held(emulator: RunningEmulator) -> list[int]:
     """The currents by which both drives come to hold the load; none where the bench stops before.
 
     A moment later that of motor 2, which is small, may pass through zero.
     """
     end = time.monotonic() + PATIENCE_S
     while time.monotonic() < end:
-        state = rig.control.read_state()
+        state = emulator.control.read_state()
         currents = [drive["commanded_ma"] for drive in state["drives"].values()]
         if any(drive["mode"] is None for drive in state["drives"].values()):
             return []
@@ -129,7 +131,7 @@ def wait_until_held(rig: RunningRig) -> list[int]:
 
 
 def measure(
-    rig: RunningRig,
+    emulator: RunningEmulator,
     path: Path,
     victims: tuple[str, ...],
     number: signal.Signals,
@@ -141,17 +143,19 @@ def measure(
     server the others end.
     """
     for _ in range(ATTEMPTS):
-        with run_standing_bench(path, rig) as bench:
-            before = wait_until_held(rig)
+        with run_standing_bench(path, emulator) as bench:
+            before = wait_until_held(emulator)
             if not before:
                 continue
-            signalled_s = rig.control.read_state()["time_s"]
+            signalled_s = emulator.control.read_state()["time_s"]
             bench.signal(victims, number)
             end = time.monotonic() + PATIENCE_S
-            while any(read_currents(rig)):
-                assert time.monotonic() < end, f"{victims}: the drives hold {read_currents(rig)}"
+            while any(read_currents(emulator)):
+                assert time.monotonic() < end, (
+                    f"{victims}: the drives hold {read_currents(emulator)}"
+                )
                 time.sleep(0.005)
-            drives = rig.control.read_state()["drives"].values()
+            drives = emulator.control.read_state()["drives"].values()
             zero_s = max(drive["commanded_since_s"] for drive in drives) - signalled_s
             for code in codes:
                 bench.wait_for(code)
@@ -159,6 +163,6 @@ def measure(
                     bench.signal(victims, signal.SIGCONT)
             if "server" in victims and number == signal.SIGKILL:
                 bench.wait_for_end()
-            modes = [drive["mode"] for drive in rig.control.read_state()["drives"].values()]
+            modes = [drive["mode"] for drive in emulator.control.read_state()["drives"].values()]
             return Outcome(before, zero_s, modes)
     raise AssertionError(f"The bench did not hold the load in {ATTEMPTS} attempts.")

@@ -13,9 +13,9 @@ from svsa.actuators.signals import Disturbance, State, Torque
 from svsa.hardware.file import read_bench
 from svsa.hardware.realtime.configuration import build_guard, read_bench_design
 from svsa.hardware.safety.guard import Guard
-from tests.hardware.wired_bench import AT_REST, RIG_BENCH, UNDISTURBED
+from tests.hardware.wired_bench import AT_REST, EMULATOR_BENCH, UNDISTURBED
 
-BENCH = read_bench(RIG_BENCH)
+BENCH = read_bench(EMULATOR_BENCH)
 CALM = (0.0, 0.0)
 NM_PER_A = (50.0 * 0.9 * 0.0396, 50.0 * 0.9 * 0.0234)
 FULL = Torque(100.0, -100.0)

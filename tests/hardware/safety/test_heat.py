@@ -10,9 +10,9 @@ from svsa.hardware.file import read_bench
 from svsa.hardware.realtime.configuration import build_guard
 from svsa.hardware.safety.guard import Guard
 from svsa.hardware.safety.heat import LINGERS_S, WARM, Winding, compute_lasting_torque
-from tests.hardware.wired_bench import AT_REST, RIG_BENCH, UNDISTURBED
+from tests.hardware.wired_bench import AT_REST, EMULATOR_BENCH, UNDISTURBED
 
-BENCH = read_bench(RIG_BENCH)
+BENCH = read_bench(EMULATOR_BENCH)
 PERIOD_S, CALM = BENCH.timing.period_s, (0.0, 0.0)
 LASTING_NM = 1.16 * 50.0 * 0.9 * 0.0234
 TORQUE_NM = 2.0
@@ -74,7 +74,7 @@ def test_a_fault_that_comes_while_heat_holds_back_says_so_first() -> None:
     assert "gave 1.22 N·m at most where 2 N·m were asked for (1.22 N·m is what" in warm.message
     assert warm.message.endswith(cold.message)
     heat, asked, held = (
-        warm.values[name] for name in ("motor2_heat", "motor2_asked_nm", "motor2_held_to_nm")
+        warm.values[name] for name in ("motor2_heat", "motor2_commanded_nm", "motor2_held_to_nm")
     )
     assert heat == guard.motor2.winding.heat
     assert (asked, LASTING_NM <= held < TORQUE_NM) == (TORQUE_NM, True)

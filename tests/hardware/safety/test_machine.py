@@ -14,9 +14,9 @@ from svsa.hardware.realtime.configuration import build_guard
 from svsa.hardware.safety.faults import FAULTS, Alarm
 from svsa.hardware.safety.machine import BenchStatus, Conditions, Machine
 from svsa.runs.fault import FAULT_LABELS
-from tests.hardware.wired_bench import AT_REST, RIG_BENCH, UNDISTURBED
+from tests.hardware.wired_bench import AT_REST, EMULATOR_BENCH, UNDISTURBED
 
-BENCH = read_bench(RIG_BENCH)
+BENCH = read_bench(EMULATOR_BENCH)
 FINE = Conditions(Phase.READY, (0.001, 0.001, 0.001), None, 0, 0.0, 0.0)
 PUSH = Torque(1.0, 0.5)
 ALL = list(BenchStatus)

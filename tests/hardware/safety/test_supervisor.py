@@ -22,7 +22,7 @@ from svsa.hardware.emulator.socketcand import SocketcandServer
 from svsa.hardware.file import read_bench
 from svsa.hardware.safety.heartbeat import Heartbeats
 from svsa.hardware.safety.supervisor import Supervisor
-from tests.hardware.wired_bench import RIG_BENCH
+from tests.hardware.wired_bench import EMULATOR_BENCH
 
 ZERO, RESET = encode(Current(5000, 0)), b"\x55" * 8
 STOPPED = {(0x013, ZERO), (0x023, ZERO), (0x000, RESET)}
@@ -74,7 +74,7 @@ class Ages:
 @pytest.fixture
 def watched() -> tuple[Supervisor, RecordingBus, Ages]:
     bus, ages = RecordingBus(), Ages()
-    return Supervisor(read_bench(RIG_BENCH), bus, ages), bus, ages  # pyright: ignore[reportArgumentType]
+    return Supervisor(read_bench(EMULATOR_BENCH), bus, ages), bus, ages  # pyright: ignore[reportArgumentType]
 
 
 def test_stops_the_drives_after_20_ms_and_until_the_loop_beats_again(
@@ -99,7 +99,7 @@ def test_stops_the_drives_after_20_ms_and_until_the_loop_beats_again(
 
 
 def test_how_long_it_waits_is_said_in_the_bench_file() -> None:
-    bench, ages = read_bench(RIG_BENCH), Ages()
+    bench, ages = read_bench(EMULATOR_BENCH), Ages()
     bench = bench.changed(safety=bench.safety.changed(loop_s=0.3))
     supervisor = Supervisor(bench, RecordingBus(), ages)  # pyright: ignore[reportArgumentType]
     ages.loop_s = 0.299
@@ -133,7 +133,7 @@ def test_beats_only_while_it_hears_the_bus(
 
 
 def write_bench(folder: Path, port: int) -> Path:
-    sections: dict[str, Any] = tomllib.loads(RIG_BENCH.read_text(encoding="utf-8"))
+    sections: dict[str, Any] = tomllib.loads(EMULATOR_BENCH.read_text(encoding="utf-8"))
     sections["bus"]["options"]["port"] = port
     path = folder / "bench.toml"
     path.write_text(tomli_w.dumps(sections), encoding="utf-8")

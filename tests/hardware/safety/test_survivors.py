@@ -1,6 +1,6 @@
 """Two of three are enough: whoever of loop, supervisor and server is left stops the drives.
 
-Real processes, signals that nobody can refuse, and the rig's own clock. How long it took is
+Real processes, signals that nobody can refuse, and the emulator's own clock. How long it took is
 told (`pytest -rP`); that it comes is asserted.
 """
 
@@ -11,11 +11,11 @@ from pathlib import Path
 
 import pytest
 
-from svsa.hardware.emulator.launch import RunningRig, start_rig
+from svsa.hardware.emulator.launch import RunningEmulator, start_emulator
 from svsa.hardware.file import read_bench
 from tests.exhaustive import exhaust
 from tests.hardware.live_bench import write_bench
-from tests.hardware.wired_bench import RIG_BENCH
+from tests.hardware.wired_bench import EMULATOR_BENCH
 
 from .survivors import PATIENCE_S, measure
 
@@ -35,15 +35,15 @@ CASES = [
 SHOWN = [case for case in CASES if case[:2] == (KILL, ("loop", "server"))]
 """A supervisor alone; a server alone is shown by `test_bench_loss`."""
 
-_SAFETY = read_bench(RIG_BENCH).safety
+_SAFETY = read_bench(EMULATOR_BENCH).safety
 WAITS = {name: getattr(_SAFETY, name) for name in ("loop_s", "supervisor_s", "server_s")}
 """The processes wait for one another as long as they do on a bench: that is what is measured."""
 pytestmark = pytest.mark.wall_clock(stall_s=_SAFETY.loop_s)
 
 
 @pytest.fixture(scope="module")
-def rig() -> Iterator[RunningRig]:
-    with start_rig(lockstep=False, idle_s=600.0) as running:
+def emulator() -> Iterator[RunningEmulator]:
+    with start_emulator(lockstep=False, idle_s=600.0) as running:
         yield running
 
 
@@ -52,13 +52,13 @@ def rig() -> Iterator[RunningRig]:
     "case", exhaust(CASES, SHOWN), ids=lambda case: f"{case[0].name}-{'-'.join(case[1])}"
 )
 def test_whoever_is_left_stops_the_drives(
-    rig: RunningRig,
+    emulator: RunningEmulator,
     tmp_path: Path,
     case: tuple[signal.Signals, tuple[str, ...], tuple[str, ...]],
 ) -> None:
     number, victims, codes = case
-    bench = write_bench(tmp_path, rig, lockstep=False, **WAITS)
-    outcome = measure(rig, bench, victims, number, codes)
+    bench = write_bench(tmp_path, emulator, lockstep=False, **WAITS)
+    outcome = measure(emulator, bench, victims, number, codes)
     what = f"{number.name} {' + '.join(victims)}"
     sys.stdout.write(f"{what}: {1e3 * outcome.zero_s:.1f} ms to zero current")
     assert all(outcome.before_ma), "both drives held a current"

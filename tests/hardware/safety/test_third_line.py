@@ -14,7 +14,7 @@ from svsa.hardware.realtime.loss import find_loss
 from svsa.hardware.safety import third_line
 from svsa.hardware.safety.heartbeat import Heartbeats
 from svsa.hardware.safety.third_line import ThirdLine
-from tests.hardware.wired_bench import RIG_BENCH
+from tests.hardware.wired_bench import EMULATOR_BENCH
 
 PATIENCE_S = 60.0
 
@@ -58,7 +58,7 @@ class Watched:
         self.beats = Heartbeats.create()
         monkeypatch.setattr(third_line, "open_bus", self._open)
         monkeypatch.setattr(third_line, "request_priority", lambda _: "")
-        self.line = ThirdLine(read_bench(RIG_BENCH), self.beats, self.loop, self.supervisor)  # pyright: ignore[reportArgumentType]
+        self.line = ThirdLine(read_bench(EMULATOR_BENCH), self.beats, self.loop, self.supervisor)  # pyright: ignore[reportArgumentType]
 
     def _open(self, _: Any) -> Bus:
         if self.refusals:

@@ -1,4 +1,4 @@
-"""A run of the emulated rig in virtual time, recorded as a session records it."""
+"""A run of the emulator in virtual time, recorded as a session records it."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path

@@ -45,8 +45,8 @@ def test_every_number_follows_from_what_was_measured_and_sent(run: Run, tmp_path
     found = verify(tmp_path, run)
     assert (found.plant, found.ticks, found.missed, found.lanes) == ("emulated", TICKS, MISSED, 1)
     assert found.share_as_limited > 0.9
-    assert "an emulated rig" in found.told
-    assert "7 of them were missed" in found.told
+    assert "an emulator" in found.description
+    assert "7 of them were missed" in found.description
 
 
 WORKED_OUT = ("position_rad", "estimate_link_nm", "position_error_rad", "stiffness_nm_per_rad")
@@ -100,12 +100,12 @@ def test_gains_that_were_not_those_that_controlled_are_found(tmp_path: Path) -> 
     configuration, samples, start = run_bench(wanted, 200)
     alone = samples[:1].copy()
     alone[:, :, RESIDUALS] = 0.0
-    told = configuration.changed(comparisons=())
-    assert verify(tmp_path / "own", (told, alone, start), ()).lanes == 0
-    poles = told.gains.position_coefficients
-    gains = told.gains.changed(position_coefficients=(0.5 * poles[0], *poles[1:]))
+    reported = configuration.changed(comparisons=())
+    assert verify(tmp_path / "own", (reported, alone, start), ()).lanes == 0
+    poles = reported.gains.position_coefficients
+    gains = reported.gains.changed(position_coefficients=(0.5 * poles[0], *poles[1:]))
     with pytest.raises(RecordError, match="was not controlled by its law: at tick"):
-        verify(tmp_path / "other", (told.changed(gains=gains), alone, start), ())
+        verify(tmp_path / "other", (reported.changed(gains=gains), alone, start), ())
 
 
 def test_a_law_that_is_told_what_was_measured_follows_from_it_too(tmp_path: Path) -> None:

@@ -14,7 +14,7 @@ from svsa.runs.paper import get_figure
 from svsa.runs.run import Start
 from svsa.runs.session.journal import Journal
 from svsa.simulation.loop.lane import AT_REST
-from tests.hardware.wired_bench import RIG_BENCH
+from tests.hardware.wired_bench import EMULATOR_BENCH
 from tests.runs.session.loop_ticks import write
 
 
@@ -27,7 +27,7 @@ def memory() -> Iterator[LoopMemory]:
 
 
 def build_run(memory: LoopMemory) -> BenchRun:
-    bench = read_bench(RIG_BENCH)
+    bench = read_bench(EMULATOR_BENCH)
     wanted = get_figure("4a").build_configuration(load=False)
     start = Start(bench.home.lever_ratio, AT_REST)
     return BenchRun(build_bench_configuration(bench, wanted), start, memory)

@@ -37,8 +37,8 @@ def test_ctrl_c_ends_a_command(tmp_path, command):
         with pytest.raises(subprocess.TimeoutExpired):
             process.wait(3.0)
         os.killpg(process.pid, signal.SIGINT)
-        out, told = process.communicate(timeout=60.0)
-    assert (process.returncode, out, told.strip()) == (130, "", "Interrupted.")
+        out, reported = process.communicate(timeout=60.0)
+    assert (process.returncode, out, reported.strip()) == (130, "", "Interrupted.")
     wait_until(lambda: not is_there(process.pid))
 
 

@@ -20,7 +20,7 @@ from svsa.runs.paper import get_figure
 from svsa.runs.run import Run, Start
 from svsa.simulation.reference.preview import sample_reference
 from tests.analysis.identification.excited_run import build_configuration, build_run, play
-from tests.hardware.emulator.in_process_rig import start_in_process
+from tests.hardware.emulator.in_process_emulator import start_in_process
 
 
 def run_all() -> None:
@@ -57,8 +57,10 @@ def _identify() -> None:
 
 
 def _run_bench():
-    with start_in_process() as rig:
-        bench = LockstepBench(cast(Any, rig), get_figure("6a").build_configuration(load=False), 10)
+    with start_in_process() as emulator:
+        bench = LockstepBench(
+            cast(Any, emulator), get_figure("6a").build_configuration(load=False), 10
+        )
         try:
             bench.prepare()
             bench.start()

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from svsa.hardware.session.replay import verify_bench_record
-from svsa.runs.records.former_words import FIELDS, KINDS, MOTION
+from svsa.runs.records.former_words import FIELDS, KINDS, MOTION, translate_results
 from svsa.runs.records.reader import open_record
 from svsa.runs.records.resimulation import compare_with_simulation, read_origin
 from svsa.runs.result.recorded import open_run
@@ -48,3 +48,13 @@ def test_a_former_record_is_opened_as_a_result() -> None:
     result = open_run(RECORDS / "simulated")
     lanes = (result, *result.comparisons)
     assert [one.law for one in lanes] == ["ndobc", "fl", "ndobc_s"]
+
+
+def test_a_former_entry_of_the_leaderboard_has_the_present_names() -> None:
+    written = {
+        "standing": {"draws": 100, "draws_held": 93, "worst": {"scenario": "unloading_12_3"}}
+    }
+    worst = {"scenario": "load_removal_12_3"}
+    present = {"standing": {"trials": 100, "trials_held": 93, "worst": worst}}
+    assert translate_results(written) == present
+    assert translate_results(present) == present

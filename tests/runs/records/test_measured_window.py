@@ -104,9 +104,9 @@ def test_what_is_left_after_a_load_that_ended_by_itself_is_no_error_under_load()
         measure(lasting, find(lasting)) or (),
     )
     assert find(ended).load_ended
-    assert of_pulse.settled_position_error_rad is None
-    assert of_mass.settled_position_error_rad is not None
-    unsettled = dataclasses.replace(of_mass, settled_position_error_rad=None)
+    assert of_pulse.steady_state_position_error_rad is None
+    assert of_mass.steady_state_position_error_rad is not None
+    unsettled = dataclasses.replace(of_mass, steady_state_position_error_rad=None)
     assert of_pulse == unsettled
 
 

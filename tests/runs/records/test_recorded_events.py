@@ -64,9 +64,9 @@ def test_a_replay_tells_the_events_of_the_live_page(
     assert record.events == HEAT
     live = list(session.journal.events)
     assert [event for event in live if event.kind != "law"] == list(HEAT)
-    told = list_events(*read_origin(record), record.fault, record.events)
-    assert sorted(map(str, told)) == sorted(map(str, live))
-    assert [event.tick for event in told] == [10, 30, 30, 50]
+    reported = list_events(*read_origin(record), record.fault, record.events)
+    assert sorted(map(str, reported)) == sorted(map(str, live))
+    assert [event.tick for event in reported] == [10, 30, 30, 50]
 
 
 def test_a_run_that_begins_anew_has_told_nothing(session: SimulatedSession, tmp_path: Path) -> None:

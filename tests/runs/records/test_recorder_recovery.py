@@ -42,7 +42,7 @@ def make_stream(folder: Path, ticks: int = 300, batches: int = 3) -> Path:
     return copy
 
 
-def record_until_killed(folder: Path, told: Connection) -> None:
+def record_until_killed(folder: Path, reported: Connection) -> None:
     """Hand a recorder its samples as time goes by, and tell how many they are by now."""
     recorder = Recorder(folder, build_header())
     samples = build_samples(20_000)
@@ -53,16 +53,16 @@ def record_until_killed(folder: Path, told: Connection) -> None:
             recorder.write_command(tick, {"tick": tick})
             recorder.write_samples(tick, samples[tick:now])
             tick = now
-            told.send(tick)
+            reported.send(tick)
         time.sleep(0.008)
 
 
-def read_told(told: Connection) -> list[int]:
+def read_reported(reported: Connection) -> list[int]:
     """What the other end told before it was gone."""
     ticks = [0]
     with contextlib.suppress(EOFError):
         while True:
-            ticks.append(told.recv())
+            ticks.append(reported.recv())
     return ticks
 
 
@@ -80,19 +80,19 @@ def test_kill_9_loses_less_than_half_a_second_and_recovers(tmp_path: Path, round
         children = []
         for number in range(group, group + 5):
             folder = tmp_path / f"run-{number}"
-            told, tell = forks.Pipe(duplex=False)
-            child = forks.Process(target=record_until_killed, args=(folder, tell), daemon=True)
+            reported, report = forks.Pipe(duplex=False)
+            child = forks.Process(target=record_until_killed, args=(folder, report), daemon=True)
             child.start()
-            tell.close()
-            children.append((number, folder, child, told))
-        for *_, told in children:
-            assert told.poll(PATIENCE_S)
+            report.close()
+            children.append((number, folder, child, reported))
+        for *_, reported in children:
+            assert reported.poll(PATIENCE_S)
         begin = time.monotonic()
         for number, _, child, _ in children:
             time.sleep(max(0.0, begin + moments[number] - time.monotonic()))
             child.kill()
-        for _, folder, child, told in children:
-            handed_over = read_told(told)
+        for _, folder, child, reported in children:
+            handed_over = read_reported(reported)
             child.join(PATIENCE_S)
             assert child.exitcode == -signal.SIGKILL
             finished = recover(folder)

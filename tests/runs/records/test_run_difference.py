@@ -5,7 +5,7 @@ from typing import Any
 from svsa.runs.command import build_command
 from svsa.runs.configuration import Lane
 from svsa.runs.paper import get_figure
-from svsa.runs.records.difference import compare_settings, tell_poles
+from svsa.runs.records.difference import compare_settings, format_poles
 from svsa.runs.records.reader import Record, build_record
 from svsa.runs.session.simulated import SimulatedSession
 from svsa.simulation.plant.effects import IDEAL, RIG, SensorNoise
@@ -107,5 +107,5 @@ def record_actuator() -> dict[str, Any]:
 
 
 def test_poles_are_told_to_three_digits() -> None:
-    assert tell_poles([-59.991, -60 - 0.0086j, -60 + 0.0086j, -60.0086]) == "−60 (4×)"
-    assert tell_poles([-24.41 - 24.4j, -24.41 + 24.4j]) == "−24.4 ± 24.4j"
+    assert format_poles([-59.991, -60 - 0.0086j, -60 + 0.0086j, -60.0086]) == "−60 (4×)"
+    assert format_poles([-24.41 - 24.4j, -24.41 + 24.4j]) == "−24.4 ± 24.4j"

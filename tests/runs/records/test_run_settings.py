@@ -91,13 +91,13 @@ def test_loads_are_told_apart_and_those_in_turn_are_counted() -> None:
 
 def test_a_push_that_was_told_again_is_one_load() -> None:
     """Held from 1 s to 1.3 s; a second one is another."""
-    told = [
+    reported = [
         (tick, "load", PushLoad(torque_nm=(tick / 1000, 0.0, 0.0), hold_s=0.2))
         for tick in (1000, 1100, 1200)
     ]
-    assert describe(*told, (1300, "unload", 1)).load == "push"
-    assert describe(*told, (1300, "unload", 1), first_tick=1300, ticks=50).load == "no load"
-    assert describe(*told, (2000, "load", told[0][2])).load == "push (2×)"
+    assert describe(*reported, (1300, "unload", 1)).load == "push"
+    assert describe(*reported, (1300, "unload", 1), first_tick=1300, ticks=50).load == "no load"
+    assert describe(*reported, (2000, "load", reported[0][2])).load == "push (2×)"
 
 
 def test_what_changed_while_it_was_recorded_stands_behind_an_arrow() -> None:

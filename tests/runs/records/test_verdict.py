@@ -167,17 +167,19 @@ def test_the_command_says_held_or_not_by_its_exit_code(tmp_path):
     assert run(a, a).exit_code == 0
     outcome = run(b, a, "--channel", ERROR, "--json")
     assert outcome.exit_code == 1
-    told = json.loads(outcome.stdout)
-    assert [one["excess"] for one in told["channels"]] == [0.5, 0.5]
+    reported = json.loads(outcome.stdout)
+    assert [one["excess"] for one in reported["channels"]] == [0.5, 0.5]
     file = tmp_path / "tolerances.toml"
     file.write_text(f"[{ERROR}]\nabsolute = 0.6\n")
     assert run(b, a, "--tolerances", file).exit_code == 0
     file.write_text(f"{TORQUE} = 3\n[{ERROR}]\nabsolute = -1\n")
     refused = run(b, a, "--tolerances", file)
     assert refused.exit_code == 2
-    told = " ".join(refused.stderr.split())
-    assert ", lines 1 and 3: torque1_nm is 3" in told, "after the file, which may be cut anywhere"
-    assert "position_error_rad.absolute is -1" in told
+    reported = " ".join(refused.stderr.split())
+    assert ", lines 1 and 3: torque1_nm is 3" in reported, (
+        "after the file, which may be cut anywhere"
+    )
+    assert "position_error_rad.absolute is -1" in reported
     assert run(b, tmp_path / "nothing").exit_code == 2
 
 
@@ -186,5 +188,5 @@ def test_the_command_says_first_that_a_run_is_not_as_long(tmp_path):
         write_record(tmp_path / run_id, build_header(run_id), [], 0, build_samples(ticks))
     outcome = run(tmp_path / "b", tmp_path / "a")
     assert outcome.exit_code == 1
-    told = " ".join(outcome.stdout.split())
-    assert told.endswith("Not held: not as long: 150 and 200 ticks. All held over 150 ticks.")
+    reported = " ".join(outcome.stdout.split())
+    assert reported.endswith("Not held: not as long: 150 and 200 ticks. All held over 150 ticks.")

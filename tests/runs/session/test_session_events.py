@@ -163,8 +163,8 @@ def test_a_record_tells_what_was_told_live():
     session.change(RemoveLoad(argument=2))
     session.change(ApplyLoad(argument=svsa.ConstantLoad(torque_nm=(1.0, 0.0, 0.0))))
     session.step(60)
-    told = list(session.journal.events)
-    assert [event.label for event in told] == [
+    reported = list(session.journal.events)
+    assert [event.label for event in reported] == [
         "NDOBC → FL",
         "Gains changed",
         "Pulse torque on",
@@ -177,7 +177,7 @@ def test_a_record_tells_what_was_told_live():
         "Constant torque on",
         "Push off",
     ]
-    assert events.list_events(session.journal.initial, session.journal.commands) == told
+    assert events.list_events(session.journal.initial, session.journal.commands) == reported
 
 
 def test_what_runs_beside_is_told_by_its_laws():

@@ -42,7 +42,7 @@ def test_the_metrics_since_the_load_begin_at_its_onset():
 
 
 def test_the_metrics_of_a_load_end_when_it_is_taken_off():
-    """The error of unloading is none of the load's; the next load begins anew."""
+    """The error of load removal is none of the load's; the next load begins anew."""
     session = build_session()
     session.step(10)
     session.change(ApplyLoad(argument=svsa.PaperLoad()))

@@ -10,7 +10,7 @@ from unittest.mock import patch
 import httpx
 
 from svsa_server.access import class_keys
-from svsa_server.access.class_keys import ClassKeys, ToldOnce
+from svsa_server.access.class_keys import ClassKeys, ShownOnce
 from tests.lab import Lab
 from tests.lab_in_process import run_lab_in_process
 
@@ -18,22 +18,22 @@ SHARED = "/api/v1/sessions/lab"
 
 
 class Classroom(NamedTuple):
-    """lab: its client is a stranger. told: code and token."""
+    """lab: its client is a stranger. reported: code and token."""
 
     lab: Lab
-    told: ToldOnce
+    reported: ShownOnce
 
     def join(self, name: str, role: str = "operator") -> httpx.Client:
         """A browser of somebody who has joined."""
         browser = self.open_browser()
-        body = {"name": name, "code": self.told.code, "role": role}
+        body = {"name": name, "code": self.reported.code, "role": role}
         browser.post("/api/v1/join", json=body).raise_for_status()
         return browser
 
     def log_in(self) -> httpx.Client:
         """The instructor's browser."""
         browser = self.open_browser()
-        body = {"secret": self.told.instructor_token}
+        body = {"secret": self.reported.instructor_token}
         browser.post("/api/v1/login", json=body).raise_for_status()
         return browser
 
@@ -56,10 +56,10 @@ def run_class(folder: Path, **settings: str) -> Iterator[Classroom]:
     Its codes have a thousandth of their cost, which each who joins would pay.
     """
     with patch.dict(class_keys._SCRYPT, n=2**4):
-        _, told = ClassKeys.open(folder)
-        assert told is not None
+        _, reported = ClassKeys.open(folder)
+        assert reported is not None
         with run_lab_in_process(data=str(folder), classroom="1", **settings) as lab:
-            yield Classroom(lab, told)
+            yield Classroom(lab, reported)
 
 
 def read_kind(answer: httpx.Response) -> str:

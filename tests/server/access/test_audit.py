@@ -49,7 +49,7 @@ def test_what_changed_something_is_written_down_without_a_secret(tmp_path: Path)
     assert (stepped["person"], stepped["role"]) == (person, "operator")
     assert (stepped["session"], stepped["tick"]) == ("lab", tick)
     assert stepped["time"].endswith("+00:00")
-    for secret in (room.told.code, room.told.instructor_token, token):
+    for secret in (room.reported.code, room.reported.instructor_token, token):
         assert secret not in text
 
 

@@ -37,19 +37,19 @@ def test_the_instructor_reads_who_did_what_at_which_tick(classroom: Classroom) -
     assert bob.put(SHARED + "/law", json={"law": "pd"}).status_code == 409
     for other in (ada, bob, classroom.lab.client):
         assert read_kind(other.get(AUDIT)) in ("not_allowed", "join_needed")
-    told = read(instructor)
-    assert [(one["name"], one["did"], one["refused"]) for one in told["lines"][:4]] == [
+    reported = read(instructor)
+    assert [(one["name"], one["did"], one["refused"]) for one in reported["lines"][:4]] == [
         ("Bob", "Set law", True),
         ("Ada", "Step", False),
         ("Ada", "Set law", False),
         ("Ada", "Pause", False),
     ]
-    assert (told["lines"][1]["session"], told["lines"][1]["tick"]) == ("lab", tick)
+    assert (reported["lines"][1]["session"], reported["lines"][1]["tick"]) == ("lab", tick)
     person = read_person(ada)["id"]
-    assert {"id": person, "name": "Ada"} in told["people"]
+    assert {"id": person, "name": "Ada"} in reported["people"]
     settings = read(instructor, person=person, kind="settings")
     assert [(one["did"], one["status"]) for one in settings["lines"]] == [("Set law", 200)]
-    assert settings["kinds"] == told["kinds"] == ["access", "control", "session", "settings"]
+    assert settings["kinds"] == reported["kinds"] == ["access", "control", "session", "settings"]
     refused = read(instructor, refused=True)
     assert [one["name"] for one in refused["lines"]] == ["Bob"]
 
@@ -114,8 +114,8 @@ def test_what_nobody_called_for_and_what_a_platform_did_are_told_in_words(tmp_pa
     launch = {"time": time, "action": "lti launch", "person": None, "problem": "No such key."}
     unknown = build_line(5, "/api/v1/nowhere", status=404)
     write(tmp_path, audit.FILE, [idle, launch, unknown])
-    told = read_audit(tmp_path, OPERATIONS, ask(page_size=9))["lines"]
-    assert [(one["kind"], one["did"], one["why"], one["refused"]) for one in told] == [
+    reported = read_audit(tmp_path, OPERATIONS, ask(page_size=9))["lines"]
+    assert [(one["kind"], one["did"], one["why"], one["refused"]) for one in reported] == [
         ("other", "POST /api/v1/nowhere", None, True),
         ("lti", "Launch", "No such key.", True),
         ("control", "Control went on", "gone from queue", False),

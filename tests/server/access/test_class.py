@@ -33,33 +33,33 @@ def classroom(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Classroom]:
 
 
 def test_keys_are_told_once_and_kept_as_hashes_that_others_cannot_read(tmp_path: Path) -> None:
-    keys, told = ClassKeys.open(tmp_path)
-    assert told is not None
+    keys, reported = ClassKeys.open(tmp_path)
+    assert reported is not None
     path = tmp_path / class_keys.FILE
     kept = path.read_text(encoding="utf-8")
-    assert told.code not in kept
-    assert told.code.replace("-", "") not in kept
-    assert told.instructor_token not in kept
+    assert reported.code not in kept
+    assert reported.code.replace("-", "") not in kept
+    assert reported.instructor_token not in kept
     assert stat.S_IMODE(path.stat().st_mode) == 0o600 or os.name == "nt"
     again, nothing = ClassKeys.open(tmp_path)
     assert nothing is None
     for opened in (keys, again):
-        assert opened.is_code(told.code.lower().replace("-", " "))
-        assert not opened.is_code(told.code[:-1])
-        assert opened.is_instructor(told.instructor_token)
+        assert opened.is_code(reported.code.lower().replace("-", " "))
+        assert not opened.is_code(reported.code[:-1])
+        assert opened.is_instructor(reported.instructor_token)
         assert not opened.is_instructor("")
     assert again.read_person(keys.sign(ADA)) == ADA
 
 
 def test_a_new_code_lets_nobody_in_by_the_old_one(tmp_path: Path) -> None:
-    keys, told = ClassKeys.open(tmp_path)
-    assert told is not None
+    keys, reported = ClassKeys.open(tmp_path)
+    assert reported is not None
     carried = keys.sign(ADA)
     code = keys.renew_code()
     again, _ = ClassKeys.open(tmp_path)
     for opened in (keys, again):
         assert opened.is_code(code)
-        assert not opened.is_code(told.code)
+        assert not opened.is_code(reported.code)
         assert opened.read_person(carried) == ADA
 
 
@@ -103,7 +103,7 @@ def test_who_is_here_was_heard_within_a_minute_and_names_are_told_apart() -> Non
 def test_a_stranger_is_told_to_join_and_may_only_stop(classroom: Classroom) -> None:
     stranger = classroom.lab.client
     assert read_person(stranger) == {
-        "door": "class",
+        "authentication": "class",
         "inside": False,
         "id": "",
         "name": "",
@@ -122,15 +122,15 @@ def test_a_student_joins_with_a_name_and_the_code_and_is_known_by_a_cookie(
     wrong = {"name": "Ada", "code": "XXXX-XXXX"}
     refused = classroom.lab.client.post("/api/v1/join", json=wrong)
     assert (refused.status_code, read_kind(refused)) == (401, "wrong_code")
-    right = {"name": "Ada", "code": classroom.told.code}
+    right = {"name": "Ada", "code": classroom.reported.code}
     browser = classroom.open_browser()
     answer = browser.post("/api/v1/join", json=right)
     cookie = answer.headers["set-cookie"].lower()
     assert "httponly" in cookie
     assert "samesite=strict" in cookie
-    assert classroom.told.code.lower() not in cookie
-    told = read_person(browser)
-    assert (told["inside"], told["name"], told["role"]) == (True, "Ada", "operator")
+    assert classroom.reported.code.lower() not in cookie
+    reported = read_person(browser)
+    assert (reported["inside"], reported["name"], reported["role"]) == (True, "Ada", "operator")
     assert browser.get(SHARED).status_code == 200
     assert browser.post("/api/v1/leave").status_code == 204
     assert read_person(browser)["inside"] is False
@@ -138,7 +138,7 @@ def test_a_student_joins_with_a_name_and_the_code_and_is_known_by_a_cookie(
 
 @pytest.mark.parametrize("body", [{"name": "\t"}, {"name": "x" * 41}, {"role": "instructor"}])
 def test_a_wrong_join_is_refused_with_its_bound(classroom: Classroom, body: dict) -> None:
-    wanted = {"name": "Ada", "code": classroom.told.code} | body
+    wanted = {"name": "Ada", "code": classroom.reported.code} | body
     answer = classroom.lab.client.post("/api/v1/join", json=wanted)
     assert answer.status_code == 422
     assert [each["name"] for each in answer.json()["violations"]] == list(body)
@@ -146,9 +146,9 @@ def test_a_wrong_join_is_refused_with_its_bound(classroom: Classroom, body: dict
 
 def test_the_instructor_comes_in_by_the_token_as_cookie_or_bearer(classroom: Classroom) -> None:
     assert read_person(classroom.log_in())["role"] == "instructor"
-    script = classroom.open_browser(classroom.told.instructor_token)
+    script = classroom.open_browser(classroom.reported.instructor_token)
     assert read_person(script)["role"] == "instructor"
-    wrong = classroom.lab.client.post("/api/v1/login", json={"secret": classroom.told.code})
+    wrong = classroom.lab.client.post("/api/v1/login", json={"secret": classroom.reported.code})
     assert wrong.status_code == 401
     assert "instructor token" in wrong.json()["detail"]
 

@@ -26,13 +26,13 @@ def test_who_is_here_and_which_sessions_are_for_the_instructor_to_see(
         classroom.log_in(),
     )
     name = ada.post("/api/v1/sessions", json={}).json()["session"]
-    told = instructor.get(CLASS).raise_for_status().json()
-    assert [(one["name"], one["role"]) for one in told["people"]] == [
+    reported = instructor.get(CLASS).raise_for_status().json()
+    assert [(one["name"], one["role"]) for one in reported["people"]] == [
         ("Ada", "operator"),
         ("Bob", "observer"),
         ("Instructor", "instructor"),
     ]
-    (session,) = told["sessions"]
+    (session,) = reported["sessions"]
     assert (session["session"], session["owner"], session["status"]) == (name, "Ada", "running")
     assert bob.get(CLASS).json()["sessions"] == []
     assert len(ada.get(CLASS).json()["sessions"]) == 1
@@ -47,15 +47,17 @@ def test_a_new_code_is_told_once_with_a_qr_code_of_where_one_joins(
 ) -> None:
     ada, instructor = classroom.join("Ada"), classroom.log_in()
     assert read_kind(ada.post(CLASS + "/code")) == "not_allowed"
-    told = instructor.post(CLASS + "/code").raise_for_status().json()
-    assert told["address"].endswith(f"/#join={told['code']}")
-    assert told["qr"].startswith("data:image/svg+xml")
+    reported = instructor.post(CLASS + "/code").raise_for_status().json()
+    assert reported["address"].endswith(f"/#join={reported['code']}")
+    assert reported["qr"].startswith("data:image/svg+xml")
     keys, _ = ClassKeys.open(tmp_path)
-    assert keys.is_code(told["code"])
-    assert told["is_local"]
-    old = {"name": "Eve", "code": classroom.told.code}
+    assert keys.is_code(reported["code"])
+    assert reported["is_local"]
+    old = {"name": "Eve", "code": classroom.reported.code}
     assert classroom.lab.client.post("/api/v1/join", json=old).status_code == 401
-    assert classroom.lab.client.post("/api/v1/join", json=old | {"code": told["code"]}).is_success
+    assert classroom.lab.client.post(
+        "/api/v1/join", json=old | {"code": reported["code"]}
+    ).is_success
     assert read_person(ada)["inside"], "who has joined stays"
 
 
@@ -67,8 +69,8 @@ def test_a_broadcast_gives_everybody_the_settings_of_the_shared_session(
     instructor.put(SHARED + "/law", json={"law": "fl_integral"}).raise_for_status()
     instructor.put(SHARED + "/observer", json={"bandwidth_rad_per_s": [40, 50, 60]})
     assert read_kind(ada.post(CLASS + "/broadcast")) == "not_allowed"
-    told = instructor.post(CLASS + "/broadcast").raise_for_status().json()
-    assert told == {"taken": 1, "refused": []}
+    reported = instructor.post(CLASS + "/broadcast").raise_for_status().json()
+    assert reported == {"taken": 1, "refused": []}
     shared, hers = (ada.get(one).json()["configuration"] for one in (SHARED, path))
     for setting in ("law", "observer", "gains", "position", "stiffness", "parameters"):
         assert hers[setting] == shared[setting], setting

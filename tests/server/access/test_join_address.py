@@ -7,7 +7,7 @@ from svsa_server.routes.access import classroom
 
 
 @pytest.mark.parametrize(
-    ("seen", "host", "outward", "told"),
+    ("seen", "host", "outward", "reported"),
     [
         ("http://lab.example:8000/", "0.0.0.0", "10.0.0.7", "http://lab.example:8000/"),
         ("http://127.0.0.1:8000/", "0.0.0.0", "10.0.0.7", "http://10.0.0.7:8000/"),
@@ -16,6 +16,6 @@ from svsa_server.routes.access import classroom
         ("http://127.0.0.1:8000/", "127.0.0.1", "10.0.0.7", "http://127.0.0.1:8000/"),
     ],
 )
-def test_a_name_of_this_machine_only_gives_way(monkeypatch, seen, host, outward, told):
+def test_a_name_of_this_machine_only_gives_way(monkeypatch, seen, host, outward, reported):
     monkeypatch.setattr(classroom, "find_outward_address", lambda: outward)
-    assert classroom.choose_join_address(URL(seen), host) == told
+    assert classroom.choose_join_address(URL(seen), host) == reported

@@ -12,7 +12,7 @@ import pytest
 
 from svsa.errors import SecurityError, StateError
 from svsa_server.access import audit, memberships
-from svsa_server.access.authentication import REMOVED, ClassDoor
+from svsa_server.access.authentication import REMOVED, ClassAuthentication
 from svsa_server.access.class_keys import ClassKeys
 from svsa_server.access.guard import AccessGuard
 from svsa_server.access.memberships import FILE, Membership, Memberships
@@ -37,9 +37,9 @@ def come_back(browser: httpx.Client, code: str) -> httpx.Response:
 def join(classroom: Classroom, name: str) -> tuple[httpx.Client, str]:
     """A browser of somebody who has joined, and their return code."""
     browser = classroom.open_browser()
-    body = {"name": name, "code": classroom.told.code}
-    told = browser.post("/api/v1/join", json=body).raise_for_status().json()
-    return browser, told["return_code"]
+    body = {"name": name, "code": classroom.reported.code}
+    reported = browser.post("/api/v1/join", json=body).raise_for_status().json()
+    return browser, reported["return_code"]
 
 
 def test_who_is_removed_is_out_at_once_and_has_neither_control_nor_a_place(
@@ -57,15 +57,15 @@ def test_who_is_removed_is_out_at_once_and_has_neither_control_nor_a_place(
         refused = one.get(SHARED)
         assert (refused.status_code, read_kind(refused)) == (401, "removed")
         assert refused.json()["detail"] == REMOVED
-    told = read_person(ada)
-    assert (told["inside"], told["removed"]) == (False, True)
+    reported = read_person(ada)
+    assert (reported["inside"], reported["removed"]) == (False, True)
     state = bob.get(SHARED).json()
     assert (state["control"]["mine"], state["queue"]["waiting"]) == (True, [])
     instructor.delete(f"{PEOPLE}/{ids[1]}").raise_for_status()
     assert instructor.get(SHARED).json()["control"]["holder"] is None
-    told = instructor.get("/api/v1/class").json()
-    assert [one["name"] for one in told["removed"]] == ["Ada", "Bob"]
-    assert [one["name"] for one in told["people"]] == ["Instructor"]
+    reported = instructor.get("/api/v1/class").json()
+    assert [one["name"] for one in reported["removed"]] == ["Ada", "Bob"]
+    assert [one["name"] for one in reported["people"]] == ["Instructor"]
     for one in ids:
         restored = instructor.post(f"{PEOPLE}/{one}/restore").raise_for_status()
         assert restored.json()["id"] == one
@@ -98,11 +98,11 @@ def test_removed_is_removed_after_a_restart_too_and_the_audit_log_has_it(tmp_pat
         path = f"{PEOPLE}/{read_person(ada)['id']}"
         room.log_in().delete(path).raise_for_status()
     keys, _ = ClassKeys.open(tmp_path)
-    door = ClassDoor(keys, People(), Memberships(tmp_path / FILE))
+    authentication = ClassAuthentication(keys, People(), Memberships(tmp_path / FILE))
     found = []
     for cookie in cookies:
         headers = httpx.Headers({"cookie": f"svsa_access={cookie['svsa_access']}"})
-        found.append((door.admit(headers), door.is_removed(headers)))  # type: ignore[arg-type]
+        found.append((authentication.admit(headers), authentication.is_removed(headers)))  # type: ignore[arg-type]
     assert [person and person.name for person, _ in found] == [None, "Bob"]
     assert [is_removed for _, is_removed in found] == [True, False]
     lines = (tmp_path / audit.FILE).read_text(encoding="utf-8").splitlines()
@@ -115,7 +115,7 @@ def test_a_websocket_of_who_is_removed_is_closed_with_the_reason(tmp_path: Path)
     keys, _ = ClassKeys.open(tmp_path)
     members = Memberships(tmp_path / FILE)
     members.keep(Membership(ADA))
-    door = ClassDoor(keys, People(), members)
+    authentication = ClassAuthentication(keys, People(), members)
     left = []
 
     async def serve(scope: dict, receive: object, send: object) -> None:
@@ -128,7 +128,7 @@ def test_a_websocket_of_who_is_removed_is_closed_with_the_reason(tmp_path: Path)
     async def see_all(*_: object) -> bool:
         return True
 
-    guard = AccessGuard(serve, door, frozenset(), see_all)  # type: ignore[arg-type]
+    guard = AccessGuard(serve, authentication, frozenset(), see_all)  # type: ignore[arg-type]
 
     async def remove() -> list[dict]:
         sent: list[dict] = []
@@ -145,7 +145,7 @@ def test_a_websocket_of_who_is_removed_is_closed_with_the_reason(tmp_path: Path)
         scope = {"type": "websocket", "path": "/viser/lab", "headers": headers}
         serving = asyncio.create_task(guard(scope, accepted.wait, send))  # type: ignore[arg-type]
         await accepted.wait()
-        await door.set_removed(ADA.id, True)
+        await authentication.set_removed(ADA.id, True)
         await serving
         return sent
 

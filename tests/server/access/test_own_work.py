@@ -168,7 +168,7 @@ def test_a_study_that_cannot_be_read_has_no_owner(tmp_path: Path, content: str) 
 
 def test_a_search_and_what_it_found_is_its_makers_and_the_instructors(classroom: Classroom) -> None:
     ada, bob, instructor = classroom.join("Ada"), classroom.join("Bob"), classroom.log_in()
-    asked = {"adversary": "blow", "runs": 2000}
+    asked = {"adversary": "impulse", "runs": 2000}
     search = ada.post(FALSIFICATIONS, json=asked).raise_for_status().json()["id"]
     path = f"{FALSIFICATIONS}/{search}"
     for answer in (bob.get(path), bob.get(path + "/file"), bob.delete(path)):

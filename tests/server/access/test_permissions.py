@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from starlette.routing import BaseRoute, Mount, Route, WebSocketRoute
 
-from svsa_server.access.authentication import ClassDoor
+from svsa_server.access.authentication import ClassAuthentication
 from svsa_server.access.class_keys import ClassKeys
 from svsa_server.access.guard import AccessGuard
 from svsa_server.access.memberships import Membership, Memberships
@@ -130,8 +130,8 @@ def test_each_route_and_websocket_lets_in_who_may_and_nobody_else(
 ) -> None:
     keys, _ = ClassKeys.open(tmp_path)
     members = Memberships(tmp_path / "members.sqlite")
-    door = ClassDoor(keys, People(), members)
-    guard = AccessGuard(answer, door, frozenset(), see_all)  # type: ignore[arg-type]
+    authentication = ClassAuthentication(keys, People(), members)
+    guard = AccessGuard(answer, authentication, frozenset(), see_all)  # type: ignore[arg-type]
     person = PEOPLE[role]
     if person is not None:
         members.keep(Membership(person))

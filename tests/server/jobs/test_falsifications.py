@@ -92,10 +92,10 @@ def test_a_search_is_broken_off_and_keeps_its_worst(lab):
 
 
 def test_a_wrong_adversary_is_refused_with_line_and_bound(lab):
-    for asked, told in (
-        ({"adversary": "nobody"}, "blow"),
+    for asked, reported in (
+        ({"adversary": "nobody"}, "impulse"),
         ({"text": PULL.replace("2.0", "-2.0")}, "line 11"),
-        ({"text": PULL, "adversary": "blow"}, "one of the three"),
+        ({"text": PULL, "adversary": "impulse"}, "one of the three"),
         ({}, "one of the three"),
         ({"definition": OWN | {"terms": []}}, "definition.terms"),
         ({"definition": OWN, "law": "nobody"}, "nobody"),
@@ -103,7 +103,7 @@ def test_a_wrong_adversary_is_refused_with_line_and_bound(lab):
     ):
         refused = lab.post(SEARCHES, json=asked)
         assert refused.status_code == 422, asked
-        assert told in refused.json()["detail"]
+        assert reported in refused.json()["detail"]
 
 
 def test_one_of_one_s_own_is_searched_as_its_text_is(lab):

@@ -41,7 +41,7 @@ def count(folder: JobFolder, total: int) -> bool:
     (folder.path / "process").write_text(f"{os.getpid()} {os.nice(0)}")
     for done in range(1, total + 1):
         time.sleep(0.02)
-        folder.tell(done, total)
+        folder.report(done, total)
         if folder.is_cancelled():
             return False
     return True
@@ -123,13 +123,13 @@ def test_one_at_a_time_of_a_kind_and_a_full_queue_is_refused():
 
 def test_a_job_that_fails_says_why_and_the_next_one_runs():
     async def fail(jobs):
-        told = []
+        reported = []
         for work, asked in ((refuse, "frequency_hz"), (die, 1), (err, "nothing to share by")):
             job = jobs.start("study", "wrong", work, asked)
             await wait_until(lambda job=job: not job.is_under_way)
             assert job.status == "failed"
-            told.append(job.problem)
-        refused, died, erred = told
+            reported.append(job.problem)
+        refused, died, erred = reported
         assert "frequency_hz is 9.0 Hz: it must be at most 5 Hz" in refused
         assert "has ended" in died
         assert erred == "nothing to share by"
@@ -162,16 +162,16 @@ def test_progress_is_written_now_and_then_and_at_last(tmp_path, monkeypatch):
     monkeypatch.setattr(time, "monotonic", lambda: now)
     folder = JobFolder(tmp_path)
     assert read_progress(tmp_path) == (0, 0, None)
-    folder.tell(0, 1000)
+    folder.report(0, 1000)
     assert read_progress(tmp_path) == (0, 1000, None)
     now += PERIOD_S / 2
-    folder.tell(5, 1000)
+    folder.report(5, 1000)
     assert read_progress(tmp_path).done == 0
     folder.write()
     assert read_progress(tmp_path) == (5, 1000, pytest.approx(50.0))
     for step in range(1, 41):
         now += 1.0
-        folder.tell(5 + 20 * step, 1000)
+        folder.report(5 + 20 * step, 1000)
     progress = read_progress(tmp_path)
     assert progress.rate_per_s == pytest.approx(20.0), "of the last seconds, not of the whole"
     assert progress.left_s == pytest.approx((1000 - 805) / 20.0)

@@ -72,17 +72,17 @@ def test_a_submission_is_followed_and_broken_off_and_enters_nothing(lab):
 
 
 @pytest.mark.parametrize(
-    ("wanted", "told"),
+    ("wanted", "reported"),
     [
         ({"name": "two\nlines", "law": "pass"}, "name"),
         ({"name": "Mine", "law": ""}, "law"),
         ({"name": "Mine", "law": "ä" * 40_000}, "65536 bytes"),
     ],
 )
-def test_what_is_no_submission_is_refused(lab, wanted, told):
+def test_what_is_no_submission_is_refused(lab, wanted, reported):
     refused = lab.post(f"{BOARD}/submissions", json=wanted)
     assert refused.status_code == 422
-    assert told in refused.text
+    assert reported in refused.text
 
 
 @pytest.mark.usefixtures("short_season")

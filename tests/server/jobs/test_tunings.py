@@ -78,14 +78,14 @@ def test_a_tuning_is_broken_off_and_keeps_its_best(lab):
 
 
 def test_what_cannot_be_tuned_and_one_too_many_are_refused(lab):
-    for asked, told in (
+    for asked, reported in (
         ({"law": "no_law"}, "installed here"),
         ({"law": "esp", "held": {"no_name": 1.0}}, "no_name"),
         ({"law": "esp", "budget": 0}, "budget is 0"),
     ):
         refused = lab.post(TUNINGS, json=asked)
         assert refused.status_code == 422
-        assert told in refused.json()["detail"]
+        assert reported in refused.json()["detail"]
     missing = lab.post(TUNINGS, json={"law": "esp", "session": "nowhere"})
     assert missing.status_code == lab.get(f"{TUNINGS}/nothing").status_code == 404
     names = [lab.post(TUNINGS, json={"law": "pd"}).json()["id"] for _ in range(2)]

@@ -153,8 +153,8 @@ def _build_handler(find: Callable[[], LearningPlatform]) -> type[BaseHTTPRequest
                 platform.problems.append(repr(error))
                 self.answer(400, {})
 
-        def answer(self, status: int, told: dict) -> None:
-            self.write(status, "application/json", json.dumps(told).encode())
+        def answer(self, status: int, reported: dict) -> None:
+            self.write(status, "application/json", json.dumps(reported).encode())
 
         def show(self, page: str) -> None:
             self.write(200, "text/html; charset=utf-8", page.encode())

@@ -144,7 +144,7 @@ def test_an_instructor_is_one_where_the_file_says_so(platform, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("changes", "told"),
+    ("changes", "reported"),
     [
         ({"aud": "another-tool"}, "aud"),
         ({"aud": [CLIENT, "another-tool"], "azp": "another-tool"}, "azp"),
@@ -159,10 +159,10 @@ def test_an_instructor_is_one_where_the_file_says_so(platform, tmp_path):
         ({f"{CLAIM}target_link_uri": "http://127.0.0.1/learn/no-such-one"}, "no exercise"),
     ],
 )
-def test_a_launch_that_is_not_as_it_must_be_is_refused(launcher, changes, told):
+def test_a_launch_that_is_not_as_it_must_be_is_refused(launcher, changes, reported):
     answer = launcher.launch(**changes)
     assert answer.status_code == 401
-    assert told in answer.text
+    assert reported in answer.text
     assert launcher.read_access()["inside"] is False
 
 
@@ -199,8 +199,8 @@ def test_who_was_removed_is_not_launched_in_again(launcher, lab, data):
     from svsa_server.access.memberships import FILE, Memberships
 
     assert Memberships(data / FILE).find(eve) is not None
-    door = lab.client._transport._transport.app.state.door
-    door.members.set_ended(eve, True)
+    listener = lab.client._transport._transport.app.state.listener
+    listener.members.set_ended(eve, True)
     launcher.client.cookies.clear()
     refused = launcher.launch(sub="user-66", name="Eve")
     assert refused.status_code == 401

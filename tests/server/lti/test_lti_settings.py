@@ -19,14 +19,14 @@ def test_a_file_that_is_wrong_or_no_class_is_refused_with_its_reason(tmp_path):
     with run_platform() as platform:
         path, url = platform.write_settings(tmp_path), platform.url
     right = path.read_text()
-    for wrong, told in (
+    for wrong, reported in (
         (right.replace(f"{url}/keys", "http://elsewhere.example.org/keys"), "keyset_url"),
         (right.replace('deployments = ["1"]', "deployments = []"), "deployments"),
         (right + right[right.index("[[platforms]]") :], "once"),
         ("key_file = 'a.pem'", "platforms"),
     ):
         path.write_text(wrong)
-        with pytest.raises(ParameterError, match=told):
+        with pytest.raises(ParameterError, match=reported):
             read_lti_file(path)
     path.write_text(right)
     assert read_lti_file(path).platforms[0].deployments == (DEPLOYMENT,)

@@ -143,14 +143,14 @@ def test_in_a_class_everybody_has_progress_of_their_own(tmp_path):
     data = tmp_path
     from svsa_server.access.class_keys import ClassKeys
 
-    told = ClassKeys.open(data)[1]
-    assert told is not None
+    reported = ClassKeys.open(data)[1]
+    assert reported is not None
     with run_lab_in_process(data=str(data), classroom="true") as lab:
         path = f"{COURSE}/{NAME}/steps/predict-error/answer"
         people = {}
         for name in ("Ada", "Bert"):
             lab.client.cookies.clear()
-            body = {"name": name, "code": told.code}
+            body = {"name": name, "code": reported.code}
             lab.client.post("/api/v1/join", json=body).raise_for_status()
             people[name] = dict(lab.client.cookies)
         lab.client.put(path, json={"answer": 7.0}).raise_for_status()
@@ -161,7 +161,7 @@ def test_in_a_class_everybody_has_progress_of_their_own(tmp_path):
             parts = lab.client.get(f"{COURSE}/{NAME}").json()["parts"]
             read[name] = parts[1]["answer"]
         lab.client.cookies.clear()
-        body = {"name": "Eve", "code": told.code, "role": "observer"}
+        body = {"name": "Eve", "code": reported.code, "role": "observer"}
         lab.client.post("/api/v1/join", json=body).raise_for_status()
         refused = lab.client.put(path, json={"answer": 1.0})
 

@@ -86,8 +86,8 @@ def test_where_nothing_isolates_the_table_says_so(classroom, monkeypatch):
         raise NotIsolatedError("bwrap is not installed")
 
     monkeypatch.setattr("svsa.teaching.isolation.probe.check_isolation", refuse)
-    told = classroom[0].log_in().get(GRADES).json()["not_isolated"]
-    assert "bwrap is not installed" in told
+    reported = classroom[0].log_in().get(GRADES).json()["not_isolated"]
+    assert "bwrap is not installed" in reported
 
 
 def test_a_worker_that_is_to_stop_keeps_what_is_done(tmp_path):

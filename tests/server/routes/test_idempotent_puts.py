@@ -43,7 +43,7 @@ def read_commands(lab: httpx.Client, path: str) -> list[dict]:
     return lab.get(path + "/origin").raise_for_status().json()["commands"]
 
 
-def tell_kept(state: dict) -> dict:
+def read_kept(state: dict) -> dict:
     """What is kept of a session, but not how fast it was worked out."""
     kept = ("configuration", "loads", "events", "window", "ended_windows", "revision", "control")
     return {name: state[name] for name in (*kept, "tick", "run_number", "status", "sample")}
@@ -66,7 +66,7 @@ def test_the_same_again_changes_neither_samples_nor_record_nor_events(
     recording = lab.post(twice + "/recording", json={"name": "twice"}).raise_for_status().json()
     run = f"/api/v1/runs/{recording['recording']['run_id']}"
     answer = write(lab, twice, label).raise_for_status().json()
-    assert tell_kept(answer) == tell_kept(before)
+    assert read_kept(answer) == read_kept(before)
     assert read_commands(lab, twice) == commands
     states = [step(lab, path, 400) for path in (once, twice)]
     assert states[0]["sample"] == states[1]["sample"]

@@ -11,7 +11,7 @@ FASTER = {"fl_integral": {"position_pole_rad_per_s": 70.0}}
 def test_every_installed_law_says_what_it_is(lab: Lab) -> None:
     laws = {law["name"]: law for law in lab.client.get("/api/v1/laws").raise_for_status().json()}
     assert list(laws) == list(list_law_names())
-    assert [law["ink"] for law in laws.values()] == list(range(len(laws)))
+    assert [law["line_style"] for law in laws.values()] == list(range(len(laws)))
     assert {name for name, law in laws.items() if law["takes_gains"]} == {"ndobc", "fl"}
     integral = laws["fl_integral"]
     assert integral["problem"] is None

@@ -20,7 +20,7 @@ def test_the_table_is_the_published_one_with_its_provenance(shared_lab: Lab) -> 
 def test_a_run_of_the_suite_is_seen_beside_the_papers_law(
     lab: Lab, law: str, beside: list[str]
 ) -> None:
-    wanted = {"law": law, "scenario": "unloading_18_4"}
+    wanted = {"law": law, "scenario": "load_removal_18_4"}
     state = lab.client.post(f"{RANKING}/sessions", json=wanted).raise_for_status().json()
     configuration = state["configuration"]
     assert configuration["law"] == law
@@ -34,7 +34,7 @@ def test_a_run_of_the_suite_is_seen_beside_the_papers_law(
 
 
 def test_a_run_that_ndobc_would_end_is_seen_alone_and_says_why(lab: Lab) -> None:
-    wanted = {"law": "fl", "scenario": "unloading"}
+    wanted = {"law": "fl", "scenario": "load_removal"}
     state = lab.client.post(f"{RANKING}/sessions", json=wanted).raise_for_status().json()
     assert state["configuration"]["comparisons"] == []
     assert "NDOBC: At 8.187 s the deflection" in state["note"]
@@ -56,5 +56,5 @@ def test_a_law_measured_here_gives_its_published_row(shared_lab: Lab) -> None:
     answer = shared_lab.client.post(f"{RANKING}/laws/ndobc/measurement", timeout=300.0)
     found = answer.raise_for_status().json()
     assert found["is_published"]
-    assert found["row"]["unloading_faults_of_48"] == 32
+    assert found["row"]["load_removal_faults_of_48"] == 32
     assert found["row"]["law"] == "ndobc"

@@ -51,14 +51,14 @@ def test_the_metrics_of_a_stretch_are_those_of_its_samples(tmp_path: Path) -> No
         run, _ = record(lab)
         query = {"start_s": ONSET_S, "end_s": 3.5}
         answer = lab.client.get(f"/api/v1/runs/{run}/metrics", params=query).raise_for_status()
-        told = answer.json()
+        reported = answer.json()
         whole = lab.client.get(f"/api/v1/runs/{run}/metrics").json()
         under_load = lab.client.get(f"/api/v1/runs/{run}/metrics?start_s={ONSET_S}").json()
         entry = lab.client.get(f"/api/v1/runs/{run}").json()
         refused = lab.client.get(f"/api/v1/runs/{run}/metrics", params={"start_s": 2, "end_s": 1})
-    assert (told["start_s"], told["end_s"]) == (ONSET_S, 3.5)
+    assert (reported["start_s"], reported["end_s"]) == (ONSET_S, 3.5)
     samples = open_record(tmp_path / "runs" / run).samples[2000:3500]
-    for number, metrics in enumerate(told["lanes"].values()):
+    for number, metrics in enumerate(reported["lanes"].values()):
         expected = compute_metrics(samples[:, number], 0.001)
         assert metrics["rms_position_error_rad"] == pytest.approx(expected.rms_position_error_rad)
         assert metrics["peak_torque1_nm"] == expected.peak_torque1_nm

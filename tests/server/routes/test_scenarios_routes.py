@@ -11,7 +11,7 @@ from tests.lab_in_process import run_lab_in_process
 
 SCENARIOS = "/api/v1/scenarios"
 BLOW = {
-    "title": "A blow that ends NDOBC on the rig, and not FL",
+    "title": "An impulse that ends NDOBC on the rig, and not FL",
     "base": {"figure": "4a", "effects": "rig", "loads": []},
     "duration_s": 4.5,
     "loads": [
@@ -34,19 +34,21 @@ def lab():
 
 def test_laws_are_put_through_and_their_peaks_are_in_the_picture(lab):
     answer = lab.post(f"{SCENARIOS}/runs", json={"scenario": BLOW, "laws": LAWS})
-    told = answer.raise_for_status().json()
+    reported = answer.raise_for_status().json()
     scenario = LoadScenario(**BLOW)
     trace = trace_scenario(scenario, LAWS)
-    assert told["told"] == ["pulse of −1.42642 N·m on the link, from 3.264 s, 0.022 s long"]
-    assert min(torque[0] for torque in told["torque_nm"]) == -1.42642
-    assert len(told["time_s"]) == len(told["torque_nm"]) < len(trace.time_s)
+    assert reported["description"] == [
+        "pulse of −1.42642 N·m on the link, from 3.264 s, 0.022 s long"
+    ]
+    assert min(torque[0] for torque in reported["torque_nm"]) == -1.42642
+    assert len(reported["time_s"]) == len(reported["torque_nm"]) < len(trace.time_s)
     for law, one, outcome, here in zip(
-        LAWS, told["laws"], run_scenario(scenario, LAWS), trace.laws, strict=True
+        LAWS, reported["laws"], run_scenario(scenario, LAWS), trace.laws, strict=True
     ):
         assert (one["law"], one["fault"], one["fault_s"]) == (law, outcome.fault, outcome.fault_s)
         errors = [abs(error) for error in one["position_error_rad"] if error is not None]
         assert max(errors) == pytest.approx(abs(here.errors[:, 0]).max(), abs=1e-7)
-    ended, held = told["laws"]
+    ended, held = reported["laws"]
     assert (ended["fault"], held["fault"]) == ("deflection_limit", None)
     assert None not in held["position_error_rad"]
     assert ended["position_error_rad"][-1] is None, "nothing is drawn after the fault"
@@ -54,17 +56,17 @@ def test_laws_are_put_through_and_their_peaks_are_in_the_picture(lab):
 
 def test_one_is_kept_read_and_forgotten_and_no_other_takes_its_name(lab):
     assert lab.get(SCENARIOS).json() == []
-    kept = lab.put(f"{SCENARIOS}/blow", json=BLOW).raise_for_status().json()
-    assert kept == lab.get(f"{SCENARIOS}/blow").json() == lab.get(SCENARIOS).json()[0]
+    kept = lab.put(f"{SCENARIOS}/impulse", json=BLOW).raise_for_status().json()
+    assert kept == lab.get(f"{SCENARIOS}/impulse").json() == lab.get(SCENARIOS).json()[0]
     assert LoadScenario(**kept["scenario"]) == LoadScenario(**BLOW)
-    file = lab.get(f"{SCENARIOS}/blow/file").raise_for_status()
+    file = lab.get(f"{SCENARIOS}/impulse/file").raise_for_status()
     assert tomllib.loads(file.text) == kept["scenario"]
-    other = lab.put(f"{SCENARIOS}/blow", json=BLOW | {"duration_s": 3.0})
+    other = lab.put(f"{SCENARIOS}/impulse", json=BLOW | {"duration_s": 3.0})
     assert other.status_code == 422
     assert "another scenario is kept by it" in other.json()["detail"]
-    assert lab.delete(f"{SCENARIOS}/blow").status_code == 204
+    assert lab.delete(f"{SCENARIOS}/impulse").status_code == 204
     for call in (lab.get, lab.delete):
-        assert call(f"{SCENARIOS}/blow").status_code == 404
+        assert call(f"{SCENARIOS}/impulse").status_code == 404
 
 
 def test_it_is_seen_in_a_session_with_laws_beside_each_other(lab):
@@ -77,7 +79,7 @@ def test_it_is_seen_in_a_session_with_laws_beside_each_other(lab):
 
 
 @pytest.mark.parametrize(
-    ("path", "wrong", "told"),
+    ("path", "wrong", "reported"),
     [
         ("runs", {"laws": ["nobody"]}, "laws[0] is 'nobody'"),
         ("runs", {"laws": []}, "laws"),
@@ -86,7 +88,7 @@ def test_it_is_seen_in_a_session_with_laws_beside_each_other(lab):
         ("sessions", {"scenario": BLOW | {"base": {"figure": "9"}}}, "base.figure is '9'"),
     ],
 )
-def test_a_wrong_one_is_refused_with_name_and_bound(lab, path, wrong, told):
+def test_a_wrong_one_is_refused_with_name_and_bound(lab, path, wrong, reported):
     refused = lab.post(f"{SCENARIOS}/{path}", json={"scenario": BLOW, "laws": LAWS} | wrong)
     assert refused.status_code == 422
-    assert told in refused.json()["detail"]
+    assert reported in refused.json()["detail"]

@@ -111,15 +111,15 @@ def test_a_study_asked_for_some_metrics_keeps_those(lab):
     kept = ["peak_torque1_nm", "limit_share"]
     few = run_study(lab, name="few", runs=4, metrics=kept, success={"limit_share": 0.5})
     assert [one["name"] for one in few["columns"] if one["role"] == "metric"] == kept
-    told = [(one["label"], one["unit"]) for one in few["columns"] if one["role"] == "varied"]
-    assert told == [("Load on the link", "N·m"), ("Effects", "")]
+    reported = [(one["label"], one["unit"]) for one in few["columns"] if one["role"] == "varied"]
+    assert reported == [("Load on the link", "N·m"), ("Effects", "")]
     assert [*lab.get(f"{STUDIES}/few/summary").json()["laws"][0]["quantiles"]] == kept
     row = lab.get(f"{STUDIES}/few/rows/0").json()
     assert {name for name in row if name in METRICS} == {*kept}
     wrong = lab.post(f"{STUDIES}/check", json={"text": 'metrics = ["energy"]\n' + TEXT})
     assert wrong.status_code == 422
-    for told in ("line 1", "metrics[0] is 'energy'", "effort_n2m2_s"):
-        assert told in wrong.json()["detail"]
+    for reported in ("line 1", "metrics[0] is 'energy'", "effort_n2m2_s"):
+        assert reported in wrong.json()["detail"]
 
 
 def test_of_many_rows_some_draws_come_each_under_every_law(lab, whole):
@@ -136,12 +136,16 @@ def test_of_many_rows_some_draws_come_each_under_every_law(lab, whole):
 def test_what_came_of_it_is_summed_up_as_by_the_command(lab, whole):
     summary = lab.get(f"{STUDIES}/whole/summary").json()
     stored = open_study("whole")
-    for told, law in zip(
+    for reported, law in zip(
         summary["laws"], summarize_laws(stored.study, read_rows(stored)), strict=True
     ):
-        assert (told["law"], told["runs"], told["faults"]) == (law.law, law.runs, law.faults)
-        assert told["success"] == law.success._asdict()
-        shown = told["quantiles"]["peak_position_error_rad"]
+        assert (reported["law"], reported["runs"], reported["faults"]) == (
+            law.law,
+            law.runs,
+            law.faults,
+        )
+        assert reported["success"] == law.success._asdict()
+        shown = reported["quantiles"]["peak_position_error_rad"]
         expected = law.quantiles["peak_position_error_rad"]
         assert shown == [value if np.isfinite(value) else None for value in expected]
     (pair,) = summary["pairings"]
@@ -159,8 +163,8 @@ def test_a_row_becomes_a_recorded_run_with_the_metrics_of_the_table(lab, whole):
     assert run["name"] == "Study whole, row 7"
     row = read_rows(open_study("whole")).to_pylist()[7]
     assert (run["fault"]["code"] if run["fault"] else None) == row["fault"]
-    told = lab.get(f"{STUDIES}/whole/rows/7").json()
-    assert told == {name: None if one != one else one for name, one in row.items()}
+    reported = lab.get(f"{STUDIES}/whole/rows/7").json()
+    assert reported == {name: None if one != one else one for name, one in row.items()}
     for wrong in (48, -1):
         assert lab.post(f"{STUDIES}/whole/rows/{wrong}/replay").status_code == 422
         assert lab.get(f"{STUDIES}/whole/rows/{wrong}").status_code == 422
@@ -196,7 +200,7 @@ def test_a_wrong_study_is_refused_with_line_name_value_and_bound(lab):
         assert "less than high, -1" in violation["bound"]
         assert refused.json()["detail"].startswith("line 15: vary[0].low is 0.0")
     assert lab.get(f"{STUDIES}/wrong").status_code == 404
-    for asked, told in (
+    for asked, reported in (
         ({}, "source is missing"),
         ({"source": "load", "text": TEXT}, "not both"),
         ({"source": "no_such"}, "a kept study, or one of bandwidth"),
@@ -208,14 +212,14 @@ def test_a_wrong_study_is_refused_with_line_name_value_and_bound(lab):
     ):
         refused = lab.post(STUDIES, json=asked)
         assert refused.status_code == 422, asked
-        assert told in refused.json()["detail"]
+        assert reported in refused.json()["detail"]
     assert lab.get(f"{STUDIES}/whole/rows", params={"column": "no_such"}).status_code == 422
 
 
 def test_what_is_asked_otherwise_than_in_the_file_is_so(lab):
     asked = {"source": "load", "runs": 8, "laws": ["pd"], "success": {"recovery_time_s": 0.5}}
     plan = lab.post(f"{STUDIES}/check", json=asked).json()
-    assert (plan["name"], plan["laws"], plan["rows"], plan["draws"]) == ("load", ["pd"], 8, 8)
+    assert (plan["name"], plan["laws"], plan["rows"], plan["trials"]) == ("load", ["pd"], 8, 8)
     assert plan["study"]["success"]["recovery_time_s"] == 0.5
     roles = {column["name"]: column["role"] for column in plan["columns"]}
     assert roles["loads[0].torque_nm[0]"] == "varied"

@@ -38,7 +38,7 @@ def record_lanes(
 
 def list_stretches(record: Record) -> list[list[tuple[str, int, int, int | None]]]:
     stretches = list_record_stretches(record, trace_record(record))
-    return [[(s.name, s.ink, s.start_tick, s.end_tick) for s in lane] for lane in stretches]
+    return [[(s.name, s.line_style, s.start_tick, s.end_tick) for s in lane] for lane in stretches]
 
 
 @pytest.mark.parametrize(
@@ -82,8 +82,8 @@ def test_a_stretch_over_several_windows_says_so() -> None:
     timeline = trace_record(record_lanes(1, [], [(205, "law", "fl")]))
     assert timeline is not None
     stretches = ((200, 210), (205, 210), (200, 205))
-    told = [[one.label for one in timeline.list_windows(*ticks)] for ticks in stretches]
-    assert told == [["", "NDOBC → FL"], ["NDOBC → FL"], [""]]
+    reported = [[one.label for one in timeline.list_windows(*ticks)] for ticks in stretches]
+    assert reported == [["", "NDOBC → FL"], ["NDOBC → FL"], [""]]
 
 
 def test_a_record_whose_commands_no_run_can_have_had_keeps_the_names_of_its_lanes() -> None:
@@ -93,8 +93,8 @@ def test_a_record_whose_commands_no_run_can_have_had_keeps_the_names_of_its_lane
 
 def test_the_recovery_from_a_load_stays_with_the_law_that_recovered() -> None:
     """NDOBC recovered, FL did not; that they change places afterwards makes neither the other."""
-    fl_beside = (Lane(law="fl"),)
-    figure = get_figure("4a").build_configuration(load=False).changed(comparisons=fl_beside)
+    fl_comparison = (Lane(law="fl"),)
+    figure = get_figure("4a").build_configuration(load=False).changed(comparisons=fl_comparison)
     session = SimulatedSession("test", figure)
     session.step(100)
     session.change(ApplyLoad(argument=PaperLoad()))

@@ -1,4 +1,4 @@
-"""A lab with a bench: `svsa serve --bench` and an emulated rig, as processes.
+"""A lab with a bench: `svsa serve --bench` and an emulator, as processes.
 
 What the rig's drives were told is read from the rig itself, and every wait is generous.
 """
@@ -13,8 +13,8 @@ from typing import Any
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
-from svsa.hardware.emulator.launch import RunningRig
-from tests.hardware.live_bench import start_live_rig, write_bench
+from svsa.hardware.emulator.launch import RunningEmulator
+from tests.hardware.live_bench import start_live_emulator, write_bench
 from tests.lab import START_TIMEOUT_S, Lab, run_lab
 from tests.processes import find_child
 
@@ -22,10 +22,10 @@ PATIENCE_S = 120.0
 
 
 class BenchLab:
-    """A lab that drives the emulated rig, whose loop has been started."""
+    """A lab that drives the emulator, whose loop has been started."""
 
-    def __init__(self, lab: Lab, rig: RunningRig) -> None:
-        self.lab, self.rig = lab, rig
+    def __init__(self, lab: Lab, emulator: RunningEmulator) -> None:
+        self.lab, self.emulator = lab, emulator
         wait_until(lambda: self.loop_state != "starting", self.describe, START_TIMEOUT_S)
         assert self.loop_state == "ticking", self.describe()
 
@@ -53,7 +53,7 @@ class BenchLab:
 
     def read_drives(self) -> list[tuple[int | None, int]]:
         """Mode and commanded current, mA, of both drives, as the rig has them."""
-        drives = self.rig.control.read_state()["drives"].values()
+        drives = self.emulator.control.read_state()["drives"].values()
         return [(drive["mode"], drive["commanded_ma"]) for drive in drives]
 
     def is_at_zero(self) -> bool:
@@ -74,7 +74,7 @@ class BenchLab:
             self.wait_for("fault")
             self.ask("/bench/clear")
             self.wait_for("off")
-        self.rig.control.home()
+        self.emulator.control.home()
         self.ask("/bench/arm")
         self.wait_for("ready")
         for step in ("link", "motor1", "motor2"):
@@ -127,5 +127,8 @@ def wait_until(
 
 @contextlib.contextmanager
 def run_bench_lab(folder: Path) -> Iterator[BenchLab]:
-    with start_live_rig() as rig, run_lab("--bench", str(write_bench(folder, rig))) as lab:
-        yield BenchLab(lab, rig)
+    with (
+        start_live_emulator() as emulator,
+        run_lab("--bench", str(write_bench(folder, emulator))) as lab,
+    ):
+        yield BenchLab(lab, emulator)

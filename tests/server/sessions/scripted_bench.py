@@ -19,7 +19,7 @@ from svsa.runs.paper import get_figure
 from svsa.runs.run import Start
 from svsa.simulation.loop.lane import AT_REST
 from svsa_server.sessions.lock import let_pass
-from tests.hardware.wired_bench import RIG_BENCH
+from tests.hardware.wired_bench import EMULATOR_BENCH
 from tests.runs.session.loop_ticks import write
 
 ANSWER_S = 0.01
@@ -39,12 +39,12 @@ class Processes:
         self.step, self.age_s, self.failure = STEP, 12.3, None
         self.silence_s, self.notes, self.supervisor_alive = 0.0, [], True
         self.listens = self.alive = False
-        self.told: list[Any] = []
+        self.reported: list[Any] = []
         self.states: list[dict[str, Any]] = []
         self.third_line = types.SimpleNamespace(intervention=None)
 
-    def wait_until_ready(self, silence_s: float, tell: Any) -> None:
-        tell(self.step, self.age_s)
+    def wait_until_ready(self, silence_s: float, notify: Any) -> None:
+        notify(self.step, self.age_s)
         let_pass(self.script.ready_s)
         if self.script.refusal is not None:
             self.failure = f"The bench cannot be opened: {self.script.refusal}"
@@ -53,7 +53,7 @@ class Processes:
 
     def request(self, wanted: str, argument: Any = None) -> dict[str, Any]:
         let_pass(ANSWER_S)
-        self.told.append(argument)
+        self.reported.append(argument)
         return {"tick": 0}
 
     def take_events(self) -> list[dict[str, Any]]:
@@ -76,7 +76,7 @@ def build_bench_session(
     monkeypatch.setattr(Processes, "script", script)
     monkeypatch.setattr(supervised_loop, "BenchProcesses", Processes)
     figure = get_figure("4a").build_configuration(load=False)
-    return BenchSession("lab", RIG_BENCH, figure, rest=let_pass)
+    return BenchSession("lab", EMULATOR_BENCH, figure, rest=let_pass)
 
 
 def say(
@@ -88,8 +88,8 @@ def say(
     """What the loop says of its state: the session hears it at its next wake."""
     assert isinstance(session.loop.processes, Processes)
     event = {"event": "state", "status": status, "problems": [], "homing_step": None}
-    told = {"held_back": list(held_back), "fault": asdict(fault) if fault else None}
-    session.loop.processes.states.append(event | told)
+    reported = {"held_back": list(held_back), "fault": asdict(fault) if fault else None}
+    session.loop.processes.states.append(event | reported)
 
 
 def hear(session: BenchSession) -> None:

@@ -45,16 +45,16 @@ def test_a_series_load_that_takes_the_loop_too_long_is_refused(
     load = SeriesLoad(time_s=times, torque_nm=torques)
     planned = session.run.configuration.changed(loads=(load,))
     assert isinstance(session.loop.processes, Processes)
-    told = session.loop.processes.told
+    reported = session.loop.processes.reported
     for give in (lambda: session.change(ApplyLoad(argument=load)), lambda: session.load(planned)):
-        before = len(told)
+        before = len(reported)
         if points <= MAX_LOAD_POINTS:
             give()
-            assert len(told) == before + 1
+            assert len(reported) == before + 1
             continue
         with pytest.raises(StateError, match="has 1001 points, and a bench takes one of 1000"):
             give()
-        assert len(told) == before
+        assert len(reported) == before
 
 
 def test_two_parts_of_the_gains_at_once_are_both_kept(session: BenchSession) -> None:
@@ -74,7 +74,9 @@ def test_two_parts_of_the_gains_at_once_are_both_kept(session: BenchSession) -> 
     gains = session.run.configuration.gains
     assert gains == requests[2].apply_to(requests[1].apply_to(before))
     assert isinstance(session.loop.processes, Processes)
-    assert Gains(**session.loop.processes.told[-1]["argument"]) == gains, "the loop has the same"
+    assert Gains(**session.loop.processes.reported[-1]["argument"]) == gains, (
+        "the loop has the same"
+    )
 
 
 def test_the_twin_has_the_law_that_is_on_its_way(session: BenchSession) -> None:
@@ -102,9 +104,11 @@ def test_what_is_set_already_is_not_told_to_the_loop_again(session: BenchSession
     asyncio.run(ask())
     processes, journal = session.loop.processes, session.journal
     assert isinstance(processes, Processes)
-    told = [one["kind"] for one in processes.told if isinstance(one, dict) and "kind" in one]
-    assert sorted(told) == ["comparisons", "law", "position"]
-    assert sorted(command.kind for command in journal.commands) == sorted(told)
+    reported = [
+        one["kind"] for one in processes.reported if isinstance(one, dict) and "kind" in one
+    ]
+    assert sorted(reported) == ["comparisons", "law", "position"]
+    assert sorted(command.kind for command in journal.commands) == sorted(reported)
     before = len(journal.events)
     session.change(settings[-1])
     assert len(journal.events) == before + 1, "begun again where that is asked for"
@@ -112,11 +116,11 @@ def test_what_is_set_already_is_not_told_to_the_loop_again(session: BenchSession
 
 def test_the_twin_is_not_set_by_itself(session: BenchSession) -> None:
     """Refused before the loop hears of it: it would control its own twin otherwise."""
-    told = len(session.loop.processes.told)  # pyright: ignore[reportAttributeAccessIssue]
+    reported = len(session.loop.processes.reported)  # pyright: ignore[reportAttributeAccessIssue]
     setting = {"lane": 2, "setting": {"law": "ndobc", "observer": None}}
     with pytest.raises(StateError, match="Lane 2 is the bench's simulated twin"):
         session.change(SetLane(argument=setting))
-    assert len(session.loop.processes.told) == told  # pyright: ignore[reportAttributeAccessIssue]
+    assert len(session.loop.processes.reported) == reported  # pyright: ignore[reportAttributeAccessIssue]
 
 
 def test_what_comes_to_be_known_of_a_lost_loop_reaches_the_record(
@@ -127,8 +131,8 @@ def test_what_comes_to_be_known_of_a_lost_loop_reaches_the_record(
     recorder = SimpleNamespace(write_fault=written.append, fault=None)
     words = ["Nobody has stopped the drives yet.", "The supervisor has.", "The supervisor has."]
     losses = [Loss("loop_lost", message, None, None) for message in words]
-    monkeypatch.setattr(session.loop, "find_settled_loss", lambda: losses.pop(0))
-    monkeypatch.setattr(session.report, "told_status", BenchStatus.RUN)
+    monkeypatch.setattr(session.loop, "find_lasting_loss", lambda: losses.pop(0))
+    monkeypatch.setattr(session.report, "loop_status", BenchStatus.RUN)
     monkeypatch.setattr(session.journal, "recorder", recorder)
     session.wake(0.0)
     recorder.fault = written[-1]
@@ -215,8 +219,10 @@ def test_what_is_recorded_of_a_bench_that_stands_has_nothing_of_the_run_before(
     """Its stop and its loads would be commands of the new one, and the loop's ticks its own."""
     monkeypatch.setattr(type(session.loop), "emulated", True)
     run_and_stop(session)
-    told = session.loop.processes.told = []
+    reported = session.loop.processes.reported = []
     session.prepare_recording()
-    assert len(told) == 1, "the loop begins at tick 0, too: a change is waited for until its tick"
+    assert len(reported) == 1, (
+        "the loop begins at tick 0, too: a change is waited for until its tick"
+    )
     session.wake(0.0)
     assert (session.run.tick, session.journal.commands) == (0, [])

@@ -1,4 +1,4 @@
-"""A class with a bench: the emulated rig in lockstep, driven by the real session and loop."""
+"""A class with a bench: the emulator in lockstep, driven by the real session and loop."""
 
 import time
 from collections.abc import Callable, Iterator
@@ -22,7 +22,7 @@ from tests.client.copied_script import (
     write_copied_script,
 )
 from tests.exhaustive import exhaust
-from tests.hardware.live_bench import FAIR_S, start_live_rig, write_bench
+from tests.hardware.live_bench import FAIR_S, start_live_emulator, write_bench
 from tests.lab import run_lab
 from tests.lab_in_process import run_lab_in_process
 from tests.server.sessions.bench_lab import BenchLab
@@ -53,11 +53,11 @@ def room(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Room]:
     for person in (ADA, BOB):
         Memberships(folder / FILE).keep(Membership(person))
     ada, bob, instructor = (keys.sign(one) for one in (ADA, BOB, INSTRUCTOR))
-    with start_live_rig() as rig:
-        path = write_bench(folder, rig)
+    with start_live_emulator() as emulator:
+        path = write_bench(folder, emulator)
         with run_lab("--class", "--bench", str(path), data=str(folder)) as lab:
             lab.client.headers["Authorization"] = f"Bearer {instructor}"
-            yield Room(BenchLab(lab, rig), folder, (ada, bob, instructor))
+            yield Room(BenchLab(lab, emulator), folder, (ada, bob, instructor))
 
 
 def run_against_a_load(session: RemoteSession) -> None:

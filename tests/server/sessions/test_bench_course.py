@@ -11,7 +11,7 @@ from svsa.runs.records.bench_start import START_FILE
 from svsa.teaching.course.file import read_course
 from svsa.teaching.grading.grade import Grade, grade
 from svsa.teaching.grading.submitted_work import SubmittedWork
-from tests.hardware.live_bench import FAIR_S, start_live_rig, write_bench
+from tests.hardware.live_bench import FAIR_S, start_live_emulator, write_bench
 from tests.lab import run_lab
 from tests.server.sessions.bench_lab import BenchLab, wait_until
 
@@ -119,10 +119,10 @@ def room(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Room]:
     course = folder / "own"
     course.mkdir()
     (course / "held.md").write_text(EXERCISE, encoding="utf-8")
-    with start_live_rig() as rig:
-        path = write_bench(folder, rig)
+    with start_live_emulator() as emulator:
+        path = write_bench(folder, emulator)
         with run_lab("--bench", str(path), "--course", str(course), data=str(folder)) as lab:
-            yield Room(BenchLab(lab, rig), folder)
+            yield Room(BenchLab(lab, emulator), folder)
 
 
 def test_a_step_that_is_simulated_only_is_refused(room: Room) -> None:
@@ -134,12 +134,12 @@ def test_a_step_that_is_simulated_only_is_refused(room: Room) -> None:
 def test_a_bench_gets_law_references_and_observer_and_keeps_what_it_is(room: Room) -> None:
     before = room.bench.read()["configuration"]
     state = room.set_up("hold").raise_for_status().json()
-    told = state["configuration"]
-    assert told["position"]["position_rad"] == 0.1
-    assert told["observer"]["bandwidth_rad_per_s"] == SLOWER
+    reported = state["configuration"]
+    assert reported["position"]["position_rad"] == 0.1
+    assert reported["observer"]["bandwidth_rad_per_s"] == SLOWER
     assert [load["start_s"] for load in state["loads"]] == [0.8]
     for name in ("actuator", "nominal", "limits", "effects"):
-        assert told[name] == before[name]
+        assert reported[name] == before[name]
     step = room.call("GET", "")["parts"][0]
     assert step["bench"]["hands"] == [{"time_s": 0.8, "is_on": True}]
 
@@ -155,11 +155,11 @@ def run_id(room: Room) -> Iterator[str]:
 
 
 def test_it_begins_again_with_what_is_set_and_not_while_it_moves(room: Room, run_id: str) -> None:
-    """Gains and observer of the step stay where it is reset; of an emulated rig the load comes off,
+    """Gains and observer of the step stay where it is reset; of an emulator the load comes off,
     which has turned the link away since the run's torque is gone.
     """
-    told = room.bench.ask("/reset")["configuration"]
-    assert told["observer"]["bandwidth_rad_per_s"] == SLOWER
+    reported = room.bench.ask("/reset")["configuration"]
+    assert reported["observer"]["bandwidth_rad_per_s"] == SLOWER
     room.bench.make_ready()
     with room.bench.watched():
         room.bench.ask("/start")
@@ -172,9 +172,9 @@ def test_it_begins_again_with_what_is_set_and_not_while_it_moves(room: Room, run
 
 
 def grade_run(room: Room, run_id: str) -> Grade:
-    told = {"student": "Ada", "exercise": "held", "runs": {"hold": run_id}}
+    reported = {"student": "Ada", "exercise": "held", "runs": {"hold": run_id}}
     path = room.folder / "submission.json"
-    path.write_text(json.dumps(told), encoding="utf-8")
+    path.write_text(json.dumps(reported), encoding="utf-8")
     exercise = next(one for one in read_course(room.folder / "own") if one.name == "held")
     return grade(SubmittedWork.read(path), exercise, room.folder, None)
 
@@ -186,8 +186,8 @@ def test_its_run_is_judged_and_graded_by_what_was_verified_of_it(room: Room, run
     assert given.points == 1.0
     (found,) = given.runs
     assert found.run_id == run_id
-    assert found.told.startswith("Recorded on an emulated rig, which cannot be run again.")
-    assert "the same, bit for bit" in found.told
+    assert found.reported.startswith("Recorded on an emulator, which cannot be run again.")
+    assert "the same, bit for bit" in found.reported
 
 
 def test_a_record_that_was_tampered_with_is_refused(room: Room, run_id: str) -> None:

@@ -31,7 +31,7 @@ def session(monkeypatch: pytest.MonkeyPatch) -> Iterator[BenchSession]:
     made.close()
 
 
-def tell(session: BenchSession, status: BenchStatus, code: str | None = None) -> None:
+def report(session: BenchSession, status: BenchStatus, code: str | None = None) -> None:
     fault = None if code is None else Fault(code, 0, 70, 0.07, "It stopped.")
     say(session, status, fault=fault)
     hear(session)
@@ -39,16 +39,16 @@ def tell(session: BenchSession, status: BenchStatus, code: str | None = None) ->
 
 def test_a_fault_in_motion_is_the_end_of_the_recorded_run(session: BenchSession) -> None:
     session.journal.recorder = recording = Recording()  # pyright: ignore[reportAttributeAccessIssue]
-    tell(session, BenchStatus.RUN)
-    tell(session, BenchStatus.FAULT, "overspeed")
-    tell(session, BenchStatus.FAULT, "overspeed")
+    report(session, BenchStatus.RUN)
+    report(session, BenchStatus.FAULT, "overspeed")
+    report(session, BenchStatus.FAULT, "overspeed")
     assert [fault and fault.code for fault in recording.faults] == ["overspeed"]
     assert recording.faults[0] == session.fault
 
 
 def test_a_fault_of_a_bench_at_rest_ended_no_run(session: BenchSession) -> None:
     session.journal.recorder = recording = Recording()  # pyright: ignore[reportAttributeAccessIssue]
-    tell(session, BenchStatus.READY)
-    tell(session, BenchStatus.FAULT, "drive_silent")
+    report(session, BenchStatus.READY)
+    report(session, BenchStatus.FAULT, "drive_silent")
     assert session.fault is not None
     assert recording.faults == []

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from svsa.hardware.emulator.launch import start_rig
+from svsa.hardware.emulator.launch import start_emulator
 from tests.hardware.live_bench import FAIR_S, IDLE_S, write_bench
 from tests.hardware.safety.survivors import LOOP
 from tests.lab import run_lab
@@ -27,11 +27,11 @@ ANSWER_S = 30.0
 def bench(tmp_path_factory: pytest.TempPathFactory) -> Iterator[BenchLab]:
     """The rig's time goes on while the loop is stopped, as that of a bench does."""
     folder: Path = tmp_path_factory.mktemp("bench")
-    with start_rig(False, IDLE_S, "--real-time") as rig:
-        path = write_bench(folder, rig, lockstep=False, **PROMPT)
+    with start_emulator(False, IDLE_S, "--real-time") as emulator:
+        path = write_bench(folder, emulator, lockstep=False, **PROMPT)
         with run_lab("--bench", str(path)) as lab:
             lab.client.timeout = ANSWER_S
-            yield BenchLab(lab, rig)
+            yield BenchLab(lab, emulator)
 
 
 def test_a_setting_after_a_late_loop_is_answered(bench: BenchLab) -> None:

@@ -36,15 +36,15 @@ def holding(bench: BenchLab) -> Iterator[None]:
         assert state["fault"] is None
         wait_until(lambda: bench.read()["bench"]["supervised"], bench.describe)
         bench.ask("/position", {"kind": "constant", "position_rad": 0.2}, "PUT")
-        bench.rig.control.load(LOAD)
+        bench.emulator.control.load(LOAD)
         try:
-            assert wait_until_held(bench.rig), bench.describe()
+            assert wait_until_held(bench.emulator), bench.describe()
             yield
         finally:
-            bench.rig.control.set_loads(())
+            bench.emulator.control.set_loads(())
 
 
-def wait_until_told(bench: BenchLab, words: str) -> dict[str, Any]:
+def wait_until_reported(bench: BenchLab, words: str) -> dict[str, Any]:
     """The fault once it says this: what was done about it is known later than what happened."""
 
     def read() -> dict[str, Any]:
@@ -58,7 +58,7 @@ def test_a_killed_loop_leaves_zero_current_and_is_started_anew(bench: BenchLab) 
     with holding(bench):
         os.kill(bench.find_process(LOOP), signal.SIGKILL)
         wait_until(bench.is_at_zero, bench.describe)
-        fault = wait_until_told(bench, "The supervisor keeps both drives at zero current")
+        fault = wait_until_reported(bench, "The supervisor keeps both drives at zero current")
         assert fault["code"] == "loop_lost"
     bench.ask("/bench/clear")
 
@@ -67,7 +67,7 @@ def test_a_killed_loop_leaves_zero_current_and_is_started_anew(bench: BenchLab) 
 def test_a_killed_supervisor_ends_the_run_and_is_started_anew(bench: BenchLab) -> None:
     with holding(bench):
         os.kill(bench.find_process(SUPERVISOR), signal.SIGKILL)
-        fault = wait_until_told(bench, "supervisor")
+        fault = wait_until_reported(bench, "supervisor")
         wait_until(bench.is_at_zero, bench.describe)
         state = bench.read()
         assert fault["code"] == "supervisor_lost"
@@ -83,7 +83,7 @@ def test_a_silent_loop_has_a_name_and_a_way_back_and_stops_nobody_else(bench: Be
     with holding(bench):
         os.kill(bench.find_process(LOOP), signal.SIGSTOP)
     wait_until(bench.is_at_zero, bench.describe)
-    wait_until_told(bench, "The supervisor keeps both drives at zero current")
+    wait_until_reported(bench, "The supervisor keeps both drives at zero current")
     state = bench.read()
     loop = state["bench"]["loop"]
     assert state["fault"]["code"] == "loop_silent"
@@ -107,7 +107,7 @@ def test_without_loop_and_supervisor_the_server_stops_the_drives(bench: BenchLab
         for module in (LOOP, SUPERVISOR):
             os.kill(bench.find_process(module), signal.SIGKILL)
         wait_until(bench.is_at_zero, bench.describe)
-        wait_until_told(bench, "The server has opened the bus")
+        wait_until_reported(bench, "The server has opened the bus")
         state = bench.read()
         assert state["fault"]["code"] == "loop_and_supervisor_lost"
         assert state["bench"]["loop"]["stopped_by"] == "server"

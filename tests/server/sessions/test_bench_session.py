@@ -1,4 +1,4 @@
-"""The lab with a bench: `svsa serve --bench`, and an emulated rig that waits for its loop."""
+"""The lab with a bench: `svsa serve --bench`, and an emulator that waits for its loop."""
 
 from collections.abc import Iterator
 
@@ -27,7 +27,7 @@ def test_it_is_armed_and_homed_step_by_step_and_nothing_out_of_turn(bench: Bench
     assert state["bench"]["problems"] == []
     assert state["status"] == "paused"
     assert "arm it" in refuse_watched(bench)
-    bench.rig.control.home()
+    bench.emulator.control.home()
     bench.ask("/bench/arm")
     assert "READY" in bench.refuse("/bench/home", {"step": "link", "by": "Ada"})
     bench.wait_for("ready")
@@ -67,7 +67,7 @@ def test_a_run_takes_commands_at_a_tick_and_carries_its_twin(bench: BenchLab) ->
         state = bench.wait_for_ticks(1500)
         assert state["status"] == "running"
         assert state["fault"] is None
-        assert bench.rig.control.read_state()["loads"] == 1
+        assert bench.emulator.control.read_state()["loads"] == 1
         assert len(state["lanes"]) == 2
         assert [lane["law"] for lane in state["lanes"]] == ["ndobc", "ndobc"]
         assert all(lane["since_load"] is not None for lane in state["lanes"])
@@ -142,7 +142,7 @@ def test_a_push_is_one_load_from_the_first_time_it_is_told_to_its_end(bench: Ben
         bench.ask("/start")
         bench.wait_for("run")
         for torque, hold_s in ((0.4, LASTING_S), (0.8, LASTING_S), (1.2, 2.0)):
-            assert bench.rig.control.read_state()["loads"] == (0 if torque == 0.4 else 1)
+            assert bench.emulator.control.read_state()["loads"] == (0 if torque == 0.4 else 1)
             push = {"kind": "push", "torque_nm": [torque, 0.0, 0.0], "hold_s": hold_s}
             (load,) = bench.ask("/loads", push)["loads"]
             assert load["id"] == 1, "told again it is the same"
@@ -150,7 +150,7 @@ def test_a_push_is_one_load_from_the_first_time_it_is_told_to_its_end(bench: Ben
                 state = bench.wait_for_ticks(500)
                 assert state["sample"]["estimate_link_nm"] == pytest.approx(torque, abs=0.3)
         wait_until(lambda: not bench.read()["loads"][0]["active"], bench.describe)
-        wait_until(lambda: bench.rig.control.read_state()["loads"] == 0)
+        wait_until(lambda: bench.emulator.control.read_state()["loads"] == 0)
         state = bench.wait_for_ticks(1000)
         assert state["fault"] is None
         assert state["sample"]["estimate_link_nm"] == pytest.approx(0.0, abs=0.3)
@@ -161,8 +161,8 @@ def test_a_push_is_one_load_from_the_first_time_it_is_told_to_its_end(bench: Ben
     bench.ask("/recording", method="DELETE")
     client, run = bench.lab.client, f"/api/v1/runs/{run_id}"
     wait_until(lambda: client.get(run).json()["state"] != "recording")
-    told = client.get(run).json()["commands"]
-    pushes = [each for each in told if each["command"]["kind"] == "load"]
+    reported = client.get(run).json()["commands"]
+    pushes = [each for each in reported if each["command"]["kind"] == "load"]
     assert [each["command"]["argument"]["torque_nm"][0] for each in pushes] == [0.4, 0.8, 1.2]
     end_tick = events["load_off"]["tick"]
     assert events["load_on"]["tick"] == pushes[0]["tick"]

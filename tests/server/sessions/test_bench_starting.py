@@ -16,7 +16,7 @@ from svsa.runs.command import SetLaw
 from svsa_server.sessions.bench_start import open_bench
 from svsa_server.sessions.hosted import HostedSession
 from svsa_server.sessions.state import build_state
-from tests.hardware.live_bench import FAIR_S, start_live_rig, write_bench
+from tests.hardware.live_bench import FAIR_S, start_live_emulator, write_bench
 from tests.lab import run_lab
 from tests.server.sessions.bench_lab import wait_until
 from tests.server.sessions.scripted_bench import STEP, Processes, build_bench_session
@@ -48,7 +48,7 @@ def test_until_it_is_ready_it_takes_no_command_and_says_why(
         COMMANDS[name](starting)
     starting.open()
     assert isinstance(starting.loop.processes, Processes)
-    assert starting.loop.processes.told == [], "nothing of it comes later"
+    assert starting.loop.processes.reported == [], "nothing of it comes later"
 
 
 def test_what_is_told_of_a_bench_that_starts_is_known(starting: BenchSession) -> None:
@@ -139,10 +139,10 @@ def test_whether_it_is_emulated_is_known_once_the_bus_was_listened_to(
 @pytest.mark.wall_clock(stall_s=FAIR_S)
 def test_a_lab_whose_bench_is_not_there_is_served_and_finds_it_again(tmp_path: Path) -> None:
     """Nobody listens at the port in the bench file, until it is corrected."""
-    with start_live_rig() as rig:
-        path = write_bench(tmp_path, rig)
+    with start_live_emulator() as emulator:
+        path = write_bench(tmp_path, emulator)
         right = path.read_text(encoding="utf-8")
-        path.write_text(right.replace(f"port = {rig.port}\n", "port = 1\n"), encoding="utf-8")
+        path.write_text(right.replace(f"port = {emulator.port}\n", "port = 1\n"), encoding="utf-8")
         with run_lab("--bench", str(path)) as lab:
             assert lab.client.get("/").is_success
             state = lab.read()

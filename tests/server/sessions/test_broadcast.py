@@ -13,7 +13,7 @@ from svsa.runs.session.simulated import SimulatedSession
 from svsa.simulation.plant.loads import PaperLoad
 from svsa_server.leases.lease import Holder, asking
 from svsa_server.sessions import broadcast
-from svsa_server.sessions.broadcast import News, Told
+from svsa_server.sessions.broadcast import Broadcast, Reported
 from svsa_server.sessions.cursor import SampleCursor, StreamRequest
 from svsa_server.sessions.hosted import HostedSession
 from svsa_server.sessions.state import build_state
@@ -29,19 +29,19 @@ def slide(step: int) -> Command:
     return SetObserver(argument=ObserverBandwidth(bandwidth_rad_per_s=(70.0 + step,) * 3))
 
 
-def read(told: News) -> dict:
-    return json.loads(told.text)
+def read(reported: Broadcast) -> dict:
+    return json.loads(reported.text)
 
 
 def test_a_change_is_written_once_for_all_who_are_told_the_same(hosted, monkeypatch):
     written = []
     build = broadcast.build_state
     monkeypatch.setattr(broadcast, "build_state", lambda *of: written.append(of) or build(*of))
-    told = Told.all_of(hosted)
-    messages = {broadcast.write_news(hosted, told) for _ in range(100)}
+    reported = Reported.all_of(hosted)
+    messages = {broadcast.write_broadcast(hosted, reported) for _ in range(100)}
     assert len(messages) == len(written) == 1
     hosted.session.start()
-    assert read(broadcast.write_news(hosted, told))["state"]["status"] == "running"
+    assert read(broadcast.write_broadcast(hosted, reported))["state"]["status"] == "running"
     assert len(written) == 2
 
 
@@ -49,19 +49,19 @@ def test_who_came_at_different_times_is_told_the_same_from_the_first_change_on(h
     came = []
     for _ in range(5):
         hosted.session.step(10)
-        came.append(Told.all_of(hosted))
+        came.append(Reported.all_of(hosted))
     hosted.session.set_speed(2.0)
-    then = {broadcast.write_news(hosted, told) for told in came}
+    then = {broadcast.write_broadcast(hosted, reported) for reported in came}
     assert len({message.text for message in then}) == 5
-    assert len({message.told for message in then}) == 1
+    assert len({message.reported for message in then}) == 1
 
 
 def test_who_is_in_control_is_told_so_and_nobody_else(hosted):
     hosted.take_control(Holder("ada", "Ada"), take_over=False)
-    told = Told.all_of(hosted)
+    reported = Reported.all_of(hosted)
     for client, is_ada in (("ada", True), ("bob", False), ("ada", True), (None, False)):
         asking.set(client)
-        control = read(broadcast.write_news(hosted, told))["state"]["control"]
+        control = read(broadcast.write_broadcast(hosted, reported))["state"]["control"]
         assert (control["holder"], control["mine"]) == ("Ada", is_ada)
 
 
@@ -69,12 +69,14 @@ def test_what_moves_by_itself_is_written_once_in_each_period(hosted, monkeypatch
     written = []
     build = broadcast.build_progress
     monkeypatch.setattr(broadcast, "build_progress", lambda *of: written.append(of) or build(*of))
-    told = Told.all_of(hosted)
-    assert len({broadcast.write_progress(hosted, told, period=7) for _ in range(100)}) == 1
-    broadcast.write_progress(hosted, told, period=8)
+    reported = Reported.all_of(hosted)
+    assert len({broadcast.write_progress(hosted, reported, period=7) for _ in range(100)}) == 1
+    broadcast.write_progress(hosted, reported, period=8)
     assert len(written) == 2
     hosted.session.start()
-    assert read(broadcast.write_progress(hosted, told, period=8))["state"]["status"] == "running"
+    assert (
+        read(broadcast.write_progress(hosted, reported, period=8))["state"]["status"] == "running"
+    )
     assert len(written) == 3
 
 
@@ -89,12 +91,12 @@ def test_a_window_is_fresh_in_its_first_seconds(hosted):
 
 def test_a_message_does_not_grow_with_the_changes_of_a_minute(hosted):
     """A slider that is drawn tells a hundred browsers of each of its steps."""
-    told, sizes = Told.all_of(hosted), []
+    reported, sizes = Reported.all_of(hosted), []
     for step in range(200):
         hosted.session.step(20)
         hosted.session.change(slide(step))
-        message = broadcast.write_news(hosted, told)
-        told = message.told
+        message = broadcast.write_broadcast(hosted, reported)
+        reported = message.reported
         sizes.append(len(message.text))
     assert len(build_state(hosted).model_dump_json()) > 10 * sizes[-1]
     assert max(sizes[5:]) < 1.2 * sizes[5]
@@ -134,23 +136,23 @@ def do_something(session: SimulatedSession, dice: random.Random) -> None:
 def test_who_joins_the_messages_knows_what_the_session_knows(hosted, seed):
     """Also of a reader that hears of some changes late, together."""
     dice, session = random.Random(seed), hosted.session  # noqa: S311
-    told, known = Told.all_of(hosted), json.loads(build_state(hosted).model_dump_json())
+    reported, known = Reported.all_of(hosted), json.loads(build_state(hosted).model_dump_json())
     for number in range(100):
         do_something(session, dice)
         session.journal.advance(dice.choice((0, 1, 5, 40)))
         if dice.random() < 0.3:
             continue
-        message = broadcast.write_news(hosted, told)
-        told, known = message.told, join(known, read(message))
+        message = broadcast.write_broadcast(hosted, reported)
+        reported, known = message.reported, join(known, read(message))
         version = hosted.version
         session.journal.advance(dice.choice((0, 1, 40)))
         if hosted.version != version:
             continue
-        message = broadcast.write_progress(hosted, told, number)
-        told, known = message.told, join(known, read(message))
+        message = broadcast.write_progress(hosted, reported, number)
+        reported, known = message.reported, join(known, read(message))
         there = json.loads(build_state(hosted).model_dump_json())
-        for told_of in ("events", "ended_windows", "lanes"):
-            assert known[told_of][-50:] == there[told_of][-50:], told_of
+        for sent_part in ("events", "ended_windows", "lanes"):
+            assert known[sent_part][-50:] == there[sent_part][-50:], sent_part
 
 
 def test_samples_are_packed_once_for_all_who_are_at_the_same_place(hosted):

@@ -19,9 +19,9 @@ from svsa.hardware.session import supervised_loop
 from svsa.hardware.session.supervised_loop import SupervisedLoop
 from svsa.runs.paper import get_figure
 from svsa_server.sessions import laboratory
-from svsa_server.sessions.laboratory import RigHands
+from svsa_server.sessions.laboratory import EmulatorOperator
 from svsa_server.sessions.lock import let_pass, take_turn
-from tests.hardware.wired_bench import RIG_BENCH
+from tests.hardware.wired_bench import EMULATOR_BENCH
 
 LONG_S = 60.0
 
@@ -32,7 +32,7 @@ async def count_turns_of_the_loop(counted: list[int]) -> None:
         await asyncio.sleep(0)
 
 
-def take_beside(do: Any, *arguments: Any) -> tuple[Any, int]:
+def take_in_parallel(do: Any, *arguments: Any) -> tuple[Any, int]:
     """What a turn returns, and how often the event loop went on meanwhile."""
 
     async def run() -> tuple[Any, int]:
@@ -52,7 +52,7 @@ def test_others_go_on_while_it_lets_time_pass() -> None:
             let_pass(0.005)
         return "done"
 
-    answer, turns = take_beside(wait, 10)
+    answer, turns = take_in_parallel(wait, 10)
     assert answer == "done"
     assert turns >= 20
 
@@ -63,7 +63,7 @@ def test_what_it_raises_comes_out_and_a_cancelled_one_is_unwound() -> None:
         raise BenchError("no")
 
     with pytest.raises(BenchError, match="no"):
-        take_beside(fail)
+        take_in_parallel(fail)
     unwound = []
 
     def wait() -> None:
@@ -92,11 +92,11 @@ def test_a_rig_that_does_not_answer_is_waited_for_in_a_bounded_time(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(laboratory, "LONGEST_HANDS_S", 0.05)
-    hands, answered = RigHands(1), threading.Event()
+    hands, answered = EmulatorOperator(1), threading.Event()
     hands._thread.submit(answered.wait, LONG_S)
     try:
         with pytest.raises(StateError, match="not set to its marks"):
-            take_beside(hands.set_to_marks)
+            take_in_parallel(hands.set_to_marks)
     finally:
         answered.set()
 
@@ -134,7 +134,7 @@ def test_a_loop_that_does_not_answer_is_not_waited_for_by_the_event_loop(
             processes.request("arm")
         return str(raised.value)
 
-    _, turns = take_beside(ask)
+    _, turns = take_in_parallel(ask)
     assert turns >= 20
 
 
@@ -146,11 +146,11 @@ def test_a_loop_is_silent_later_than_its_supervisor_waits_for_it(
     asked: list[Any] = []
     nothing = types.SimpleNamespace(memory=None)
     monkeypatch.setattr(
-        supervised_loop, "BenchProcesses", lambda *told: asked.extend(told) or nothing
+        supervised_loop, "BenchProcesses", lambda *reported: asked.extend(reported) or nothing
     )
-    bench = read_bench(RIG_BENCH)
+    bench = read_bench(EMULATOR_BENCH)
     bench = bench.changed(safety=bench.safety.changed(loop_s=loop_s))
-    loop = SupervisedLoop(RIG_BENCH, bench)
+    loop = SupervisedLoop(EMULATOR_BENCH, bench)
     loop.launch(get_figure("4a").build_configuration())
     assert asked[-1] == patience_s
 
@@ -167,7 +167,7 @@ def test_a_silent_loop_is_not_asked_at_all(
     monkeypatch.setattr(processes, "_rest", never)
     with pytest.raises(BenchError, match=r"silent since 3\.0 s"):
         processes.request("stop", "a test")
-    processes.tell("stop", "a test")
+    processes.report("stop", "a test")
     assert theirs.receive() == []
 
 

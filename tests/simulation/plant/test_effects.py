@@ -1,4 +1,4 @@
-"""Effects of the bench: one switch each, off to the bit, and the mark for the emulated rig."""
+"""Effects of the bench: one switch each, off to the bit, and the mark for the emulator."""
 
 import math
 

@@ -91,9 +91,11 @@ def test_wrong_answers_and_settings_have_fewer(another_lab, exercise):
             answers[step.name] = next(one.name for one in step.options if not one.right)
     judgement = Student(another_lab, exercise).play(answers, {})
 
-    told = {one["step"]: one for one in judgement["criteria"]}
-    assert [told[name]["points"] for name in answers] == [0.0] * len(answers)
+    reported = {one["step"]: one for one in judgement["criteria"]}
+    assert [reported[name]["points"] for name in answers] == [0.0] * len(answers)
     assert all(one["feedback"] for one in judgement["criteria"])
     is_free = any(getattr(step, "free", ()) for step in exercise.steps)
     own = [one["points"] for one in judgement["criteria"] if one["step"] not in answers]
-    assert (sum(own) < exercise.max_points - sum(told[n]["max_points"] for n in answers)) == is_free
+    assert (
+        sum(own) < exercise.max_points - sum(reported[n]["max_points"] for n in answers)
+    ) == is_free

@@ -58,9 +58,9 @@ def write_course(folder: Path) -> Path:
 def submit_law(folder: Path, law: bytes, student: str = "Ada", **changes: object) -> Path:
     folder.mkdir(exist_ok=True)
     (folder / "law.py").write_bytes(law)
-    told = {"student": student, "exercise": "own-law", "law_file": "law.py"} | changes
+    reported = {"student": student, "exercise": "own-law", "law_file": "law.py"} | changes
     path = folder / "submission.json"
-    path.write_text(json.dumps(told))
+    path.write_text(json.dumps(reported))
     return path
 
 

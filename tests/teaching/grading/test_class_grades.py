@@ -20,13 +20,13 @@ FL, OWN = "feedback-linearization", "own-law"
 BROKEN = "def law(*given):\n    return spring\n"
 
 
-def submit(store, person, student, exercise=FL, law=None, **told):
+def submit(store, person, student, exercise=FL, law=None, **reported):
     path = store.find_submission(exercise, person)
     path.parent.mkdir(parents=True, exist_ok=True)
     if law is not None:
         path.with_suffix(".py").write_text(law)
-        told["law_file"] = path.with_suffix(".py").name
-    path.write_text(json.dumps({"student": student, "exercise": exercise, **told}))
+        reported["law_file"] = path.with_suffix(".py").name
+    path.write_text(json.dumps({"student": student, "exercise": exercise, **reported}))
     return path
 
 
@@ -54,10 +54,10 @@ def store(tmp_path):
 
 
 def test_each_is_graded_once_and_again_the_same(store):
-    told = []
+    reported = []
     assert [one.grade for one in list_graded(store)] == [None, None]
-    assert give(store, tell=lambda done, total: told.append((done, total)))
-    assert told == [(0, 2), (1, 2), (2, 2)]
+    assert give(store, notify=lambda done, total: reported.append((done, total)))
+    assert reported == [(0, 2), (1, 2), (2, 2)]
     first = list_graded(store)
     assert [(one.person, one.student) for one in first] == [("p-1", "Ada"), ("p-2", "Bob")]
     assert all(one.grade is not None and one.grade.criteria for one in first)
@@ -72,9 +72,9 @@ def test_each_is_graded_once_and_again_the_same(store):
 
 def test_side_by_side_each_gets_the_grade_that_it_gets_alone(store):
     submit(store, "p-3", "Cem", "gone")
-    told = []
-    assert give(store, tell=lambda done, total: told.append((done, total)), workers=2)
-    assert told == [(0, 3), (1, 3), (2, 3), (3, 3)]
+    reported = []
+    assert give(store, notify=lambda done, total: reported.append((done, total)), workers=2)
+    assert reported == [(0, 3), (1, 3), (2, 3), (3, 3)]
     beside = list_graded(store)
     shutil.rmtree(open_book(store).folder)
     assert give(store)
@@ -98,11 +98,11 @@ def test_one_of_one_person_alone(store):
 
 
 def test_grading_that_is_broken_off_keeps_what_is_done(store):
-    told = []
+    reported = []
     assert not give(
         store,
-        tell=lambda done, total: told.append(done),
-        is_cancelled=lambda: 1 in told,
+        notify=lambda done, total: reported.append(done),
+        is_cancelled=lambda: 1 in reported,
     )
     assert sum(one.grade is not None for one in list_graded(store)) == 1
 

@@ -10,8 +10,8 @@ from typer.testing import CliRunner
 import svsa
 from svsa.cli import app
 from svsa.errors import StateError
-from svsa.evaluation.ranking.samples import build_draws
 from svsa.evaluation.ranking.seeds import PUBLIC_SEED
+from svsa.evaluation.ranking.trials import build_trials
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.teaching.course.file import parse_exercise
 from svsa.teaching.course.kept_law import MAX_LAW_BYTES
@@ -41,7 +41,7 @@ SECRET = bytes(range(32))
 
 
 @pytest.fixture(autouse=True)
-def few_draws(monkeypatch):
+def few_trials(monkeypatch):
     monkeypatch.setattr(law_runs, "DRAWS", 3)
 
 
@@ -71,20 +71,20 @@ def test_a_run_of_which_one_bit_was_changed_is_refused(tmp_path):
     given = Submission(student="Ada", exercise=EXERCISE, runs=runs)
     found = grade(SubmittedWork(given, None), find_exercise(EXERCISE), tmp_path, SECRET)
     assert found.points == 0
-    told = [one.feedback for one in found.criteria if one.step == "load"]
-    assert told
-    assert all("does not replay" in one and "at tick 7000" in one for one in told)
+    reported = [one.feedback for one in found.criteria if one.step == "load"]
+    assert reported
+    assert all("does not replay" in one and "at tick 7000" in one for one in reported)
 
 
 def test_a_law_is_graded_on_draws_of_the_secret_and_of_its_text(monkeypatch):
     """Who has the submission alone cannot tell them; the same law has the same, whose it is."""
     drawn = []
 
-    def run_draws(law, seed, place):
+    def run_trials(law, seed, place):
         drawn.append(seed)
         return []
 
-    monkeypatch.setattr("svsa.teaching.grading.grade.run_draws", run_draws)
+    monkeypatch.setattr("svsa.teaching.grading.grade.run_trials", run_trials)
     for one, secret in (
         (submit(), SECRET),
         (submit(), SECRET),
@@ -95,7 +95,7 @@ def test_a_law_is_graded_on_draws_of_the_secret_and_of_its_text(monkeypatch):
         grade(one, OWN_LAW, None, secret)
     assert drawn[0] == drawn[1] == drawn[4]
     assert len({*drawn, PUBLIC_SEED}) == 4
-    assert build_draws(drawn[0])[0] != build_draws(PUBLIC_SEED)[0]
+    assert build_trials(drawn[0])[0] != build_trials(PUBLIC_SEED)[0]
 
 
 def test_a_good_law_has_more_points_than_a_lazy_one(tmp_path):

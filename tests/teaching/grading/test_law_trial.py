@@ -12,7 +12,7 @@ from tests.teaching.course.student import find_law
 from tests.teaching.grading.submissions import LAZY
 from tests.teaching.isolation.test_attacks import isolation  # noqa: F401
 
-WHOLE = LawRun("draw_0", True, 0.2, cost_us=24.0)
+WHOLE = LawRun("trial_0", True, 0.2, cost_us=24.0)
 
 
 def test_the_law_that_the_exercise_begins_with_holds():
@@ -22,18 +22,18 @@ def test_the_law_that_the_exercise_begins_with_holds():
 
 
 @pytest.mark.parametrize(
-    ("text", "verdict", "told"),
+    ("text", "verdict", "reported"),
     [
         ("def law(:", "failed", "SyntaxError"),
         ("def law(*given): return 1 / 0", "failed", "ZeroDivisionError"),
         ("import socket; socket.socket()", "failed", "PermissionError"),
     ],
 )
-def test_a_law_that_fails_is_told_what_it_printed(text, verdict, told):
+def test_a_law_that_fails_is_told_what_it_printed(text, verdict, reported):
     found = try_law(text)
     assert found.verdict == verdict
     assert found.text == text
-    assert told in found.output
+    assert reported in found.output
 
 
 def test_a_run_is_judged_by_how_far_it_goes():

@@ -43,14 +43,14 @@ BOUNDS = Bounds(
 
 
 class Outcome(NamedTuple):
-    """ended: "refused", "got", or the code of the fault. told: the fault in words.
+    """ended: "refused", "got", or the code of the fault. reported: the fault in words.
 
     got: bytes that left; of an attack that was refused, the name of the error that it met.
     """
 
     ended: str
     got: bytes
-    told: str = ""
+    reported: str = ""
 
 
 def list_attacks() -> list[tuple[str, str]]:

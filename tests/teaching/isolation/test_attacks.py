@@ -167,7 +167,7 @@ def test_an_attack_gets_nothing_and_disturbs_nobody(theme, name, clue, secret):
     assert secret not in outcome.got
     assert hashlib.sha256(secret).digest()[:8] not in outcome.got
     assert sorted(path.name for path in Path(clue["folder"]).iterdir()) == ["line", "secret"]
-    assert secret.decode() not in outcome.told
+    assert secret.decode() not in outcome.reported
 
 
 @pytest.mark.exhaustive
@@ -191,9 +191,9 @@ def test_a_law_that_spins_is_ended_by_its_share_of_the_processor(clue):
     bounds = BOUNDS._replace(cpu_s=1, answer_s=50)
     outcome = attack("resources", "spin", clue, confine, bounds)
     assert outcome.ended == "ended"
-    assert "1 s of the processor" in outcome.told
+    assert "1 s of the processor" in outcome.reported
 
 
 def test_a_law_that_prints_is_shown_the_end_of_it_only(clue):
     outcome = attack("resources", "crash", clue, confine)
-    assert len(outcome.told) < 3000
+    assert len(outcome.reported) < 3000

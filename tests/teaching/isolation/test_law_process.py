@@ -13,7 +13,7 @@ from svsa.teaching.isolation import confinement, system_calls
 from svsa.teaching.isolation.confinement import Bounds, confine, leave_open
 from svsa.teaching.isolation.probe import check_isolation
 from svsa.teaching.isolation.process import LawProcess
-from svsa.teaching.isolation.refusal import LawFaultError, NotIsolatedError, tell_last_words
+from svsa.teaching.isolation.refusal import LawFaultError, NotIsolatedError, describe_last_output
 from tests.teaching.isolation.attackers import MODEL, TOLD
 from tests.teaching.isolation.test_attacks import isolation  # noqa: F401
 
@@ -84,7 +84,7 @@ def test_every_run_begins_in_an_empty_folder():
 
 
 @pytest.mark.parametrize(
-    ("source", "told"),
+    ("source", "reported"),
     [
         (b"def law(:", "SyntaxError"),
         (b"x = 1", "law.py must define law"),
@@ -97,11 +97,11 @@ def test_every_run_begins_in_an_empty_folder():
         (b"def law(*given):\n    return 1 / 0", 'File "law.py", line 2'),
     ],
 )
-def test_a_law_that_is_none_is_an_error_with_what_python_says(source, told):
+def test_a_law_that_is_none_is_an_error_with_what_python_says(source, reported):
     with pytest.raises(LawFaultError) as raised:
         run(source)
     assert raised.value.code == "error"
-    assert told in raised.value.output
+    assert reported in raised.value.output
 
 
 def test_huge_torques_are_limited_and_no_number_ends_the_run():
@@ -114,15 +114,15 @@ def test_huge_torques_are_limited_and_no_number_ends_the_run():
 
 
 @pytest.mark.parametrize(
-    ("bounds", "told"),
+    ("bounds", "reported"),
     [
         (Bounds(answer_s=0.2), "did not answer within 0.2 s"),
         (Bounds(answer_s=9.0, whole_s=0.5), "took more than 0.5 s"),
     ],
 )
-def test_a_law_that_hangs_is_told_how_long_it_had(bounds, told):
+def test_a_law_that_hangs_is_told_how_long_it_had(bounds, reported):
     with (
-        pytest.raises(LawFaultError, match=told),
+        pytest.raises(LawFaultError, match=reported),
         LawProcess(b"def law(*given):\n    while True: pass\n", MODEL, bounds, leave_open) as law,
     ):
         svsa.simulate(FIGURE, law, duration_s=0.5)
@@ -172,11 +172,11 @@ def test_of_what_a_law_said_the_last_line_is_told_with_the_line_of_its_file():
     with pytest.raises(LawFaultError) as raised:
         run(b"def inner(): return spring\n\ndef law(*given):\n    return inner()\n")
     assert "child.py" not in raised.value.output
-    assert tell_last_words(raised.value.output) == (
+    assert describe_last_output(raised.value.output) == (
         "line 1: NameError: name 'spring' is not defined"
     )
-    assert tell_last_words("only this\n") == "only this"
-    assert tell_last_words(" \n") == ""
+    assert describe_last_output("only this\n") == "only this"
+    assert describe_last_output(" \n") == ""
 
 
 def test_a_law_process_keeps_what_was_answered():

@@ -32,7 +32,7 @@ def build_short_season(seed):
     sweeps = tuple(
         one._replace(values=one.values[:1], runs=(one.runs[0][:1],)) for one in whole.sweeps[:2]
     )
-    return Season(whole.singles[:1], whole.draws[:3], sweeps)
+    return Season(whole.singles[:1], whole.trials[:3], sweeps)
 
 
 @pytest.fixture
@@ -65,7 +65,7 @@ def go_with(results):
 def test_a_season_is_the_ranking_suite_with_other_chance():
     season, other = build_season(5), build_season(6)
     assert season.singles == SINGLE
-    assert not set(season.draws) & set(other.draws)
+    assert not set(season.trials) & set(other.trials)
     published = {one.name: one for one in build_sweeps()}
     for one in season.sweeps:
         by_chance = one.name in ("velocity_noise", "torque_noise", "perturbation")
@@ -74,7 +74,7 @@ def test_a_season_is_the_ranking_suite_with_other_chance():
         assert len(hidden) == len(known)
         assert any(run in known for run in hidden) is not by_chance
     names = [run.name for one in season.sweeps for runs in one.runs for run in runs]
-    names += [run.name for run in (*season.singles, *season.draws)]
+    names += [run.name for run in (*season.singles, *season.trials)]
     assert len(set(names)) == len(names) == season.run_count
 
 
@@ -87,7 +87,7 @@ def test_on_the_public_seeds_a_law_has_the_ranking_score():
     assert standing.score == row.score
     assert standing.parts == row.parts
     assert standing.sweeps == row.sweeps
-    assert standing.draws - standing.draws_held == row.draws_fails
+    assert standing.trials - standing.trials_held == row.trials_fails
     assert standing.tick_us is not None
     assert standing.tick_us > 0
 
@@ -95,9 +95,9 @@ def test_on_the_public_seeds_a_law_has_the_ranking_score():
 def test_the_interval_is_what_the_draws_leave_open():
     """Wilson for 50 of 100: 0.404 to 0.596, of which a score has three tenths."""
     season = build_season(5)
-    failed = {one.name: LawRun(one.name, False, 2.0, tick_us=3.0) for one in season.draws[:50]}
+    failed = {one.name: LawRun(one.name, False, 2.0, tick_us=3.0) for one in season.trials[:50]}
     standing = stand(season, go_with(failed))
-    assert standing.parts.draws == 0.5
+    assert standing.parts.trials == 0.5
     assert standing.low == pytest.approx(standing.score - 0.3 * (0.5 - 0.4038), abs=1e-4)
     assert standing.high == pytest.approx(standing.score + 0.3 * (0.5962 - 0.5), abs=1e-4)
 
@@ -121,18 +121,18 @@ def test_a_law_that_fails_in_its_first_run_is_refused_with_what_it_said():
 
 
 def test_one_that_is_broken_off_has_no_standing_and_says_how_far_it_was():
-    told = []
+    reported = []
     season = build_season(5)
     assert (
         measure_standing(
             season,
             go_with({}),
-            lambda done, total: told.append((done, total)),
-            lambda: len(told) == 3,
+            lambda done, total: reported.append((done, total)),
+            lambda: len(reported) == 3,
         )
         is None
     )
-    assert told == [(count, season.run_count) for count in (1, 2, 3)]
+    assert reported == [(count, season.run_count) for count in (1, 2, 3)]
 
 
 @pytest.mark.usefixtures("short_season")
@@ -151,7 +151,7 @@ def test_a_law_is_put_through_once_and_stands_beside_the_labs(tmp_path):
     assert {one["key"] for one in entries if one["is_installed"]} == {"fl", "ndobc"}
     scores = [one["standing"]["score"] for one in entries]
     assert scores == sorted(scores, reverse=True)
-    assert first["standing"]["draws_held"] > 0
+    assert first["standing"]["trials_held"] > 0
     assert (folder / "secret").stat().st_mode & 0o077 == 0
     table = run("leaderboard", "--board", folder).stdout
     assert "mine *" in table

@@ -86,9 +86,12 @@ def test_a_law_that_stops_on_the_way_is_seen_until_then(tmp_path):
 
 @pytest.mark.usefixtures("short_season")
 def test_a_run_that_ndobc_would_end_is_seen_alone_to_its_end(tmp_path):
-    board, scenario = Board(tmp_path), find_scenario("unloading")
+    board, scenario = Board(tmp_path), find_scenario("load_removal")
     measure_missing(board)
-    fl, worst = board.get("fl"), WorstRun(scenario="unloading", title="", rms_deg=None, problem="")
+    fl, worst = (
+        board.get("fl"),
+        WorstRun(scenario="load_removal", title="", rms_deg=None, problem=""),
+    )
     entry = fl.changed(standing=fl.standing.changed(worst=worst))
     own = simulate(scenario.build_configuration("fl"), duration_s=scenario.duration_s)
     shown = replay_worst(board, entry)

@@ -6,7 +6,7 @@ from fastapi import Body, Request, Response
 from fastapi.responses import JSONResponse
 
 from svsa.errors import StateError
-from svsa_server.access.authentication import COOKIE, REMOVED, ClassDoor, Door
+from svsa_server.access.authentication import COOKIE, REMOVED, Authentication, ClassAuthentication
 from svsa_server.access.guard import PERSON
 from svsa_server.access.roles import Person, Role
 from svsa_server.problems import Problem, answer_problem
@@ -32,9 +32,11 @@ _WRONG = {401: {"model": Problem, "description": "A wrong secret, token or code"
 @router.get("/access")
 async def read_access(request: Request) -> AccessState:
     """How one comes in, and as whom this request has come."""
-    door = _find_door(request)
-    is_removed = isinstance(door, ClassDoor) and door.is_removed(request.headers)
-    return _tell(door, request.scope.get(PERSON), is_removed)
+    authentication = _find_authentication(request)
+    is_removed = isinstance(authentication, ClassAuthentication) and authentication.is_removed(
+        request.headers
+    )
+    return _tell(authentication, request.scope.get(PERSON), is_removed)
 
 
 @router.post("/login", status_code=204, responses={**_WRONG, 422: REFUSALS[422]})
@@ -46,12 +48,12 @@ async def log_in(
 
     Where the lab is open, everyone is in already.
     """
-    door = _find_door(request)
-    cookie = door.log_in(credentials.secret)
+    authentication = _find_authentication(request)
+    cookie = authentication.log_in(credentials.secret)
     if cookie is None:
-        await door.patience.wait()
+        await authentication.patience.wait()
         return answer_problem(
-            401, "wrong_secret", f"That is not the {_name_secret(door)} of this lab."
+            401, "wrong_secret", f"That is not the {_name_secret(authentication)} of this lab."
         )
     response = Response(status_code=204)
     if cookie:
@@ -74,15 +76,15 @@ async def join(
     A name that somebody here has already gets a number. `return_code` is told once: by it one comes
     back as the same person from any browser.
     """
-    door = find_class(request)
-    if not await door.check_code(wanted.code):
-        await door.patience.wait()
+    authentication = find_class(request)
+    if not await authentication.check_code(wanted.code):
+        await authentication.patience.wait()
         return answer_problem(401, "wrong_code", "That is not the code of this class.")
-    person = await door.join(wanted.name, Role[wanted.role.upper()])
-    code = await door.renew_return_code(person)
+    person = await authentication.join(wanted.name, Role[wanted.role.upper()])
+    code = await authentication.renew_return_code(person)
     assert code is not None  # noqa: S101  who has just joined has a membership
-    set_cookie(request, response, door.keys.sign(person))
-    return JoinState(**_tell(door, person).model_dump(), return_code=code)
+    set_cookie(request, response, authentication.keys.sign(person))
+    return JoinState(**_tell(authentication, person).model_dump(), return_code=code)
 
 
 @router.post(
@@ -97,15 +99,15 @@ async def come_back(
     wanted: Annotated[ReturnRequest, Body(examples=[{"code": "ABCD-2345-EFGH"}])],
 ) -> AccessState | JSONResponse:
     """Come back as who one was, with one's runs and exercises, by the code that joining told."""
-    door = find_class(request)
-    membership = await door.come_back(wanted.code)
+    authentication = find_class(request)
+    membership = await authentication.come_back(wanted.code)
     if membership is None:
-        await door.patience.wait()
+        await authentication.patience.wait()
         return answer_problem(401, "wrong_code", "That is nobody's return code in this class.")
     if membership.is_ended:
         return answer_problem(401, "removed", REMOVED)
-    set_cookie(request, response, door.keys.sign(membership.person))
-    return _tell(door, membership.person)
+    set_cookie(request, response, authentication.keys.sign(membership.person))
+    return _tell(authentication, membership.person)
 
 
 @router.post("/return-code", status_code=201, responses={409: REFUSALS[409]})
@@ -123,9 +125,9 @@ async def renew_return_code(request: Request, person: NamedPerson) -> ReturnCode
 @router.post("/leave", status_code=204)
 async def leave(request: Request, person: NamedPerson) -> Response:
     """Forget who this browser is."""
-    door = _find_door(request)
-    if isinstance(door, ClassDoor):
-        door.people.forget(person)
+    authentication = _find_authentication(request)
+    if isinstance(authentication, ClassAuthentication):
+        authentication.people.forget(person)
     response = Response(status_code=204)
     response.delete_cookie(COOKIE, path=_find_root(request))
     return response
@@ -141,21 +143,23 @@ async def create_token(
 
     It asks for control like a person. An instructor's scripts are operators, too.
     """
-    door = find_class(request)
+    authentication = find_class(request)
     role = min(person.role, Role[wanted.role.upper()])
     script = person._replace(role=role)
     if person.role is Role.INSTRUCTOR:
-        script = await door.join(f"{person.name}'s script", role)
-    return TokenState(token=door.keys.sign(script), name=script.name, role=role.word)
+        script = await authentication.join(f"{person.name}'s script", role)
+    return TokenState(token=authentication.keys.sign(script), name=script.name, role=role.word)
 
 
-def _find_door(request: Request) -> Door:
-    return request.app.state.door
+def _find_authentication(request: Request) -> Authentication:
+    return request.app.state.authentication
 
 
-def _tell(door: Door, person: Person | None, is_removed: bool = False) -> AccessState:
+def _tell(
+    authentication: Authentication, person: Person | None, is_removed: bool = False
+) -> AccessState:
     return AccessState(
-        door=door.kind,
+        authentication=authentication.kind,
         inside=person is not None,
         id=person.id if person else "",
         name=person.name if person else "",
@@ -164,8 +168,8 @@ def _tell(door: Door, person: Person | None, is_removed: bool = False) -> Access
     )
 
 
-def _name_secret(door: Door) -> str:
-    return "instructor token" if door.kind == "class" else "secret"
+def _name_secret(authentication: Authentication) -> str:
+    return "instructor token" if authentication.kind == "class" else "secret"
 
 
 def _find_root(request: Request) -> str:

@@ -18,7 +18,7 @@ from svsa.runs.command import (
     SetStiffness,
 )
 from svsa.runs.configuration import Configuration
-from svsa_server.access.authentication import ClassDoor
+from svsa_server.access.authentication import ClassAuthentication
 from svsa_server.access.origin import EVERYWHERE, find_outward_address
 from svsa_server.access.owned import Owned
 from svsa_server.access.roles import Person, Role
@@ -145,12 +145,12 @@ def list_settings(configuration: Configuration) -> list[Command]:
     ]
 
 
-def find_class(request: Request) -> ClassDoor:
+def find_class(request: Request) -> ClassAuthentication:
     """The class of this lab; raises `StateError` where it is none."""
-    door = request.app.state.door
-    if not isinstance(door, ClassDoor):
+    authentication = request.app.state.authentication
+    if not isinstance(authentication, ClassAuthentication):
         raise StateError("This lab is no class: nobody joins it, and it knows no persons.")
-    return door
+    return authentication
 
 
 def _find_laboratory(request: Request) -> Laboratory:

@@ -15,7 +15,7 @@ from svsa_server.access.owned import Owned
 from svsa_server.jobs.falsifications import (
     Asked,
     find_file,
-    list_beside,
+    list_baselines,
     read_found,
     read_worst,
     search,
@@ -68,7 +68,9 @@ def list_falsifications(request: Request, person: NamedPerson) -> list[Falsifica
 async def start_falsification(
     request: Request,
     person: NamedPerson,
-    wanted: Annotated[FalsificationRequest, Body(examples=[{"adversary": "blow", "runs": 2000}])],
+    wanted: Annotated[
+        FalsificationRequest, Body(examples=[{"adversary": "impulse", "runs": 2000}])
+    ],
 ) -> FalsificationState:
     """Begin a search: a job, that makes no live session late. It ends at the first fault."""
     adversary = await asyncio.to_thread(wanted.build)
@@ -112,7 +114,7 @@ async def see_falsification(
 ) -> SessionState:
     """A private session, running, of the law in what was found, and another law beside it."""
     found = find_jobs(request).get(name, KIND)
-    law, beside = list_beside(found.asked.adversary.law)
+    law, beside = list_baselines(found.asked.adversary.law)
     configuration = _find_scenario(found).build_configuration(law)
     compared = configuration.changed(comparisons=(Lane(law=beside),))
     return build_state(request.app.state.laboratory.create(compared, person.id))

@@ -46,7 +46,7 @@ async def see_scenario(
     _: NamedClient,
     person: NamedPerson,
     wanted: Annotated[
-        ScenarioRequest, Body(examples=[{"law": "ndobc_w", "scenario": "unloading"}])
+        ScenarioRequest, Body(examples=[{"law": "ndobc_w", "scenario": "load_removal"}])
     ],
 ) -> SessionState:
     """A private session, running, of a law in a scenario beside NDOBC, and NDOBC beside FL.

@@ -36,11 +36,11 @@ Name = Annotated[
         alias="scenario",
         description="By which a scenario is kept",
         pattern=r"^[0-9A-Za-z][0-9A-Za-z_-]{0,63}$",
-        examples=["blow-ndobc"],
+        examples=["impulse-ndobc"],
     ),
 ]
 _EXAMPLE = {
-    "title": "A blow on the link",
+    "title": "An impulse on the link",
     "loads": [{"kind": "pulse", "torque_nm": [1.5, 0.0, 0.0], "start_s": 2.0, "duration_s": 0.02}],
 }
 _TOML = {"application/toml": {"schema": {"type": "string"}}}

@@ -21,7 +21,7 @@ from svsa.evaluation.studies.store import (
 )
 from svsa.evaluation.studies.store import delete_study as discard
 from svsa.evaluation.studies.summary import SUCCEEDED
-from svsa.evaluation.studies.tables import tell_metric
+from svsa.evaluation.studies.tables import format_metric
 from svsa.evaluation.studies.work import build_schema
 from svsa_server.access.owned import Owned
 from svsa_server.jobs.queue import Job
@@ -73,7 +73,7 @@ def list_all(request: Request, person: NamedPerson) -> StudyList:
         built_in=built_in,
         kept=[describe_study(one, _find_job(request, one.name)) for one in kept],
         metrics=[
-            StudyMetric(name=name, label=tell_metric(name), unit=unit)
+            StudyMetric(name=name, label=format_metric(name), unit=unit)
             for name, unit in METRICS.items()
         ],
     )
@@ -156,7 +156,7 @@ def read_rows(
     column: Annotated[list[str], Query(max_length=40, description="Names of columns")],
     most: Annotated[int, Query(ge=1, le=MAX_ROWS, description="Rows at most")] = MAX_ROWS,
 ) -> Response:
-    """Columns of the rows that are done; of more than `most` so many draws by lot.
+    """Columns of the rows that are done; of more than `most` so many samples by lot.
 
     uint32 length of a header of JSON, filled up to 8 bytes (`rows`, `total`, `columns` with `name`
     and `labels`), then each column as float64, little-endian, `row` first.

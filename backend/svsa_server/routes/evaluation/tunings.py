@@ -110,7 +110,7 @@ def _build(tuning: Job, first: int | None) -> TuningState:
             if has_own_parameters(asked.law)
             else Lane(law=asked.law, gains=design.gains, observer=design.observer)
         )
-    told = [] if first is None else trials[first:]
+    reported = [] if first is None else trials[first:]
     return TuningState(
         id=tuning.id,
         law=asked.law,
@@ -125,7 +125,7 @@ def _build(tuning: Job, first: int | None) -> TuningState:
         ],
         runs=[TrainingRunState(name=run.name, title=run.title) for run in TRAINING],
         tried=len(trials),
-        trials=[TrialState(**trial) for trial in told],
+        trials=[TrialState(**trial) for trial in reported],
         present=TrialState(**trials[0]) if trials else None,
         best=TrialState(**best) if best else None,
         best_setting=setting,

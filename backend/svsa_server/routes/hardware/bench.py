@@ -57,7 +57,7 @@ def restart_loop(hosted: NamedSession) -> SessionState:
 
 
 @router.post("/endurance")
-async def foretell_heat(
+async def predict_heat(
     hosted: NamedSession,
     load: Annotated[Load, Body(examples=[{"kind": "paper"}])],
 ) -> EnduranceState | None:

@@ -19,7 +19,7 @@ from svsa_server.schemas.lab.design import (
     Prediction,
     PredictRequest,
     ReasonState,
-    SteadyErrorState,
+    SteadyStateErrorState,
     TorqueDemandState,
 )
 from svsa_server.schemas.lab.gain import Root
@@ -120,8 +120,8 @@ def _build_prediction(
     )
 
 
-def _build_steady(error: SteadyError | None) -> SteadyErrorState | None:
-    return error and SteadyErrorState(
+def _build_steady(error: SteadyError | None) -> SteadyStateErrorState | None:
+    return error and SteadyStateErrorState(
         position_error_rad=error.position,
         stiffness_error_nm_per_rad=error.stiffness,
         deflection_rad=error.deflection,

@@ -145,7 +145,7 @@ def restore_run(runs: Runs, run_id: ChangedRunId) -> RunSummary:
     return RunSummary(**_tell(runs, runs.restore(run_id)))
 
 
-def _tell_fault(fault: Fault) -> RunFault:
+def _build_run_fault(fault: Fault) -> RunFault:
     return RunFault(
         code=fault.code, label=label_fault(fault.code), message=fault.message, time_s=fault.time_s
     )
@@ -165,7 +165,7 @@ def _list_values(runs: Catalogue, *entries: RunEntry) -> list[dict[str, Any]]:
             "title": entry.title,
             "revision": entry.revision,
             "branch_of": name_origin(entry.branch_of, origins),
-            "fault": entry.fault and _tell_fault(entry.fault),
+            "fault": entry.fault and _build_run_fault(entry.fault),
         }
         for entry in entries
     ]

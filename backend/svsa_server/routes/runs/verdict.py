@@ -12,7 +12,7 @@ from svsa.runs.records.reader import Record
 from svsa.runs.records.verdict import FROM_THE_FIRST, Tolerance, build_band, judge, read_channel
 from svsa_server.routes.depends import REFUSALS, RunId, Runs
 from svsa_server.routing import build_router
-from svsa_server.schemas.runs.verdict import Band, RunVerdict, VerdictRequest, tell_channel
+from svsa_server.schemas.runs.verdict import Band, RunVerdict, VerdictRequest, build_channel_state
 
 router = build_router(tags=["runs"], responses=REFUSALS)
 EXAMPLE = {
@@ -41,7 +41,7 @@ def judge_run(
         other_ticks=verdict.other_ticks,
         begin_s=(run.first_tick + begins[0]) * run.header.period_s,
         other_begin_s=(other.first_tick + begins[1]) * other.header.period_s,
-        channels=[tell_channel(one) for one in verdict.channels],
+        channels=[build_channel_state(one) for one in verdict.channels],
         bands={
             name: _draw_bands(other, name, tolerance, begins[1], verdict.ticks, points)
             for name, tolerance in (wanted.tolerances if points else {}).items()

@@ -69,24 +69,24 @@ async def begin_login(request: Request) -> Response:
 @router.post("/launch")
 async def launch(request: Request) -> Response:
     """Somebody comes, as a token of the platform says: into the class, to an exercise."""
-    tool, door, base = _find_tool(request), find_class(request), str(request.base_url)
+    tool, authentication, base = _find_tool(request), find_class(request), str(request.base_url)
     given, cookie = await _read_form(request), request.cookies.get(COOKIE, "")
     course = request.app.state.course
     try:
-        platform, told = await tool.take(given, cookie)
-        place = tool.find_landing(told, base, course)
-        person = await tool.admit(door, platform, told)
+        platform, reported = await tool.take(given, cookie)
+        place = tool.find_landing(reported, base, course)
+        person = await tool.admit(authentication, platform, reported)
     except LaunchError as error:
         return _refuse(request, error)
     from svsa_server.lti.tool import find_exercise
 
-    await asyncio.to_thread(tool.learn, platform, told, person, find_exercise(place))
+    await asyncio.to_thread(tool.learn, platform, reported, person, find_exercise(place))
     request.app.state.audit.write(
         action="lti launch", person=person.id, name=person.name, role=person.role.word,
         platform=platform.issuer, place=place, problem=None,
     )  # fmt: skip
     response = RedirectResponse(f"{base}{place}", 303)
-    set_cookie(request, response, door.keys.sign(person))
+    set_cookie(request, response, authentication.keys.sign(person))
     response.delete_cookie(COOKIE, path=f"{request.scope.get('root_path', '')}/lti")
     return response
 

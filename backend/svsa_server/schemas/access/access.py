@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, BaseModel, Field
 
 from svsa.inputs.checked import Checked, quantity
-from svsa_server.access.authentication import DoorKind
+from svsa_server.access.authentication import AuthenticationKind
 from svsa_server.access.roles import RoleName
 from svsa_server.leases.names import LONGEST_NAME, READABLE, check_printable
 
@@ -59,7 +59,7 @@ class TokenState(BaseModel):
 class AccessState(BaseModel):
     """How one comes into this lab, and as whom this request has come."""
 
-    door: DoorKind = Field(
+    authentication: AuthenticationKind = Field(
         description="open: everybody on this machine; secret: with the shared secret;"
         " class: with a name and the class code"
     )

@@ -13,7 +13,7 @@ class ScenarioRequest(BaseModel):
 
     law: InstalledLaw
     scenario: Annotated[
-        str, Field(max_length=60, description="Name of the run, such as rig_4a or draw_12")
+        str, Field(max_length=60, description="Name of the run, such as rig_4a or trial_12")
     ]
 
 

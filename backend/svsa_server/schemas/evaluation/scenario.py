@@ -64,7 +64,7 @@ class LawTraceState(LawOutcomeState):
 class ScenarioTraceState(BaseModel):
     """A scenario over time, thinned out with every peak kept."""
 
-    told: list[str] = Field(description="Its loads and settings, each in words")
+    description: list[str] = Field(description="Its loads and settings, each in words")
     time_s: list[float]
     torque_nm: list[tuple[float, float, float]] = Field(
         description="Of the loads on link, motor 1 and motor 2; a hung mass is none of them"

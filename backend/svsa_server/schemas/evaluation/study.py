@@ -15,7 +15,7 @@ from svsa.evaluation.studies.store import StoredStudy, count_done, is_kept, open
 from svsa.evaluation.studies.study import MAX_LAWS, MAX_RUNS, Study
 from svsa.evaluation.studies.success import Success
 from svsa.evaluation.studies.summary import SUCCEEDED
-from svsa.evaluation.studies.tables import tell_metric
+from svsa.evaluation.studies.tables import format_metric
 from svsa.evaluation.studies.work import build_schema
 from svsa.inputs.checked import Checked, Whole, quantity
 from svsa_server.access.owned import Owned
@@ -40,9 +40,9 @@ class StudyRequest(Checked):
         "", "A study as TOML, in place of a source", default=None
     )
     name: StudyName | None = quantity("", "What it is kept by; else its source", default=None)
-    runs: Whole | None = quantity("", "How many draws", ge=1, le=MAX_RUNS, default=None)
+    runs: Whole | None = quantity("", "How many samples", ge=1, le=MAX_RUNS, default=None)
     laws: Annotated[tuple[InstalledLaw, ...], Field(min_length=1, max_length=MAX_LAWS)] | None = (
-        quantity("", "Laws, each on the same draws", default=None)
+        quantity("", "Laws, each on the same samples", default=None)
     )
     metrics: Annotated[tuple[Metric, ...], Field(min_length=1)] | None = quantity(
         "", "What its table keeps of each run", default=None
@@ -114,7 +114,7 @@ class StudyPlan(BaseModel):
     name: str = Field(description="What it is kept by")
     title: str
     laws: list[str]
-    draws: int
+    samples: int
     rows: int = Field(description="Runs: each draw under each law")
     study: dict[str, Any] = Field(description="All of it, as it would stand in its file")
     columns: list[StudyColumn]
@@ -175,7 +175,7 @@ class LawOutcome(BaseModel):
 
 
 class LawPair(BaseModel):
-    """One law less another on the same draws."""
+    """One law less another on the same samples."""
 
     one: str
     other: str
@@ -222,7 +222,7 @@ def describe_plan(name: str, study: Study) -> StudyPlan:
         name=name,
         title=study.title,
         laws=[*study.laws],
-        draws=study.draw_count,
+        samples=study.sample_count,
         rows=study.row_count,
         study=study.model_dump(mode="json"),
         columns=_describe_columns(study),
@@ -255,7 +255,7 @@ def _describe_columns(study: Study) -> list[StudyColumn]:
             role = "outcome"
         one = varied.get(field.name)
         name = named.get(field.name) or SettingName(
-            tell_metric(field.name), METRICS.get(field.name, "")
+            format_metric(field.name), METRICS.get(field.name, "")
         )
         is_log = one is not None and (
             one.kind == "log_uniform" or getattr(one, "spacing", "") == "log"

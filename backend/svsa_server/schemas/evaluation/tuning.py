@@ -51,7 +51,7 @@ class RunCostState(BaseModel):
     cost: float
     position_error_deg: float
     stiffness_error_nm_per_rad: float
-    shake_nm: float
+    torque_change_nm: float
     fault: str | None = Field(description="Why the run ended before its time")
 
 

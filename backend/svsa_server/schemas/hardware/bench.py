@@ -87,7 +87,7 @@ class BenchState(BaseModel):
 
     name: str
     emulated: bool | None = Field(
-        description="An emulated rig stands in for the bench, as the bus says; null before it has"
+        description="An emulator stands in for the bench, as the bus says; null before it has"
         " been listened to: take it for a real one"
     )
     status: BenchStatusName

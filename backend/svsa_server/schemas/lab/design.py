@@ -26,7 +26,7 @@ class ReasonState(BaseModel):
     message: str
 
 
-class SteadyErrorState(BaseModel):
+class SteadyStateErrorState(BaseModel):
     """What the 3 kg (2 N·m on link and motors) leave of the errors, at rest."""
 
     position_error_rad: float
@@ -63,7 +63,7 @@ class Prediction(BaseModel):
     position_roots_rad_per_s: list[Root]
     stiffness_roots_rad_per_s: list[Root]
     law: str = Field(description="Of which law all this is, by its title")
-    steady: SteadyErrorState | None = Field(
+    steady: SteadyStateErrorState | None = Field(
         description="What the law leaves, simulated without counts, noise and friction until"
         " nothing moves; null where it finds no rest"
     )
@@ -71,6 +71,6 @@ class Prediction(BaseModel):
         description="Whether the law takes these gains and adds an estimate to them; then `fl` is"
         " what the gains leave by themselves"
     )
-    fl: SteadyErrorState | None = Field(description="Null where FL finds no rest")
+    fl: SteadyStateErrorState | None = Field(description="Null where FL finds no rest")
     noise: LoopNoiseState | None
     demand: TorqueDemandState | None

@@ -10,7 +10,7 @@ from svsa.control.installed import (
     get_law,
     get_notes,
     has_own_parameters,
-    list_law_inks,
+    list_law_line_styles,
 )
 from svsa.control.law import EstimateSource
 from svsa.control.parameters import LawParameters
@@ -50,7 +50,9 @@ class LawState(BaseModel):
 
     name: str
     title: str
-    ink: int = Field(description="Which look its curves have, from 0, where its colour is free")
+    line_style: int = Field(
+        description="Which look its curves have, from 0, where its colour is free"
+    )
     summary: str
     equation: str = Field(description="KaTeX")
     source: str = Field(description="Number of the paper's equation, a citation, or empty")
@@ -63,17 +65,17 @@ class LawState(BaseModel):
 
 def list_laws() -> list[LawState]:
     """Every law that is installed; one that does not work says why."""
-    return [_describe(name, ink) for name, ink in list_law_inks().items()]
+    return [_describe(name, line_style) for name, line_style in list_law_line_styles().items()]
 
 
-def _describe(name: str, ink: int) -> LawState:
+def _describe(name: str, line_style: int) -> LawState:
     try:
         law, is_own = get_law(name), has_own_parameters(name)
     except LawError as error:
         return LawState(
             name=name,
             title=name,
-            ink=ink,
+            line_style=line_style,
             summary="",
             equation="",
             source="",
@@ -86,7 +88,7 @@ def _describe(name: str, ink: int) -> LawState:
     return LawState(
         name=name,
         title=law.title,
-        ink=ink,
+        line_style=line_style,
         summary=law.summary,
         equation=law.equation,
         source=law.source,

@@ -22,7 +22,9 @@ class StretchState(Period):
         description="Which controller, counted in the order in which they came in the run"
     )
     name: str = Field(description="Its law, and what tells it from others of the same law")
-    ink: int = Field(description="Which look its curves have, from 0; shared by no other on screen")
+    line_style: int = Field(
+        description="Which look its curves have, from 0; shared by no other on screen"
+    )
 
 
 class WindowState(Period):

@@ -86,13 +86,13 @@ class RunVerdict(BaseModel):
     bands: dict[str, dict[str, Band]] = Field(description="By channel and lane")
 
 
-def tell_channel(verdict: ChannelVerdict) -> ChannelJudged:
+def build_channel_state(verdict: ChannelVerdict) -> ChannelJudged:
     """A channel's verdict on the wire."""
     numbers = ("value", "low", "high", "excess")
-    told: dict[str, Any] = asdict(verdict) | {
+    reported: dict[str, Any] = asdict(verdict) | {
         name: _tell(getattr(verdict, name)) for name in numbers
     }
-    return ChannelJudged(**told)
+    return ChannelJudged(**reported)
 
 
 def _tell(value: float) -> float | None:

@@ -76,7 +76,7 @@ class OptionState(BaseModel):
     text: str
 
 
-class HandState(BaseModel):
+class LeaseState(BaseModel):
     """A time at which somebody hangs or takes off a load of a bench by hand."""
 
     time_s: float = Field(description="Of the run")
@@ -88,7 +88,7 @@ class BenchStepState(BaseModel):
 
     criteria: list[str] = Field(description="What is asked of its run")
     by_hand: str = Field(description="What whoever stands at the bench does with its loads")
-    hands: list[HandState] = Field(description="When, in the order of time")
+    hands: list[LeaseState] = Field(description="When, in the order of time")
 
 
 class StepState(BaseModel):
@@ -236,13 +236,13 @@ def _describe_step(exercise: Exercise, step: Step, progress: ExerciseProgress) -
 def _describe_bench(step: Experiment) -> BenchStepState | None:
     if step.bench is None:
         return None
-    hands: list[HandState] = []
+    hands: list[LeaseState] = []
     for load in step.bench_configuration.loads:
         begin_s = load.start_s or 0.0
-        hands.append(HandState(time_s=begin_s, is_on=True))
+        hands.append(LeaseState(time_s=begin_s, is_on=True))
         end_s = begin_s + load.get_duration()
         if end_s < step.duration_s:
-            hands.append(HandState(time_s=end_s, is_on=False))
+            hands.append(LeaseState(time_s=end_s, is_on=False))
     return BenchStepState(
         criteria=[one.title for one in step.list_criteria(is_bench=True)],
         by_hand=step.bench.by_hand,

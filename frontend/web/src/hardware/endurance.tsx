@@ -1,5 +1,5 @@
 import { useEffect, useState } from "preact/hooks";
-import { type Endurance, foretellHeat } from "../core/api/design";
+import { type Endurance, predictHeat } from "../core/api/design";
 import type { Load } from "../core/api/types";
 import { isLive, session } from "../core/state/session";
 import { text } from "../core/text/en";
@@ -24,7 +24,7 @@ export function EnduranceNote({ load }: { load: Load | null }) {
   useEffect(() => {
     if (question === null || load === null) return;
     const ask = () =>
-      foretellHeat(load).then(
+      predictHeat(load).then(
         (answer) => find({ question, answer }),
         () => find(null),
       );

@@ -1,6 +1,6 @@
 import { useCallback } from "preact/hooks";
 import type { LaneRow, SessionState } from "../core/api/types";
-import { inkOf } from "../core/plots/inks";
+import { lineStyleOf } from "../core/plots/linestyles";
 import { type MetricsColumn, MetricsTable } from "../core/plots/metricstable";
 import { isLive, samples } from "../core/state/session";
 import { text } from "../core/text/en";
@@ -19,7 +19,7 @@ function CurrentError({ lane }: { lane: number }) {
   return <span ref={element} />;
 }
 
-const lookOf = ({ stretches }: LaneRow) => inkOf(stretches.at(-1)?.ink ?? 0);
+const lookOf = ({ stretches }: LaneRow) => lineStyleOf(stretches.at(-1)?.line_style ?? 0);
 
 const degrees = (rad: number | undefined) =>
   formatNumber(rad === undefined ? null : toDegrees(rad), 3, 3);

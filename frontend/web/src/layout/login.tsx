@@ -30,7 +30,7 @@ export function Login() {
       setProblem(error instanceof RefusedError ? error.message : text.connection.unreachable);
     }
   };
-  const door = access.value?.door;
+  const door = access.value?.authentication;
   const isJoined = door === "class";
   return (
     <dialog

@@ -13,13 +13,13 @@ function told({ state, title, duration_s: durationS, message }: RunDetails): [st
 }
 
 /** A step's run is told of beside the step, unless something is wrong with its record. */
-const isToldThere = (now: Saved): boolean =>
+const isShownThere = (now: Saved): boolean =>
   isOfLesson(now.run) &&
   (now.stage === "saving" || (now.stage === "saved" && now.details.state === "complete"));
 
 /** After a recording: that it is being saved, and then under which name it is found. */
 export function SavedNote() {
-  const now = saved.value === null || isToldThere(saved.value) ? null : saved.value;
+  const now = saved.value === null || isShownThere(saved.value) ? null : saved.value;
   const [head, rest] =
     now === null
       ? ["", ""]

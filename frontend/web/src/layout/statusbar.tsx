@@ -131,7 +131,7 @@ function Connection() {
 }
 
 /** Tells the style sheets how high the bar is, for what stands above it. */
-function useToldHeight() {
+function usePublishedHeight() {
   const bar = useRef<HTMLElement>(null);
   useLayoutEffect(() => {
     const { current } = bar;
@@ -148,7 +148,7 @@ function useToldHeight() {
 /** Always at the bottom of the window: where the session is, and the quick stop. */
 export function StatusBar() {
   const state = session.value;
-  const bar = useToldHeight();
+  const bar = usePublishedHeight();
   return (
     <section ref={bar} class="statusbar" aria-label={text.status.heading}>
       <div class="status-now">

@@ -19,13 +19,13 @@ const at = ({ label, start_s: startS }: WindowState): string =>
 export const sinceOf = ({ kind, label, start_s: startS }: WindowState): string =>
   kind === "start" ? measuredText.start : measuredText.since(label, startS.toFixed(2));
 
-const SETTLED_S = 0.5;
+const STEADY_STATE_S = 0.5;
 
 /** Whether a lane is simulated no further: it has had no numbers for half a second. */
 export const hasEnded = (
   lane: Pick<LaneRow, "in_window">,
   { time_s: now, window }: Pick<SessionState, "time_s" | "window">,
-): boolean => lane.in_window === null && now - window.start_s > SETTLED_S;
+): boolean => lane.in_window === null && now - window.start_s > STEADY_STATE_S;
 
 /** Whose number is clearly the smallest; none beside a bench, whose lanes are not of one plant. */
 export const bestIn = (
@@ -42,7 +42,7 @@ export interface Recovery {
 
 /** The steady error is beyond what counts as recovered: a load that grows slowly comes to that. */
 const isLarge = (of: Metrics): boolean =>
-  (of.settled_position_error_rad ?? 0) > RECOVERY_SHARE * of.peak_position_error_rad;
+  (of.steady_state_position_error_rad ?? 0) > RECOVERY_SHARE * of.peak_position_error_rad;
 
 /** metrics: of the load's window; null for a lane that was not there when the load came. */
 export function recoveryOf(metrics: Metrics | null, load: WindowState | null): Recovery {

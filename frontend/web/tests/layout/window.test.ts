@@ -54,7 +54,7 @@ it("says it in the words of the replay and the overlay", async () => {
   }
   expect(page.compare.rms).toBe(replay.numbers.rms);
   expect(page.readout.peak).toBe(replay.numbers.peak);
-  expect(page.overlay.settledError).toBe(replay.numbers.settled);
+  expect(page.overlay.steadyStateError).toBe(replay.numbers.settled);
   expect(page.overlay.recovery).toBe(page.compare.recovery);
 });
 
@@ -74,12 +74,16 @@ describe("the recovery from a load", () => {
 
   it("is none while the error is large again, as under a load that grows", () => {
     const load = window("load", "Series torque");
-    const grown = { ...metrics(0), peak_position_error_rad: 0.53, settled_position_error_rad: 0.5 };
+    const grown = {
+      ...metrics(0),
+      peak_position_error_rad: 0.53,
+      steady_state_position_error_rad: 0.5,
+    };
     const recovery = recoveryOf(grown, load);
     expect(recovery.seconds).toBeNull();
     expect(recovery.words).toBe("not now");
     expect(recovery.hint).toContain("0.00 s from series torque at 5.00 s on");
-    const small = { ...grown, settled_position_error_rad: 0.01 };
+    const small = { ...grown, steady_state_position_error_rad: 0.01 };
     expect(recoveryOf(small, load).words).toBe("0.00");
   });
 

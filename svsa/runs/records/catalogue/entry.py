@@ -10,6 +10,7 @@ import msgspec
 
 from svsa.errors import Fault, ParameterError, SvsaError, Violation
 from svsa.runs.metrics import Metrics
+from svsa.runs.records.former_words import METRICS, translate_fields
 from svsa.runs.records.header import BranchPoint, PlantKind
 from svsa.runs.records.measured_window import MeasuredWindow
 from svsa.runs.records.settings import RunSettings, name_figure
@@ -25,7 +26,7 @@ SORTS = (
     "realism",
     "plant",
     "peak_position_error_rad",
-    "settled_position_error_rad",
+    "steady_state_position_error_rad",
     "rms_position_error_rad",
     "duration_s",
     "bytes",
@@ -194,7 +195,9 @@ def read_entry(text: str) -> RunEntry:
     written["settings"] = _read(RunSettings, written.get("settings"))
     written["window"] = _read(MeasuredWindow, written.get("window"))
     written["fault"] = _read(Fault, written.get("fault"))
-    written["metrics"] = _read(tuple[Metrics, ...], written["metrics"])
+    if written["metrics"] is not None:
+        present = [translate_fields(one, METRICS) for one in written["metrics"]]
+        written["metrics"] = _read(tuple[Metrics, ...], present)
     if written["window"] is None:
         written["metrics"] = None
     if branch := written.get("branch_of"):

@@ -165,7 +165,7 @@ class Catalogue:
             if entry.deleted is not None:
                 return {}
             _move(self._runs / run_id, self._trash / run_id)
-            return {"deleted": _tell_time()}
+            return {"deleted": _format_time()}
 
         return self._database.revise(run_id, throw_away)
 
@@ -235,5 +235,5 @@ def _move(source: Path, target: Path) -> None:
         raise RecordError(f"Run {source.name} cannot be moved: {error}.") from None
 
 
-def _tell_time() -> str:
+def _format_time() -> str:
     return datetime.now(UTC).isoformat(timespec="seconds")

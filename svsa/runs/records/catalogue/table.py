@@ -1,8 +1,8 @@
 """The tables of the catalogue: columns to sort and filter by, and the entries as they are.
 
-Format 4. A catalogue of format 1, which knew no settings, of 2, whose metrics were of whole
-records, or of 3, which knew no owners, is written anew from its entries; `describe_older` then
-reads the rest from the folders.
+Format 5. A catalogue of format 1 has no settings, one of 2 has metrics of whole records, one of 3
+has no owners, and one of 4 has a former word for the steady-state error. It is written again from
+its entries; `describe_older` then reads the rest from the folders.
 """
 
 import re
@@ -20,8 +20,8 @@ from svsa.runs.records.catalogue.entry import (
     write_entry,
 )
 
-VERSION = 4
-_REBUILT = (0, 1, 2, 3)
+VERSION = 5
+_REBUILT = (0, 1, 2, 3, 4)
 _COLUMNS = {
     "id": "TEXT PRIMARY KEY",
     "created": "TEXT NOT NULL",
@@ -39,7 +39,7 @@ _COLUMNS = {
     "realism": "TEXT",
     "plant": "TEXT NOT NULL",
     "peak_position_error_rad": "REAL",
-    "settled_position_error_rad": "REAL",
+    "steady_state_position_error_rad": "REAL",
     "rms_position_error_rad": "REAL",
     "branch_run": "TEXT",
     "owner": "TEXT NOT NULL",
@@ -154,7 +154,7 @@ def _build_row(entry: RunEntry, trash: int) -> dict[str, Any]:
         "realism": _order(settings.realism) if settings else None,
         "plant": entry.plant,
         "peak_position_error_rad": first.peak_position_error_rad if first else None,
-        "settled_position_error_rad": first.settled_position_error_rad if first else None,
+        "steady_state_position_error_rad": first.steady_state_position_error_rad if first else None,
         "rms_position_error_rad": first.rms_position_error_rad if first else None,
         "branch_run": entry.branch_of.run_id if entry.branch_of else None,
         "owner": entry.owner,

@@ -25,8 +25,8 @@ class ExportKind(NamedTuple):
 
 def _write_parquet(record: Record, stream: IO[bytes]) -> None:
     batches = record.iterate_batches()
-    told = record.fault, record.start, record.events
-    write_parquet(stream, record.header, record.commands, batches, *told)
+    reported = record.fault, record.start, record.events
+    write_parquet(stream, record.header, record.commands, batches, *reported)
 
 
 EXPORT_KINDS: dict[str, ExportKind] = {

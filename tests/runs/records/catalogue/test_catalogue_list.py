@@ -32,9 +32,16 @@ PRAGMA user_version = 1;
 FORMAT_2 = """
 UPDATE entries SET entry = json_remove(
     json_set(entry, '$.metrics[0].peak_position_error_rad', 9.0),
-    '$.window', '$.fault', '$.metrics[0].settled_position_error_rad'
+    '$.window', '$.fault', '$.metrics[0].steady_state_position_error_rad'
 );
 PRAGMA user_version = 2;
+"""
+
+FORMAT_4 = """
+UPDATE entries SET entry = replace(
+    entry, 'steady_state_position_error_rad', 'settled_position_error_rad'
+);
+PRAGMA user_version = 4;
 """
 
 
@@ -222,6 +229,15 @@ def test_metrics_that_an_older_version_took_of_whole_runs_are_measured_anew(
     assert again.get("run-3").metrics is None, "a number without its window is not shown"
     again.describe_older()
     assert again.get("run-3") == before
+
+
+def test_the_former_name_of_a_metric_is_read(varied: Catalogue) -> None:
+    before = varied.get("run-3")
+    assert before.metrics is not None
+    with sqlite3.connect(varied.folder / "catalogue.sqlite") as connection:
+        connection.executescript(FORMAT_4)
+    connection.close()
+    assert Catalogue(varied.folder).get("run-3") == before
 
 
 def test_a_run_that_cannot_be_read_stays_while_the_others_are_filled_in(varied: Catalogue) -> None:

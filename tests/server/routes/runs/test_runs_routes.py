@@ -155,15 +155,15 @@ def test_a_branch_tells_its_origin_and_the_moment_in_its_replay(
     catalogue.register(header)
     branch = catalogue.finish("run-9")
     try:
-        told = client.get("runs/run-9").raise_for_status().json()["branch_of"]
-        assert told == {
+        reported = client.get("runs/run-9").raise_for_status().json()["branch_of"]
+        assert reported == {
             "run_id": "run-1",
             "tick": FIRST_TICK + 250,
             "title": "Run 1",
             "time_s": 0.25,
         }
         listed = client.get("runs", params={"search": branch.title}).json()["runs"]
-        assert listed[0]["branch_of"] == told
+        assert listed[0]["branch_of"] == reported
         client.patch("runs/run-1", json={"name": "Renamed"}).raise_for_status()
         assert client.get("runs/run-9").json()["branch_of"]["title"] == "Renamed"
     finally:

@@ -19,10 +19,10 @@ def test_a_run_is_judged_against_another_with_the_band_to_draw(client: httpx.Cli
     """Of all runs of this lab the same samples, of which one stands out of its neighbours."""
     wanted = {"other": "run-1", "rest": None, "points": 500}
     wanted["tolerances"] = {"position_rad": {"absolute": 0.5, "time_s": 0.01}}
-    told = client.post("runs/run-0/verdict", json=wanted).raise_for_status().json()
-    assert (told["held"], told["ticks"]) == (True, TICKS)
-    assert [one["lane"] for one in told["channels"]] == ["ndobc", "fl"]
-    band = told["bands"]["position_rad"]["fl"]
+    reported = client.post("runs/run-0/verdict", json=wanted).raise_for_status().json()
+    assert (reported["held"], reported["ticks"]) == (True, TICKS)
+    assert [one["lane"] for one in reported["channels"]] == ["ndobc", "fl"]
+    band = reported["bands"]["position_rad"]["fl"]
     assert len(band["time_s"]) == len(band["low"]) == len(band["high"]) <= 500
     assert max(band["high"]) == 1e6 + 0.5
     assert None not in band["low"]
@@ -53,16 +53,16 @@ def test_runs_are_judged_from_where_the_windows_of_their_numbers_begin(
         catalogue.register(header)
         catalogue.finish(run_id)
     wanted = {"other": "early", "rest": None, "tolerances": {"position_rad": {}}}
-    told = {
+    reported = {
         align: client.post("runs/late/verdict", json=wanted | {"align": align}).json()
         for align in ("start", "window")
     }
-    first, _ = told["start"]["channels"]
+    first, _ = reported["start"]["channels"]
     period = build_header("x").period_s
     assert first["outside_s"] == pytest.approx(150 * period)
     assert first["outside"] == [[pytest.approx(1200 * period), pytest.approx(1349 * period)]]
-    assert [one["held"] for one in told["window"]["channels"]] == [True, True]
-    assert told["window"]["begin_s"] - told["window"]["other_begin_s"] == pytest.approx(
+    assert [one["held"] for one in reported["window"]["channels"]] == [True, True]
+    assert reported["window"]["begin_s"] - reported["window"]["other_begin_s"] == pytest.approx(
         150 * period
     )
-    assert not told["window"]["held"]  # not as long from there on
+    assert not reported["window"]["held"]  # not as long from there on

@@ -39,7 +39,7 @@ def import_the_grader(clue):
 def import_the_scenarios(clue):
     from svsa.evaluation.ranking import samples
 
-    return repr(samples.build_draw(0)).encode()
+    return repr(samples.build_trial(0)).encode()
 
 
 def patch_the_loop(clue):

@@ -23,7 +23,7 @@ export const predict = (wanted: PredictRequest) =>
   request("post", `${SESSION}/predict`, wanted, LONGEST_WORK_MS) as Promise<Prediction>;
 
 /** On a bench: the motor that heat holds back under this load, and when; null where neither is. */
-export const foretellHeat = (load: Load) =>
+export const predictHeat = (load: Load) =>
   request("post", `${SESSION}/bench/endurance`, load, LONGEST_WORK_MS) as Promise<Endurance | null>;
 
 export const askResponse = (wanted: DesignRequest) =>

@@ -10,7 +10,7 @@ export const isGoing = (job: Pick<Job, "status"> | null): boolean =>
   job?.status === "waiting" || job?.status === "running";
 
 /** How it stands in a few words: nothing more of what is simply done. */
-export function tellJob(job: Job | null): string[] {
+export function describeJob(job: Job | null): string[] {
   if (job === null) return [];
   const told = isGoing(job) || job.status !== "done" ? [words.status[job.status]] : [];
   if (job.problem) told.push(job.problem);
@@ -36,7 +36,7 @@ export function JobProgress({ job, done, total, label, onCancel, children }: Job
   const isUnderWay = isGoing(job);
   return (
     <div class="desk-progress">
-      <span role="status">{[done, ...tellJob(job)].join(" · ")}</span>
+      <span role="status">{[done, ...describeJob(job)].join(" · ")}</span>
       {isUnderWay && <progress value={job?.done ?? 0} max={total} aria-label={label} />}
       {isUnderWay ? (
         <button type="button" class="button" title={words.cancelHint} onClick={onCancel}>

@@ -1,4 +1,4 @@
-/** The server's channels as plots show them: unit, scale, ink, and which belong together. */
+/** The server's channels as plots show them: unit, scale, line style, and which belong together. */
 import type { SessionState, StreamedName } from "../api/types";
 import type { DerivedName } from "../stream/ring";
 import { text } from "../text/en";

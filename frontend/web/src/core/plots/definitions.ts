@@ -5,7 +5,7 @@ import type { SampleRing } from "../stream/ring";
 export type PlotColour = "reference" | "blue" | "orange" | "green" | "vermilion" | "purple";
 
 /** How a curve is drawn. */
-export interface Ink {
+export interface LineStyle {
   colour: PlotColour;
   dash: readonly number[];
   width: number;
@@ -14,7 +14,7 @@ export interface Ink {
 /** Small signs along a curve that tell channels apart where colour and dash tell the lanes. */
 export type PlotSign = "none" | "circle" | "square" | "triangle";
 
-export interface Trace extends Ink {
+export interface Trace extends LineStyle {
   key: string;
   channel: string;
   /** 1, 2, … */

@@ -86,7 +86,7 @@ function askWhereDue(): void {
   requestAnimationFrame(tick);
 }
 
-function noticeNews(now: number): boolean {
+function noticeNewSamples(now: number): boolean {
   if (!isNew() || (!isStale && now - versionAt < FASTEST_MS - 2)) return false;
   isStale = false;
   drawnCount = received.peek();
@@ -112,7 +112,7 @@ function tick(now: number): void {
   isAsked = false;
   frameMs += NEWEST * (Math.min(LONGEST_FRAME_MS, now - frameAt) - frameMs);
   frameAt = now;
-  if (noticeNews(now)) for (const follow of followers) follow();
+  if (noticeNewSamples(now)) for (const follow of followers) follow();
   drawWaiting();
   askWhereDue();
 }

@@ -1,7 +1,7 @@
 import type { ComponentChildren } from "preact";
 import { useState } from "preact/hooks";
 import { plotsText } from "../text/plots";
-import type { Ink, PlotSign } from "./definitions";
+import type { LineStyle, PlotSign } from "./definitions";
 
 const SIGN_PATHS: Readonly<Record<PlotSign, string>> = {
   none: "",
@@ -11,7 +11,7 @@ const SIGN_PATHS: Readonly<Record<PlotSign, string>> = {
 };
 
 /** A piece of a curve, as it is drawn. */
-export function Swatch({ look, sign = "none" }: { look: Ink; sign?: PlotSign | undefined }) {
+export function Swatch({ look, sign = "none" }: { look: LineStyle; sign?: PlotSign | undefined }) {
   return (
     <svg class={`swatch ink-${look.colour}`} viewBox="0 0 22 6" aria-hidden="true">
       <path
@@ -24,7 +24,7 @@ export function Swatch({ look, sign = "none" }: { look: Ink; sign?: PlotSign | u
   );
 }
 
-export interface LegendEntry extends Ink {
+export interface LegendEntry extends LineStyle {
   key: string;
   label: string;
   sign?: PlotSign;

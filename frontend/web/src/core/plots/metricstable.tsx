@@ -1,6 +1,6 @@
 import type { ComponentChildren } from "preact";
 import { plotsText } from "../text/plots";
-import type { Ink } from "./definitions";
+import type { LineStyle } from "./definitions";
 import { Swatch } from "./legend";
 
 const { compare: words } = plotsText;
@@ -8,7 +8,7 @@ const { compare: words } = plotsText;
 /** Who was measured. */
 export interface MeasuredRow {
   key: string;
-  look: Ink;
+  look: LineStyle;
   name: string;
 }
 

@@ -3,13 +3,13 @@ import { effect, type ReadonlySignal, signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import uPlot from "uplot";
 import { niceRange, plainAxis, valueAxis } from "./axes";
-import type { Ink } from "./definitions";
+import type { LineStyle } from "./definitions";
 import { palette } from "./palette";
 import type { Span } from "./spans";
 
 const SMALLEST_DRAG_PX = 4;
 
-export interface StaticCurve extends Ink {
+export interface StaticCurve extends LineStyle {
   key: string;
   values: uPlot.AlignedData[1];
   /** Drawn and hidden together with the curve of this key. */

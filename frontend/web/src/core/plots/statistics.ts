@@ -70,7 +70,7 @@ export interface StepMetrics {
 
 /** As the server has it: within 2 % of the peak so far for half a second; it stays what it was. */
 export const RECOVERY_SHARE = 0.02;
-const SETTLED_S = 0.5;
+const STEADY_STATE_S = 0.5;
 
 /**
  * The error from a time on up to before another, of the samples held; null where none is held of
@@ -99,7 +99,7 @@ export function measureStep(
     squares += size * size;
     count++;
     if (size > RECOVERY_SHARE * peak) lastOutside = ring.timeAt(Math.min(index + 1, end - 1));
-    if (recoveryS === null && ring.timeAt(index) - lastOutside >= SETTLED_S) {
+    if (recoveryS === null && ring.timeAt(index) - lastOutside >= STEADY_STATE_S) {
       recoveryS = lastOutside - fromS;
     }
   }

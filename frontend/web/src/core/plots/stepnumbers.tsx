@@ -4,8 +4,8 @@ import { cast, controllerAt } from "../state/lanes";
 import { session } from "../state/session";
 import { text } from "../text/en";
 import { formatNumber, toDegrees } from "../units";
-import { inkOf } from "./inks";
 import { Swatch } from "./legend";
+import { lineStyleOf } from "./linestyles";
 import { shownCast, shownRing } from "./span";
 import { findStep } from "./stepmetrics";
 
@@ -72,10 +72,10 @@ export function StepNumbers({ event, nextS }: StepNumbersProps) {
             </tr>
           </thead>
           <tbody>
-            {rows.map(({ name, ink, lane, metrics }) => (
+            {rows.map(({ name, lineStyle, lane, metrics }) => (
               <tr key={lane}>
                 <th scope="row">
-                  <Swatch look={inkOf(ink)} />
+                  <Swatch look={lineStyleOf(lineStyle)} />
                   {name}
                 </th>
                 <td>{degrees(metrics?.peak ?? Number.NaN)}</td>

@@ -10,7 +10,7 @@ import type { Span } from "./spans";
 
 const PAN_SHARE = 0.1;
 const ZOOM = 1.25;
-const TOLD_MS = 1000;
+const SHOWN_MS = 1000;
 
 const KEYS: Readonly<Record<string, () => void>> = {
   ArrowLeft: () => pan(-PAN_SHARE),
@@ -76,7 +76,7 @@ export function useTicks(spanOf: () => Span, onDrawn: () => void = () => undefin
 /** The axis of time below all plots: it has the numbers, and the keys that move and zoom. */
 export function TimeAxis() {
   const axis = useRef<HTMLDivElement>(null);
-  const toldAt = useRef(0);
+  const writtenAt = useRef(0);
   const tell = () => {
     const { from, to } = shownSpan();
     const value = text.plots.spanValue(from.toFixed(2), to.toFixed(2));
@@ -85,10 +85,10 @@ export function TimeAxis() {
     const { newestTime } = shownRing();
     const end = newestTime > to ? newestTime : to;
     axis.current?.setAttribute("aria-valuemax", end.toFixed(2));
-    toldAt.current = performance.now();
+    writtenAt.current = performance.now();
   };
   const canvas = useTicks(shownSpan, () => {
-    if (isHeld.peek() || performance.now() - toldAt.current > TOLD_MS) tell();
+    if (isHeld.peek() || performance.now() - writtenAt.current > SHOWN_MS) tell();
   });
   return (
     <div

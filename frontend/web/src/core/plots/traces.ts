@@ -2,18 +2,18 @@
 import type { Cast, Stretch } from "../state/lanes";
 import { text } from "../text/en";
 import { CHANNELS, type ChannelName } from "./channels";
-import type { Ink, PlotContent, PlotSign, Trace, TraceGroup } from "./definitions";
-import { DASHED, DOTTED, inkOf, shareColours } from "./inks";
+import type { LineStyle, PlotContent, PlotSign, Trace, TraceGroup } from "./definitions";
+import { DASHED, DOTTED, lineStyleOf, shareColours } from "./linestyles";
 
 const SIGNS: readonly PlotSign[] = ["none", "circle", "square", "triangle"];
 const WIDTHS = [3, 2, 1.25] as const;
 
-const REFERENCE: Ink = { colour: "reference", dash: DOTTED, width: 1.5 };
+const REFERENCE: LineStyle = { colour: "reference", dash: DOTTED, width: 1.5 };
 
 const label = (channel: ChannelName): string => text.channelLabels[channel];
 
 /** A channel of a lane for as long as there are samples of it. */
-function trace(channel: ChannelName, lane: number, ink: Ink, name: string): Trace {
+function trace(channel: ChannelName, lane: number, lineStyle: LineStyle, name: string): Trace {
   return {
     key: `${channel}.${lane}`,
     channel,
@@ -23,7 +23,7 @@ function trace(channel: ChannelName, lane: number, ink: Ink, name: string): Trac
     sign: "none",
     from: Number.NEGATIVE_INFINITY,
     to: Number.POSITIVE_INFINITY,
-    ...ink,
+    ...lineStyle,
   };
 }
 
@@ -44,14 +44,14 @@ function pieces(
   channel: ChannelName,
   cast: Cast,
   ownerOf: (stretch: Placed) => string,
-  look: (stretch: Placed) => { ink: Ink; label: string },
+  look: (stretch: Placed) => { lineStyle: LineStyle; label: string },
 ): Trace[] {
   const owners = new Set<string>();
   return listStretches(cast).map((stretch) => {
     const { lane, from, to } = stretch;
-    const { ink, label: name } = look(stretch);
+    const { lineStyle, label: name } = look(stretch);
     const owner = ownerOf(stretch);
-    const piece: Trace = { ...trace(channel, lane, ink, name), from, to, key: owner };
+    const piece: Trace = { ...trace(channel, lane, lineStyle, name), from, to, key: owner };
     if (!owners.has(owner)) {
       owners.add(owner);
       return piece;
@@ -100,7 +100,7 @@ const withMirror = (one: Trace): Trace[] =>
   CHANNELS[one.channel as ChannelName].limitOf === undefined ? [one] : [one, mirror(one)];
 
 /**
- * One lane: the ink of who controls it where there is one channel, a colour a channel where there are
+ * One lane: the line style of who controls it where there is one channel, a colour a channel where there are
  * several; truths and limits beside what they belong to.
  */
 function contentAlone({ references, leaders }: Sorted, cast: Cast): PlotContent {
@@ -116,7 +116,7 @@ function contentAlone({ references, leaders }: Sorted, cast: Cast): PlotContent 
           cast,
           (one) => keyOf(channel, one),
           (one) => ({
-            ink: inkOf(one.ink),
+            lineStyle: lineStyleOf(one.lineStyle),
             label: isOneController ? label(channel) : one.name,
           }),
         )
@@ -124,15 +124,15 @@ function contentAlone({ references, leaders }: Sorted, cast: Cast): PlotContent 
           channel,
           cast,
           () => channel,
-          () => ({ ink: { ...look, width }, label: label(channel) }),
+          () => ({ lineStyle: { ...look, width }, label: label(channel) }),
         );
     const [leader] = own;
     const beside = companions.map((name): Trace => {
       const isTruth = CHANNELS[name].truthOf !== undefined;
-      const ink: Ink = isTruth
+      const lineStyle: LineStyle = isTruth
         ? { colour: leader?.colour ?? look.colour, dash: DASHED, width: 1.5 }
         : { colour: "reference", dash: DOTTED, width: 1.5 };
-      const one = trace(name, 1, ink, label(name));
+      const one = trace(name, 1, lineStyle, label(name));
       return isTruth && leader ? { ...one, follows: leader.key } : one;
     });
     return { key: channel, label: label(channel), traces: [...own, ...beside.flatMap(withMirror)] };
@@ -141,7 +141,7 @@ function contentAlone({ references, leaders }: Sorted, cast: Cast): PlotContent 
   return { groups, common };
 }
 
-/** Several lanes: the ink of who controls each, a sign a channel where there are several. */
+/** Several lanes: the line style of who controls each, a sign a channel where there are several. */
 function contentSideBySide({ references, leaders }: Sorted, cast: Cast): PlotContent {
   const groups = leaders.map(({ channel, companions }, index): TraceGroup => {
     const sign = SIGNS[index % SIGNS.length] as PlotSign;
@@ -149,7 +149,7 @@ function contentSideBySide({ references, leaders }: Sorted, cast: Cast): PlotCon
       channel,
       cast,
       (one) => keyOf(channel, one),
-      (one) => ({ ink: inkOf(one.ink), label: one.name }),
+      (one) => ({ lineStyle: lineStyleOf(one.lineStyle), label: one.name }),
     ).map((one): Trace => ({ ...one, sign }));
     const beside = companions.flatMap((name): Trace[] => {
       if (CHANNELS[name].truthOf !== undefined) {
@@ -162,7 +162,10 @@ function contentSideBySide({ references, leaders }: Sorted, cast: Cast): PlotCon
         name,
         cast,
         (one) => keyOf(name, one),
-        (one) => ({ ink: { ...inkOf(one.ink), dash: DOTTED, width: 1.25 }, label: label(name) }),
+        (one) => ({
+          lineStyle: { ...lineStyleOf(one.lineStyle), dash: DOTTED, width: 1.25 },
+          label: label(name),
+        }),
       );
       return limits.flatMap((limit, at) => {
         const leader = own[at] as Trace;

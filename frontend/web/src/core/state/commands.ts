@@ -11,7 +11,7 @@ import {
 } from "../api/client";
 import type { Lane, Law, SessionState } from "../api/types";
 import { perform } from "./actions";
-import { comparedWith, comparisonsOf, gainsOf, lanesBeside } from "./lanes";
+import { comparedWith, comparisonLanes, comparisonsOf, gainsOf } from "./lanes";
 import { lawOf } from "./laws";
 import { hungWeights, nextWeight } from "./load";
 import { session } from "./session";
@@ -46,7 +46,7 @@ export function addLane(state: SessionState, law: Law): Promise<boolean> {
 }
 
 export function removeLane(state: SessionState, lane: number): Promise<boolean> {
-  const kept = lanesBeside(state).filter((one) => one.lane !== lane);
+  const kept = comparisonLanes(state).filter((one) => one.lane !== lane);
   return perform(CONTROL.compare, () => putLanes(kept.map(({ controller }) => controller)));
 }
 

@@ -12,7 +12,7 @@ export const access = signal<Access | null>(null);
 /** How often somebody has come in here, by a secret, a code or a token. */
 export const comings = signal(0);
 
-export const isClass = computed(() => access.value?.door === "class");
+export const isClass = computed(() => access.value?.authentication === "class");
 export const isInstructor = computed(() => isClass.value && access.value?.role === "instructor");
 export const isObserver = computed(() => isClass.value && access.value?.role === "observer");
 

@@ -9,22 +9,22 @@ export const comparisonsOf = ({ configuration: { comparisons }, bench }: Session
   bench === null ? comparisons : comparisons.slice(1);
 
 /** A controller beside the session's own, on the lane of this number. */
-export interface LaneBeside {
+export interface ComparisonLane {
   lane: number;
   /** The lane's own in the whole run. */
   id: number;
   name: string;
-  ink: number;
+  lineStyle: number;
   controller: Lane;
 }
 
-export function lanesBeside(state: SessionState): LaneBeside[] {
+export function comparisonLanes(state: SessionState): ComparisonLane[] {
   const first = 1 + state.configuration.comparisons.length - comparisonsOf(state).length;
   return comparisonsOf(state).flatMap((controller, index) => {
     const row = state.lanes[first + index];
     const lane = first + index + 1;
-    const ink = row?.stretches.at(-1)?.ink ?? 0;
-    return row ? [{ lane, id: row.id, name: row.name, ink, controller }] : [];
+    const lineStyle = row?.stretches.at(-1)?.line_style ?? 0;
+    return row ? [{ lane, id: row.id, name: row.name, lineStyle, controller }] : [];
   });
 }
 
@@ -43,7 +43,7 @@ export const hasOwnSettings = ({ gains, parameters, observer }: Lane): boolean =
  * session's in exchange, each from where its actuator is. None where no lane has it, or where it
  * is set there otherwise: that is another controller, which stays.
  */
-export function lawsBeside(law: Law, state: SessionState): Law[] {
+export function comparisonLaws(law: Law, state: SessionState): Law[] {
   const { law: before, comparisons } = state.configuration;
   const twins = comparisons.length - comparisonsOf(state).length;
   const other = comparisons.findIndex(
@@ -61,7 +61,7 @@ export interface Stretch {
   /** Which controller. */
   number: number;
   name: string;
-  ink: number;
+  lineStyle: number;
   from: number;
   to: number;
 }
@@ -77,8 +77,8 @@ const castKey = computed(() =>
 /** The same array until a lane changes. */
 export const cast = computed<Cast>(() =>
   (JSON.parse(castKey.value) as LaneRow["stretches"][]).map((stretches) =>
-    stretches.map(({ number, name, ink, start_s: from, end_s: to }) => {
-      return { number, name, ink, from, to: to ?? Number.POSITIVE_INFINITY };
+    stretches.map(({ number, name, line_style: lineStyle, start_s: from, end_s: to }) => {
+      return { number, name, lineStyle, from, to: to ?? Number.POSITIVE_INFINITY };
     }),
   ),
 );
@@ -106,7 +106,7 @@ export function comparedWith(state: SessionState): readonly Lane[] {
   return [{ law: other }];
 }
 
-export const watchBeside = (): (() => void) =>
+export const watchComparisons = (): (() => void) =>
   effect(() => {
     const { value: state } = session;
     if (state !== null && comparisonsOf(state).length > 0) last.value = comparisonsOf(state);

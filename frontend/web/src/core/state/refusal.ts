@@ -6,11 +6,11 @@ import { formatInput } from "../units";
 import { parameterOf } from "./laws";
 
 const words = text.refusal;
-const MAX_TOLD = 3;
+const MAX_SHOWN = 3;
 
 export function explainRefusal({ message, violations }: RefusedError): string {
   if (violations.length === 0) return message;
-  return violations.slice(0, MAX_TOLD).map(explainViolation).join(" ");
+  return violations.slice(0, MAX_SHOWN).map(explainViolation).join(" ");
 }
 
 export function explainViolation(violation: Violation): string {

@@ -1,7 +1,7 @@
 /** A bench, its marks, and the quick stop. */
 export const benchText = {
   mark: {
-    emulated: { name: "EMULATED", title: "Emulated rig", means: "no metal moves" },
+    emulated: { name: "EMULATED", title: "Emulator", means: "no metal moves" },
     real: { name: "REAL BENCH", title: "Real bench", means: "metal moves: keep clear" },
     unknown: {
       name: "BENCH",

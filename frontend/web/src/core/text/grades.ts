@@ -2,7 +2,7 @@
 export const gradesText = {
   grades: {
     title: "Grades",
-    lead: "What was submitted, run again where nobody can peek: runs bit for bit from their records, laws in a process of their own on draws that come from the class's secret and the submission.",
+    lead: "What was submitted, run again where nobody can peek: runs bit for bit from their records, laws in a process of their own on trials that come from the class's secret and the submission.",
     loading: "The grades are on their way …",
     empty: "Nothing was submitted yet",
     emptyHint: "Once somebody hands in an exercise in Learn, it stands here to be graded.",
@@ -22,7 +22,7 @@ export const gradesText = {
     notYet: "It is not graded yet.",
     run: (id: string) => `Run ${id}.`,
     made: (submission: string, seed: string | null, version: string) =>
-      `Submission ${submission}…${seed === null ? "" : `, draws of seed ${seed}`}; SVSA Lab ${version}.`,
+      `Submission ${submission}…${seed === null ? "" : `, trials of seed ${seed}`}; SVSA Lab ${version}.`,
     criteria: "Points by criterion",
     asked: "Asked",
     points: "Points",

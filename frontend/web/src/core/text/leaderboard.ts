@@ -2,7 +2,7 @@
 export const leaderboardText = {
   leaderboard: {
     title: "Leaderboard",
-    lead: "Submit a law as a Python file and get a number that can be trusted: it goes through the ranking's scored runs, on draws that nobody knows.",
+    lead: "Submit a law as a Python file and get a number that can be trusted: it goes through the ranking's scored runs, on trials that nobody knows.",
     season: (began: string, suite: string) => `This season began on ${began}, suite ${suite}.`,
     loading: "The board is on its way …",
     empty: "No law has been submitted in this season yet",
@@ -20,12 +20,12 @@ export const leaderboardText = {
       },
       score: {
         name: "Score",
-        hint: "0.5 robustness + 0.3 draws that held + 0.2 accuracy, from 0 to 1; below it the 95 % interval",
+        hint: "0.5 robustness + 0.3 trials that held + 0.2 accuracy, from 0 to 1; below it the 95 % interval",
       },
       robustness: { name: "Robust", hint: "Mean share of runs that held in the six sweeps" },
-      draws: {
+      trials: {
         name: "Draws",
-        hint: "Share of the season's hidden draws that held: no fault, and at most 1° rms in the last second",
+        hint: "Share of the season's hidden trials that held: no fault, and at most 1° rms in the last second",
       },
       accuracy: {
         name: "Accuracy",
@@ -37,28 +37,28 @@ export const leaderboardText = {
       },
       worst: {
         name: "Worst run",
-        hint: "Of the 13 scenarios that everybody knows: the greatest rms error, or the first that ended early. The hidden draws are not shown",
+        hint: "Of the 13 scenarios that everybody knows: the greatest rms error, or the first that ended early. The hidden trials are not shown",
       },
       entered: { name: "Measured", hint: "When, in your time" },
     },
-    weights: { robustness: "0.5 robustness", draws: "0.3 draws", accuracy: "0.2 accuracy" },
-    intervalKey: "95 % by the draws",
+    weights: { robustness: "0.5 robustness", trials: "0.3 trials", accuracy: "0.2 accuracy" },
+    intervalKey: "95 % by the trials",
     interval: (low: string, high: string) => `${low}–${high}`,
     intervalHint:
-      "The score with the share of draws at the ends of its 95 % interval (Wilson); it says nothing of the other parts",
+      "The score with the share of trials at the ends of its 95 % interval (Wilson); it says nothing of the other parts",
     by: (author: string) => `by ${author}`,
     submittedLaw: "submitted",
     baseline: "baseline",
     baselineHint: "A law of the lab, compiled, as it is by default",
     notMeasured: "not measured in this season yet",
-    drawsHeld: (held: number, of: number) => `${held} of ${of} held`,
+    trialsHeld: (held: number, of: number) => `${held} of ${of} held`,
     measuredWith: (when: string, version: string) => `${when}, with SVSA Lab ${version}`,
     ended: "ended early",
     degrees: (error: string) => `${error}°`,
     rms: (error: string) => `${error}° rms`,
     see: (name: string) => `${name}, worst run in 3D:`,
     seeHint: (name: string) => `${name}: see this run in 3D beside NDOBC`,
-    note: "Two laws had the same draws, so the difference between them is surer than their intervals. µs/tick compares entries of one kind only. Who submits often learns something of a season from the scores.",
+    note: "Two laws had the same trials, so the difference between them is surer than their intervals. µs/tick compares entries of one kind only. Who submits often learns something of a season from the scores.",
     submit: "Submit a law",
     submitHint: (runs: number) =>
       `${runs} runs in a process of its own that has nothing but its task: some minutes. The same text has one entry, which stays.`,
@@ -93,7 +93,7 @@ export const leaderboardText = {
     worstOf: (name: string) => `Worst run of ${name}`,
     standing: (rank: number, score: string) => `rank ${rank}, score ${score}`,
     beside: (law: string, isInstalled: boolean) =>
-      `Worst of the 13 scenarios that everybody knows, beside ${law} on the same; the season's hidden draws are not shown. ${
+      `Worst of the 13 scenarios that everybody knows, beside ${law} on the same; the season's hidden trials are not shown. ${
         isInstalled
           ? "Simulated again for this view."
           : "The law does not run again: its torques were kept when it was measured."

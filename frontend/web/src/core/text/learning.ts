@@ -106,7 +106,7 @@ export const learningText = {
       "A bench has its own plant and effects: this step runs in a simulated session of your own.",
     before: "Before it runs:",
     above: "The bench's buttons are at the top of the page.",
-    handsEmulated: "The emulated rig hangs the load by itself.",
+    handsEmulated: "The emulator hangs the load by itself.",
     hands: (what: string, hands: readonly { time_s: number; is_on: boolean }[]) =>
       `By hand at the bench: ${what}; ${hands
         .map(({ time_s: at, is_on: isOn }) => `${isOn ? "on" : "off"} at ${at} s`)

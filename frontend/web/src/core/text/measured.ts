@@ -8,7 +8,7 @@ export const measuredText = {
   /** From and to in seconds. */
   during: (what: string, from: string, to: string) => `${what}, ${from}–${to} s`,
   controlled: (lanes: readonly string[], what: string) => `${lanes.join(" / ")}: ${what}`,
-  settledHint:
+  steadyStateHint:
     "rms position error over the last 0.5 s of the window: what is left when it has settled",
   loadEnded: "The load ended by itself before, so there is no steady error under it.",
   tooShort: "The window is shorter than 1 s.",

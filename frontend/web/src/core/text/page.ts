@@ -56,7 +56,7 @@ export const pageText = {
       runs: "Recorded: look, compare, replay, export (O)",
       ranking: "Every law in the same scenarios: errors, faults, robustness",
       grades: "What was submitted, run again, and its points by criterion",
-      leaderboard: "Your law among the lab's, on draws that nobody knows",
+      leaderboard: "Your law among the lab's, on trials that nobody knows",
       studies: "Many perturbed runs of every law: how often they succeed, and what decides it",
       falsifier: "Search the load that hurts a law most, and put any law through it",
       tune: "Search a law's parameters on five training runs",

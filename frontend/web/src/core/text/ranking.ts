@@ -23,15 +23,15 @@ export const rankingText = {
     table: "Errors, faults and score, a law a row",
     tableHint:
       "A press on a heading sorts by it, on a law shows it below, on a number opens its run",
-    parts: { robustness: "robustness", draws: "draws", accuracy: "accuracy" },
+    parts: { robustness: "robustness", trials: "trials", accuracy: "accuracy" },
     bars: "Bars of errors are logarithmic within their column, and long is bad; those of the score and of the step are linear, and long is good. Bold is the best of a column. Words in place of a number say how the run ended: at the spring's deflection limit, at the end of the spiral, or with a torque that is no number.",
     provenance: (versions: readonly string[], suite: string) =>
-      `Every law as it is by default, simulated: nothing here was measured on a bench. Measured with SVSA Lab ${versions.join(" and ")}, suite ${suite}, draws of the public seed.`,
+      `Every law as it is by default, simulated: nothing here was measured on a bench. Measured with SVSA Lab ${versions.join(" and ")}, suite ${suite}, trials of the public seed.`,
     legend: "What each column is measured on",
     columns: {
       score: {
         name: "Score",
-        hint: "0.5 robustness (mean of the six sweeps) + 0.3 share of the 100 draws that held + 0.2 accuracy (mean of 1 − tanh(rms / 1°) over the runs below, 0 for a fault)",
+        hint: "0.5 robustness (mean of the six sweeps) + 0.3 share of the 100 trials that held + 0.2 accuracy (mean of 1 − tanh(rms / 1°) over the runs below, 0 for a fault)",
       },
       ideal: {
         name: "Ideal 4A",
@@ -46,11 +46,11 @@ export const rankingText = {
         name: "Recovery",
         hint: "The same: time from the load until the error stays within 2 % of its peak for 0.5 s",
       },
-      unloading: {
-        name: "Unloading",
+      loadRemoval: {
+        name: "Load removal",
         hint: "Rig, σ = 15: the paper's load taken off at 8 s, greatest error 8–10 s",
       },
-      unloadings: {
+      loadRemovals: {
         name: "Faults of 48",
         hint: "Rig: the load taken off at σ 12, 15, 18 and 16 phases of the motion; how many runs ended in a fault. A press shows the first of them",
       },
@@ -61,20 +61,20 @@ export const rankingText = {
       sine: { name: "2 Hz", hint: "Rig: 1.5 N·m at 2 Hz on the link, rms error 8–20 s" },
       mass: { name: "3 kg", hint: "Rig: 3 kg on an arm of 68 mm, rms error 8–20 s" },
       pulses: {
-        name: "Blows",
-        hint: "Rig, σ = 15: four blows of 3 N·m for 0.1 s on the link, rms error 5–11 s",
+        name: "Impulses",
+        hint: "Rig, σ = 15: four impulses of 3 N·m for 0.1 s on the link, rms error 5–11 s",
       },
       noise: {
         name: "5 × noise",
         hint: "Rig with noise of 0.1 mrad on the motors and 1 mrad on the deflection: rms error 8–20 s under the paper's load",
       },
-      draws: {
+      trials: {
         name: "Draws",
-        hint: "100 draws: inertias ±50 % of nominal, σ 16–70, friction, noise, one or two samples of delay, a step, pulse, sine or mass from 3 s on; median of the rms error 3–10 s, a fault counting as worst. A press shows the first draw",
+        hint: "100 trials: inertias ±50 % of nominal, σ 16–70, friction, noise, one or two samples of delay, a step, pulse, sine or mass from 3 s on; median of the rms error 3–10 s, a fault counting as worst. A press shows the first draw",
       },
       fails: {
         name: "Fails of 100",
-        hint: "Of the same draws: how many ended in a fault, or with more than 1° rms in the last second. A press shows the first of them",
+        hint: "Of the same trials: how many ended in a fault, or with more than 1° rms in the last second. A press shows the first of them",
       },
       step: {
         name: "Step",
@@ -87,8 +87,8 @@ export const rankingText = {
     see: (law: string, column: string) => `${law}, ${column}: open this run in the lab`,
     seeLabel: (law: string, column: string, value: string, isBest: boolean) =>
       `${law}, ${column}: ${value}${isBest ? ", best" : ""}; open the run`,
-    scoreOf: (robustness: number, draws: number, accuracy: number) =>
-      `0.5 × robustness ${robustness.toFixed(2)} + 0.3 × draws ${draws.toFixed(2)} + 0.2 × accuracy ${accuracy.toFixed(2)}`,
+    scoreOf: (robustness: number, trials: number, accuracy: number) =>
+      `0.5 × robustness ${robustness.toFixed(2)} + 0.3 × trials ${trials.toFixed(2)} + 0.2 × accuracy ${accuracy.toFixed(2)}`,
     chooseHint: "Show it below; again takes it out",
     chooseSome: "Press laws in the table to lay them over one another.",
     radar: "How much they bear",

@@ -39,10 +39,10 @@ export const stabilityText = {
     frequency: "Hz",
     error: "error, °",
     magnitude: "° per N·m",
-    loadTold: (peak: string, fault: string | null) =>
+    loadSummary: (peak: string, fault: string | null) =>
       `Position error after the 3 kg come: up to ${peak}°${fault ? `; it ends in a fault: ${fault}` : ""}`,
     loadFault: (fault: string) => `It ends in a fault. ${fault}`,
-    bodeTold: (most: string, isUnstable: boolean) =>
+    bodeSummary: (most: string, isUnstable: boolean) =>
       isUnstable
         ? "No frequency response: the loop is unstable"
         : `Error for a sine of 1 N·m on the link, over frequency: up to ${most}°`,
@@ -60,7 +60,7 @@ export const stabilityText = {
       },
     },
     caveat: (told: string, short: string) => `${told}; ${short}`,
-    inks: (name: string, short: string | null) => (short ? `${name} (${short})` : name),
+    lineStyles: (name: string, short: string | null) => (short ? `${name} (${short})` : name),
     tried: "these poles",
     inUse: "in use",
     region: "Comes to rest from",
@@ -73,7 +73,7 @@ export const stabilityText = {
     stop: "Stop",
     looks: { rest: "comes to rest", fault: "fault", astray: "not within 2 s" },
     regionEmpty: "961 starts, simulated one after another.",
-    regionTold: (share: string, stiffness: string) =>
+    regionSummary: (share: string, stiffness: string) =>
       `Map of starts at σ = ${stiffness} N·m/rad: ${share} come to rest`,
     regionFound: (share: string, done: number, all: number, sensing: string, isOutdated: boolean) =>
       `${share} of ${done === all ? `${all} starts` : `the ${done} starts so far (of ${all})`} come to rest, ${sensing}${isOutdated ? "; of other poles than these" : ""}`,

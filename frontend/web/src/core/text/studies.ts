@@ -2,7 +2,7 @@
 export const studiesText = {
   studies: {
     title: "Studies",
-    lead: "One experiment many times, with settings that vary, under several laws on the same draws. Every dot is a run: press one to see it in 3D.",
+    lead: "One experiment many times, with settings that vary, under several laws on the same samples. Every dot is a run: press one to see it in 3D.",
     loading: "The studies are on their way …",
     kept: "Begun here",
     none: "No study was begun here yet: begin one below.",
@@ -17,7 +17,7 @@ export const studiesText = {
     nameHint: "1 to 64 letters, digits, -, _ or .; left out, the study's own name",
     runs: "Draws",
     runsHint:
-      "How many draws, each of which every law runs; left out, as the study says. Of a grid: how often the whole of it",
+      "How many samples, each of which every law runs; left out, as the study says. Of a grid: how often the whole of it",
     laws: "Laws",
     lawsHint: "Left as they are, those of the study",
     metrics: "Metrics",
@@ -27,8 +27,8 @@ export const studiesText = {
     successHint: "What a run must keep besides its domain; left out, as the study says",
     most: "at most",
     check: "Check",
-    checked: (draws: number, rows: number, laws: string) =>
-      `Right: ${draws.toLocaleString("en")} draws, ${rows.toLocaleString("en")} runs under ${laws}.`,
+    checked: (samples: number, rows: number, laws: string) =>
+      `Right: ${samples.toLocaleString("en")} samples, ${rows.toLocaleString("en")} runs under ${laws}.`,
     start: "Begin",
     goOn: "Go on",
     goOnHint: "Run what is not done of it",
@@ -80,7 +80,7 @@ export const studiesText = {
     inBrush: "In the brush",
     faults: "Faults",
     noFaults: "none",
-    refused: (count: number) => `${count} draws were not run: their settings do not go together`,
+    refused: (count: number) => `${count} samples were not run: their settings do not go together`,
     median: (metric: string) => `${metric}: 5, 50, 95 %`,
     fault: "fault",
     interval: (share: string, low: string, high: string) => `${share} % (${low} to ${high})`,
@@ -90,7 +90,7 @@ export const studiesText = {
     only: (one: number, other: number) =>
       `only the first succeeded on ${one}, only the second on ${other}`,
     difference: (metric: string, whole: number) =>
-      `${metric}, of the ${whole} draws on which both are whole`,
+      `${metric}, of the ${whole} samples on which both are whole`,
     sensitivity: "What decides it",
     sensitivityHint:
       "Sobol indices of the success: the share of its variance that each setting has by itself, and with all its interactions",

@@ -24,7 +24,7 @@ export const tuningText = {
       `${law}: ${Math.max(0, tried - 1)} of ${budget} candidates`,
     first: "The first runs compile the law; that takes a few seconds.",
     curve: "Best cost",
-    curveTold: (first: string, best: string, tried: number) =>
+    curveSummary: (first: string, best: string, tried: number) =>
       `Best cost over ${tried} candidates: from ${first} down to ${best}`,
     best: "best so far",
     each: "each candidate",
@@ -40,7 +40,7 @@ export const tuningText = {
     runCost: "cost",
     runError: "error, °",
     runStiffness: "σ error",
-    runShake: "shake",
+    runTorqueChange: "shake",
     runHint: "rms error, rms stiffness error in N·m/rad, rms torque change a tick in N·m",
     mean: "mean",
     fault: "fault",

@@ -38,7 +38,7 @@ export function VerifiedRuns({ grade }: { grade: Grade }) {
     <>
       {(grade.runs ?? []).map((one) => (
         <p key={one.run_id} class="hint criteria-run">
-          {words.run(one.run_id)} {one.told}
+          {words.run(one.run_id)} {one.description}
         </p>
       ))}
     </>

@@ -63,7 +63,7 @@ export interface Finding {
 export const findingOf = (one: Scenario): Finding | null => (one.found as Finding) ?? null;
 
 /** A law, and NDOBC beside it; beside NDOBC what the paper compares it with. */
-export const besideOf = (law: Law): readonly [Law, Law] => [
+export const baselinesOf = (law: Law): readonly [Law, Law] => [
   law,
   law === PAPERS_LAW ? BASELINE : PAPERS_LAW,
 ];
@@ -73,7 +73,7 @@ export const besideOf = (law: Law): readonly [Law, Law] => [
 export const laws = computed((): readonly Law[] => {
   if (chosen.value.laws.length > 0) return chosen.value.laws;
   const hurt = (scenario.value && findingOf(scenario.value)?.law) ?? PAPERS_LAW;
-  return isGoing(search.value) ? [hurt] : besideOf(hurt);
+  return isGoing(search.value) ? [hurt] : baselinesOf(hurt);
 });
 
 const attempt = asking(problem);
@@ -173,7 +173,7 @@ export async function see(law: Law): Promise<void> {
   problem.value = "";
   isBusy.value = `see ${law}`;
   const hurt = findingOf(one)?.law ?? law;
-  const pair = law === hurt ? besideOf(law) : [law, hurt];
+  const pair = law === hurt ? baselinesOf(law) : [law, hurt];
   const made = await attempt(() => seeLaws(one, pair));
   isBusy.value = "";
   if (made !== null) {

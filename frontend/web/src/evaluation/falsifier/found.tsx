@@ -11,9 +11,9 @@ const words = text.falsifier;
 
 /** A link to what is looked at; of a search one that lasts as long as the lab. */
 function Link() {
-  const [told, setTold] = useState("");
+  const [told, setMessage] = useState("");
   const copy = async () => {
-    setTold((await copyText(location.href)) ? words.copied : words.notCopied);
+    setMessage((await copyText(location.href)) ? words.copied : words.notCopied);
   };
   return (
     <>
@@ -56,7 +56,7 @@ function Keep({ offered }: { offered: string }) {
 /** What was found in words: who is hurt how, by what, at which run of the search. */
 function Facts({ scenario }: { scenario: Scenario }) {
   const finding = findingOf(scenario);
-  const told = shown.value?.told ?? [];
+  const told = shown.value?.description ?? [];
   return (
     <>
       {finding && (

@@ -1,13 +1,13 @@
 import type { LawTrace } from "../../core/api/falsifications";
 import type { Law } from "../../core/api/types";
-import type { Ink } from "../../core/plots/definitions";
-import { dotOf } from "../../core/plots/lawinks";
+import type { LineStyle } from "../../core/plots/definitions";
+import { dotOf } from "../../core/plots/lawlinestyles";
 import { titleOf, usableLaws } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { DEGREES_PER_RADIAN, formatNumber } from "../../core/units";
 import { LawBoxes } from "../../core/widgets/desk";
 import { keepLaws } from "../../runs/list/place";
-import { besideOf, findingOf, isBusy, laws, scenario, see } from "./falsifier";
+import { baselinesOf, findingOf, isBusy, laws, scenario, see } from "./falsifier";
 import type { DrawnLaw } from "./picture";
 
 const words = text.falsifier;
@@ -45,11 +45,11 @@ export const rankLaws = (traces: readonly LawTrace[]): LawTrace[] =>
 interface RowProps {
   one: LawTrace;
   /** undefined: it is not drawn. */
-  ink: Ink | undefined;
+  lineStyle: LineStyle | undefined;
   onDraw: (law: Law) => void;
 }
 
-function Row({ one, ink, onDraw }: RowProps) {
+function Row({ one, lineStyle, onDraw }: RowProps) {
   const title = titleOf(one.law);
   return (
     <tr class={one.fault === null ? undefined : "is-ended"}>
@@ -57,17 +57,17 @@ function Row({ one, ink, onDraw }: RowProps) {
         <button
           type="button"
           class="falsifier-law"
-          aria-pressed={ink !== undefined}
+          aria-pressed={lineStyle !== undefined}
           title={words.draw(title)}
           onClick={() => onDraw(one.law)}
         >
-          <i aria-hidden="true" style={dotOf(ink)} />
+          <i aria-hidden="true" style={dotOf(lineStyle)} />
           {title}
         </button>
       </th>
       <td>{endOf(one)}</td>
       <td>{metricOf(one, "peak_position_error_rad", DEGREES_PER_RADIAN)}</td>
-      <td>{metricOf(one, "settled_position_error_rad", DEGREES_PER_RADIAN)}</td>
+      <td>{metricOf(one, "steady_state_position_error_rad", DEGREES_PER_RADIAN)}</td>
       <td>{recoveryOf(one)}</td>
       <td>{metricOf(one, "peak_stiffness_error_nm_per_rad")}</td>
       <td>
@@ -102,7 +102,7 @@ function Choice() {
           {words.all}
         </button>
         {hurt && (
-          <button type="button" class="button" onClick={() => keepLaws(besideOf(hurt))}>
+          <button type="button" class="button" onClick={() => keepLaws(baselinesOf(hurt))}>
             {words.few}
           </button>
         )}
@@ -142,7 +142,7 @@ export function Laws({ traces, drawn, isRunning, onDraw }: LawsProps) {
               <Row
                 key={one.law}
                 one={one}
-                ink={drawn.find(({ law }) => law === one.law)?.ink}
+                lineStyle={drawn.find(({ law }) => law === one.law)?.lineStyle}
                 onDraw={onDraw}
               />
             ))}

@@ -2,8 +2,8 @@ import { useComputed } from "@preact/signals";
 import { useEffect, useMemo, useState } from "preact/hooks";
 import type { Law } from "../../core/api/types";
 import { isGoing } from "../../core/jobs/progress";
-import type { Ink } from "../../core/plots/definitions";
-import { inksOfLaws } from "../../core/plots/lawinks";
+import type { LineStyle } from "../../core/plots/definitions";
+import { lineStylesOfLaws } from "../../core/plots/lawlinestyles";
 import { laws as installedLaws, titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { Desk } from "../../core/widgets/desk";
@@ -92,8 +92,10 @@ function Under() {
   const installed = installedLaws.value;
   const drawn = useMemo(() => {
     const found = names.flatMap((law) => trace?.laws.find((other) => other.law === law) ?? []);
-    const inks = inksOfLaws(found.map(({ law }) => law));
-    return found.map((one, index): DrawnLaw => ({ ...one, ink: inks[index] as Ink }));
+    const lineStyles = lineStylesOfLaws(found.map(({ law }) => law));
+    return found.map(
+      (one, index): DrawnLaw => ({ ...one, lineStyle: lineStyles[index] as LineStyle }),
+    );
   }, [trace, names.join(), installed]);
   if (one === null) return null;
   if (trace === null) return <p class="hint desk-wide">{problem.value === "" && words.running}</p>;

@@ -1,8 +1,8 @@
 import { useMemo } from "preact/hooks";
 import type uPlot from "uplot";
 import type { LawTrace, Scenario, Trace } from "../../core/api/falsifications";
-import type { Ink } from "../../core/plots/definitions";
-import { DASHED, DOTTED, PLAIN } from "../../core/plots/inks";
+import type { LineStyle } from "../../core/plots/definitions";
+import { DASHED, DOTTED, PLAIN } from "../../core/plots/linestyles";
 import { palette } from "../../core/plots/palette";
 import {
   type StaticContent,
@@ -19,7 +19,7 @@ const words = text.falsifier;
 const TIME_AXIS_PX = 26;
 const CROSS_PX = 5;
 const NONE: ReadonlySet<string> = new Set();
-const TORQUE_INKS: readonly Ink[] = (
+const TORQUE_LINE_STYLES: readonly LineStyle[] = (
   [
     ["reference", PLAIN],
     ["orange", DASHED],
@@ -29,7 +29,7 @@ const TORQUE_INKS: readonly Ink[] = (
 const MIN_SPANS = { torque: 0.1, position: 0.01, stiffness: 0.01 } as const;
 /** A law whose errors are in the picture. */
 export interface DrawnLaw extends LawTrace {
-  ink: Ink;
+  lineStyle: LineStyle;
 }
 
 type Chart = keyof typeof MIN_SPANS;
@@ -38,13 +38,13 @@ function curvesOf(chart: Chart, trace: Trace, drawn: readonly DrawnLaw[]): Stati
   if (chart === "torque") {
     return BODIES.map((body, at) => ({
       key: body,
-      ...(TORQUE_INKS[at] as Ink),
+      ...(TORQUE_LINE_STYLES[at] as LineStyle),
       values: trace.torque_nm.map((torques) => torques[at] as number),
     })).filter(({ values }, at) => at === 0 || values.some((value) => value !== 0));
   }
   return drawn.map((one) => ({
     key: one.law,
-    ...one.ink,
+    ...one.lineStyle,
     values:
       chart === "position"
         ? one.position_error_rad.map((value) => value && value * DEGREES_PER_RADIAN)
@@ -63,7 +63,7 @@ function drawCrosses(plot: uPlot, trace: Trace, drawn: readonly DrawnLaw[]): voi
     const x = plot.valToPos(trace.time_s[last] as number, "x", true);
     const y = plot.valToPos(values[last] as number, "y", true);
     context.save();
-    context.strokeStyle = palette.peek()[one.ink.colour];
+    context.strokeStyle = palette.peek()[one.lineStyle.colour];
     context.lineWidth = 2.5 * devicePixelRatio;
     context.setLineDash([]);
     context.beginPath();

@@ -1,9 +1,9 @@
 import type { Row, SweepOutcome } from "../../core/api/ranking";
-import type { Ink } from "../../core/plots/definitions";
-import { dotOf } from "../../core/plots/lawinks";
+import type { LineStyle } from "../../core/plots/definitions";
+import { dotOf } from "../../core/plots/lawlinestyles";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
-import { chosen, inks, rowOf, see } from "./ranking";
+import { chosen, lineStyles, rowOf, see } from "./ranking";
 
 const words = text.ranking;
 const RADIUS = 96;
@@ -79,7 +79,7 @@ function Web({ found }: { found: readonly Row[] }) {
         );
       })}
       {found.map((row) => {
-        const { colour, dash } = inks.value.get(row.law) as Ink;
+        const { colour, dash } = lineStyles.value.get(row.law) as LineStyle;
         const stroke = `var(--plot-${colour})`;
         return (
           <polygon
@@ -104,7 +104,11 @@ function Shares({ found }: { found: readonly Row[] }) {
           <td />
           {found.map((row) => (
             <th key={row.law} scope="col">
-              <i class="ranking-dot" aria-hidden="true" style={dotOf(inks.value.get(row.law))} />
+              <i
+                class="ranking-dot"
+                aria-hidden="true"
+                style={dotOf(lineStyles.value.get(row.law))}
+              />
               {titleOf(row.law)}
             </th>
           ))}

@@ -8,8 +8,8 @@ import {
   seeScenario,
 } from "../../core/api/ranking";
 import type { Law } from "../../core/api/types";
-import type { Ink } from "../../core/plots/definitions";
-import { inksOfLaws } from "../../core/plots/lawinks";
+import type { LineStyle } from "../../core/plots/definitions";
+import { lineStylesOfLaws } from "../../core/plots/lawlinestyles";
 import { explain } from "../../core/state/actions";
 import { sortRows } from "./columns";
 
@@ -36,10 +36,10 @@ export const rows = computed<readonly Row[]>(() => {
 export const rowOf = (law: Law): Row | undefined =>
   results.value?.rows.find((row) => row.law === law);
 
-/** The inks of the laws in the radar. */
-export const inks = computed<ReadonlyMap<Law, Ink>>(() => {
-  const shared = inksOfLaws(chosen.value);
-  return new Map(chosen.value.map((law, index) => [law, shared[index] as Ink]));
+/** The line styles of the laws in the radar. */
+export const lineStyles = computed<ReadonlyMap<Law, LineStyle>>(() => {
+  const shared = lineStylesOfLaws(chosen.value);
+  return new Map(chosen.value.map((law, index) => [law, shared[index] as LineStyle]));
 });
 
 export async function openRanking(): Promise<void> {
@@ -58,8 +58,8 @@ export async function openRanking(): Promise<void> {
 /** Into the radar as the one that is told of; out of it where it already is that. */
 export function choose(law: Law): void {
   const others = chosen.peek().filter((one) => one !== law);
-  const isTold = chosen.peek().at(-1) === law;
-  chosen.value = isTold ? others : [...others, law].slice(-MAX_CHOSEN);
+  const isDescribed = chosen.peek().at(-1) === law;
+  chosen.value = isDescribed ? others : [...others, law].slice(-MAX_CHOSEN);
 }
 
 let round = 0;

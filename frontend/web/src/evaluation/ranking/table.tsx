@@ -1,10 +1,10 @@
 import type { Row } from "../../core/api/ranking";
-import { dotOf } from "../../core/plots/lawinks";
+import { dotOf } from "../../core/plots/lawlinestyles";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { ScoreBar, SortHead } from "../../core/widgets/tables";
 import { barOf, COLUMNS, type Column, formatValue, isBest } from "./columns";
-import { choose, confirmed, inks, measuring, opening, rows, see, sort } from "./ranking";
+import { choose, confirmed, lineStyles, measuring, opening, rows, see, sort } from "./ranking";
 
 const words = text.ranking;
 
@@ -27,9 +27,9 @@ function Head({ column }: { column: Column }) {
 }
 
 function Score({ row }: { row: Row }) {
-  const { robustness, draws, accuracy } = row.parts;
+  const { robustness, trials, accuracy } = row.parts;
   return (
-    <td class="ranking-score" title={words.scoreOf(robustness, draws, accuracy)}>
+    <td class="ranking-score" title={words.scoreOf(robustness, trials, accuracy)}>
       <span class="ranking-value">{row.score.toFixed(2)}</span>
       <ScoreBar parts={row.parts} />
     </td>
@@ -111,17 +111,17 @@ export function RankingTable() {
         </thead>
         <tbody>
           {rows.value.map((row) => {
-            const ink = inks.value.get(row.law);
+            const lineStyle = lineStyles.value.get(row.law);
             return (
               <tr key={row.law}>
                 <th scope="row" class="ranking-law">
                   <button
                     type="button"
-                    aria-pressed={ink !== undefined}
+                    aria-pressed={lineStyle !== undefined}
                     title={words.chooseHint}
                     onClick={() => choose(row.law)}
                   >
-                    <i class="ranking-dot" aria-hidden="true" style={dotOf(ink)} />
+                    <i class="ranking-dot" aria-hidden="true" style={dotOf(lineStyle)} />
                     {titleOf(row.law)}
                   </button>
                   <Confirmed row={row} />

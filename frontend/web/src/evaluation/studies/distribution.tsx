@@ -7,7 +7,7 @@ import { text } from "../../core/text/en";
 import { nameColumn } from "./names";
 import { distribute, extentOf, scaleOf, spreadsByRatios } from "./points";
 import { ColumnChoice } from "./scatter";
-import { columnOf, ended, lawInks, marks, marksOf, show } from "./shown";
+import { columnOf, ended, lawLineStyles, marks, marksOf, show } from "./shown";
 import { axes, brush, rows, study } from "./studies";
 import { LawName } from "./tables";
 
@@ -35,7 +35,7 @@ export function Distribution() {
   const metric = axes.value.metric ?? "";
   const values = show(rows.value, metric);
   const laws = study.value?.laws ?? [];
-  const inks = lawInks.value;
+  const lineStyles = lawLineStyles.value;
   const held = marks.value;
   const { at, isLog } = placeLimits(values);
   const curves = laws.map((_, place) => distribute(values, ended.value, marksOf(place), at));
@@ -71,7 +71,7 @@ export function Distribution() {
         ],
         series: [
           {},
-          ...inks.map(({ colour, dash }) => ({
+          ...lineStyles.map(({ colour, dash }) => ({
             stroke: () => palette.peek()[colour],
             dash: [...dash],
             width: 2,
@@ -92,7 +92,7 @@ export function Distribution() {
       made.destroy();
       plot.current = null;
     };
-  }, [rows.value, metric, held, inks]);
+  }, [rows.value, metric, held, lineStyles]);
   useSignalEffect(() => {
     void palette.value;
     plot.current?.redraw(false);

@@ -5,7 +5,7 @@ export interface Dots {
   x: Float64Array;
   y: Float64Array;
   /** Of each dot the place of its colour among `colours`. */
-  inks: Float64Array;
+  lineStyles: Float64Array;
   good: Float64Array;
   ended: Uint8Array;
   marks: Uint8Array;
@@ -51,7 +51,7 @@ export function paintDots(plot: uPlot, dots: Dots): void {
   const rise = plot.scales.y?.distr === 3 ? Math.log : (value: number) => value;
   const [x0, x1] = [scale(plot.scales.x?.min ?? 0), scale(plot.scales.x?.max ?? 1)];
   const [y0, y1] = [rise(plot.scales.y?.min ?? 0), rise(plot.scales.y?.max ?? 1)];
-  const inks = dots.colours.map((colour) => packColour(colour, 235));
+  const colours = dots.colours.map((one) => packColour(one, 235));
   const faint = packColour(dots.faint, 70);
   for (const round of [0, 1]) {
     for (let index = 0; index < dots.x.length; index++) {
@@ -60,10 +60,10 @@ export function paintDots(plot: uPlot, dots: Dots): void {
       const down = Math.round((1 - (rise(dots.y[index] as number) - y0) / (y1 - y0)) * lines);
       if (!(across >= 0 && across < columns && down >= 0 && down < lines)) continue;
       const look = dots.ended[index] ? looks.cross : dots.good[index] ? looks.disc : looks.ring;
-      const ink = round === 0 ? faint : (inks[dots.inks[index] as number] ?? faint);
+      const colour = round === 0 ? faint : (colours[dots.lineStyles[index] as number] ?? faint);
       for (const [dx, dy] of look) {
         const [x, y] = [across + dx, down + dy];
-        if (x >= 0 && x < columns && y >= 0 && y < lines) pixels[y * columns + x] = ink;
+        if (x >= 0 && x < columns && y >= 0 && y < lines) pixels[y * columns + x] = colour;
       }
     }
   }

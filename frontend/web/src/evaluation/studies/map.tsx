@@ -1,6 +1,6 @@
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
-import { countCells, cutBins, estimateShare, tellPercents } from "./points";
+import { countCells, cutBins, estimateShare, formatPercents } from "./points";
 import { valuesOf } from "./rows";
 import { good, planes, shownMarks } from "./shown";
 import { axes, brush, rows, setBrush } from "./studies";
@@ -13,7 +13,7 @@ const HEIGHT = 240;
 export const shadeOf = (share: number): string =>
   `color-mix(in oklab, var(--plot-blue) ${Math.round(100 * share)}%, var(--plot-vermilion))`;
 
-const tellSpan = (label: string, edges: readonly number[]): string =>
+const formatSpan = (label: string, edges: readonly number[]): string =>
   `${label}: ${formatNumber(edges[0], 3)} – ${formatNumber(edges.at(-1), 3)}`;
 
 /** Which share of the brushed runs succeeded, over the first plane. */
@@ -54,14 +54,14 @@ export function SuccessMap() {
                 })
               }
             >
-              <title>{`${held}/${runs}: ${words.interval(...tellPercents(estimate))}`}</title>
+              <title>{`${held}/${runs}: ${words.interval(...formatPercents(estimate))}`}</title>
             </rect>
           );
         })}
       </svg>
       <p class="studies-spans">
-        <span>↑ {tellSpan(up.label, edges[1])}</span>
-        <span>→ {tellSpan(across.label, edges[0])}</span>
+        <span>↑ {formatSpan(up.label, edges[1])}</span>
+        <span>→ {formatSpan(across.label, edges[0])}</span>
       </p>
       <p class="studies-scale" aria-hidden="true">
         {words.mapScale(0)} <i /> {words.mapScale(100)}

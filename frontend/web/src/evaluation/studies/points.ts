@@ -205,7 +205,7 @@ type Shares = readonly [number, number, number];
  * Shares in percent, to so many digits that what differs, from each other or from none and all,
  * reads so: of a million runs that all succeeded the lower end is no 100 %.
  */
-export function tellPercents(shares: Shares): [string, string, string] {
+export function formatPercents(shares: Shares): [string, string, string] {
   const exact = (share: number) => Number(share.toFixed(MAX_DECIMALS));
   const ends = [...new Set([0, 1, ...shares.map(exact)])];
   let decimals = DECIMALS;

@@ -9,7 +9,7 @@ import { axesOf, type Plane } from "./look";
 import { nameColumn } from "./names";
 import { findNearest } from "./points";
 import { valuesOf } from "./rows";
-import { brushedCount, ended, good, lawInks, lawPlaces, planes, shownMarks } from "./shown";
+import { brushedCount, ended, good, lawLineStyles, lawPlaces, planes, shownMarks } from "./shown";
 import {
   axes,
   brush,
@@ -61,7 +61,7 @@ export function ColumnChoice({
   );
 }
 
-/** The ends of the brush as numbers: what the mouse draws, by keyboard. */
+/** The ends of the brush as numbers: what the mouse samples, by keyboard. */
 function Ends({ plane }: { plane: Plane }) {
   const held = brush.value?.plane === plane ? brush.value : null;
   const { across, up } = planes[plane].value;
@@ -127,11 +127,11 @@ export function Scatter({ plane }: { plane: Plane }) {
       x: across,
       y: up,
       paint: (plot) => {
-        const colours = lawInks.peek().map(({ colour }) => palette.peek()[colour]);
+        const colours = lawLineStyles.peek().map(({ colour }) => palette.peek()[colour]);
         paintDots(plot, {
           x,
           y,
-          inks: lawPlaces.peek(),
+          lineStyles: lawPlaces.peek(),
           good: good.peek(),
           ended: ended.peek(),
           marks: shownMarks.peek(),
@@ -162,7 +162,7 @@ export function Scatter({ plane }: { plane: Plane }) {
     };
   }, [x, y, plane]);
   useSignalEffect(() => {
-    void [palette.value, lawInks.value, shownMarks.value, picked.value, good.value];
+    void [palette.value, lawLineStyles.value, shownMarks.value, picked.value, good.value];
     frame.current?.show(brush.value?.plane === plane ? brush.value : null);
   });
   const missing = x.reduce(

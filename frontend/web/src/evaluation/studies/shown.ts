@@ -1,7 +1,7 @@
 /** The rows as they are drawn: shown units, who is in the brush, which colour, which law. */
 import { computed } from "@preact/signals";
 import type { StudyColumn } from "../../core/api/studies";
-import { inksOfLaws } from "../../core/plots/lawinks";
+import { lineStylesOfLaws } from "../../core/plots/lawlinestyles";
 import type { Axis } from "./frame";
 import { factorOf, type Plane } from "./look";
 import { nameColumn } from "./names";
@@ -61,8 +61,8 @@ export const lawPlaces = computed(() => {
   return (column?.values ?? new Float64Array(0)).map((code) => places[code] ?? 0);
 });
 
-/** The inks of the laws of the study, in its order. */
-export const lawInks = computed(() => inksOfLaws(study.value?.laws ?? []));
+/** The line styles of the laws of the study, in its order. */
+export const lawLineStyles = computed(() => lineStylesOfLaws(study.value?.laws ?? []));
 
 /** Of the brushed runs those of the law that is shown: laws on one draw lie at one place. */
 export const shownMarks = computed(() => {

@@ -157,7 +157,7 @@ export function Start() {
       </div>
       {plan && (
         <p class="hint" role="status">
-          {words.checked(plan.draws, plan.rows, plan.laws.map(titleOf).join(", "))}
+          {words.checked(plan.samples, plan.rows, plan.laws.map(titleOf).join(", "))}
         </p>
       )}
     </form>

@@ -1,21 +1,21 @@
 import type { Estimate } from "../../core/api/studies";
 import { isGoing } from "../../core/jobs/progress";
-import { dotOf } from "../../core/plots/lawinks";
+import { dotOf } from "../../core/plots/lawlinestyles";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
 import { factorOf, shownUnit } from "./look";
 import { nameColumn } from "./names";
-import { estimateShare, tellPercents } from "./points";
-import { columnOf, ended, good, lawInks, marksOf } from "./shown";
+import { estimateShare, formatPercents } from "./points";
+import { columnOf, ended, good, lawLineStyles, marksOf } from "./shown";
 import { axes, brush, indices, study, summary } from "./studies";
 
 const words = text.studies;
 const percent = (value: number | null): string =>
   formatNumber(value === null ? null : 100 * value, 3, 1);
 
-const tellShare = ({ value, low, high }: Estimate): string =>
-  value === null ? "–" : words.interval(...tellPercents([value, low ?? 0, high ?? 1]));
+const formatShare = ({ value, low, high }: Estimate): string =>
+  value === null ? "–" : words.interval(...formatPercents([value, low ?? 0, high ?? 1]));
 
 /** How a law did in the brush, with Wilson's interval. */
 function inBrush(place: number): string {
@@ -27,13 +27,13 @@ function inBrush(place: number): string {
     if (isGood[index] === 1 && isEnded[index] === 0) held++;
   });
   const [value, low, high] = estimateShare(held, runs);
-  return runs === 0 ? "–" : `${held}/${runs}: ${tellShare({ value, low, high })}`;
+  return runs === 0 ? "–" : `${held}/${runs}: ${formatShare({ value, low, high })}`;
 }
 
 /** A law with the colour of its runs. place: among the laws of the study. */
 export const LawName = ({ law, place }: { law: string; place: number }) => (
   <span class="studies-law">
-    <i style={dotOf(lawInks.value[place])} aria-hidden="true" />
+    <i style={dotOf(lawLineStyles.value[place])} aria-hidden="true" />
     {titleOf(law)}
   </span>
 );
@@ -41,7 +41,7 @@ export const LawName = ({ law, place }: { law: string; place: number }) => (
 export function LawTable() {
   const found = summary.value;
   const metric = columnOf(axes.value.metric ?? "");
-  const tellMetric = (value: number | null | undefined) =>
+  const formatMetric = (value: number | null | undefined) =>
     value === null
       ? words.fault
       : formatNumber((value ?? Number.NaN) * factorOf(metric?.unit ?? ""), 3);
@@ -86,14 +86,14 @@ export function LawTable() {
                     <LawName law={law} place={place} />
                   </th>
                   <td>{one?.runs.toLocaleString("en") ?? "–"}</td>
-                  <td>{one ? tellShare(one.success) : "–"}</td>
+                  <td>{one ? formatShare(one.success) : "–"}</td>
                   {brush.value && <td>{inBrush(place)}</td>}
                   <td>
                     {one ? faults.join(", ") || words.noFaults : "–"}
                     {one && one.refused > 0 && `; ${words.refused(one.refused)}`}
                   </td>
                   {metric && (
-                    <td>{one ? one.quantiles[metric.name]?.map(tellMetric).join(" / ") : "–"}</td>
+                    <td>{one ? one.quantiles[metric.name]?.map(formatMetric).join(" / ") : "–"}</td>
                   )}
                 </tr>
               );

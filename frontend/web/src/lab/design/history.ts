@@ -3,7 +3,7 @@ import { effect, signal } from "@preact/signals";
 import { putGains, putLane, putLanes, putObserver, putParameters } from "../../core/api/client";
 import type { Lane, SessionState } from "../../core/api/types";
 import { perform } from "../../core/state/actions";
-import { comparisonsOf, hasOwnSettings, lanesBeside } from "../../core/state/lanes";
+import { comparisonLanes, comparisonsOf, hasOwnSettings } from "../../core/state/lanes";
 import { session } from "../../core/state/session";
 
 const MAX_STEPS = 50;
@@ -29,7 +29,9 @@ export function designOf(state: SessionState): Design {
     stiffness: gains.stiffness_coefficients,
     observer: observer.bandwidth_rad_per_s,
     parameters,
-    beside: Object.fromEntries(lanesBeside(state).map(({ id, controller }) => [id, controller])),
+    beside: Object.fromEntries(
+      comparisonLanes(state).map(({ id, controller }) => [id, controller]),
+    ),
   };
 }
 
@@ -101,7 +103,7 @@ export function callsBack(design: Design, state: SessionState): (() => Promise<S
     calls.push(() => putParameters({ [law]: design.parameters[law] ?? {} }));
   }
   for (const id of changedLanes(design, now)) {
-    const lane = lanesBeside(state).find((one) => String(one.id) === id)?.lane;
+    const lane = comparisonLanes(state).find((one) => String(one.id) === id)?.lane;
     if (lane !== undefined) calls.push(() => putLane(lane, design.beside[id] as Lane));
   }
   return calls;

@@ -56,7 +56,7 @@ function Picture() {
   const told =
     found === null || part === null
       ? words.regionEmpty
-      : words.regionTold(percent(part), formatNumber(found.stiffness_nm_per_rad, 3, 1));
+      : words.regionSummary(percent(part), formatNumber(found.stiffness_nm_per_rad, 3, 1));
   return (
     <svg class="region-map" viewBox={`0 0 ${WIDTH} ${HEIGHT}`} role="img" aria-label={told}>
       <rect

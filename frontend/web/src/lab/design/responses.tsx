@@ -66,7 +66,7 @@ export function Responses() {
       <div class="response">
         <Curves
           title={words.loadTitle}
-          told={tell(words.loadTold(peak, found.load.fault))}
+          told={tell(words.loadSummary(peak, found.load.fault))}
           x={TIME}
           y={errorAxis(errors.map(({ points }) => points))}
           curves={errors}
@@ -77,7 +77,7 @@ export function Responses() {
       <Curves
         title={words.bodeTitle}
         told={tell(
-          words.bodeTold(
+          words.bodeSummary(
             formatNumber(Math.max(0, ...magnitudeOf(found).map(([, value]) => value)), 3, 2),
             found.disturbance === null,
           ),
@@ -93,7 +93,7 @@ export function Responses() {
         <span class="is-tried">{isChanged.value ? words.tried : words.inUse}</span>
         {isChanged.value && (
           <span class="is-present">
-            {words.inks(words.inUse, (now && caveatOf(now)?.short) ?? null)}
+            {words.lineStyles(words.inUse, (now && caveatOf(now)?.short) ?? null)}
           </span>
         )}
       </p>

@@ -1,11 +1,11 @@
 import { useId } from "preact/hooks";
 import type { SessionState } from "../../core/api/types";
 import { addLane, CONTROL, toggleCompare } from "../../core/state/commands";
-import { comparedWith, lanesBeside } from "../../core/state/lanes";
+import { comparedWith, comparisonLanes } from "../../core/state/lanes";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { Problem } from "../../core/widgets/problem";
-import { Beside } from "./beside";
+import { Beside } from "./comparisonlanes";
 import { LawPicker } from "./lawpicker";
 
 const MAX_LANES = 4;
@@ -13,7 +13,7 @@ const words = text.beside;
 
 /** Other controllers beside the session's own: switched on and off, added, set, removed. */
 export function Compare({ state }: { state: SessionState }) {
-  const beside = lanesBeside(state);
+  const beside = comparisonLanes(state);
   const id = useId();
   const isOn = beside.length > 0;
   const isRecording = state.recording !== null;

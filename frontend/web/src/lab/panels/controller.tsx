@@ -1,7 +1,7 @@
 import { putLaw } from "../../core/api/client";
 import type { SessionState } from "../../core/api/types";
 import { perform } from "../../core/state/actions";
-import { lawsBeside } from "../../core/state/lanes";
+import { comparisonLaws } from "../../core/state/lanes";
 import { lawOf, titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { PanelButton } from "../../core/widgets/panel";
@@ -27,7 +27,7 @@ export function Controller({ state }: { state: SessionState }) {
           title={text.laws.choose}
           value={law}
           onChoose={(next) =>
-            perform("controller.law", () => putLaw(next, lawsBeside(next, state)))
+            perform("controller.law", () => putLaw(next, comparisonLaws(next, state)))
           }
         />
       }

@@ -2,7 +2,7 @@ import { putLane } from "../../core/api/client";
 import type { Gains, LawRow, SessionState } from "../../core/api/types";
 import { shownAs } from "../../core/quantities";
 import { perform } from "../../core/state/actions";
-import { gainsOf, hasOwnSettings, type LaneBeside } from "../../core/state/lanes";
+import { type ComparisonLane, gainsOf, hasOwnSettings } from "../../core/state/lanes";
 import { text } from "../../core/text/en";
 import { Problem } from "../../core/widgets/problem";
 import type { SliderRange } from "../../core/widgets/scale";
@@ -17,7 +17,7 @@ const OBSERVER: SliderRange = { min: 2, max: 300, logarithmic: true };
 interface LaneFormProps {
   law: LawRow;
   state: SessionState;
-  beside: LaneBeside;
+  beside: ComparisonLane;
 }
 
 /** One bandwidth for all poles of a polynomial, as c₀ = ωⁿ says it. */

@@ -65,7 +65,7 @@ function LoadRows({ state }: { state: SessionState }) {
   );
 }
 
-/** What 3 kg are in a simulation and on the emulated rig. */
+/** What 3 kg are in a simulation and on the emulator. */
 function FormPicker() {
   return (
     <Choice

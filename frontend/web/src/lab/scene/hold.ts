@@ -12,7 +12,7 @@ export const heldTorque = signal<number | null>(null);
 const MIN_NM = 0.05;
 const CHANGE_NM = 0.02;
 const LOOK_MS = 60;
-const TELL_MS = 200;
+const UPDATE_MS = 200;
 const SILENCE_S = 0.8;
 const MIN_HOLD_S = 0.02;
 const MAX_HOLD_S = 60;
@@ -26,9 +26,9 @@ export function holdOf({ speed, real_time_factor: factor }: Pace): number {
 }
 
 /** Whether a torque is told: it begins a push, it differs, or it is time to be heard of. */
-export function isToTell(torque: number, told: number | null, sinceMs: number): boolean {
+export function isUpdateDue(torque: number, told: number | null, sinceMs: number): boolean {
   if (told === null) return Math.abs(torque) > MIN_NM;
-  return Math.abs(torque - told) > CHANGE_NM || sinceMs >= TELL_MS;
+  return Math.abs(torque - told) > CHANGE_NM || sinceMs >= UPDATE_MS;
 }
 
 const wait = (ms: number) => new Promise((resolve) => setTimeout(resolve, ms));
@@ -41,7 +41,7 @@ let isKept = false;
 export async function keepPush(): Promise<void> {
   if (isKept) return;
   isKept = true;
-  let [id, told, toldAt] = [null as number | null, null as number | null, 0];
+  let [id, told, writtenAt] = [null as number | null, null as number | null, 0];
   const tell = async (torque: number, pace: Pace) => {
     const load: Load = { kind: "push", torque_nm: [torque, 0, 0], hold_s: holdOf(pace) };
     const state = await addLoad(load);
@@ -50,8 +50,8 @@ export async function keepPush(): Promise<void> {
   };
   for (let torque = heldTorque.peek(); torque !== null; torque = heldTorque.peek()) {
     const [now, state] = [torque, session.peek()];
-    if (state && isToTell(now, told, performance.now() - toldAt)) {
-      [told, toldAt] = [now, performance.now()];
+    if (state && isUpdateDue(now, told, performance.now() - writtenAt)) {
+      [told, writtenAt] = [now, performance.now()];
       if (!(await perform("scene.push", () => tell(now, state)))) heldTorque.value = null;
     }
     await wait(LOOK_MS);

@@ -35,7 +35,7 @@ export function CostCurve({ trials, budget }: { trials: readonly Trial[]; budget
     <div>
       <Curves
         title={words.curve}
-        told={words.curveTold(formatNumber(first.cost), formatNumber(last), trials.length - 1)}
+        told={words.curveSummary(formatNumber(first.cost), formatNumber(last), trials.length - 1)}
         x={x}
         y={y}
         curves={[

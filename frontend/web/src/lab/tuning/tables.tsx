@@ -55,7 +55,7 @@ export function RunTable({ tuning, present, best }: FoundProps) {
             <th scope="col">{words.runCost}</th>
             <th scope="col">{words.runError}</th>
             <th scope="col">{words.runStiffness}</th>
-            <th scope="col">{words.runShake}</th>
+            <th scope="col">{words.runTorqueChange}</th>
           </tr>
         </thead>
         <tbody>
@@ -74,7 +74,7 @@ export function RunTable({ tuning, present, best }: FoundProps) {
                 <td class="is-best">{tell(before.cost, after.cost)}</td>
                 <td>{tell(before.position_error_deg, after.position_error_deg)}</td>
                 <td>{tell(before.stiffness_error_nm_per_rad, after.stiffness_error_nm_per_rad)}</td>
-                <td>{tell(before.shake_nm, after.shake_nm)}</td>
+                <td>{tell(before.torque_change_nm, after.torque_change_nm)}</td>
               </tr>
             );
           })}

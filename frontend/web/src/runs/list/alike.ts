@@ -1,7 +1,7 @@
 /** Whether numbers of runs may be held against each other: only of what was asked of all alike. */
 import type { RunDifference } from "../../core/api/types";
+import { CHANGES, CHANGES_OF_CONTROLLER, CONTROLLER, LOADS } from "../../core/text/changes";
 import { text } from "../../core/text/en";
-import { CHANGES, CHANGES_OF_CONTROLLER, CONTROLLER, LOADS } from "../../core/text/told";
 import type { Overlaid } from "./overlaid";
 
 const words = text.overlay.unlike;

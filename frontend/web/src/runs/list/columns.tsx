@@ -4,7 +4,7 @@ import type { RunSummary } from "../../core/api/types";
 import { text } from "../../core/text/en";
 import { formatError, formatNumber, toDegrees } from "../../core/units";
 import { Marked } from "./marked";
-import { describeMeasured, explainSettled, shiftToRecord } from "./measured";
+import { describeMeasured, explainSteadyState, shiftToRecord } from "./measured";
 import { formatDuration, formatMoment, formatMomentShort } from "./words";
 
 const words = text.runs;
@@ -28,7 +28,10 @@ export interface Column {
   hintOf?: (run: RunSummary) => string | undefined;
 }
 
-type Measure = "peak_position_error_rad" | "settled_position_error_rad" | "rms_position_error_rad";
+type Measure =
+  | "peak_position_error_rad"
+  | "steady_state_position_error_rad"
+  | "rms_position_error_rad";
 
 /** Of whom, too, where the laws were not the same throughout. */
 function windowOf(run: RunSummary): string | null {
@@ -54,7 +57,7 @@ function Degrees({ values }: { values: readonly string[] }) {
 }
 
 /** Each with who controlled the lane. */
-export const tellDegrees = (run: RunSummary, measure: Measure): string | undefined =>
+export const describeDegrees = (run: RunSummary, measure: Measure): string | undefined =>
   run.window?.lanes
     .map((name, lane) => `${name} ${degreesOf(run, measure)[lane] ?? formatNumber(null)}`)
     .join(", ");
@@ -74,7 +77,7 @@ const measureOf = (
   isNumber: true,
   show: (run: RunSummary) =>
     run.metrics?.length ? <Degrees values={degreesOf(run, measure)} /> : null,
-  hintOf: (run: RunSummary) => tellDegrees(run, measure),
+  hintOf: (run: RunSummary) => describeDegrees(run, measure),
 });
 
 const setting = (read: (settings: NonNullable<RunSummary["settings"]>) => string) => ({
@@ -142,15 +145,15 @@ export const COLUMNS: readonly Column[] = [
     label: words.peak,
   }),
   {
-    ...measureOf("settled", "settled_position_error_rad", {
+    ...measureOf("settled", "steady_state_position_error_rad", {
       name: words.columns.settled,
-      hint: words.columns.settledHint,
+      hint: words.columns.steadyStateHint,
       label: words.settled,
     }),
     hintOf: (run) =>
       run.window === null
         ? undefined
-        : `${tellDegrees(run, "settled_position_error_rad")}: ${explainSettled(run.window)}`,
+        : `${describeDegrees(run, "steady_state_position_error_rad")}: ${explainSteadyState(run.window)}`,
   },
   measureOf("rms", "rms_position_error_rad", {
     name: words.columns.rms,

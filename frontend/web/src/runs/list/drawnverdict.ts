@@ -60,7 +60,7 @@ export function drawOutside(plot: uPlot, judged: readonly JudgedCurve[]): void {
   const { top, height } = plot.bbox;
   within(plot, (context) => {
     judged.forEach(({ curve, outside }, row) => {
-      context.fillStyle = palette.peek()[curve.ink.colour];
+      context.fillStyle = palette.peek()[curve.lineStyle.colour];
       for (const [from, to] of outside) {
         const left = plot.valToPos(from, "x", true);
         const width = plot.valToPos(to, "x", true) - left;
@@ -84,7 +84,7 @@ export function drawWorst(plot: uPlot, judged: readonly JudgedCurve[]): void {
       context.beginPath();
       context.arc(x, y, DOT_PX * devicePixelRatio, 0, 2 * Math.PI);
       context.fillStyle = palette.peek().surface;
-      context.strokeStyle = palette.peek()[curve.ink.colour];
+      context.strokeStyle = palette.peek()[curve.lineStyle.colour];
       context.lineWidth = 2 * devicePixelRatio;
       context.setLineDash([]);
       context.fill();

@@ -6,9 +6,9 @@ import type { Overlaid } from "./overlaid";
 /** Time 0, and in its colour where the window of a curve's numbers begins otherwise, and ends. */
 export function drawEdges(plot: uPlot, curves: readonly Overlaid[]): void {
   drawEdge(plot, 0, palette.peek().mark);
-  curves.forEach(({ startS, changedS, ink }, index) => {
+  curves.forEach(({ startS, changedS, lineStyle }, index) => {
     if (plot.series[index + 1]?.show !== true) return;
-    const colour = palette.peek()[ink.colour];
+    const colour = palette.peek()[lineStyle.colour];
     if (startS !== 0) drawEdge(plot, startS, colour);
     if (changedS !== null) drawEdge(plot, changedS, colour);
   });

@@ -26,7 +26,7 @@ export function describeMeasured(window: Measured, isNamed = false): string {
 }
 
 /** Why there is no settled error, or what it is. */
-export function explainSettled({ load_ended: hasEnded, start_s: start, end_s: end }: Measured) {
+export function explainSteadyState({ load_ended: hasEnded, start_s: start, end_s: end }: Measured) {
   if (hasEnded) return words.loadEnded;
-  return end - start < 1 ? words.tooShort : words.settledHint;
+  return end - start < 1 ? words.tooShort : words.steadyStateHint;
 }

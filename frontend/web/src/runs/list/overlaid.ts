@@ -8,8 +8,8 @@ import type {
   StreamedName,
   VerdictRequest,
 } from "../../core/api/types";
-import type { Ink } from "../../core/plots/definitions";
-import { inkAt, shareInks } from "../../core/plots/inks";
+import type { LineStyle } from "../../core/plots/definitions";
+import { lineStyleAt, shareLineStyles } from "../../core/plots/linestyles";
 import { text } from "../../core/text/en";
 import { DEGREES_PER_RADIAN } from "../../core/units";
 import { shiftToRecord } from "./measured";
@@ -58,8 +58,8 @@ export interface Overlaid {
   /** The session's time where the axis has its 0, s. */
   zeroS: number;
   /** Of who controlled it in the window, in its run. */
-  ownInk: number | null;
-  ink: Ink;
+  ownLineStyle: number | null;
+  lineStyle: LineStyle;
   /** On the axis, s. */
   time: Float64Array;
   values: Record<OverlayChannel, (number | null)[]>;
@@ -106,7 +106,7 @@ export function overlay(
   run: RunDetails,
   samples: RunSamples,
   alignment: Alignment = "window",
-): Omit<Overlaid, "ink">[] {
+): Omit<Overlaid, "lineStyle">[] {
   const { id, window } = run;
   const first = run.first_tick * run.period_s;
   const begin = window?.start_s ?? first;
@@ -121,7 +121,7 @@ export function overlay(
     lane: run.lane_names[index] ?? lane,
     measuredLane: window?.lanes[index] ?? lane,
     plant: index === 0 ? run.plant : "simulated",
-    ownInk: inkAt(run.stretches[index], begin),
+    ownLineStyle: lineStyleAt(run.stretches[index], begin),
     isAlone: run.lanes.length === 1,
     hasOnset: window?.kind === "load",
     window: window && shiftToRecord(window, run),
@@ -136,13 +136,13 @@ export function overlay(
   }));
 }
 
-/** Every lane of these runs, each in its own ink where no other is drawn in that. */
+/** Every lane of these runs, each in its own line style where no other is drawn in that. */
 export async function readOverlaid(runs: readonly string[]): Promise<Overlaid[]> {
   const read = await Promise.all(
     runs.map((id) => Promise.all([readRun(id), readSamples(id, CHANNELS, POINTS)])),
   );
   const alignment = chooseAlignment(read.map(([run]) => run));
   const lanes = read.flatMap(([run, samples]) => overlay(run, samples, alignment));
-  const inks = shareInks(lanes.map(({ ownInk }) => ownInk));
-  return lanes.map((lane, index) => ({ ...lane, ink: inks[index] as Ink }));
+  const lineStyles = shareLineStyles(lanes.map(({ ownLineStyle }) => ownLineStyle));
+  return lanes.map((lane, index) => ({ ...lane, lineStyle: lineStyles[index] as LineStyle }));
 }

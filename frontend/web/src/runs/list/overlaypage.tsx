@@ -55,7 +55,11 @@ function describeChart(props: Omit<PlotProps, "hidden">): StaticContent {
   const [time, ...values] = uPlot.join(tables);
   return {
     time,
-    curves: curves.map(({ key, ink }, index) => ({ key, ...ink, values: values[index] ?? [] })),
+    curves: curves.map(({ key, lineStyle }, index) => ({
+      key,
+      ...lineStyle,
+      values: values[index] ?? [],
+    })),
     minSpan: MIN_SPANS[channel],
     padding: [8, 14, 0, 0],
     timeAxis: { size: TIME_AXIS_PX, tick: words.timeTick },
@@ -115,7 +119,7 @@ function OverlayCurves({ curves, judged }: Pick<PlotProps, "curves" | "judged">)
         class="overlay-legend"
         entries={curves.map((curve) => ({
           key: curve.key,
-          ...curve.ink,
+          ...curve.lineStyle,
           label: nameCurve(curve),
           remark: <Remark curve={curve} />,
         }))}

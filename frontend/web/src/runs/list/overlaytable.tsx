@@ -31,9 +31,9 @@ export const COLUMNS: readonly Column[] = [
     isBest: "always",
   },
   {
-    name: words.settledError,
+    name: words.steadyStateError,
     unit: words.degrees,
-    read: ({ settled_position_error_rad: rad }) => (rad === null ? null : toDegrees(rad)),
+    read: ({ steady_state_position_error_rad: rad }) => (rad === null ? null : toDegrees(rad)),
     isBest: "always",
   },
   {
@@ -124,7 +124,7 @@ export function OverlayTable({ curves, difference }: OverlayTableProps) {
         corner={words.run}
         rows={curves.map((curve) => ({
           key: curve.key,
-          look: curve.ink,
+          look: curve.lineStyle,
           name: nameCurve(curve),
         }))}
         columns={[window, ...columns]}

@@ -16,13 +16,13 @@ export async function attempt<T>(request: () => Promise<T>): Promise<T | null> {
     return await request();
   } catch (error) {
     if (error instanceof LockedError) phase.value = "locked";
-    runsProblem.value = await tellOutcome(error);
+    runsProblem.value = await describeOutcome(error);
     return null;
   }
 }
 
 /** Of a lost answer what became of the request, as the server says; else why it was refused. */
-async function tellOutcome(error: unknown): Promise<string> {
+async function describeOutcome(error: unknown): Promise<string> {
   if (!(error instanceof UnansweredError) || error.request === null) return explain(error);
   try {
     await learnOutcome(error);

@@ -10,7 +10,7 @@ import { PlaceLink } from "./placelink";
 import { attempt } from "./problem";
 import { ReplayFrame } from "./replayframe";
 import { Tags } from "./tags";
-import { formatMoment, tellLength } from "./words";
+import { formatLength, formatMoment } from "./words";
 
 const words = text.run;
 
@@ -77,7 +77,7 @@ function About({ run, onChanged }: AboutProps) {
           onWrite={(name) => write({ name })}
         />
         <span class="run-when">
-          {formatMoment(run.created)} · <span title={words.lengthHint}>{tellLength(run)}</span>
+          {formatMoment(run.created)} · <span title={words.lengthHint}>{formatLength(run)}</span>
         </span>
         {run.name !== "" && run.settings && <span class="run-when">{run.settings.name}</span>}
         {run.branch_of && <OriginLink origin={run.branch_of} />}

@@ -14,7 +14,7 @@ export const saved = signal<Saved | null>(null);
 const ASK_MS = 400;
 const PATIENCE_MS = 60_000;
 /** So long a run that is saved whole is told of: it stays in the list of runs. */
-const TOLD_MS = 20_000;
+const SHOWN_MS = 20_000;
 
 const wait = (ms: number): Promise<void> => new Promise((done) => setTimeout(done, ms));
 
@@ -31,7 +31,7 @@ export async function followSaved(run: string, patienceMs = PATIENCE_MS): Promis
       if (details.state === "complete") {
         setTimeout(() => {
           if (saved.peek() === told) saved.value = null;
-        }, TOLD_MS);
+        }, SHOWN_MS);
       }
       return;
     }

@@ -11,8 +11,8 @@ const CHANNEL: StreamedName = "position_error_rad";
 const SMALLEST = 1e-4;
 
 export interface Spark {
-  /** One a stretch of a lane, in the ink of who controlled it. */
-  paths: { ink: number; path: string }[];
+  /** One a stretch of a lane, in the line style of who controlled it. */
+  paths: { lineStyle: number; path: string }[];
   /** Height of zero error. */
   zero: number;
   /** Largest error of any lane, rad. */
@@ -57,7 +57,10 @@ export function drawSpark(
       .join("");
   };
   const paths = curves.flatMap((curve, lane) =>
-    (stretches[lane] ?? []).map((stretch) => ({ ink: stretch.ink, path: draw(curve, stretch) })),
+    (stretches[lane] ?? []).map((stretch) => ({
+      lineStyle: stretch.line_style,
+      path: draw(curve, stretch),
+    })),
   );
   return { paths, zero: down(0), peak };
 }

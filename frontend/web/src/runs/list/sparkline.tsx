@@ -1,4 +1,4 @@
-import { inkOf } from "../../core/plots/inks";
+import { lineStyleOf } from "../../core/plots/linestyles";
 import { text } from "../../core/text/en";
 import { formatNumber, toDegrees } from "../../core/units";
 import { type Glance, HEIGHT, WIDTH } from "./spark";
@@ -18,14 +18,14 @@ export function Sparkline({ glance }: { glance: Glance | null }) {
     >
       {glance && <path class="spark-zero" d={`M0 ${glance.zero}H${WIDTH}`} />}
       {glance?.paths
-        .map(({ ink: number, path }, index) => {
-          const ink = inkOf(number);
+        .map(({ lineStyle: number, path }, index) => {
+          const lineStyle = lineStyleOf(number);
           return (
             <path
               key={index}
-              class={`ink-${ink.colour}`}
+              class={`ink-${lineStyle.colour}`}
               d={path}
-              stroke-dasharray={ink.dash.join(" ") || undefined}
+              stroke-dasharray={lineStyle.dash.join(" ") || undefined}
             />
           );
         })

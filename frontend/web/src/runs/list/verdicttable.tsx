@@ -7,7 +7,7 @@ import { type Judged, type JudgedCurve, listJudged } from "./verdict";
 const words = text.verdict;
 
 /** How much of a run was compared, and whether there is more. */
-function tellCompared({ run, verdict }: Judged, curves: readonly Overlaid[]): string {
+function describeCompared({ run, verdict }: Judged, curves: readonly Overlaid[]): string {
   const { ticks, own_ticks: own, other_ticks: other, compared_s: seconds } = verdict;
   const name = curves.find((one) => one.run === run)?.runName ?? run;
   const told = words.compared(name, formatNumber(seconds, 4, 3));
@@ -21,7 +21,7 @@ function Row({ one }: { one: JudgedCurve }) {
     <tr>
       <th scope="row">
         <span class="metrics-name">
-          <Swatch look={one.curve.ink} />
+          <Swatch look={one.curve.lineStyle} />
           {nameCurve(one.curve)}
         </span>
       </th>
@@ -54,7 +54,7 @@ export function VerdictTable({ curves, judged }: VerdictTableProps) {
     <>
       <p class="verdict-told" role="status">
         <strong class={failed === 0 ? "verdict-held" : "verdict-left"}>{told}</strong>{" "}
-        {judged.map((one) => tellCompared(one, curves)).join(" ")} {words.marks}
+        {judged.map((one) => describeCompared(one, curves)).join(" ")} {words.marks}
       </p>
       {/* biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls is reached by keyboard */}
       <section class="overlay-table" tabIndex={0} aria-label={words.table}>

@@ -40,7 +40,7 @@ export function formatDuration(seconds: number): string {
 }
 
 /** How long a record is, and from when on of the session, whose time its files and scripts have. */
-export function tellLength(
+export function formatLength(
   run: Pick<RunDetails, "duration_s" | "first_tick" | "period_s">,
 ): string {
   const length = formatDuration(run.duration_s);

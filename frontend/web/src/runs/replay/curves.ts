@@ -1,7 +1,7 @@
 /** Which channels are drawn where, for the lanes of a run. A new plot is a new entry here. */
 import type { StreamedName } from "../../core/api/types";
 import type { PlotColour } from "../../core/plots/definitions";
-import { inkOf } from "../../core/plots/inks";
+import { lineStyleOf } from "../../core/plots/linestyles";
 import { text } from "../../core/text/replay";
 import { DEGREES_PER_RADIAN } from "../../core/units";
 import type { LaneStretch, Recording } from "./data";
@@ -72,7 +72,7 @@ export function definePlots(recording: Recording): ReplayPlot[] {
     for (const [lane, values] of read(channel, factor).entries()) {
       const stretches = run.stretches[lane] ?? [];
       for (const stretch of stretches) {
-        const { number, name, ink } = stretch;
+        const { number, name, line_style: lineStyle } = stretch;
         const known = curves.get(number);
         const isWhole = stretches.length === 1 && known === undefined;
         const into = known?.values ?? new Float32Array(values.length).fill(Number.NaN);
@@ -80,7 +80,7 @@ export function definePlots(recording: Recording): ReplayPlot[] {
         curves.set(number, {
           key: `${channel}.${number}`,
           label: name,
-          ...inkOf(ink),
+          ...lineStyleOf(lineStyle),
           values: own,
         });
       }

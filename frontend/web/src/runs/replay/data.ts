@@ -31,7 +31,7 @@ export interface Motion {
 export interface LaneStretch {
   number: number;
   name: string;
-  ink: number;
+  line_style: number;
   start_s: number;
   end_s: number;
 }

@@ -1,9 +1,9 @@
 import type { Metrics as LaneMetrics } from "../../core/api/types";
-import { inkAt, inkOf } from "../../core/plots/inks";
+import { lineStyleAt, lineStyleOf } from "../../core/plots/linestyles";
 import { type MetricsColumn, MetricsTable } from "../../core/plots/metricstable";
 import { text } from "../../core/text/replay";
 import { formatNumber, toDegrees } from "../../core/units";
-import { describeMeasured, explainSettled } from "../list/measured";
+import { describeMeasured, explainSteadyState } from "../list/measured";
 import { isPlaying, seek } from "./clock";
 import type { Recording, Run } from "./data";
 
@@ -13,8 +13,8 @@ const formatMetric = (value: number | null) => formatNumber(value, 3, 4);
 const formatError = (rad: number | null) => formatMetric(rad === null ? null : toDegrees(rad));
 
 /** Of who controlled the lane in the window. */
-const inkIn = ({ stretches, window }: Run, lane: number): number =>
-  inkAt(stretches[lane], window.start_s) ?? lane;
+const lineStyleIn = ({ stretches, window }: Run, lane: number): number =>
+  lineStyleAt(stretches[lane], window.start_s) ?? lane;
 
 function Metrics({ run }: { run: Run }) {
   const { window, metrics } = run;
@@ -30,8 +30,8 @@ function Metrics({ run }: { run: Run }) {
     {
       key: "settled",
       title: numbers.settled,
-      hint: explainSettled(window),
-      cell: cell((row) => row.settled_position_error_rad),
+      hint: explainSteadyState(window),
+      cell: cell((row) => row.steady_state_position_error_rad),
     },
     {
       key: "rms stiffness",
@@ -64,7 +64,7 @@ function Metrics({ run }: { run: Run }) {
       ]}
       rows={window.lanes.map((name, index) => ({
         key: `${index}.${name}`,
-        look: inkOf(inkIn(run, index)),
+        look: lineStyleOf(lineStyleIn(run, index)),
         name,
       }))}
       columns={columns}

@@ -1,6 +1,6 @@
 import { effect } from "@preact/signals";
 import { useCallback, useEffect, useRef, useState } from "preact/hooks";
-import { inkOf } from "../../core/plots/inks";
+import { lineStyleOf } from "../../core/plots/linestyles";
 import { theme } from "../../core/state/preferences";
 import { text } from "../../core/text/replay";
 import { PlantMark } from "../../core/widgets/plantmark";
@@ -35,7 +35,7 @@ function followClock(scene: Scene): () => void {
 
 /** The outlines of a lane have the colours of its curves. */
 const coloursOf = ({ stretches }: Run, lane: number) => [
-  ...new Set(stretches[lane]?.map(({ ink }) => inkOf(ink).colour)),
+  ...new Set(stretches[lane]?.map(({ line_style: lineStyle }) => lineStyleOf(lineStyle).colour)),
 ];
 
 export function View({ recording: { run, arrays } }: { recording: Recording }) {

@@ -49,7 +49,7 @@ export const nameKind = (kind: string): string =>
   Object.hasOwn(words.kinds, kind) ? words.kinds[kind as keyof typeof words.kinds] : kind;
 
 /** The time of day here; with its date where that is not `now`'s. */
-export function tellTime(time: string, now: Date): string {
+export function formatTime(time: string, now: Date): string {
   const at = new Date(time);
   const clock = at.toLocaleTimeString("en-GB");
   if (at.toDateString() === now.toDateString()) return clock;
@@ -57,7 +57,7 @@ export function tellTime(time: string, now: Date): string {
 }
 
 /** What came of it: done, refused and with which status, or why it went on by itself. */
-export function tellEnd({ refused, status, why }: AuditLine): string {
+export function describeEnd({ refused, status, why }: AuditLine): string {
   const end = refused ? words.refused(status) : status === null ? "" : words.done;
   return [end, why].filter((part) => part).join(": ");
 }

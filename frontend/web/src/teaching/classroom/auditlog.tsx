@@ -4,11 +4,11 @@ import { text } from "../../core/text/en";
 import {
   askFor,
   countPages,
+  describeEnd,
+  formatTime,
   isReading,
   nameKind,
   problem,
-  tellEnd,
-  tellTime,
   told,
   turnTo,
   wish,
@@ -33,7 +33,7 @@ function Line({ line, now }: { line: AuditLine; now: Date }) {
     <tr class={line.refused ? "is-refused" : undefined}>
       <td class="audit-time">
         <time dateTime={line.time} title={line.time}>
-          {tellTime(line.time, now)}
+          {formatTime(line.time, now)}
         </time>
       </td>
       <th scope="row">{line.name ?? words.stranger}</th>
@@ -43,7 +43,7 @@ function Line({ line, now }: { line: AuditLine; now: Date }) {
       <td class="audit-place">
         <Place line={line} />
       </td>
-      <td class="audit-end">{tellEnd(line)}</td>
+      <td class="audit-end">{describeEnd(line)}</td>
     </tr>
   );
 }

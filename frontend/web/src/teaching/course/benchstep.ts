@@ -34,11 +34,11 @@ export const askedOf = (of: Step, bench: BenchState | null): readonly string[] =
   (bench !== null && of.bench?.criteria) || of.criteria;
 
 export type Hand = NonNullable<Step["bench"]>["hands"][number];
-const STILL_TOLD_S = 2;
+const STILL_SHOWN_S = 2;
 
 /** What is to be done by hand next, or was due a moment ago; null where nothing is left. */
 export const handDue = (of: Step, timeS: number): Hand | null =>
-  of.bench?.hands.find(({ time_s: at }) => timeS < at + STILL_TOLD_S) ?? null;
+  of.bench?.hands.find(({ time_s: at }) => timeS < at + STILL_SHOWN_S) ?? null;
 
 export type Cut = "control" | "stopped";
 

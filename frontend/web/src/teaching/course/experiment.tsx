@@ -26,7 +26,7 @@ import type { Task } from "./task";
 
 const words = text.lesson;
 
-/** When somebody hangs a load or takes it off; an emulated rig does it by itself. */
+/** When somebody hangs a load or takes it off; an emulator does it by itself. */
 function Hands({ of }: { of: Step }) {
   const now = bench.value;
   const state = session.value;

@@ -6,7 +6,7 @@ import { goTo } from "../../runs/list/place";
 import { shownRun } from "./lesson";
 
 const words = text.lesson;
-const BESIDE_S = 0.5;
+const MERGED_S = 0.5;
 
 const wordOf = ({ points, max_points: most }: CriterionResult) =>
   points >= most ? "right" : points > 0 ? "partly" : "wrong";
@@ -17,7 +17,7 @@ function lookThere(run: string, timeS: number): void {
   const shown = shownRun.peek();
   const isShown = shown?.run === run && shown.runNumber === session.peek()?.run_number;
   if (isShown && ring.oldestTime <= timeS && timeS <= ring.newestTime) {
-    showSpan({ from: timeS - BESIDE_S, to: timeS + BESIDE_S });
+    showSpan({ from: timeS - MERGED_S, to: timeS + MERGED_S });
     document.getElementById("plots")?.scrollIntoView({ block: "nearest" });
   } else goTo({ kind: "run", run, timeS });
 }

@@ -29,7 +29,12 @@ export const COLUMNS: readonly Column[] = [
     isNumber: true,
     read: ({ standing }) => standing.parts.robustness,
   },
-  { key: "draws", isDownFirst: true, isNumber: true, read: ({ standing }) => standing.parts.draws },
+  {
+    key: "trials",
+    isDownFirst: true,
+    isNumber: true,
+    read: ({ standing }) => standing.parts.trials,
+  },
   {
     key: "accuracy",
     isDownFirst: true,

@@ -68,8 +68,8 @@ function Row({ entry }: { entry: BoardEntry }) {
       </th>
       <Score {...entry} />
       <td class="is-number">{parts.robustness.toFixed(2)}</td>
-      <td class="is-number" title={words.drawsHeld(standing.draws_held, standing.draws)}>
-        {parts.draws.toFixed(2)}
+      <td class="is-number" title={words.trialsHeld(standing.trials_held, standing.trials)}>
+        {parts.trials.toFixed(2)}
       </td>
       <td class="is-number">{parts.accuracy.toFixed(2)}</td>
       <td class="is-number">{standing.tick_us === null ? "–" : standing.tick_us.toFixed(1)}</td>

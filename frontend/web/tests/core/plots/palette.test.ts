@@ -61,17 +61,18 @@ const NAMES = ["blue", "orange", "green", "vermilion", "purple"];
 const themes = ["light", "dark"].map((theme, place) => {
   const read = (name: string) =>
     [...css.matchAll(new RegExp(`--${name}: (#[0-9a-f]{6})`, "g"))][place]?.[1] ?? "";
-  return { theme, surface: read("surface"), inks: NAMES.map((name) => read(`plot-${name}`)) };
+  return { theme, surface: read("surface"), lineStyles: NAMES.map((name) => read(`plot-${name}`)) };
 });
 
-describe.each(themes)("the inks of curves, $theme", ({ surface, inks }) => {
+describe.each(themes)("the lineStyles of curves, $theme", ({ surface, lineStyles }) => {
   it("stand out from the page", () => {
-    for (const ink of inks) expect(contrast(ink, surface), ink).toBeGreaterThan(3);
+    for (const lineStyle of lineStyles)
+      expect(contrast(lineStyle, surface), lineStyle).toBeGreaterThan(3);
   });
 
   it.each(Object.keys(SIGHTS))("are told apart with %s, for dashes may be the same", (sight) => {
-    for (const [at, one] of inks.entries()) {
-      for (const other of inks.slice(at + 1)) {
+    for (const [at, one] of lineStyles.entries()) {
+      for (const other of lineStyles.slice(at + 1)) {
         expect(difference(SIGHTS[sight] ?? [], one, other), `${one} ${other}`).toBeGreaterThan(14);
       }
     }

@@ -3,7 +3,7 @@ import { describe, expect, it } from "vitest";
 import { placeTicks } from "../../../src/core/plots/axes";
 import { CHANNELS_BY_UNIT } from "../../../src/core/plots/channels";
 import { readPiece, samplesOf } from "../../../src/core/plots/definitions";
-import { shareColours } from "../../../src/core/plots/inks";
+import { shareColours } from "../../../src/core/plots/linestyles";
 import { readSetups } from "../../../src/core/plots/setups";
 import { drawSvg } from "../../../src/core/plots/svg";
 import { composeContent, hasOneValue, tracesOf } from "../../../src/core/plots/traces";
@@ -54,7 +54,7 @@ const stretch = (
   from = 0,
   to = Number.POSITIVE_INFINITY,
 ): Stretch => {
-  return { number, name, ink: number - 1, from, to };
+  return { number, name, lineStyle: number - 1, from, to };
 };
 /** Lanes that nobody changed. */
 const castOf = (...names: string[]): Cast => names.map((name, index) => [stretch(index + 1, name)]);
@@ -67,7 +67,7 @@ describe("the curves of a switch", () => {
   const curves = (cast: Cast) =>
     tracesOf(composeContent(["position_error_rad"], cast), new Set(["position_error_rad"]), 2);
 
-  it("keep name and ink of the law whose samples they are, past and present", () => {
+  it("keep name and lineStyle of the law whose samples they are, past and present", () => {
     const told = curves(swapped).map(({ lane, from, to, label, colour }) => {
       return { lane, from, to, label, colour };
     });
@@ -102,7 +102,7 @@ describe("the curves of a switch", () => {
     }
   });
 
-  it("of a lane alone are in the inks of its laws too, and named by them", () => {
+  it("of a lane alone are in the lineStyles of its laws too, and named by them", () => {
     const alone: Cast = [[stretch(1, "NDOBC", 0, 7), stretch(2, "FL", 7)]];
     const traces = tracesOf(composeContent(["position_error_rad"], alone), new Set(), 1);
     expect(traces.map(({ label, colour }) => [label, colour])).toEqual([
@@ -143,7 +143,7 @@ describe("the curves of a plot", () => {
     expect(motor?.colour).not.toBe(link?.colour);
   });
 
-  it("are an ink a lane for several, of the quantities chosen, told apart by signs", () => {
+  it("are an lineStyle a lane for several, of the quantities chosen, told apart by signs", () => {
     const lanes = ["NDOBC", "FL"];
     const cast = castOf(...lanes);
     const content = composeContent(["torque1_nm", "torque2_nm"], cast);

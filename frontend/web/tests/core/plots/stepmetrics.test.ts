@@ -24,7 +24,7 @@ const event = (tick: number): SessionEvent => ({
 const stretch = (number: number, name: string) => ({
   number,
   name,
-  ink: 0,
+  lineStyle: 0,
   from: 0,
   to: Number.POSITIVE_INFINITY,
 });

@@ -2,7 +2,7 @@ import { beforeEach, expect, it, vi } from "vitest";
 import type { LawRow } from "../../../src/core/api/types";
 
 const law = (name: string, changes: Partial<LawRow> = {}): LawRow => ({
-  ...{ name, title: name.toUpperCase(), ink: 0, summary: "", equation: "u=0", source: "" },
+  ...{ name, title: name.toUpperCase(), line_style: 0, summary: "", equation: "u=0", source: "" },
   ...{ notes: "", estimate: "none", takes_gains: false, parameters: [], problem: null },
   ...changes,
 });

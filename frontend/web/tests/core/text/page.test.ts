@@ -10,7 +10,7 @@ describe("what to try after a fault", () => {
   });
 
   it("is about heat where a motor was held back by it, whatever the fault is called", () => {
-    const warm = { ...values, motor2_heat: 1, motor2_asked_nm: 5, motor2_held_to_nm: 1.27 };
+    const warm = { ...values, motor2_heat: 1, motor2_commanded_nm: 5, motor2_held_to_nm: 1.27 };
     for (const code of ["lever_end", "implausible"]) {
       expect(adviceOn(code, warm)).toContain("Let the motor cool");
       expect(adviceOn(code, warm)).not.toContain("stiffer setting");

@@ -10,11 +10,11 @@ import {
 
 const { rankLaws } = await import("../../../src/evaluation/falsifier/laws");
 const { spanOf } = await import("../../../src/evaluation/falsifier/span");
-const { besideOf, kept, laws, scenario, search } = await import(
+const { baselinesOf, kept, laws, scenario, search } = await import(
   "../../../src/evaluation/falsifier/falsifier"
 );
 const { place, readPlace, writePlace } = await import("../../../src/runs/list/place");
-const { tellJob } = await import("../../../src/core/jobs/progress");
+const { describeJob } = await import("../../../src/core/jobs/progress");
 
 const ADVERSARY: Adversary = {
   title: "A pulse and a sine",
@@ -119,7 +119,10 @@ describe("what is looked at", () => {
     for (const [address, more] of [
       ["?falsifier=all", {}],
       ["?falsifier=3f2a", { search: "3f2a" }],
-      ["?falsifier=all&scenario=blow&laws=ndobc,fl", { scenario: "blow", laws: ["ndobc", "fl"] }],
+      [
+        "?falsifier=all&scenario=impulse&laws=ndobc,fl",
+        { scenario: "impulse", laws: ["ndobc", "fl"] },
+      ],
     ] as const) {
       expect(readPlace(address)).toEqual(at(more));
       expect(writePlace(readPlace(address), "?studies=all&sx=a")).toBe(address);
@@ -137,14 +140,14 @@ describe("what is looked at", () => {
     expect([scenario.value, laws.value]).toEqual([simple, ["fl", "ndobc"]]);
     place.value = readPlace("?falsifier=3f2a&laws=esp");
     expect(laws.value).toEqual(["esp"]);
-    expect(besideOf("ndobc")).toEqual(["ndobc", "fl"]);
+    expect(baselinesOf("ndobc")).toEqual(["ndobc", "fl"]);
   });
 
   test("a scenario that is kept is found by its name, whatever was searched before", () => {
-    place.value = readPlace("?falsifier=all&scenario=blow");
+    place.value = readPlace("?falsifier=all&scenario=impulse");
     expect(scenario.value).toBeNull();
-    const one = { title: "A blow", found: null };
-    kept.value = [{ name: "blow", title: "A blow", scenario: one }];
+    const one = { title: "An impulse", found: null };
+    kept.value = [{ name: "impulse", title: "An impulse", scenario: one }];
     expect(scenario.value).toEqual(one);
     expect(laws.value).toEqual(["ndobc", "fl"]);
   });
@@ -154,15 +157,18 @@ describe("how a job stands", () => {
   const job = (more: object) =>
     ({ status: "running", rate_per_s: 80, left_s: 75, problem: null, ...more }) as never;
   test("rate and time left while it runs, compiling until there is a rate", () => {
-    expect(tellJob(job({}))).toEqual(["running", "80 runs/s", "1:15 left"]);
-    expect(tellJob(job({ rate_per_s: null, left_s: null }))).toEqual(["running", "compiling …"]);
+    expect(describeJob(job({}))).toEqual(["running", "80 runs/s", "1:15 left"]);
+    expect(describeJob(job({ rate_per_s: null, left_s: null }))).toEqual([
+      "running",
+      "compiling …",
+    ]);
   });
   test("nothing of what is done, and why of what failed", () => {
-    expect(tellJob(job({ status: "done" }))).toEqual([]);
-    expect(tellJob(job({ status: "failed", problem: "It needs none." }))).toEqual([
+    expect(describeJob(job({ status: "done" }))).toEqual([]);
+    expect(describeJob(job({ status: "failed", problem: "It needs none." }))).toEqual([
       "failed",
       "It needs none.",
     ]);
-    expect(tellJob(null)).toEqual([]);
+    expect(describeJob(null)).toEqual([]);
   });
 });

@@ -32,9 +32,9 @@ const rowOf = (law: string, score: number, mass: number | null, step = 2): Row =
     mass_rms_deg: mass,
     largest_link_step_nm: step,
     outcomes: [{ scenario: "mass", fault: mass === null ? "lever_end" : null }],
-    unloading_worst: "unloading_12_10",
-    draws_fails: 1,
-    draws_failed: ["draw_7"],
+    load_removal_worst: "load_removal_12_10",
+    trials_fails: 1,
+    trials_failed: ["trial_7"],
   }) as unknown as Row;
 const columnOf = (key: string): Column => COLUMNS.find((one) => one.key === key) as Column;
 const sweepOf = (values: number[], passed: number[]) => ({ values, passed }) as SweepOutcome;
@@ -61,7 +61,7 @@ describe("the ranking's table", () => {
     const bars = [0.01, 0.1, 1].map((mass) => barOf(columnOf("mass"), mass, rows));
     expect(bars[2]).toBeCloseTo(1);
     expect((bars[2] ?? 0) - (bars[1] ?? 0)).toBeCloseTo((bars[1] ?? 0) - (bars[0] ?? 0));
-    expect(barOf(columnOf("unloadings"), 12, rows)).toBe(0.25);
+    expect(barOf(columnOf("loadRemovals"), 12, rows)).toBe(0.25);
   });
 
   test("every version of the lab that measured a row is told once", () => {
@@ -73,14 +73,14 @@ describe("the ranking's table", () => {
     const [best, other] = [5.4e-5, 7.7e-5].map((value) => formatValue(columnOf("ideal"), value));
     expect([best, other]).toEqual(["0.000054", "0.000077"]);
     expect(formatValue(columnOf("ideal"), 0.00128)).toBe("0.0013");
-    expect(formatValue(columnOf("unloadings"), 16)).toBe("16");
+    expect(formatValue(columnOf("loadRemovals"), 16)).toBe("16");
   });
 
   test("a number opens its run, and a count the first that failed", () => {
     expect(columnOf("mass").scenarioOf(ROWS[1] as Row)).toBe("mass");
     expect(columnOf("mass").faultOf(ROWS[1] as Row)).toBe("lever_end");
-    expect(columnOf("rest").scenarioOf(ROWS[0] as Row)).toBe("unloading_12_10");
-    expect(columnOf("fails").scenarioOf(ROWS[0] as Row)).toBe("draw_7");
+    expect(columnOf("rest").scenarioOf(ROWS[0] as Row)).toBe("load_removal_12_10");
+    expect(columnOf("fails").scenarioOf(ROWS[0] as Row)).toBe("trial_7");
     expect(columnOf("step").scenarioOf(ROWS[0] as Row)).toBe("link_step_2.5");
     expect(columnOf("step").scenarioOf(rowOf("d", 1, 1, 15))).toBe("link_step_15");
     expect(columnOf("score").scenarioOf(ROWS[0] as Row)).toBeNull();

@@ -14,10 +14,10 @@ import {
   estimateShare,
   findBin,
   findNearest,
+  formatPercents,
   markBrushed,
   scaleOf,
   spreadNames,
-  tellPercents,
 } from "../../../src/evaluation/studies/points";
 import { unpackRows } from "../../../src/evaluation/studies/rows";
 
@@ -144,21 +144,21 @@ describe("what is said of many runs", () => {
 
 describe("a share in percent", () => {
   it("reads 100 or 0 where it is, and never where it is not", () => {
-    expect(tellPercents(estimateShare(1_000_000, 1_000_000))).toEqual([
+    expect(formatPercents(estimateShare(1_000_000, 1_000_000))).toEqual([
       "100.0000",
       "99.9996",
       "100.0000",
     ]);
-    expect(tellPercents(estimateShare(0, 1_000_000))).toEqual(["0.0000", "0.0000", "0.0004"]);
-    expect(tellPercents(estimateShare(999_999, 1_000_000))).toEqual([
+    expect(formatPercents(estimateShare(0, 1_000_000))).toEqual(["0.0000", "0.0000", "0.0004"]);
+    expect(formatPercents(estimateShare(999_999, 1_000_000))).toEqual([
       "99.99990",
       "99.99943",
       "99.99998",
     ]);
-    expect(tellPercents(estimateShare(8, 10))).toEqual(["80.0", "49.0", "94.3"]);
+    expect(formatPercents(estimateShare(8, 10))).toEqual(["80.0", "49.0", "94.3"]);
   });
   it("has an interval that is none of one point", () => {
-    const [, low, high] = tellPercents(estimateShare(500_000_000, 1_000_000_000));
+    const [, low, high] = formatPercents(estimateShare(500_000_000, 1_000_000_000));
     expect([low, high]).toEqual(["49.997", "50.003"]);
   });
 });

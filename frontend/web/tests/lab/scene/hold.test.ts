@@ -30,7 +30,7 @@ vi.mock("../../../src/core/state/session", async () => {
   };
 });
 
-const { heldTorque, holdOf, isToTell, keepPush } = await import("../../../src/lab/scene/hold");
+const { heldTorque, holdOf, isUpdateDue, keepPush } = await import("../../../src/lab/scene/hold");
 
 describe("a push", () => {
   beforeEach(() => {
@@ -79,10 +79,10 @@ describe("a push", () => {
   });
 
   it("is told when it begins, differs, or has been silent", () => {
-    expect(isToTell(0.04, null, 0)).toBe(false);
-    expect(isToTell(0.06, null, 0)).toBe(true);
-    expect(isToTell(1, 1.01, 100)).toBe(false);
-    expect(isToTell(1, 1.1, 0)).toBe(true);
-    expect(isToTell(1, 1, 200)).toBe(true);
+    expect(isUpdateDue(0.04, null, 0)).toBe(false);
+    expect(isUpdateDue(0.06, null, 0)).toBe(true);
+    expect(isUpdateDue(1, 1.01, 100)).toBe(false);
+    expect(isUpdateDue(1, 1.1, 0)).toBe(true);
+    expect(isUpdateDue(1, 1, 200)).toBe(true);
   });
 });

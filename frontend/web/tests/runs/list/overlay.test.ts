@@ -68,7 +68,11 @@ describe("the best of an overlay", () => {
     const metrics = [
       {
         ...{ rms_position_error_rad: peak / 4, peak_position_error_rad: peak },
-        ...{ settled_position_error_rad: peak / 9, recovery_time_s: null, peak_torque1_nm: peak },
+        ...{
+          steady_state_position_error_rad: peak / 9,
+          recovery_time_s: null,
+          peak_torque1_nm: peak,
+        },
         rms_stiffness_error_nm_per_rad: peak,
       },
     ];

@@ -1,7 +1,7 @@
 import "../../browserless";
 import { beforeAll, describe, expect, it, vi } from "vitest";
 import type { RunDetails } from "../../../src/core/api/types";
-import { inkOf } from "../../../src/core/plots/inks";
+import { lineStyleOf } from "../../../src/core/plots/linestyles";
 import type {
   readPlace as ReadPlace,
   writePlace as WritePlace,
@@ -21,9 +21,9 @@ const details = (change: object) =>
   }) as unknown as RunDetails;
 let readPlace: typeof ReadPlace;
 let writePlace: typeof WritePlace;
-let tellDegrees: typeof import("../../../src/runs/list/columns").tellDegrees;
+let describeDegrees: typeof import("../../../src/runs/list/columns").describeDegrees;
 let describeMeasured: typeof import("../../../src/runs/list/measured").describeMeasured;
-let explainSettled: typeof import("../../../src/runs/list/measured").explainSettled;
+let explainSteadyState: typeof import("../../../src/runs/list/measured").explainSteadyState;
 let overlay: typeof import("../../../src/runs/list/overlaid").overlay;
 let whyUnlike: typeof import("../../../src/runs/list/alike").whyUnlike;
 let drawSpark: typeof import("../../../src/runs/list/spark").drawSpark;
@@ -36,8 +36,8 @@ let saved: typeof import("../../../src/runs/list/saved").saved;
 
 beforeAll(async () => {
   ({ readPlace, writePlace } = await import("../../../src/runs/list/place"));
-  ({ describeMeasured, explainSettled } = await import("../../../src/runs/list/measured"));
-  ({ tellDegrees } = await import("../../../src/runs/list/columns"));
+  ({ describeMeasured, explainSteadyState } = await import("../../../src/runs/list/measured"));
+  ({ describeDegrees } = await import("../../../src/runs/list/columns"));
   ({ overlay } = await import("../../../src/runs/list/overlaid"));
   ({ whyUnlike } = await import("../../../src/runs/list/alike"));
   ({ drawSpark } = await import("../../../src/runs/list/spark"));
@@ -106,29 +106,29 @@ describe("the window of a run's numbers", () => {
   it("has every lane's number by its law, for where a table has no room for all", () => {
     const metrics = [{ peak_position_error_rad: 0.0628 }, { peak_position_error_rad: 0.195 }];
     const run = details({ window: { ...window, lanes: ["NDOBC", "FL"] }, metrics });
-    expect(tellDegrees(run, "peak_position_error_rad")).toBe("NDOBC 3.6°, FL 11°");
-    expect(tellDegrees(details({ window: null, metrics }), "peak_position_error_rad")).toBe(
+    expect(describeDegrees(run, "peak_position_error_rad")).toBe("NDOBC 3.6°, FL 11°");
+    expect(describeDegrees(details({ window: null, metrics }), "peak_position_error_rad")).toBe(
       undefined,
     );
   });
 
   it("has a steady error where its load stays, and is long enough", () => {
     const measured = { ...window, lanes: [] };
-    expect(explainSettled(measured)).toMatch(/last 0.5 s/);
-    expect(explainSettled({ ...measured, load_ended: true })).toMatch(/ended by itself/);
-    expect(explainSettled({ ...measured, end_s: 2.9 })).toMatch(/shorter than 1 s/);
+    expect(explainSteadyState(measured)).toMatch(/last 0.5 s/);
+    expect(explainSteadyState({ ...measured, load_ended: true })).toMatch(/ended by itself/);
+    expect(explainSteadyState({ ...measured, end_s: 2.9 })).toMatch(/shorter than 1 s/);
   });
 
   it("begins at 0 of an overlay, which says where it ends and whose numbers those are", () => {
     const run = details({ title: "A", lane_names: ["NDOBC → FL"], window, metrics: [{}] });
     const stretches = [
       [
-        { ink: 0, start_s: 0 },
-        { ink: 1, start_s: 1.5 },
+        { line_style: 0, start_s: 0 },
+        { line_style: 1, start_s: 1.5 },
       ],
     ];
     const [curve] = overlay({ ...run, stretches } as never, samples);
-    expect(curve?.ownInk).toBe(1);
+    expect(curve?.ownLineStyle).toBe(1);
     expect(curve).toMatchObject({ hasOnset: true, changedS: 3, measuredLane: "FL" });
     expect([...(curve?.time ?? [])]).toEqual([0, 3]);
     const whole = { ...window, kind: "start", end_tick: 10_000, end_s: 10 };
@@ -143,19 +143,28 @@ describe("the window of a run's numbers", () => {
 
 describe("curves", () => {
   it("of an overlay share colour and dash with no other", () => {
-    const inks = Array.from({ length: 20 }, (_, index) => inkOf(index));
-    expect(new Set(inks.map((ink) => `${ink.colour} ${ink.dash.join()}`)).size).toBe(20);
+    const lineStyles = Array.from({ length: 20 }, (_, index) => lineStyleOf(index));
+    expect(
+      new Set(lineStyles.map((lineStyle) => `${lineStyle.colour} ${lineStyle.dash.join()}`)).size,
+    ).toBe(20);
   });
 
   it("of a small plot are interrupted where a value is missing", () => {
     const lanes = { lane1: { position_error_rad: [0, null, -0.1, 0.05] } };
-    const ndobc = { number: 1, name: "NDOBC", ink: 0, start_tick: 0, start_s: 0, end_tick: null };
+    const ndobc = {
+      number: 1,
+      name: "NDOBC",
+      line_style: 0,
+      start_tick: 0,
+      start_s: 0,
+      end_tick: null,
+    };
     const spark = drawSpark({ time_s: [0, 1, 2, 3], lanes }, [[{ ...ndobc, end_s: null }]]);
     expect(spark.peak).toBe(0.1);
     expect(spark.paths[0]?.path.match(/M/g)).toHaveLength(2);
-    const fl = { ...ndobc, number: 2, name: "FL", ink: 1, start_s: 2, end_s: null };
+    const fl = { ...ndobc, number: 2, name: "FL", line_style: 1, start_s: 2, end_s: null };
     const switched = drawSpark({ time_s: [0, 1, 2, 3], lanes }, [[{ ...ndobc, end_s: 2 }, fl]]);
-    expect(switched.paths.map(({ ink }) => ink)).toEqual([0, 1]);
+    expect(switched.paths.map(({ lineStyle }) => lineStyle)).toEqual([0, 1]);
     expect(switched.paths[1]?.path).toMatch(/^M200\.0 /);
   });
 });

@@ -2,8 +2,10 @@ import "../../browserless";
 import { expect, it } from "vitest";
 
 it("a record that began within a session says in whose time its files are", async () => {
-  const { tellLength } = await import("../../../src/runs/list/words");
+  const { formatLength } = await import("../../../src/runs/list/words");
   const run = { duration_s: 31.498, first_tick: 0, period_s: 0.001 };
-  expect(tellLength(run)).toBe("31.5 s");
-  expect(tellLength({ ...run, first_tick: 16_168 })).toBe("31.5 s, from 16.17 s of its session on");
+  expect(formatLength(run)).toBe("31.5 s");
+  expect(formatLength({ ...run, first_tick: 16_168 })).toBe(
+    "31.5 s, from 16.17 s of its session on",
+  );
 });

@@ -104,20 +104,20 @@ describe("the audit log", () => {
 
 describe("a line of it", () => {
   it("says the time of day here, with the date of another day", async () => {
-    const { tellTime } = await load();
+    const { formatTime } = await load();
     const at = new Date(line.time);
     const clock = at.toLocaleTimeString("en-GB");
-    expect(tellTime(line.time, at)).toBe(clock);
+    expect(formatTime(line.time, at)).toBe(clock);
     const next = new Date(at.getTime() + 86_400_000);
-    expect(tellTime(line.time, next)).toMatch(new RegExp(`^\\d+ Jan ${clock}$`));
+    expect(formatTime(line.time, next)).toMatch(new RegExp(`^\\d+ Jan ${clock}$`));
   });
 
   it("says what came of it, and why of what failed or went on by itself", async () => {
-    const { nameKind, tellEnd } = await load();
-    expect(tellEnd(line)).toBe("done");
-    expect(tellEnd({ ...line, refused: true, status: 409 })).toBe("refused (409)");
-    expect(tellEnd({ ...line, status: null, why: "idle" })).toBe("idle");
-    expect(tellEnd({ ...line, refused: true, status: null, why: "No key." })).toBe(
+    const { nameKind, describeEnd } = await load();
+    expect(describeEnd(line)).toBe("done");
+    expect(describeEnd({ ...line, refused: true, status: 409 })).toBe("refused (409)");
+    expect(describeEnd({ ...line, status: null, why: "idle" })).toBe("idle");
+    expect(describeEnd({ ...line, refused: true, status: null, why: "No key." })).toBe(
       "refused: No key.",
     );
     expect(nameKind("settings")).toBe("Settings");

@@ -35,7 +35,7 @@ const entryOf = (
     entered: "2026-01-02T03:04:05+00:00",
     standing: {
       score,
-      parts: { robustness: score, draws: score, accuracy: score },
+      parts: { robustness: score, trials: score, accuracy: score },
       tick_us: more.tick === undefined ? 20 : more.tick,
       worst: { rms_deg: more.rms === undefined ? 1 : more.rms },
     },

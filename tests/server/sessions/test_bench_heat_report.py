@@ -9,7 +9,7 @@ from svsa.errors import StateError
 from svsa.hardware.safety.machine import BenchStatus
 from svsa.hardware.session.session import BenchSession
 from svsa.simulation.plant.loads import MassLoad, PaperLoad
-from svsa_server.routes.hardware.bench import foretell_heat
+from svsa_server.routes.hardware.bench import predict_heat
 from svsa_server.sessions.hosted import HostedSession
 from svsa_server.sessions.state import build_state
 from tests.runs.session.sessions import build_session
@@ -25,7 +25,7 @@ def session(monkeypatch: pytest.MonkeyPatch) -> Iterator[BenchSession]:
     made.close()
 
 
-def tell(session: BenchSession, status: BenchStatus, *held_back: str) -> None:
+def report(session: BenchSession, status: BenchStatus, *held_back: str) -> None:
     say(session, status, held_back)
     hear(session)
 
@@ -35,11 +35,11 @@ def list_events(session: BenchSession) -> list[tuple[str, str]]:
 
 
 def test_that_heat_begins_and_ends_to_hold_a_motor_back_are_events(session: BenchSession) -> None:
-    tell(session, BenchStatus.RUN)
-    tell(session, BenchStatus.RUN, "motor2")
-    tell(session, BenchStatus.RUN, "motor2")
-    tell(session, BenchStatus.RUN, "motor1", "motor2")
-    tell(session, BenchStatus.RUN, "motor2")
+    report(session, BenchStatus.RUN)
+    report(session, BenchStatus.RUN, "motor2")
+    report(session, BenchStatus.RUN, "motor2")
+    report(session, BenchStatus.RUN, "motor1", "motor2")
+    report(session, BenchStatus.RUN, "motor2")
     assert list_events(session) == [
         ("held_back", "Motor 2 held back by heat"),
         ("held_back", "Motor 1 held back by heat"),
@@ -48,9 +48,9 @@ def test_that_heat_begins_and_ends_to_hold_a_motor_back_are_events(session: Benc
 
 
 def test_a_bench_that_stands_asks_nothing_of_a_warm_motor(session: BenchSession) -> None:
-    tell(session, BenchStatus.RUN, "motor2")
-    tell(session, BenchStatus.READY)
-    tell(session, BenchStatus.RUN, "motor2")
+    report(session, BenchStatus.RUN, "motor2")
+    report(session, BenchStatus.READY)
+    report(session, BenchStatus.RUN, "motor2")
     assert [kind for kind, _ in list_events(session)] == ["held_back", "held_back"]
 
 
@@ -80,16 +80,16 @@ def test_before_a_load_hangs_it_is_told_which_motor_bears_it_for_how_long(
     session: BenchSession,
 ) -> None:
     hosted = HostedSession(session)
-    found = asyncio.run(foretell_heat(hosted, PaperLoad()))
+    found = asyncio.run(predict_heat(hosted, PaperLoad()))
     assert found is not None
     assert found.motor == "motor2"
     assert 2.0 < found.seconds < 6.0
     assert found.lasting_torque_nm == pytest.approx(1.2215, abs=1e-4)
     assert found.torque_nm > found.lasting_torque_nm
-    assert asyncio.run(foretell_heat(hosted, MassLoad())) is None
+    assert asyncio.run(predict_heat(hosted, MassLoad())) is None
     assert session.journal.commands == []
 
 
 def test_a_simulation_has_no_motors_that_get_warm() -> None:
     with pytest.raises(StateError, match="is simulated"):
-        asyncio.run(foretell_heat(HostedSession(build_session()), PaperLoad()))
+        asyncio.run(predict_heat(HostedSession(build_session()), PaperLoad()))

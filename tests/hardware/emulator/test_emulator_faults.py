@@ -1,4 +1,4 @@
-"""Every fault that the rig can be given does what its name says, and goes again."""
+"""Every fault that the emulator can be given does what its name says, and goes again."""
 
 import itertools
 
@@ -12,16 +12,16 @@ from svsa.hardware.emulator.faults import (
     BusErrors,
     CurrentOffset,
     DropFrames,
+    EmulatorFault,
     FrozenEncoder,
     LateFrames,
     ReversedEncoder,
     ReversedMotor,
-    RigFault,
     Silence,
     Stall,
 )
 
-from .test_rig import LOOP, READY_US, bring_up, build, list_times, run
+from .test_emulator import LOOP, READY_US, bring_up, build, list_times, run
 
 MOTORS = (("motor1", 0x01B, 1), ("motor2", 0x02B, 2))
 NODES = (*((name, can_id) for name, can_id, _ in MOTORS), ("deflection", 0x700))
@@ -42,23 +42,23 @@ def drive_out(tick):
 def test_dropped_frames_are_missing_by_their_probability_and_the_seed(node, can_id):
     found = []
     for _ in range(2):
-        rig = bring_up()
-        rig.inject(DropFrames(node=node, probability=0.5))
-        found.append(list_times(run(rig, 200), can_id))
+        emulator = bring_up()
+        emulator.inject(DropFrames(node=node, probability=0.5))
+        found.append(list_times(run(emulator, 200), can_id))
     assert 60 < len(found[0]) < 140
     assert found[0] == found[1]
 
 
 @pytest.mark.parametrize("node, can_id", NODES)
 def test_frames_of_one_node_can_be_lost_while_the_others_flow(node, can_id):
-    rig = bring_up()
-    rig.inject(DropFrames(node=node))
-    said = run(rig, 20)
+    emulator = bring_up()
+    emulator.inject(DropFrames(node=node))
+    said = run(emulator, 20)
     for _, other in NODES:
         assert len(list_times(said, other)) == (0 if other == can_id else 20)
-    rig.clear_faults()
-    assert rig.advance_to(READY_US + 25_000)
-    assert rig.now_us == READY_US + 25_000
+    emulator.clear_faults()
+    assert emulator.advance_to(READY_US + 25_000)
+    assert emulator.now_us == READY_US + 25_000
 
 
 @pytest.mark.parametrize("node, can_id", NODES)
@@ -66,10 +66,10 @@ def test_late_frames_hold_counts_as_old_as_they_are_late(node, can_id):
     """The bus stamps them when they come: their age shows in the motion, not in the stamp."""
     said = {}
     for late in (False, True):
-        rig = bring_up()
+        emulator = bring_up()
         if late:
-            rig.inject(LateFrames(node=node, delay_s=0.004))
-        said[late] = run(rig, 60, drive_out)
+            emulator.inject(LateFrames(node=node, delay_s=0.004))
+        said[late] = run(emulator, 60, drive_out)
     assert list_times(said[True], can_id)[0] - list_times(said[False], can_id)[0] == 4000
     late, prompt = (read_counts(said[key], can_id) for key in (True, False))
     assert late == prompt[: len(late)]
@@ -77,10 +77,10 @@ def test_late_frames_hold_counts_as_old_as_they_are_late(node, can_id):
 
 @pytest.mark.parametrize("node, can_id", NODES)
 def test_a_frozen_encoder_stays_while_frames_flow(node, can_id):
-    rig = bring_up()
-    before = read_counts(run(rig, 10, drive_out), can_id)[-1]
-    rig.inject(FrozenEncoder(node=node))
-    said = rig.advance_to(READY_US + 60_000)
+    emulator = bring_up()
+    before = read_counts(run(emulator, 10, drive_out), can_id)[-1]
+    emulator.inject(FrozenEncoder(node=node))
+    said = emulator.advance_to(READY_US + 60_000)
     assert set(read_counts(said, can_id)) == {before}
     assert len(list_times(said, can_id)) == 50
 
@@ -89,10 +89,10 @@ def test_a_frozen_encoder_stays_while_frames_flow(node, can_id):
 def test_a_reversed_encoder_counts_the_other_way(node, can_id):
     counts = []
     for turned in (False, True):
-        rig = bring_up()
+        emulator = bring_up()
         if turned:
-            rig.inject(ReversedEncoder(node=node))
-        counts.append(read_counts(run(rig, 30, drive_out), can_id)[-1])
+            emulator.inject(ReversedEncoder(node=node))
+        counts.append(read_counts(run(emulator, 30, drive_out), can_id)[-1])
     assert counts[0] != 0
     assert abs(counts[0] + counts[1]) <= 1
 
@@ -101,9 +101,9 @@ def test_a_reversed_encoder_counts_the_other_way(node, can_id):
 def test_a_reversed_motor_turns_the_other_way_and_says_the_current_it_was_told(
     node, can_id, number
 ):
-    rig = bring_up()
-    rig.inject(ReversedMotor(node=node))
-    said = run(rig, 30, drive_out)
+    emulator = bring_up()
+    emulator.inject(ReversedMotor(node=node))
+    said = run(emulator, 30, drive_out)
     assert read_counts(said, can_id)[-1] < 0
     last = [frame for _, frame, _ in said if frame.can_id == can_id][-1]
     assert decode(Command.FEEDBACK, last.data).current_ma == drive_out(0)[number - 1]
@@ -111,58 +111,58 @@ def test_a_reversed_motor_turns_the_other_way_and_says_the_current_it_was_told(
 
 @pytest.mark.parametrize("node, can_id, number", MOTORS)
 def test_a_brown_out_ends_mode_current_and_feedback(node, can_id, number):
-    rig = bring_up()
-    run(rig, 20, drive_out)
-    rig.inject(BrownOut(node=node))
-    drive = rig.drives[node]
+    emulator = bring_up()
+    run(emulator, 20, drive_out)
+    emulator.inject(BrownOut(node=node))
+    drive = emulator.drives[node]
     assert (drive.mode, drive.current_ma, drive.target_nm) == (None, 0, 0.0)
-    assert len(list_times(rig.advance_to(READY_US + 50_000), can_id)) == 0
+    assert len(list_times(emulator.advance_to(READY_US + 50_000), can_id)) == 0
     assert drive.errors == 0
-    rig.receive(build(Current(5000, 100), number), LOOP)
-    rig.advance_to(READY_US + 60_000)
+    emulator.receive(build(Current(5000, 100), number), LOOP)
+    emulator.advance_to(READY_US + 60_000)
     assert (drive.errors, drive.target_nm) == (1, 0.0)
 
 
 @pytest.mark.parametrize("node, can_id, number", MOTORS)
 def test_stall_protection_stops_the_motor_and_is_said_every_100_ms(node, can_id, number):
-    rig = bring_up()
-    run(rig, 20, drive_out)
-    rig.inject(Stall(node=node))
-    assert rig.drives[node].target_nm == 0.0
-    times = list_times(rig.advance_to(READY_US + 600_000), number << 4 | Command.ERROR)
+    emulator = bring_up()
+    run(emulator, 20, drive_out)
+    emulator.inject(Stall(node=node))
+    assert emulator.drives[node].target_nm == 0.0
+    times = list_times(emulator.advance_to(READY_US + 600_000), number << 4 | Command.ERROR)
     assert 5 <= len(times) <= 6
     assert {b - a for a, b in itertools.pairwise(times)} == {100_000}
 
 
 @pytest.mark.parametrize("node, can_id, number", MOTORS)
 def test_a_silent_drive_neither_speaks_nor_hears(node, can_id, number):
-    rig = bring_up()
-    run(rig, 20, drive_out)
-    rig.inject(Silence(node=node))
-    rig.receive(build(Current(5000, 900), number), LOOP)
-    said = rig.advance_to(READY_US + 50_000)
+    emulator = bring_up()
+    run(emulator, 20, drive_out)
+    emulator.inject(Silence(node=node))
+    emulator.receive(build(Current(5000, 900), number), LOOP)
+    said = emulator.advance_to(READY_US + 50_000)
     assert list_times(said, can_id) == []
-    assert rig.drives[node].target_nm == 0.0
-    rig.clear_faults()
-    assert rig.drives[node].mode is None
+    assert emulator.drives[node].target_nm == 0.0
+    emulator.clear_faults()
+    assert emulator.drives[node].mode is None
 
 
 def test_bus_errors_are_said_as_error_frames():
-    rig = bring_up()
-    rig.inject(BusErrors(count=7))
-    errors = [frame for _, frame, _ in rig.advance_to(READY_US + 20_000) if frame.error]
+    emulator = bring_up()
+    emulator.inject(BusErrors(count=7))
+    errors = [frame for _, frame, _ in emulator.advance_to(READY_US + 20_000) if frame.error]
     assert len(errors) == 7
 
 
 @pytest.mark.parametrize("node, can_id, number", MOTORS)
 def test_a_current_offset_is_made_although_nothing_is_asked(node, can_id, number):
-    rig = bring_up()
-    rig.inject(CurrentOffset(node=node, offset_a=0.4))
-    assert rig.drives[node].target_nm > 0.0
-    assert rig.drives[node].current_ma == 0
-    rig.clear_faults()
-    assert rig.drives[node].target_nm == 0.0
-    assert rig.drives[node].mode is Mode.CURRENT
+    emulator = bring_up()
+    emulator.inject(CurrentOffset(node=node, offset_a=0.4))
+    assert emulator.drives[node].target_nm > 0.0
+    assert emulator.drives[node].current_ma == 0
+    emulator.clear_faults()
+    assert emulator.drives[node].target_nm == 0.0
+    assert emulator.drives[node].mode is Mode.CURRENT
 
 
 @pytest.mark.parametrize(
@@ -177,4 +177,4 @@ def test_a_current_offset_is_made_although_nothing_is_asked(node, can_id, number
 )
 def test_a_fault_that_makes_no_sense_is_refused(written):
     with pytest.raises((ValidationError, ParameterError)):
-        TypeAdapter(RigFault).validate_python(written)
+        TypeAdapter(EmulatorFault).validate_python(written)

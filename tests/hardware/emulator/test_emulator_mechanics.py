@@ -1,4 +1,4 @@
-"""The rig's mechanism: the same plant as the simulation's, and stops that hold."""
+"""The emulator's mechanism: the same plant as the simulation's, and stops that hold."""
 
 import math
 
@@ -9,7 +9,7 @@ from svsa.actuators.lever import compute_lever_ratio
 from svsa.actuators.signals import State, Torque
 from svsa.errors import ParameterError
 from svsa.hardware.emulator.mechanics import GRID_US, Mechanics
-from svsa.hardware.emulator.parameters import RigParameters, read_rig
+from svsa.hardware.emulator.parameters import EmulatorParameters, read_emulator_parameters
 from svsa.runs.configuration import load_prototype
 from svsa.simulation.plant.effects import CurrentLag, Effects, Friction, build_effect_constants
 from svsa.simulation.plant.integration import coast, integrate_period
@@ -26,7 +26,7 @@ from tests.actuators.prototype import PLANT
 PERIOD = GRID_US * 1e-6
 WIDE = Stops(-100.0, 100.0, 1.5)
 AT_REST = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-FREE = RigParameters(friction=None, current_lag=None)
+FREE = EmulatorParameters(friction=None, current_lag=None)
 
 
 @pytest.mark.parametrize("count", [0, 1, 37])
@@ -50,7 +50,7 @@ def test_a_long_way_at_once_is_the_same_as_many_short_ones():
     """When someone looks does not change what happens: lockstep depends on it."""
     ends = []
     for step in (100, 300, 50_000):
-        mechanics = Mechanics(RigParameters())
+        mechanics = Mechanics(EmulatorParameters())
         mechanics.set_target(0, Torque(1.0, 0.3))
         for time_us in range(0, 150_001, step):
             mechanics.read(time_us)
@@ -84,7 +84,7 @@ def test_loads_come_at_their_time_and_go():
 
 def test_a_hung_mass_swings_and_comes_to_rest():
     """Pulled aside and let go, m g r sin q brings it back, friction of the motor stops it."""
-    mechanics = Mechanics(RigParameters())
+    mechanics = Mechanics(EmulatorParameters())
     mechanics.add_load(0, MassLoad())
     mechanics.add_load(0, PulseLoad(torque_nm=(1.0, 0.0, 0.0), duration_s=0.1))
     assert mechanics.read(100_000).q > 0.005
@@ -94,8 +94,8 @@ def test_a_hung_mass_swings_and_comes_to_rest():
 
 @pytest.mark.parametrize("torques", [(27.0, 5.0), (-27.0, -5.0), (27.0, -5.0)])
 def test_the_mechanism_stays_between_its_stops_whatever_is_asked(torques):
-    """A runaway ends at the stops, finite, and not in numbers that kill the rig."""
-    p = RigParameters()
+    """A runaway ends at the stops, finite, and not in numbers that kill the emulator."""
+    p = EmulatorParameters()
     mechanics = Mechanics(p)
     mechanics.set_target(0, Torque(*torques))
     mechanics.add_load(0, ConstantLoad(torque_nm=(-50.0, 0.0, 0.0)))
@@ -118,18 +118,18 @@ def test_a_hit_keeps_the_momentum_and_makes_no_energy():
 
 
 def test_home_is_at_rest_and_its_stiffness_is_the_bench_files():
-    mechanics = Mechanics(RigParameters())
+    mechanics = Mechanics(EmulatorParameters())
     mechanics.set_target(0, Torque(1.0, 0.5))
     mechanics.read(100_000)
     mechanics.home(100_000)
     assert mechanics.read(100_000) == AT_REST
-    assert RigParameters().lever_ratio == pytest.approx(0.62733965, abs=1e-8)
+    assert EmulatorParameters().lever_ratio == pytest.approx(0.62733965, abs=1e-8)
 
 
 def test_a_rig_file_is_checked(tmp_path):
     path = tmp_path / "rig.toml"
     path.write_text("[friction]\ncoulomb1_nm = 0.0\n[gravity]\nmoment_nm = 0.4\n")
-    assert read_rig(path).gravity is not None
+    assert read_emulator_parameters(path).gravity is not None
     for text, name in (
         ("lever_ratio = 0.9", "lever_ratio"),
         ("typo = 1", "typo"),
@@ -138,8 +138,8 @@ def test_a_rig_file_is_checked(tmp_path):
     ):
         path.write_text(text)
         with pytest.raises(ParameterError) as refused:
-            read_rig(path)
+            read_emulator_parameters(path)
         assert name in str(refused.value)
     with pytest.raises(ParameterError, match="rig file"):
-        read_rig(tmp_path / "missing.toml")
-    assert np.isfinite(RigParameters().motor1.torque_nm_per_a)
+        read_emulator_parameters(tmp_path / "missing.toml")
+    assert np.isfinite(EmulatorParameters().motor1.torque_nm_per_a)

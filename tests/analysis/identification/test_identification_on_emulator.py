@@ -1,4 +1,4 @@
-"""Identification of the emulated rig, through CAN: Table 1 within 5 %."""
+"""Identification of the emulator, through CAN: Table 1 within 5 %."""
 
 import pytest
 
@@ -9,7 +9,7 @@ from svsa.analysis.identification.identify import ACTUATOR, identify
 from svsa.hardware.emulator.experiment import LockstepBench
 from svsa.runs.paper import get_figure
 from svsa.runs.records.reader import build_record
-from tests.hardware.emulator.in_process_rig import start_in_process
+from tests.hardware.emulator.in_process_emulator import start_in_process
 from tests.runs.records.records import build_header
 
 
@@ -18,8 +18,8 @@ def test_table_1_is_found_within_5_percent():
     """A bench does not know its disturbance, and its torques are as sent, not as made."""
     ticks = round(EXCITATION_DURATION_S / 0.001)
     later = build_commands(0.001)
-    with start_in_process() as rig:
-        bench = LockstepBench(rig, get_figure("6a").build_configuration(load=False), ticks)
+    with start_in_process() as emulator:
+        bench = LockstepBench(emulator, get_figure("6a").build_configuration(load=False), ticks)
         try:
             bench.prepare()
             bench.start()

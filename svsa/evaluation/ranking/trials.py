@@ -7,13 +7,13 @@ from svsa.evaluation.ranking.seeds import PUBLIC_SEED, start_generator
 from svsa.simulation.plant.effects import RIG, Friction, SensorNoise
 from svsa.simulation.plant.loads import ConstantLoad, Load, MassLoad, PulseLoad, SineLoad
 
-DRAWS = 100
+TRIALS = 100
 LOAD_S = 3.0
 DURATION_S = 10.0
 MIN_SIGMA, MAX_SIGMA = 16.0, 70.0
 
 
-def build_draw(number: int, seed: int = PUBLIC_SEED) -> Scenario:
+def build_trial(number: int, seed: int = PUBLIC_SEED) -> Scenario:
     """The draw of this number, from 0 on, of a season.
 
     True over nominal M, B1 and B2 each from 0.5 to 1.5; σ_d from 12 to 70 N·m/rad, as many below
@@ -38,7 +38,7 @@ def build_draw(number: int, seed: int = PUBLIC_SEED) -> Scenario:
         delay_samples=int(random.integers(1, 3)),
     )
     return Scenario(
-        f"draw_{number}",
+        f"trial_{number}",
         f"Draw {number + 1}",
         (_draw_load(random),),
         effects,
@@ -50,9 +50,9 @@ def build_draw(number: int, seed: int = PUBLIC_SEED) -> Scenario:
     )
 
 
-def build_draws(seed: int = PUBLIC_SEED) -> tuple[Scenario, ...]:
-    """The draws of a season."""
-    return tuple(build_draw(number, seed) for number in range(DRAWS))
+def build_trials(seed: int = PUBLIC_SEED) -> tuple[Scenario, ...]:
+    """The trials of a season."""
+    return tuple(build_trial(number, seed) for number in range(TRIALS))
 
 
 def _draw_load(random: np.random.Generator) -> Load:

@@ -1,4 +1,4 @@
-"""The emulated rig in lockstep inside this process: the same exchange of frames, no sockets."""
+"""The emulator in lockstep inside this process: the same exchange of frames, no sockets."""
 
 import contextlib
 import json
@@ -9,8 +9,8 @@ from unittest.mock import patch
 
 import can
 
-from svsa.hardware.emulator.control import RigControl, RigError, answer
-from svsa.hardware.emulator.emulator import Rig
+from svsa.hardware.emulator.control import EmulatorControl, EmulatorError, answer
+from svsa.hardware.emulator.emulator import Emulator
 from svsa.hardware.emulator.exchange import Exchange
 from svsa.hardware.emulator.frame import Frame
 from svsa.hardware.file import BusSettings
@@ -19,8 +19,8 @@ from svsa.hardware.file import BusSettings
 class InProcessBus:
     """What `can.BusABC` is to a plant in lockstep: what it sends is done before `send` returns."""
 
-    def __init__(self, rig: "InProcessRig") -> None:
-        self._rig = rig
+    def __init__(self, emulator: "InProcessEmulator") -> None:
+        self._rig = emulator
         self.heard: deque[can.Message] = deque()
 
     def send(self, message: can.Message, timeout: float | None = None) -> None:
@@ -34,26 +34,26 @@ class InProcessBus:
         self._rig.buses.remove(self)
 
 
-class InProcessControl(RigControl):
+class InProcessControl(EmulatorControl):
     """The control port's commands, without the port."""
 
-    def __init__(self, rig: Rig) -> None:
-        self._rig = rig
+    def __init__(self, emulator: Emulator) -> None:
+        self._rig = emulator
 
     def ask(self, do: str, **fields: Any) -> dict[str, Any]:
-        told = answer(self._rig, json.dumps({"do": do, **fields}).encode())
-        if not told.pop("ok"):
-            raise RigError(told["message"])
-        return json.loads(json.dumps(told))
+        reported = answer(self._rig, json.dumps({"do": do, **fields}).encode())
+        if not reported.pop("ok"):
+            raise EmulatorError(reported["message"])
+        return json.loads(json.dumps(reported))
 
 
-class InProcessRig:
-    """A rig and the buses that are open to it; a `FrameServer` for its exchange of frames."""
+class InProcessEmulator:
+    """An emulator and the buses that are open to it; a `FrameServer` for its exchange of frames."""
 
     port = 0
 
     def __init__(self) -> None:
-        machine = Rig()
+        machine = Emulator()
         self.control = InProcessControl(machine)
         self.buses: list[InProcessBus] = []
         self._exchange = Exchange(machine, [self], lockstep=True)
@@ -108,8 +108,8 @@ class InProcessRig:
 
 
 @contextlib.contextmanager
-def start_in_process() -> Iterator[InProcessRig]:
-    """A rig to which every bus goes that a plant opens meanwhile."""
-    rig = InProcessRig()
-    with patch("svsa.hardware.can_plant.open_bus", rig.open_bus):
-        yield rig
+def start_in_process() -> Iterator[InProcessEmulator]:
+    """An emulator to which every bus goes that a plant opens meanwhile."""
+    emulator = InProcessEmulator()
+    with patch("svsa.hardware.can_plant.open_bus", emulator.open_bus):
+        yield emulator

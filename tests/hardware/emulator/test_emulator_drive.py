@@ -21,25 +21,25 @@ from svsa.hardware.drives.robomodule import (
 )
 from svsa.hardware.emulator.drive import SETTLE_US, EmulatedDrive
 from svsa.hardware.emulator.frame import Frame
-from svsa.hardware.emulator.parameters import RigParameters
+from svsa.hardware.emulator.parameters import EmulatorParameters
 
 START_US = 10_000_000
 
 
 @pytest.fixture
 def drive():
-    return EmulatedDrive(RigParameters().motor1)
+    return EmulatedDrive(EmulatorParameters().motor1)
 
 
-def tell(drive, message, time_us, number=1, group=0):
+def report(drive, message, time_us, number=1, group=0):
     address = drive.address._replace(group=group, number=number)
     return drive.receive(Frame(build_id(address, message.command), encode(message)), time_us)
 
 
 def bring_up(drive, mode=Mode.CURRENT):
-    tell(drive, Reset(), START_US)
-    tell(drive, Config(1, 0), START_US + SETTLE_US)
-    tell(drive, SetMode(mode), START_US + SETTLE_US)
+    report(drive, Reset(), START_US)
+    report(drive, Config(1, 0), START_US + SETTLE_US)
+    report(drive, SetMode(mode), START_US + SETTLE_US)
     return START_US + 2 * SETTLE_US
 
 
@@ -49,56 +49,56 @@ def read(drive, velocity=0.0, torque=0.0):
 
 def test_the_sequence_leads_to_a_current(drive):
     ready = bring_up(drive)
-    tell(drive, Current(5000, 1000), ready)
+    report(drive, Current(5000, 1000), ready)
     assert drive.current_ma == 1000
     assert drive.target_nm == pytest.approx(50 * 0.9 * 0.0396)
     assert drive.errors == 0
 
 
 def test_a_mode_is_not_taken_in_the_500_ms_after_a_reset(drive):
-    tell(drive, Reset(), START_US)
-    tell(drive, SetMode(Mode.CURRENT), START_US + SETTLE_US - 1)
+    report(drive, Reset(), START_US)
+    report(drive, SetMode(Mode.CURRENT), START_US + SETTLE_US - 1)
     assert (drive.mode, drive.errors) == (None, 1)
-    tell(drive, SetMode(Mode.CURRENT), START_US + SETTLE_US)
+    report(drive, SetMode(Mode.CURRENT), START_US + SETTLE_US)
     assert (drive.mode, drive.errors) == (Mode.CURRENT, 1)
 
 
 def test_data_are_not_taken_in_the_500_ms_after_a_mode(drive):
     ready = bring_up(drive)
-    tell(drive, Current(5000, 1000), ready - 1)
+    report(drive, Current(5000, 1000), ready - 1)
     assert (drive.current_ma, drive.target_nm, drive.errors) == (0, 0.0, 1)
 
 
 def test_a_second_mode_and_data_of_another_mode_are_errors(drive):
     ready = bring_up(drive)
-    tell(drive, SetMode(Mode.VELOCITY), ready)
-    tell(drive, OpenLoop(500), ready)
-    tell(drive, CurrentVelocity(1000, 100), ready)
+    report(drive, SetMode(Mode.VELOCITY), ready)
+    report(drive, OpenLoop(500), ready)
+    report(drive, CurrentVelocity(1000, 100), ready)
     assert (drive.mode, drive.errors, drive.target_nm) == (Mode.CURRENT, 3, 0.0)
 
 
 @pytest.mark.parametrize("mode", [mode for mode in Mode if mode is not Mode.CURRENT])
 def test_other_modes_are_taken_but_move_nothing(drive, mode):
     ready = bring_up(drive, mode)
-    tell(drive, Current(5000, 1000), ready)
+    report(drive, Current(5000, 1000), ready)
     assert (drive.mode, drive.target_nm) == (mode, 0.0)
 
 
 def test_the_last_current_is_held_for_ever(drive):
     """No command-loss watchdog is documented: whoever wants one has to be it."""
     ready = bring_up(drive)
-    tell(drive, Current(5000, -700), ready)
+    report(drive, Current(5000, -700), ready)
     before = drive.target_nm
-    tell(drive, Online(), ready + 3_600_000_000)
+    report(drive, Online(), ready + 3_600_000_000)
     assert drive.target_nm == before != 0.0
 
 
 def test_a_reset_ends_the_current_and_zeroes_the_position(drive):
     ready = bring_up(drive)
-    tell(drive, Current(5000, 1000), ready)
+    report(drive, Current(5000, 1000), ready)
     drive.look(0.3)
     assert read(drive).position_counts != 0
-    tell(drive, Reset(), ready + 1000)
+    report(drive, Reset(), ready + 1000)
     assert (drive.mode, drive.current_ma, drive.target_nm) == (None, 0, 0.0)
     assert not drive.feeding
     assert read(drive).position_counts == 0
@@ -109,9 +109,9 @@ def test_a_reset_ends_the_current_and_zeroes_the_position(drive):
 def test_a_broadcast_reaches_the_group_and_no_other(drive):
     ready = bring_up(drive)
     for address in ({"number": 2}, {"number": 0, "group": 1}, {"number": 1, "group": 1}):
-        tell(drive, Reset(), ready, **address)
+        report(drive, Reset(), ready, **address)
         assert drive.mode is Mode.CURRENT
-    tell(drive, Reset(), ready, number=0)
+    report(drive, Reset(), ready, number=0)
     assert drive.mode is None
 
 
@@ -133,10 +133,10 @@ def test_counts_wrap_at_32_bits(drive):
     assert read(drive).position_counts == -(2**31) + 5
 
 
-@pytest.mark.parametrize("rpm, told", [(14, 0), (16, 30), (-14, 0), (-16, -30), (1234, 1230)])
-def test_velocity_comes_in_steps_of_30_rpm(drive, rpm, told):
+@pytest.mark.parametrize("rpm, reported", [(14, 0), (16, 30), (-14, 0), (-16, -30), (1234, 1230)])
+def test_velocity_comes_in_steps_of_30_rpm(drive, rpm, reported):
     found = read(drive, velocity=rpm * math.pi / 30.0 / 50)
-    assert found.velocity_rpm == told
+    assert found.velocity_rpm == reported
 
 
 def test_the_current_told_is_the_one_that_is_made(drive):
@@ -144,25 +144,25 @@ def test_the_current_told_is_the_one_that_is_made(drive):
 
 
 def test_the_current_is_clipped_at_the_drives_peak(drive):
-    tell(drive, Current(5000, 30_000), bring_up(drive))
+    report(drive, Current(5000, 30_000), bring_up(drive))
     assert drive.target_nm == pytest.approx(15 * 50 * 0.9 * 0.0396)
 
 
 def test_without_pwm_there_is_no_current(drive):
-    tell(drive, Current(0, 1000), bring_up(drive))
+    report(drive, Current(0, 1000), bring_up(drive))
     assert drive.target_nm == 0.0
 
 
 @pytest.mark.parametrize("sign", [-1, 1])
 def test_a_motor_mounted_the_other_way_turns_and_counts_the_other_way(sign):
-    drive = EmulatedDrive(RigParameters().motor2.changed(sign=sign))
+    drive = EmulatedDrive(EmulatorParameters().motor2.changed(sign=sign))
     ready = START_US + 2 * SETTLE_US
     for message, time_us in (
         (Reset(), START_US),
         (SetMode(Mode.CURRENT), START_US + SETTLE_US),
         (Current(5000, 100), ready),
     ):
-        tell(drive, message, time_us, number=2)
+        report(drive, message, time_us, number=2)
     drive.look(0.1)
     assert math.copysign(1, drive.target_nm) == sign
     assert math.copysign(1, read(drive).position_counts) == sign
@@ -181,6 +181,6 @@ def test_a_motor_mounted_the_other_way_turns_and_counts_the_other_way(sign):
 )
 def test_a_malformed_frame_changes_nothing(drive, frame):
     ready = bring_up(drive)
-    tell(drive, Current(5000, 250), ready)
+    report(drive, Current(5000, 250), ready)
     assert drive.receive(frame, ready + 1000) == []
     assert (drive.mode, drive.current_ma) == (Mode.CURRENT, 250)

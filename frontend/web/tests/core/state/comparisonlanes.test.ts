@@ -7,7 +7,7 @@ const POLE = { position_pole_rad_per_s: 54.6 };
 function stateOf(law: string, comparisons: Lane[], changes: object = {}): SessionState {
   const lanes = [law, ...comparisons.map((comparison) => comparison.law)].map((name, index) => ({
     ...{ lane: index + 1, id: index + 1, law: name, name },
-    stretches: [{ number: index + 1, name, ink: index, start_s: 0, end_s: null }],
+    stretches: [{ number: index + 1, name, line_style: index, start_s: 0, end_s: null }],
   }));
   return {
     ...{ run_number: 1, tick: 0, bench: null, lanes },
@@ -20,7 +20,7 @@ function stateOf(law: string, comparisons: Lane[], changes: object = {}): Sessio
 }
 
 const law = (name: string, changes: Partial<LawRow> = {}): LawRow => ({
-  ...{ name, title: name.toUpperCase(), ink: 0, summary: "", equation: "u=0", source: "" },
+  ...{ name, title: name.toUpperCase(), line_style: 0, summary: "", equation: "u=0", source: "" },
   ...{ notes: "", estimate: "none", takes_gains: false, parameters: [], problem: null },
   ...changes,
 });
@@ -61,11 +61,11 @@ it("the session's own law is set beside it with the settings of now, another law
 });
 
 it("a controller is taken away by its lane, and a bench's twin is none of those beside", async () => {
-  const { lanesBeside } = await import("../../../src/core/state/lanes");
+  const { comparisonLanes } = await import("../../../src/core/state/lanes");
   const { removeLane } = await import("../../../src/core/state/commands");
   const comparisons = [{ law: "ndobc" }, { law: "fl" }, { law: "fl_integral", parameters: POLE }];
   const bench = stateOf("ndobc", comparisons, { bench: {} });
-  expect(lanesBeside(bench).map(({ lane, controller }) => [lane, controller.law])).toEqual([
+  expect(comparisonLanes(bench).map(({ lane, controller }) => [lane, controller.law])).toEqual([
     [3, "fl"],
     [4, "fl_integral"],
   ]);
@@ -74,10 +74,10 @@ it("a controller is taken away by its lane, and a bench's twin is none of those 
 });
 
 it("only a lane without settings of its own changes places with the session's law", async () => {
-  const { lawsBeside } = await import("../../../src/core/state/lanes");
-  expect(lawsBeside("fl", stateOf("ndobc", [{ law: "fl", gains: null }]))).toEqual(["ndobc"]);
+  const { comparisonLaws } = await import("../../../src/core/state/lanes");
+  expect(comparisonLaws("fl", stateOf("ndobc", [{ law: "fl", gains: null }]))).toEqual(["ndobc"]);
   const own = stateOf("ndobc", [{ law: "fl", gains: GAINS } as unknown as Lane]);
-  expect(lawsBeside("fl", own)).toEqual([]);
+  expect(comparisonLaws("fl", own)).toEqual([]);
 });
 
 it("a step back brings back what differs, lane by lane, and of those that went the tuned", async () => {
@@ -130,10 +130,10 @@ it("a tuned lane that was removed is brought back, and what it was before that a
 it("the comparison is switched on again with those that stood beside last", async () => {
   const { laws } = await import("../../../src/core/state/laws");
   const { session } = await import("../../../src/core/state/session");
-  const { watchBeside } = await import("../../../src/core/state/lanes");
+  const { watchComparisons } = await import("../../../src/core/state/lanes");
   const { toggleCompare } = await import("../../../src/core/state/commands");
   laws.value = [law("ndobc"), law("fl"), law("fl_integral")];
-  watchBeside();
+  watchComparisons();
   await toggleCompare(stateOf("ndobc", []));
   const beside = [{ law: "fl_integral", parameters: POLE }, { law: "fl" }];
   session.value = stateOf("ndobc", beside);

@@ -1,11 +1,11 @@
 import { useId, useState } from "preact/hooks";
 import { putLane } from "../../core/api/client";
 import type { SessionState } from "../../core/api/types";
-import { inkOf } from "../../core/plots/inks";
 import { Swatch } from "../../core/plots/legend";
+import { lineStyleOf } from "../../core/plots/linestyles";
 import { perform } from "../../core/state/actions";
 import { CONTROL, removeLane } from "../../core/state/commands";
-import { hasOwnSettings, type LaneBeside } from "../../core/state/lanes";
+import { type ComparisonLane, hasOwnSettings } from "../../core/state/lanes";
 import { lawOf, titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { LaneForm } from "./laneform";
@@ -13,15 +13,15 @@ import { LawPicker } from "./lawpicker";
 
 const words = text.beside;
 
-interface BesideProps {
+interface ComparisonLanesProps {
   state: SessionState;
-  beside: LaneBeside;
+  beside: ComparisonLane;
   isRecording: boolean;
 }
 
 /** A controller beside the session's own: its law, what it is set to, and its end. */
-export function Beside({ state, beside, isRecording }: BesideProps) {
-  const { lane, name, ink, controller } = beside;
+export function Beside({ state, beside, isRecording }: ComparisonLanesProps) {
+  const { lane, name, lineStyle, controller } = beside;
   const [isOpen, setOpen] = useState(false);
   const id = useId();
   const law = lawOf(controller.law);
@@ -30,7 +30,7 @@ export function Beside({ state, beside, isRecording }: BesideProps) {
   return (
     <li class="beside">
       <div class="beside-row">
-        <Swatch look={inkOf(ink)} />
+        <Swatch look={lineStyleOf(lineStyle)} />
         <LawPicker
           label={words.law(name)}
           title={words.lawHint}

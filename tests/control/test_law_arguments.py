@@ -110,17 +110,17 @@ def build(law="hear", effects=svsa.RIG, **changes):
 @pytest.mark.parametrize("effects", EFFECTS)
 def test_it_is_what_the_sensors_said_at_that_tick_with_their_counts_and_their_noise(effects):
     run = Run(build(effects=EFFECTS[effects]))
-    told, said, estimated = [], [], []
+    reported, said, estimated = [], [], []
     for tick in range(TICKS):
         lane = run.lanes[0]
         y = read_sensors(run.blocks[0].effects, lane.x, tick)
         said.append((y.theta1 + y.phi, y.theta1, y.theta2))
         estimated.append((lane.known.q, lane.known.theta1, lane.known.theta2))
         run.advance(np.empty((1, 1, len(CHANNELS))))
-        told.append(run.lanes[0].memory[:3])
+        reported.append(run.lanes[0].memory[:3])
     tolerance = 1e-15 if effects == "ideal" else 0.0
-    np.testing.assert_allclose(told, said, rtol=0.0, atol=tolerance)
-    is_another = np.any(np.array(estimated)[1:] != np.array(told)[1:])
+    np.testing.assert_allclose(reported, said, rtol=0.0, atol=tolerance)
+    is_another = np.any(np.array(estimated)[1:] != np.array(reported)[1:])
     assert is_another == (effects != "ideal"), "x̂ itself between exact sensors"
 
 
@@ -173,8 +173,8 @@ def test_on_a_bench_it_is_what_was_measured_after_ticks_that_were_missed_too():
         y = Measurement(0.01 * (missed + 1), -0.02, 0.003, 0.0, 0.0, 0.0)
         carried["measured"].view(float).reshape(-1)[:] = y
         follow_and_decide(constants, run.inputs, carried, 0)
-        told = Positions(*run.lanes[0].memory[:3])
-        assert told == Positions(y.theta1 + y.phi, y.theta1, y.theta2)
+        reported = Positions(*run.lanes[0].memory[:3])
+        assert reported == Positions(y.theta1 + y.phi, y.theta1, y.theta2)
 
 
 def follow_figure(law, missed):
@@ -243,7 +243,7 @@ def test_a_law_in_a_process_of_another_signature_says_the_one_it_must_have():
 @pytest.mark.parametrize(
     "law",
     [
-        lambda *told: (0.1 * len(told), 0.0),
+        lambda *reported: (0.1 * len(reported), 0.0),
         lambda measured, applied, x, w: (0.4 + 0.0 * (measured + applied.q), 0.0),
         lambda t, r, x, w, gain=0.4: (gain, 0.0),
     ],

@@ -1,4 +1,4 @@
-"""The rig as a whole: who speaks when, and the same frames for the same commands."""
+"""The emulator as a whole: who speaks when, and the same frames for the same commands."""
 
 import itertools
 
@@ -17,7 +17,7 @@ from svsa.hardware.drives.robomodule import (
     encode,
 )
 from svsa.hardware.emulation import EMULATED_ID
-from svsa.hardware.emulator.emulator import FRAME_US, Rig
+from svsa.hardware.emulator.emulator import FRAME_US, Emulator
 from svsa.hardware.emulator.frame import Frame
 from svsa.simulation.plant.loads import ConstantLoad
 
@@ -30,22 +30,22 @@ def build(message, number):
 
 
 def bring_up(feedback_ms=1, inputs_ms=0):
-    rig = Rig()
-    rig.receive(build(Reset(), 0), LOOP)
-    rig.advance_to(600_000)
+    emulator = Emulator()
+    emulator.receive(build(Reset(), 0), LOOP)
+    emulator.advance_to(600_000)
     for message in (Config(feedback_ms, inputs_ms), SetMode(Mode.CURRENT)):
         for number in (1, 2):
-            rig.receive(build(message, number), LOOP)
-    rig.advance_to(READY_US)
-    return rig
+            emulator.receive(build(message, number), LOOP)
+    emulator.advance_to(READY_US)
+    return emulator
 
 
-def run(rig, ticks, currents=lambda _: (300, -40)):
+def run(emulator, ticks, currents=lambda _: (300, -40)):
     said = []
     for tick in range(ticks):
         for number, current in zip((1, 2), currents(tick), strict=True):
-            rig.receive(build(Current(5000, current), number), LOOP)
-        said += rig.advance_to(READY_US + 1000 * (tick + 1))
+            emulator.receive(build(Current(5000, current), number), LOOP)
+        said += emulator.advance_to(READY_US + 1000 * (tick + 1))
     return said
 
 
@@ -70,21 +70,21 @@ def test_feedback_and_inputs_come_at_the_period_asked_for(period):
 
 
 def test_nothing_flows_before_a_mode_but_the_deflection():
-    rig = Rig()
-    rig.receive(build(Config(1, 1), 1), LOOP)
-    ids = {frame.can_id for _, frame, _ in rig.advance_to(300_000)}
+    emulator = Emulator()
+    emulator.receive(build(Config(1, 1), 1), LOOP)
+    ids = {frame.can_id for _, frame, _ in emulator.advance_to(300_000)}
     assert ids == {build_id(Address(0, 1), Command.CONFIG), 0x700, EMULATED_ID}
 
 
 def test_frames_follow_one_another_by_the_length_of_a_frame():
     """Ten at once take 1.3 ms; the lowest identifier of those that wait goes first."""
-    rig = bring_up(0)
-    rig.advance_to(READY_US + 940)
+    emulator = bring_up(0)
+    emulator.advance_to(READY_US + 940)
     for number in range(15, 5, -1):
-        rig.receive(Frame(0x100 + number, b"\x55" * 8), LOOP)
+        emulator.receive(Frame(0x100 + number, b"\x55" * 8), LOOP)
     said = [
         (time_us, frame.can_id)
-        for time_us, frame, sender in rig.advance_to(READY_US + 5000)
+        for time_us, frame, sender in emulator.advance_to(READY_US + 5000)
         if sender is LOOP
     ]
     assert [can_id for _, can_id in said] == list(range(0x106, 0x110))
@@ -92,7 +92,7 @@ def test_frames_follow_one_another_by_the_length_of_a_frame():
 
 
 def test_the_emulation_says_so_every_100_ms():
-    said = Rig().advance_to(1_000_000)
+    said = Emulator().advance_to(1_000_000)
     times = list_times(said, EMULATED_ID)
     assert times == [100_000 * k for k in range(1, 11)]
 
@@ -118,9 +118,9 @@ def test_two_runs_say_the_same_bytes():
 
     records = []
     for _ in range(2):
-        rig = bring_up()
-        rig.add_load(ConstantLoad(torque_nm=(2.0, 0.0, 0.0)))
-        records.append(run(rig, 300, script))
+        emulator = bring_up()
+        emulator.add_load(ConstantLoad(torque_nm=(2.0, 0.0, 0.0)))
+        records.append(run(emulator, 300, script))
     assert records[0] == records[1]
     assert len({frame.data for _, frame, _ in records[0]}) > 300
 
@@ -129,17 +129,17 @@ def test_how_far_one_goes_at_once_changes_nothing():
     """One advance over 50 ms says the frames of fifty advances over 1 ms, and of odd ones."""
 
     def collect(step):
-        rig = bring_up()
-        rig.receive(build(Current(5000, 500), 1), LOOP)
+        emulator = bring_up()
+        emulator.receive(build(Current(5000, 500), 1), LOOP)
         said = []
         for time_us in [*range(READY_US, READY_US + 50_000, step), READY_US + 50_000]:
-            said += rig.advance_to(time_us)
+            said += emulator.advance_to(time_us)
         return said
 
     assert collect(1000) == collect(50_000) == collect(137)
 
 
 def test_time_does_not_go_back():
-    rig = bring_up()
-    assert rig.advance_to(5) == []
-    assert rig.now_us == READY_US
+    emulator = bring_up()
+    assert emulator.advance_to(5) == []
+    assert emulator.now_us == READY_US

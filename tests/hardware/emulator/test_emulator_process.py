@@ -1,4 +1,4 @@
-"""The rig as a process: its ready line, its control port, lockstep over a real socket."""
+"""The emulator as a process: its ready line, its control port, lockstep over a real socket."""
 
 import json
 import socket
@@ -7,16 +7,16 @@ import time
 import pytest
 
 from svsa.hardware.emulation import ADVANCE_ID, EMULATED_ID, encode_time
-from svsa.hardware.emulator.control import RigError
+from svsa.hardware.emulator.control import EmulatorError
 from svsa.hardware.emulator.faults import Silence
-from svsa.hardware.emulator.launch import start_rig
+from svsa.hardware.emulator.launch import start_emulator
 from svsa.simulation.plant.loads import ConstantLoad, MassLoad
 
 HANG_S = 60.0
 
 
 class Wire:
-    """A socketcand client of a few lines, so that the rig is tested without our own plant."""
+    """A socketcand client of a few lines, so that the emulator is tested without our own plant."""
 
     def __init__(self, port):
         self._socket = socket.create_connection(("127.0.0.1", port), HANG_S)
@@ -30,7 +30,7 @@ class Wire:
     def read(self):
         while ">" not in self._text:
             chunk = self._socket.recv(65536)
-            assert chunk, "the rig has closed the connection"
+            assert chunk, "the emulator has closed the connection"
             self._text += chunk.decode()
         head, _, self._text = self._text.partition(">")
         return head.strip("< ").split()
@@ -59,42 +59,42 @@ class Wire:
 
 
 @pytest.fixture(scope="module")
-def only_rig():
-    with start_rig(lockstep=True) as running:
+def only_emulator():
+    with start_emulator(lockstep=True) as running:
         yield running
 
 
 @pytest.fixture
-def rig(only_rig):
+def emulator(only_emulator):
     """The one of this module, at its marks, without load or fault; its time goes on."""
-    only_rig.control.clear_faults()
-    only_rig.control.set_loads(())
-    only_rig.control.home()
-    return only_rig
+    only_emulator.control.clear_faults()
+    only_emulator.control.set_loads(())
+    only_emulator.control.home()
+    return only_emulator
 
 
-def read_time_us(rig):
-    return round(1e6 * rig.control.read_state()["time_s"])
+def read_time_us(emulator):
+    return round(1e6 * emulator.control.read_state()["time_s"])
 
 
-def test_in_lockstep_time_stands_until_it_is_asked_to_go_on(rig):
-    wire = Wire(rig.port)
-    begin = read_time_us(rig)
+def test_in_lockstep_time_stands_until_it_is_asked_to_go_on(emulator):
+    wire = Wire(emulator.port)
+    begin = read_time_us(emulator)
     time.sleep(0.05)
-    assert read_time_us(rig) == begin
+    assert read_time_us(emulator) == begin
     said = wire.advance(begin + 10_000)
     assert sum(words[1] == "700" for words in said) == 10
-    assert read_time_us(rig) == begin + 10_000
+    assert read_time_us(emulator) == begin + 10_000
     emulation = {f"{ADVANCE_ID:08X}", f"{EMULATED_ID:08X}"}
     assert {words[1] for words in wire.advance(begin + 10_000)} <= emulation
-    assert read_time_us(rig) == begin + 10_000
+    assert read_time_us(emulator) == begin + 10_000
     wire.close()
 
 
 @pytest.mark.exhaustive
 def test_lockstep_over_the_wire_is_the_same_to_the_byte():
     def record():
-        with start_rig(lockstep=True) as running:
+        with start_emulator(lockstep=True) as running:
             wire = Wire(running.port)
             said = []
             wire.send((0x000, b"\x55" * 8))
@@ -117,10 +117,10 @@ def test_lockstep_over_the_wire_is_the_same_to_the_byte():
 
 
 @pytest.mark.parametrize("together", [True, False])
-def test_a_client_is_greeted_before_its_first_frame_acts(rig, together):
+def test_a_client_is_greeted_before_its_first_frame_acts(emulator, together):
     """However its frames are cut: else two runs in lockstep would not be the same."""
-    wire = Wire(rig.port)
-    begin = read_time_us(rig)
+    wire = Wire(emulator.port)
+    begin = read_time_us(emulator)
     reset = (0x000, b"\x55" * 8)
     if together:
         said = wire.advance(begin + 5_000, reset)
@@ -131,30 +131,32 @@ def test_a_client_is_greeted_before_its_first_frame_acts(rig, together):
     wire.close()
 
 
-def test_a_client_is_told_that_this_is_an_emulation(rig):
-    wire = Wire(rig.port)
-    assert f"{EMULATED_ID:08X}" in {words[1] for words in wire.advance(read_time_us(rig) + 150_000)}
+def test_a_client_is_told_that_this_is_an_emulation(emulator):
+    wire = Wire(emulator.port)
+    assert f"{EMULATED_ID:08X}" in {
+        words[1] for words in wire.advance(read_time_us(emulator) + 150_000)
+    }
     wire.close()
 
 
-def test_loads_and_faults_are_told_over_the_control_port(rig):
-    begin = read_time_us(rig)
-    rig.control.load(MassLoad())
-    rig.control.load(ConstantLoad(torque_nm=(2.0, 0.0, 0.0)), at_s=1e-6 * begin + 0.05)
-    rig.control.fault(Silence(node="motor1"), at_s=1e-6 * begin + 0.02)
-    wire = Wire(rig.port)
+def test_loads_and_faults_are_told_over_the_control_port(emulator):
+    begin = read_time_us(emulator)
+    emulator.control.load(MassLoad())
+    emulator.control.load(ConstantLoad(torque_nm=(2.0, 0.0, 0.0)), at_s=1e-6 * begin + 0.05)
+    emulator.control.fault(Silence(node="motor1"), at_s=1e-6 * begin + 0.02)
+    wire = Wire(emulator.port)
     wire.advance(begin + 10_000)
-    assert rig.control.read_state()["drives"]["motor1"]["powered"]
+    assert emulator.control.read_state()["drives"]["motor1"]["powered"]
     wire.advance(begin + 30_000)
-    state = rig.control.read_state()
+    state = emulator.control.read_state()
     assert not state["drives"]["motor1"]["powered"]
     assert state["x"]["q"] == 0.0
     wire.advance(begin + 80_000)
-    assert rig.control.read_state()["x"]["q"] > 0.01
+    assert emulator.control.read_state()["x"]["q"] > 0.01
     wire.close()
 
 
-def test_what_the_control_port_does_not_understand_is_answered_with_why(rig):
+def test_what_the_control_port_does_not_understand_is_answered_with_why(emulator):
     lines = (
         b"nonsense",
         b"[]",
@@ -165,28 +167,28 @@ def test_what_the_control_port_does_not_understand_is_answered_with_why(rig):
         b'{"do": "fault", "fault": {"kind": "stall", "node": "deflection"}}',
         b"\xff\xfe",
     )
-    begin = read_time_us(rig)
-    with socket.create_connection(("127.0.0.1", rig.control_port), HANG_S) as client:
+    begin = read_time_us(emulator)
+    with socket.create_connection(("127.0.0.1", emulator.control_port), HANG_S) as client:
         answers = client.makefile()
         for line in lines:
             client.sendall(line + b"\n")
-            told = json.loads(answers.readline())
-            assert told["ok"] is False, line
-            assert told["message"], line
-    with pytest.raises(RigError):
-        rig.control.ask("explode")
-    assert read_time_us(rig) == begin
+            reported = json.loads(answers.readline())
+            assert reported["ok"] is False, line
+            assert reported["message"], line
+    with pytest.raises(EmulatorError):
+        emulator.control.ask("explode")
+    assert read_time_us(emulator) == begin
 
 
 def test_against_the_clock_time_goes_on_by_itself():
-    with start_rig(lockstep=False) as running:
+    with start_emulator(lockstep=False) as running:
         deadline = time.monotonic() + HANG_S
         while running.control.read_state()["time_s"] < 0.1:
             assert time.monotonic() < deadline
 
 
 def test_in_lockstep_time_goes_on_where_its_loop_is_gone_until_there_is_another():
-    with start_rig(True, 120.0, "--alone-s", "0.2") as running:
+    with start_emulator(True, 120.0, "--alone-s", "0.2") as running:
         loop = Wire(running.port)
         assert read_time_us(running) == 0, "nobody has asked yet"
         loop.advance(5_000)
@@ -201,8 +203,8 @@ def test_in_lockstep_time_goes_on_where_its_loop_is_gone_until_there_is_another(
 
 
 def test_it_ends_when_told_and_when_idle():
-    with start_rig(lockstep=True) as running:
+    with start_emulator(lockstep=True) as running:
         process = running.process
     assert process.returncode == 0
-    with start_rig(True, 0.3) as running:
+    with start_emulator(True, 0.3) as running:
         assert running.process.wait(HANG_S) == 0

@@ -1,0 +1,73 @@
+/**
+ * Stable line styles: who controls a lane has a colour and a dash of its own, numbered by the server, in
+ * every picture; several channels of one lane have a colour each.
+ */
+import type { LineStyle, PlotColour } from "./definitions";
+
+export const PLAIN: readonly number[] = [];
+export const DASHED: readonly number[] = [6, 5];
+export const DOTTED: readonly number[] = [2, 4];
+
+const LANE_COLOURS: readonly PlotColour[] = ["blue", "vermilion", "green", "purple", "orange"];
+const LANE_DASHES = [PLAIN, [9, 4], [3, 3], [10, 3, 2, 3]] as const;
+
+/** Line style 0, 1, …: twenty, of which no two share both colour and dash, and neighbours share neither. */
+export const lineStyleOf = (lineStyle: number): LineStyle => ({
+  colour: LANE_COLOURS[lineStyle % LANE_COLOURS.length] as PlotColour,
+  dash: LANE_DASHES[lineStyle % LANE_DASHES.length] as readonly number[],
+  width: lineStyle === 0 ? 2.5 : 2,
+});
+
+/**
+ * A line style for each of several curves, as the server shares them out among lanes: the own one where
+ * its colour is free, else the first whose colour is; where none is, one that looks otherwise. The
+ * order decides only between curves whose own line style is the same. null: one that has none.
+ */
+export function shareLineStyles(own: readonly (number | null)[]): LineStyle[] {
+  const shared = new Map<number, number>();
+  const isTaken = (lineStyle: number) => [...shared.values()].includes(lineStyle);
+  const isColourTaken = (lineStyle: number) =>
+    [...shared.values()].some((one) => (one - lineStyle) % LANE_COLOURS.length === 0);
+  const firstLook = () => {
+    let lineStyle = 0;
+    while (isTaken(lineStyle)) lineStyle++;
+    return lineStyle;
+  };
+  const wishes = own
+    .map((lineStyle, index) => ({ lineStyle: lineStyle ?? Number.MAX_SAFE_INTEGER, index }))
+    .sort((one, other) => one.lineStyle - other.lineStyle);
+  for (const { lineStyle, index } of wishes) {
+    if (own[index] !== null && !isColourTaken(lineStyle)) shared.set(index, lineStyle);
+  }
+  for (const { index } of wishes) {
+    if (shared.has(index)) continue;
+    const free = [...LANE_COLOURS.keys()].find((lineStyle) => !isColourTaken(lineStyle));
+    shared.set(index, free ?? firstLook());
+  }
+  return own.map((_, index) => lineStyleOf(shared.get(index) as number));
+}
+
+/** Of who controlled a lane at a time; null where nobody is known. */
+export const lineStyleAt = (
+  stretches: readonly { line_style: number; start_s: number }[] | undefined,
+  timeS: number,
+): number | null =>
+  stretches?.filter(({ start_s: start }) => start <= timeS).at(-1)?.line_style ?? null;
+
+const COLOURS: readonly PlotColour[] = ["blue", "vermilion", "green", "orange", "purple"];
+
+/**
+ * A colour for each wish in turn: the one wished for, or the next that is free; once all are in use
+ * they come again, dashed.
+ */
+export function shareColours(wishes: readonly PlotColour[]): Pick<LineStyle, "colour" | "dash">[] {
+  const used: PlotColour[] = [];
+  return wishes.map((wish) => {
+    const round = Math.floor(used.length / COLOURS.length);
+    const taken = used.slice(round * COLOURS.length);
+    const free = COLOURS.filter((colour) => !taken.includes(colour));
+    const colour = free.includes(wish) ? wish : (free[0] as PlotColour);
+    used.push(colour);
+    return { colour, dash: round === 0 ? PLAIN : [9, 4] };
+  });
+}
