@@ -37,7 +37,7 @@ def build_settings(number: int) -> RunSettings:
         stiffness_nm_per_rad=stiffness,
         load=load,
         load_kinds=(load,),
-        realism=("ideal", "rig", "full")[number % 7 % 3],
+        effects=("ideal", "rig", "full")[number % 7 % 3],
         own="",
     )
 

@@ -13,7 +13,7 @@ from tests.hardware.wired_bench import EMULATOR_BENCH
 
 
 def write(folder: Path, **changes: Any) -> Path:
-    """The emulator's bench file with fields replaced: section__name=value, None to leave one out."""
+    """The emulator's bench file with fields replaced (section__name=value; None: left out)."""
     sections = tomllib.loads(EMULATOR_BENCH.read_text(encoding="utf-8"))
     for name, value in changes.items():
         section, field = name.split("__")

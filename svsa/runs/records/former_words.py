@@ -20,6 +20,8 @@ SUBMISSIONS = "handed-in"
 """Folder of the submissions of a course."""
 METRICS = {"settled_position_error_rad": "steady_state_position_error_rad"}
 """Metrics in the catalogue of runs, and columns and criteria of studies."""
+SETTINGS = {"realism": "effects"}
+"""Settings in the catalogue of runs."""
 RESULTS = {"told": "description", "draws": "trials", "draws_held": "trials_held"}
 """Fields of grades and of entries of the leaderboard."""
 SCENARIOS = {"unloading": "load_removal", "draw_": "trial_", "unloading_": "load_removal_"}

@@ -48,8 +48,8 @@ class RunSettings:
     figure with its references, from the first sample on; figure_held: to the last one too.
     laws: lane by lane; law_kinds: every law that controlled a lane at some time. stiffness: σ_d,
     N·m/rad; stiffness_nm_per_rad: its mean at the first sample. loads that were on; load_kinds:
-    their kinds, or "none". realism: effects of the simulation, or the bench. own: what of the
-    design is not the paper's prototype with this lab's gains. An arrow stands between what came
+    their kinds, or "none". effects: non-ideal effects of the simulation, or the bench. own: what of
+    the design is not the paper's prototype with this lab's gains. An arrow stands between what came
     after one another.
     """
 
@@ -63,7 +63,7 @@ class RunSettings:
     stiffness_nm_per_rad: float | None
     load: str
     load_kinds: tuple[str, ...]
-    realism: str
+    effects: str
     own: str
 
 
@@ -89,7 +89,7 @@ def describe_settings(
         stiffness_nm_per_rad=compute_mean(first),
         load=_describe_loads(acting),
         load_kinds=_list_load_kinds(acting),
-        realism=_PLANTS.get(header.plant, "")
+        effects=_PLANTS.get(header.plant, "")
         or follow(map(describe_effects, acting.get_values("effects"))),
         own="" if on_bench else ", ".join(_find_own(acting)),
     )
@@ -109,7 +109,7 @@ def _build_name(settings: RunSettings) -> str:
         settings.laws,
         f"σ {settings.stiffness}" if settings.stiffness else "",
         settings.load,
-        "" if settings.realism == "ideal" else settings.realism,
+        "" if settings.effects == "ideal" else settings.effects,
         f"own {settings.own}" if settings.own else "",
     ]
     name = _DOT.join(part for part in parts if part)

@@ -61,7 +61,7 @@ def test_a_figure_with_its_load_is_named_as_people_say_it() -> None:
         ("paper",),
     )
     assert settings.stiffness_nm_per_rad == 60.0
-    assert (settings.realism, settings.own) == ("ideal", "")
+    assert (settings.effects, settings.own) == ("ideal", "")
 
 
 def test_a_load_that_the_record_never_reached_is_not_named() -> None:
@@ -138,7 +138,7 @@ def test_how_a_figure_is_faded_in_makes_no_other_figure_of_it() -> None:
 def test_realism_and_a_design_of_ones_own_are_told() -> None:
     assert describe(effects=RIG).name == "Fig. 4A · NDOBC · σ 15 · no load · rig"
     rough = RIG.changed(friction=Friction())
-    assert describe(effects=rough).realism == "encoders, estimated velocities, friction, delay 1"
+    assert describe(effects=rough).effects == "encoders, estimated velocities, friction, delay 1"
     exact = load_prototype().actuator
     assert describe(nominal=exact).own == "model"
     assert describe(nominal=exact).name.endswith(" · own model")

@@ -10,7 +10,7 @@ import msgspec
 
 from svsa.errors import Fault, ParameterError, SvsaError, Violation
 from svsa.runs.metrics import Metrics
-from svsa.runs.records.former_words import METRICS, translate_fields
+from svsa.runs.records.former_words import METRICS, SETTINGS, translate_fields
 from svsa.runs.records.header import BranchPoint, PlantKind
 from svsa.runs.records.measured_window import MeasuredWindow
 from svsa.runs.records.settings import RunSettings, name_figure
@@ -23,7 +23,7 @@ SORTS = (
     "laws",
     "stiffness_nm_per_rad",
     "load",
-    "realism",
+    "effects",
     "plant",
     "peak_position_error_rad",
     "steady_state_position_error_rad",
@@ -192,7 +192,7 @@ def read_entry(text: str) -> RunEntry:
     written = json.loads(text)
     for name in ("tags", "lanes"):
         written[name] = tuple(written[name])
-    written["settings"] = _read(RunSettings, written.get("settings"))
+    written["settings"] = _read(RunSettings, translate_fields(written.get("settings"), SETTINGS))
     written["window"] = _read(MeasuredWindow, written.get("window"))
     written["fault"] = _read(Fault, written.get("fault"))
     if written["metrics"] is not None:

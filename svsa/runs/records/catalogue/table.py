@@ -36,7 +36,7 @@ _COLUMNS = {
     "laws": "TEXT",
     "stiffness_nm_per_rad": "REAL",
     "load": "TEXT",
-    "realism": "TEXT",
+    "effects": "TEXT",
     "plant": "TEXT NOT NULL",
     "peak_position_error_rad": "REAL",
     "steady_state_position_error_rad": "REAL",
@@ -151,7 +151,7 @@ def _build_row(entry: RunEntry, trash: int) -> dict[str, Any]:
         "laws": _order(settings.laws) if settings else None,
         "stiffness_nm_per_rad": settings.stiffness_nm_per_rad if settings else None,
         "load": _order(settings.load) if settings else None,
-        "realism": _order(settings.realism) if settings else None,
+        "effects": _order(settings.effects) if settings else None,
         "plant": entry.plant,
         "peak_position_error_rad": first.peak_position_error_rad if first else None,
         "steady_state_position_error_rad": first.steady_state_position_error_rad if first else None,
@@ -173,7 +173,7 @@ def _build_search(connection: sqlite3.Connection, entry: RunEntry) -> str:
     if settings := entry.settings:
         stiffness = f"σ {settings.stiffness}" if settings.stiffness else ""
         texts += [entry.figure or settings.motion, settings.laws, stiffness, settings.load]
-        texts += [settings.realism, f"own {settings.own}" if settings.own else ""]
+        texts += [settings.effects, f"own {settings.own}" if settings.own else ""]
     if entry.branch_of is not None:
         found = _find(connection, entry.branch_of.run_id)
         texts.append(entry.branch_of.run_id if found is None else read_entry(found).title)

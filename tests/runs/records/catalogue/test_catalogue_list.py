@@ -39,7 +39,8 @@ PRAGMA user_version = 2;
 
 FORMAT_4 = """
 UPDATE entries SET entry = replace(
-    entry, 'steady_state_position_error_rad', 'settled_position_error_rad'
+    replace(entry, 'steady_state_position_error_rad', 'settled_position_error_rad'),
+    '"effects":', '"realism":'
 );
 PRAGMA user_version = 4;
 """
@@ -231,7 +232,7 @@ def test_metrics_that_an_older_version_took_of_whole_runs_are_measured_anew(
     assert again.get("run-3") == before
 
 
-def test_the_former_name_of_a_metric_is_read(varied: Catalogue) -> None:
+def test_former_names_are_read(varied: Catalogue) -> None:
     before = varied.get("run-3")
     assert before.metrics is not None
     with sqlite3.connect(varied.folder / "catalogue.sqlite") as connection:

@@ -43,8 +43,8 @@ export const runsText = {
       stiffness: "σ",
       stiffnessHint: "Stiffness reference, N·m/rad; arrows where it changed while recorded",
       load: "Load",
-      realism: "Realism",
-      realismHint: "Effects of the simulation, or the bench; what of the design is its own",
+      effects: "Realism",
+      effectsHint: "Effects of the simulation, or the bench; what of the design is its own",
       peak: "Peak error",
       window: "Measured in",
       windowHint:

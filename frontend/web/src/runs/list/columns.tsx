@@ -125,12 +125,12 @@ export const COLUMNS: readonly Column[] = [
     ...setting(({ load }) => load),
   },
   {
-    key: "realism",
-    name: words.columns.realism,
-    hint: words.columns.realismHint,
-    sort: "realism",
+    key: "effects",
+    name: words.columns.effects,
+    hint: words.columns.effectsHint,
+    sort: "effects",
     isInName: true,
-    ...setting(({ realism, own }) => [realism, own && words.own(own)].filter(Boolean).join(", ")),
+    ...setting(({ effects, own }) => [effects, own && words.own(own)].filter(Boolean).join(", ")),
   },
   {
     key: "window",
