@@ -199,7 +199,7 @@ def test_who_was_removed_is_not_launched_in_again(launcher, lab, data):
     from svsa_server.access.memberships import FILE, Memberships
 
     assert Memberships(data / FILE).find(eve) is not None
-    listener = lab.client._transport._transport.app.state.listener
+    listener = lab.client._transport._transport.app.state.authentication
     listener.members.set_ended(eve, True)
     launcher.client.cookies.clear()
     refused = launcher.launch(sub="user-66", name="Eve")

@@ -72,7 +72,7 @@ def test_what_is_no_law_s_text_and_where_none_is_asked_for_is_refused(student, l
 def test_a_law_is_submitted_and_the_same_submission_has_the_same_grade(
     student, data, own_law, tmp_path, monkeypatch
 ):
-    monkeypatch.setattr(law_runs, "DRAWS", 2)
+    monkeypatch.setattr(law_runs, "TRIALS", 2)
     text = find_law(own_law)
     student.answer("predict-peak", 2.8).raise_for_status()
     student.answer("why", "tuned").raise_for_status()

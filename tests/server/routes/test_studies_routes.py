@@ -219,7 +219,7 @@ def test_a_wrong_study_is_refused_with_line_name_value_and_bound(lab):
 def test_what_is_asked_otherwise_than_in_the_file_is_so(lab):
     asked = {"source": "load", "runs": 8, "laws": ["pd"], "success": {"recovery_time_s": 0.5}}
     plan = lab.post(f"{STUDIES}/check", json=asked).json()
-    assert (plan["name"], plan["laws"], plan["rows"], plan["trials"]) == ("load", ["pd"], 8, 8)
+    assert (plan["name"], plan["laws"], plan["rows"], plan["samples"]) == ("load", ["pd"], 8, 8)
     assert plan["study"]["success"]["recovery_time_s"] == 0.5
     roles = {column["name"]: column["role"] for column in plan["columns"]}
     assert roles["loads[0].torque_nm[0]"] == "varied"

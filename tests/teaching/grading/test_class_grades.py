@@ -56,7 +56,7 @@ def store(tmp_path):
 def test_each_is_graded_once_and_again_the_same(store):
     reported = []
     assert [one.grade for one in list_graded(store)] == [None, None]
-    assert give(store, notify=lambda done, total: reported.append((done, total)))
+    assert give(store, report=lambda done, total: reported.append((done, total)))
     assert reported == [(0, 2), (1, 2), (2, 2)]
     first = list_graded(store)
     assert [(one.person, one.student) for one in first] == [("p-1", "Ada"), ("p-2", "Bob")]
@@ -73,7 +73,7 @@ def test_each_is_graded_once_and_again_the_same(store):
 def test_side_by_side_each_gets_the_grade_that_it_gets_alone(store):
     submit(store, "p-3", "Cem", "gone")
     reported = []
-    assert give(store, notify=lambda done, total: reported.append((done, total)), workers=2)
+    assert give(store, report=lambda done, total: reported.append((done, total)), workers=2)
     assert reported == [(0, 3), (1, 3), (2, 3), (3, 3)]
     beside = list_graded(store)
     shutil.rmtree(open_book(store).folder)
@@ -101,7 +101,7 @@ def test_grading_that_is_broken_off_keeps_what_is_done(store):
     reported = []
     assert not give(
         store,
-        notify=lambda done, total: reported.append(done),
+        report=lambda done, total: reported.append(done),
         is_cancelled=lambda: 1 in reported,
     )
     assert sum(one.grade is not None for one in list_graded(store)) == 1

@@ -42,7 +42,7 @@ SECRET = bytes(range(32))
 
 @pytest.fixture(autouse=True)
 def few_trials(monkeypatch):
-    monkeypatch.setattr(law_runs, "DRAWS", 3)
+    monkeypatch.setattr(law_runs, "TRIALS", 3)
 
 
 def run(*arguments):
