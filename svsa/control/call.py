@@ -58,8 +58,9 @@ class Call(NamedTuple):
     is_measuring: int
 
 
+@cache
 def is_measuring(control: Any) -> bool:
-    """Whether a law's function takes the ninth argument, what was measured.
+    """Whether a law's function takes the ninth argument, what was measured; inspected once.
 
     Raises `ParameterError` where it takes neither eight nor nine.
     """

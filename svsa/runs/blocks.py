@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 from svsa.actuators.domain import build_domain
 from svsa.actuators.dynamics import build_actuator
@@ -19,6 +19,18 @@ from svsa.simulation.reference.trajectories import compute_start_value
 
 Bind: TypeAlias = Callable[[Configuration, Lane, Blocks], BoundLaw]
 """Binds the law of one lane among its blocks, as `bind_law` does."""
+
+
+class Connection(NamedTuple):
+    """What the loop is given for one lane, and what it was made of.
+
+    parts: the settings that `build_blocks` reads. control: the law's name, parameters, `Setting`.
+    """
+
+    parts: tuple[Any, ...]
+    control: tuple[Any, ...]
+    blocks: Blocks
+    law: BoundLaw
 
 
 def build_blocks(configuration: Configuration, lane: Lane, mu0: float, steps: int = 1) -> Blocks:
@@ -48,6 +60,43 @@ def bind_law(configuration: Configuration, lane: Lane, blocks: Blocks) -> BoundL
 def build_constants(configuration: Configuration, lane: Lane, blocks: Blocks) -> tuple[Any, ...]:
     """The constants of one lane's law among its blocks."""
     return get_law(lane.law).build(configuration.get_parameters(lane), build_setting(blocks))
+
+
+def connect_lane(
+    before: Connection | None,
+    configuration: Configuration,
+    lane: Lane,
+    mu0: float,
+    steps: int,
+    bind: Bind,
+) -> Connection:
+    """Build the blocks of one lane and bind its law, as far as either is another than before.
+
+    Args:
+        before: What the lane had until now; None for a new lane.
+        configuration: The one from now on.
+        lane: One of its lanes.
+        mu0: Lever ratio at θ2 = 0.
+        steps: RK4 steps a period.
+        bind: Binds the law.
+
+    Returns:
+        Blocks and law; those of `before` where nothing that they are made of is another.
+
+    Raises:
+        LawError: If the law's own code fails.
+    """
+    c = configuration
+    observer = lane.observer or c.observer
+    parts = c.actuator, c.nominal, observer, c.effects, c.limits, c.sampling, c.seed, mu0, steps
+    if before is not None and before.parts == parts:
+        blocks = before.blocks
+    else:
+        blocks = build_blocks(c, lane, mu0, steps)
+    control = lane.law, c.find_parameters(lane), build_setting(blocks)
+    is_bound = before is not None and before.control == control
+    law = before.law if before is not None and is_bound else bind(c, lane, blocks)
+    return Connection(parts, control, blocks, law)
 
 
 def build_setting(blocks: Blocks) -> Setting:

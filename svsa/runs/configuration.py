@@ -122,14 +122,18 @@ class Configuration(Design):
         """The run's own controller and its comparisons."""
         return (Lane(law=self.law), *self.comparisons)
 
+    def find_parameters(self, lane: Lane) -> LawParameters | None:
+        """What the law of a lane was set to: the lane's own, or the run's; None where nothing."""
+        if has_own_parameters(lane.law):
+            return lane.parameters or self.parameters.get(lane.law)
+        return lane.gains or self.gains
+
     def get_parameters(self, lane: Lane) -> LawParameters:
         """What the law of a lane is set to: the lane's own, the run's, or its defaults.
 
         Raises `ParameterError` for a law that is not installed and not set either.
         """
-        if not has_own_parameters(lane.law):
-            return lane.gains or self.gains
-        given = lane.parameters or self.parameters.get(lane.law)
+        given = self.find_parameters(lane)
         return get_law(lane.law).parameters() if given is None else given
 
     def list_parameters(self) -> dict[str, LawParameters]:

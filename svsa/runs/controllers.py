@@ -70,7 +70,7 @@ def name_controllers(controllers: Iterable[Controller]) -> dict[Controller, str]
 
 def _build(configuration: Configuration, lane: Lane, place: str) -> Controller:
     if not is_usable(lane.law):
-        written = lane.parameters or configuration.parameters.get(lane.law) or UnreadParameters()
+        written = configuration.find_parameters(lane) or UnreadParameters()
         return Controller(place, lane.law, written, None, 1)
     is_observing = get_law(lane.law).estimate == "observer"
     observer = (lane.observer or configuration.observer) if is_observing else None

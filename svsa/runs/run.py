@@ -15,7 +15,7 @@ from svsa.control.installed import check_installed, get_law
 from svsa.control.observers.disturbance import ObserverBandwidth
 from svsa.control.parameters import LawParameters
 from svsa.errors import Fault, ParameterError, StateError
-from svsa.runs.blocks import Bind, bind_law, build_blocks, compute_start_ratio
+from svsa.runs.blocks import Bind, Connection, bind_law, compute_start_ratio, connect_lane
 from svsa.runs.configuration import MAX_LOADS, Configuration, Lane, LaneSetting
 from svsa.runs.fault import build_fault
 from svsa.runs.loads import Loads, give_load
@@ -67,6 +67,7 @@ class Run:
         self.fault: Fault | None = None
         self._load_count = 0
         self.loads: Loads = ()
+        self._connections: list[Connection] = []
         if start is None:
             self.mu0 = compute_start_ratio(configuration)
             x = AT_REST
@@ -79,9 +80,9 @@ class Run:
         self.lanes = [
             build_lane_state(get_law(lane.law).start_memory(), x) for lane in configuration.lanes
         ]
-        self._connect(self.configuration)
         for load in configuration.loads:
-            self.add_load(load)
+            self._schedule(load)
+        self._connect(configuration)
 
     @property
     def period_s(self) -> float:
@@ -216,7 +217,7 @@ class Run:
         )
         check_laws(configuration)
         origins = find_origins(before.comparisons, comparisons)
-        self._connect(configuration)
+        self._connect(configuration, origins)
         self.lanes = [
             _follow_law(self.lanes[origin or 0], before.lanes[origin or 0].law, lane.law)
             for origin, lane in zip(origins, configuration.lanes, strict=True)
@@ -228,35 +229,52 @@ class Run:
         A push told while one is on changes that one, which is returned. Each command counts,
         so that a load's number is that of its command.
         """
+        scheduled = self._schedule(load)
+        self._renew_inputs()
+        return scheduled
+
+    def _schedule(self, load: Load) -> ScheduledLoad:
+        """`add_load` without the table that the loop reads."""
         lasting = tuple(kept for kept in self.loads if kept.end_tick >= self.tick)
         given, loads = give_load(lasting, self._load_count + 1, load, self.tick, self.period_s)
         if len(loads) > MAX_LOADS:
             raise StateError(f"{MAX_LOADS} loads are applied or planned: clear one first.")
         self._load_count += 1
-        self._set_loads(loads)
+        self.loads = loads
         return given
 
     def remove_load(self, number: int) -> ScheduledLoad:
         """Take a load off; raises `StateError` when there is none of that number."""
         for load in self.loads:
             if load.number == number:
-                self._set_loads(tuple(kept for kept in self.loads if kept is not load))
+                self.loads = tuple(kept for kept in self.loads if kept is not load)
+                self._renew_inputs()
                 return load
         numbers = ", ".join(str(load.number) for load in self.loads) or "none"
         raise StateError(f"There is no load {number}; loads here: {numbers}.")
 
-    def _set_loads(self, loads: Loads) -> None:
-        self.loads = loads
-        self._connect(self.configuration)
-
     def _configure(self, **changes: object) -> None:
         self._connect(self.configuration.changed(**changes))
 
-    def _connect(self, c: Configuration) -> None:
-        """What the loop is given under a configuration; a law that fails at it changes nothing."""
-        blocks = [build_blocks(c, lane, self.mu0, self.steps) for lane in c.lanes]
-        self.laws = [self._bind(c, lane, own) for lane, own in zip(c.lanes, blocks, strict=True)]
-        self.configuration, self.blocks = c, blocks
+    def _connect(self, c: Configuration, origins: Sequence[int | None] | None = None) -> None:
+        """Give the loop what a configuration says; a law that fails at it changes nothing.
+
+        origins: of every lane the one that it continues; left out, each continues itself.
+        """
+        held = [*self._connections, *[None] * len(c.lanes)]
+        continued = range(len(c.lanes)) if origins is None else origins
+        self._connections = [
+            connect_lane(
+                None if origin is None else held[origin], c, lane, self.mu0, self.steps, self._bind
+            )
+            for origin, lane in zip(continued, c.lanes, strict=True)
+        ]
+        self.blocks = [one.blocks for one in self._connections]
+        self.laws = [one.law for one in self._connections]
+        self.configuration = c
+        self._renew_inputs()
+
+    def _renew_inputs(self) -> None:
         self.inputs = Inputs(self._position, self._stiffness, build_load_table(self.loads))
 
 

@@ -112,8 +112,8 @@ class BenchLoop:
             view_field(self._carried, name)
             for name in ("known", "estimate", "limited", "expected", "measured", "ages_s")
         )
-        self._blocks: Blocks | None = None
-        self._called: tuple[BoundLaw, np.ndarray] | None = None
+        self._connected: tuple[Blocks, BoundLaw, np.ndarray] | tuple[None, None, None]
+        self._connected = None, None, None
         self._constants = np.empty(0)
         self._forget()
 
@@ -218,7 +218,8 @@ class BenchLoop:
             self._known[:] = (y.theta1 + y.phi, 0.0, y.theta1, 0.0, y.theta2, 0.0)
             self._is_known = True
         run = self.run
-        if run.blocks[0] is not self._blocks:
+        blocks, law, memory = self._connected
+        if not (run.blocks[0] is blocks and run.laws[0] is law and run.lanes[0].memory is memory):
             self._connect()
         self._measured[:], self._ages[:] = y, ages_s
         follow_and_decide(self._constants, run.inputs, self._carried, run.tick)
@@ -228,9 +229,9 @@ class BenchLoop:
     def _connect(self) -> None:
         """Pack what is constant as the run has it now, its law with the memory of that."""
         run = self.run
-        self._blocks, self._called = run.blocks[0], (run.laws[0], run.lanes[0].memory)
-        call = build_call(*self._called)
-        self._constants = pack(BenchConstants(self._blocks, self._actuation, call))
+        blocks, law, memory = run.blocks[0], run.laws[0], run.lanes[0].memory
+        self._connected = blocks, law, memory  # the constants hold the addresses of these arrays
+        self._constants = pack(BenchConstants(blocks, self._actuation, build_call(law, memory)))
 
     def _publish(self, sent: Torque, row: np.ndarray) -> None:
         publish_and_predict(self._constants, self._carried, sent.u1, sent.u2, self.run.tick, row)

@@ -168,6 +168,23 @@ def test_what_the_server_computes_is_what_the_loop_would_have_to_the_bit(
             np.testing.assert_array_equal(found.view(np.uint64), expected.view(np.uint64))
 
 
+def test_a_law_that_comes_back_before_the_next_tick_remembers_nothing(
+    rehearsal: Rehearsal,
+) -> None:
+    """Prepared laws come back as the same object, but the memory is a new one."""
+    loop = rehearsal.loop
+    loop.load(loop.run.configuration)
+    assert rehearsal.change("law", "fl_integral")["refused"] is None
+    loop.warm_up()
+    _, law, memory = loop._connected
+    for name in ("ndobc", "fl_integral"):
+        assert rehearsal.ask("change", write("law", name)).keys() == {"tick"}
+    assert loop.run.laws[0] is law
+    assert loop.run.lanes[0].memory is not memory
+    loop.warm_up()
+    assert loop._connected[2] is loop.run.lanes[0].memory
+
+
 def test_only_what_was_used_last_is_kept(
     rehearsal: Rehearsal, monkeypatch: pytest.MonkeyPatch
 ) -> None:
