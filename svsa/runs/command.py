@@ -1,48 +1,97 @@
 """Commands: what may change a run, as values that can be written down and given again.
 
-A command is an object of `tick`, `kind` and `argument` in a record, over REST, and on its way to a
-bench alike.
+A change of a setting is one command, `Set(field, value)`, and `fold` alone says what becomes of a
+configuration: for a run, its timeline, its record and a script that repeats it. In a record, over
+REST, and on its way to a bench a command is an object of `tick`, `kind` (of a `Set` its field) and
+`argument` (its value).
 """
 
 from dataclasses import replace
-from typing import Annotated, Any, ClassVar, Literal, Self, get_args
+from typing import Annotated, Any, Literal, Self, get_args
 
-from pydantic import Field
+from pydantic import BaseModel, Field, ValidationError, create_model
 
-from svsa.actuators.parameters import ActuatorParameters
-from svsa.control.gains import Gains
-from svsa.control.installed import LawName, ParametersByLaw
-from svsa.control.observers.disturbance import ObserverBandwidth
+from svsa.control.installed import LawName
 from svsa.errors import ParameterError, Violation
 from svsa.inputs.checked import BY_KIND, Checked, Whole, quantity
+from svsa.inputs.explanation import explain
 from svsa.runs.configuration import Configuration, Lane, LaneSetting
-from svsa.runs.run import Run
-from svsa.simulation.plant.effects import Effects
-from svsa.simulation.plant.loads import Load, ScheduledLoad
-from svsa.simulation.reference.trajectories import PositionReference, StiffnessReference
+from svsa.simulation.plant.loads import Load
+
+Settable = Literal[
+    "position",
+    "stiffness",
+    "law",
+    "laws",
+    "gains",
+    "parameters",
+    "observer",
+    "actuator",
+    "nominal",
+    "effects",
+    "comparisons",
+    "lane",
+]
+"""The fields of a `Configuration` that a run may change; `laws` sets the laws of the first lanes,
+in their order, and `lane` one of the comparisons, whose plant stays as it is.
+"""
+
+COMMANDS: dict[str, str] = {
+    "position": "Motion changed",
+    "stiffness": "Stiffness changed",
+    "law": "Law changed",
+    "laws": "Laws changed",
+    "gains": "Gains changed",
+    "parameters": "Parameters changed",
+    "observer": "Observer changed",
+    "actuator": "Plant changed",
+    "nominal": "Nominal model changed",
+    "effects": "Effects changed",
+    "comparisons": "Lanes changed",
+    "lane": "A lane changed",
+    "load": "Load applied",
+    "unload": "Load taken off",
+    "stop": "Stop",
+}
+"""Every kind of command, and the label of its event."""
+
+
+_OF_LANES: dict[str, Any] = {
+    "laws": Annotated[tuple[LawName, ...], Field(min_length=1)],
+    "lane": LaneSetting,
+}
+
+
+def _build_value(field: str) -> type[BaseModel]:
+    """A model of the value of a settable field, as its only `argument`."""
+    known = Configuration.model_fields.get(field)
+    value: Any = (_OF_LANES[field], ...) if known is None else (known.annotation, known)
+    return create_model(field, argument=value)
+
+
+_VALUES = {field: _build_value(field) for field in get_args(Settable)}
 
 
 class _Command(Checked):
-    """A change of a run at the beginning of a tick.
-
-    label: how its event reads. `apply` does it to a run that has reached the tick, and raises
-    `ParameterError` or `StateError` where the run refuses it; `configure` says what becomes of a
-    configuration.
-    """
+    """A command, which holds from the beginning of a tick on."""
 
     tick: Whole = quantity(
         "", "Tick at whose beginning it holds; a session gives it its own", ge=0, default=0
     )
     kind: Any
     argument: Any
-    label: ClassVar[str]
 
     def __init__(self, /, **values: Any) -> None:
         try:
             super().__init__(**values)
         except ParameterError as error:
-            kind = type(self).model_fields["kind"].default
+            kind = values.get("kind", type(self).model_fields["kind"].default)
             raise ParameterError(*(_rename(one, kind) for one in error.violations)) from None
+
+    @property
+    def label(self) -> str:
+        """How its event reads."""
+        return COMMANDS[self.kind]
 
     def at(self, tick: int) -> Self:
         """The same command at another tick."""
@@ -52,235 +101,121 @@ class _Command(Checked):
         """As a dict that JSON can hold; see `read_command`."""
         return self.model_dump(mode="json")
 
-    def configure(self, configuration: Configuration) -> Configuration:
-        """The configuration with the field that the command is called after."""
-        return configuration.changed(**{self.kind: self.argument})
 
-    def is_held_by(self, configuration: Configuration) -> bool:
-        """Whether everything that it sets is so already; raises as `configure`."""
-        return self.configure(configuration) == configuration
+class Set(_Command):
+    """Another value of a field of the configuration: a reference is faded over."""
 
+    kind: Settable
+    argument: Any = Field(description="The value, as the configuration has it")
 
-class SetPosition(_Command):
-    """Another position reference, faded over."""
-
-    kind: Literal["position"] = "position"
-    argument: PositionReference
-    label: ClassVar[str] = "Motion changed"
-
-    def apply(self, run: Run) -> None:  # noqa: D102
-        run.set_position(self.argument)
+    def __init__(self, kind: str, argument: Any, tick: int = 0) -> None:
+        read = _read_value(kind, argument) if kind in _VALUES else argument
+        super().__init__(tick=tick, kind=kind, argument=read)
 
 
-class SetStiffness(_Command):
-    """Another stiffness reference, faded over."""
-
-    kind: Literal["stiffness"] = "stiffness"
-    argument: StiffnessReference
-    label: ClassVar[str] = "Stiffness changed"
-
-    def apply(self, run: Run) -> None:  # noqa: D102
-        run.set_stiffness(self.argument)
-
-
-class SetLaw(_Command):
-    """Another law for the first lane."""
-
-    kind: Literal["law"] = "law"
-    argument: LawName
-    label: ClassVar[str] = "Law changed"
-
-    def apply(self, run: Run) -> None:  # noqa: D102
-        run.set_law(self.argument)
-
-
-class SetLaws(_Command):
-    """Other laws for the first lanes, in their order."""
-
-    kind: Literal["laws"] = "laws"
-    argument: Annotated[tuple[LawName, ...], Field(min_length=1)]
-    label: ClassVar[str] = "Laws changed"
-
-    def apply(self, run: Run) -> None:  # noqa: D102
-        run.set_laws(self.argument)
-
-    def configure(self, configuration: Configuration) -> Configuration:
-        """The configuration with these laws; raises `ParameterError` where lanes are fewer."""
-        return configuration.controlled_by(self.argument)
-
-
-class SetGains(_Command):
-    """Other gains."""
-
-    kind: Literal["gains"] = "gains"
-    argument: Gains
-    label: ClassVar[str] = "Gains changed"
-
-    def apply(self, run: Run) -> None:  # noqa: D102
-        run.set_gains(self.argument)
-
-
-class SetParameters(_Command):
-    """Other parameters of laws that have their own, by the law's name."""
-
-    kind: Literal["parameters"] = "parameters"
-    argument: ParametersByLaw
-    label: ClassVar[str] = "Parameters changed"
-
-    def apply(self, run: Run) -> None:  # noqa: D102
-        run.set_parameters(self.argument)
-
-
-class SetObserver(_Command):
-    """Other bandwidths of the observer."""
-
-    kind: Literal["observer"] = "observer"
-    argument: ObserverBandwidth
-    label: ClassVar[str] = "Observer changed"
-
-    def apply(self, run: Run) -> None:  # noqa: D102
-        run.set_observer(self.argument)
-
-
-class SetActuator(_Command):
-    """Another true plant."""
-
-    kind: Literal["actuator"] = "actuator"
-    argument: ActuatorParameters
-    label: ClassVar[str] = "Plant changed"
-
-    def apply(self, run: Run) -> None:  # noqa: D102
-        run.set_actuator(self.argument)
-
-
-class SetNominal(_Command):
-    """Another model that controller and observer believe in."""
-
-    kind: Literal["nominal"] = "nominal"
-    argument: ActuatorParameters
-    label: ClassVar[str] = "Nominal model changed"
-
-    def apply(self, run: Run) -> None:  # noqa: D102
-        run.set_nominal(self.argument)
-
-
-class SetEffects(_Command):
-    """Other effects."""
-
-    kind: Literal["effects"] = "effects"
-    argument: Effects
-    label: ClassVar[str] = "Effects changed"
-
-    def apply(self, run: Run) -> None:  # noqa: D102
-        run.set_effects(self.argument)
-
-
-class SetComparisons(_Command):
-    """Other controllers beside the first, in their order."""
-
-    kind: Literal["comparisons"] = "comparisons"
-    argument: tuple[Lane, ...]
-    label: ClassVar[str] = "Lanes changed"
-
-    def apply(self, run: Run) -> None:  # noqa: D102
-        run.set_comparisons(self.argument)
-
-
-class SetLane(_Command):
-    """Another controller of one lane beside the first."""
-
-    kind: Literal["lane"] = "lane"
-    argument: LaneSetting
-    label: ClassVar[str] = "A lane changed"
-
-    def apply(self, run: Run) -> None:  # noqa: D102
-        run.set_lane(self.argument)
-
-    def configure(self, configuration: Configuration) -> Configuration:
-        """The configuration with it; raises `ParameterError` where there is no such lane."""
-        return configuration.with_lane(self.argument)
-
-
-class _PassingCommand(_Command):
-    """What is no part of the configuration: a load, but for those planned in it, and a stop."""
-
-    def configure(self, configuration: Configuration) -> Configuration:
-        """The configuration as it is."""
-        return configuration
-
-    def is_held_by(self, configuration: Configuration) -> bool:
-        """Never: each one is another load, or another stop."""
-        return False
-
-
-class ApplyLoad(_PassingCommand):
+class ApplyLoad(_Command):
     """A load now, or at its `start_s`; its number in the run is that of its command."""
 
     kind: Literal["load"] = "load"
     argument: Load
-    label: ClassVar[str] = "Load applied"
-
-    def apply(self, run: Run) -> ScheduledLoad:  # noqa: D102
-        return run.add_load(self.argument)
 
 
-class RemoveLoad(_PassingCommand):
+class RemoveLoad(_Command):
     """The load of this number off."""
 
     kind: Literal["unload"] = "unload"
     argument: Whole
-    label: ClassVar[str] = "Load taken off"
-
-    def apply(self, run: Run) -> ScheduledLoad:  # noqa: D102
-        return run.remove_load(self.argument)
 
 
-class Stop(_PassingCommand):
-    """A bench's torque goes to zero on a ramp from here on; a simulation knows no such stop."""
+class Stop(_Command):
+    """A bench's torque goes to zero on a ramp from here on; simulated lanes go on."""
 
     kind: Literal["stop"] = "stop"
     argument: None = None
-    label: ClassVar[str] = "Stop"
-
-    def apply(self, run: Run) -> None:
-        """Nothing: the bench stops, while its twins go on."""
 
 
-Command = Annotated[
-    SetPosition
-    | SetStiffness
-    | SetLaw
-    | SetLaws
-    | SetGains
-    | SetParameters
-    | SetObserver
-    | SetActuator
-    | SetNominal
-    | SetEffects
-    | SetComparisons
-    | SetLane
-    | ApplyLoad
-    | RemoveLoad
-    | Stop,
-    BY_KIND,
-]
-COMMANDS: dict[str, type[_Command]] = {
-    one.model_fields["kind"].default: one for one in get_args(get_args(Command)[0])
-}
-"""Every kind of command, by its `kind`."""
+Command = Annotated[Set | ApplyLoad | RemoveLoad | Stop, BY_KIND]
+_OTHERS: dict[str, type[Any]] = {"load": ApplyLoad, "unload": RemoveLoad, "stop": Stop}
+
+
+def fold(configuration: Configuration, command: Command, is_bench: bool = False) -> Configuration:
+    """Compute the configuration after a command.
+
+    Args:
+        configuration: The one before.
+        command: A load or a stop, which is no part of the configuration, changes nothing.
+        is_bench: Whether the first comparison is a bench's twin, which has the law of the bench.
+
+    Returns:
+        The configuration after it; the same object where nothing is changed.
+
+    Raises:
+        ParameterError: If the configuration cannot have the value.
+    """
+    return configuration.changed(**list_changes(command, configuration.comparisons, is_bench))
+
+
+def list_changes(
+    command: Command, comparisons: tuple[Lane, ...], is_bench: bool = False
+) -> dict[str, Any]:
+    """List the fields of a configuration that a command replaces, as `fold` does.
+
+    Args:
+        command: Any.
+        comparisons: Those of the configuration before.
+        is_bench: As in `fold`.
+
+    Returns:
+        The new values by the names of the fields.
+
+    Raises:
+        ParameterError: If there is no such lane.
+    """
+    if not isinstance(command, Set):
+        return {}
+    match command.kind:
+        case "law" | "laws":
+            given = (command.argument,) if command.kind == "law" else command.argument
+            laws = (given[0], given[0], *given[2:]) if is_bench and comparisons else given
+            others = _replace_laws(laws, comparisons)
+            return {"law": laws[0]} | ({"comparisons": others} if len(laws) > 1 else {})
+        case "lane":
+            return {"comparisons": _replace_lane(command.argument, comparisons)}
+    return {command.kind: command.argument}
+
+
+def is_held(configuration: Configuration, command: Command) -> bool:
+    """Whether everything that a command sets is so already; raises as `fold`.
+
+    Never of a load or a stop: each one is another.
+    """
+    return isinstance(command, Set) and fold(configuration, command) == configuration
+
+
+def _replace_laws(laws: tuple[str, ...], comparisons: tuple[Lane, ...]) -> tuple[Lane, ...]:
+    """The comparisons under these laws of the first lanes; gains and observers stay theirs."""
+    lanes = 1 + len(comparisons)
+    if len(laws) > lanes:
+        bound = f"1 to {lanes} laws, one a lane from the first on"
+        raise ParameterError(Violation("laws", list(laws), "", bound))
+    changed = [lane.controlled_by(law) for lane, law in zip(comparisons, laws[1:], strict=False)]
+    return (*changed, *comparisons[len(changed) :])
+
+
+def _replace_lane(setting: LaneSetting, comparisons: tuple[Lane, ...]) -> tuple[Lane, ...]:
+    """The comparisons with another controller of one of them."""
+    lanes, at = 1 + len(comparisons), setting.lane - 2
+    if setting.lane > lanes:
+        bound = f"2 to {lanes}, of the lanes that run" if lanes > 1 else "none: one lane runs"
+        raise ParameterError(Violation("lane", setting.lane, "", bound))
+    return (*comparisons[:at], setting.setting, *comparisons[at + 1 :])
 
 
 def build_command(tick: int, kind: str, argument: Any) -> Command:
     """A checked command; raises `ParameterError` for an unknown kind or a wrong argument."""
     if not isinstance(kind, str) or kind not in COMMANDS:
         raise ParameterError(Violation("kind", kind, "", "one of " + ", ".join(COMMANDS)))
-    return COMMANDS[kind](tick=tick, kind=kind, argument=argument)  # pyright: ignore[reportReturnType]
-
-
-def _rename(violation: Violation, kind: str) -> Violation:
-    """What is wrong with a part of the argument has its own name, the whole is called `kind`."""
-    name = violation.name.removeprefix("argument.")
-    return replace(violation, name=kind if name == "argument" else name)
+    return _OTHERS.get(kind, Set)(tick=tick, kind=kind, argument=argument)
 
 
 def read_command(written: Any) -> Command:
@@ -289,3 +224,18 @@ def read_command(written: Any) -> Command:
         raise ParameterError(Violation("command", written, "", "an object with named fields"))
     given: dict[str, Any] = {"tick": None, "kind": None, "argument": None} | written
     return build_command(given["tick"], given["kind"], given["argument"])
+
+
+def _read_value(field: str, given: Any) -> Any:
+    """The checked value of a settable field; raises `ParameterError` with the field's name."""
+    model = _VALUES[field]
+    try:
+        return model.model_validate({"argument": given}).argument  # pyright: ignore[reportAttributeAccessIssue]
+    except ValidationError as error:
+        raise ParameterError(*(_rename(one, field) for one in explain(error, model))) from None
+
+
+def _rename(violation: Violation, kind: str) -> Violation:
+    """What is wrong with a part of the argument has its own name, the whole is called `kind`."""
+    name = violation.name.removeprefix("argument.")
+    return replace(violation, name=kind if name == "argument" else name)

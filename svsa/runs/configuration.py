@@ -1,6 +1,6 @@
 """A run as a value: parameters, design, references and loads; TOML files in and out."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 from typing import Any, Self
@@ -23,7 +23,7 @@ from svsa.control.installed import (
 )
 from svsa.control.observers.disturbance import ObserverBandwidth
 from svsa.control.parameters import LawParameters
-from svsa.errors import ParameterError, Violation
+from svsa.errors import ParameterError
 from svsa.inputs.checked import Checked, Number, Whole, quantity
 from svsa.inputs.toml_file import parse_toml, read_toml
 from svsa.simulation.plant.effects import IDEAL, Effects
@@ -146,29 +146,6 @@ class Configuration(Design):
         """With another design; parameters of laws that it does not name stay."""
         parameters = {**self.parameters, **design.parameters}
         return self.changed(**(dict(design) | {"parameters": parameters}))
-
-    def controlled_by(self, laws: Sequence[str]) -> Self:
-        """The first lanes with these laws, in this order; gains and observers stay theirs.
-
-        Raises `ParameterError` where there are fewer lanes.
-        """
-        if not 1 <= len(laws) <= len(self.lanes):
-            bound = f"1 to {len(self.lanes)} laws, one a lane from the first on"
-            raise ParameterError(Violation("laws", list(laws), "", bound))
-        changed = [
-            lane.controlled_by(law) for lane, law in zip(self.comparisons, laws[1:], strict=False)
-        ]
-        return self.changed(law=laws[0], comparisons=(*changed, *self.comparisons[len(changed) :]))
-
-    def with_lane(self, setting: LaneSetting) -> Self:
-        """One lane beside with this controller; raises `ParameterError` where there is none."""
-        lanes = len(self.lanes)
-        if setting.lane > lanes:
-            bound = f"2 to {lanes}, of the lanes that run" if lanes > 1 else "none: one lane runs"
-            raise ParameterError(Violation("lane", setting.lane, "", bound))
-        at = setting.lane - 2
-        comparisons = (*self.comparisons[:at], setting.setting, *self.comparisons[at + 1 :])
-        return self.changed(comparisons=comparisons)
 
 
 def read_design(path: Path | str) -> Design:

@@ -48,11 +48,6 @@ def list_controllers(
     return [found[number] for number in range(len(alone))]
 
 
-def complete_laws(laws: tuple[str, ...], is_bench: bool) -> tuple[str, ...]:
-    """The laws of the first lanes: a bench's twin has the law of the bench."""
-    return (laws[0], laws[0], *laws[2:]) if is_bench else laws
-
-
 def name_controllers(controllers: Iterable[Controller]) -> dict[Controller, str]:
     """A name for each: place and law, and where one law is there twice what tells them apart."""
     described = {one: _describe(one) for one in dict.fromkeys(controllers)}

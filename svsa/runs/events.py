@@ -5,15 +5,7 @@ from dataclasses import dataclass
 
 from svsa.control.installed import LawName, get_title
 from svsa.errors import Fault
-from svsa.runs.command import (
-    ApplyLoad,
-    Command,
-    RemoveLoad,
-    SetComparisons,
-    SetLane,
-    SetLaw,
-    SetLaws,
-)
+from svsa.runs.command import ApplyLoad, Command, RemoveLoad, Set
 from svsa.runs.configuration import Configuration
 from svsa.runs.fault import label_fault
 from svsa.runs.replay import list_loads
@@ -66,7 +58,7 @@ def list_events(
 def find_law(command: Command) -> LawName | None:
     """The law that a command gives to the first lane, or None."""
     match command:
-        case SetLaw(argument=law) | SetLaws(argument=(law, *_)):
+        case Set(kind="law", argument=law) | Set(kind="laws", argument=(law, *_)):
             return law
     return None
 
@@ -77,11 +69,11 @@ def describe_change(command: Command, law: LawName) -> str:
     if given is not None and given != law:
         return f"{get_title(law)} → {get_title(given)}"
     match command:
-        case SetLane(argument=argument):
+        case Set(kind="lane", argument=argument):
             return f"{get_title(argument.setting.law)} set beside"
-        case SetComparisons(argument=()):
+        case Set(kind="comparisons", argument=()):
             return "Nothing beside"
-        case SetComparisons(argument=comparisons):
+        case Set(kind="comparisons", argument=comparisons):
             return f"{', '.join(get_title(lane.law) for lane in comparisons)} beside"
     return command.label
 

@@ -38,7 +38,7 @@ def play(
     later, first = list(commands), run.tick
     while True:
         while later and later[0].tick <= run.tick:
-            later.pop(0).apply(run)
+            run.change(later.pop(0))
         end = min([end_tick, run.tick + stretch_ticks, *(command.tick for command in later[:1])])
         if run.fault is not None or run.tick >= end:
             return

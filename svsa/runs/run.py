@@ -7,26 +7,21 @@ import numpy as np
 
 from svsa.actuators.domain import INSIDE
 from svsa.actuators.lever import compute_lever_ratio
-from svsa.actuators.parameters import ActuatorParameters
 from svsa.actuators.signals import State
 from svsa.actuators.spring import compute_stiffness
-from svsa.control.gains import Gains
 from svsa.control.installed import check_installed, get_law
-from svsa.control.observers.disturbance import ObserverBandwidth
-from svsa.control.parameters import LawParameters
 from svsa.errors import Fault, ParameterError, StateError
 from svsa.runs.blocks import Bind, Connection, bind_law, compute_start_ratio, connect_lane
-from svsa.runs.configuration import MAX_LOADS, Configuration, Lane, LaneSetting
+from svsa.runs.command import ApplyLoad, Command, RemoveLoad, Set, fold
+from svsa.runs.configuration import MAX_LOADS, Configuration, Lane
 from svsa.runs.fault import build_fault
 from svsa.runs.loads import Loads, give_load
 from svsa.simulation.loop.lane import AT_REST, Inputs, LaneState, build_lane_state
 from svsa.simulation.loop.loop import advance
 from svsa.simulation.loop.slices import advance_in_slices
 from svsa.simulation.loop.stepwise import Controller, advance_stepwise
-from svsa.simulation.plant.effects import Effects
 from svsa.simulation.plant.loads import Load, ScheduledLoad, build_load_table
 from svsa.simulation.reference.sine import ConstantPosition, ConstantStiffness
-from svsa.simulation.reference.trajectories import PositionReference, StiffnessReference, get_range
 from svsa.simulation.reference.transition import Stack, build_stack, push_trajectory
 
 
@@ -49,6 +44,9 @@ class Run:
     controller: one's own in plain Python, in place of the first lane's law. bind: binds the law of
     a lane. `blocks`, `laws` (one a lane) and `inputs` are what the compiled loop is given.
     """
+
+    is_bench = False
+    """Whether the first lane is a bench, and the second one its twin; see `fold`."""
 
     def __init__(
         self,
@@ -82,7 +80,8 @@ class Run:
         ]
         for load in configuration.loads:
             self._schedule(load)
-        self._connect(configuration)
+        self._connect(configuration, [None] * len(configuration.lanes))
+        self._renew_inputs()
 
     @property
     def period_s(self) -> float:
@@ -141,87 +140,51 @@ class Run:
 
         return advance_in_slices(run, kind, self.lanes[number], self.tick, rows)
 
-    def set_position(self, reference: PositionReference) -> None:
-        """Fade over to this position reference, from now on."""
-        self._position = push_trajectory(self._position, reference, self.time_s)
-        self._configure(position=reference)
+    def change(self, command: Command) -> ScheduledLoad | None:
+        """Give the run a command now, whatever tick it names; refused, it changes nothing.
 
-    def set_stiffness(self, reference: StiffnessReference) -> None:
-        """Fade over to this stiffness reference; raises `ParameterError` outside the range."""
-        self.configuration.limits.check_stiffness("stiffness", *get_range(reference))
-        self._stiffness = push_trajectory(self._stiffness, reference, self.time_s)
-        self._configure(stiffness=reference)
+        Args:
+            command: A reference is faded over. A law that comes remembers nothing, the same law
+                remembers, and the plant of its lane stays as it is; μ0, a fact of how the actuator
+                was assembled, stays with another plant. A comparison that ran before goes on, a
+                new one begins where the first lane is.
 
-    def set_law(self, law: str) -> None:
-        """Control the first lane with this law from now on."""
-        self.set_laws((law,))
+        Returns:
+            The load that a command is about, else None.
 
-    def set_laws(self, laws: tuple[str, ...]) -> None:
-        """Control the first lanes with these laws from now on; their plants stay as they are.
-
-        A law that comes remembers nothing. Raises `ParameterError` where there are fewer lanes
-        than laws.
+        Raises:
+            ParameterError: If the run cannot have the value.
+            StateError: If too many loads or references are on, or there is no such load.
         """
-        self._control(self.configuration.controlled_by(laws))
+        match command:
+            case ApplyLoad():
+                return self.add_load(command.argument)
+            case RemoveLoad():
+                return self.remove_load(command.argument)
+            case Set():
+                self._set(command)
+        return None
 
-    def set_lane(self, setting: LaneSetting) -> None:
-        """Control one lane beside the first otherwise from now on; its plant stays as it is.
-
-        The same law remembers, another one remembers nothing. Raises `ParameterError` where
-        there is no such lane.
-        """
-        self._control(self.configuration.with_lane(setting))
-
-    def _control(self, configuration: Configuration) -> None:
-        """The same lanes under these controllers."""
-        check_laws(configuration)
-        before = self.configuration.lanes
-        self._connect(configuration)
-        self.lanes = [
-            _follow_law(lane, old.law, new.law)
-            for lane, old, new in zip(self.lanes, before, configuration.lanes, strict=True)
-        ]
-
-    def set_gains(self, gains: Gains) -> None:
-        """Use these gains from now on."""
-        self._configure(gains=gains)
-
-    def set_parameters(self, parameters: dict[str, LawParameters]) -> None:
-        """Use these parameters of laws, by the law's name, from now on; memories stay."""
-        self._configure(parameters=parameters)
-
-    def set_observer(self, observer: ObserverBandwidth) -> None:
-        """Use these observer bandwidths from now on."""
-        self._configure(observer=observer)
-
-    def set_actuator(self, actuator: ActuatorParameters) -> None:
-        """Change the true plant; μ0, a fact of how it was assembled, stays."""
-        self._configure(actuator=actuator)
-
-    def set_nominal(self, nominal: ActuatorParameters) -> None:
-        """Change the model that controller and observer believe in."""
-        self._configure(nominal=nominal)
-
-    def set_effects(self, effects: Effects) -> None:
-        """Switch effects on and off."""
-        self._configure(effects=effects)
-
-    def set_comparisons(self, comparisons: tuple[Lane, ...]) -> None:
-        """Run these controllers beside the first, in this order.
-
-        A comparison that ran before goes on; a new one begins where the first lane is.
-        """
-        before, configuration = (
-            self.configuration,
-            self.configuration.changed(comparisons=comparisons),
-        )
-        check_laws(configuration)
-        origins = find_origins(before.comparisons, comparisons)
-        self._connect(configuration, origins)
-        self.lanes = [
-            _follow_law(self.lanes[origin or 0], before.lanes[origin or 0].law, lane.law)
-            for origin, lane in zip(origins, configuration.lanes, strict=True)
-        ]
+    def _set(self, command: Set) -> None:
+        before, after = self.configuration, fold(self.configuration, command, self.is_bench)
+        match command.kind:
+            case "position":
+                self._position = push_trajectory(self._position, after.position, self.time_s)
+                self._renew_inputs()
+            case "stiffness":
+                self._stiffness = push_trajectory(self._stiffness, after.stiffness, self.time_s)
+                self._renew_inputs()
+            case kind:
+                check_laws(after)
+                origins: Sequence[int | None] = range(len(before.lanes))
+                if kind == "comparisons":
+                    origins = find_origins(before.comparisons, after.comparisons)
+                self._connect(after, origins)
+                self.lanes = [
+                    _follow_law(self.lanes[origin or 0], before.lanes[origin or 0].law, lane.law)
+                    for origin, lane in zip(origins, after.lanes, strict=True)
+                ]
+        self.configuration = after
 
     def add_load(self, load: Load) -> ScheduledLoad:
         """Apply a load now or at its `start_s`; raises `StateError` when there are too many.
@@ -253,26 +216,18 @@ class Run:
         numbers = ", ".join(str(load.number) for load in self.loads) or "none"
         raise StateError(f"There is no load {number}; loads here: {numbers}.")
 
-    def _configure(self, **changes: object) -> None:
-        self._connect(self.configuration.changed(**changes))
-
-    def _connect(self, c: Configuration, origins: Sequence[int | None] | None = None) -> None:
+    def _connect(self, c: Configuration, origins: Sequence[int | None]) -> None:
         """Give the loop what a configuration says; a law that fails at it changes nothing.
 
-        origins: of every lane the one that it continues; left out, each continues itself.
+        origins: of every lane the one that it continues.
         """
-        held = [*self._connections, *[None] * len(c.lanes)]
-        continued = range(len(c.lanes)) if origins is None else origins
+        held = [None if lane is None else self._connections[lane] for lane in origins]
         self._connections = [
-            connect_lane(
-                None if origin is None else held[origin], c, lane, self.mu0, self.steps, self._bind
-            )
-            for origin, lane in zip(continued, c.lanes, strict=True)
+            connect_lane(connection, c, lane, self.mu0, self.steps, self._bind)
+            for connection, lane in zip(held, c.lanes, strict=True)
         ]
         self.blocks = [one.blocks for one in self._connections]
         self.laws = [one.law for one in self._connections]
-        self.configuration = c
-        self._renew_inputs()
 
     def _renew_inputs(self) -> None:
         self.inputs = Inputs(self._position, self._stiffness, build_load_table(self.loads))

@@ -12,23 +12,10 @@ from typing import Literal, NamedTuple
 
 from svsa.control.installed import list_law_line_styles
 from svsa.errors import StateError
-from svsa.runs.command import (
-    ApplyLoad,
-    Command,
-    RemoveLoad,
-    SetComparisons,
-    SetGains,
-    SetLane,
-    SetLaw,
-    SetLaws,
-    SetObserver,
-    SetParameters,
-    Stop,
-)
+from svsa.runs.command import ApplyLoad, Command, RemoveLoad, Stop, fold
 from svsa.runs.configuration import Configuration
 from svsa.runs.controllers import (
     Controller,
-    complete_laws,
     list_controllers,
     name_controllers,
 )
@@ -110,8 +97,8 @@ class Timeline:
     def take(self, command: Command) -> list[int | None] | None:
         """A command was given; for one that changed lanes, what each continues (None: new)."""
         before, origins = self._configuration, None
-        self._configuration = _configure(before, command, self._is_bench)
-        if isinstance(command, SetComparisons):
+        self._configuration = fold(before, command, self._is_bench)
+        if command.kind == "comparisons":
             origins = find_origins(before.comparisons, self._configuration.comparisons)
             self.lanes = [[] if lane is None else self.lanes[lane] for lane in origins]
             self.lane_ids = [
@@ -282,15 +269,3 @@ def _end(lane: list[Stretch], tick: int) -> None:
         lane.pop()
     elif lane[-1].end_tick is None:
         lane[-1] = lane[-1]._replace(end_tick=tick)
-
-
-def _configure(configuration: Configuration, command: Command, is_bench: bool) -> Configuration:
-    """What a command changes of who controls the lanes."""
-    match command:
-        case SetLaw():
-            return configuration.controlled_by(complete_laws((command.argument,), is_bench))
-        case SetLaws():
-            return configuration.controlled_by(complete_laws(command.argument, is_bench))
-        case SetGains() | SetParameters() | SetObserver() | SetComparisons() | SetLane():
-            return command.configure(configuration)
-    return configuration

@@ -17,6 +17,7 @@ from svsa.control.laws.feedback_linearization import (
 from svsa.control.laws.ndobc import compute_disturbance_gain, compute_ndobc
 from svsa.control.limits import limit_torque
 from svsa.control.observers.disturbance import compute_shares, update_disturbance_estimate
+from svsa.runs.command import Set
 from svsa.runs.run import Run
 from svsa.simulation.reference.sine import compute_sine
 from tests.actuators.prototype import DESIGN, NO_LOADS, K, integrate_ideal, put, record
@@ -130,7 +131,9 @@ def test_the_mirrored_run_is_the_mirror_of_the_run_bit_for_bit():
     for sign in (1.0, -1.0):
         run = Run(build_mirrored(sign))
         first = record(run, 500)
-        run.set_position(svsa.ConstantPosition(position_rad=sign * -0.3, transition_s=0.3))
+        run.change(
+            Set("position", svsa.ConstantPosition(position_rad=sign * -0.3, transition_s=0.3))
+        )
         runs.append(np.vstack([first, record(run, 500)]))
     signs = np.array([-1.0 if channel.name in ODD else 1.0 for channel in CHANNELS])
     assert np.abs(runs[0][:, CHANNEL_INDEX["deflection_rad"]]).max() > 0.01

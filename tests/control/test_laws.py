@@ -16,7 +16,7 @@ from svsa.control import installed
 from svsa.control.installed import LawError, get_law, list_law_names
 from svsa.control.law import Law
 from svsa.numerics.compilation import compiled, watch_compilation
-from svsa.runs.command import SetLaw, build_command
+from svsa.runs.command import Set, build_command
 from svsa.runs.controllers import list_controllers, name_controllers
 from svsa.runs.records.wording import describe_law
 from svsa.runs.replay import replay
@@ -97,7 +97,7 @@ def test_a_refused_law_changes_nothing():
     before, lanes = run.configuration, list(run.lanes)
     for kind, argument in (("law", "no_law"), ("comparisons", (svsa.Lane(law="no_law"),))):
         with pytest.raises(svsa.ParameterError):
-            build_command(0, kind, argument).apply(run)
+            run.change(build_command(0, kind, argument))
     assert run.configuration == before
     assert all(one is other for one, other in zip(run.lanes, lanes, strict=True))
 
@@ -150,7 +150,7 @@ def test_memory_is_part_of_a_run_that_is_replayed_branched_and_cut_into_calls():
         session._advance(ticks)
         session.change(build_command(0, kind, argument))
     branch = SimulatedSession.branch("branch", configuration, session.journal.commands, 200)
-    branch.change(SetLaw(argument="fl_integral"))
+    branch.change(Set("law", "fl_integral"))
     for one in (session, branch):
         for _ in range(100):
             one._advance(1)
@@ -183,10 +183,10 @@ def test_a_law_that_comes_remembers_nothing_and_one_that_stays_remembers():
     advance(run, 200)
     first, _, third = (lane.memory.copy() for lane in run.lanes)
     assert np.all(third != 0.0)
-    run.set_laws(("fl", "fl_integral"))
+    run.change(Set("laws", ("fl", "fl_integral")))
     assert np.all(run.lanes[1].memory == 0.0)
     np.testing.assert_array_equal(run.lanes[2].memory, third)
-    run.set_parameters({"fl_integral": get_law("fl_integral").parameters(**FASTER)})
+    run.change(Set("parameters", {"fl_integral": get_law("fl_integral").parameters(**FASTER)}))
     np.testing.assert_array_equal(run.lanes[2].memory, third)
     assert np.any(first != 0.0)
 
@@ -248,7 +248,7 @@ def test_a_law_that_does_not_compile_is_named_and_changes_nothing(install):
     run = Run(build_configuration())
     before = run.configuration
     with pytest.raises(LawError, match="law stumble does not compile: Typing"):
-        run.set_law("stumble")
+        run.change(Set("law", "stumble"))
     assert run.configuration == before
     assert advance(run, 10).shape[1] == 10
 

@@ -8,7 +8,7 @@ from svsa.control.installed import list_law_names
 from svsa.hardware.emulator.experiment import LockstepBench, connect_bench
 from svsa.hardware.emulator.launch import start_emulator
 from svsa.hardware.safety.machine import BenchStatus
-from svsa.runs.command import SetPosition, SetStiffness
+from svsa.runs.command import Set
 from svsa.runs.paper import FIGURES, LOAD_TIME_S, get_figure
 from svsa.simulation.plant.loads import ConstantLoad
 from svsa.simulation.reference.sine import ConstantPosition
@@ -142,8 +142,8 @@ def test_a_series_and_a_chirp_are_followed_through_the_wire() -> None:
                 bench.prepare()
                 bench.start()
                 bench.tick(1200)
-                assert bench.loop.change(SetPosition(argument=series)) == 1200
-                bench.loop.change(SetStiffness(argument=chirp))
+                assert bench.loop.change(Set("position", series)) == 1200
+                bench.loop.change(Set("stiffness", chirp))
                 bench.tick(TICKS - 1200)
                 assert bench.plant.fault is None
             finally:

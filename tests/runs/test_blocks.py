@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 import svsa
 from svsa.runs.blocks import bind_law, build_blocks
-from svsa.runs.command import COMMANDS, build_command
+from svsa.runs.command import COMMANDS, Set, build_command
 from svsa.runs.run import Run
 from tests.runs.session.scripts import ARGUMENTS, scripted
 from tests.runs.session.sessions import build_configuration
@@ -29,7 +29,7 @@ def test_what_the_loop_is_given_is_what_would_be_built_from_the_start(drawn):
     run = build_run()
     for kind, argument in drawn:
         try:
-            build_command(0, kind, argument).apply(run)
+            run.change(build_command(0, kind, argument))
         except svsa.SvsaError:
             continue
     c = run.configuration
@@ -46,8 +46,8 @@ def test_a_load_or_a_reference_leaves_blocks_and_laws_as_they_are():
     run = build_run()
     before = [*run.blocks, *run.laws]
     load = run.add_load(PUSH)
-    run.set_position(svsa.ConstantPosition(position_rad=0.1))
-    run.set_stiffness(svsa.ConstantStiffness(stiffness_nm_per_rad=40.0))
+    run.change(Set("position", svsa.ConstantPosition(position_rad=0.1)))
+    run.change(Set("stiffness", svsa.ConstantStiffness(stiffness_nm_per_rad=40.0)))
     run.remove_load(load.number)
     after = [*run.blocks, *run.laws]
     assert all(one is other for one, other in zip(before, after, strict=True))
@@ -56,7 +56,7 @@ def test_a_load_or_a_reference_leaves_blocks_and_laws_as_they_are():
 def test_gains_leave_the_blocks_and_bind_the_law_again():
     run = build_run()
     (blocks, *_), (law, *_) = run.blocks, run.laws
-    run.set_gains(svsa.Gains.from_poles([-50.0] * 4, [-30.0] * 2))
+    run.change(Set("gains", svsa.Gains.from_poles([-50.0] * 4, [-30.0] * 2)))
     assert run.blocks[0] is blocks
     assert run.laws[0] is not law
 
@@ -64,6 +64,6 @@ def test_gains_leave_the_blocks_and_bind_the_law_again():
 def test_the_observer_is_no_matter_of_the_law():
     run = build_run()
     (blocks, *_), (law, *_) = run.blocks, run.laws
-    run.set_observer(svsa.ObserverBandwidth(bandwidth_rad_per_s=(70.0,) * 3))
+    run.change(Set("observer", svsa.ObserverBandwidth(bandwidth_rad_per_s=(70.0,) * 3)))
     assert run.blocks[0] is not blocks
     assert run.laws[0] is law

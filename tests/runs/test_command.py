@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import svsa
-from svsa.runs.command import COMMANDS, RemoveLoad, SetLaw, SetLaws, build_command, read_command
+from svsa.runs.command import COMMANDS, RemoveLoad, Set, build_command, fold, read_command
 from svsa.runs.loads import follow_loads
 from svsa.runs.replay import list_loads
 from svsa.runs.run import Run
@@ -26,11 +26,11 @@ def test_a_configuration_becomes_what_the_run_has_after_the_command(drawn):
     before = run.configuration
     try:
         command = build_command(0, *drawn)
-        command.apply(run)
+        run.change(command)
     except svsa.ParameterError:
         assert run.configuration == before
         return
-    assert command.configure(before) == run.configuration
+    assert fold(before, command) == run.configuration
 
 
 @scripted
@@ -48,19 +48,19 @@ def test_a_command_is_read_as_it_was_written(drawn):
 
 
 def test_a_command_cannot_be_changed_and_says_how_it_reads():
-    command = SetLaw(tick=3, argument="fl")
+    command = Set("law", "fl", tick=3)
     with pytest.raises(ValueError, match="frozen"):
         command.tick = 4
-    assert command.changed(tick=4) == SetLaw(tick=4, argument="fl")
-    labels = [one.label for one in COMMANDS.values()]
+    assert command.changed(tick=4) == Set("law", "fl", tick=4)
+    labels = [*COMMANDS.values()]
     assert all(labels) and len({*labels}) == len(labels)
 
 
 @pytest.mark.parametrize(
     ("make", "name"),
     [
-        (lambda: SetLaw(tick=-1, argument="fl"), "tick"),
-        (lambda: SetLaws(tick=0, argument=()), "laws"),
+        (lambda: Set("law", "fl", tick=-1), "tick"),
+        (lambda: Set("laws", (), tick=0), "laws"),
         (lambda: build_command(0, "laws", ()), "laws"),
         (lambda: build_command(0, "unload", 1.5), "unload"),
         (lambda: build_command(0, "load", {"kind": "push", "torque_nm": (0, 0, 0), "hold_s": -1}),
@@ -92,7 +92,7 @@ def test_the_loads_of_a_run_are_those_that_its_commands_tell(given_loads, number
     for command in commands:
         run.tick = command.tick
         try:
-            taken = command.apply(run)
+            taken = run.change(command)
         except svsa.StateError:
             return
     reported = {load.number: load for load in list_loads(run.configuration, commands)}

@@ -7,7 +7,7 @@ import pytest
 
 import svsa
 from svsa.actuators.signals import CHANNEL_INDEX
-from svsa.runs.command import SetComparisons, SetLane
+from svsa.runs.command import Set
 from svsa.runs.configuration import Lane, LaneSetting
 from svsa.runs.metrics import compute_metrics
 from svsa.runs.run import Run
@@ -75,7 +75,7 @@ def test_the_gains_of_the_run_are_those_of_lanes_without_their_own():
     """A change while it runs reaches the lanes that left theirs out, and no other."""
     run = Run(build_configuration(PULSE, comparisons=(NDOBC, SLOW)))
     advance(run, 40)
-    run.set_gains(SLOW.gains)
+    run.change(Set("gains", SLOW.gains))
     samples = advance(run, 100)
     np.testing.assert_array_equal(samples[0], samples[1])
     run = Run(build_configuration(PULSE, comparisons=(SLOW,)))
@@ -110,14 +110,14 @@ def test_a_fault_in_one_lane_ends_all_at_its_tick_and_names_the_lane(number):
 def test_a_comparison_added_in_a_run_begins_where_the_first_is():
     run = Run(build_configuration(PULSE, **NOISY))
     advance(run, 100)
-    run.set_comparisons((FL, NDOBC))
+    run.change(Set("comparisons", (FL, NDOBC)))
     assert run.lanes == [run.lanes[0]] * 3
     samples = advance(run, 200)
     np.testing.assert_array_equal(samples[2], samples[0])
     assert np.any(samples[1] != samples[0])
     changed = Run(build_configuration(PULSE, **NOISY))
     advance(changed, 100)
-    changed.set_law("fl")
+    changed.change(Set("law", "fl"))
     np.testing.assert_array_equal(samples[1], advance(changed, 200)[0])
 
 
@@ -126,9 +126,9 @@ def test_a_comparison_that_stays_goes_on_where_it_is():
     whole = advance(Run(build_configuration(PULSE, comparisons=(FL,))), 300)[1]
     run = Run(build_configuration(PULSE, comparisons=(FL,)))
     advance(run, 100)
-    run.set_comparisons((FL, SLOW))
+    run.change(Set("comparisons", (FL, SLOW)))
     advance(run, 100)
-    run.set_comparisons((FL,))
+    run.change(Set("comparisons", (FL,)))
     np.testing.assert_array_equal(advance(run, 100)[1], whole[200:])
 
 
@@ -137,7 +137,7 @@ def test_a_comparison_put_in_the_place_of_another_leaves_the_third_where_it_is()
     run = Run(build_configuration(PULSE, comparisons=(FL, SLOW)))
     advance(run, 100)
     first, _, slow = run.lanes
-    run.set_comparisons((WIDE, SLOW))
+    run.change(Set("comparisons", (WIDE, SLOW)))
     assert run.lanes == [first, first, slow]
 
 
@@ -149,7 +149,7 @@ def test_four_lanes_are_the_most():
     advance(run, 10)
     before = run.configuration, list(run.lanes)
     with pytest.raises(svsa.ParameterError, match="comparisons"):
-        run.set_comparisons((FL,) * 4)
+        run.change(Set("comparisons", (FL,) * 4))
     assert (run.configuration, run.lanes) == before
     assert advance(run, 10).shape[0] == 4
 
@@ -173,7 +173,7 @@ def test_a_new_lane_has_no_past_and_all_metrics_begin_together():
     """What the first lane did before is not what the new one did."""
     session = build_session(PULSE)
     session.step(60)
-    session.change(SetComparisons(argument=(FL,)))
+    session.change(Set("comparisons", (FL,)))
     session.step(40)
     first, second = read_samples(session, 0), read_samples(session, 1)
     assert np.all(np.isnan(second[:60]))
@@ -190,21 +190,23 @@ def test_laws_change_places_and_no_plant_moves():
     run = Run(build_configuration(PULSE, comparisons=(FL, SLOW), **NOISY))
     advance(run, 60)
     before = list(run.lanes)
-    run.set_laws(("fl", "ndobc"))
+    run.change(Set("laws", ("fl", "ndobc")))
     assert run.lanes == before
     assert [lane.law for lane in run.configuration.lanes] == ["fl", "ndobc", "ndobc"]
     assert run.configuration.comparisons[1] == SLOW
     changed = Run(build_configuration(PULSE, **NOISY))
     advance(changed, 60)
-    changed.set_law("fl")
+    changed.change(Set("law", "fl"))
     np.testing.assert_array_equal(advance(run, 40)[0], advance(changed, 40)[0])
 
 
-@pytest.mark.parametrize("laws", [(), ("fl", "fl", "fl")])
-def test_as_many_laws_as_lanes_at_most(laws):
+@pytest.mark.parametrize(
+    ("laws", "bound"), [((), r"a list of at least 1"), (("fl", "fl", "fl"), r"1 to 2 laws")]
+)
+def test_as_many_laws_as_lanes_at_most(laws, bound):
     run = Run(build_configuration(comparisons=(FL,)))
-    with pytest.raises(svsa.ParameterError, match=r"1 to 2 laws"):
-        run.set_laws(laws)
+    with pytest.raises(svsa.ParameterError, match=bound):
+        run.change(Set("laws", laws))
 
 
 def test_a_session_with_comparisons_can_be_reset_and_starts_them_from_rest():
@@ -226,7 +228,7 @@ def test_a_lane_set_otherwise_keeps_its_plant_and_what_its_law_remembers():
     run = Run(build_configuration(PULSE, comparisons=(build_integral(40.0), FL), **NOISY))
     advance(run, 90)
     before = list(run.lanes)
-    run.set_lane(LaneSetting(lane=2, setting=build_integral(60.0)))
+    run.change(Set("lane", LaneSetting(lane=2, setting=build_integral(60.0))))
     assert run.lanes == before
     assert np.any(before[1].memory != 0.0), "the law has something to remember"
     alone = Run(
@@ -235,10 +237,10 @@ def test_a_lane_set_otherwise_keeps_its_plant_and_what_its_law_remembers():
         ).changed(**NOISY)
     )
     advance(alone, 90)
-    alone.set_parameters({"fl_integral": build_integral(60.0).parameters})
+    alone.change(Set("parameters", {"fl_integral": build_integral(60.0).parameters}))
     samples = advance(run, 100)
     np.testing.assert_array_equal(samples[1], advance(alone, 100)[0])
-    run.set_lane(LaneSetting(lane=3, setting=build_integral(60.0)))
+    run.change(Set("lane", LaneSetting(lane=3, setting=build_integral(60.0))))
     assert not np.any(run.lanes[2].memory), "another law begins without a past"
 
 
@@ -248,7 +250,7 @@ def test_a_lane_set_otherwise_keeps_its_plant_and_what_its_law_remembers():
 def test_only_a_lane_that_runs_is_set_otherwise(comparisons, lane, bound):
     run = Run(build_configuration(comparisons=comparisons))
     with pytest.raises(svsa.ParameterError, match=f"lane is {lane}: it must be {bound}"):
-        run.set_lane(LaneSetting(lane=lane, setting=NDOBC))
+        run.change(Set("lane", LaneSetting(lane=lane, setting=NDOBC)))
     with pytest.raises(svsa.ParameterError, match="lane"):
         LaneSetting(lane=1, setting=NDOBC)
 
@@ -258,7 +260,7 @@ def test_a_lane_set_otherwise_keeps_its_past_and_gets_a_name_of_its_own():
     session = build_session(PULSE, law="fl_integral", comparisons=(Lane(law="fl_integral"),))
     session.step(60)
     (second_id,) = session.journal.timeline.lane_ids[1:]
-    session.change(SetLane(argument=LaneSetting(lane=2, setting=build_integral(40.0))))
+    session.change(Set("lane", LaneSetting(lane=2, setting=build_integral(40.0))))
     session.step(40)
     assert session.journal.timeline.lane_ids[1] == second_id
     assert np.all(np.isfinite(read_samples(session, 1)))

@@ -7,18 +7,7 @@ import pytest
 import svsa
 from svsa.control.installed import list_law_names
 from svsa.runs import controllers
-from svsa.runs.command import (
-    ApplyLoad,
-    RemoveLoad,
-    SetComparisons,
-    SetEffects,
-    SetGains,
-    SetLaw,
-    SetLaws,
-    SetObserver,
-    SetPosition,
-    build_command,
-)
+from svsa.runs.command import ApplyLoad, RemoveLoad, Set, build_command
 from svsa.runs.controllers import name_controllers
 from svsa.runs.timeline import LINE_COLORS, Timeline, Window, read_timeline
 from tests.runs.session.scripts import play_busy_session
@@ -39,7 +28,7 @@ def report(timeline: Timeline) -> list[list[tuple[str, int, int | None]]]:
 def test_laws_that_change_places_leave_the_past_its_names():
     session = build_session(comparisons=(FL,))
     session.step(30)
-    session.change(SetLaws(argument=("fl", "ndobc")))
+    session.change(Set("laws", ("fl", "ndobc")))
     session.step(10)
     assert report(session.journal.timeline) == [
         [("NDOBC", 0, 30), ("FL", 30, None)],
@@ -55,9 +44,9 @@ def test_laws_that_change_places_leave_the_past_its_names():
 def test_a_comparison_begins_where_it_began_and_takes_nobodys_past():
     session = build_session()
     session.step(20)
-    session.change(SetComparisons(argument=(FL,)))
+    session.change(Set("comparisons", (FL,)))
     session.step(20)
-    session.change(SetComparisons(argument=(NDOBC, FL)))
+    session.change(Set("comparisons", (NDOBC, FL)))
     assert report(session.journal.timeline) == [
         [("NDOBC", 0, None)],
         [("NDOBC (2)", 40, None)],
@@ -68,9 +57,9 @@ def test_a_comparison_begins_where_it_began_and_takes_nobodys_past():
 def test_one_law_with_other_gains_is_told_apart_by_them():
     session = build_session()
     session.step(10)
-    session.change(SetObserver(argument=FASTER))
+    session.change(Set("observer", FASTER))
     session.step(10)
-    session.change(SetGains(argument=STIFFER))
+    session.change(Set("gains", STIFFER))
     names = [name for name, _, _ in report(session.journal.timeline)[0]]
     assert names == ["NDOBC β 60 ωq 60 ωσ 40", "NDOBC β 120 ωq 60 ωσ 40", "NDOBC β 120 ωq 80 ωσ 60"]
     assert len({one.line_style for one in session.journal.timeline.list_stretches()[0]}) == 3
@@ -79,15 +68,15 @@ def test_one_law_with_other_gains_is_told_apart_by_them():
 def test_what_a_law_does_not_use_makes_it_no_other():
     session = build_session(law="fl")
     session.step(10)
-    session.change(SetObserver(argument=FASTER))
+    session.change(Set("observer", FASTER))
     assert report(session.journal.timeline) == [[("FL", 0, None)]]
 
 
 def test_a_change_and_back_within_a_tick_is_no_stretch():
     session = build_session()
     session.step(10)
-    session.change(SetLaw(argument="fl"))
-    session.change(SetLaw(argument="ndobc"))
+    session.change(Set("law", "fl"))
+    session.change(Set("law", "ndobc"))
     assert report(session.journal.timeline) == [[("NDOBC", 0, None)]]
 
 
@@ -96,7 +85,7 @@ def test_a_law_has_its_own_ink_again_when_the_other_is_no_longer_kept():
     session = build_session()
     for tick, observer in ((10, FASTER), (200, session.run.configuration.observer)):
         session.step(tick - session.run.tick)
-        session.change(SetObserver(argument=observer))
+        session.change(Set("observer", observer))
         timeline.take(session.journal.commands[-1])
     assert [one.line_style for one in timeline.list_stretches()[0]] == [1, 0]
 
@@ -126,7 +115,7 @@ def test_a_bench_and_its_twin_stay_in_the_names():
     timeline = Timeline(build_configuration(comparisons=(NDOBC, FL)), is_bench=True)
     session = build_session(comparisons=(NDOBC, FL))
     session.step(5)
-    session.change(SetLaw(argument="fl"))
+    session.change(Set("law", "fl"))
     timeline.take(session.journal.commands[-1])
     assert report(timeline) == [
         [("Bench NDOBC", 0, 5), ("Bench FL", 5, None)],
@@ -171,10 +160,10 @@ def test_recovery_is_latched_at_its_load():
     ndobc, fl = (lane.summarize() for lane in session.journal.metrics.since_load)
     assert 0.1 < ndobc.recovery_time_s < 0.4
     assert fl.recovery_time_s is None
-    session.change(SetEffects(argument=svsa.RIG))
-    session.change(SetPosition(argument=svsa.ConstantPosition(position_rad=0.5)))
+    session.change(Set("effects", svsa.RIG))
+    session.change(Set("position", svsa.ConstantPosition(position_rad=0.5)))
     session.step(1500)
-    session.change(SetLaws(argument=("fl", "ndobc")))
+    session.change(Set("laws", ("fl", "ndobc")))
     session.step(1500)
     assert [lane.summarize() for lane in session.journal.metrics.since_load] == [ndobc, fl]
     assert session.journal.timeline.load_window == Window("load", "3 kg load", 100, 1600)
@@ -186,9 +175,9 @@ def test_a_window_after_a_switch_has_no_peak_of_the_law_before():
     session.change(ApplyLoad(argument=svsa.PaperLoad()))
     session.step(1500)
     (fl,) = (lane.summarize() for lane in session.journal.metrics.in_window)
-    session.change(SetLaw(argument="ndobc"))
+    session.change(Set("law", "ndobc"))
     session.step(1000)
-    session.change(SetComparisons(argument=(FL,)))
+    session.change(Set("comparisons", (FL,)))
     session.step(1)
     first, comparison = (lane.summarize() for lane in session.journal.metrics.in_window)
     assert fl.peak_position_error_rad > 0.1
@@ -198,9 +187,9 @@ def test_a_window_after_a_switch_has_no_peak_of_the_law_before():
 def test_changes_of_one_moment_are_one_window():
     session = build_session()
     session.step(50)
-    session.change(SetEffects(argument=svsa.RIG))
-    session.change(SetGains(argument=STIFFER))
-    session.change(SetGains(argument=STIFFER))
+    session.change(Set("effects", svsa.RIG))
+    session.change(Set("gains", STIFFER))
+    session.change(Set("gains", STIFFER))
     assert session.journal.timeline.windows == [
         Window("start", "", 0, 50),
         Window("change", "Effects changed, Gains changed", 50),
@@ -209,8 +198,8 @@ def test_changes_of_one_moment_are_one_window():
 
 def test_what_is_set_before_the_first_tick_is_how_the_run_starts():
     session = build_session()
-    session.change(SetGains(argument=STIFFER))
-    session.change(SetComparisons(argument=(FL,)))
+    session.change(Set("gains", STIFFER))
+    session.change(Set("comparisons", (FL,)))
     session.step(10)
     assert session.journal.timeline.windows == [Window("start", "", 0)]
     for lanes in (session.journal.metrics.since_start, session.journal.metrics.in_window):
@@ -247,7 +236,7 @@ def test_names_of_many_are_worked_out_once_and_each_is_looked_at_once(monkeypatc
     for step in range(60):
         session.step(10)
         bandwidth = svsa.ObserverBandwidth(bandwidth_rad_per_s=(70.0 + step,) * 3)
-        session.change(SetObserver(argument=bandwidth))
+        session.change(Set("observer", bandwidth))
     looked_at = []
     describe = controllers._describe
     monkeypatch.setattr(
@@ -259,5 +248,5 @@ def test_names_of_many_are_worked_out_once_and_each_is_looked_at_once(monkeypatc
     assert len(looked_at) == len(names) == 61
     assert list(names.values())[:3] == ["NDOBC β 60", "NDOBC β 70", "NDOBC β 71"]
     session.step(10)
-    session.change(SetLaw(argument="fl"))
+    session.change(Set("law", "fl"))
     assert timeline.name_stretches(timeline.list_stretches())[62] == "FL"

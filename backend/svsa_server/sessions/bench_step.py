@@ -2,7 +2,7 @@
 
 from svsa.errors import StateError
 from svsa.hardware.session.session import BenchSession
-from svsa.runs.command import SetGains, SetObserver, SetParameters
+from svsa.runs.command import Set, is_held
 from svsa.teaching.course.steps import Experiment
 
 
@@ -23,10 +23,9 @@ def set_up_bench(session: BenchSession, step: Experiment) -> None:
     asked = step.bench_configuration
     session.load(asked)
     for command in (
-        SetGains(argument=asked.gains),
-        SetParameters(argument=asked.parameters),
-        SetObserver(argument=asked.observer),
+        Set("gains", asked.gains),
+        Set("parameters", asked.parameters),
+        Set("observer", asked.observer),
     ):
-        had = session.run.configuration
-        if command.configure(had) != had:
+        if not is_held(session.run.configuration, command):
             session.change(command)

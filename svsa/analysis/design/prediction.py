@@ -15,6 +15,7 @@ from svsa.analysis.design.steady_error import (
     find_steady_error,
 )
 from svsa.control.installed import get_law, get_title, has_own_parameters
+from svsa.runs.command import Set
 from svsa.runs.configuration import Configuration
 from svsa.runs.run import Run
 from svsa.simulation.plant.effects import Effects
@@ -127,7 +128,7 @@ def _simulate_load(configuration: Configuration, effects: Effects) -> tuple[np.n
             position=ConstantPosition(), comparisons=(), loads=(), effects=effects
         )
     )
-    run.set_position(configuration.position)
+    run.change(Set("position", configuration.position))
     period = run.period_s
     fade = configuration.position.transition_s
     rows = [_advance(run, fade + BEFORE_S)[-round(0.5 * AROUND_S / period) :]]

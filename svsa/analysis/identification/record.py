@@ -14,7 +14,7 @@ from svsa.actuators.lever import compute_lever_ratio
 from svsa.analysis.identification.kernel import UNLOADED, Setting, Torques, measure
 from svsa.errors import SvsaError
 from svsa.numerics.exponential import exp
-from svsa.runs.command import Command, SetActuator, SetEffects
+from svsa.runs.command import Command, fold
 from svsa.runs.configuration import Configuration
 from svsa.runs.records.reader import Record
 from svsa.runs.records.resimulation import read_origin
@@ -130,7 +130,7 @@ def _find_plant(
 ) -> Configuration:
     """The configuration with the actuator and effects of the record's samples."""
     for command in commands:
-        if not isinstance(command, SetActuator | SetEffects):
+        if command.kind not in ("actuator", "effects"):
             continue
         if command.tick > record.first_tick:
             time = command.tick * record.header.period_s
@@ -138,7 +138,7 @@ def _find_plant(
                 f"Run {record.header.run_id} is not of one plant: {_CHANGES[command.kind]} were"
                 f" changed at {time:g} s. Record a run in which they stay."
             )
-        configuration = command.configure(configuration)
+        configuration = fold(configuration, command)
     return configuration
 
 

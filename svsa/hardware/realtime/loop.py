@@ -170,7 +170,7 @@ class BenchLoop:
 
         Raises `ParameterError` or `StateError`, and then nothing has changed.
         """
-        command.apply(self.run)
+        self.run.change(command)
         return self.run.tick
 
     def warm_up(self) -> None:

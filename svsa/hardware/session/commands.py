@@ -8,11 +8,12 @@ from svsa.errors import StateError
 from svsa.hardware.realtime.configuration import check_loads, check_takes_no_time
 from svsa.hardware.realtime.launch import Rest
 from svsa.hardware.session.run import TWIN
-from svsa.runs.command import ApplyLoad, Command, SetComparisons, SetLane, SetPosition, SetStiffness
+from svsa.runs.command import ApplyLoad, Command, Set, is_held
 from svsa.runs.configuration import Configuration, Lane
 from svsa.runs.session.journal import Journal
 
 CHANGING_S = 0.001
+_REFERENCES = ("position", "stiffness")
 LONGEST_CHANGES_S = 10.0
 """A command waits for so long for the loop to answer to those before it."""
 
@@ -53,7 +54,7 @@ class BenchCommands:
         self._wait()
         configuration = self._journal.run.configuration
         command = self._complete(build(configuration))
-        if not command.is_held_by(configuration):
+        if not is_held(configuration, command):
             self.change(command)
 
     def _wait(self) -> None:
@@ -68,12 +69,12 @@ class BenchCommands:
 
     def _complete(self, command: Command) -> Command:
         """The command as a bench takes it: lane 2 is its twin, whatever the others are."""
-        if isinstance(command, SetLane) and command.argument.lane == TWIN + 1:
+        if command.kind == "lane" and command.argument.lane == TWIN + 1:
             raise StateError(
                 f"Lane {TWIN + 1} is the bench's simulated twin, which has the law and the gains"
                 " of the bench: set those, or a lane after it."
             )
-        if isinstance(command, SetComparisons):
+        if command.kind == "comparisons":
             self._wait()
             twin = Lane(law=self._journal.run.configuration.law)
             others = tuple(lane for lane in command.argument if lane != twin)
@@ -82,7 +83,7 @@ class BenchCommands:
 
     def _give(self, command: Command) -> Command:
         """The command at the tick at which the loop has taken it."""
-        if isinstance(command, SetPosition | SetStiffness) and self._is_moving():
+        if isinstance(command, Set) and command.kind in _REFERENCES and self._is_moving():
             check_takes_no_time(command.argument)
         self._pending += 1
         try:

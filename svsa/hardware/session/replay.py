@@ -14,7 +14,7 @@ from svsa.hardware.realtime.loop import BenchLoop
 from svsa.hardware.realtime.sample_array import SampleArray
 from svsa.hardware.safety.machine import BenchStatus
 from svsa.hardware.session.run import BenchRun
-from svsa.runs.command import Command
+from svsa.runs.command import Command, fold
 from svsa.runs.records.header import PlantKind, RecordError
 from svsa.runs.records.reader import Record
 from svsa.runs.records.resimulation import read_origin
@@ -91,7 +91,7 @@ def verify_bench_record(record: Record) -> Verified:
     configuration, commands = read_origin(record)
     before, later = commands[: start.commands], commands[start.commands :]
     for command in before:
-        configuration = command.configure(configuration)
+        configuration = fold(configuration, command, is_bench=True)
     samples = record.samples.transpose(1, 0, 2)
     plant, rows = RecordedPlant(samples[0]), SampleArray(record.tick_count)
     actuation = Actuation(start.latency_s, start.lag_s)

@@ -6,9 +6,10 @@ import numpy as np
 
 from svsa.actuators.domain import INSIDE
 from svsa.actuators.signals import CHANNEL_INDEX
-from svsa.runs.configuration import Configuration, Lane
-from svsa.runs.controllers import complete_laws
+from svsa.runs.command import Command
+from svsa.runs.configuration import Configuration
 from svsa.runs.run import Run, Start, find_origins
+from svsa.simulation.plant.loads import ScheduledLoad
 
 if TYPE_CHECKING:
     from svsa.errors import Fault
@@ -46,6 +47,8 @@ class BenchRun(Run):
     is_still: it stands until another run begins, and has none of the samples of the one before.
     fault: the bench's, set by who watches its state.
     """
+
+    is_bench = True
 
     def __init__(
         self,
@@ -90,13 +93,12 @@ class BenchRun(Run):
         rows[ticks:] = np.nan
         rows[ticks:, 0] = (self.tick + np.arange(ticks, len(rows))) * self.period_s
 
-    def set_laws(self, laws: tuple[str, ...]) -> None:
-        """As `Run.set_laws`; the twin has the law of the bench."""
-        super().set_laws(complete_laws(laws, is_bench=True))
-
-    def set_comparisons(self, comparisons: tuple[Lane, ...]) -> None:
-        """As `Run.set_comparisons`; a new comparison begins where the twin is."""
-        origins = find_origins(self.configuration.comparisons, comparisons)
+    def change(self, command: Command) -> ScheduledLoad | None:
+        """As `Run.change`; a new comparison begins where the twin is."""
+        if command.kind != "comparisons":
+            return super().change(command)
+        origins = find_origins(self.configuration.comparisons, command.argument)
         self.lanes[0] = self.lanes[min(TWIN, len(self.lanes) - 1)]
-        super().set_comparisons(comparisons)
+        super().change(command)
         self._ended = {lane for lane, origin in enumerate(origins) if origin in self._ended}
+        return None

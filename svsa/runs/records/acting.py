@@ -1,37 +1,27 @@
 """What acted on a recorded run: every setting from its first sample to its last, every load."""
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, get_args
 
 from pydantic import TypeAdapter, ValidationError
 
 from svsa.actuators.parameters import Limits
 from svsa.errors import ParameterError
-from svsa.runs.command import build_command
-from svsa.runs.configuration import Sampling
+from svsa.runs.command import Set, Settable, list_changes
+from svsa.runs.configuration import Lane, Sampling
 from svsa.runs.loads import Loads, follow_loads
 from svsa.runs.records.header import RecordHeader
 from svsa.runs.records.parquet import Commands
 from svsa.simulation.plant.loads import Load
 
-_COMMANDED = (
-    "position",
-    "stiffness",
-    "law",
-    "comparisons",
-    "gains",
-    "parameters",
-    "observer",
-    "effects",
-    "actuator",
-    "nominal",
-)
+_SEVERAL = {"laws": ("law", "comparisons"), "lane": ("comparisons",)}
 _FIXED: dict[str, TypeAdapter[Any]] = {
     "limits": TypeAdapter(Limits),
     "sampling": TypeAdapter(Sampling),
 }
+_LOAD: TypeAdapter[Load] = TypeAdapter(Load)
 _LOADS: TypeAdapter[tuple[Load, ...]] = TypeAdapter(tuple[Load, ...])
-SETTINGS = (*_COMMANDED, *_FIXED)
+SETTINGS = (*(name for name in get_args(Settable) if name not in _SEVERAL), *_FIXED)
 
 
 @dataclass(frozen=True)
@@ -57,55 +47,44 @@ def read_acting(header: RecordHeader, commands: Commands, first_tick: int, ticks
     A command at a sample's tick acts on that sample: one given after the last acted on none.
     """
     end = first_tick + max(ticks, 1)
-    commands = _name_by_lanes(header.configuration.get("comparisons"), commands)
+    held = {name: _read_setting(name, header.configuration.get(name)) for name in SETTINGS}
+    values = {name: {first_tick: value} for name, value in held.items()}
+    for tick, command in commands:
+        if tick < end:
+            changes = _read_changes(command, held["comparisons"], header.plant != "simulated")
+            held |= changes
+            for name, value in changes.items():
+                values[name][max(first_tick, tick)] = value
     return Acting(
-        {name: _follow(name, header.configuration, commands, first_tick, end) for name in SETTINGS},
+        {name: _drop_repeated(list(found.items())) for name, found in values.items()},
         _find_loads(header, commands, first_tick, end),
     )
 
 
-def _name_by_lanes(comparisons: Any, commands: Commands) -> Commands:
-    """What was given to some lanes, as a law of the first and all lanes beside it."""
-    split: Commands = []
-    for tick, command in commands:
-        kind, argument = command.get("kind"), command.get("argument")
-        if kind == "comparisons":
-            comparisons = argument
-        laws = _read_setting("laws", argument) if kind == "laws" else None
-        one = _read_setting("lane", argument) if kind == "lane" else None
-        lanes = _read_setting("comparisons", comparisons) if laws or one else None
-        if laws and lanes is not None:
-            given = [lane.controlled_by(law) for lane, law in zip(lanes, laws[1:], strict=False)]
-            comparisons = (*given, *lanes[len(given) :])
-            split += [(tick, {"kind": "law", "argument": laws[0]})]
-            split += [(tick, {"kind": "comparisons", "argument": comparisons})]
-        elif one and lanes is not None and one.lane <= len(lanes) + 1:
-            comparisons = (*lanes[: one.lane - 2], one.setting, *lanes[one.lane - 1 :])
-            split.append((tick, {"kind": "comparisons", "argument": comparisons}))
-        else:
-            split.append((tick, command))
-    return split
+def _read_changes(
+    written: dict[str, Any], comparisons: tuple[Lane, ...] | None, is_bench: bool
+) -> dict[str, Any]:
+    """What a command changes, as `fold` does; None for what this version cannot read."""
+    kind = written.get("kind")
+    if not isinstance(kind, str) or kind not in get_args(Settable):
+        return {}
+    try:
+        return list_changes(Set(kind, written.get("argument")), comparisons or (), is_bench)
+    except ParameterError:
+        return dict.fromkeys(_SEVERAL.get(kind, (kind,)))
 
 
-def _follow(
-    name: str, configuration: dict[str, Any], commands: Commands, first: int, end: int
-) -> tuple[tuple[int, Any], ...]:
-    values = {first: _read_setting(name, configuration.get(name))}
-    for tick, command in commands:
-        if command.get("kind") == name and tick < end:
-            values[max(first, tick)] = _read_setting(name, command.get("argument"))
-    ordered = list(values.items())
-    changes = [
-        ordered[at] for at in range(len(ordered)) if at == 0 or ordered[at][1] != ordered[at - 1][1]
-    ]
-    return tuple(changes)
+def _drop_repeated(values: list[tuple[int, Any]]) -> tuple[tuple[int, Any], ...]:
+    """Without those that are as the one before."""
+    kept = (at for at in range(len(values)) if at == 0 or values[at][1] != values[at - 1][1])
+    return tuple(values[at] for at in kept)
 
 
 def _read_setting(name: str, written: Any) -> Any:
     if name in _FIXED:
         return _read(_FIXED[name], written)
     try:
-        return build_command(0, name, written).argument
+        return Set(name, written).argument
     except ParameterError:
         return None
 
@@ -124,7 +103,7 @@ def _find_loads(header: RecordHeader, commands: Commands, first: int, end: int) 
     changes: list[tuple[int, Load | int]] = []
     for tick, command in commands:
         if command.get("kind") == "load":
-            load = _read_setting("load", command.get("argument"))
+            load = _read(_LOAD, command.get("argument"))
             if load is None:
                 return None
             changes.append((tick, load))

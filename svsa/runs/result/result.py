@@ -16,8 +16,9 @@ from svsa.actuators.signals import CHANNELS
 from svsa.errors import Fault, ParameterError, Violation
 from svsa.inputs.checked import check_number
 from svsa.inputs.extras import list_missing, require_extra
-from svsa.runs.command import Command, SetLaw, SetLaws
+from svsa.runs.command import Command
 from svsa.runs.configuration import Configuration
+from svsa.runs.events import find_law
 from svsa.runs.metrics import Metrics, compute_metrics
 from svsa.runs.records.header import PlantKind
 from svsa.runs.result.channels import Channels
@@ -84,11 +85,9 @@ class Result(Channels):
         first = round(float(self.time_s[0]) / period) if rows else 0
         begins = [(0, self.law)]
         for command in self.commands:
-            match command:
-                case SetLaw(argument=law) | SetLaws(argument=(law, *_)):
-                    row = command.tick - first
-                    if 0 < row < rows and law != begins[-1][1]:
-                        begins.append((row, law))
+            law, row = find_law(command), command.tick - first
+            if law is not None and 0 < row < rows and law != begins[-1][1]:
+                begins.append((row, law))
         ends = [begin for begin, _ in begins[1:]] + [rows]
         return [(law, slice(at, end)) for (at, law), end in zip(begins, ends, strict=True)]
 

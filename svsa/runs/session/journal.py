@@ -5,7 +5,7 @@ from collections import deque
 from collections.abc import Callable
 
 from svsa.errors import Fault, StateError
-from svsa.runs.command import ApplyLoad, Command, RemoveLoad, SetComparisons, Stop
+from svsa.runs.command import ApplyLoad, Command, RemoveLoad, Stop
 from svsa.runs.configuration import MAX_LANES, Configuration
 from svsa.runs.events import Event, describe_change, describe_end, describe_onset
 from svsa.runs.fault import label_fault
@@ -93,14 +93,14 @@ class Journal:
         """Raise `StateError` where the command may not be given now."""
         if len(self.commands) >= MAX_COMMANDS:
             raise StateError(f"{MAX_COMMANDS} changes were made to this run: reset it first.")
-        if isinstance(command, SetComparisons) and self.recorder is not None:
+        if command.kind == "comparisons" and self.recorder is not None:
             raise StateError("A recording has the same lanes throughout: stop it first.")
 
     def enter(self, command: Command) -> None:
         """Give the run a command at its tick; refused as the run does, it changes nothing."""
         loads = {load.number: load for load in self.run.loads}
         before = self.run.configuration
-        answer = command.apply(self.run)
+        answer = self.run.change(command)
         self.commands.append(command)
         if self.recorder is not None:
             self.recorder.write_command(command.tick, command.to_json())

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable
 from typing import Self
 
 from svsa.errors import Fault, StateError
-from svsa.runs.command import Command
+from svsa.runs.command import Command, is_held
 from svsa.runs.configuration import Configuration
 from svsa.runs.records.header import BranchPoint, PlantKind
 from svsa.runs.records.recorder import Recorder
@@ -164,7 +164,7 @@ class SimulatedSession:
     def patch(self, build: Callable[[Configuration], Command]) -> None:
         """`set` by what `build` makes of the present configuration."""
         command = build(self.run.configuration)
-        if not command.is_held_by(self.run.configuration):
+        if not is_held(self.run.configuration, command):
             self.change(command)
 
     def prepare_recording(self) -> None:

@@ -11,6 +11,7 @@ from svsa.actuators.signals import CHANNEL_INDEX, CHANNELS
 from svsa.errors import ParameterError, Violation
 from svsa.evaluation.studies.setting import read_setting
 from svsa.inputs.checked import Checked, Number, Whole, quantity
+from svsa.runs.command import fold
 from svsa.runs.configuration import MAX_LANES, Configuration
 from svsa.runs.result.channels import ChannelName
 from svsa.runs.result.result import Result
@@ -128,9 +129,9 @@ def _describe_end(result: Result, wanted_s: float) -> str:
 
 def _read_configured(result: Result, path: str) -> float:
     """A setting as it stood at the end of the run."""
-    configuration = result.configuration
+    configuration, is_bench = result.configuration, result.plant != "simulated"
     for command in result.commands:
-        configuration = command.configure(configuration)
+        configuration = fold(configuration, command, is_bench)
     return read_number(configuration, path)
 
 

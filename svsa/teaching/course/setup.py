@@ -9,7 +9,7 @@ from pydantic import model_validator
 from svsa.control.installed import PAPERS_LAW, InstalledLaw
 from svsa.evaluation.studies.study import FIGURE, build_base
 from svsa.inputs.checked import Checked, Number, quantity
-from svsa.runs.command import ApplyLoad, Command, RemoveLoad, Stop
+from svsa.runs.command import ApplyLoad, Command, RemoveLoad, Stop, fold
 from svsa.runs.configuration import MAX_LANES, Configuration, Lane
 from svsa.runs.result.result import Result
 from svsa.teaching.course.on_bench import SET_ON_BENCH, OnBench
@@ -112,7 +112,7 @@ def _give_first(configuration: Configuration, commands: Sequence[Command]) -> Co
     for command in commands:
         if command.tick > 0:
             break
-        configuration = command.configure(configuration)
+        configuration = fold(configuration, command)
         if isinstance(command, ApplyLoad):
             loads = (*configuration.loads, command.argument)
             configuration = configuration.changed(loads=loads)

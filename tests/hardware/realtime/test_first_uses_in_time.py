@@ -12,7 +12,7 @@ from svsa.hardware.emulator.launch import start_emulator
 from svsa.hardware.homing import STEPS
 from svsa.hardware.safety.machine import BenchStatus
 from svsa.hardware.session.session import BenchSession
-from svsa.runs.command import SetLaw
+from svsa.runs.command import Set
 from svsa.runs.paper import get_figure
 from svsa.runs.run import Run
 from svsa.simulation.reference.trajectories import ConstantPosition
@@ -68,7 +68,7 @@ def test_the_first_use_of_each_law_makes_no_tick_late(status: BenchStatus, tmp_p
         for law in list_law_names():
             before = int(fields["skipped"])
             for other in (law, PAPERS_LAW):
-                session.change(SetLaw(argument=other))
+                session.change(Set("law", other))
                 session.wake(time.monotonic())
             missed[law] = int(fields["skipped"]) - before
         assert session.fault is None

@@ -9,7 +9,7 @@ from svsa.hardware.realtime.configuration import build_bench_configuration, read
 from svsa.hardware.realtime.loop import BenchLoop
 from svsa.hardware.realtime.sample_array import SampleArray
 from svsa.hardware.safety.machine import BenchStatus
-from svsa.runs.command import SetLaw
+from svsa.runs.command import Set
 from svsa.runs.paper import get_figure
 from tests.hardware.wired_bench import WiredBench
 
@@ -104,7 +104,7 @@ def test_ticks_that_end_in_silence_are_none_that_the_server_would_wait_for() -> 
         bench.skip(100 * bench.bench.timing.period_s)
         bench.drive(loop, missed=100)
         assert bench.plant.fault is not None
-        assert loop.change(SetLaw(argument="fl")) == loop.sink.done == MOVING_TICKS
+        assert loop.change(Set("law", "fl")) == loop.sink.done == MOVING_TICKS
 
 
 def test_what_is_missed_before_the_first_tick_is_not_of_the_run() -> None:

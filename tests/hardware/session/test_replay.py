@@ -10,7 +10,7 @@ import pytest
 from svsa.actuators.signals import CHANNEL_INDEX
 from svsa.control.observers.disturbance import ObserverBandwidth
 from svsa.hardware.session.replay import Verified, verify_bench_record
-from svsa.runs.command import SetLaw, SetObserver
+from svsa.runs.command import Set
 from svsa.runs.configuration import Configuration
 from svsa.runs.paper import get_figure
 from svsa.runs.records.bench_start import START_FILE, BenchStart
@@ -21,8 +21,8 @@ from svsa.runs.records.reader import open_record
 from tests.hardware.session.recorded_bench import run_bench, write_bench_record
 
 TICKS, MISSED_AT, MISSED = 900, 300, 7
-SLOWER = SetObserver(argument=ObserverBandwidth(bandwidth_rad_per_s=(40.0, 40.0, 40.0)))
-TO_FL = SetLaw(tick=600, argument="fl")
+SLOWER = Set("observer", ObserverBandwidth(bandwidth_rad_per_s=(40.0, 40.0, 40.0)))
+TO_FL = Set("law", "fl", tick=600)
 COUNT_RAD = 2.0 * math.pi / 8000
 RESIDUALS = [CHANNEL_INDEX[name] for name in CHANNEL_INDEX if "residual" in name]
 Run = tuple[Configuration, np.ndarray, BenchStart]

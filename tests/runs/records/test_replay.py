@@ -11,7 +11,7 @@ from hypothesis import given
 
 import svsa
 from svsa.control.installed import list_law_names
-from svsa.runs.command import SetLaw, read_command
+from svsa.runs.command import Set, read_command
 from svsa.runs.configuration import Configuration
 from svsa.runs.replay import replay, simulate_again
 from tests.runs.session.scripts import (
@@ -106,7 +106,7 @@ def test_a_part_of_a_record_is_simulated_from_the_start_and_cut_out():
 
 def test_a_record_without_a_sample_is_no_error():
     """A session that was changed and never run, or a run that ended at its first tick."""
-    commands = [SetLaw(tick=0, argument="fl")]
+    commands = [Set("law", "fl", tick=0)]
     assert list(simulate_again(build_configuration(), commands, 0, 0)) == []
     assert list(simulate_again(build_configuration(), commands, 7, 0)) == []
 

@@ -11,7 +11,7 @@ import pytest
 
 import svsa
 from svsa.actuators.signals import CHANNEL_NAMES, CHANNELS
-from svsa.runs.command import ApplyLoad, SetLaw, build_command
+from svsa.runs.command import ApplyLoad, Set, build_command
 from svsa.runs.records.reader import open_record
 from svsa.runs.records.recorder import Recorder
 from svsa.runs.result.channels import ChannelName, Channels
@@ -85,7 +85,7 @@ def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder of a run that was recorded from its tick 150 on."""
     folder = tmp_path_factory.mktemp("runs") / "run-1"
     session = SimulatedSession("lab", build_configuration(comparisons=(svsa.Lane(law="fl"),)))
-    session.change(SetLaw(argument="fl"))
+    session.change(Set("law", "fl"))
     session.step(150)
     configuration = session.journal.initial.model_dump(mode="json")
     recorder = Recorder(folder, build_header(configuration=configuration, seed=0, name="Mine"))

@@ -9,6 +9,7 @@ import pytest
 
 import svsa
 from svsa.actuators.signals import CHANNEL_NAMES, CHANNELS
+from svsa.runs.command import Set
 from svsa.runs.run import Run
 
 
@@ -181,12 +182,12 @@ def test_the_same_commands_at_the_same_ticks_give_the_same_samples():
         run = Run(svsa.paper.get_figure("4a").build_configuration("fl"))
         samples = np.empty((1, 600, len(CHANNELS)))
         run.advance(samples[:, :150])
-        run.set_law("ndobc")
-        run.set_position(svsa.ConstantPosition(position_rad=0.2))
+        run.change(Set("law", "ndobc"))
+        run.change(Set("position", svsa.ConstantPosition(position_rad=0.2)))
         run.advance(samples[:, 150:300])
         run.add_load(svsa.PulseLoad(torque_nm=(1.0, 0.0, 0.0), duration_s=0.05))
-        run.set_gains(svsa.Gains.from_poles([-50.0] * 4, [-30.0] * 2))
-        run.set_stiffness(svsa.ConstantStiffness(stiffness_nm_per_rad=25.0))
+        run.change(Set("gains", svsa.Gains.from_poles([-50.0] * 4, [-30.0] * 2)))
+        run.change(Set("stiffness", svsa.ConstantStiffness(stiffness_nm_per_rad=25.0)))
         run.advance(samples[:, 300:])
         return samples
 
@@ -199,7 +200,7 @@ def test_a_change_takes_effect_at_the_next_tick_and_not_before():
     run = Run(svsa.paper.get_figure("4a").build_configuration("fl"))
     changed = np.empty((1, *plain.shape))
     run.advance(changed[:, :100])
-    run.set_nominal(run.configuration.nominal.changed(link_inertia_kg_m2=0.02))
+    run.change(Set("nominal", run.configuration.nominal.changed(link_inertia_kg_m2=0.02)))
     run.advance(changed[:, 100:])
     np.testing.assert_array_equal(changed[0, :100], plain[:100])
     assert np.any(changed[0, 100] != plain[100])

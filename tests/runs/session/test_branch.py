@@ -28,7 +28,7 @@ def test_a_run_opened_again_at_any_tick_goes_on_as_the_original_did(script, wake
     assert run.tick == tick
     for command in (c for c in commands if c.tick >= tick):
         advance(run, command.tick - run.tick)
-        command.apply(run)
+        run.change(command)
     advance(run, end - run.tick)
     reached, again = session.run, run
     assert (again.tick, again.loads) == (reached.tick, reached.loads)

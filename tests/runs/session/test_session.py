@@ -5,7 +5,7 @@ import pytest
 
 import svsa
 from svsa.runs import events
-from svsa.runs.command import ApplyLoad, SetLaw
+from svsa.runs.command import ApplyLoad, Set
 from svsa.runs.fault import label_fault
 from svsa.runs.session.clock import LONGEST_BACKLOG_S
 
@@ -127,7 +127,7 @@ def test_a_fault_stops_the_session_until_it_is_reset():
 
 def test_reset_begins_again_with_what_is_set_now_and_the_planned_loads():
     session = build_session(PULSE)
-    session.change(SetLaw(argument="fl"))
+    session.change(Set("law", "fl"))
     session.change(ApplyLoad(argument=svsa.PaperLoad()))
     session.step(60)
     runs = session.journal.run_number
@@ -165,5 +165,5 @@ def test_the_same_run_after_a_reset_gives_the_same_samples():
 def test_a_command_holds_from_the_tick_at_which_it_is_given() -> None:
     session = build_session()
     session.step(7)
-    session.change(SetLaw(tick=3, argument="fl"))
+    session.change(Set("law", "fl", tick=3))
     assert [(one.tick, one.kind) for one in session.journal.commands] == [(7, "law")]

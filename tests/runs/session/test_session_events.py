@@ -5,25 +5,7 @@ import pytest
 
 import svsa
 from svsa.runs import events
-from svsa.runs.command import (
-    COMMANDS,
-    ApplyLoad,
-    RemoveLoad,
-    SetActuator,
-    SetComparisons,
-    SetEffects,
-    SetGains,
-    SetLane,
-    SetLaw,
-    SetLaws,
-    SetNominal,
-    SetObserver,
-    SetParameters,
-    SetPosition,
-    SetStiffness,
-    Stop,
-    build_command,
-)
+from svsa.runs.command import COMMANDS, ApplyLoad, RemoveLoad, Set, Stop, build_command
 from svsa.runs.session.session import take_loads_off
 
 from .sessions import PULSE, build_session, list_events, read_samples
@@ -33,19 +15,19 @@ def test_a_window_that_has_ended_keeps_its_numbers_of_the_lanes_that_are_left():
     """What a mark tells of an event is what the table told of it when it was the newest."""
     session = build_session()
     session.step(10)
-    session.change(SetComparisons(argument=(svsa.Lane(law="fl"), svsa.Lane(law="fl_integral"))))
+    session.change(Set("comparisons", (svsa.Lane(law="fl"), svsa.Lane(law="fl_integral"))))
     session.change(ApplyLoad(argument=svsa.PaperLoad()))
     session.step(30)
     loaded = [metrics.summarize() for metrics in session.journal.metrics.in_window]
-    session.change(SetStiffness(argument=svsa.ConstantStiffness(stiffness_nm_per_rad=20.0)))
-    session.change(SetLaw(argument="fl"))
+    session.change(Set("stiffness", svsa.ConstantStiffness(stiffness_nm_per_rad=20.0)))
+    session.change(Set("law", "fl"))
     session.step(5)
-    session.change(SetComparisons(argument=(svsa.Lane(law="fl_integral"),)))
+    session.change(Set("comparisons", (svsa.Lane(law="fl_integral"),)))
     ended = {one.first_tick: one.lanes for one in session.journal.metrics.ended}
     assert list(ended) == [0, 10]
     assert ended[10] == [loaded[0], loaded[2]]
     assert (ended[0][0].duration_s, ended[0][1]) == (pytest.approx(0.01), None)
-    session.change(SetLaw(argument="ndobc"))
+    session.change(Set("law", "ndobc"))
     assert [one.first_tick for one in session.journal.metrics.ended] == [0, 10, 40]
 
 
@@ -53,19 +35,19 @@ def test_every_command_is_logged_with_its_tick():
     session = build_session()
     session.step(5)
     design = svsa.load_prototype()
-    session.change(SetLaw(argument="fl"))
-    session.change(SetPosition(argument=svsa.ConstantPosition(position_rad=0.1)))
-    session.change(SetStiffness(argument=svsa.ConstantStiffness(stiffness_nm_per_rad=40.0)))
-    session.change(SetGains(argument=svsa.Gains.from_poles([-50.0] * 4, [-30.0] * 2)))
-    session.change(SetLaws(argument=("ndobc",)))
+    session.change(Set("law", "fl"))
+    session.change(Set("position", svsa.ConstantPosition(position_rad=0.1)))
+    session.change(Set("stiffness", svsa.ConstantStiffness(stiffness_nm_per_rad=40.0)))
+    session.change(Set("gains", svsa.Gains.from_poles([-50.0] * 4, [-30.0] * 2)))
+    session.change(Set("laws", ("ndobc",)))
     slower = {"fl_integral": {"position_pole_rad_per_s": 50.0}}
-    session.change(SetParameters(argument=slower))
-    session.change(SetObserver(argument=svsa.ObserverBandwidth(bandwidth_rad_per_s=(30.0,) * 3)))
-    session.change(SetActuator(argument=design.actuator))
-    session.change(SetNominal(argument=design.nominal))
-    session.change(SetEffects(argument=svsa.RIG))
-    session.change(SetComparisons(argument=(svsa.Lane(law="ndobc"),)))
-    session.change(SetLane(argument={"lane": 2, "setting": {"law": "fl"}}))
+    session.change(Set("parameters", slower))
+    session.change(Set("observer", svsa.ObserverBandwidth(bandwidth_rad_per_s=(30.0,) * 3)))
+    session.change(Set("actuator", design.actuator))
+    session.change(Set("nominal", design.nominal))
+    session.change(Set("effects", svsa.RIG))
+    session.change(Set("comparisons", (svsa.Lane(law="ndobc"),)))
+    session.change(Set("lane", {"lane": 2, "setting": {"law": "fl"}}))
     session.change(Stop())
     changed = [kind for kind in COMMANDS if kind not in ("load", "unload")]
     events = [kind for _, kind in list_events(session)]
@@ -82,7 +64,7 @@ def test_a_refused_command_changes_nothing_and_is_not_logged():
     before = session.run.configuration, session.version
     lanes = list(session.run.lanes)
     with pytest.raises(svsa.ParameterError):
-        session.change(SetStiffness(argument=svsa.ConstantStiffness(stiffness_nm_per_rad=500.0)))
+        session.change(Set("stiffness", svsa.ConstantStiffness(stiffness_nm_per_rad=500.0)))
     with pytest.raises(svsa.StateError):
         session.change(RemoveLoad(argument=99))
     assert (session.run.configuration, session.version) == before
@@ -131,7 +113,7 @@ def test_the_version_grows_with_every_change_and_not_with_time():
         session.start,
         session.pause,
         lambda: session.set_speed(0.5),
-        lambda: session.change(SetLaw(argument="fl")),
+        lambda: session.change(Set("law", "fl")),
         lambda: session.change(ApplyLoad(argument=svsa.PaperLoad())),
         lambda: take_loads_off(session),
         session.reset,
@@ -150,13 +132,13 @@ def test_a_record_tells_what_was_told_live():
     """Of the same commands the same events: laws by name, loads that were planned or not."""
     session = build_session(PULSE)
     session.step(20)
-    session.change(SetLaw(argument="fl"))
-    session.change(SetGains(argument=session.run.configuration.gains))
+    session.change(Set("law", "fl"))
+    session.change(Set("gains", session.run.configuration.gains))
     session.step(50)
-    session.change(SetComparisons(argument=(svsa.Lane(law="ndobc"),)))
+    session.change(Set("comparisons", (svsa.Lane(law="ndobc"),)))
     session.change(ApplyLoad(argument=svsa.PaperLoad()))
     session.step(20)
-    session.change(SetLaws(argument=("ndobc", "fl")))
+    session.change(Set("laws", ("ndobc", "fl")))
     for torque in (0.1, 0.2):
         session.change(ApplyLoad(argument=svsa.PushLoad(torque_nm=(torque, 0.0, 0.0), hold_s=0.05)))
         session.step(30)
@@ -184,7 +166,7 @@ def test_what_runs_beside_is_told_by_its_laws():
     session = build_session()
     session.step(10)
     for laws in (("fl",), ("fl", "adrc"), ()):
-        session.change(SetComparisons(argument=tuple(svsa.Lane(law=law) for law in laws)))
+        session.change(Set("comparisons", tuple(svsa.Lane(law=law) for law in laws)))
     labels = [event.label for event in session.journal.events]
     assert labels == ["FL beside", "FL, ADRC beside", "Nothing beside"]
     assert events.list_events(session.journal.initial, session.journal.commands) == list(

@@ -5,12 +5,7 @@ import pytest
 
 import svsa
 from svsa.actuators.signals import CHANNEL_INDEX
-from svsa.runs.command import (
-    ApplyLoad,
-    RemoveLoad,
-    SetComparisons,
-    read_command,
-)
+from svsa.runs.command import ApplyLoad, RemoveLoad, Set, read_command
 from svsa.runs.replay import replay
 from svsa.runs.session.session import take_loads_off
 
@@ -56,7 +51,7 @@ def test_the_metrics_of_a_load_end_when_it_is_taken_off():
     (anew,) = [metrics.summarize() for metrics in session.journal.metrics.since_load]
     assert anew.duration_s == pytest.approx(0.005)
     session.change(RemoveLoad(argument=2))
-    session.change(SetComparisons(argument=(svsa.Lane(law="fl"),)))
+    session.change(Set("comparisons", (svsa.Lane(law="fl"),)))
     first, comparison = session.journal.metrics.since_load
     assert first.summarize() == anew
     assert comparison is None, "the load was on before this lane began"

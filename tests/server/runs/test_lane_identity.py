@@ -4,7 +4,7 @@ import numpy as np
 
 from svsa.actuators.signals import CHANNEL_INDEX
 from svsa.control.observers.disturbance import ObserverBandwidth
-from svsa.runs.command import ApplyLoad, SetComparisons
+from svsa.runs.command import ApplyLoad, Set
 from svsa.runs.configuration import Lane
 from svsa.runs.paper import get_figure
 from svsa.runs.session.frame import HEADER
@@ -56,7 +56,7 @@ def test_a_lane_keeps_its_id_when_the_one_before_it_goes() -> None:
     cursor = open_cursor(session)
     before = read_batch(session, cursor)
     assert read_ids(session) == list(before) == [1, 2, 3]
-    session.change(SetComparisons(argument=(FASTER,)))
+    session.change(Set("comparisons", (FASTER,)))
     session.step(50)
     after = read_batch(session, cursor)
     assert read_ids(session) == list(after) == [1, 3]
@@ -67,8 +67,8 @@ def test_a_lane_keeps_its_id_when_the_one_before_it_goes() -> None:
 
 def test_a_lane_that_comes_has_an_id_that_no_lane_had() -> None:
     session = open_session()
-    session.change(SetComparisons(argument=(FASTER,)))
-    session.change(SetComparisons(argument=(FL, FASTER)))
+    session.change(Set("comparisons", (FASTER,)))
+    session.change(Set("comparisons", (FL, FASTER)))
     session.step(10)
     assert read_ids(session) == [1, 4, 3]
     assert list(read_batch(session, open_cursor(session, lanes=(2,)))) == [4]
@@ -76,6 +76,6 @@ def test_a_lane_that_comes_has_an_id_that_no_lane_had() -> None:
 
 def test_a_new_run_counts_its_lanes_anew() -> None:
     session = open_session()
-    session.change(SetComparisons(argument=(FASTER,)))
+    session.change(Set("comparisons", (FASTER,)))
     session.reset()
     assert read_ids(session) == [1, 2]

@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 
 from svsa.control.observers.disturbance import ObserverBandwidth
-from svsa.runs.command import ApplyLoad, SetLaws, SetObserver, build_command
+from svsa.runs.command import ApplyLoad, Set, build_command
 from svsa.runs.configuration import Lane
 from svsa.runs.paper import get_figure
 from svsa.runs.records.measured_window import trace_record
@@ -100,13 +100,13 @@ def test_the_recovery_from_a_load_stays_with_the_law_that_recovered() -> None:
     session.change(ApplyLoad(argument=PaperLoad()))
     session.step(1500)
     before = {lane.name: lane.since_load for lane in build_state(HostedSession(session)).lanes}
-    session.change(SetLaws(argument=("fl", "ndobc")))
+    session.change(Set("laws", ("fl", "ndobc")))
     session.step(1500)
     after = build_state(HostedSession(session))
     assert [lane.name for lane in after.lanes] == ["FL", "NDOBC"]
     assert {lane.name: lane.since_load for lane in after.lanes} == before
     assert before["NDOBC"].recovery_time_s < 0.5
     assert before["FL"].recovery_time_s is None
-    session.change(SetObserver(argument=ObserverBandwidth(**FASTER)))
+    session.change(Set("observer", ObserverBandwidth(**FASTER)))
     faster = build_state(HostedSession(session)).lanes[1]
     assert (faster.name, faster.since_load) == ("NDOBC β 120", None), "it was not there then"

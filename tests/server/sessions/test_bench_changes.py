@@ -15,7 +15,7 @@ from svsa.hardware.realtime.loss import Loss
 from svsa.hardware.safety.machine import BenchStatus
 from svsa.hardware.session import commands
 from svsa.hardware.session.session import BenchSession
-from svsa.runs.command import ApplyLoad, SetComparisons, SetLane, SetLaw, SetPosition, Stop
+from svsa.runs.command import ApplyLoad, Set, Stop
 from svsa.runs.configuration import Lane
 from svsa.simulation.plant.loads import SeriesLoad
 from svsa_server.routes.lab import settings
@@ -82,8 +82,8 @@ def test_two_parts_of_the_gains_at_once_are_both_kept(session: BenchSession) -> 
 def test_the_twin_has_the_law_that_is_on_its_way(session: BenchSession) -> None:
     async def ask() -> None:
         await asyncio.gather(
-            take_turn(session.change, SetLaw(argument="fl")),
-            take_turn(session.change, SetComparisons(argument=(Lane(law="ndobc"),))),
+            take_turn(session.change, Set("law", "fl")),
+            take_turn(session.change, Set("comparisons", (Lane(law="ndobc"),))),
         )
 
     asyncio.run(ask())
@@ -93,9 +93,9 @@ def test_the_twin_has_the_law_that_is_on_its_way(session: BenchSession) -> None:
 
 def test_what_is_set_already_is_not_told_to_the_loop_again(session: BenchSession) -> None:
     settings = [
-        SetLaw(argument="fl"),
-        SetComparisons(argument=(Lane(law="ndobc"),)),
-        SetPosition(argument=session.run.configuration.position.changed(transition_s=0.5)),
+        Set("law", "fl"),
+        Set("comparisons", (Lane(law="ndobc"),)),
+        Set("position", session.run.configuration.position.changed(transition_s=0.5)),
     ]
 
     async def ask() -> None:
@@ -119,7 +119,7 @@ def test_the_twin_is_not_set_by_itself(session: BenchSession) -> None:
     reported = len(session.loop.processes.reported)  # pyright: ignore[reportAttributeAccessIssue]
     setting = {"lane": 2, "setting": {"law": "ndobc", "observer": None}}
     with pytest.raises(StateError, match="Lane 2 is the bench's simulated twin"):
-        session.change(SetLane(argument=setting))
+        session.change(Set("lane", setting))
     assert len(session.loop.processes.reported) == reported  # pyright: ignore[reportAttributeAccessIssue]
 
 
@@ -190,7 +190,7 @@ def test_a_change_at_a_tick_without_a_sample_is_entered_at_the_last_one(
     """Another run of the loop has begun meanwhile: its samples are not those of this one."""
     begin_run(session, 50)
     monkeypatch.setattr(session.loop.processes, "request", lambda *_: {"tick": 60})
-    session.change(SetLaw(argument="fl"))
+    session.change(Set("law", "fl"))
     assert [(command.kind, command.tick) for command in session.journal.commands] == [("law", 50)]
     assert session.run.configuration.law == "fl"
 
@@ -200,7 +200,7 @@ def test_a_change_waits_a_bounded_time_for_those_before_it(
 ) -> None:
     monkeypatch.setattr(commands, "LONGEST_CHANGES_S", 0.1)
     monkeypatch.setattr(session._commands, "_pending", 1)
-    for command in (SetLaw(argument="fl"), SetComparisons(argument=(Lane(law="fl"),))):
+    for command in (Set("law", "fl"), Set("comparisons", (Lane(law="fl"),))):
         with pytest.raises(StateError, match=r"1 earlier changes.*Send it again"):
             session.set(command)
     assert session.journal.commands == []

@@ -12,7 +12,7 @@ from rich.console import Console
 
 from svsa.errors import StateError
 from svsa.hardware.session.session import BenchSession
-from svsa.runs.command import SetLaw
+from svsa.runs.command import Set
 from svsa_server.sessions.bench_start import open_bench
 from svsa_server.sessions.hosted import HostedSession
 from svsa_server.sessions.state import build_state
@@ -25,7 +25,7 @@ COMMANDS: dict[str, Callable[[BenchSession], Any]] = {
     "arm": lambda session: session.arm(),
     "home": lambda session: session.confirm_home("link", "Ada"),
     "run": lambda session: session.start(),
-    "change": lambda session: session.change(SetLaw(argument="fl")),
+    "change": lambda session: session.change(Set("law", "fl")),
     "load": lambda session: session.load(session.run.configuration),
     "reset": lambda session: session.reset(),
     "record": lambda session: session.prepare_recording(),

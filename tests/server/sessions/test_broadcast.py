@@ -6,7 +6,7 @@ import random
 import pytest
 
 from svsa.control.observers.disturbance import ObserverBandwidth
-from svsa.runs.command import ApplyLoad, Command, SetComparisons, SetLaw, SetObserver
+from svsa.runs.command import ApplyLoad, Command, Set
 from svsa.runs.configuration import Lane
 from svsa.runs.paper import get_figure
 from svsa.runs.session.simulated import SimulatedSession
@@ -26,7 +26,7 @@ def hosted():
 
 def slide(step: int) -> Command:
     """A slider that is drawn: another observer each time."""
-    return SetObserver(argument=ObserverBandwidth(bandwidth_rad_per_s=(70.0 + step,) * 3))
+    return Set("observer", ObserverBandwidth(bandwidth_rad_per_s=(70.0 + step,) * 3))
 
 
 def read(reported: Broadcast) -> dict:
@@ -85,7 +85,7 @@ def test_a_window_is_fresh_in_its_first_seconds(hosted):
     for _ in range(4):
         hosted.session.step(1000)
     assert not broadcast.is_fresh(hosted)
-    hosted.session.change(SetLaw(argument="fl"))
+    hosted.session.change(Set("law", "fl"))
     assert broadcast.is_fresh(hosted)
 
 
@@ -121,9 +121,9 @@ def do_something(session: SimulatedSession, dice: random.Random) -> None:
     match 3 if session.status == "fault" else dice.randrange(8):
         case 0:
             laws = dice.choices(("fl", "ndobc"), k=dice.randrange(3))
-            session.change(SetComparisons(argument=tuple(Lane(law=law) for law in laws)))
+            session.change(Set("comparisons", tuple(Lane(law=law) for law in laws)))
         case 1:
-            session.change(SetLaw(argument=dice.choice(("fl", "ndobc"))))
+            session.change(Set("law", dice.choice(("fl", "ndobc"))))
         case 2:
             session.change(ApplyLoad(argument=PaperLoad()))
         case 3:

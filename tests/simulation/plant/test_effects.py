@@ -7,6 +7,7 @@ import pytest
 
 import svsa
 from svsa.actuators.dynamics import build_actuator
+from svsa.runs.command import Set
 from svsa.runs.run import Run
 from svsa.simulation.plant.effects import (
     CurrentLag,
@@ -71,8 +72,8 @@ def test_all_switches_off_is_the_ideal_run_bit_for_bit(ideal):
     off = dict.fromkeys(ALONE) | {"delay_samples": 0, "torque_limits": True}
     assert svsa.Effects(**off) == svsa.IDEAL == ideal.configuration.effects
     run = Run(ideal.configuration)
-    run.set_effects(EVERY_EFFECT)
-    run.set_effects(svsa.IDEAL)
+    run.change(Set("effects", EVERY_EFFECT))
+    run.change(Set("effects", svsa.IDEAL))
     np.testing.assert_array_equal(advance(run, 500)[0], ideal.samples)
 
 
@@ -81,7 +82,7 @@ def test_switching_every_effect_on_does_not_disturb_what_was_before():
     plain, run = svsa.simulate("4a", **LOADED), Run(svsa.simulate("4a", **LOADED).configuration)
     before = advance(run, 50)[0]
     state = run.lanes[0].x
-    run.set_effects(EVERY_EFFECT)
+    run.change(Set("effects", EVERY_EFFECT))
     assert run.lanes[0].x == state
     after = advance(run, 50)[0]
     np.testing.assert_array_equal(before, plain.samples[:50])

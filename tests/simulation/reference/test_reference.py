@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import svsa
+from svsa.runs.command import Set
 from svsa.runs.run import Run
 from svsa.simulation.reference.fade import compute_fade
 from svsa.simulation.reference.sine import compute_sine
@@ -135,10 +136,10 @@ def test_too_many_changes_at_once_are_refused_and_change_nothing():
     run = Run(svsa.paper.get_figure("4a").build_configuration())
     slow = svsa.ConstantPosition(position_rad=0.1, transition_s=60.0)
     for _ in range(MAX_FADES - 1):
-        run.set_position(slow)
+        run.change(Set("position", slow))
     before = run.configuration
     with pytest.raises(svsa.StateError, match=str(MAX_FADES)):
-        run.set_position(svsa.ConstantPosition(position_rad=0.2))
+        run.change(Set("position", svsa.ConstantPosition(position_rad=0.2)))
     assert run.configuration == before
 
 
@@ -165,7 +166,10 @@ def test_a_stiffness_outside_the_range_is_refused(level):
     wrong = svsa.ConstantStiffness(stiffness_nm_per_rad=level)
     run = Run(svsa.paper.get_figure("4a").build_configuration())
     before = run.configuration
-    for change in (lambda: run.set_stiffness(wrong), lambda: svsa.simulate("4a", stiffness=wrong)):
+    for change in (
+        lambda: run.change(Set("stiffness", wrong)),
+        lambda: svsa.simulate("4a", stiffness=wrong),
+    ):
         with pytest.raises(svsa.ParameterError, match=r"from 1\.7 to 150\.56 N·m/rad"):
             change()
     assert run.configuration == before

@@ -7,7 +7,7 @@ import pytest
 
 from svsa.actuators.signals import CHANNEL_INDEX, CHANNELS
 from svsa.errors import ParameterError
-from svsa.runs.command import ApplyLoad, Command, SetObserver, Stop
+from svsa.runs.command import ApplyLoad, Command, Set, Stop
 from svsa.runs.configuration import Configuration
 from svsa.runs.paper import get_figure
 from svsa.runs.records.header import PlantKind
@@ -154,7 +154,7 @@ def test_a_run_of_a_bench_is_judged_by_what_is_asked_there() -> None:
     ("commands", "said"),
     [
         ((Stop(tick=7000),), "the bench was stopped at 7 s, before its end"),
-        ((SetObserver(tick=0, argument={"bandwidth_rad_per_s": [9, 9, 9]}),), "observer was not"),
+        ((Set("observer", {"bandwidth_rad_per_s": [9, 9, 9]}, tick=0),), "observer was not"),
         ((ApplyLoad(tick=3000, argument={"kind": "mass"}),), "loads was changed at 3 s"),
     ],
 )

@@ -8,15 +8,7 @@ from fastapi import Path, Request
 from starlette.datastructures import URL
 
 from svsa.errors import StateError, SvsaError
-from svsa.runs.command import (
-    Command,
-    SetGains,
-    SetLaw,
-    SetObserver,
-    SetParameters,
-    SetPosition,
-    SetStiffness,
-)
+from svsa.runs.command import Command, Set
 from svsa.runs.configuration import Configuration
 from svsa_server.access.authentication import ClassAuthentication
 from svsa_server.access.origin import EVERYWHERE, find_outward_address
@@ -134,15 +126,9 @@ async def broadcast(request: Request) -> BroadcastState:
 
 def list_settings(configuration: Configuration) -> list[Command]:
     """The commands that set law, its numbers and references as they are here."""
-    own = configuration.parameters
-    return [
-        SetPosition(argument=configuration.position),
-        SetStiffness(argument=configuration.stiffness),
-        SetGains(argument=configuration.gains),
-        SetObserver(argument=configuration.observer),
-        *([SetParameters(argument=own)] if own else []),
-        SetLaw(argument=configuration.law),
-    ]
+    fields = ("position", "stiffness", "gains", "observer", "parameters", "law")
+    values = [(field, getattr(configuration, field)) for field in fields]
+    return [Set(field, value) for field, value in values if value != {}]
 
 
 def find_class(request: Request) -> ClassAuthentication:

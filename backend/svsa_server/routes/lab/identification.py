@@ -4,7 +4,7 @@ from typing import Annotated
 
 from fastapi import Body, Depends, Request
 
-from svsa.runs.command import SetNominal, SetParameters
+from svsa.runs.command import Set
 from svsa.runs.configuration import PROTOTYPE_FILE, parse_design
 from svsa_server.routes.depends import (
     CHANGED,
@@ -68,9 +68,7 @@ def load_nominal(
     Gains, observer, the true plant and limits stay as they are.
     """
     design = parse_design(request.toml)
-    hosted.session.set(SetNominal(argument=design.nominal))
+    hosted.session.set(Set("nominal", design.nominal))
     if design.parameters:
-        hosted.session.patch(
-            lambda run: SetParameters(argument={**run.parameters, **design.parameters})
-        )
+        hosted.session.patch(lambda run: Set("parameters", {**run.parameters, **design.parameters}))
     return build_state(hosted)

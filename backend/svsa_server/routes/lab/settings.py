@@ -13,20 +13,7 @@ from svsa.control.observers.disturbance import ObserverBandwidth
 from svsa.control.parameters import LawParameters
 from svsa.errors import ParameterError
 from svsa.inputs.checked import Checked
-from svsa.runs.command import (
-    SetActuator,
-    SetComparisons,
-    SetEffects,
-    SetGains,
-    SetLane,
-    SetLaw,
-    SetLaws,
-    SetNominal,
-    SetObserver,
-    SetParameters,
-    SetPosition,
-    SetStiffness,
-)
+from svsa.runs.command import Set
 from svsa.runs.configuration import LaneSetting
 from svsa.simulation.plant.effects import Effects
 from svsa.simulation.reference.trajectories import PositionReference, StiffnessReference
@@ -69,14 +56,14 @@ def set_position(
     ],
 ) -> SessionState:
     """Follow another position reference, faded over without a jump in any derivative."""
-    hosted.session.set(SetPosition(argument=reference))
+    hosted.session.set(Set("position", reference))
     return build_state(hosted)
 
 
 @router.post("/position/repeat")
 def repeat_position(hosted: NamedSession) -> SessionState:
     """Begin the present position reference again, faded over as another one would be."""
-    hosted.session.change(SetPosition(argument=hosted.session.run.configuration.position))
+    hosted.session.change(Set("position", hosted.session.run.configuration.position))
     return build_state(hosted)
 
 
@@ -99,14 +86,14 @@ def set_stiffness(
     ],
 ) -> SessionState:
     """Follow another stiffness reference, inside 1.7 … 150.56 N·m/rad."""
-    hosted.session.set(SetStiffness(argument=reference))
+    hosted.session.set(Set("stiffness", reference))
     return build_state(hosted)
 
 
 @router.post("/stiffness/repeat")
 def repeat_stiffness(hosted: NamedSession) -> SessionState:
     """Begin the present stiffness reference again, faded over as another one would be."""
-    hosted.session.change(SetStiffness(argument=hosted.session.run.configuration.stiffness))
+    hosted.session.change(Set("stiffness", hosted.session.run.configuration.stiffness))
     return build_state(hosted)
 
 
@@ -119,9 +106,9 @@ def set_law(
 ) -> SessionState:
     """Control with another law, and the lanes beside too, each from where its plant is."""
     if request.comparison_laws:
-        hosted.session.set(SetLaws(argument=(request.law, *request.comparison_laws)))
+        hosted.session.set(Set("laws", (request.law, *request.comparison_laws)))
     else:
-        hosted.session.set(SetLaw(argument=request.law))
+        hosted.session.set(Set("law", request.law))
     return build_state(hosted)
 
 
@@ -139,7 +126,7 @@ def set_gains(
     ],
 ) -> SessionState:
     """New gains, as poles or coefficients; refused with the roots when not Hurwitz."""
-    hosted.session.patch(lambda run: SetGains(argument=request.apply_to(run.gains)))
+    hosted.session.patch(lambda run: Set("gains", request.apply_to(run.gains)))
     return build_state(hosted)
 
 
@@ -155,7 +142,7 @@ def set_parameters(
 
     What is left out stays.
     """
-    hosted.session.patch(lambda run: SetParameters(argument=_merge(run.parameters, request)))
+    hosted.session.patch(lambda run: Set("parameters", _merge(run.parameters, request)))
     return build_state(hosted)
 
 
@@ -167,7 +154,7 @@ def set_observer(
     ],
 ) -> SessionState:
     """How fast the disturbance observer follows, on link, motor 1 and motor 2."""
-    hosted.session.set(SetObserver(argument=request))
+    hosted.session.set(Set("observer", request))
     return build_state(hosted)
 
 
@@ -177,7 +164,7 @@ def change_actuator(
     patch: Annotated[ActuatorPatch, Body(examples=[{"link_inertia_kg_m2": 0.0206}])],
 ) -> SessionState:
     """Change parameters of the true plant."""
-    hosted.session.patch(lambda run: SetActuator(argument=_apply(patch, run.actuator)))
+    hosted.session.patch(lambda run: Set("actuator", _apply(patch, run.actuator)))
     return build_state(hosted)
 
 
@@ -187,7 +174,7 @@ def change_nominal(
     patch: Annotated[NominalPatch, Body(examples=[{"link_inertia_kg_m2": 0.0103}])],
 ) -> SessionState:
     """Change parameters of the model that controller and observer believe in."""
-    hosted.session.patch(lambda run: SetNominal(argument=_apply(patch, run.nominal)))
+    hosted.session.patch(lambda run: Set("nominal", _apply(patch, run.nominal)))
     return build_state(hosted)
 
 
@@ -200,7 +187,7 @@ def set_effects(
     ],
 ) -> SessionState:
     """Switch on what separates the simulation from a bench; what is left out is off."""
-    hosted.session.set(SetEffects(argument=effects))
+    hosted.session.set(Set("effects", effects))
     return build_state(hosted)
 
 
@@ -212,7 +199,7 @@ def set_lanes(
     ],
 ) -> SessionState:
     """Run other controllers beside the session's own: same references, loads and noise."""
-    hosted.session.set(SetComparisons(argument=request.comparisons))
+    hosted.session.set(Set("comparisons", request.comparisons))
     return build_state(hosted)
 
 
@@ -234,7 +221,7 @@ def set_lane(
 
     What is left out is the session's. The same law goes on with what it remembers.
     """
-    hosted.session.set(SetLane(argument=LaneSetting(lane=lane, setting=request)))
+    hosted.session.set(Set("lane", LaneSetting(lane=lane, setting=request)))
     return build_state(hosted)
 
 

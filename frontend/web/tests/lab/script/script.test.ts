@@ -88,12 +88,8 @@ const origin = (change: object, commands: RunOrigin["commands"] = []): RunOrigin
   plant: "simulated",
   defaults: DEFAULTS,
 });
-type Given = RunOrigin["commands"][number];
-const given = <Kind extends CommandKind>(
-  tick: number,
-  kind: Kind,
-  argument: Extract<Given["command"], { kind: Kind }>["argument"],
-) => ({ tick, command: { tick, kind, argument } }) as Given;
+const given = (tick: number, kind: CommandKind, argument: unknown) =>
+  ({ tick, command: { tick, kind, argument } }) as RunOrigin["commands"][number];
 
 describe("an experiment as a script", () => {
   it("says where a bench was stopped, which a simulation cannot do again", () => {
