@@ -28,48 +28,45 @@ function buildKind(value: unknown, of: string): string {
 
 const buildLane = (lane: unknown) => buildValue("svsa.Lane", pruned(lane), INDENT);
 
+const assign = (field: string, value: string): string[] => [`session.${field} = ${value}`];
+const assignKind = (of: string) => (argument: unknown, field: string) =>
+  assign(field, buildKind(argument, of));
+const assignValue = (type: string) => (argument: unknown, field: string) =>
+  assign(field, buildValue(`svsa.${type}`, pruned(argument), INDENT));
+const assignModel = (argument: unknown, field: string) =>
+  assign(field, buildValue(`session.${field}.changed`, pruned(argument), INDENT));
+
+type Write = (argument: unknown, kind: CommandKind) => string[];
+
+/** How the library says each kind of command. */
+const WRITE: Record<CommandKind, Write> = {
+  position: assignKind("Position"),
+  stiffness: assignKind("Stiffness"),
+  gains: assignValue("Gains"),
+  observer: assignValue("ObserverBandwidth"),
+  effects: assignValue("Effects"),
+  actuator: assignModel,
+  nominal: assignModel,
+  law: (law) => assign("law", toPython(law)),
+  laws: (laws) => [`session.set_laws(${(laws as unknown[]).map(toPython).join(", ")})`],
+  comparisons: (lanes) =>
+    assign("comparisons", `[${(lanes as unknown[]).map(buildLane).join(", ")}]`),
+  lane: (argument) => {
+    const { lane, setting } = argument as { lane: number; setting: unknown };
+    return [`session.set_lane(${lane}, ${buildLane(setting)})`];
+  },
+  parameters: (laws) =>
+    Object.entries(pruned(laws)).map(([law, values]) =>
+      toRows(`session.set_parameters(${toPython(law)}, `, values as Fields, INDENT),
+    ),
+  load: (load) => [`session.loads.add(${buildKind(load, "Load")})`],
+  unload: (number) => [`session.loads.remove(${String(number)})`],
+  stop: () => ["# Here the bench was stopped; a simulation has no ramp to zero torque."],
+};
+
 /** The lines of Python that give a command again. */
-export function writeCommand(kind: CommandKind, argument: unknown): string[] {
-  switch (kind) {
-    case "law":
-      return [`session.law = ${toPython(argument)}`];
-    case "laws":
-      return [`session.set_laws(${(argument as unknown[]).map(toPython).join(", ")})`];
-    case "lane": {
-      const { lane, setting } = argument as { lane: number; setting: unknown };
-      return [`session.set_lane(${lane}, ${buildLane(setting)})`];
-    }
-    case "comparisons":
-      return [`session.comparisons = [${(argument as unknown[]).map(buildLane).join(", ")}]`];
-    case "position":
-      return [`session.position = ${buildKind(argument, "Position")}`];
-    case "stiffness":
-      return [`session.stiffness = ${buildKind(argument, "Stiffness")}`];
-    case "gains":
-      return [`session.gains = ${buildValue("svsa.Gains", pruned(argument), INDENT)}`];
-    case "observer":
-      return [
-        `session.observer = ${buildValue("svsa.ObserverBandwidth", pruned(argument), INDENT)}`,
-      ];
-    case "effects":
-      return [`session.effects = ${buildValue("svsa.Effects", pruned(argument), INDENT)}`];
-    case "actuator":
-    case "nominal":
-      return [
-        `session.${kind} = ${buildValue(`session.${kind}.changed`, pruned(argument), INDENT)}`,
-      ];
-    case "parameters":
-      return Object.entries(pruned(argument)).map(([law, values]) =>
-        toRows(`session.set_parameters(${toPython(law)}, `, values as Fields, INDENT),
-      );
-    case "load":
-      return [`session.loads.add(${buildKind(argument, "Load")})`];
-    case "unload":
-      return [`session.loads.remove(${String(argument)})`];
-    case "stop":
-      return ["# Here the bench was stopped; a simulation has no ramp to zero torque."];
-  }
-}
+export const writeCommand = (kind: CommandKind, argument: unknown): string[] =>
+  WRITE[kind](argument, kind);
 
 /** What of the settings of a run a new private session has not. */
 function writeSettings({ configuration, defaults }: RunOrigin): string[] {
@@ -93,11 +90,16 @@ function writeSettings({ configuration, defaults }: RunOrigin): string[] {
 function writeChanges({ configuration, commands, period_s: periodS }: RunOrigin): string[] {
   const loads = configuration.loads as unknown[];
   const lines = loads.flatMap((load) => writeCommand("load", load));
+  const followed: Fields = { position: configuration.position, stiffness: configuration.stiffness };
   let reached = 0;
   for (const { tick, command } of commands) {
+    const { kind, argument } = command;
     if (tick > reached) lines.push(`session.run_until(${secondsOf(tick, periodS)})`);
     reached = Math.max(reached, tick);
-    lines.push(...writeCommand(command.kind, command.argument));
+    // A reference that is followed already is not set again by its assignment.
+    const isRepeated = kind in followed && isSame(followed[kind], argument);
+    lines.push(...(isRepeated ? [`session.repeat_${kind}()`] : writeCommand(kind, argument)));
+    if (kind in followed) followed[kind] = argument;
   }
   return lines;
 }

@@ -119,6 +119,21 @@ describe("an experiment as a script", () => {
     ]);
   });
 
+  it("begins a reference again that is followed already", () => {
+    const other = { kind: "constant", position_rad: 0.5 };
+    const commands = [
+      given(100, "position", { kind: "sine" }),
+      given(200, "position", other),
+      given(300, "position", other),
+    ];
+    const script = writeExperiment(origin({}, commands), "a", "http://lab");
+    expect(script.match(/session\.(position = |repeat).*/g)).toEqual([
+      "session.repeat_position()",
+      "session.position = svsa.ConstantPosition(position_rad=0.5)",
+      "session.repeat_position()",
+    ]);
+  });
+
   it("sets only what differs from a new session", () => {
     const plain = writeExperiment(origin({}), "a", "http://lab");
     expect(plain).not.toMatch(/session\.\w+ = /);
