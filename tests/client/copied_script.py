@@ -42,22 +42,35 @@ def do_experiment(lab: httpx.Client) -> dict:
     return lab.get(path + "/origin").raise_for_status().json()
 
 
-def write_copied_script(origin: dict, lab: str, folder: Path) -> Path:
-    """The script of an experiment, with this address of a lab in it."""
-    node = shutil.which("node", path=str(Path(sys.executable).parent)) or shutil.which("node")
-    assert node, "Node comes with the build requirements"
+def bundle_writer(folder: Path) -> None:
+    """What of the page writes a script, as a module for Node."""
     bundler = PAGE / "node_modules" / "rolldown" / "bin" / "cli.mjs"
     source = PAGE / "src" / "lab" / "script" / "experiment.ts"
-    bundle = [node, str(bundler), str(source), "--format", "esm", "--dir", str(folder)]
-    subprocess.run(bundle, check=True, capture_output=True, timeout=LONGEST_S)
+    _run_node(folder, str(bundler), str(source), "--format", "esm", "--dir", str(folder))
+
+
+def write_script(origin: dict, lab: str, folder: Path) -> Path:
+    """The script of an experiment, with this address of a lab in it. folder: with a writer."""
     (folder / "origin.json").write_text(json.dumps(origin), encoding="utf-8")
     (folder / "write.mjs").write_text(WRITE.format(lab=lab), encoding="utf-8")
-    written = subprocess.run(
-        [node, "write.mjs"], cwd=folder, check=True, capture_output=True, timeout=LONGEST_S
-    )
     path = folder / "experiment.py"
-    path.write_bytes(written.stdout)
+    path.write_bytes(_run_node(folder, "write.mjs"))
     return path
+
+
+def write_copied_script(origin: dict, lab: str, folder: Path) -> Path:
+    """As `write_script`, in a folder without a writer."""
+    bundle_writer(folder)
+    return write_script(origin, lab, folder)
+
+
+def _run_node(folder: Path, *arguments: str) -> bytes:
+    node = shutil.which("node", path=str(Path(sys.executable).parent)) or shutil.which("node")
+    assert node, "Node comes with the build requirements"
+    done = subprocess.run(
+        [node, *arguments], cwd=folder, check=True, capture_output=True, timeout=LONGEST_S
+    )
+    return done.stdout
 
 
 def start_script(path: Path, token: str, *arguments: str) -> subprocess.Popen[str]:
