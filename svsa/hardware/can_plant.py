@@ -7,14 +7,13 @@ import can
 
 from svsa.actuators.signals import Disturbance, State, Torque
 from svsa.errors import Fault, StateError, SvsaError
-from svsa.hardware.axes import AXIS_WORDS
 from svsa.hardware.calibration import Calibration, list_problems
 from svsa.hardware.clock import BenchClock
 from svsa.hardware.drives.bus import BUS_TROUBLE, DELIVERY_S, open_bus
 from svsa.hardware.drives.conversion import build_motor_scale, compute_current_ma
 from svsa.hardware.drives.drive import Drive, build_broadcast_resets
 from svsa.hardware.drives.phase import Phase
-from svsa.hardware.file import BenchFile
+from svsa.hardware.file import AXIS_WORDS, BenchFile
 from svsa.hardware.homing import Axis
 from svsa.hardware.reading import Reading
 from svsa.hardware.safety.faults import Alarm

@@ -39,7 +39,7 @@ def bench_check(
     """Test a bench step by step: bus, drives, encoders, and with --move signs and latency."""
     require_extra("bench")
     from svsa.hardware.commissioning import check_bench
-    from svsa.hardware.commissioning.step import Result
+    from svsa.hardware.commissioning.probe import Result
 
     console = Console(highlight=False)
     if move and not yes:

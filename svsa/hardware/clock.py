@@ -1,6 +1,7 @@
-"""The time of a bench: the clock on the wall, or an emulator's own in lockstep."""
+"""The time of a bench: the wall clock, or an emulator's own, in lockstep, paced by the wall."""
 
 import ctypes
+import math
 import sys
 import time
 from typing import Protocol
@@ -9,6 +10,7 @@ import can
 
 from svsa.errors import SvsaError
 from svsa.hardware.emulation import ADVANCE_ID, decode_time, encode_time
+from svsa.hardware.file import BenchFile
 
 _CLOCK_MONOTONIC = 1
 _TIMER_ABSTIME = 1
@@ -174,3 +176,43 @@ class LockstepClock:
     def find_lateness(self, deadline: float) -> float:
         """Nothing is late where time waits."""
         return 0.0
+
+
+CATCH_UP_S = 0.05
+"""What was lost beyond this is not made up for by ticks in a row without a rest."""
+
+
+class PacedClock(LockstepClock):
+    """`LockstepClock` in real time, or slower: the wall is `_ahead_s` ahead of the emulator.
+
+    On a busy machine, loop and emulator become slow together: feedback stays as recent as on a
+    bench, and no tick is missed. Separate processes, such as heartbeats, still use the wall clock.
+    """
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._wall = WallClock()
+        self._ahead_s = -math.inf
+
+    def wait_until(self, deadline: float) -> None:
+        """Let the emulator go on to this time, once it is due on the wall.
+
+        An emulator that had no loop for a while has gone on by itself: it is not waited for again.
+        """
+        if math.isinf(self._ahead_s):
+            self._ahead_s = self._wall.now() - self.now()
+        self._wall.wait_until(deadline + self._ahead_s)
+        late_s = self._wall.now() - max(deadline, self.now())
+        self._ahead_s = max(self._ahead_s, late_s - CATCH_UP_S)
+        super().wait_until(deadline)
+        self._ahead_s = min(self._ahead_s, self._wall.now() - self.now())
+
+    def find_lateness(self, deadline: float) -> float:
+        """How long ago this deadline was due on the wall, s, as far as it is made up for."""
+        return self._wall.now() - (deadline + self._ahead_s)
+
+
+def choose_clock(bench: BenchFile) -> BenchClock:
+    """The clock that a bench goes by: the wall's, unless its emulator waits for the loop."""
+    is_lockstep = bench.emulator is not None and bench.emulator.lockstep
+    return PacedClock() if is_lockstep else WallClock()

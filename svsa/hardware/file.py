@@ -8,9 +8,17 @@ from pathlib import Path
 from typing import Any, Literal
 
 from svsa.errors import ParameterError, Violation
-from svsa.hardware.axes import AXIS_WORDS
 from svsa.inputs.checked import Checked, Flag, Number, Whole, quantity
 from svsa.inputs.toml_file import read_toml
+
+AXIS_WORDS = {
+    "link": "the link",
+    "motor1": "motor 1",
+    "motor2": "motor 2",
+    "deflection": "the deflection",
+}
+"""What an axis is called in a message."""
+
 
 PERIODS_S = (0.001, 0.002)
 Sign = Literal[-1, 1]

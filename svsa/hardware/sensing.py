@@ -6,7 +6,6 @@ import math
 import can
 
 from svsa.actuators.signals import Measurement, State
-from svsa.hardware.axes import AXIS_WORDS
 from svsa.hardware.clock import BenchClock
 from svsa.hardware.drives.bus import BUS_TROUBLE, take_waiting
 from svsa.hardware.drives.conversion import MotorScale, Unwrapped, build_deflection_scale
@@ -16,7 +15,7 @@ from svsa.hardware.drives.robomodule import LENGTH
 from svsa.hardware.emulation import EMULATED_ID
 from svsa.hardware.encoders import read_source
 from svsa.hardware.encoders.source import EncoderError
-from svsa.hardware.file import BenchFile
+from svsa.hardware.file import AXIS_WORDS, BenchFile
 from svsa.hardware.reading import Reading
 from svsa.hardware.safety.faults import Alarm
 from svsa.hardware.safety.standstill import NewCounts

@@ -7,7 +7,6 @@ from pathlib import Path
 import numpy as np
 
 from svsa.errors import StateError
-from svsa.hardware.axes import AXIS_WORDS
 from svsa.hardware.calibration import (
     Calibration,
     compute_fingerprint,
@@ -17,7 +16,7 @@ from svsa.hardware.calibration import (
 from svsa.hardware.commissioning.probe import BusOpener, Clock, Probe
 from svsa.hardware.drives.bus import open_bus
 from svsa.hardware.encoders.source import EncoderError
-from svsa.hardware.file import BenchFile
+from svsa.hardware.file import AXIS_WORDS, BenchFile
 from svsa.hardware.homing import Homing
 
 LISTEN_S = 0.5

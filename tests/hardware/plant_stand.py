@@ -23,7 +23,7 @@ from svsa.hardware.realtime.configuration import (
     read_actuation,
 )
 from svsa.hardware.realtime.loop import BenchLoop
-from svsa.hardware.realtime.sample_array import SampleArray
+from svsa.hardware.realtime.memory import SampleArray
 from svsa.hardware.safety.machine import BenchStatus, Conditions, Machine
 from svsa.runs.paper import get_figure
 from tests.hardware.wired_bench import EMULATOR_BENCH

@@ -5,10 +5,18 @@ import time
 import can
 import pytest
 
-from svsa.hardware.clock import DRIFT, SPIN_S, ClockError, LockstepClock, WallClock
+from svsa.hardware.clock import (
+    CATCH_UP_S,
+    DRIFT,
+    SPIN_S,
+    ClockError,
+    LockstepClock,
+    PacedClock,
+    WallClock,
+    choose_clock,
+)
 from svsa.hardware.emulation import ADVANCE_ID, decode_time, encode_time
 from svsa.hardware.file import read_bench
-from svsa.hardware.paced_clock import CATCH_UP_S, PacedClock, choose_clock
 from tests.hardware.wired_bench import EMULATOR_BENCH
 
 

@@ -17,8 +17,7 @@ from svsa.hardware.session.session import BenchSession
 from svsa.runs.command import Command
 from svsa.runs.configuration import Configuration, Design
 from svsa.runs.paper import get_figure
-from svsa.runs.session.hands import Hands
-from svsa.runs.session.session import Session
+from svsa.runs.session.session import Hands, Session
 from svsa.runs.session.simulated import SimulatedSession
 from svsa.simulation.plant.loads import Load
 from svsa_server.access.roles import INSTRUCTOR

@@ -14,8 +14,7 @@ from svsa.hardware.commissioning.drives import advise_on_bus, bring_up, check_bu
 from svsa.hardware.commissioning.flow import LISTEN_S, check_deflection, check_feedback, check_rest
 from svsa.hardware.commissioning.latency import check_latency
 from svsa.hardware.commissioning.motion import check_directions, check_motion
-from svsa.hardware.commissioning.probe import BusOpener, Clock, Probe
-from svsa.hardware.commissioning.step import CheckStep, Result
+from svsa.hardware.commissioning.probe import BusOpener, CheckStep, Clock, Probe, Result
 from svsa.hardware.drives.bus import BusError, open_bus
 from svsa.hardware.file import BenchFile, read_bench
 

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from svsa.hardware.commissioning.probe import Probe, Traffic
-from svsa.hardware.commissioning.step import CheckStep, Result
+from svsa.hardware.commissioning.probe import CheckStep, Probe, Result, Traffic
 from svsa.hardware.drives.drive import MARGIN_S, SETTLE_S
 from svsa.hardware.drives.robomodule import Address, Config, Mode, Online, Reset, SetMode
 from svsa.hardware.file import BenchFile

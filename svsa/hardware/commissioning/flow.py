@@ -5,8 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from svsa.hardware.commissioning.drives import DRIVE_POWER, WIRING, get_period_ms
-from svsa.hardware.commissioning.probe import Probe, Traffic
-from svsa.hardware.commissioning.step import CheckStep, Result
+from svsa.hardware.commissioning.probe import CheckStep, Probe, Result, Traffic
 
 LISTEN_S = 1.0
 MIN_SHARE = 0.98

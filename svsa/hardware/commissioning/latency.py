@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from svsa.hardware.commissioning.probe import Probe, Traffic
-from svsa.hardware.commissioning.step import CheckStep, Result
+from svsa.hardware.commissioning.probe import CheckStep, Probe, Result, Traffic
 
 STEPS = 40
 CURRENT = 0.05

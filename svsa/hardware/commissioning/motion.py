@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable, Iterator
 
-from svsa.hardware.commissioning.probe import Probe
+from svsa.hardware.commissioning.probe import CheckStep, Probe, Result
 from svsa.hardware.commissioning.pulse import (
     MIN_COUNTS,
     MIN_DEFLECTION_COUNTS,
@@ -11,7 +11,6 @@ from svsa.hardware.commissioning.pulse import (
     Turn,
     turn_a_little,
 )
-from svsa.hardware.commissioning.step import CheckStep, Result
 from svsa.hardware.drives.conversion import build_deflection_scale, build_motor_scale
 from svsa.hardware.file import BenchFile, MotorSettings
 

@@ -8,6 +8,7 @@ import contextlib
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from enum import StrEnum
 from typing import NamedTuple
 
 import can
@@ -32,6 +33,24 @@ from svsa.hardware.emulation import EMULATED_ID
 from svsa.hardware.encoders import read_source
 from svsa.hardware.encoders.source import EncoderError
 from svsa.hardware.file import BenchFile, BusSettings
+
+
+class Result(StrEnum):
+    """How a step ended: right, usable with a remark, or not usable."""
+
+    OK = "ok"
+    WARN = "warn"
+    FAIL = "fail"
+
+
+class CheckStep(NamedTuple):
+    """A step's name, its result, what was measured with its unit, and what to do about it."""
+
+    name: str
+    result: Result
+    measured: str
+    advice: str = ""
+
 
 COMMAND_GATE_S = 0.001
 _ENCODER_POLL_S = 0.001

@@ -19,7 +19,7 @@ from svsa.hardware.realtime.configuration import (
     read_actuation,
 )
 from svsa.hardware.realtime.loop import BenchLoop
-from svsa.hardware.realtime.sample_array import SampleArray
+from svsa.hardware.realtime.memory import SampleArray
 from svsa.hardware.safety.heartbeat import Heartbeats
 from svsa.hardware.safety.machine import BenchStatus
 from svsa.runs.configuration import Configuration

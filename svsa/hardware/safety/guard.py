@@ -1,18 +1,55 @@
 """The limits of one tick on a bench: what of a torque may be sent, and what ends the run."""
 
 import math
+from collections import deque
 
 from svsa.actuators.domain import FAULT_CODES, INSIDE, Bounds, Domain, check_packed_domain
 from svsa.actuators.dynamics import Actuator
 from svsa.actuators.signals import Disturbance, State, Torque
-from svsa.hardware.axes import AXIS_WORDS
-from svsa.hardware.file import BenchFile, MotorSettings
+from svsa.hardware.file import AXIS_WORDS, BenchFile, MotorSettings
 from svsa.hardware.safety.faults import Alarm
 from svsa.hardware.safety.heat import HeldBack, HoldingBack, Winding, describe_held_back
 from svsa.hardware.safety.standstill import NewCounts, Standstill
-from svsa.hardware.safety.vibration import REVERSALS, WINDOW_S, Vibration
 from svsa.numerics.packed import pack
 from svsa.runs.fault import label_fault
+
+SWING_RAD_PER_S = 2.0
+REVERSALS = 10
+WINDOW_S = 0.5
+
+
+class Vibration:
+    """Counts the reversals of one motor; period: of the ticks, s.
+
+    A motor that vibrates shows a loop that is unstable within its limits. Causes: a deflection
+    encoder that is frozen or counts in the wrong direction, late feedback, gains that are too
+    high. ŵ stays plausible, but the motor reverses faster than any reference (5 Hz) requires.
+    """
+
+    def __init__(self, period: float) -> None:
+        self._window = round(WINDOW_S / period)
+        self._reversals: deque[int] = deque(maxlen=REVERSALS)
+        self._tick, self._sign = 0, 0
+
+    def update(self, velocity: float) -> bool:
+        """Whether the motor has turned around ten times within 0.5 s, 2 rad/s to each side.
+
+        velocity: in this tick, rad/s at the output.
+        """
+        self._tick += 1
+        if abs(velocity) > SWING_RAD_PER_S:
+            sign = 1 if velocity > 0.0 else -1
+            if sign == -self._sign:
+                self._reversals.append(self._tick)
+            self._sign = sign
+        seen = self._reversals
+        return len(seen) == REVERSALS and self._tick - seen[0] <= self._window
+
+    def reset(self) -> None:
+        """Forget: a new run begins."""
+        self._reversals.clear()
+        self._sign = 0
+
 
 POSITION_MARGIN_RAD = 0.2
 OVERLOAD = 1.05

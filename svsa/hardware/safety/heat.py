@@ -3,9 +3,8 @@
 import math
 from typing import NamedTuple
 
-from svsa.hardware.axes import AXIS_WORDS
 from svsa.hardware.drives.conversion import build_motor_scale
-from svsa.hardware.file import MotorSettings
+from svsa.hardware.file import AXIS_WORDS, MotorSettings
 from svsa.numerics.exponential import expm1
 
 WARM = 0.9

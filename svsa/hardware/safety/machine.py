@@ -12,9 +12,8 @@ from typing import NamedTuple
 
 from svsa.actuators.signals import Disturbance, State, Torque
 from svsa.errors import Fault, StateError
-from svsa.hardware.axes import AXIS_WORDS
 from svsa.hardware.drives.phase import Phase
-from svsa.hardware.file import BenchFile
+from svsa.hardware.file import AXIS_WORDS, BenchFile
 from svsa.hardware.homing import Homing
 from svsa.hardware.safety.faults import Alarm
 from svsa.hardware.safety.guard import Guard

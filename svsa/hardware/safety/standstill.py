@@ -6,7 +6,7 @@ controller asks for, long before it is greater than any load.
 """
 
 from svsa.actuators.signals import Disturbance
-from svsa.hardware.axes import AXIS_WORDS
+from svsa.hardware.file import AXIS_WORDS
 from svsa.hardware.safety.faults import Alarm
 
 NewCounts = tuple[int | None, int | None, int | None]

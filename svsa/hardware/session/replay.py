@@ -11,7 +11,7 @@ import numpy as np
 from svsa.actuators.signals import MEASURED, TORQUES, Disturbance, Measurement, State, Torque
 from svsa.hardware.reading import Reading
 from svsa.hardware.realtime.loop import BenchLoop
-from svsa.hardware.realtime.sample_array import SampleArray
+from svsa.hardware.realtime.memory import SampleArray
 from svsa.hardware.safety.machine import BenchStatus
 from svsa.hardware.session.run import BenchRun
 from svsa.runs.command import Command, fold

@@ -1,4 +1,4 @@
-"""A run whose first lane is a bench: its samples are read, those of its twins are simulated."""
+"""A run whose first lane is a bench, with its `BenchStart`: samples of its twins are simulated."""
 
 from typing import TYPE_CHECKING, Protocol
 
@@ -6,8 +6,12 @@ import numpy as np
 
 from svsa.actuators.domain import INSIDE
 from svsa.actuators.signals import CHANNEL_INDEX
+from svsa.hardware.drives.conversion import build_motor_scale
+from svsa.hardware.file import BenchFile
+from svsa.hardware.realtime.configuration import read_actuation
 from svsa.runs.command import Command
 from svsa.runs.configuration import Configuration
+from svsa.runs.records.bench_start import BenchStart
 from svsa.runs.run import Run, Start, find_origins
 from svsa.simulation.plant.loads import ScheduledLoad
 
@@ -102,3 +106,13 @@ class BenchRun(Run):
         super().change(command)
         self._ended = {lane for lane, origin in enumerate(origins) if origin in self._ended}
         return None
+
+
+def describe_start(
+    bench: BenchFile, mu0: float, motion: dict[str, list[float]], commands: int
+) -> BenchStart:
+    """`BenchStart` of a run of this bench; mu0, motion, commands: as its fields."""
+    actuation = read_actuation(bench)
+    motors = bench.motor1, bench.motor2
+    step1, step2 = (abs(build_motor_scale(motor).torque_per_ma) for motor in motors)
+    return BenchStart(mu0, *actuation, (step1, step2), motion, commands)

@@ -14,8 +14,7 @@ from svsa.hardware.realtime.launch import Rest, Teller, keep_quiet
 from svsa.hardware.safety.machine import MOVING, BenchStatus
 from svsa.hardware.session.commands import BenchCommands
 from svsa.hardware.session.report import BenchReport
-from svsa.hardware.session.run import BenchRun
-from svsa.hardware.session.start import describe_start
+from svsa.hardware.session.run import BenchRun, describe_start
 from svsa.hardware.session.supervised_loop import SupervisedLoop
 from svsa.inputs.extras import require_extra
 from svsa.runs.command import Command
@@ -24,9 +23,8 @@ from svsa.runs.records.header import PlantKind
 from svsa.runs.records.recorder import Recorder
 from svsa.runs.run import Start
 from svsa.runs.session.clock import Pace
-from svsa.runs.session.hands import Hands
 from svsa.runs.session.journal import Journal
-from svsa.runs.session.session import PROGRAM_ERROR, Status
+from svsa.runs.session.session import PROGRAM_ERROR, Hands, Status
 from svsa.simulation.loop.lane import AT_REST
 
 UNWATCHED_S = 1.0

@@ -1,5 +1,6 @@
 """A record read back: finished, still growing, or cut off; whole or a stretch at a time."""
 
+import contextlib
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -9,6 +10,7 @@ import numpy as np
 import pyarrow as pa
 
 from svsa.errors import Fault
+from svsa.inputs.file_lock import try_lock
 from svsa.runs.events import Event
 from svsa.runs.records.bench_start import BenchStart, read_start
 from svsa.runs.records.header import (
@@ -18,7 +20,6 @@ from svsa.runs.records.header import (
     RecordHeader,
     read_header,
 )
-from svsa.runs.records.lock import claim
 from svsa.runs.records.outcome import read_events, read_fault
 from svsa.runs.records.parquet import (
     ROWS_A_GROUP,
@@ -207,3 +208,19 @@ def _explain(batches: Iterator[pa.RecordBatch], folder: Path) -> Iterator[pa.Rec
         yield from batches
     except (OSError, pa.ArrowException, ValueError) as error:
         raise RecordError(f"The samples of record {folder.name} are damaged: {error}") from None
+
+
+@contextlib.contextmanager
+def claim(folder: Path) -> Iterator[bool]:
+    """Lock a record's stream to finish the record; the system unlocks it if the process dies.
+
+    Yields:
+        False while any process, this one included, writes the record.
+    """
+    try:
+        file = (folder / STREAM_FILE).open("rb")
+    except OSError:
+        yield True
+        return
+    with file:
+        yield try_lock(file.fileno())

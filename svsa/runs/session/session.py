@@ -11,6 +11,7 @@ from svsa.runs.records.recorder import Recorder
 from svsa.runs.run import Run
 from svsa.runs.session.clock import Pace
 from svsa.runs.session.journal import Journal
+from svsa.simulation.plant.loads import Load
 
 PROGRAM_ERROR = "an error of the program"
 
@@ -147,3 +148,13 @@ def take_loads_off(session: Session) -> None:
     """Take every load off."""
     for load in session.run.loads:
         session.change(RemoveLoad(argument=load.number))
+
+
+class Hands:
+    """A person, who needs no telling; a stand-in does what it is told."""
+
+    def hang(self, loads: tuple[Load, ...]) -> None:
+        """These loads and no others are on."""
+
+    def set_to_marks(self) -> None:
+        """Set the mechanism to its zero marks, before it is armed."""

@@ -6,7 +6,7 @@ import pytest
 
 from svsa.hardware.calibration import find_calibration
 from svsa.hardware.commissioning import SIGN_STEPS, check_bench
-from svsa.hardware.commissioning.step import Result
+from svsa.hardware.commissioning.probe import Result
 from svsa.hardware.emulator.emulator import Emulator
 from svsa.hardware.emulator.faults import (
     BusErrors,

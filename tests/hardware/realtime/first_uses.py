@@ -21,10 +21,9 @@ from svsa.errors import ParameterError
 from svsa.hardware.homing import STEPS
 from svsa.hardware.realtime.configuration import build_bench_configuration, read_actuation
 from svsa.hardware.realtime.loop import BenchLoop
-from svsa.hardware.realtime.memory import LoopMemory
+from svsa.hardware.realtime.memory import LoopMemory, SampleArray
 from svsa.hardware.realtime.prepared_laws import PreparedLaws, compute_constants
 from svsa.hardware.realtime.process import LoopProcess
-from svsa.hardware.realtime.sample_array import SampleArray
 from svsa.hardware.realtime.warm_up import list_changes, warm_up
 from svsa.runs.paper import get_figure
 from tests.hardware.wired_bench import WiredBench

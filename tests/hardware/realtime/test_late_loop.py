@@ -7,7 +7,7 @@ from svsa.actuators.signals import State
 from svsa.errors import StateError
 from svsa.hardware.realtime.configuration import build_bench_configuration, read_actuation
 from svsa.hardware.realtime.loop import BenchLoop
-from svsa.hardware.realtime.sample_array import SampleArray
+from svsa.hardware.realtime.memory import SampleArray
 from svsa.hardware.safety.machine import BenchStatus
 from svsa.runs.command import Set
 from svsa.runs.paper import get_figure

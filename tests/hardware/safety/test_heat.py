@@ -5,8 +5,7 @@ import math
 import pytest
 
 from svsa.actuators.signals import Torque
-from svsa.hardware.axes import AXIS_WORDS
-from svsa.hardware.file import read_bench
+from svsa.hardware.file import AXIS_WORDS, read_bench
 from svsa.hardware.realtime.configuration import build_guard
 from svsa.hardware.safety.guard import Guard
 from svsa.hardware.safety.heat import LINGERS_S, WARM, Winding, compute_lasting_torque

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from svsa.hardware.safety.vibration import Vibration
+from svsa.hardware.safety.guard import Vibration
 
 PERIOD_S = 0.001
 

@@ -8,10 +8,9 @@ import numpy as np
 from svsa.actuators.signals import CHANNELS
 from svsa.hardware.realtime.configuration import build_bench_configuration, read_actuation
 from svsa.hardware.realtime.loop import BenchLoop
-from svsa.hardware.realtime.sample_array import SampleArray
+from svsa.hardware.realtime.memory import SampleArray
 from svsa.hardware.safety.machine import BenchStatus
-from svsa.hardware.session.run import BenchRun
-from svsa.hardware.session.start import describe_start
+from svsa.hardware.session.run import BenchRun, describe_start
 from svsa.runs.command import Command
 from svsa.runs.configuration import Configuration
 from svsa.runs.records.bench_start import BenchStart, write_start

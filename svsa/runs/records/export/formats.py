@@ -4,13 +4,32 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import IO, NamedTuple
 
+import pyarrow as pa
+import pyarrow.csv
+
 from svsa.errors import ParameterError, Violation
-from svsa.runs.records.export.csv import write_csv
 from svsa.runs.records.export.mat import write_mat
 from svsa.runs.records.export.mcap import write_mcap
 from svsa.runs.records.header import RecordError
 from svsa.runs.records.parquet import write_parquet
 from svsa.runs.records.reader import Record
+from svsa.runs.records.stream import build_schema
+
+
+def write_csv(record: Record, stream: IO[bytes]) -> None:
+    """Write a record as CSV in UTF-8: tick, time, then "<lane>.<channel> [unit]".
+
+    One row a tick, every digit kept.
+    """
+    fields = []
+    for field in build_schema(record.header):
+        unit = (field.metadata or {})[b"unit"].decode()
+        fields.append(field.with_name(f"{field.name} [{unit}]" if field.name != "tick" else "tick"))
+    schema = pa.schema(fields)
+    with pyarrow.csv.CSVWriter(stream, schema) as writer:
+        for batch in record.iterate_batches():
+            writer.write_batch(pa.RecordBatch.from_arrays(batch.columns, schema=schema))
+
 
 LONGEST_FILE_NAME = 80
 
