@@ -19,7 +19,7 @@ from svsa.numerics.packed import pack, view_field
 from svsa.simulation.loop.lane import AT_REST, NO_TORQUE
 from svsa.simulation.loop.measured import read_state, store_state, store_torque
 from svsa.simulation.plant.effects import EffectConstants, Effects, build_effect_constants
-from svsa.simulation.plant.integration import coast
+from svsa.simulation.plant.integration import Stops, coast
 from svsa.simulation.plant.loads import (
     Load,
     LoadTable,
@@ -27,7 +27,6 @@ from svsa.simulation.plant.loads import (
     build_load_table,
     schedule_load,
 )
-from svsa.simulation.plant.stops import Stops
 
 GRID_US = 100
 MAX_LOADS = 100

@@ -1,8 +1,8 @@
-"""The drives: from the torque that is asked for to the torque that the motors make."""
+"""The motors: from the commanded torque to their actual torque, and their friction."""
 
 from svsa.actuators.signals import Torque
 from svsa.numerics.compilation import compiled
-from svsa.numerics.exponential import exp, expm1
+from svsa.numerics.exponential import exp, expm1, tanh
 from svsa.numerics.simd.choice import choose, some
 
 
@@ -56,3 +56,18 @@ def compute_late_torque(
         (early.u2 * latency + late.u2 * rest) / period,
     )
     return compute_lagged_torque(met, delayed, lag, rest), mean
+
+
+@compiled
+def compute_friction(
+    velocity: float, coulomb: float, static: float, stribeck: float, creep: float
+) -> float:
+    """τ_f = [τ_c + (τ_s − τ_c) e^(−(v/v_s)²)] tanh(v/v_c), N·m, against the motion.
+
+    velocity v: rad/s. coulomb τ_c, static τ_s: N·m. stribeck v_s: rad/s, > 0. creep v_c:
+    rad/s, > 0, the velocity at which a motor that should stick creeps; the tanh stands for
+    the sign, so that the equations stay differentiable.
+    """
+    ratio = velocity / stribeck
+    level = coulomb + (static - coulomb) * exp(-ratio * ratio)
+    return level * tanh(velocity / creep)

@@ -1,14 +1,50 @@
-"""The plant through one control period or many: classical Runge–Kutta steps, order 4."""
+"""The plant over control periods: classical Runge–Kutta steps of order 4, mechanical stops."""
+
+from typing import NamedTuple
 
 from svsa.actuators.dynamics import Actuator, ExternalLoad, compute_rate, shift
 from svsa.actuators.signals import State, Torque
 from svsa.numerics.compilation import compiled
 from svsa.numerics.simd.choice import choose, some
-from svsa.simulation.plant.drive import compute_lagged_torque
+from svsa.simulation.plant.drive import compute_friction, compute_lagged_torque
 from svsa.simulation.plant.effects import EffectConstants
-from svsa.simulation.plant.friction import compute_friction
 from svsa.simulation.plant.loads import LoadTable, compute_load
-from svsa.simulation.plant.stops import Stops, hit_stops
+
+
+class Stops(NamedTuple):
+    """Mechanical stops of the lever's travel and of the deflection.
+
+    theta2_min, theta2_max, deflection_max: rad.
+    """
+
+    theta2_min: float
+    theta2_max: float
+    deflection_max: float
+
+
+@compiled
+def hit_stops(stops: Stops, x: State, inertia: float, inertia1: float) -> State:
+    """The state after an inelastic hit, or x as it is between the stops.
+
+    The stiffness motor stands still at its stop. At the stop of the deflection link and
+    principal motor go on with the velocity of their common momentum. stops: `Stops`. x:
+    `State`. inertia: of the link with what hangs on it, inertia1: of motor 1, kg·m².
+    """
+    q, dq, theta1, dtheta1 = x.q, x.dq, x.theta1, x.dtheta1
+    theta2, dtheta2 = x.theta2, x.dtheta2
+    if theta2 < stops.theta2_min:
+        theta2, dtheta2 = stops.theta2_min, max(dtheta2, 0.0)
+    elif theta2 > stops.theta2_max:
+        theta2, dtheta2 = stops.theta2_max, min(dtheta2, 0.0)
+    phi = q - theta1
+    excess = phi - min(max(phi, -stops.deflection_max), stops.deflection_max)
+    if excess != 0.0:
+        share = inertia1 / (inertia + inertia1)
+        q -= share * excess
+        theta1 += (1.0 - share) * excess
+        if (dq - dtheta1) * excess > 0.0:
+            dq = dtheta1 = (1.0 - share) * dq + share * dtheta1
+    return State(q, dq, theta1, dtheta1, theta2, dtheta2)
 
 
 @compiled

@@ -9,7 +9,7 @@ from svsa.errors import ParameterError, Violation
 from svsa.inputs.checked import Checked, Number, quantity
 from svsa.numerics.compilation import compiled
 from svsa.numerics.trigonometry import sin_cos
-from svsa.simulation.reference.fade import blend, compute_fade
+from svsa.simulation.reference.polynomials import blend, compute_fade
 from svsa.simulation.reference.shape import (
     CHIRP,
     FASTEST_HZ,

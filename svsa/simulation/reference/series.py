@@ -8,8 +8,7 @@ from pydantic import Field, model_validator
 
 from svsa.errors import ParameterError, Violation
 from svsa.inputs.checked import Checked, Number, quantity
-from svsa.simulation.reference.curve import DEGREE, Curve, check_curve
-from svsa.simulation.reference.points import Points, check_points
+from svsa.simulation.reference.curve import DEGREE, Curve, Points, check_curve, check_points
 from svsa.simulation.reference.shape import (
     FASTEST_POSITION,
     FASTEST_STIFFNESS,

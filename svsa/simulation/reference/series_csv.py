@@ -12,8 +12,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from svsa.errors import ParameterError, Violation
-from svsa.simulation.reference.curve import check_curve
-from svsa.simulation.reference.points import Points
+from svsa.simulation.reference.curve import Points, check_curve
 from svsa.simulation.reference.series import MAX_ROWS, SeriesPosition, SeriesStiffness, build_spline
 from svsa.simulation.reference.shape import FASTEST_POSITION, FASTEST_STIFFNESS, FULL_TURN_RAD
 

@@ -6,8 +6,7 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, model_validator
 
 from svsa.inputs.checked import Checked, Number, quantity
-from svsa.simulation.reference.curve import Curve, build_curve, check_curve
-from svsa.simulation.reference.points import Points, check_points
+from svsa.simulation.reference.curve import Curve, Points, build_curve, check_curve, check_points
 from svsa.simulation.reference.shape import (
     FASTEST_POSITION,
     FULL_TURN_RAD,

@@ -21,8 +21,7 @@ from svsa.numerics.simd.each import call_where
 from svsa.numerics.simd.memory import read
 from svsa.simulation.reference.chirp import compute_chirp
 from svsa.simulation.reference.curve import DEGREE
-from svsa.simulation.reference.fade import blend, compute_fade
-from svsa.simulation.reference.polynomial import compute_polynomial
+from svsa.simulation.reference.polynomials import blend, compute_fade, compute_polynomial
 from svsa.simulation.reference.shape import CHIRP, CURVE, MAX_NUMBERS, SINE, Derivatives
 from svsa.simulation.reference.sine import compute_sine
 from svsa.simulation.reference.trajectories import Trajectory

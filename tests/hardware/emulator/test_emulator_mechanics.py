@@ -12,7 +12,7 @@ from svsa.hardware.emulator.mechanics import GRID_US, Mechanics
 from svsa.hardware.emulator.parameters import EmulatorParameters, read_emulator_parameters
 from svsa.runs.configuration import load_prototype
 from svsa.simulation.plant.effects import CurrentLag, Effects, Friction, build_effect_constants
-from svsa.simulation.plant.integration import coast, integrate_period
+from svsa.simulation.plant.integration import Stops, coast, hit_stops, integrate_period
 from svsa.simulation.plant.loads import (
     ConstantLoad,
     MassLoad,
@@ -20,7 +20,6 @@ from svsa.simulation.plant.loads import (
     build_load_table,
     schedule_load,
 )
-from svsa.simulation.plant.stops import Stops, hit_stops
 from tests.actuators.prototype import PLANT
 
 PERIOD = GRID_US * 1e-6

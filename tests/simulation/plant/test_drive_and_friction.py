@@ -16,6 +16,7 @@ from svsa.simulation.loop.lane import AT_REST, NO_TORQUE, UNDISTURBED, UNMOVED, 
 from svsa.simulation.loop.loop import compute_control, read_reference
 from svsa.simulation.loop.loop import delay as delay_torque
 from svsa.simulation.plant.drive import (
+    compute_friction,
     compute_lagged_torque,
     compute_late_torque,
     compute_mean_torque,
@@ -26,7 +27,6 @@ from svsa.simulation.plant.effects import (
     Friction,
     build_effect_constants,
 )
-from svsa.simulation.plant.friction import compute_friction
 from svsa.simulation.plant.integration import integrate_period
 from svsa.simulation.reference.transition import build_stack
 from tests.actuators.prototype import DESIGN, IDEAL_BENCH, NO_LOADS, PLANT, drawn, record

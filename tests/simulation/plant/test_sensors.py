@@ -11,8 +11,13 @@ from numba import njit
 import svsa
 from svsa.actuators.signals import State
 from svsa.simulation.plant.effects import Encoders, SensorNoise, build_effect_constants
-from svsa.simulation.plant.noise import draw_normal, draw_uniform
-from svsa.simulation.plant.sensors import add_noise, quantize, read_sensors
+from svsa.simulation.plant.sensors import (
+    add_noise,
+    draw_normal,
+    draw_uniform,
+    quantize,
+    read_sensors,
+)
 from tests.actuators.prototype import DESIGN, IDEAL_BENCH, drawn
 
 COUNT = 100_000
