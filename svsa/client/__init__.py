@@ -29,8 +29,7 @@ from svsa.client.connection import (
 )
 from svsa.client.lab import Lab, connect
 from svsa.client.loads import AppliedLoad, Loads
-from svsa.client.recording import Recording
-from svsa.client.runs import RemoteRuns
+from svsa.client.runs import Recording, RemoteRuns
 from svsa.client.session import RemoteBench, RemoteSession
 from svsa.client.stream import Block, BlockStream
 

@@ -21,7 +21,7 @@ from svsa.actuators.parameters import ActuatorParameters
 from svsa.client.connection import Acted
 from svsa.client.lab import SHARED, Lab, connect
 from svsa.client.loads import AppliedLoad
-from svsa.client.recording import Recording
+from svsa.client.runs import Recording
 from svsa.client.session import RemoteBench, RemoteSession
 from svsa.client.stream import BlockStream
 from svsa.control.gains import Gains

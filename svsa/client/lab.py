@@ -6,9 +6,8 @@ from contextlib import AbstractContextManager, contextmanager
 from typing import Any, Self
 
 from svsa.client.connection import Connection
-from svsa.client.runs import RemoteRuns
+from svsa.client.runs import RemoteRuns, RemoteStudies
 from svsa.client.session import RemoteSession, dump_lane
-from svsa.client.studies import RemoteStudies
 from svsa.errors import FaultError, ParameterError, Violation
 from svsa.inputs.checked import check_number
 from svsa.runs.change import Change

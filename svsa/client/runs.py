@@ -1,12 +1,13 @@
-"""The recorded runs of a lab: listed, described, and opened as results."""
+"""Recordings, recorded runs and studies of a lab: listed, described, opened as results, deleted."""
 
+import time
 from collections.abc import Iterator
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
+from typing import Any, Self
 from urllib.parse import quote
 
-from svsa.client.connection import Connection
+from svsa.client.connection import Connection, LabError, SessionConnection
 from svsa.runs.records.parquet import unpack_parquet
 from svsa.runs.result.recorded import open_run
 from svsa.runs.result.result import Result
@@ -60,3 +61,63 @@ class RemoteRuns:
 
 def _path(run_id: str) -> str:
     return f"/runs/{quote(run_id, safe='')}"
+
+
+class RemoteStudies:
+    """The studies that were begun in a lab; iterate for their names, the newest first."""
+
+    def __init__(self, connection: Connection) -> None:
+        self._connection = connection
+
+    def __iter__(self) -> Iterator[str]:
+        for study in self._connection.read("/studies")["kept"]:
+            yield study["name"]
+
+    def read(self, name: str) -> dict[str, Any]:
+        """All that the lab says of a study, as `GET /studies/{study}`."""
+        return self._connection.read(_path(name))
+
+    def delete(self, name: str) -> None:
+        """Delete a study with all its rows, for good; one that is being run is cancelled first."""
+        self._connection.call("DELETE", _path(name))
+
+
+def _path(name: str) -> str:
+    return f"/studies/{quote(name, safe='')}"
+
+
+FINISHED_S = 60.0
+POLL_S = 0.05
+
+
+class Recording:
+    """Every sample and command of a session from its beginning to its end, in the lab's list.
+
+    run_id: its id there. As a context it ends with the block; what went wrong inside is not
+    hidden by it.
+    """
+
+    def __init__(self, session: SessionConnection, runs: RemoteRuns, run_id: str) -> None:
+        self._session, self._runs, self.run_id = session, runs, run_id
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.stop()
+
+    def stop(self) -> None:
+        """End it, and wait until its file is finished; harmless where it has ended by itself."""
+        recording = self._session.read_state()["recording"]
+        if recording is not None and recording["run_id"] == self.run_id:
+            self._session.call("DELETE", "/recording")
+        until = time.monotonic() + FINISHED_S
+        while self._runs.read(self.run_id)["state"] == "recording":
+            if time.monotonic() > until:
+                raise LabError(f"Run {self.run_id} is still being written after {FINISHED_S:g} s.")
+            time.sleep(POLL_S)
+
+    @property
+    def result(self) -> Result:
+        """The run as `svsa.simulate` would have returned it."""
+        return self._runs[self.run_id]

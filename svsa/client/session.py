@@ -10,8 +10,7 @@ from svsa.actuators.parameters import ActuatorParameters
 from svsa.client.connection import Connection, SessionConnection
 from svsa.client.loads import Loads
 from svsa.client.motion import RunningConnection
-from svsa.client.recording import Recording
-from svsa.client.runs import RemoteRuns
+from svsa.client.runs import Recording, RemoteRuns
 from svsa.client.stream import BlockStream
 from svsa.control.gains import Gains
 from svsa.control.observers.disturbance import ObserverBandwidth

@@ -11,8 +11,7 @@ from svsa.errors import ParameterError
 from svsa.evaluation.falsifier.adversary import Adversary, Harm
 from svsa.evaluation.falsifier.scenario import Attack, LoadScenario
 from svsa.evaluation.studies.metrics import METRICS, RECOVERY
-from svsa.evaluation.studies.outcome import REFUSED
-from svsa.evaluation.studies.success import Success
+from svsa.evaluation.studies.outcome import REFUSED, Success
 from svsa.evaluation.studies.work import measure_runs
 from svsa.runs.configuration import Configuration
 

@@ -10,7 +10,7 @@ from typing import Literal
 
 import numpy as np
 
-from svsa.evaluation.ranking.seeds import start_generator
+from svsa.evaluation.ranking.trials import start_generator
 
 Method = Literal["cma", "random"]
 GENERATION = 32

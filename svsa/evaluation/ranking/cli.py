@@ -20,8 +20,8 @@ from svsa.evaluation.ranking.results import (
     read_results,
     write_results,
 )
-from svsa.evaluation.ranking.seeds import PUBLIC_SEED, derive_seed
 from svsa.evaluation.ranking.table import SHORT, build_short_cells, format_markdown
+from svsa.evaluation.ranking.trials import PUBLIC_SEED, derive_seed
 from svsa.inputs.extras import require_extra
 
 ranking = typer.Typer(no_args_is_help=True, help="Every law on the same plant, limits and loads.")

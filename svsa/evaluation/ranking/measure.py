@@ -8,7 +8,15 @@ from typing import NamedTuple
 import numpy as np
 
 from svsa.control.parameters import LawParameters
-from svsa.evaluation.ranking.row import FigureErrors, Outcome, RecoveryErrors, Row, SweepOutcome
+from svsa.evaluation.ranking.row import (
+    FigureErrors,
+    Outcome,
+    RecoveryErrors,
+    Row,
+    SweepOutcome,
+    build_parts,
+    compute_score,
+)
 from svsa.evaluation.ranking.scenarios import (
     CORNERS,
     IDEAL_4A,
@@ -24,10 +32,8 @@ from svsa.evaluation.ranking.scenarios import (
     Scenario,
     build_link_step,
 )
-from svsa.evaluation.ranking.score import build_parts, compute_score
-from svsa.evaluation.ranking.seeds import PUBLIC_SEED
 from svsa.evaluation.ranking.sweeps import Sweep, build_sweeps
-from svsa.evaluation.ranking.trials import build_trials
+from svsa.evaluation.ranking.trials import PUBLIC_SEED, build_trials
 from svsa.evaluation.reproduction import compute_table_row
 from svsa.inputs.extras import __version__
 from svsa.runs.paper import STEADY_S

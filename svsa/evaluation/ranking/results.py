@@ -12,7 +12,7 @@ from pydantic import ValidationError
 from svsa.errors import ParameterError, Violation
 from svsa.evaluation.ranking.measure import Entry, measure_law
 from svsa.evaluation.ranking.row import Row
-from svsa.evaluation.ranking.seeds import PUBLIC_SEED, SUITE_VERSION
+from svsa.evaluation.ranking.trials import PUBLIC_SEED, SUITE_VERSION
 from svsa.evaluation.workers import start_workers
 from svsa.inputs.checked import Checked, quantity
 

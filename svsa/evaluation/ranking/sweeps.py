@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from svsa.evaluation.ranking.scenarios import INERTIAS, Scenario
-from svsa.evaluation.ranking.seeds import start_generator
+from svsa.evaluation.ranking.trials import start_generator
 from svsa.simulation.plant.effects import MAX_DELAY_SAMPLES, RIG, CurrentLag, SensorNoise
 from svsa.simulation.plant.loads import Load, PaperLoad, PulseLoad, SeriesLoad
 

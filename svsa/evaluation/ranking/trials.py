@@ -1,11 +1,38 @@
-"""Draws: plants, loads and noise that nobody tuned for, a hundred a season."""
+"""A season's trials: a hundred random plants, loads and noises, and the seeds that make them."""
+
+import hashlib
+import hmac
 
 import numpy as np
 
 from svsa.evaluation.ranking.scenarios import INERTIAS, Scenario
-from svsa.evaluation.ranking.seeds import PUBLIC_SEED, start_generator
 from svsa.simulation.plant.effects import RIG, Friction, SensorNoise
 from svsa.simulation.plant.loads import ConstantLoad, Load, MassLoad, PulseLoad, SineLoad
+
+SUITE_VERSION = "1"
+"""Changes with all that the score counts, draws, sweeps, scenarios, weights: scores compare within
+one."""
+
+
+def derive_seed(secret: bytes, version: str = SUITE_VERSION) -> int:
+    """The seed of a season, 64 bits of HMAC-SHA256(secret, version).
+
+    Whoever does not know the secret cannot tune for the trials; published afterwards, it lets
+    anybody compute them again.
+    """
+    return int.from_bytes(hmac.digest(secret, version.encode(), hashlib.sha256)[:8], "big")
+
+
+PUBLIC_SEED = derive_seed(b"public")
+
+
+def start_generator(seed: int, number: int) -> np.random.Generator:
+    """The generator of the draw `number` of a season: Philox, its key the seed and the number.
+
+    Draws are the same in whatever order, and however many of them, are made. seed: below 2^64.
+    """
+    return np.random.Generator(np.random.Philox(key=np.array([seed, number], dtype=np.uint64)))
+
 
 TRIALS = 100
 LOAD_S = 3.0

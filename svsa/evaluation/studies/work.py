@@ -7,10 +7,9 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from svsa.evaluation.studies.outcome import build_outcome, build_refused
+from svsa.evaluation.studies.outcome import Success, build_outcome, build_refused
 from svsa.evaluation.studies.samples import ParameterSamples, build_configurations, draw
 from svsa.evaluation.studies.study import Study
-from svsa.evaluation.studies.success import Success
 from svsa.runs.batch import run_configurations
 from svsa.runs.configuration import Configuration
 

@@ -1,6 +1,6 @@
-"""What a run is judged by: a measure of it, and the range in which it has the points."""
+"""A criterion of a run: a measure, the range that earns its points, and the judgement by it."""
 
-from typing import Annotated, Self
+from typing import Annotated, NamedTuple, Self
 
 from pydantic import Field, model_validator
 
@@ -31,3 +31,36 @@ class Criterion(Checked):
         if self.low is not None and self.high is not None and self.low > self.high:
             raise ParameterError(Violation("high", self.high, "", f"at least low, {self.low:g}"))
         return self
+
+
+class CriterionResult(NamedTuple):
+    """One criterion of a step.
+
+    name: what is asked. feedback: what differs, or that it is right. channel, time_s: where in
+    the step's run to look, in the run's time, s; None where it is about no sample.
+    """
+
+    step: str
+    name: str
+    points: float
+    max_points: float
+    feedback: str
+    channel: str | None = None
+    time_s: float | None = None
+
+
+class Judgement(NamedTuple):
+    """All criteria of an exercise, in the order of its steps."""
+
+    exercise: str
+    criteria: tuple[CriterionResult, ...]
+
+    @property
+    def points(self) -> float:
+        """Points in all."""
+        return sum(one.points for one in self.criteria)
+
+    @property
+    def max_points(self) -> float:
+        """Points that there are."""
+        return sum(one.max_points for one in self.criteria)

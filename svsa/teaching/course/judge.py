@@ -5,9 +5,8 @@ from collections.abc import Callable, Mapping
 
 from svsa.errors import ParameterError, SvsaError, Violation, write_number
 from svsa.runs.result.result import Result
-from svsa.teaching.course.criterion import Criterion
+from svsa.teaching.course.criterion import Criterion, CriterionResult, Judgement
 from svsa.teaching.course.exercise import Exercise
-from svsa.teaching.course.judgement import CriterionResult, Judgement
 from svsa.teaching.course.measure import Measure, Measured
 from svsa.teaching.course.steps import Experiment, Explain, Predict, Step
 from svsa.teaching.course.submission import Answer, Submission

@@ -16,12 +16,11 @@ from svsa.errors import StateError
 from svsa.inputs.checked import Checked, Flag, Number, Whole, quantity
 from svsa.runs.records import former_words
 from svsa.runs.records.former_words import translate_fields
+from svsa.teaching.course.criterion import CriterionResult
 from svsa.teaching.course.exercise import Exercise
 from svsa.teaching.course.judge import check_answer
-from svsa.teaching.course.judgement import CriterionResult
-from svsa.teaching.course.kept_law import KeptLaw
 from svsa.teaching.course.steps import Experiment, Explain, Predict, SubmitStep
-from svsa.teaching.course.submission import MAX_STEPS, Answer, StepName, Submission
+from svsa.teaching.course.submission import MAX_STEPS, Answer, KeptLaw, StepName, Submission
 
 COURSE_FOLDER = "course"
 HOME = "home"

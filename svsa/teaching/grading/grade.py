@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from svsa.errors import ParameterError, Violation
-from svsa.evaluation.ranking.seeds import SUITE_VERSION, derive_seed
+from svsa.evaluation.ranking.trials import SUITE_VERSION, derive_seed
 from svsa.hardware.session.replay import verify_bench_record
 from svsa.inputs.checked import Checked, Flag, Number, quantity
 from svsa.inputs.extras import __version__
@@ -12,9 +12,9 @@ from svsa.runs.records.header import RecordError
 from svsa.runs.records.resimulation import compare_with_simulation
 from svsa.runs.result.recorded import open_run
 from svsa.runs.result.result import Result
+from svsa.teaching.course.criterion import CriterionResult
 from svsa.teaching.course.exercise import Exercise
 from svsa.teaching.course.judge import judge_submission
-from svsa.teaching.course.judgement import CriterionResult
 from svsa.teaching.course.steps import SubmitStep
 from svsa.teaching.grading.law_runs import judge_law, run_trials
 from svsa.teaching.grading.submitted_work import SubmittedWork

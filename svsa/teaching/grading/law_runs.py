@@ -9,13 +9,13 @@ import numpy as np
 from svsa.actuators.dynamics import build_actuator
 from svsa.control.installed import PAPERS_LAW
 from svsa.evaluation.ranking.measure import has_held, measure_rms
+from svsa.evaluation.ranking.row import compute_accuracy
 from svsa.evaluation.ranking.scenarios import Scenario
-from svsa.evaluation.ranking.score import compute_accuracy
 from svsa.evaluation.ranking.trials import build_trial
 from svsa.runs.blocks import compute_start_ratio
 from svsa.runs.result.result import Result
 from svsa.runs.result.simulate import simulate
-from svsa.teaching.course.judgement import CriterionResult
+from svsa.teaching.course.criterion import CriterionResult
 from svsa.teaching.isolation.confinement import BOUNDS, Bounds, confine
 from svsa.teaching.isolation.process import LawProcess, Place
 from svsa.teaching.isolation.refusal import LawFaultError, describe_last_output

@@ -2,7 +2,7 @@
 
 from svsa.evaluation.ranking.measure import SETTLED_DEG
 from svsa.evaluation.ranking.trials import build_trial
-from svsa.teaching.course.kept_law import LONGEST_OUTPUT, KeptLaw
+from svsa.teaching.course.submission import LONGEST_OUTPUT, KeptLaw
 from svsa.teaching.grading.law_runs import LawRun, run_law
 from svsa.teaching.isolation.confinement import Bounds, confine
 from svsa.teaching.isolation.probe import check_isolation

@@ -5,8 +5,7 @@ from pathlib import Path
 from typing import NamedTuple, Self
 
 from svsa.errors import ParameterError, Violation
-from svsa.teaching.course.kept_law import MAX_LAW_BYTES
-from svsa.teaching.course.submission import Submission, read_submission
+from svsa.teaching.course.submission import MAX_LAW_BYTES, Submission, read_submission
 
 
 class SubmittedWork(NamedTuple):

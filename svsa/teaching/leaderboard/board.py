@@ -14,7 +14,7 @@ from pydantic import AfterValidator
 
 from svsa.control.installed import list_law_names
 from svsa.errors import ParameterError, StateError, Violation
-from svsa.evaluation.ranking.seeds import SUITE_VERSION, derive_seed
+from svsa.evaluation.ranking.trials import SUITE_VERSION, derive_seed
 from svsa.inputs.checked import Checked, Flag, quantity
 from svsa.inputs.extras import __version__
 from svsa.runs.records.catalogue.runs import find_data_folder
@@ -25,8 +25,7 @@ from svsa.teaching.grading.secret import keep_secret
 from svsa.teaching.isolation.confinement import Bounds, confine
 from svsa.teaching.isolation.probe import check_isolation
 from svsa.teaching.isolation.process import Place
-from svsa.teaching.leaderboard.season import build_season
-from svsa.teaching.leaderboard.standing import Go, Standing, Tell, measure_standing
+from svsa.teaching.leaderboard.standing import Go, Standing, Tell, build_season, measure_standing
 
 FOLDER = "leaderboard"
 MAX_NAME = 60

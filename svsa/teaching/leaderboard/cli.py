@@ -14,7 +14,7 @@ from rich.progress import Progress
 from rich.table import Table
 
 from svsa.control.installed import get_title
-from svsa.evaluation.ranking.seeds import PUBLIC_SEED
+from svsa.evaluation.ranking.trials import PUBLIC_SEED
 from svsa.teaching.grading.submitted_work import read_law_file
 from svsa.teaching.isolation.confinement import leave_open
 from svsa.teaching.leaderboard.board import (
@@ -25,8 +25,7 @@ from svsa.teaching.leaderboard.board import (
     measure_missing,
     submit,
 )
-from svsa.teaching.leaderboard.season import build_season
-from svsa.teaching.leaderboard.standing import Tell, measure_standing
+from svsa.teaching.leaderboard.standing import Tell, build_season, measure_standing
 
 _messages = Console(stderr=True)
 _BOARD = typer.Option("--board", help="Folder of the season; else SVSA_DATA's leaderboard.")

@@ -1,4 +1,7 @@
-"""What a law shows in a season: its score with its parts, how sure it is, what a tick costs."""
+"""A season and a law's standing in it: score with its parts, uncertainty, cost of a tick.
+
+The runs of a season get their random values from a secret.
+"""
 
 import math
 from collections.abc import Callable, Iterator
@@ -8,14 +11,38 @@ from typing import NamedTuple
 
 from svsa.errors import StateError
 from svsa.evaluation.ranking.measure import tally_sweep
-from svsa.evaluation.ranking.row import ScoreParts, SweepOutcome
-from svsa.evaluation.ranking.scenarios import Scenario
-from svsa.evaluation.ranking.score import build_parts, compute_score
+from svsa.evaluation.ranking.row import ScoreParts, SweepOutcome, build_parts, compute_score
+from svsa.evaluation.ranking.scenarios import SINGLE, Scenario
+from svsa.evaluation.ranking.sweeps import Sweep, build_sweeps
+from svsa.evaluation.ranking.trials import build_trials
 from svsa.evaluation.studies.statistics import estimate_share
 from svsa.inputs.checked import Checked, Number, Whole, quantity
 from svsa.teaching.grading.law_runs import LawRun
 from svsa.teaching.isolation.refusal import describe_last_output
-from svsa.teaching.leaderboard.season import Season
+
+
+class Season(NamedTuple):
+    """What every entry goes through.
+
+    singles: told one by one; they have no chance in them that matters, and anybody knows them.
+    trials, sweeps: their plants, loads, noise and pushes are of the season.
+    """
+
+    singles: tuple[Scenario, ...]
+    trials: tuple[Scenario, ...]
+    sweeps: tuple[Sweep, ...]
+
+    @property
+    def run_count(self) -> int:
+        """How many runs there are."""
+        swept = sum(len(runs) for sweep in self.sweeps for runs in sweep.runs)
+        return len(self.singles) + len(self.trials) + swept
+
+
+def build_season(seed: int) -> Season:
+    """The season of a seed, below 2^64: the ranking's suite as far as its score goes."""
+    return Season(SINGLE, build_trials(seed), build_sweeps(seed))
+
 
 MAX_S = 3600.0
 """By the clock, for all runs of a law; an ordinary one in plain Python takes some minutes."""

@@ -11,9 +11,8 @@ import numpy as np
 
 from svsa.actuators.signals import Disturbance, Reference, State
 from svsa.control.installed import PAPERS_LAW, get_title
-from svsa.evaluation.ranking.find import find_scenario
 from svsa.evaluation.ranking.scenarios import Scenario
-from svsa.evaluation.ranking.seen import build_seen, explain_alone
+from svsa.evaluation.ranking.single_run import build_seen, explain_alone, find_scenario
 from svsa.runs.configuration import Lane
 from svsa.runs.result.result import Result
 from svsa.runs.result.simulate import simulate

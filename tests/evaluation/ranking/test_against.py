@@ -9,9 +9,9 @@ from typer.testing import CliRunner
 import svsa
 from svsa.cli import app
 from svsa.evaluation.ranking.against import CONTESTS, Passage, compare, measure_passage
-from svsa.evaluation.ranking.find import list_scenarios
 from svsa.evaluation.ranking.measure import Entry, run_scenario
 from svsa.evaluation.ranking.rehearsal import build_rehearsal
+from svsa.evaluation.ranking.single_run import list_scenarios
 from tests.exhaustive import exhaust
 
 

@@ -8,11 +8,11 @@ import pytest
 
 from svsa.control.installed import get_law, list_law_names
 from svsa.control.laws import backstepping, esp
-from svsa.evaluation.ranking.find import find_scenario
 from svsa.evaluation.ranking.measure import Entry, measure_law, measure_rms, run_scenario
 from svsa.evaluation.ranking.results import load_published
 from svsa.evaluation.ranking.row import Row
 from svsa.evaluation.ranking.scenarios import IDEAL_4A, RIG_4A
+from svsa.evaluation.ranking.single_run import find_scenario
 from tests.evaluation.ranking.prototypes import compare
 from tests.exhaustive import exhaust
 

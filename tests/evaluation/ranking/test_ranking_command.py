@@ -9,8 +9,8 @@ import svsa
 from svsa.cli import app
 from svsa.evaluation.ranking.results import PUBLISHED, load_published, read_results, write_results
 from svsa.evaluation.ranking.row import TABLE
-from svsa.evaluation.ranking.seeds import derive_seed
 from svsa.evaluation.ranking.table import HEADINGS, build_cells
+from svsa.evaluation.ranking.trials import derive_seed
 
 KEYS = (
     "law",

@@ -4,9 +4,9 @@ import pytest
 
 import svsa
 from svsa.control.installed import list_law_names
-from svsa.evaluation.ranking.find import find_scenario, list_scenarios
 from svsa.evaluation.ranking.results import Results, load_published, read_results, write_results
-from svsa.evaluation.ranking.seeds import PUBLIC_SEED, SUITE_VERSION
+from svsa.evaluation.ranking.single_run import find_scenario, list_scenarios
+from svsa.evaluation.ranking.trials import PUBLIC_SEED, SUITE_VERSION
 
 
 def test_every_law_has_a_published_row_of_this_suite():

@@ -5,12 +5,18 @@ import hmac
 
 import pytest
 
-from svsa.evaluation.ranking.row import ScoreParts
+from svsa.evaluation.ranking.row import ScoreParts, compute_accuracy, compute_score
 from svsa.evaluation.ranking.scenarios import CORNERS, INERTIAS, LOAD_REMOVALS, SINGLE
-from svsa.evaluation.ranking.score import compute_accuracy, compute_score
-from svsa.evaluation.ranking.seeds import PUBLIC_SEED, SUITE_VERSION, derive_seed, start_generator
 from svsa.evaluation.ranking.sweeps import build_sweeps
-from svsa.evaluation.ranking.trials import TRIALS, build_trial, build_trials
+from svsa.evaluation.ranking.trials import (
+    PUBLIC_SEED,
+    SUITE_VERSION,
+    TRIALS,
+    build_trial,
+    build_trials,
+    derive_seed,
+    start_generator,
+)
 from svsa.simulation.plant.effects import MAX_DELAY_SAMPLES
 
 

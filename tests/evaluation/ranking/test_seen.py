@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 
 from svsa.control.installed import get_title
-from svsa.evaluation.ranking.find import find_scenario
 from svsa.evaluation.ranking.measure import Entry, run_scenario
-from svsa.evaluation.ranking.seen import build_seen
+from svsa.evaluation.ranking.single_run import build_seen, find_scenario
 from svsa.runs.result.simulate import simulate
 
 

@@ -13,9 +13,9 @@ import svsa
 from svsa.cli import app
 from svsa.evaluation.studies.execution import run_study
 from svsa.evaluation.studies.metrics import METRICS
+from svsa.evaluation.studies.outcome import Success
 from svsa.evaluation.studies.replay import replay_row
 from svsa.evaluation.studies.store import StudyError, keep_study, open_study, read_rows
-from svsa.evaluation.studies.success import Success
 from svsa.evaluation.studies.work import ROW, run_trials
 from tests.evaluation.studies.studies import SHORT_S, build_study
 

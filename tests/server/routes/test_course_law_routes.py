@@ -4,7 +4,7 @@ import shutil
 
 import pytest
 
-from svsa.teaching.course.kept_law import MAX_LAW_BYTES
+from svsa.teaching.course.submission import MAX_LAW_BYTES
 from svsa.teaching.grading import law_runs
 from svsa.teaching.grading.gradebook import Book
 from svsa.teaching.grading.queue import grade_file

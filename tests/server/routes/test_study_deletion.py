@@ -6,7 +6,7 @@ import httpx
 import pytest
 
 from svsa.client.connection import Connection
-from svsa.client.studies import RemoteStudies
+from svsa.client.runs import RemoteStudies
 from svsa.evaluation.studies.file import read_study
 from svsa.evaluation.studies.store import claim_study, find_studies_folder, keep_study, list_studies
 from tests.lab_in_process import run_lab_in_process

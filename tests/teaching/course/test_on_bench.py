@@ -12,10 +12,10 @@ from svsa.runs.configuration import Configuration
 from svsa.runs.paper import get_figure
 from svsa.runs.records.header import PlantKind
 from svsa.runs.result.result import Result
+from svsa.teaching.course.criterion import CriterionResult
 from svsa.teaching.course.exercise import Exercise
 from svsa.teaching.course.file import parse_exercise
 from svsa.teaching.course.judge import judge_step
-from svsa.teaching.course.judgement import CriterionResult
 from svsa.teaching.course.steps import Experiment
 from tests.teaching.course.test_exercise_file import EXERCISE
 

@@ -10,12 +10,10 @@ from typer.testing import CliRunner
 import svsa
 from svsa.cli import app
 from svsa.errors import StateError
-from svsa.evaluation.ranking.seeds import PUBLIC_SEED
-from svsa.evaluation.ranking.trials import build_trials
+from svsa.evaluation.ranking.trials import PUBLIC_SEED, build_trials
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.teaching.course.file import parse_exercise
-from svsa.teaching.course.kept_law import MAX_LAW_BYTES
-from svsa.teaching.course.submission import Submission, write_submission
+from svsa.teaching.course.submission import MAX_LAW_BYTES, Submission, write_submission
 from svsa.teaching.grading import law_runs
 from svsa.teaching.grading.grade import grade
 from svsa.teaching.grading.gradebook import Book

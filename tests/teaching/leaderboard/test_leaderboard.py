@@ -12,8 +12,8 @@ from svsa.errors import StateError
 from svsa.evaluation.ranking.measure import Entry as RankingEntry
 from svsa.evaluation.ranking.measure import measure_law
 from svsa.evaluation.ranking.scenarios import SINGLE
-from svsa.evaluation.ranking.seeds import PUBLIC_SEED
 from svsa.evaluation.ranking.sweeps import SEED, build_sweeps
+from svsa.evaluation.ranking.trials import PUBLIC_SEED
 from svsa.inputs.extras import __version__
 from svsa.teaching.grading.law_runs import LawRun, run_installed
 from svsa.teaching.isolation import confinement
@@ -21,8 +21,7 @@ from svsa.teaching.isolation.probe import check_isolation
 from svsa.teaching.isolation.refusal import NotIsolatedError
 from svsa.teaching.leaderboard import board as boards
 from svsa.teaching.leaderboard.board import Board, measure_missing, submit
-from svsa.teaching.leaderboard.season import Season, build_season
-from svsa.teaching.leaderboard.standing import measure_standing
+from svsa.teaching.leaderboard.standing import Season, build_season, measure_standing
 from tests.teaching.grading.submissions import GOOD, LAZY
 from tests.teaching.isolation.test_attacks import isolation  # noqa: F401
 

@@ -6,8 +6,8 @@ import pytest
 from svsa.actuators.dynamics import build_actuator
 from svsa.control.installed import get_title
 from svsa.errors import ParameterError, StateError
-from svsa.evaluation.ranking.find import find_scenario
 from svsa.evaluation.ranking.scenarios import SINGLE
+from svsa.evaluation.ranking.single_run import find_scenario
 from svsa.runs.blocks import compute_start_ratio
 from svsa.runs.result.simulate import simulate
 from svsa.teaching.grading.law_runs import run_law

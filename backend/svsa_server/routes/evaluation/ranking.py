@@ -6,10 +6,9 @@ from typing import Annotated
 from fastapi import Body, Path, Request
 
 from svsa.control.installed import InstalledLaw
-from svsa.evaluation.ranking.find import find_scenario
 from svsa.evaluation.ranking.measure import Entry, measure_law
 from svsa.evaluation.ranking.results import Results, load_published
-from svsa.evaluation.ranking.seen import build_seen
+from svsa.evaluation.ranking.single_run import build_seen, find_scenario
 from svsa_server.routes.depends import BUSY, REFUSALS, NamedClient, NamedPerson, Work
 from svsa_server.routing import build_router
 from svsa_server.schemas.evaluation.ranking import MeasuredRow, ScenarioRequest

@@ -13,10 +13,9 @@ from svsa.runs.records.catalogue.entry import UnknownRunError
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.runs.result.recorded import open_run
 from svsa.runs.result.result import Result
+from svsa.teaching.course.criterion import CriterionResult, Judgement
 from svsa.teaching.course.exercise import Exercise
 from svsa.teaching.course.judge import judge_step, judge_submission
-from svsa.teaching.course.judgement import CriterionResult, Judgement
-from svsa.teaching.course.kept_law import check_law_length
 from svsa.teaching.course.progress import (
     ExerciseProgress,
     ProgressStore,
@@ -29,7 +28,7 @@ from svsa.teaching.course.progress import (
     visit_step,
 )
 from svsa.teaching.course.steps import Experiment, Predict
-from svsa.teaching.course.submission import write_submission
+from svsa.teaching.course.submission import check_law_length, write_submission
 from svsa.teaching.grading import law_trial
 from svsa_server.access.roles import Person
 from svsa_server.problems import UnknownError

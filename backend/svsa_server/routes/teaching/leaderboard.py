@@ -7,8 +7,8 @@ from typing import Annotated
 from fastapi import Body, Path, Request
 from fastapi.responses import StreamingResponse
 
-from svsa.evaluation.ranking.seeds import SUITE_VERSION
-from svsa.teaching.course.kept_law import check_law_length
+from svsa.evaluation.ranking.trials import SUITE_VERSION
+from svsa.teaching.course.submission import check_law_length
 from svsa.teaching.isolation.probe import check_isolation, find_isolation_problem
 from svsa.teaching.leaderboard.board import FOLDER, Board, digest_law
 from svsa_server.access.roles import Person

@@ -10,10 +10,10 @@ from svsa.control.installed import InstalledLaw
 from svsa.errors import ParameterError, Violation
 from svsa.evaluation.studies.file import list_built_in, parse_study, read_study
 from svsa.evaluation.studies.metrics import METRICS, Metric
+from svsa.evaluation.studies.outcome import Success
 from svsa.evaluation.studies.setting_name import SettingName, name_variation
 from svsa.evaluation.studies.store import StoredStudy, count_done, is_kept, open_study, read_owner
 from svsa.evaluation.studies.study import MAX_LAWS, MAX_RUNS, Study
-from svsa.evaluation.studies.success import Success
 from svsa.evaluation.studies.summary import SUCCEEDED
 from svsa.evaluation.studies.tables import format_metric
 from svsa.evaluation.studies.work import build_schema

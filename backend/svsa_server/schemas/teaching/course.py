@@ -5,12 +5,11 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, Field
 
 from svsa.inputs.checked import Checked, quantity
+from svsa.teaching.course.criterion import CriterionResult
 from svsa.teaching.course.exercise import Exercise
-from svsa.teaching.course.judgement import CriterionResult
-from svsa.teaching.course.kept_law import MAX_LAW_BYTES, KeptLaw
 from svsa.teaching.course.progress import ExerciseProgress, find_done, find_missing
 from svsa.teaching.course.steps import Experiment, Explain, Predict, Step, SubmitStep
-from svsa.teaching.course.submission import LONGEST_NAME, Answer, StepName
+from svsa.teaching.course.submission import LONGEST_NAME, MAX_LAW_BYTES, Answer, KeptLaw, StepName
 from svsa.teaching.course.text import render_text
 from svsa.teaching.grading.law_runs import POINTS
 from svsa_server.access.owned import Owned

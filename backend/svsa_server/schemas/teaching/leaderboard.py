@@ -3,7 +3,7 @@
 from pydantic import BaseModel, Field
 
 from svsa.inputs.checked import Checked, quantity
-from svsa.teaching.course.kept_law import MAX_LAW_BYTES
+from svsa.teaching.course.submission import MAX_LAW_BYTES
 from svsa.teaching.leaderboard.board import MAX_NAME, Author, Entry, EntryName
 from svsa_server.schemas.evaluation.job import JobState
 
