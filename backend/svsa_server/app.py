@@ -54,12 +54,12 @@ from svsa_server.routes.lab import (
     settings,
     stability,
 )
-from svsa_server.routes.runs import difference, files, origins, runs, samples, verdict
+from svsa_server.routes.runs import files, origins, runs, samples, verdict
 from svsa_server.routes.teaching import course, grades, leaderboard, lti
 from svsa_server.scene.scenes import Scenes
 from svsa_server.scene.viser_proxy import ViserProxy
 from svsa_server.sessions.bench_start import open_bench
-from svsa_server.sessions.control_log import note_settled
+from svsa_server.sessions.hosted import note_settled
 from svsa_server.sessions.laboratory import SHARED_SESSION, Laboratory, build_shared_session
 from svsa_server.sessions.lock import take_turn
 from svsa_server.sessions.ownership import find_owner
@@ -151,7 +151,6 @@ def build_routes() -> list[BaseRoute]:
         samples,
         files,
         origins,
-        difference,
         verdict,
         runs,
         jobs,

@@ -1,8 +1,10 @@
-"""The falsifier as a job: its worker writes the worst so far, and the scenario at the end."""
+"""The falsifier as a job: the worst so far and the scenario found; laws run through a scenario."""
 
 import json
 from pathlib import Path
 from typing import Any, NamedTuple
+
+import numpy as np
 
 from svsa.control.installed import BASELINE, PAPERS_LAW
 from svsa.evaluation.falsifier.adversary import Adversary
@@ -10,7 +12,10 @@ from svsa.evaluation.falsifier.file import format_scenario, read_scenario
 from svsa.evaluation.falsifier.find import falsify
 from svsa.evaluation.falsifier.measure import run_scenario
 from svsa.evaluation.falsifier.scenario import LoadScenario
+from svsa.evaluation.falsifier.trace import trace_scenario
+from svsa.evaluation.falsifier.wording import list_attack
 from svsa.evaluation.studies.tables import make_plain
+from svsa.runs.records.decimation import decimate
 from svsa.runs.records.header import replace_file
 from svsa_server.jobs.progress import JobFolder
 
@@ -87,3 +92,38 @@ def read_found(folder: Path) -> Found | None:
         json.loads((folder / name).read_text(encoding="utf-8")) for name in (_STEPS, _OUTCOMES)
     )
     return Found(read_scenario(path), steps, outcomes)
+
+
+POINTS = 1200
+DIGITS = 8
+"""After the point, of rad and N·m/rad: what a picture shows of them."""
+_TORQUES, _ERRORS = 3, 2
+
+
+def run_laws(scenario: LoadScenario, laws: tuple[str, ...]) -> dict[str, Any]:
+    """Of each law what came of it and its curves, as JSON."""
+    outcomes, trace = run_scenario(scenario, laws), trace_scenario(scenario, laws)
+    ticks = len(trace.time_s)
+    curves = np.full((ticks, _TORQUES + _ERRORS * len(laws)), np.nan)
+    curves[:, :_TORQUES] = trace.torque_nm
+    for number, one in enumerate(trace.laws):
+        at = _TORQUES + _ERRORS * number
+        curves[: len(one.errors), at : at + _ERRORS] = one.errors[:ticks]
+    thinned = decimate(curves.round(DIGITS), POINTS)
+    columns = thinned.values.T.tolist()
+    reported = [
+        {
+            **outcome._asdict(),
+            "position_error_rad": columns[_TORQUES + _ERRORS * number],
+            "stiffness_error_nm_per_rad": columns[_TORQUES + _ERRORS * number + 1],
+        }
+        for number, outcome in enumerate(outcomes)
+    ]
+    return make_plain(
+        {
+            "description": list_attack(scenario.attack),
+            "time_s": trace.time_s[thinned.rows].tolist(),
+            "torque_nm": thinned.values[:, :_TORQUES].tolist(),
+            "laws": reported,
+        }
+    )

@@ -11,7 +11,18 @@ from typing import Literal, NamedTuple
 from urllib.parse import unquote
 
 from svsa.errors import ParameterError, SvsaError, Violation
-from svsa_server.leases.names import LONGEST_NAME
+
+LONGEST_NAME = 40
+_CONTROLS = r"\u0000-\u001f\u007f-\u009f"
+READABLE = rf"^[^{_CONTROLS}]*[^\s{_CONTROLS}][^{_CONTROLS}]*$"
+
+
+def check_printable(name: str) -> str:
+    """The name without what stands around it; raises `ValueError` where it cannot be read."""
+    if not name.strip() or not name.isprintable():
+        raise ValueError("a text that can be read")
+    return name.strip()
+
 
 CLIENT_HEADER = "SVSA-Client"
 # What is open to all whoever holds the lease: it stops, it only asks, or it is the hand itself.

@@ -1,4 +1,4 @@
-"""Keys: the lab's own, which it signs with, and those of the platforms, which are asked for."""
+"""Keys of the lab, which it signs with, and of the platforms, which verify a launch."""
 
 import os
 import time
@@ -9,8 +9,12 @@ import httpx
 from joserfc.errors import JoseError
 from joserfc.jwk import KeySet, RSAKey
 
-from svsa.errors import ParameterError, Violation
-from svsa_server.lti.refusal import LaunchError
+from svsa.errors import ParameterError, SvsaError, Violation
+
+
+class LaunchError(SvsaError):
+    """Why a login or a launch was refused, for who launched and for the audit log."""
+
 
 _USE: Any = {"use": "sig", "alg": "RS256"}
 _KEPT_S = 3600.0

@@ -6,8 +6,8 @@ from joserfc import jwt
 from joserfc.errors import JoseError
 from joserfc.jwk import KeySet
 
+from svsa_server.lti.keys import LaunchError
 from svsa_server.lti.platforms import Platform, check_address
-from svsa_server.lti.refusal import LaunchError
 
 _CLAIM = "https://purl.imsglobal.org/spec/lti/claim/"
 _GRADES = "https://purl.imsglobal.org/spec/lti-ags/claim/endpoint"

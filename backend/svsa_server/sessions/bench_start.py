@@ -1,12 +1,14 @@
-"""A bench that is opened while the lab is served already: the page says how far it is."""
+"""The bench of a served lab: opened with its progress on the console, set to a step of the course."""
 
 from collections.abc import Callable
 
 from rich.console import Console
 
-from svsa.errors import SvsaError
+from svsa.errors import StateError, SvsaError
 from svsa.hardware.session.session import BenchSession
+from svsa.runs.command import Set, is_held
 from svsa.runs.session.session import Session
+from svsa.teaching.course.steps import Experiment
 from svsa_server.sessions.lock import take_turn
 
 REPEAT_S = 10.0
@@ -43,3 +45,28 @@ def show_steps(console: Console) -> Callable[[str, float], None]:
             console.print(text, highlight=False, markup=False)
 
     return report
+
+
+def check_for_step(session: BenchSession, step: Experiment) -> None:
+    """Raise `StateError` where this bench cannot be set to the step, now or at all."""
+    if step.bench is None:
+        raise StateError(
+            f"Step {step.name!r} is simulated and nothing else, and a bench has its own plant and"
+            " effects: set up a simulated session."
+        )
+    session.loop.check_started()
+    if session.status == "running":
+        raise StateError("The bench is moving: stop it, and wait until it stands.")
+
+
+def set_up_bench(session: BenchSession, step: Experiment) -> None:
+    """Law, references, loads, gains, parameters and observer of the step, for the next start."""
+    asked = step.bench_configuration
+    session.load(asked)
+    for command in (
+        Set("gains", asked.gains),
+        Set("parameters", asked.parameters),
+        Set("observer", asked.observer),
+    ):
+        if not is_held(session.run.configuration, command):
+            session.change(command)

@@ -1,12 +1,36 @@
-"""Where one client is in the history of a session, and the next batch of samples for it."""
+"""Where one client is in the history of a session, and the next batch of samples for it.
+
+Batches that are the same for many clients are made once.
+"""
 
 import math
+from collections.abc import Callable, Hashable
+from typing import Generic, TypeVar
 
 from svsa.actuators.signals import CHANNEL_INDEX
 from svsa.runs.session.frame import pack_batch
 from svsa.runs.session.session import Session
 from svsa_server.schemas.lab.stream import StreamRequest
-from svsa_server.sessions.versioned import Versioned
+
+T = TypeVar("T")
+
+
+class Versioned(Generic[T]):
+    """What was made of one version, by key; another version forgets it."""
+
+    def __init__(self) -> None:
+        self._version: Hashable = None
+        self._made: dict[Hashable, T] = {}
+
+    def get(self, version: Hashable, key: Hashable, make: Callable[[], T]) -> T:
+        """What was made of this version for this key, or is made now."""
+        if version != self._version:
+            self._version = version
+            self._made.clear()
+        if key not in self._made:
+            self._made[key] = make()
+        return self._made[key]
+
 
 BATCH_PERIOD_S = 1.0 / 30.0
 # Faster than so many times, samples do not lie further apart: of each batch only the newest are

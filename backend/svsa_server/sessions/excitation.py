@@ -7,7 +7,7 @@ from collections import deque
 from svsa.analysis.identification.excitation import EXCITATION_DURATION_S, build_commands
 from svsa.errors import StateError, SvsaError
 from svsa.runs.session.session import Session
-from svsa_server.schemas.runs.recording import ExcitationState
+from svsa_server.schemas.runs.run import ExcitationState
 from svsa_server.sessions.lock import take_turn
 
 FASTEST_SPEED = 10.0

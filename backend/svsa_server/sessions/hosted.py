@@ -11,10 +11,11 @@ from typing import Any
 
 from svsa.errors import StateError
 from svsa.runs.session.session import Session
+from svsa_server.access.audit import AuditLog
 from svsa_server.leases.lease import ControlLease, Holder, Settled
 from svsa_server.leases.queue import ControlQueue
+from svsa_server.sessions.cursor import Versioned
 from svsa_server.sessions.excitation import Excitation, check_excitable
-from svsa_server.sessions.versioned import Versioned
 
 
 class Round:
@@ -218,3 +219,15 @@ class HostedSession:
 
 
 NoteSettled = Callable[[HostedSession, Settled], None]
+
+
+def note_settled(log: AuditLog, hosted: HostedSession, settled: Settled) -> None:
+    """Write who was let go and why, at which tick, and who is in control now."""
+    log.write(
+        event="control",
+        why=settled.why,
+        person=settled.who.client,
+        name=settled.who.name,
+        session=hosted.session.name,
+        **hosted.read_instant(),
+    )

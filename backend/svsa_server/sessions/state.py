@@ -21,7 +21,7 @@ from svsa_server.schemas.lab.lease import ControlState, QueueState, WaitingState
 from svsa_server.schemas.lab.session import BranchState, LoadState, SessionProgress, SessionState
 from svsa_server.schemas.lab.setting import ConfigurationState
 from svsa_server.schemas.runs.lane import LaneMetrics, LaneState
-from svsa_server.schemas.runs.recording import RecordingState
+from svsa_server.schemas.runs.run import RecordingState
 from svsa_server.sessions.bench_state import build_bench_state
 from svsa_server.sessions.excitation import build_excitation
 from svsa_server.sessions.hosted import HostedSession

@@ -13,8 +13,7 @@ from svsa.runs.session.simulated import SimulatedSession
 from svsa_server.access import audit
 from svsa_server.leases.lease import Holder
 from svsa_server.leases.queue import ControlQueue
-from svsa_server.sessions.control_log import note_settled
-from svsa_server.sessions.hosted import HostedSession
+from svsa_server.sessions.hosted import HostedSession, note_settled
 from svsa_server.sessions.quota import DiskQuota
 from tests.server.access.classroom import SHARED, read_kind, read_person, run_class
 

@@ -11,7 +11,7 @@ from svsa_server.access.owned import Owned
 from svsa_server.routes.access.classroom import find_class
 from svsa_server.routes.depends import BUSY, REFUSALS, Work
 from svsa_server.routing import build_router
-from svsa_server.schemas.access.audit import AuditPage
+from svsa_server.schemas.access.classroom import AuditPage
 
 router = build_router(
     "/class", tags=["class"], responses={409: REFUSALS[409], 422: REFUSALS[422]} | BUSY

@@ -15,7 +15,7 @@ from svsa.evaluation.falsifier.kept import (
     open_scenario,
 )
 from svsa.evaluation.falsifier.scenario import LoadScenario
-from svsa_server.jobs.scenarios import run_laws
+from svsa_server.jobs.falsifications import run_laws
 from svsa_server.problems import UnknownError
 from svsa_server.routes.depends import BUSY, REFUSALS, NamedClient, NamedPerson, Work
 from svsa_server.routing import build_router

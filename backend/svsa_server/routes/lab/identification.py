@@ -16,7 +16,7 @@ from svsa_server.routes.depends import (
 from svsa_server.routing import build_router
 from svsa_server.schemas.lab.session import SessionState
 from svsa_server.schemas.lab.setting import ParameterFileRequest
-from svsa_server.schemas.runs.recording import ExcitationRequest
+from svsa_server.schemas.runs.run import ExcitationRequest
 from svsa_server.sessions.excitation import TAG
 from svsa_server.sessions.lock import TurnRoute, take_turn
 from svsa_server.sessions.state import build_state

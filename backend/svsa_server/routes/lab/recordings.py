@@ -9,7 +9,7 @@ from svsa.runs.records.resimulation import check_simulated, read_origin
 from svsa_server.routes.depends import REFUSALS, NamedPerson, NamedSession, RunId
 from svsa_server.routing import build_router
 from svsa_server.schemas.lab.session import BranchRequest, SessionState
-from svsa_server.schemas.runs.recording import RecordingRequest
+from svsa_server.schemas.runs.run import RecordingRequest
 from svsa_server.sessions.state import build_state
 
 router = build_router(tags=["recording"], responses=REFUSALS)

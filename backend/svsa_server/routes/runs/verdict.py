@@ -1,17 +1,21 @@
-"""Whether a recorded run is another within tolerances, with the band to draw."""
+"""A recorded run compared with others: the settings that differ, and a verdict by tolerances."""
 
+from dataclasses import asdict
 from typing import Annotated
 
 import numpy as np
-from fastapi import Body
+from fastapi import Body, Query
 
 from svsa.runs.records.decimation import decimate
+from svsa.runs.records.difference import compare_settings
 from svsa.runs.records.header import RecordError
 from svsa.runs.records.measured_window import find_measured_window
 from svsa.runs.records.reader import Record
 from svsa.runs.records.verdict import FROM_THE_FIRST, Tolerance, build_band, judge, read_channel
+from svsa_server.access.owned import Owned
 from svsa_server.routes.depends import REFUSALS, RunId, Runs
 from svsa_server.routing import build_router
+from svsa_server.schemas.runs.run import RunDifference, SettingDifference
 from svsa_server.schemas.runs.verdict import Band, RunVerdict, VerdictRequest, build_channel_state
 
 router = build_router(tags=["runs"], responses=REFUSALS)
@@ -20,6 +24,28 @@ EXAMPLE = {
     "tolerances": {"position_rad": {"absolute": 0.001}},
     "rest": None,
 }
+
+
+MAX_OTHERS = 7
+
+
+@router.get("/runs/{run_id}/difference")
+def read_difference(
+    runs: Runs,
+    run_id: RunId,
+    other: Annotated[
+        list[Annotated[str, Owned("run")]],
+        Query(min_length=1, max_length=MAX_OTHERS, description="Ids of the runs beside it"),
+    ],
+) -> RunDifference:
+    """What of the settings differs between a run and others, and nothing that does not."""
+    ids = [run_id, *other]
+    found = compare_settings([runs.open(one) for one in ids])
+    return RunDifference(
+        runs=ids,
+        titles=[runs.get(one).title for one in ids],
+        differences=[SettingDifference(**asdict(one)) for one in found],
+    )
 
 
 @router.post("/runs/{run_id}/verdict")

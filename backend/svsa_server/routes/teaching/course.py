@@ -50,7 +50,7 @@ from svsa_server.schemas.teaching.course import (
     describe_exercise,
     describe_summary,
 )
-from svsa_server.sessions.bench_step import check_for_step, set_up_bench
+from svsa_server.sessions.bench_start import check_for_step, set_up_bench
 from svsa_server.sessions.lock import take_turn
 from svsa_server.sessions.state import build_state
 

@@ -17,7 +17,7 @@ from fastapi.responses import (
     Response,
 )
 
-from svsa_server.lti.refusal import LaunchError
+from svsa_server.lti.keys import LaunchError
 from svsa_server.problems import UnknownError
 from svsa_server.routes.access.access import set_cookie
 from svsa_server.routes.access.classroom import find_class

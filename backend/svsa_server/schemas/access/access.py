@@ -7,7 +7,7 @@ from pydantic import AfterValidator, BaseModel, Field
 from svsa.inputs.checked import Checked, quantity
 from svsa_server.access.authentication import AuthenticationKind
 from svsa_server.access.roles import RoleName
-from svsa_server.leases.names import LONGEST_NAME, READABLE, check_printable
+from svsa_server.leases.lease import LONGEST_NAME, READABLE, check_printable
 
 PersonName = Annotated[
     str,

@@ -5,7 +5,7 @@ from typing import Annotated
 from pydantic import AfterValidator, BaseModel, Field
 
 from svsa.inputs.checked import Checked, Flag, quantity
-from svsa_server.leases.names import LONGEST_NAME, READABLE, check_printable
+from svsa_server.leases.lease import LONGEST_NAME, READABLE, check_printable
 
 
 class ControlRequest(Checked):

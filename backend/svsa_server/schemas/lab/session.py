@@ -17,7 +17,7 @@ from svsa_server.schemas.lab.law import InstalledLane
 from svsa_server.schemas.lab.lease import ControlState, QueueState
 from svsa_server.schemas.lab.setting import ConfigurationState
 from svsa_server.schemas.runs.lane import EndedWindowState, LaneMetrics, LaneState, WindowState
-from svsa_server.schemas.runs.recording import ExcitationState, RecordingState
+from svsa_server.schemas.runs.run import ExcitationState, RecordingState
 
 
 class StepRequest(Checked):
