@@ -75,14 +75,14 @@ class RemoteStudies:
 
     def read(self, name: str) -> dict[str, Any]:
         """All that the lab says of a study, as `GET /studies/{study}`."""
-        return self._connection.read(_path(name))
+        return self._connection.read(_build_study_path(name))
 
     def delete(self, name: str) -> None:
         """Delete a study with all its rows, for good; one that is being run is cancelled first."""
-        self._connection.call("DELETE", _path(name))
+        self._connection.call("DELETE", _build_study_path(name))
 
 
-def _path(name: str) -> str:
+def _build_study_path(name: str) -> str:
     return f"/studies/{quote(name, safe='')}"
 
 

@@ -1,4 +1,4 @@
-"""The bench of a served lab: opened with its progress on the console, set to a step of the course."""
+"""The bench of a served lab: opened with progress on the console, set to a step of the course."""
 
 from collections.abc import Callable
 
