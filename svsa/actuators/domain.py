@@ -14,23 +14,17 @@ from svsa.actuators.lever import (
 from svsa.actuators.parameters import ActuatorParameters, Limits
 from svsa.actuators.signals import State
 from svsa.actuators.spring import compute_spring
+from svsa.faults import find_number
 from svsa.numerics.compilation import compiled
 from svsa.numerics.simd.choice import choose, least
 
 INSIDE = 0
-NOT_FINITE = 1
-LEVER_END = 2
-DEFLECTION_LIMIT = 3
-SINGULAR_DECOUPLING = 4
+NOT_FINITE = find_number("not_finite")
+LEVER_END = find_number("lever_end")
+DEFLECTION_LIMIT = find_number("deflection_limit")
+SINGULAR_DECOUPLING = find_number("singular_decoupling")
 
 SMALLEST_LEVER_RATIO = 0.005
-
-FAULT_CODES = {
-    NOT_FINITE: "not_finite",
-    LEVER_END: "lever_end",
-    DEFLECTION_LIMIT: "deflection_limit",
-    SINGULAR_DECOUPLING: "singular_decoupling",
-}
 
 
 class Domain(NamedTuple):

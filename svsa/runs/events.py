@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 from svsa.control.installed import LawName, get_title
 from svsa.errors import Fault
+from svsa.faults import label_fault
 from svsa.runs.command import ApplyLoad, Command, RemoveLoad, Set
 from svsa.runs.configuration import Configuration
-from svsa.runs.fault import label_fault
 from svsa.runs.replay import list_loads
 from svsa.simulation.plant.loads import Load, MassLoad, PaperLoad, PushLoad
 

@@ -6,6 +6,9 @@ from typing import Any
 
 from playwright.sync_api import Page, Route, WebSocketRoute
 
+from svsa.errors import Fault
+from svsa_server.schemas.runs.fault import build_session_fault
+
 BENCH: dict[str, Any] = {
     "name": "emulated bench",
     "emulated": True,
@@ -63,14 +66,22 @@ BENCH: dict[str, Any] = {
     },
 }
 HOMED = {"done": ["link", "motor1", "motor2"], "next_step": None, "instruction": ""}
-FAULT = {
-    "code": "quick_stop",
-    "lane": 1,
-    "tick": 4200,
-    "time_s": 4.2,
-    "message": "Stopped by a client at 4.20 s.",
-    "values": {},
-}
+
+
+def describe_fault(
+    code: str,
+    message: str,
+    *,
+    lane: int = 0,
+    tick: int = 4200,
+    values: dict[str, float] | None = None,
+) -> dict[str, Any]:
+    """A session's fault as the server reports it."""
+    fault = Fault(code, lane, tick, tick / 1000, message, values or {})
+    return build_session_fault(fault).model_dump(mode="json")
+
+
+FAULT = describe_fault("quick_stop", "Stopped by a client at 4.20 s.", lane=1)
 STATUS = {"run": "running", "ramp": "running", "fault": "fault"}
 
 

@@ -6,21 +6,19 @@ import re
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.browser.bench_fixture import BENCH, HOMED, PatchedBench
+from tests.browser.bench_fixture import BENCH, HOMED, PatchedBench, describe_fault
 from tests.browser.bench_page import find_bench, find_details
 from tests.browser.test_page import open_page
 from tests.lab import Lab
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("bench_page", "without_3d")]
 
-HEAT_FAULT = {
-    "code": "lever_end",
-    "lane": 0,
-    "tick": 5728,
-    "time_s": 5.728,
-    "message": "Motor 2 was held back by heat: End of the spiral.",
-    "values": {"motor2_heat": 1.0, "motor2_commanded_nm": 5.0, "motor2_held_to_nm": 1.27},
-}
+HEAT_FAULT = describe_fault(
+    "lever_end",
+    "Motor 2 was held back by heat: End of the spiral.",
+    tick=5728,
+    values={"motor2_heat": 1.0, "motor2_commanded_nm": 5.0, "motor2_held_to_nm": 1.27},
+)
 
 
 def test_heat_that_holds_a_motor_back_is_told_in_band_and_table(page: Page, still_lab: Lab) -> None:

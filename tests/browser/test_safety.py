@@ -7,7 +7,7 @@ from typing import Literal
 import pytest
 from playwright.sync_api import Page, Request, expect
 
-from tests.browser.bench_fixture import FAULT, HOMED, PatchedBench
+from tests.browser.bench_fixture import HOMED, PatchedBench, describe_fault
 from tests.browser.test_page import PATIENCE_MS, open_page
 from tests.exhaustive import exhaust
 from tests.lab import Lab
@@ -76,7 +76,7 @@ def test_a_fault_of_a_simulation_and_of_a_bench_tells_what_to_try(
     code = "lever_end"
     if plant == "bench":
         page = request.getfixturevalue("bench_page")
-        PatchedBench(page, status="fault", homing=HOMED, fault=FAULT | {"code": code})
+        PatchedBench(page, status="fault", homing=HOMED, fault=describe_fault(code, "A test."))
     pull = {"kind": "constant", "torque_nm": [0.0, 0.0, 9.0]}
     lab.client.post(lab.session + "/loads", json=pull).raise_for_status()
     wait_for_status(page, lab, "fault")

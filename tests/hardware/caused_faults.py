@@ -8,6 +8,7 @@ import can
 import pytest
 
 from svsa.errors import StateError
+from svsa.faults import BENCH_FAULTS
 from svsa.hardware import can_plant
 from svsa.hardware.drives.drive import build_broadcast_resets
 from svsa.hardware.emulation import ADVANCE_ID, encode_time
@@ -27,7 +28,6 @@ from svsa.hardware.emulator.faults import (
     Stall,
     ZeroedCounter,
 )
-from svsa.hardware.safety.faults import FAULTS
 from svsa.hardware.safety.machine import BenchStatus
 from svsa.simulation.plant.loads import ConstantLoad
 
@@ -133,7 +133,7 @@ def check_stopped(b: Bench, case: Case, begin_s: float) -> None:
     b.look()
     b.watch(20)
     since = found_s if fault.code in SEEN_IN_MOTION else begin_s
-    assert b.last_current_s - since < FAULTS[fault.code].within_s
+    assert b.last_current_s - since < BENCH_FAULTS[fault.code]
     assert b.read_currents() == [0, 0]
     assert fault.message
     assert bool(fault.values) is (fault.code not in WITHOUT_VALUES)

@@ -13,6 +13,7 @@ import pytest
 
 from svsa.actuators.signals import Torque
 from svsa.errors import StateError
+from svsa.faults import BENCH_FAULTS
 from svsa.hardware.emulator.experiment import LockstepBench, connect_bench
 from svsa.hardware.emulator.faults import (
     CurrentOffset,
@@ -23,7 +24,6 @@ from svsa.hardware.emulator.faults import (
     Silence,
     Unplugged,
 )
-from svsa.hardware.safety.faults import FAULTS
 from svsa.hardware.safety.guard import OVERLOAD
 from svsa.hardware.safety.machine import BenchStatus
 from tests.exhaustive import exhaust
@@ -175,7 +175,7 @@ def test_a_drive_that_does_not_answer_is_named_while_arming(ready: Bench) -> Non
     ready.emulator.control.fault(Silence(node="motor2"))
     begin = ready.now()
     ready.plant.arm(begin)
-    ready.tick(round(FAULTS["drive_silent"].within_s / ready.bench.timing.period_s))
+    ready.tick(round(BENCH_FAULTS["drive_silent"] / ready.bench.timing.period_s))
     assert ready.plant.fault is not None
     assert ready.plant.fault.code == "drive_silent"
     assert "supply" in ready.plant.fault.message
@@ -266,4 +266,4 @@ def test_every_fault_but_these_was_caused_on_the_rig() -> None:
     others = {"not_finite", "overload", "drive_silent", "overspeed", "position_limit"}
     caused = set().union(*(case.codes for case in CASES.values()))
     processes = {"loop_late", "loop_silent", "loop_lost", "loop_and_supervisor_lost"}
-    assert caused | others | elsewhere | processes >= FAULTS.keys()
+    assert caused | others | elsewhere | processes >= BENCH_FAULTS.keys()

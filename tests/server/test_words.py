@@ -1,10 +1,7 @@
 """One word for one thing: in paths, requests and answers, with one default."""
 
-import re
 from pathlib import Path
 
-from svsa.actuators.domain import FAULT_CODES
-from svsa.hardware.safety.faults import FAULTS
 from tests.server.schema import SCHEMA
 
 FORMER_WORDS = {"controller", "run"}
@@ -45,11 +42,3 @@ def test_a_figure_has_its_load_whatever_starts_it() -> None:
     for name in ("law", "load", "comparisons", "effects"):
         default = experiment["properties"][name]["default"]
         assert session["properties"][name]["default"] == default, name
-
-
-def test_who_leaves_the_domain_of_the_model_is_told_what_to_try() -> None:
-    """And no word is about a fault that there is not."""
-    file = ROOT / "frontend/web/src/core/text/page.ts"
-    advised = set(re.findall(r"^  (\w+):$", file.read_text(encoding="utf-8"), re.MULTILINE))
-    assert advised >= set(FAULT_CODES.values())
-    assert advised <= set(FAULTS)

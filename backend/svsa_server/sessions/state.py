@@ -20,6 +20,7 @@ from svsa_server.schemas.lab.gain import GainsState, Root
 from svsa_server.schemas.lab.lease import ControlState, QueueState, WaitingState
 from svsa_server.schemas.lab.session import BranchState, LoadState, SessionProgress, SessionState
 from svsa_server.schemas.lab.setting import ConfigurationState
+from svsa_server.schemas.runs.fault import build_session_fault
 from svsa_server.schemas.runs.lane import LaneMetrics, LaneState
 from svsa_server.schemas.runs.run import RecordingState
 from svsa_server.sessions.bench_state import build_bench_state
@@ -45,7 +46,7 @@ def build_progress(hosted: HostedSession, since_tick: int = 0) -> SessionProgres
         speed="max" if math.isinf(pace.speed) else pace.speed,
         real_time_factor=pace.real_time_factor,
         stretched_s=pace.stretched_s,
-        fault=session.fault,
+        fault=session.fault and build_session_fault(session.fault),
         window=build_window(timeline.window, run.period_s),
         load_window=load_window and build_window(load_window, run.period_s),
         metrics=LaneMetrics(**_summarize(session, 0)),

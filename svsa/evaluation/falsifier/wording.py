@@ -9,7 +9,7 @@ from svsa.evaluation.falsifier.scenario import Attack
 from svsa.evaluation.falsifier.simpler import BODIES, NUMBERS, format_run_number
 from svsa.evaluation.studies.outcome import REFUSED
 from svsa.evaluation.studies.tables import format_metric, format_unit, format_value
-from svsa.runs.fault import label_fault
+from svsa.faults import label_fault
 from svsa.simulation.plant.loads import Load
 
 

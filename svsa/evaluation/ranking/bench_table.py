@@ -6,7 +6,7 @@ from rich.text import Text
 
 from svsa.control.installed import PAPERS_LAW, get_title
 from svsa.evaluation.ranking.bench_runs import NUMBERS, BenchRun, BenchRuns
-from svsa.runs.fault import label_fault
+from svsa.faults import label_fault
 
 SHORT = dict(zip(NUMBERS, ("before", "peak", "settled", "recov."), strict=True))
 LONG = dict(zip(NUMBERS, ("rms 1–5 s", "peak", "rms 8–20 s", "recovery"), strict=True))

@@ -21,7 +21,7 @@ from svsa.evaluation.ranking.scenarios import (
     Scenario,
     build_link_step,
 )
-from svsa.runs.fault import label_fault
+from svsa.faults import label_fault
 from svsa.runs.result.law_style import COLORS, style_law
 
 BAD, GOOD, MARKED = "#c0892b", "#0072B2", "#1b2733"

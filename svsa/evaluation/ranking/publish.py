@@ -17,7 +17,7 @@ from svsa.evaluation.ranking.bench_table import build_section, format_bench
 from svsa.evaluation.ranking.results import Results
 from svsa.evaluation.ranking.row import Row
 from svsa.evaluation.ranking.table import format_markdown
-from svsa.runs.fault import label_fault
+from svsa.faults import label_fault
 
 FOLDER = Path("docs") / "laws"
 README = Path("README.md")

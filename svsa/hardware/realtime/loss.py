@@ -6,7 +6,6 @@ from typing import Literal, NamedTuple
 from svsa.hardware.realtime.launch import BenchProcesses
 
 Stopper = Literal["supervisor", "server"]
-LOSSES = ("bench_not_opened", "loop_silent", "loop_lost", "loop_and_supervisor_lost")
 SUPERVISED_S = 0.5
 STOPPING_S = 0.1
 
@@ -18,7 +17,7 @@ _WHAT = {
 
 
 class Loss(NamedTuple):
-    """code: of `LOSSES`. message: what happened and what was done, in words.
+    """code: of `svsa.faults.LOSSES`. message: what happened and what was done, in words.
 
     stopped_by: who keeps the drives at zero current; None where nobody does yet. problem: why
     the server cannot.

@@ -3,15 +3,15 @@
 import math
 from collections import deque
 
-from svsa.actuators.domain import FAULT_CODES, INSIDE, Bounds, Domain, check_packed_domain
+from svsa.actuators.domain import INSIDE, Bounds, Domain, check_packed_domain
 from svsa.actuators.dynamics import Actuator
 from svsa.actuators.signals import Disturbance, State, Torque
+from svsa.faults import FAULT_CODES, HELD_BACK, label_fault
 from svsa.hardware.file import AXIS_WORDS, BenchFile, MotorSettings
 from svsa.hardware.safety.faults import Alarm
 from svsa.hardware.safety.heat import HeldBack, HoldingBack, Winding, describe_held_back
 from svsa.hardware.safety.standstill import NewCounts, Standstill
 from svsa.numerics.packed import pack
-from svsa.runs.fault import label_fault
 
 SWING_RAD_PER_S = 2.0
 REVERSALS = 10
@@ -133,7 +133,7 @@ class MotorGuard:
         values = {
             f"{self.name}_heat": self.winding.heat,
             f"{self.name}_commanded_nm": held.commanded_nm,
-            f"{self.name}_held_to_nm": held.allowed_nm,
+            self.name + HELD_BACK: held.allowed_nm,
         }
         words = describe_held_back(self.name, held, self.winding)
         return Alarm(alarm.code, f"{words} {alarm.message}", {**alarm.values, **values})

@@ -4,8 +4,8 @@ from collections.abc import Iterable
 from typing import Any
 
 from svsa.errors import Fault
+from svsa.faults import LOSSES
 from svsa.hardware.homing import STEPS, Axis
-from svsa.hardware.realtime.loss import LOSSES
 from svsa.hardware.safety.heat import describe_heat
 from svsa.hardware.safety.machine import MOVING, BenchStatus
 from svsa.hardware.session.supervised_loop import SupervisedLoop

@@ -5,10 +5,10 @@ from collections import deque
 from collections.abc import Callable
 
 from svsa.errors import Fault, StateError
+from svsa.faults import label_fault
 from svsa.runs.command import ApplyLoad, Command, RemoveLoad, Stop
 from svsa.runs.configuration import MAX_LANES, Configuration
 from svsa.runs.events import Event, describe_change, describe_end, describe_onset
-from svsa.runs.fault import label_fault
 from svsa.runs.records.header import BranchPoint
 from svsa.runs.records.recorder import Recorder
 from svsa.runs.run import Run

@@ -7,13 +7,13 @@ import pytest
 
 from svsa.actuators.signals import Torque
 from svsa.errors import ParameterError, StateError
+from svsa.faults import FAULTS
 from svsa.hardware.drives.phase import Phase
 from svsa.hardware.file import read_bench
 from svsa.hardware.homing import STEPS
 from svsa.hardware.realtime.configuration import build_guard
-from svsa.hardware.safety.faults import FAULTS, Alarm
+from svsa.hardware.safety.faults import Alarm
 from svsa.hardware.safety.machine import BenchStatus, Conditions, Machine
-from svsa.runs.fault import FAULT_LABELS
 from tests.hardware.wired_bench import AT_REST, EMULATOR_BENCH, UNDISTURBED
 
 BENCH = read_bench(EMULATOR_BENCH)
@@ -217,8 +217,9 @@ def test_a_fault_has_the_time_of_its_run() -> None:
 
 
 def test_every_fault_of_a_bench_has_words_for_a_mark() -> None:
-    assert FAULTS.keys() <= FAULT_LABELS.keys()
-    assert all(0 < len(label) < 26 and "_" not in label for label in FAULT_LABELS.values())
+    labels = [kind.label for kind in FAULTS.values()]
+    assert all(0 < len(label) < 26 and "_" not in label for label in labels)
+    assert len(set(labels)) == len(labels)
 
 
 def test_the_ramp_takes_its_time_whatever_ticks_are_missed() -> None:

@@ -7,7 +7,7 @@ import pytest
 
 import svsa
 from svsa.errors import Fault
-from svsa.runs.fault import label_fault
+from svsa.faults import label_fault
 from svsa.runs.paper import get_figure
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.runs.records.header import RecordError

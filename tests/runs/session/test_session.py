@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import svsa
+from svsa.faults import label_fault
 from svsa.runs import events
 from svsa.runs.command import ApplyLoad, Set
-from svsa.runs.fault import label_fault
 from svsa.runs.session.clock import LONGEST_BACKLOG_S
 
 from .sessions import PULSE, build_session, list_events, read_samples

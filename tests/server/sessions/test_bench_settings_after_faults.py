@@ -8,10 +8,9 @@ import httpx
 import pytest
 
 from svsa.errors import Fault
+from svsa.faults import BENCH_FAULTS, LOSSES
 from svsa.hardware.realtime.launch import BenchError
-from svsa.hardware.realtime.loss import LOSSES
 from svsa.hardware.realtime.memory import LoopMemory
-from svsa.hardware.safety.faults import FAULTS
 from svsa.hardware.safety.machine import BenchStatus
 from svsa.hardware.session.session import BenchSession
 from svsa.runs.records.catalogue.runs import DATA_VARIABLE
@@ -69,7 +68,7 @@ def fail(session: BenchSession, monkeypatch: pytest.MonkeyPatch, code: str) -> N
     monkeypatch.setattr(processes, "listens", code not in LOSSES)
 
 
-@pytest.mark.parametrize("code", exhaust(FAULTS, ["loop_late", "loop_lost"]))
+@pytest.mark.parametrize("code", exhaust(BENCH_FAULTS, ["loop_late", "loop_lost"]))
 def test_every_setting_after_a_fault_is_answered(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Any, code: str
 ) -> None:

@@ -1,4 +1,4 @@
-"""The lab itself: health, the laws, the paper's figures."""
+"""The lab itself: health, the laws, the faults, the paper's figures."""
 
 from fastapi import Request
 
@@ -7,6 +7,7 @@ from svsa.runs.paper import FIGURES
 from svsa_server.routing import build_router
 from svsa_server.schemas.lab.lab import FigureState, Health
 from svsa_server.schemas.lab.law import LawState, list_laws
+from svsa_server.schemas.runs.fault import FaultKindState, list_faults
 from svsa_server.sessions.laboratory import SHARED_SESSION
 from svsa_server.sessions.lock import TurnRoute
 
@@ -30,6 +31,12 @@ def quick_stop_lab(request: Request) -> None:
 async def read_laws() -> list[LawState]:
     """The control laws that are installed, the paper's first, each with its own parameters."""
     return list_laws()
+
+
+@router.get("/faults")
+async def read_faults() -> list[FaultKindState]:
+    """The table of faults: what can end a run, why, and what to try."""
+    return list_faults()
 
 
 @router.get("/figures")

@@ -5,8 +5,6 @@ from typing import Annotated, Any
 
 from fastapi import Body, Header, Query
 
-from svsa.errors import Fault
-from svsa.runs.fault import label_fault
 from svsa.runs.records.catalogue.entry import (
     LONGEST_SEARCH,
     MAX_PAGE_SIZE,
@@ -145,12 +143,6 @@ def restore_run(runs: Runs, run_id: ChangedRunId) -> RunSummary:
     return RunSummary(**_tell(runs, runs.restore(run_id)))
 
 
-def _build_run_fault(fault: Fault) -> RunFault:
-    return RunFault(
-        code=fault.code, label=label_fault(fault.code), message=fault.message, time_s=fault.time_s
-    )
-
-
 def _tell(runs: Catalogue, entry: RunEntry) -> dict[str, Any]:
     (values,) = _list_values(runs, entry)
     return values
@@ -165,7 +157,7 @@ def _list_values(runs: Catalogue, *entries: RunEntry) -> list[dict[str, Any]]:
             "title": entry.title,
             "revision": entry.revision,
             "branch_of": name_origin(entry.branch_of, origins),
-            "fault": entry.fault and _build_run_fault(entry.fault),
+            "fault": entry.fault and RunFault.report(entry.fault),
         }
         for entry in entries
     ]

@@ -5,7 +5,6 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, Field
 
 from svsa.control.installed import PAPERS_LAW, InstalledLaw
-from svsa.errors import Fault
 from svsa.inputs.checked import Checked, Flag, Number, Whole, quantity
 from svsa.runs.configuration import MAX_LANES, Configuration, Design
 from svsa.runs.events import Event
@@ -16,6 +15,7 @@ from svsa_server.schemas.hardware.bench import BenchState
 from svsa_server.schemas.lab.law import InstalledLane
 from svsa_server.schemas.lab.lease import ControlState, QueueState
 from svsa_server.schemas.lab.setting import ConfigurationState
+from svsa_server.schemas.runs.fault import SessionFault
 from svsa_server.schemas.runs.lane import EndedWindowState, LaneMetrics, LaneState, WindowState
 from svsa_server.schemas.runs.run import ExcitationState, RecordingState
 
@@ -96,7 +96,7 @@ class SessionProgress(BaseModel):
     speed: float | Literal["max"]
     real_time_factor: float = Field(description="Session seconds a wall second, as measured")
     stretched_s: float = Field(description="Wall time given up because ticks came too late")
-    fault: Fault | None
+    fault: SessionFault | None = Field(description="Held until it is reset or cleared")
     window: WindowState = Field(description="Since the last change of anything, or the last load")
     load_window: WindowState | None = Field(
         description="From the newest load's onset to the next change; null where none came"

@@ -19,6 +19,7 @@ from svsa.runs.records.header import (
 )
 from svsa.runs.records.measured_window import MeasuredWindow
 from svsa.runs.records.settings import RunSettings
+from svsa_server.schemas.runs.fault import RunFault
 from svsa_server.schemas.runs.lane import StretchState, WindowState
 
 ExportName = Literal["csv", "parquet", "mat", "mcap"]
@@ -55,15 +56,6 @@ class BranchOrigin(BaseModel):
     time_s: float | None = Field(
         description="The same moment in its replay, s after its first sample; null as title"
     )
-
-
-class RunFault(BaseModel):
-    """The fault that a run ended in."""
-
-    code: str
-    label: str = Field(description="In a few words")
-    message: str = Field(description="In a sentence, with the values that it was about")
-    time_s: float = Field(description="Time of the run")
 
 
 class RunSummary(BaseModel):

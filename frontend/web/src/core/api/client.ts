@@ -7,6 +7,7 @@ import type {
   Body,
   Configuration,
   EffectsRequest,
+  FaultKind,
   Figure,
   Lane,
   Law,
@@ -98,6 +99,7 @@ export const putGains = (gains: GainsRequest) => call("put", "/gains", gains);
 /** By the law's name; what is left out stays. */
 export const putParameters = (parameters: Body<"put", "/parameters">[0]) =>
   call("put", "/parameters", parameters);
+export const readFaults = () => request("get", "faults") as Promise<FaultKind[]>;
 export const readLaws = () => request("get", "laws") as Promise<LawRow[]>;
 export const putObserver = (link: number, motor1: number, motor2: number) =>
   call("put", "/observer", { bandwidth_rad_per_s: [link, motor1, motor2] });

@@ -18,6 +18,9 @@ export type ActuatorParameters = Configuration["actuator"];
 /** A controller beside the first; null or left out: as the session's. */
 export type Lane = Schemas["Lane"];
 export type Gains = Schemas["Gains"];
+export type SessionFault = NonNullable<SessionState["fault"]>;
+/** A row of the table of faults. */
+export type FaultKind = Schemas["FaultKindState"];
 /** The name of a law. */
 export type Law = Configuration["law"];
 export type LawRow = Omit<Schemas["LawState"], "parameters"> & { parameters: LawParameter[] };

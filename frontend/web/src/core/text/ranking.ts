@@ -1,10 +1,4 @@
 /** The ranking: every law in the same scenarios. */
-const faults: Record<string, string> = {
-  deflection_limit: "deflection",
-  lever_end: "spiral end",
-  not_finite: "not finite",
-  singular_decoupling: "singular",
-};
 const sweeps: Record<string, string> = {
   model: "Model",
   velocity_noise: "Noise",
@@ -81,7 +75,6 @@ export const rankingText = {
         hint: "Rig, σ = 15: largest step of torque on the link up to which every one, by 0.5 N·m, is held. A press shows the next larger one",
       },
     },
-    faults,
     never: "never",
     noNumber: "fault",
     see: (law: string, column: string) => `${law}, ${column}: open this run in the lab`,

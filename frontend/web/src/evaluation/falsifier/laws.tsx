@@ -2,6 +2,7 @@ import type { LawTrace } from "../../core/api/falsifications";
 import type { Law } from "../../core/api/types";
 import type { LineStyle } from "../../core/plots/definitions";
 import { dotOf } from "../../core/plots/lawlinestyles";
+import { writeFault } from "../../core/state/faults";
 import { titleOf, usableLaws } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { DEGREES_PER_RADIAN, formatNumber } from "../../core/units";
@@ -18,12 +19,7 @@ const metricOf = (one: LawTrace, name: string, factor = 1): string => {
 };
 
 const endOf = ({ fault, fault_s: timeS }: LawTrace): string =>
-  fault === null
-    ? words.whole
-    : words.fault(
-        text.ranking.faults[fault] ?? fault.replaceAll("_", " "),
-        formatNumber(timeS, 4, 3),
-      );
+  fault === null ? words.whole : words.fault(writeFault(fault), formatNumber(timeS, 4, 3));
 
 /** Recovery is none of a run that ended; of another one without it: it never did. */
 const recoveryOf = (one: LawTrace): string =>

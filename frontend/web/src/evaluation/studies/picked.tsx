@@ -1,4 +1,5 @@
 import type { StudyRow } from "../../core/api/studies";
+import { writeFault } from "../../core/state/faults";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
@@ -10,7 +11,7 @@ const words = text.studies;
 
 const outcomeOf = (row: StudyRow): string =>
   row.fault !== null
-    ? words.outcome.fault(String(row.fault).replaceAll("_", " "))
+    ? words.outcome.fault(writeFault(String(row.fault)))
     : row.succeeded
       ? words.outcome.good
       : words.outcome.missed;

@@ -1,6 +1,7 @@
 import type { Estimate } from "../../core/api/studies";
 import { isGoing } from "../../core/jobs/progress";
 import { dotOf } from "../../core/plots/lawlinestyles";
+import { writeFault } from "../../core/state/faults";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
@@ -78,7 +79,7 @@ export function LawTable() {
             {(study.value?.laws ?? []).map((law, place) => {
               const one = found?.laws.find((told) => told.law === law);
               const faults = Object.entries(one?.faults ?? {}).map(
-                ([code, count]) => `${count} ${code.replaceAll("_", " ")}`,
+                ([code, count]) => `${count} ${writeFault(code)}`,
               );
               return (
                 <tr key={law}>

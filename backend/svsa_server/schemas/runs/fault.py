@@ -1,0 +1,83 @@
+"""What goes over the wire about faults: the table of all kinds, that of a run or a session."""
+
+from typing import Any, Literal, Self
+
+from pydantic import BaseModel, Field
+
+from svsa.errors import Fault
+from svsa.faults import FAULTS, FaultKind, advise, label_fault
+
+
+class FaultKindState(BaseModel):
+    """A row of the table of faults."""
+
+    code: str
+    number: int | None = Field(
+        description="Its number in compiled code, as study rows hold it; null where it has none"
+    )
+    label: str = Field(description="In a few words")
+    cause: str = Field(description="What happened")
+    advice: str | None = Field(description="What to try; null where its message says it all")
+    where: Literal["bench", "both"] = Field(
+        description="Whether a bench alone ends in it, or a simulated run too"
+    )
+    within_s: float | None = Field(
+        description="Longest time from the cause to zero current; null where no current can flow"
+    )
+
+
+class RunFault(BaseModel):
+    """The fault that a run ended in."""
+
+    code: str
+    label: str = Field(description="In a few words")
+    message: str = Field(description="In a sentence, with the values that it was about")
+    time_s: float = Field(description="Time of the run")
+
+    @classmethod
+    def report(cls, fault: Fault, **more: Any) -> Self:
+        """The fault as it goes over the wire. more: the fields of a subclass."""
+        return cls(
+            code=fault.code,
+            label=label_fault(fault.code),
+            message=fault.message,
+            time_s=fault.time_s,
+            **more,
+        )
+
+
+class SessionFault(RunFault):
+    """The fault that a session holds until it is reset or cleared."""
+
+    lane: int = Field(description="From 0")
+    tick: int
+    values: dict[str, float] = Field(description="SI values, by names with their units")
+    advice: str | None = Field(description="What to try; null where its message says it all")
+
+
+def list_faults() -> list[FaultKindState]:
+    """Every row of the table."""
+    return [_build_kind(code, kind) for code, kind in FAULTS.items()]
+
+
+def build_session_fault(fault: Fault) -> SessionFault:
+    """A session's fault as it goes over the wire."""
+    return SessionFault.report(
+        fault,
+        lane=fault.lane,
+        tick=fault.tick,
+        values=fault.values,
+        advice=advise(fault.code, fault.values),
+    )
+
+
+def _build_kind(code: str, kind: FaultKind) -> FaultKindState:
+    return FaultKindState(
+        code=code,
+        number=kind.number,
+        label=kind.label,
+        cause=kind.cause,
+        advice=kind.advice,
+        where=kind.where,
+        within_s=kind.within_s,
+    )

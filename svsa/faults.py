@@ -1,0 +1,216 @@
+"""The table of faults: everything that ends a run before its time, in a simulation or on a bench.
+
+Each fault stands here once, with its code, label, cause and remedy. The compiled domain check, the
+supervision of a bench, the server, the page and the records all take what they need from here.
+"""
+
+from collections.abc import Mapping
+from typing import Any, Literal, NamedTuple
+
+_TICK_S = 0.002
+_SUPERVISOR_S = 0.030
+_THIRD_LINE_S = 0.25
+
+HELD_BACK = "_held_to_nm"
+"""How the name of a fault's value ends that says to which torque heat limited a motor, N·m."""
+
+
+class FaultKind(NamedTuple):
+    """One row of the table.
+
+    Attributes:
+        label: A few words for marks and tables.
+        cause: What happened, as a clause.
+        advice: What to try next; None if the message of the fault says it all.
+        number: The number of the fault in compiled code; None if compiled code does not report it.
+        where: Whether a run on a bench, a simulated run or both can end in it.
+        within_s: The longest time from the cause to zero current on the wire, s; None if no
+            current can flow.
+        is_loss: Whether the server reports it because the loop of a bench cannot report.
+    """
+
+    label: str
+    cause: str
+    advice: str | None = None
+    number: int | None = None
+    where: Literal["bench", "both"] = "bench"
+    within_s: float | None = _TICK_S
+    is_loss: bool = False
+
+
+_DOMAIN = "the actuator left the domain of the model"
+
+FAULTS: dict[str, FaultKind] = {
+    "not_finite": FaultKind(
+        "Not a finite number",
+        "a torque or a state was not a finite number",
+        "The gains or bandwidths are too high for the control rate, and the loop is unstable. Undo"
+        " the last changes, or place slower poles (Place poles).",
+        number=1,
+        where="both",
+    ),
+    "lever_end": FaultKind(
+        "End of the spiral",
+        _DOMAIN,
+        "A load deflects a soft spring far. To keep the stiffness meanwhile, the control law turns"
+        " the spiral far and fast. Whether the spiral reaches its end depends on the time at which"
+        " the load comes. A torque on the stiffness motor can have the same effect. Try a stiffer"
+        " setting, a smaller load, a slower motion, slower stiffness poles and observer (Place"
+        " poles), or a control law that reduces its bandwidth while the torque saturates (NDOBC-W,"
+        " NDOBC-S).",
+        number=2,
+        where="both",
+    ),
+    "deflection_limit": FaultKind(
+        "Deflection too large",
+        _DOMAIN,
+        "Beyond this angle the stiffness of the spring is negative, and no control law can bring"
+        " the link back. Try a stiffer setting, a smaller load, a slower motion, or a control law"
+        " that reduces its bandwidth while the torque saturates (NDOBC-W, NDOBC-S).",
+        number=3,
+        where="both",
+    ),
+    "singular_decoupling": FaultKind(
+        "Decoupling near singular",
+        _DOMAIN,
+        "If a soft spring is deflected far, both motors have nearly the same effect. To control"
+        " position and stiffness separately would take more torque than the motors have. Try a"
+        " stiffer setting, a smaller load or a slower motion.",
+        number=4,
+        where="both",
+    ),
+    "quick_stop": FaultKind("Quick stop", "a user pressed the quick stop"),
+    "stale_feedback": FaultKind(
+        "Feedback too old", "an encoder has sent nothing for 20 ms", within_s=0.007
+    ),
+    "missed_ticks": FaultKind("Ticks missed", "the loop missed 20 ticks in a row", within_s=0.022),
+    "loop_late": FaultKind(
+        "Control loop late",
+        "the loop was late by over 20 ms: the supervisor has stopped the drives",
+        within_s=_SUPERVISOR_S,
+    ),
+    "loop_silent": FaultKind(
+        "Control loop silent",
+        "the loop's process does not tick: the supervisor has stopped the drives",
+        within_s=_SUPERVISOR_S,
+        is_loss=True,
+    ),
+    "loop_lost": FaultKind(
+        "Control loop lost",
+        "the loop's process has ended: the supervisor has stopped the drives",
+        within_s=_SUPERVISOR_S,
+        is_loss=True,
+    ),
+    "loop_and_supervisor_lost": FaultKind(
+        "Loop and supervisor lost",
+        "both processes have ended: the server has opened the bus and stopped the drives",
+        within_s=_THIRD_LINE_S,
+        is_loss=True,
+    ),
+    "bench_not_opened": FaultKind(
+        "Bench not opened",
+        "the bus or the processes of the bench did not start",
+        within_s=None,
+        is_loss=True,
+    ),
+    "drive_error": FaultKind(
+        "Drive error", "a drive sent an error frame (stall protection)", within_s=0.102
+    ),
+    "drive_zeroed": FaultKind(
+        "Drive restarted", "a drive's position jumped to zero: it restarted", within_s=0.004
+    ),
+    "drive_silent": FaultKind(
+        "Drive silent", "a drive did not answer while it was brought to READY", within_s=2.0
+    ),
+    "bus_error": FaultKind("Bus error", "the bus reported an error, or is gone"),
+    "foreign_command": FaultKind(
+        "Foreign command", "another program on the bus sent the drives a command"
+    ),
+    "encoder_lost": FaultKind("Encoder lost", "the source of the deflection encoder failed"),
+    "overspeed": FaultKind(
+        "Too fast",
+        "a motor or the link was faster than its limit",
+        "A motor or the link turned faster than the bench file allows. Try a smaller or slower"
+        " motion or load, and slower poles and observer (Place poles).",
+    ),
+    "position_limit": FaultKind("Beyond its end", "an axis passed its end by more than the margin"),
+    "overload": FaultKind(
+        "Motor overloaded",
+        "a motor was too warm for too long (I²t)",
+        "Let the motor cool. Then try a smaller or slower motion, or a smaller load: the current"
+        " was above the continuous current of the motor.",
+    ),
+    "implausible": FaultKind(
+        "Implausible torque",
+        "the observer estimates a torque that no load causes: an encoder or motor is wrong",
+    ),
+    "encoder_frozen": FaultKind(
+        "Encoder frozen",
+        "an encoder does not change while the torque on its axis changes by over 1 N·m",
+    ),
+    "vibration": FaultKind(
+        "Vibration",
+        "a motor oscillates: ten reversals within 0.5 s",
+        "The poles or the observer are too fast for the encoders and the drives. Try slower ones"
+        " (Place poles).",
+        within_s=0.502,
+    ),
+    "supervisor_lost": FaultKind(
+        "Supervisor lost", "the supervisor has sent nothing for 0.05 s", within_s=0.055
+    ),
+}
+
+FAULT_CODES: dict[int, str] = {
+    kind.number: code for code, kind in FAULTS.items() if kind.number is not None
+}
+"""The code of each number that compiled code reports."""
+
+BENCH_FAULTS: dict[str, float] = {
+    code: kind.within_s for code, kind in FAULTS.items() if kind.within_s is not None
+}
+"""Of each fault that sets an armed bench to zero current: the time it takes at most, s."""
+
+LOSSES: tuple[str, ...] = tuple(code for code, kind in FAULTS.items() if kind.is_loss)
+"""The codes of a bench whose loop does not tick."""
+
+_HEAT_ADVICE = (
+    "From 90 % of the rated heat of its winding (I²t) on, a motor makes less torque than the"
+    " control law commands, so that the winding is not damaged. The remaining torque did not hold"
+    " the load, and the actuator moved to where the fault says. Other gains and control laws do not"
+    " help. Let the motor cool (its heat is under Details), then try a load that needs less torque"
+    " of that motor, or remove the load earlier."
+)
+
+
+def find_number(code: str) -> int:
+    """The number of a fault in compiled code.
+
+    Raises:
+        LookupError: Compiled code does not report this fault.
+    """
+    number = FAULTS[code].number
+    if number is None:
+        raise LookupError(code)
+    return number
+
+
+def label_fault(code: str) -> str:
+    """The label of a fault; an unknown code (of a newer record) is written with blanks."""
+    kind = FAULTS.get(code)
+    return kind.label if kind else code.replace("_", " ").capitalize()
+
+
+def advise(code: str, values: Mapping[str, Any]) -> str | None:
+    """What to try after a fault.
+
+    Args:
+        code: Code of the fault.
+        values: Values in the fault. If heat limited a motor, that is the reason, whatever the code.
+
+    Returns:
+        A few sentences, or None if the message of the fault says it all.
+    """
+    if any(name.endswith(HELD_BACK) for name in values):
+        return _HEAT_ADVICE
+    kind = FAULTS.get(code)
+    return kind.advice if kind else None
