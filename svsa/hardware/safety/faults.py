@@ -1,6 +1,14 @@
-"""A fault that a check of a bench has found."""
+"""A fault on a bench: the alarm of a check, and the latch that holds it until it is cleared.
+
+Two processes hold a fault, each in a latch of its own: that of the loop, whose `Machine` sends zero
+current while it holds one, and that of the server, which outlives the loop. Both follow one rule.
+The codes are in `svsa.faults`.
+"""
 
 from typing import Any, NamedTuple
+
+from svsa.errors import Fault
+from svsa.faults import LOSSES
 
 
 class Alarm(NamedTuple):
@@ -9,3 +17,44 @@ class Alarm(NamedTuple):
     code: str
     message: str
     values: dict[str, Any]
+
+
+class FaultLatch:
+    """Holds a fault until it is cleared.
+
+    The first fault counts: what follows from it changes nothing. The loss of the loop (`LOSSES`) is
+    held only until more is known: another loss, or a fault that the loop itself reports, replaces
+    it.
+    """
+
+    def __init__(self) -> None:
+        self._fault: Fault | None = None
+
+    @property
+    def fault(self) -> Fault | None:
+        """The fault that is held; None if there is none."""
+        return self._fault
+
+    def take(self, fault: Fault) -> bool:
+        """Hold a fault, unless the one that is held counts.
+
+        Args:
+            fault: The fault that was found or reported.
+
+        Returns:
+            Whether another fault is held now; False if only its message has changed.
+        """
+        held = self._fault
+        if held is not None and (held.code not in LOSSES or held.message == fault.message):
+            return False
+        self._fault = fault
+        return held is None or held.code != fault.code
+
+    def clear(self) -> None:
+        """Hold no fault."""
+        self._fault = None
+
+    def clear_reported(self) -> None:
+        """Hold no fault that the loop has reported; a loss stays."""
+        if self._fault is not None and self._fault.code not in LOSSES:
+            self._fault = None

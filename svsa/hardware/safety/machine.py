@@ -15,7 +15,7 @@ from svsa.errors import Fault, StateError
 from svsa.hardware.drives.phase import Phase
 from svsa.hardware.file import AXIS_WORDS, BenchFile
 from svsa.hardware.homing import Homing
-from svsa.hardware.safety.faults import Alarm
+from svsa.hardware.safety.faults import Alarm, FaultLatch
 from svsa.hardware.safety.guard import Guard
 
 NO_TORQUE = Torque(0.0, 0.0)
@@ -68,13 +68,18 @@ class Machine:
 
     def __init__(self, bench: BenchFile, guard: Guard, problems: list[str]) -> None:
         self.status = BenchStatus.OFF
-        self.fault: Fault | None = None
+        self._latch = FaultLatch()
         self.problems = problems
         self.homing = Homing()
         self._safety, self._guard = bench.safety, guard
         self._period = bench.timing.period_s
         self._tick = 0
         self._share = 0.0
+
+    @property
+    def fault(self) -> Fault | None:
+        """The latched fault; None unless FAULT."""
+        return self._latch.fault
 
     def check_arming(self) -> None:
         """Raise `StateError` unless OFF, or READY to be armed anew, and calibrated."""
@@ -116,14 +121,14 @@ class Machine:
         """FAULT → OFF; raises `StateError` elsewhere."""
         if self.status is not BenchStatus.FAULT:
             raise StateError(f"The bench is {self.status}: there is no fault to clear.")
-        self.status, self.fault = BenchStatus.OFF, None
+        self._latch.clear()
+        self.status = BenchStatus.OFF
 
     def fail(self, alarm: Alarm) -> None:
         """Latch a fault, unless there is one; its time is that of the run."""
-        if self.fault is None:
-            self.status = BenchStatus.FAULT
-            time_s = self._tick * self._period
-            self.fault = Fault(alarm.code, 0, self._tick, time_s, alarm.message, alarm.values)
+        time_s = self._tick * self._period
+        self._latch.take(Fault(alarm.code, 0, self._tick, time_s, alarm.message, alarm.values))
+        self.status = BenchStatus.FAULT
 
     def update(
         self, conditions: Conditions, limited: Torque, known: State, estimate: Disturbance

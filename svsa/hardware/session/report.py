@@ -4,45 +4,12 @@ from collections.abc import Iterable
 from typing import Any
 
 from svsa.errors import Fault
-from svsa.faults import LOSSES
 from svsa.hardware.homing import STEPS, Axis
+from svsa.hardware.safety.faults import FaultLatch
 from svsa.hardware.safety.heat import describe_heat
 from svsa.hardware.safety.machine import MOVING, BenchStatus
 from svsa.hardware.session.supervised_loop import SupervisedLoop
 from svsa.runs.session.journal import Journal
-
-
-class FaultLatch:
-    """Holds the first fault until it is cleared.
-
-    The loop's own, where it has one or comes back with one, is the better reason than its loss.
-    """
-
-    def __init__(self) -> None:
-        self.fault: Fault | None = None
-
-    @property
-    def is_own(self) -> bool:
-        """Whether it holds a fault that the loop has told of itself."""
-        return self.fault is not None and self.fault.code not in LOSSES
-
-    def take_own(self, reported: Fault | None) -> bool:
-        """What the loop tells of its fault, None for none; whether another is held now."""
-        if reported is None:
-            if self.is_own:
-                self.fault = None
-            return False
-        return not self.is_own and self._hold(reported)
-
-    def take_loss(self, loss: Fault) -> bool:
-        """The loop is lost; whether another fault is held now. Its words may come to say more."""
-        is_reported = self.fault is not None and self.fault.message == loss.message
-        return not (self.is_own or is_reported) and self._hold(loss)
-
-    def _hold(self, fault: Fault) -> bool:
-        is_known = self.fault is not None and self.fault.code == fault.code
-        self.fault = fault
-        return not is_known
 
 
 class HeatEvents:
@@ -86,7 +53,7 @@ class BenchReport:
 
     def clear(self) -> None:
         """Hold no fault any more."""
-        self._latch = FaultLatch()
+        self._latch.clear()
 
     @property
     def fault(self) -> Fault | None:
@@ -111,7 +78,9 @@ class BenchReport:
             self._heat.log(
                 reported["held_back"], BenchStatus(reported["status"]) in MOVING, self._journal
             )
-            if self._latch.take_own(Fault(**reported["fault"]) if reported["fault"] else None):
+            if reported["fault"] is None:
+                self._latch.clear_reported()
+            elif self._latch.take(Fault(**reported["fault"])):
                 self._log_fault()
             self.loop_status = BenchStatus(reported["status"])
             self._journal.version += 1
@@ -122,7 +91,7 @@ class BenchReport:
         if loss is None:
             return
         held = self.fault
-        if self._latch.take_loss(Fault(loss.code, 0, run.tick, run.time_s, loss.message)):
+        if self._latch.take(Fault(loss.code, 0, run.tick, run.time_s, loss.message)):
             self._log_fault()
         elif self.fault is not None and self.fault is not held:
             self._journal.refine_fault(self.fault)

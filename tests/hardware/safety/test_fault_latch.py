@@ -1,9 +1,9 @@
-"""What a bench's session holds as its fault: the loop's own, or that the loop is lost."""
+"""The latch of the loop and of the server: the first fault counts, the loss of a loop gives way."""
 
 import pytest
 
 from svsa.errors import Fault
-from svsa.hardware.session.report import FaultLatch
+from svsa.hardware.safety.faults import FaultLatch
 
 
 def build_fault(code: str, message: str = "") -> Fault:
@@ -21,26 +21,35 @@ def latch() -> FaultLatch:
 
 
 def test_the_first_fault_of_the_loop_counts_until_the_loop_clears_it(latch: FaultLatch) -> None:
-    assert latch.take_own(OVERLOAD)
-    assert not latch.take_own(SILENT)
+    assert latch.take(OVERLOAD)
+    assert not latch.take(SILENT)
     assert latch.fault is OVERLOAD
-    assert not latch.take_own(None)
+    latch.clear_reported()
     assert latch.fault is None
 
 
 def test_a_lost_loop_is_told_once_and_what_was_done_comes_to_be_known(latch: FaultLatch) -> None:
-    assert latch.take_loss(LOST)
-    assert not latch.take_loss(build_fault("loop_lost", LOST.message))
+    assert latch.take(LOST)
+    assert not latch.take(build_fault("loop_lost", LOST.message))
     assert latch.fault is LOST, "nothing is new"
-    assert not latch.take_loss(STOPPED)
+    assert not latch.take(STOPPED)
     assert latch.fault is STOPPED
-    assert not latch.take_own(None)
+    latch.clear_reported()
     assert latch.fault is STOPPED, "a loop that knows of no fault was lost all the same"
 
 
 def test_the_loop_s_own_fault_is_the_better_reason(latch: FaultLatch) -> None:
-    latch.take_loss(LOST)
-    assert latch.take_own(OVERLOAD)
+    latch.take(LOST)
+    assert latch.take(OVERLOAD)
     assert latch.fault is OVERLOAD
-    assert not latch.take_loss(LOST)
+    assert not latch.take(LOST)
     assert latch.fault is OVERLOAD
+
+
+@pytest.mark.parametrize("fault", [OVERLOAD, LOST])
+def test_a_cleared_latch_takes_the_next_fault(latch: FaultLatch, fault: Fault) -> None:
+    latch.take(fault)
+    latch.clear()
+    assert latch.fault is None
+    assert latch.take(SILENT)
+    assert latch.fault is SILENT
