@@ -8,8 +8,9 @@ from svsa.errors import Fault
 from svsa.faults import label_fault
 from svsa.runs.command import ApplyLoad, Command, RemoveLoad, Set
 from svsa.runs.configuration import Configuration
+from svsa.runs.loads import name_load
 from svsa.runs.replay import list_loads
-from svsa.simulation.plant.loads import Load, MassLoad, PaperLoad, PushLoad
+from svsa.simulation.plant.loads import Load
 
 
 @dataclass(frozen=True)
@@ -80,22 +81,9 @@ def describe_change(command: Command, law: LawName) -> str:
 
 def describe_onset(load: Load) -> str:
     """A load that comes on."""
-    return f"{describe_load(load)} on"
+    return f"{name_load(load)} on"
 
 
 def describe_end(load: Load) -> str:
     """A load that ends or is taken off."""
-    return f"{describe_load(load)} off"
-
-
-def describe_load(load: Load) -> str:
-    """A load in a few words."""
-    match load:
-        case PaperLoad():
-            return "3 kg load"
-        case MassLoad():
-            return f"{load.mass_kg:g} kg mass"
-        case PushLoad():
-            return "Push"
-        case _:
-            return f"{load.kind.capitalize()} torque"
+    return f"{name_load(load)} off"

@@ -12,11 +12,12 @@ The lever's hinge is at (−R, 0) of the link, opposite to the arm. Lengths are 
 import math
 from typing import NamedTuple
 
+from svsa.simulation.plant.loads import PAPER_ARM_M
 from svsa_scene.pose import ActuatorPose
 
 UNITS_PER_METRE = 10.0
 RADIUS = 0.075 * UNITS_PER_METRE
-LOAD_ARM = 0.068 * UNITS_PER_METRE
+LOAD_ARM = PAPER_ARM_M * UNITS_PER_METRE
 
 SPRING_ANCHOR = 0.64
 BLOCK_HALF_WIDTH = 0.07

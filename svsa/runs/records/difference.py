@@ -8,6 +8,7 @@ from pydantic import BaseModel
 
 from svsa.control.gains import Gains
 from svsa.control.parameters import LawParameters
+from svsa.runs.loads import describe_load
 from svsa.runs.records.acting import SETTINGS, Acting, read_acting
 from svsa.runs.records.reader import Record
 from svsa.runs.records.settings import NO_LOAD
@@ -16,7 +17,6 @@ from svsa.runs.records.wording import (
     describe_effects,
     describe_lanes,
     describe_law,
-    describe_load,
     describe_motion,
     describe_stiffness,
 )

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from svsa.runs.configuration import load_prototype
+from svsa.runs.loads import describe_load
 from svsa.runs.records.acting import Acting, read_acting
 from svsa.runs.records.header import RecordHeader
 from svsa.runs.records.parquet import Commands
@@ -19,7 +20,6 @@ from svsa.runs.records.wording import (
     describe_effects,
     describe_lanes,
     describe_law,
-    describe_load,
     describe_motion,
     describe_stiffness,
     follow,

@@ -6,16 +6,6 @@ from collections.abc import Iterable, Sequence
 from svsa.control.installed import get_law, is_usable
 from svsa.runs.configuration import Lane
 from svsa.simulation.plant.effects import IDEAL, RIG, Effects
-from svsa.simulation.plant.loads import (
-    PAPER_ARM_M,
-    ConstantLoad,
-    Load,
-    MassLoad,
-    PaperLoad,
-    PulseLoad,
-    PushLoad,
-    SineLoad,
-)
 from svsa.simulation.reference.trajectories import (
     ConstantPosition,
     ConstantStiffness,
@@ -102,30 +92,6 @@ def compute_mean(reference: StiffnessReference | None) -> float | None:
 
 def _format_degrees(angle_rad: float) -> str:
     return f"{math.degrees(angle_rad):.4g}°"
-
-
-def describe_load(load: Load) -> str:
-    """A load: "3 kg" as the paper prints it, "3 kg mass", "5 N·m", "pulse 5 N·m", "push"."""
-    match load:
-        case PaperLoad():
-            return "3 kg"
-        case MassLoad():
-            arm = "" if load.arm_m == PAPER_ARM_M else f" at {1000 * load.arm_m:g} mm"
-            return f"{load.mass_kg:g} kg mass{arm}"
-        case ConstantLoad():
-            return _format_torque(load.torque_nm)
-        case PushLoad():
-            return "push"
-        case PulseLoad():
-            return f"pulse {_format_torque(load.torque_nm)}"
-        case SineLoad():
-            return f"sine {_format_torque(load.torque_nm)} {load.frequency_hz:g} Hz"
-    return "torque series"
-
-
-def _format_torque(torque_nm: Sequence[float]) -> str:
-    link, *motors = (f"{value:.3g}" for value in torque_nm)
-    return f"{link} N·m" if not any(torque_nm[1:]) else f"{', '.join((link, *motors))} N·m"
 
 
 def describe_effects(effects: Effects | None) -> str:

@@ -149,14 +149,14 @@ def test_a_record_tells_what_was_told_live():
     assert [event.label for event in reported] == [
         "NDOBC → FL",
         "Gains changed",
-        "Pulse torque on",
-        "Pulse torque off",
+        "Pulse 1 N·m on",
+        "Pulse 1 N·m off",
         "NDOBC beside",
         "3 kg load on",
         "FL → NDOBC",
         "Push on",
         "3 kg load off",
-        "Constant torque on",
+        "1 N·m on",
         "Push off",
     ]
     assert events.list_events(session.journal.initial, session.journal.commands) == reported

@@ -6,7 +6,7 @@ from fastapi import Body
 
 from svsa.runs.command import ApplyLoad, RemoveLoad
 from svsa.runs.session.session import take_loads_off
-from svsa.simulation.plant.loads import Load
+from svsa.simulation.plant.loads import PAPER_ARM_M, PAPER_MASS_KG, Load
 from svsa_server.problems import UnknownError
 from svsa_server.routes.depends import REFUSALS, NamedSession
 from svsa_server.routing import build_router
@@ -24,7 +24,7 @@ GivenLoad = Annotated[
     Body(
         examples=[
             {"kind": "paper"},
-            {"kind": "mass", "mass_kg": 3.0, "arm_m": 0.068},
+            {"kind": "mass", "mass_kg": PAPER_MASS_KG, "arm_m": PAPER_ARM_M},
             {"kind": "pulse", "torque_nm": [2.0, 0.0, 0.0], "duration_s": 0.5},
             {"kind": "push", "torque_nm": [1.0, 0.0, 0.0], "hold_s": 0.5},
             {"kind": "sine", "torque_nm": [1.0, 0.0, 0.0], "frequency_hz": 1.0},

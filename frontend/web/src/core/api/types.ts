@@ -46,7 +46,9 @@ type Defaulted =
   | "transition_s"
   | "phase_rad"
   | "offset_rad"
-  | "start_s";
+  | "start_s"
+  | "mass_kg"
+  | "arm_m";
 export type Sent<T> = T extends unknown
   ? Omit<T, Defaulted> & Partial<Pick<T, Extract<Defaulted, keyof T>>>
   : never;

@@ -4,11 +4,11 @@ import type { BenchState, Load, LoadRow, SessionState } from "../api/types";
 
 export type WeightForm = "paper" | "mass";
 
-/** `paper`: 2 N·m on all three channels; `mass`: a mass with inertia and gravity. */
+/** `paper`: 2 N·m on all three channels; `mass`: a mass with inertia and gravity, as large as the library's default. */
 export const weightForm = signal<WeightForm>("paper");
 
 export const weightOf = (form: WeightForm): Load =>
-  form === "paper" ? { kind: "paper" } : { kind: "mass", mass_kg: 3, arm_m: 0.068 };
+  form === "paper" ? { kind: "paper" } : { kind: "mass" };
 
 /** What the next 3 kg are: on a real bench a mass, whatever was chosen for a simulation. */
 export const nextWeight = (bench: BenchState | null): Load =>
