@@ -62,6 +62,7 @@ TABLE: dict[Permission, tuple[str, ...]] = {
         "POST /api/v1/tokens",
         "GET /api/v1/laws",
         "GET /api/v1/faults",
+        "GET /api/v1/effects",
         "GET /api/v1/figures",
         "GET /api/v1/ranking",
         "GET /api/v1/leaderboard",

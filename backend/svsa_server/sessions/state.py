@@ -12,6 +12,7 @@ from svsa.runs.metrics import Metrics
 from svsa.runs.records.header import BranchPoint
 from svsa.runs.records.recorder import Recorder
 from svsa.runs.session.session import Session
+from svsa.simulation.plant.effects import find_preset
 from svsa.simulation.plant.loads import ScheduledLoad
 from svsa_server.leases.lease import ControlLease, asking
 from svsa_server.leases.queue import ControlQueue
@@ -168,6 +169,7 @@ def _build_configuration(session: Session) -> ConfigurationState:
         nominal=configuration.nominal,
         comparisons=configuration.comparisons,
         effects=configuration.effects,
+        effects_preset=find_preset(configuration.effects),
         seed=configuration.seed,
     )
 

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Sequence
 
 from svsa.control.installed import get_law, is_usable
 from svsa.runs.configuration import Lane
-from svsa.simulation.plant.effects import IDEAL, RIG, Effects
+from svsa.simulation.plant.effects import PRESETS, Effects, find_preset
 from svsa.simulation.reference.trajectories import (
     ConstantPosition,
     ConstantStiffness,
@@ -27,7 +27,6 @@ _EFFECTS = {
     "noise": "noise",
     "gravity": "link weight",
 }
-_FULL = {*_EFFECTS}
 
 
 def follow(texts: Iterable[str]) -> str:
@@ -98,13 +97,10 @@ def describe_effects(effects: Effects | None) -> str:
     """ideal, rig or full as on the page; else what is switched on."""
     if effects is None:
         return UNKNOWN
-    if effects == IDEAL:
-        return "ideal"
+    preset = find_preset(effects)
+    if preset is not None:
+        return preset if effects == PRESETS[preset] else f"{preset}, own values"
     on = {name for name in _EFFECTS if getattr(effects, name) is not None}
-    for title, names in (("rig", {"encoders", "estimation"}), ("full", _FULL)):
-        if on == names and effects.delay_samples == RIG.delay_samples and effects.torque_limits:
-            plain = all(getattr(effects, name) == type(getattr(effects, name))() for name in on)
-            return title if plain else f"{title}, own values"
     parts = [_EFFECTS[name] for name in _EFFECTS if name in on]
     if effects.delay_samples:
         parts.append(f"delay {effects.delay_samples}")

@@ -5,7 +5,7 @@ nominal model; a hung mass is a load.
 """
 
 import math
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 from svsa.actuators.parameters import ActuatorParameters
 from svsa.inputs.checked import Checked, Flag, Number, Whole, quantity
@@ -85,6 +85,24 @@ RIG = Effects(encoders=Encoders(), estimation=StateEstimation(), delay_samples=1
 EVERY = RIG.changed(
     friction=Friction(), current_lag=CurrentLag(), noise=SensorNoise(), gravity=LinkGravity()
 )
+
+PresetName = Literal["ideal", "rig", "full"]
+PRESETS: dict[PresetName, Effects] = {"ideal": IDEAL, "rig": RIG, "full": EVERY}
+"""Three choices among the effects, by name."""
+
+
+def find_preset(effects: Effects) -> PresetName | None:
+    """The preset that switches on the same effects, whatever their values; None for a mixture."""
+    kind = _list_kinds(effects)
+    return next((name for name, preset in PRESETS.items() if _list_kinds(preset) == kind), None)
+
+
+def _list_kinds(effects: Effects) -> list[object]:
+    """Of each effect whether it is on; of delay and torque limits the value."""
+    return [
+        value if isinstance(value, int) else value is not None
+        for value in (getattr(effects, name) for name in Effects.model_fields)
+    ]
 
 
 class EffectConstants(NamedTuple):

@@ -4,8 +4,9 @@ from fastapi import Request
 
 import svsa
 from svsa.runs.paper import FIGURES
+from svsa.simulation.plant.effects import PRESETS
 from svsa_server.routing import build_router
-from svsa_server.schemas.lab.lab import FigureState, Health
+from svsa_server.schemas.lab.lab import EffectsPreset, FigureState, Health
 from svsa_server.schemas.lab.law import LawState, list_laws
 from svsa_server.schemas.runs.fault import FaultKindState, list_faults
 from svsa_server.sessions.laboratory import SHARED_SESSION
@@ -37,6 +38,12 @@ async def read_laws() -> list[LawState]:
 async def read_faults() -> list[FaultKindState]:
     """The table of faults: what can end a run, why, and what to try."""
     return list_faults()
+
+
+@router.get("/effects")
+async def list_effects() -> list[EffectsPreset]:
+    """The presets of non-ideal effects, as `PUT /sessions/{session}/effects` takes them."""
+    return [EffectsPreset(name=name, effects=effects) for name, effects in PRESETS.items()]
 
 
 @router.get("/figures")

@@ -1,9 +1,10 @@
-"""What goes over the wire about the lab: its figures, its health."""
+"""What goes over the wire about the lab: its figures, its presets, its health."""
 
 from typing import Literal
 
 from pydantic import BaseModel, Field
 
+from svsa.simulation.plant.effects import Effects, PresetName
 from svsa.simulation.reference.trajectories import PositionReference, StiffnessReference
 
 
@@ -15,6 +16,13 @@ class FigureState(BaseModel):
     position: PositionReference
     stiffness: StiffnessReference
     claim: str
+
+
+class EffectsPreset(BaseModel):
+    """A choice among the non-ideal effects."""
+
+    name: PresetName
+    effects: Effects
 
 
 class Health(BaseModel):

@@ -10,7 +10,7 @@ from svsa.control.observers.disturbance import ObserverBandwidth
 from svsa.errors import ParameterError
 from svsa.inputs.checked import Checked, quantity
 from svsa.runs.configuration import MAX_LANES, Lane
-from svsa.simulation.plant.effects import Effects
+from svsa.simulation.plant.effects import Effects, PresetName
 from svsa.simulation.reference.trajectories import PositionReference, StiffnessReference
 from svsa_server.schemas.lab.gain import GainsState
 from svsa_server.schemas.lab.law import InstalledLane
@@ -87,4 +87,7 @@ class ConfigurationState(BaseModel):
     nominal: ActuatorParameters
     comparisons: tuple[Lane, ...]
     effects: Effects
+    effects_preset: PresetName | None = Field(
+        description="The preset with the same effects, whatever their values; null for a mixture"
+    )
     seed: int

@@ -4,7 +4,6 @@ import type { Figure, SessionState, Speed } from "../core/api/types";
 import { perform } from "../core/state/actions";
 import { toggleRun } from "../core/state/commands";
 import { mayCommand, takesCommands } from "../core/state/control";
-import { presetOf } from "../core/state/plant";
 import { isLive } from "../core/state/session";
 import { text } from "../core/text/en";
 
@@ -16,11 +15,11 @@ const STEPS_MS = [1, 10, 100, 1000];
 
 /** A figure runs with the lanes and the realism that the student has chosen. */
 function run(figure: Figure, { bench, configuration }: SessionState) {
-  const { law, comparisons, effects } = configuration;
+  const { law, comparisons, effects, effects_preset: preset } = configuration;
   if (bench !== null) return runFigure(figure, law, {});
   return runFigure(figure, law, {
     ...(comparisons.length > 0 && { comparisons }),
-    ...(presetOf(effects) !== "ideal" && { effects }),
+    ...(preset !== "ideal" && { effects }),
   });
 }
 

@@ -19,6 +19,7 @@ export type ActuatorParameters = Configuration["actuator"];
 export type Lane = Schemas["Lane"];
 export type Gains = Schemas["Gains"];
 export type SessionFault = NonNullable<SessionState["fault"]>;
+export type EffectsPreset = Schemas["EffectsPreset"];
 /** A row of the table of faults. */
 export type FaultKind = Schemas["FaultKindState"];
 /** The name of a law. */

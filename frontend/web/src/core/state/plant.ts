@@ -1,5 +1,5 @@
 /** The plant of a session or a run: simulated, with its non-ideal effects, or an emulated or real bench. */
-import type { BenchState, Effects, EffectsRequest, RunDetails } from "../api/types";
+import type { BenchState, RunDetails } from "../api/types";
 
 export type Mark = "emulated" | "real" | "unknown";
 
@@ -15,7 +15,7 @@ export function markOf(plant: RunDetails["plant"]): Mark | null {
   return plant === "emulated" ? "emulated" : "real";
 }
 
-// What separates the simulation from a bench: the effects, and three ways to choose among them.
+// What separates the simulation from a bench: the effects.
 
 export const EFFECTS = [
   "encoders",
@@ -26,21 +26,3 @@ export const EFFECTS = [
   "gravity",
 ] as const;
 export type Effect = (typeof EFFECTS)[number];
-export type Preset = "ideal" | "rig" | "full";
-
-const RIG: EffectsRequest = { encoders: {}, estimation: {}, delay_samples: 1 };
-export const PRESETS: Record<Preset, EffectsRequest> = {
-  ideal: {},
-  rig: RIG,
-  full: { ...RIG, friction: {}, current_lag: {}, noise: {}, gravity: {} },
-};
-const NAMES = Object.keys(PRESETS) as Preset[];
-
-/** The choice that switches on just these effects, whatever their values; null for none of them. */
-export function presetOf(effects: Effects): Preset | null {
-  if (!effects.torque_limits) return null;
-  const isThis = (name: Preset) =>
-    effects.delay_samples === (PRESETS[name].delay_samples ?? 0) &&
-    EFFECTS.every((effect) => Boolean(effects[effect]) === effect in PRESETS[name]);
-  return NAMES.find(isThis) ?? null;
-}

@@ -1,7 +1,6 @@
-import { putEffects } from "../../core/api/client";
 import type { SessionState } from "../../core/api/types";
 import { perform } from "../../core/state/actions";
-import { PRESETS, type Preset, presetOf } from "../../core/state/plant";
+import { choosePreset, type Preset } from "../../core/state/presets";
 import { text } from "../../core/text/en";
 import { Choice } from "../../core/widgets/choice";
 import { Problem } from "../../core/widgets/problem";
@@ -10,15 +9,14 @@ import { Group } from "./group";
 import { ParameterTable } from "./parameters";
 
 const words = text.realism;
-const CHOICES = (Object.keys(PRESETS) as Preset[]).map((value) => ({
+const CHOICES = (Object.keys(words.presets) as Preset[]).map((value) => ({
   value,
   label: words.presets[value],
 }));
 
 /** What separates the simulation from a bench: effects, and errors of the controller's model. */
 export function Realism({ state }: { state: SessionState }) {
-  const { effects, actuator, nominal } = state.configuration;
-  const preset = presetOf(effects);
+  const { effects, effects_preset: preset, actuator, nominal } = state.configuration;
   return (
     <Group
       title={words.title}
@@ -27,7 +25,7 @@ export function Realism({ state }: { state: SessionState }) {
           label={words.choose}
           options={CHOICES}
           value={preset}
-          onChoose={(next) => perform("realism.preset", () => putEffects(PRESETS[next]))}
+          onChoose={(next) => perform("realism.preset", () => choosePreset(next))}
         />
       }
     >

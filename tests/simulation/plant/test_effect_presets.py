@@ -1,0 +1,35 @@
+"""The presets of non-ideal effects: which effects each has on, and how a choice is recognized."""
+
+import pytest
+
+from svsa.simulation.plant.effects import (
+    EVERY,
+    IDEAL,
+    PRESETS,
+    RIG,
+    Effects,
+    SensorNoise,
+    find_preset,
+)
+
+
+@pytest.mark.parametrize("name", PRESETS)
+def test_a_preset_is_recognized(name: str) -> None:
+    assert find_preset(PRESETS[name]) == name
+
+
+def test_a_preset_is_recognized_whatever_its_values() -> None:
+    assert find_preset(EVERY.changed(noise=SensorNoise(motor_std_rad=1e-4))) == "full"
+
+
+@pytest.mark.parametrize(
+    "effects",
+    [
+        RIG.changed(delay_samples=2),
+        RIG.changed(noise=SensorNoise()),
+        EVERY.changed(gravity=None),
+        IDEAL.changed(torque_limits=False),
+    ],
+)
+def test_another_choice_is_a_mixture(effects: Effects) -> None:
+    assert find_preset(effects) is None
