@@ -7,7 +7,7 @@ import numpy as np
 
 from svsa.actuators.signals import CHANNEL_INDEX
 from svsa.errors import StateError
-from svsa.simulation.loop.tally import RECOVERY_SHARE, STEADY_STATE_S
+from svsa.simulation.loop.tally import STEADY_STATE_S, follow_errors
 
 MEASURED = (
     "position_error_rad",
@@ -55,9 +55,8 @@ class RunningMetrics:
         self._squares = np.zeros(len(_COLUMNS))
         self._error_sum = 0.0
         self._peaks = np.zeros(len(_COLUMNS))
-        self._last_outside = 0
+        self._inside, self._recovered = 0.0, -1.0
         self._last_size = math.inf
-        self._recovered: int | None = None
         self._settled = math.ceil(STEADY_STATE_S / period_s - 1e-9)
         self._newest = np.empty(0)
 
@@ -76,8 +75,14 @@ class RunningMetrics:
         if missed.any():
             sizes = np.where(missed[:, None], 0.0, sizes)
         peaks = np.maximum(np.maximum.accumulate(sizes[:, 0]), self._peaks[0])
-        if self._recovered is None:
-            self._find_recovery(np.flatnonzero(errors > RECOVERY_SHARE * peaks), len(values))
+        self._inside, self._recovered = follow_errors(
+            np.ascontiguousarray(errors),
+            peaks,
+            self._count,
+            self._settled,
+            self._inside,
+            self._recovered,
+        )
         self._squares += np.sum(sizes**2, axis=0)
         self._error_sum += float(np.sum(sizes[:, 0]))
         self._peaks = np.maximum(self._peaks, sizes.max(axis=0))
@@ -94,15 +99,6 @@ class RunningMetrics:
             held = chain[np.maximum.accumulate(known)][1:]
         self._last_size = float(held[-1])
         return held
-
-    def _find_recovery(self, outside: np.ndarray, count: int) -> None:
-        """Look for the first time inside that is long enough; outside: rows of the next `count`."""
-        entries = np.concatenate([[self._last_outside], self._count + outside + 1])
-        ends = np.concatenate([self._count + outside, [self._count + count]])
-        settled = np.flatnonzero(ends - entries >= self._settled)
-        self._last_outside = int(entries[-1])
-        if len(settled):
-            self._recovered = int(entries[settled[0]])
 
     def summarize(self) -> Metrics | None:
         """The metrics so far; None before the first sample."""
@@ -125,7 +121,7 @@ class RunningMetrics:
                 self._error_sum * self._period if is_known else math.nan
             ),
             effort_n2m2_s=float(squares[2] + squares[3]) * self._period,
-            recovery_time_s=None if self._recovered is None else self._recovered * self._period,
+            recovery_time_s=None if self._recovered < 0.0 else self._recovered * self._period,
             steady_state_position_error_rad=self._measure_steady_state(),
         )
 

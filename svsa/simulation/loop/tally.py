@@ -83,6 +83,44 @@ def start_tally(nothing: float) -> Tally:
 
 
 @compiled
+def follow_recovery(
+    counts: bool,
+    error: float,
+    peak: float,
+    passed: float,
+    settled: float,
+    inside: float,
+    recovered: float,
+) -> tuple[float, float]:
+    """The 2 % rule of the recovery time, by one tick: the only place where it is computed.
+
+    counts: whether the tick is measured. error: |q_d − q| at it, rad. peak: the largest so far,
+    rad. passed: measured ticks including this one. settled: ticks in 0.5 s. inside: the measured
+    tick from which on the error is within 2 % of its peak. recovered: that from which on it stayed
+    so for 0.5 s, −1 while it has not. Returns (inside, recovered).
+    """
+    inside = choose(counts & (error > RECOVERY_SHARE * peak), passed, inside)
+    stayed = counts & (recovered < 0.0) & (passed - inside >= settled)
+    return inside, choose(stayed, inside, recovered)
+
+
+@compiled
+def follow_errors(
+    errors: np.ndarray, peaks: np.ndarray, count: int, settled: int, inside: float, recovered: float
+) -> tuple[float, float]:
+    """`follow_recovery` over many ticks of one run. errors, peaks: (ticks,), rad.
+
+    count: ticks measured before. Returns (inside, recovered).
+    """
+    for i in range(errors.shape[0]):
+        passed = float(count + i + 1)
+        inside, recovered = follow_recovery(
+            True, errors[i], peaks[i], passed, float(settled), inside, recovered
+        )
+    return inside, recovered
+
+
+@compiled
 def measure(
     tally: Tally,
     runs: bool,
@@ -105,8 +143,8 @@ def measure(
     e, s = choose(counts, abs(position), 0.0), choose(counts, abs(stiffness), 0.0)
     u1, u2 = choose(counts, abs(torque.u1), 0.0), choose(counts, abs(torque.u2), 0.0)
     peak, passed = greatest(t.position_peak, e), float(tick - window.begin + 1)
-    inside = choose(counts & (e > RECOVERY_SHARE * peak), passed, t.inside)
-    stayed = counts & (t.recovered < 0.0) & (passed - inside >= float(window.settled))
+    settled = float(window.settled)
+    inside, recovered = follow_recovery(counts, e, peak, passed, settled, t.inside, t.recovered)
     is_limited = (u1 >= AT_LIMIT * blocks.torque1_max) | (u2 >= AT_LIMIT * blocks.torque2_max)
     late = choose(counts & (tick >= window.end - window.settled), e, 0.0)
     return Tally(
@@ -123,7 +161,7 @@ def measure(
         choose(counts, stiffness, t.stiffness_last),
         t.steady_state_squares + late * late,
         inside,
-        choose(stayed, inside, t.recovered),
+        recovered,
         choose(is_limited, t.limited + 1.0, t.limited),
     )
 
