@@ -42,6 +42,7 @@ from svsa_server.routes.access import access, audit, classroom
 from svsa_server.routes.evaluation import falsifications, jobs, ranking, scenarios, studies, tunings
 from svsa_server.routes.hardware import bench
 from svsa_server.routes.lab import (
+    claims,
     design,
     identification,
     lab,
@@ -137,6 +138,7 @@ def build_routes() -> list[BaseRoute]:
         classroom,
         audit,
         sessions,
+        claims,
         lease,
         bench,
         settings,

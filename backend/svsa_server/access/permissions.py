@@ -93,6 +93,7 @@ TABLE: dict[Permission, tuple[str, ...]] = {
         f"GET {_SESSION}/stream",
         f"WEBSOCKET {_SESSION}/stream",
         f"GET {_SESSION}/origin",
+        f"GET {_SESSION}/claim",
         "GET /viser/{session}",
         "WEBSOCKET /viser/{session}",
         "GET /viser/{session}/{path:path}",

@@ -20,6 +20,9 @@ export type Lane = Schemas["Lane"];
 export type Gains = Schemas["Gains"];
 export type SessionFault = NonNullable<SessionState["fault"]>;
 export type EffectsPreset = Schemas["EffectsPreset"];
+/** A figure's run compared with the paper's claim. */
+export type Claim = Schemas["ClaimState"];
+export type ClaimNumbers = Claim["numbers"][number];
 /** A row of the table of faults. */
 export type FaultKind = Schemas["FaultKindState"];
 /** The name of a law. */

@@ -230,12 +230,12 @@ export const learningText = {
     holdsNotSign: "✕",
     overall: { holds: "The claim holds.", fails: "Not all of the claim holds." },
     parts: {
-      alikeBefore: "Both laws track well before the load: below 0.1°",
-      flPoor: "FL tracks poorly after it: more than ten times its error before",
-      ndobcGoesOn: "NDOBC goes on: back to its error before, within a factor of two",
-      stiffnessKept: "NDOBC's stiffness error is unmoved by the load: below 0.01 N·m/rad",
-      bothGrow: "Position and stiffness error both grow with FL",
-      ndobcBetter: "NDOBC stays better in both: at least 100 times",
+      alike_before: "Both laws track well before the load: below 0.1°",
+      fl_poor: "FL tracks poorly after it: more than ten times its error before",
+      ndobc_goes_on: "NDOBC goes on: back to its error before, within a factor of two",
+      stiffness_kept: "NDOBC's stiffness error is unmoved by the load: below 0.01 N·m/rad",
+      both_grow: "Position and stiffness error both grow with FL",
+      ndobc_better: "NDOBC stays better in both: at least 100 times",
     },
     partNumbers: (first: string, second: string) => `${first} and ${second}`,
     sizes:

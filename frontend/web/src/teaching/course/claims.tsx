@@ -1,42 +1,41 @@
 import { signal } from "@preact/signals";
-import type { Figure } from "../../core/api/types";
+import type { Claim, ClaimNumbers, Figure } from "../../core/api/types";
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
 import { figureClaims, loadClaims } from "./claimtexts";
 import { ErrorCourse } from "./course";
-import { type Course, judge, measure, type Numbers } from "./outcome";
-import { runFigureApart } from "./trial";
+import { runFigureApart, type Tried } from "./trial";
 
 const words = text.claims;
 const FIGURES: readonly Figure[] = ["4a", "4b", "5"];
 
 interface Trial {
   figure: Figure;
-  course: Course | null;
+  tried: Tried | null;
   problem: string;
 }
 
 const trial = signal<Trial | null>(null);
 
 async function check(figure: Figure): Promise<void> {
-  trial.value = { figure, course: null, problem: "" };
+  trial.value = { figure, tried: null, problem: "" };
   try {
-    const [course] = await Promise.all([runFigureApart(figure), loadClaims()]);
-    if (trial.peek()?.figure === figure) trial.value = { figure, course, problem: "" };
+    const [tried] = await Promise.all([runFigureApart(figure), loadClaims()]);
+    if (trial.peek()?.figure === figure) trial.value = { figure, tried, problem: "" };
   } catch (error) {
-    trial.value = { figure, course: null, problem: error instanceof Error ? error.message : "" };
+    trial.value = { figure, tried: null, problem: error instanceof Error ? error.message : "" };
   }
 }
 
-const degrees = (value: number) => formatNumber(value, 3, 4);
+const degrees = (value: number | null) => formatNumber(value ?? Number.NaN, 3, 4);
 
-function NumbersTable({ fl, ndobc }: { fl: Numbers; ndobc: Numbers }) {
+function NumbersTable({ numbers }: Pick<Claim, "numbers">) {
   const rows = [
-    [words.rows.before, words.degrees, fl.beforeDeg, ndobc.beforeDeg],
-    [words.rows.peak, words.degrees, fl.peakDeg, ndobc.peakDeg],
-    [words.rows.steady, words.degrees, fl.steadyDeg, ndobc.steadyDeg],
-    [words.rows.stiffness, words.stiffnessUnit, fl.stiffnessSteady, ndobc.stiffnessSteady],
-  ] as const;
+    [words.rows.before, words.degrees, "before_deg"],
+    [words.rows.peak, words.degrees, "peak_deg"],
+    [words.rows.steady, words.degrees, "steady_deg"],
+    [words.rows.stiffness, words.stiffnessUnit, "stiffness_steady_nm_per_rad"],
+  ] as const satisfies readonly (readonly [string, string, keyof ClaimNumbers])[];
   return (
     <table class="claim-numbers">
       <caption class="visually-hidden">{words.numbers}</caption>
@@ -50,13 +49,14 @@ function NumbersTable({ fl, ndobc }: { fl: Numbers; ndobc: Numbers }) {
         </tr>
       </thead>
       <tbody>
-        {rows.map(([label, unit, first, second]) => (
+        {rows.map(([label, unit, name]) => (
           <tr key={label}>
             <th scope="row">
               {label} <span class="unit">{unit}</span>
             </th>
-            <td>{degrees(first)}</td>
-            <td>{degrees(second)}</td>
+            {numbers.map((of) => (
+              <td key={of.law}>{degrees(of[name])}</td>
+            ))}
           </tr>
         ))}
       </tbody>
@@ -64,11 +64,9 @@ function NumbersTable({ fl, ndobc }: { fl: Numbers; ndobc: Numbers }) {
   );
 }
 
-function Result({ figure, course }: { figure: Figure; course: Course }) {
-  const fl = measure(course, 0);
-  const ndobc = measure(course, 1);
-  const findings = judge(figure, fl, ndobc);
-  const areAll = findings.every(({ holds }) => holds);
+function Result({ figure, tried }: { figure: Figure; tried: Tried }) {
+  const { course, claim } = tried;
+  const areAll = claim.parts.every(({ holds }) => holds);
   return (
     <section
       class="claim-result"
@@ -79,9 +77,9 @@ function Result({ figure, course }: { figure: Figure; course: Course }) {
         <strong>{words.claim}</strong> {figureClaims.value.get(figure)}
       </blockquote>
       <ErrorCourse course={course} />
-      <NumbersTable fl={fl} ndobc={ndobc} />
+      <NumbersTable numbers={claim.numbers} />
       <ul class="findings">
-        {findings.map(({ part, holds }) => (
+        {claim.parts.map(({ part, holds }) => (
           <li key={part} class={holds ? "is-held" : "is-failed"}>
             <span aria-hidden="true">{holds ? words.holdsSign : words.holdsNotSign}</span>
             {words.parts[part]}
@@ -99,7 +97,7 @@ function Result({ figure, course }: { figure: Figure; course: Course }) {
 /** The paper's figures as experiments of one press, laid beside what the paper says. */
 export function Claims() {
   const now = trial.value;
-  const isRunning = now !== null && now.course === null && now.problem === "";
+  const isRunning = now !== null && now.tried === null && now.problem === "";
   return (
     <div class="claims">
       <h3>{words.heading}</h3>
@@ -124,7 +122,7 @@ export function Claims() {
           {words.failed(now.problem)}
         </p>
       )}
-      {now?.course && <Result figure={now.figure} course={now.course} />}
+      {now?.tried && <Result figure={now.figure} tried={now.tried} />}
     </div>
   );
 }

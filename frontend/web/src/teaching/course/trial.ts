@@ -1,6 +1,6 @@
 /** A figure of the paper run with both laws in a session of its own, and what came of it. */
 import { API, request } from "../../core/api/request";
-import type { Figure, Hello, SessionState } from "../../core/api/types";
+import type { Claim, Figure, Hello, SessionState } from "../../core/api/types";
 import { BatchDecoder } from "../../core/stream/decoder";
 import { type Course, sliceCourse } from "./outcome";
 
@@ -8,13 +8,19 @@ const DURATION_S = 20;
 const MAX_STEP = 10_000;
 const RATE_HZ = 1000;
 const PATIENCE_MS = 20_000;
-const CHANNELS = ["time_s", "position_error_rad", "stiffness_error_nm_per_rad"] as const;
+const CHANNELS = ["time_s", "position_error_rad"] as const;
 
 const ask = (method: "post" | "get" | "delete" | "put", path: string, body?: unknown) =>
   request(method, path, body, PATIENCE_MS) as Promise<SessionState>;
 
+export interface Tried {
+  course: Course;
+  /** The run compared with the paper's claim, by the server. */
+  claim: Claim;
+}
+
 /** The whole run as FL and NDOBC went through it. */
-export async function runFigureApart(figure: Figure): Promise<Course> {
+export async function runFigureApart(figure: Figure): Promise<Tried> {
   const { session } = await ask("post", "sessions", {
     figure,
     law: "fl",
@@ -29,7 +35,8 @@ export async function runFigureApart(figure: Figure): Promise<Course> {
       const ticks = Math.min(MAX_STEP, last - state.tick);
       state = await ask("post", `${path}/step`, { ticks });
     }
-    return await readHistory(path, state.tick);
+    const claim = (await request("get", `${path}/claim?figure=${figure}`)) as Claim;
+    return { course: await readHistory(path, state.tick), claim };
   } finally {
     await request("delete", path).catch(() => undefined);
   }
@@ -74,14 +81,11 @@ function readHistory(path: string, lastTick: number): Promise<Course> {
 }
 
 function join(parts: readonly Course[]): Course {
-  const laws = (key: "positionRad" | "stiffness") =>
-    [0, 1].map((law) => parts.flatMap((part) => part[key][law] as number[])) as [
-      number[],
-      number[],
-    ];
   return {
     timeS: parts.flatMap((part) => part.timeS),
-    positionRad: laws("positionRad"),
-    stiffness: laws("stiffness"),
+    positionRad: [
+      parts.flatMap((part) => part.positionRad[0]),
+      parts.flatMap((part) => part.positionRad[1]),
+    ],
   };
 }

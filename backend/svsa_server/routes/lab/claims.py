@@ -1,0 +1,76 @@
+"""Compare a figure's run in a session with what the paper claims of it."""
+
+from typing import Annotated, Literal
+
+from fastapi import Query
+from pydantic import BaseModel, Field
+
+from svsa.actuators.signals import CHANNEL_INDEX
+from svsa.errors import StateError
+from svsa.runs.claims import CLAIM_LAWS, ClaimNumbers, judge_claim, measure_claim
+from svsa.runs.metrics import MEASURED
+from svsa_server.routes.depends import REFUSALS, NamedSession
+from svsa_server.routing import build_router
+from svsa_server.sessions.lock import TurnRoute
+
+router = build_router("/sessions", tags=["session"], responses=REFUSALS, route_class=TurnRoute)
+
+
+class ClaimNumbersState(BaseModel):
+    """What one law did; null where the run did not reach the window."""
+
+    law: str
+    before_deg: float | None = Field(description="rms position error, 1-5 s")
+    peak_deg: float | None = Field(description="Greatest position error, 5-7 s")
+    steady_deg: float | None = Field(description="rms position error, 8-20 s")
+    stiffness_before_nm_per_rad: float | None = Field(description="rms stiffness error, 1-5 s")
+    stiffness_steady_nm_per_rad: float | None = Field(description="rms stiffness error, 8-20 s")
+
+
+class ClaimPart(BaseModel):
+    """A part of the paper's claim."""
+
+    part: Literal[
+        "alike_before",
+        "fl_poor",
+        "ndobc_goes_on",
+        "stiffness_kept",
+        "both_grow",
+        "ndobc_better",
+    ]
+    holds: bool
+
+
+class ClaimState(BaseModel):
+    """A figure's run compared with the paper's claim."""
+
+    numbers: list[ClaimNumbersState] = Field(description="Of FL, then of NDOBC")
+    parts: list[ClaimPart]
+
+
+@router.get("/{session}/claim")
+def compare_claim(
+    hosted: NamedSession,
+    figure: Annotated[Literal["4a", "4b", "5"], Query(description="Figure that the run is of")],
+) -> ClaimState:
+    """Which parts of the paper's claim hold of this run, of FL as lane 1 and NDOBC as lane 2."""
+    run, history = hosted.session.run, hosted.session.journal.history
+    laws = tuple(lane.law for lane in run.configuration.lanes)
+    if laws != CLAIM_LAWS or history.first_tick:
+        raise StateError("A claim is about FL and NDOBC as lanes 1 and 2, from the start of a run.")
+    columns = [CHANNEL_INDEX[name] for name in MEASURED]
+    rows = history.read(0, 1, columns, [0, 1])
+    fl, ndobc = (measure_claim(rows[:, lane], run.period_s) for lane in (0, 1))
+    judged = judge_claim(figure, fl, ndobc)
+    return ClaimState(
+        numbers=[_tell(law, one) for law, one in zip(laws, (fl, ndobc), strict=True)],
+        parts=[ClaimPart.model_validate({"part": part, "holds": judged[part]}) for part in judged],
+    )
+
+
+def _tell(law: str, numbers: ClaimNumbers) -> ClaimNumbersState:
+    """NaN has no word in JSON: null."""
+    reported = {
+        name: value if value == value else None for name, value in numbers._asdict().items()
+    }
+    return ClaimNumbersState(law=law, **reported)

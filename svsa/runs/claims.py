@@ -1,0 +1,92 @@
+"""The claims of the paper on its simulated figures: their numbers, and which parts hold.
+
+The paper gives neither gains nor limits, so the order of the errors confirms a figure and their
+size does not. A part therefore compares errors with each other, or with a bound that is far from
+both laws.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from svsa.runs.metrics import Metrics, RunningMetrics
+from svsa.runs.paper import BEFORE_S, PEAK_S, STEADY_S
+
+CLAIM_LAWS = ("fl", "ndobc")
+VARIABLE_STIFFNESS = "5"
+SMALL_DEG = 0.1
+UNMOVED_NM_PER_RAD = 0.01
+AS_BEFORE, MUCH, FAR = 2.0, 10.0, 100.0
+
+
+class ClaimNumbers(NamedTuple):
+    """What one law did in a figure, in the windows of `svsa.runs.paper`; NaN if it did not last.
+
+    before_deg, steady_deg: rms position error before the load and long after it, degrees. peak_deg:
+    greatest position error at the load, degrees. stiffness_before_nm_per_rad,
+    stiffness_steady_nm_per_rad: rms stiffness error, N·m/rad.
+    """
+
+    before_deg: float
+    peak_deg: float
+    steady_deg: float
+    stiffness_before_nm_per_rad: float
+    stiffness_steady_nm_per_rad: float
+
+
+def measure_claim(measured: np.ndarray, period_s: float) -> ClaimNumbers:
+    """The numbers of one law.
+
+    Args:
+        measured: The run from t = 0 on, (ticks, 4), columns `svsa.runs.metrics.MEASURED`, SI.
+        period_s: Control period, s.
+
+    Returns:
+        The numbers; NaN in a window that the run did not reach.
+    """
+    before, peak, steady = (
+        _measure(measured, period_s, window) for window in (BEFORE_S, PEAK_S, STEADY_S)
+    )
+    nan = math.nan
+    return ClaimNumbers(
+        math.degrees(before.rms_position_error_rad) if before else nan,
+        math.degrees(peak.peak_position_error_rad) if peak else nan,
+        math.degrees(steady.rms_position_error_rad) if steady else nan,
+        before.rms_stiffness_error_nm_per_rad if before else nan,
+        steady.rms_stiffness_error_nm_per_rad if steady else nan,
+    )
+
+
+def _measure(measured: np.ndarray, period_s: float, window: tuple[float, float]) -> Metrics | None:
+    running = RunningMetrics(period_s)
+    begin, end = (round(time_s / period_s) for time_s in window)
+    running.update_measured(measured[begin:end])
+    return running.summarize()
+
+
+def judge_claim(figure: str, fl: ClaimNumbers, ndobc: ClaimNumbers) -> dict[str, bool]:
+    """Which parts of the paper's claim hold.
+
+    Args:
+        figure: Key of the figure: "4a", "4b" or "5".
+        fl: Numbers of feedback linearization.
+        ndobc: Numbers of NDOBC.
+
+    Returns:
+        Of each part whether it holds. A part with a number that is NaN does not.
+    """
+    parts = {"alike_before": fl.before_deg < SMALL_DEG and ndobc.before_deg < SMALL_DEG}
+    stiffness = (fl.stiffness_before_nm_per_rad, fl.stiffness_steady_nm_per_rad)
+    if figure == VARIABLE_STIFFNESS:
+        grows = fl.steady_deg > MUCH * fl.before_deg and stiffness[1] > MUCH * stiffness[0]
+        better = (
+            fl.steady_deg > FAR * ndobc.steady_deg
+            and stiffness[1] > FAR * ndobc.stiffness_steady_nm_per_rad
+        )
+        return parts | {"both_grow": grows, "ndobc_better": better}
+    return parts | {
+        "fl_poor": fl.steady_deg > MUCH * fl.before_deg,
+        "ndobc_goes_on": ndobc.steady_deg < AS_BEFORE * ndobc.before_deg,
+        "stiffness_kept": ndobc.stiffness_steady_nm_per_rad < UNMOVED_NM_PER_RAD,
+    }
