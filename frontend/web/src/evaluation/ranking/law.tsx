@@ -1,6 +1,6 @@
 import type { Row } from "../../core/api/ranking";
 import { Formula } from "../../core/equations/formula";
-import { writeFault } from "../../core/state/faults";
+import { shortenFault } from "../../core/state/faults";
 import { lawOf, titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { formatError, formatNumber } from "../../core/units";
@@ -42,7 +42,7 @@ function Outcomes({ row }: { row: Row }) {
                     formatNumber(one.peak_deg, 3, 2),
                     formatNumber(one.torque_change_nm, 2, 3),
                   )
-                : writeFault(one.fault)}
+                : shortenFault(one.fault)}
             </b>
           </button>
         </li>

@@ -1,6 +1,6 @@
 import type { Row } from "../../core/api/ranking";
 import { dotOf } from "../../core/plots/lawlinestyles";
-import { writeFault } from "../../core/state/faults";
+import { shortenFault } from "../../core/state/faults";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { ScoreBar, SortHead } from "../../core/widgets/tables";
@@ -40,7 +40,7 @@ function Score({ row }: { row: Row }) {
 /** What stands where there is no number: why the run ended, or that it never settled. */
 const wordsOf = (column: Column, row: Row): string => {
   const fault = column.faultOf(row);
-  if (fault !== null) return writeFault(fault);
+  if (fault !== null) return shortenFault(fault);
   return column.key === "recovery" ? words.never : words.noNumber;
 };
 
