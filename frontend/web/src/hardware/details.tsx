@@ -4,9 +4,8 @@ import { text } from "../core/text/en";
 import { formatLapse, formatNumber } from "../core/units";
 import { Heat } from "./heat";
 import { Homing } from "./homing";
-import { type Freshness, freshnessOf } from "./lateness";
 import { Loop } from "./loop";
-import { isStarting } from "./status";
+import { type Freshness, freshnessOf, isStarting } from "./status";
 
 const SIGNS = { fresh: "✓", stale: "▲", lost: "▲" } as const;
 /** The first two sources; the third is the deflection encoder. */

@@ -5,7 +5,7 @@ import { perform } from "../core/state/actions";
 import { mayCommand } from "../core/state/control";
 import { personName, rememberPerson } from "../core/state/preferences";
 import { text } from "../core/text/en";
-import { Problem } from "../core/widgets/problem";
+import { Problem } from "../core/widgets/form";
 import { allowedOn } from "./status";
 
 const { homing: words } = text.bench;

@@ -2,7 +2,7 @@ import type { LoopState } from "../core/api/types";
 import { isLive } from "../core/state/session";
 import { text } from "../core/text/en";
 import { formatLapse } from "../core/units";
-import { barsOf, decadesIn } from "./lateness";
+import { barsOf, decadesIn } from "./status";
 
 const { loop: words } = text.bench;
 const WIDTH = 240;

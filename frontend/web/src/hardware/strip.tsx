@@ -1,9 +1,8 @@
 import { useId, useState } from "preact/hooks";
 import type { BenchState } from "../core/api/types";
-import { mark } from "../core/state/bench";
-import { isLive } from "../core/state/session";
+import { isLive, mark } from "../core/state/session";
 import { text } from "../core/text/en";
-import { Problem } from "../core/widgets/problem";
+import { Problem } from "../core/widgets/form";
 import { BenchButtons } from "./buttons";
 import { BenchDetails } from "./details";
 import { HeatWarning } from "./heat";

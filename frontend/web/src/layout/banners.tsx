@@ -3,11 +3,10 @@ import { told } from "../core/api/outcome";
 import { perform } from "../core/state/actions";
 import { isAnother, phase, session } from "../core/state/session";
 import { text } from "../core/text/en";
-import { Problem } from "../core/widgets/problem";
+import { Problem } from "../core/widgets/form";
 import { ControlBanner } from "../lab/lease/banner";
-import { FaultAdvice } from "../lab/safety/advice";
-import { StopBanners } from "../lab/safety/stopbanner";
-import { ReturnCodeBanner } from "../teaching/classroom/returncode";
+import { FaultAdvice, StopBanners } from "../lab/safety/stopbanner";
+import { ReturnCodeBanner } from "../teaching/classroom/join";
 import { SavedNote } from "./savednote";
 
 /** Of a command whose answer was lost: that nobody knows yet, or that it was carried out. */

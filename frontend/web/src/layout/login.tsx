@@ -4,10 +4,8 @@ import { RefusedError } from "../core/api/errors";
 import { access, comings, learnAccess } from "../core/state/control";
 import { openStream, phase } from "../core/state/session";
 import { text } from "../core/text/en";
-import { StopBanners } from "../lab/safety/stopbanner";
-import { StopButton } from "../lab/safety/stopbutton";
-import { Join } from "../teaching/classroom/join";
-import { SecretForm } from "../teaching/classroom/secretform";
+import { StopBanners, StopButton } from "../lab/safety/stopbanner";
+import { Join, SecretForm } from "../teaching/classroom/join";
 
 /** Asks once for what lets one in; the server keeps it in a cookie. */
 export function Login() {

@@ -2,7 +2,7 @@
 import { effect } from "@preact/signals";
 import emulatedIcon from "../core/icons/emulated.svg";
 import realIcon from "../core/icons/real.svg";
-import { mark } from "../core/state/bench";
+import { mark } from "../core/state/session";
 import { text } from "../core/text/en";
 import { PlantMark } from "../core/widgets/plantmark";
 

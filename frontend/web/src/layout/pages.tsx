@@ -5,8 +5,7 @@ import { session } from "../core/state/session";
 import { text } from "../core/text/en";
 import { Popup } from "../core/widgets/popup";
 import { isOpen as isTuning } from "../lab/tuning/tuning";
-import { isOfRuns, type Place, place } from "../runs/list/place";
-import { PlaceLink } from "../runs/list/placelink";
+import { isOfRuns, type Place, PlaceLink, place } from "../runs/list/place";
 
 const words = text.pages;
 type Page =

@@ -1,6 +1,6 @@
 import type { RunDetails } from "../core/api/types";
 import { text } from "../core/text/en";
-import { PlaceLink } from "../runs/list/placelink";
+import { PlaceLink } from "../runs/list/place";
 import { type Saved, saved } from "../runs/list/saved";
 import { formatDuration } from "../runs/list/words";
 import { isOfLesson } from "../teaching/course/lesson";

@@ -1,13 +1,13 @@
 import type { ComponentChildren } from "preact";
 import { useLayoutEffect, useRef } from "preact/hooks";
 import type { BenchState, SessionState } from "../core/api/types";
-import { isLive, missedSamples, phase, session } from "../core/state/session";
+import { isLive, missedSamples, phase, samples, session } from "../core/state/session";
 import { text } from "../core/text/en";
-import { formatLapse, formatNumber, formatSeconds } from "../core/units";
+import { formatLapse, formatNumber, formatSeconds, formatTime } from "../core/units";
+import { useLiveText } from "../core/widgets/live";
 import { isStarting } from "../hardware/status";
 import { ControlCell } from "../lab/lease/cell";
-import { StopButton } from "../lab/safety/stopbutton";
-import { Clock } from "./clock";
+import { StopButton } from "../lab/safety/stopbanner";
 import { CornerMark } from "./marks";
 
 const STATUS_SIGNS = { running: "▶", paused: "❚❚", fault: "▲" } as const;
@@ -165,5 +165,17 @@ export function StatusBar() {
       </dl>
       <StopButton />
     </section>
+  );
+}
+
+const readTime = () => formatTime(samples.ring.newestTime || 0);
+
+/** Session time of the newest sample. */
+export function Clock() {
+  const element = useLiveText<HTMLSpanElement>(readTime);
+  return (
+    <span class="clock" title={text.status.timeHint} role="timer" aria-label={text.status.time}>
+      <span ref={element} />
+    </span>
   );
 }

@@ -3,13 +3,11 @@ import { isLive, session } from "../core/state/session";
 import { text } from "../core/text/en";
 import { HelpButton } from "../lab/keys/help";
 import { CallsButton } from "../lab/script/drawer";
-import { isOfLab, place } from "../runs/list/place";
-import { PlaceLink } from "../runs/list/placelink";
+import { isOfLab, PlaceLink, place } from "../runs/list/place";
 import { ClassButton } from "../teaching/classroom/panel";
 import { LearnLink } from "../teaching/course/page";
 import { PagesMenu } from "./pages";
-import { RecordButton } from "./record";
-import { FigurePicker, Transport } from "./transport";
+import { FigurePicker, RecordButton, Transport } from "./transport";
 
 function ThemeButton() {
   const isDark = theme.value === "dark";

@@ -1,11 +1,11 @@
 import { describe, expect, it } from "vitest";
 import type { BenchState, SessionState } from "../../src/core/api/types";
-import { isRealBench } from "../../src/core/state/load";
-import { markOfBench } from "../../src/core/state/plant";
-import { barsOf, freshnessOf } from "../../src/hardware/lateness";
+import { isRealBench, markOfBench } from "../../src/core/state/plant";
 import {
   adviceFor,
   allowedOn,
+  barsOf,
+  freshnessOf,
   isStoppedSimulation,
   needsDetails,
   placeOf,

@@ -1,5 +1,7 @@
-/** The ranking: what was published of the laws, the same measured here, and its runs to be seen. */
-import { request } from "./request";
+/** The ranking and the leaderboard: laws measured in the same scenarios, and runs of them. */
+
+import type { Job } from "./jobs";
+import { API, request } from "./request";
 import type { components } from "./schema";
 import type { Law, SessionState } from "./types";
 
@@ -25,3 +27,21 @@ export const measureLaw = (law: Law) =>
 /** A private session of a law in a scenario, beside NDOBC. */
 export const seeScenario = (law: Law, scenario: string) =>
   request("post", "ranking/sessions", { law, scenario }) as Promise<SessionState>;
+
+// The leaderboard: laws on a season that nobody knows, and their worst runs.
+
+export type Board = Schemas["LeaderboardState"];
+export type BoardEntry = Board["entries"][number];
+export type Submission = Schemas["SubmissionState"];
+
+/** Whether this machine isolates a law is tried before the first answer. */
+const LONG_WAIT_MS = 60_000;
+
+export const readBoard = () =>
+  request("get", "leaderboard", undefined, LONG_WAIT_MS) as Promise<Board>;
+export const submitLaw = (wish: { name: string; author: string; law: string }) =>
+  request("post", "leaderboard/submissions", wish, LONG_WAIT_MS) as Promise<Submission>;
+/** The laws of the lab that have no entry in this season. */
+export const measureLaws = () => request("post", "leaderboard/laws") as Promise<Job>;
+export const worstRunAddress = (key: string): string =>
+  new URL(`leaderboard/entries/${encodeURIComponent(key)}/replay`, API).href;

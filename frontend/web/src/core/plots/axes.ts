@@ -3,7 +3,7 @@
 import type uPlot from "uplot";
 import { text } from "../text/en";
 import { formatNumber } from "../units";
-import { palette } from "./palette";
+import { palette } from "./linestyles";
 import type { Span } from "./spans";
 
 /** The smallest of 1, 2, 2.5, 5 × 10ⁿ that is at least `value`. */

@@ -3,7 +3,7 @@ import uPlot from "uplot";
 import type { SampleRing } from "../stream/ring";
 import { decimate, emptyPoints, type Points, samplesPerBucket } from "./decimation";
 import { type PlotSign, samplesOf, type Trace } from "./definitions";
-import { palette } from "./palette";
+import { palette } from "./linestyles";
 import type { Span } from "./spans";
 
 /** From time and value to the pixels of a canvas. */

@@ -1,6 +1,6 @@
 /** Events of a run in its plots: vertical lines, full for a load, faint for others, and the sides of their names. */
 import type uPlot from "uplot";
-import { palette } from "./palette";
+import { palette } from "./linestyles";
 
 export interface RunEvent {
   time_s: number;

@@ -7,8 +7,8 @@ import { effect } from "@preact/signals";
 import { windowS } from "../state/preferences";
 import { received, selectChannels, session } from "../state/session";
 import { cursorSamples } from "./cursors";
+import { palette } from "./linestyles";
 import { paceViews } from "./pace";
-import { palette } from "./palette";
 import { channelsInUse } from "./setups";
 import { held, isHeld, shownSpan } from "./span";
 

@@ -7,7 +7,7 @@
 import uPlot from "uplot";
 import type { SampleRing } from "../stream/ring";
 import { type Curve, drawSigns, type Place } from "./curves";
-import { palette } from "./palette";
+import { palette } from "./linestyles";
 import type { Span } from "./spans";
 
 /** Columns of the roll, from one up to before another; `shift` is from columns of the plot to them. */

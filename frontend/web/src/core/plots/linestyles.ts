@@ -2,6 +2,11 @@
  * Stable line styles: who controls a lane has a colour and a dash of its own, numbered by the server, in
  * every picture; several channels of one lane have a colour each.
  */
+
+import { computed } from "@preact/signals";
+import type { Law } from "../api/types";
+import { lawOf } from "../state/laws";
+import { theme } from "../state/preferences";
 import type { LineStyle, PlotColour } from "./definitions";
 
 export const PLAIN: readonly number[] = [];
@@ -71,3 +76,40 @@ export function shareColours(wishes: readonly PlotColour[]): Pick<LineStyle, "co
     return { colour, dash: round === 0 ? PLAIN : [9, 4] };
   });
 }
+
+// The colours of theme.css as the canvas needs them, read again when the theme changes.
+
+export interface Palette extends Record<PlotColour, string> {
+  axis: string;
+  grid: string;
+  mark: string;
+  surface: string;
+}
+
+export const palette = computed<Palette>(() => {
+  void theme.value;
+  const style = getComputedStyle(document.documentElement);
+  const read = (name: string) => style.getPropertyValue(`--plot-${name}`).trim();
+  return {
+    reference: read("reference"),
+    blue: read("blue"),
+    orange: read("orange"),
+    green: read("green"),
+    vermilion: read("vermilion"),
+    purple: read("purple"),
+    axis: read("axis"),
+    grid: read("grid"),
+    mark: read("mark"),
+    surface: style.getPropertyValue("--surface").trim(),
+  };
+});
+
+// The line styles of laws: each its own, as in the lab, so that a law looks the same on every page.
+
+/** Of laws in one picture, which differ in colour while there are no more of them than colours. */
+export const lineStylesOfLaws = (names: readonly Law[]): LineStyle[] =>
+  shareLineStyles(names.map((name) => lawOf(name)?.line_style ?? null));
+
+/** As the background of a dot; undefined for a law that is not in the picture. */
+export const dotOf = (lineStyle: LineStyle | undefined) =>
+  lineStyle && { background: `var(--plot-${lineStyle.colour})` };

@@ -5,7 +5,7 @@ import { text } from "../text/en";
 import { cursorSamples } from "./cursors";
 import { addSign, type Curve, placeOn } from "./curves";
 import { type Bound, readPiece } from "./definitions";
-import { palette } from "./palette";
+import { palette } from "./linestyles";
 import { shownRing } from "./span";
 
 const LABEL_PX = 11;

@@ -6,7 +6,7 @@ import { cursorSamples } from "./cursors";
 import { addSign, Curve, pathOf, placeOn } from "./curves";
 import { makeRoom } from "./decimation";
 import { isWithin, samplesOf, type Trace } from "./definitions";
-import { palette } from "./palette";
+import { palette } from "./linestyles";
 import { shownRing, shownSpan } from "./span";
 
 const X_AXIS_PX = 24;

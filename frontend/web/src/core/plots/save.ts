@@ -7,7 +7,7 @@ import { columnsOf, writeCsv } from "./csv";
 import { Curve } from "./curves";
 import { emptyPoints, extentOf, makeRoom } from "./decimation";
 import { samplesOf, type Trace } from "./definitions";
-import { palette } from "./palette";
+import { palette } from "./linestyles";
 import { type PlotSetup, setups } from "./setups";
 import { shownCast, shownRing, shownSpan } from "./span";
 import { type Drawing, drawSvg, HEIGHT, WIDTH } from "./svg";

@@ -4,7 +4,7 @@ import { useEffect, useRef } from "preact/hooks";
 import uPlot from "uplot";
 import { niceRange, plainAxis, valueAxis } from "./axes";
 import type { LineStyle } from "./definitions";
-import { palette } from "./palette";
+import { palette } from "./linestyles";
 import type { Span } from "./spans";
 
 const SMALLEST_DRAG_PX = 4;

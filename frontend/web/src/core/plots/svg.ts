@@ -3,7 +3,7 @@
 import { formatTicks, placeTicks } from "./axes";
 import type { Points } from "./decimation";
 import type { Bound, Trace } from "./definitions";
-import type { Palette } from "./palette";
+import type { Palette } from "./linestyles";
 
 export interface DrawnAxis {
   label: string;

@@ -4,7 +4,7 @@ import { text } from "../text/en";
 import { FONT, placeWords, timeStep } from "./axes";
 import { hasZoomed, zoomedEvent, zoomedSpan } from "./eventzoom";
 import { onFrame } from "./frame";
-import { palette } from "./palette";
+import { palette } from "./linestyles";
 import { goLive, isHeld, pan, shownRing, shownSpan, showSpan, zoom } from "./span";
 import type { Span } from "./spans";
 

@@ -13,7 +13,7 @@ import type { Lane, Law, SessionState } from "../api/types";
 import { perform } from "./actions";
 import { comparedWith, comparisonLanes, comparisonsOf, gainsOf } from "./lanes";
 import { lawOf } from "./laws";
-import { hungWeights, nextWeight } from "./load";
+import { hungWeights, nextWeight } from "./plant";
 import { session } from "./session";
 
 /** Names of the controls that show why a command was refused. */

@@ -1,5 +1,7 @@
-/** The plant of a session or a run: simulated, with its non-ideal effects, or an emulated or real bench. */
-import type { BenchState, RunDetails } from "../api/types";
+/** The plant of a session or a run: simulated or a bench, its non-ideal effects and the loads on it. */
+
+import { signal } from "@preact/signals";
+import type { BenchState, Load, LoadRow, RunDetails, SessionState } from "../api/types";
 
 export type Mark = "emulated" | "real" | "unknown";
 
@@ -26,3 +28,39 @@ export const EFFECTS = [
   "gravity",
 ] as const;
 export type Effect = (typeof EFFECTS)[number];
+
+// The 3 kg load: which of the session's loads it is, and the form in which it is hung next.
+
+export type WeightForm = "paper" | "mass";
+
+/** `paper`: 2 N·m on all three channels; `mass`: a mass with inertia and gravity, as large as the library's default. */
+export const weightForm = signal<WeightForm>("paper");
+
+export const weightOf = (form: WeightForm): Load =>
+  form === "paper" ? { kind: "paper" } : { kind: "mass" };
+
+/** What the next 3 kg are: on a real bench a mass, whatever was chosen for a simulation. */
+export const nextWeight = (bench: BenchState | null): Load =>
+  weightOf(isRealBench(bench) ? "mass" : weightForm.peek());
+
+/** One of which it is not known yet whether it is emulated counts as real. */
+export const isRealBench = (bench: BenchState | null): boolean =>
+  bench !== null && bench.emulated !== true;
+
+export const isWeight = ({ load }: LoadRow): boolean =>
+  load.kind === "paper" || load.kind === "mass";
+
+export const hungWeights = (state: SessionState): LoadRow[] =>
+  state.loads.filter((row) => row.active && isWeight(row));
+
+/** When the next scheduled weight comes, session time in s; null when none is scheduled. */
+export function nextWeightAt(state: SessionState): number | null {
+  const starts = state.loads
+    .filter((row) => !row.active && isWeight(row) && row.start_s > state.time_s)
+    .map((row) => row.start_s);
+  return starts.length === 0 ? null : Math.min(...starts);
+}
+
+/** Loads that act or will act. */
+export const presentLoads = (state: SessionState): LoadRow[] =>
+  state.loads.filter((row) => row.active || row.start_s > state.time_s);

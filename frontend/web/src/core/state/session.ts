@@ -6,6 +6,7 @@ import type { Hello, SessionState } from "../api/types";
 import { type Finding, type Phase, StreamConnection } from "../stream/connection";
 import { BatchDecoder } from "../stream/decoder";
 import { HISTORY_S, LONGEST_WINDOW_S, RATE_HZ, SampleRing } from "../stream/ring";
+import { type Mark, markOfBench } from "./plant";
 
 /** After a change the whole state; between changes only the fields that move by themselves. */
 export type Progress = Pick<SessionState, "run_number" | "tick"> & Partial<SessionState>;
@@ -188,3 +189,11 @@ export function watchNetwork(): void {
     if (!document.hidden) hurry();
   });
 }
+
+export const bench = computed(() => session.value?.bench ?? null);
+
+/** Null for a simulation, which needs no mark. */
+export const mark = computed<Mark | null>(() => {
+  if (bench.value === null) return null;
+  return markOfBench(bench.value);
+});

@@ -135,3 +135,48 @@ export const classroomText = {
     leave: "Leave the class",
   },
 } as const;
+
+/** Grades: the class's table, and one's own. */
+export const gradesText = {
+  grades: {
+    title: "Grades",
+    lead: "What was submitted, run again where nobody can peek: runs bit for bit from their records, laws in a process of their own on trials that come from the class's secret and the submission.",
+    loading: "The grades are on their way …",
+    empty: "Nothing was submitted yet",
+    emptyHint: "Once somebody hands in an exercise in Learn, it stands here to be graded.",
+    notIsolated: "No law is graded for a class on this machine; what has no law is graded.",
+    table: "Points, a student a row, an exercise a column",
+    tableHint: "A press on points shows them by criterion; a name opens the student's report",
+    student: "Student",
+    sum: "Of what is graded",
+    nothing: "–",
+    ungraded: "not graded",
+    refused: "refused",
+    of: (points: string, most: string) => `${points} of ${most}`,
+    report: (name: string) => `Report of ${name}, in a new tab`,
+    pick: "Press points in the table to see them by criterion.",
+    noGrade: "It got no grade:",
+    keptGrade: "Graded again it was refused, and keeps its grade:",
+    notYet: "It is not graded yet.",
+    run: (id: string) => `Run ${id}.`,
+    made: (submission: string, seed: string | null, version: string) =>
+      `Submission ${submission}…${seed === null ? "" : `, trials of seed ${seed}`}; SVSA Lab ${version}.`,
+    criteria: "Points by criterion",
+    asked: "Asked",
+    points: "Points",
+    told: "Told",
+    grade: (count: number) => (count === 0 ? "All is graded" : `Grade ${count}`),
+    gradeHint: "What was submitted and has no grade",
+    again: "Grade again",
+    againHint: "Run all of it again: the same submission gets the same grade",
+    csv: "CSV",
+    page: "As a page",
+    grading: "Grading",
+    graded: (done: number, total: number) => `${done} of ${total || "…"} graded`,
+    own: (points: string, most: string) => `Your grade: ${points} of ${most} points`,
+    noOwn: "Not graded yet",
+    waits:
+      "The points above are of your answers and runs; the grade is given when your lecturer grades the class.",
+    ownPage: "All your grades as a page",
+  },
+} as const;

@@ -1,12 +1,11 @@
 /** Every word of the page, by area. */
 import { benchText } from "./bench";
-import { classroomText } from "./classroom";
+import { classroomText, gradesText } from "./classroom";
 import { controlText } from "./control";
 import { controlsText, identificationText, lawsText } from "./controls";
 import { designText } from "./design";
 import { falsifierText } from "./falsifier";
-import { gradesText } from "./grades";
-import { jobsText } from "./jobs";
+import { jobsText, tuningText } from "./jobs";
 import { keysText, sceneText, scriptText } from "./lab";
 import { leaderboardText } from "./leaderboard";
 import { learningText } from "./learning";
@@ -17,7 +16,6 @@ import { realismText } from "./realism";
 import { runsText } from "./runs";
 import { stabilityText } from "./stability";
 import { studiesText } from "./studies";
-import { tuningText } from "./tuning";
 
 export const text = {
   ...pageText,

@@ -1,5 +1,6 @@
 /** An adversary as it stands in the form, and as it is sent. */
-import type { Adversary, Term } from "../../core/api/falsifications";
+import type { Adversary, Scenario, Term } from "../../core/api/falsifications";
+import type { Span } from "../../core/plots/spans";
 
 export const HARMS = ["fault", "peak", "recovery"] as const;
 export const KINDS = ["step", "pulse", "sine"] as const;
@@ -112,3 +113,13 @@ export const describeTerms = (
     )
     .join("; ")
     .slice(0, 200);
+
+const BEFORE_S = 1;
+
+/** From a little before the first load on, to the end. */
+export function spanOf(scenario: Scenario, time: readonly number[]): Span {
+  const loads = (scenario.loads ?? []) as { start_s?: number }[];
+  const onsets = loads.flatMap(({ start_s: start }) => start ?? []);
+  const first = onsets.length > 0 ? Math.min(...onsets) - BEFORE_S : 0;
+  return { from: Math.max(time[0] ?? 0, first), to: time.at(-1) ?? 1 };
+}

@@ -4,7 +4,7 @@ import { isGoing, JobProgress } from "../../core/jobs/progress";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
-import { copyText } from "../../lab/script/copy";
+import { copyText } from "../../lab/script/copybutton";
 import { cancel, chosen, findingOf, isBusy, keep, search, shown } from "./falsifier";
 
 const words = text.falsifier;

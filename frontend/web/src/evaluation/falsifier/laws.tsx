@@ -1,7 +1,7 @@
 import type { LawTrace } from "../../core/api/falsifications";
 import type { Law } from "../../core/api/types";
 import type { LineStyle } from "../../core/plots/definitions";
-import { dotOf } from "../../core/plots/lawlinestyles";
+import { dotOf } from "../../core/plots/linestyles";
 import { writeFault } from "../../core/state/faults";
 import { titleOf, usableLaws } from "../../core/state/laws";
 import { text } from "../../core/text/en";

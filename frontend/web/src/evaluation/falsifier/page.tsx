@@ -3,11 +3,11 @@ import { useEffect, useMemo, useState } from "preact/hooks";
 import type { Law } from "../../core/api/types";
 import { isGoing } from "../../core/jobs/progress";
 import type { LineStyle } from "../../core/plots/definitions";
-import { lineStylesOfLaws } from "../../core/plots/lawlinestyles";
+import { lineStylesOfLaws } from "../../core/plots/linestyles";
 import { laws as installedLaws, titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { Desk } from "../../core/widgets/desk";
-import { PlaceLink } from "../../runs/list/placelink";
+import { PlaceLink } from "../../runs/list/place";
 import {
   chosen,
   findingOf,

@@ -2,8 +2,7 @@ import { useMemo } from "preact/hooks";
 import type uPlot from "uplot";
 import type { LawTrace, Scenario, Trace } from "../../core/api/falsifications";
 import type { LineStyle } from "../../core/plots/definitions";
-import { DASHED, DOTTED, PLAIN } from "../../core/plots/linestyles";
-import { palette } from "../../core/plots/palette";
+import { DASHED, DOTTED, PLAIN, palette } from "../../core/plots/linestyles";
 import {
   type StaticContent,
   type StaticCurve,
@@ -12,8 +11,7 @@ import {
 } from "../../core/plots/staticchart";
 import { text } from "../../core/text/en";
 import { DEGREES_PER_RADIAN } from "../../core/units";
-import { BODIES } from "./definition";
-import { spanOf } from "./span";
+import { BODIES, spanOf } from "./definition";
 
 const words = text.falsifier;
 const TIME_AXIS_PX = 26;

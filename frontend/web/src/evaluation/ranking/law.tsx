@@ -4,8 +4,7 @@ import { shortenFault } from "../../core/state/faults";
 import { lawOf, titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { formatError, formatNumber } from "../../core/units";
-import { chosen, rowOf, see } from "./ranking";
-import { splitSource } from "./source";
+import { chosen, rowOf, see, splitSource } from "./ranking";
 
 const words = text.ranking;
 

@@ -1,6 +1,6 @@
 import type { Row, SweepOutcome } from "../../core/api/ranking";
 import type { LineStyle } from "../../core/plots/definitions";
-import { dotOf } from "../../core/plots/lawlinestyles";
+import { dotOf } from "../../core/plots/linestyles";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { chosen, lineStyles, rowOf, see } from "./ranking";

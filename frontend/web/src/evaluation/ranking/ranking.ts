@@ -9,7 +9,7 @@ import {
 } from "../../core/api/ranking";
 import type { Law } from "../../core/api/types";
 import type { LineStyle } from "../../core/plots/definitions";
-import { lineStylesOfLaws } from "../../core/plots/lawlinestyles";
+import { lineStylesOfLaws } from "../../core/plots/linestyles";
 import { explain } from "../../core/state/actions";
 import { sortRows } from "./columns";
 
@@ -104,4 +104,13 @@ export async function see(law: Law, scenario: string): Promise<void> {
     problem.value = explain(error);
     opening.value = "";
   }
+}
+
+const DOI = /doi:(10\.\d{4,}\/\S+)$/;
+
+/** What a law's source says, and the DOI at its end; "" where it names none. */
+export function splitSource(source: string): { said: string; doi: string } {
+  const found = DOI.exec(source);
+  if (found === null) return { said: source, doi: "" };
+  return { said: source.slice(0, found.index), doi: found[1] ?? "" };
 }

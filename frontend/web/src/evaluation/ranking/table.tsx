@@ -1,5 +1,5 @@
 import type { Row } from "../../core/api/ranking";
-import { dotOf } from "../../core/plots/lawlinestyles";
+import { dotOf } from "../../core/plots/linestyles";
 import { shortenFault } from "../../core/state/faults";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";

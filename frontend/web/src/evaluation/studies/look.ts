@@ -46,3 +46,7 @@ export function chooseAxes(columns: readonly StudyColumn[]): Record<string, stri
 export const factorOf = (unit: string): number =>
   unit === "rad" || unit === "rad·s" ? DEGREES_PER_RADIAN : 1;
 export const shownUnit = (unit: string): string => unit.replace(/^rad/, "°");
+
+/** In the server's words, with the unit that it is shown in. */
+export const nameColumn = ({ label, unit }: Pick<StudyColumn, "label" | "unit">): string =>
+  unit === "" || unit === "1" ? label : `${label}, ${shownUnit(unit)}`;

@@ -6,7 +6,7 @@ import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { Desk } from "../../core/widgets/desk";
 import { Popup } from "../../core/widgets/popup";
-import { PlaceLink } from "../../runs/list/placelink";
+import { PlaceLink } from "../../runs/list/place";
 import { Distribution } from "./distribution";
 import { SuccessMap } from "./map";
 import { Picked } from "./picked";

@@ -3,8 +3,7 @@ import { writeFault } from "../../core/state/faults";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
-import { factorOf } from "./look";
-import { nameColumn } from "./names";
+import { factorOf, nameColumn } from "./look";
 import { isBusy, picked, see, study } from "./studies";
 
 const words = text.studies;

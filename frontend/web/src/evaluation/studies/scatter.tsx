@@ -1,12 +1,11 @@
 import { useSignalEffect } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import type uPlot from "uplot";
-import { palette } from "../../core/plots/palette";
+import { palette } from "../../core/plots/linestyles";
 import { text } from "../../core/text/en";
 import { paintDots } from "./dots";
 import { PlotFrame } from "./frame";
-import { axesOf, type Plane } from "./look";
-import { nameColumn } from "./names";
+import { axesOf, nameColumn, type Plane } from "./look";
 import { findNearest } from "./points";
 import { valuesOf } from "./rows";
 import { brushedCount, ended, good, lawLineStyles, lawPlaces, planes, shownMarks } from "./shown";

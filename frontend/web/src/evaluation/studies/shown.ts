@@ -1,10 +1,9 @@
 /** The rows as they are drawn: shown units, who is in the brush, which colour, which law. */
 import { computed } from "@preact/signals";
 import type { StudyColumn } from "../../core/api/studies";
-import { lineStylesOfLaws } from "../../core/plots/lawlinestyles";
+import { lineStylesOfLaws } from "../../core/plots/linestyles";
 import type { Axis } from "./frame";
-import { factorOf, type Plane } from "./look";
-import { nameColumn } from "./names";
+import { factorOf, nameColumn, type Plane } from "./look";
 import { markBrushed, scaleOf, spreadNames, spreadsByRatios } from "./points";
 import { type Rows, valuesOf } from "./rows";
 import { axes, brush, rows, shownLaw, study } from "./studies";

@@ -4,8 +4,7 @@ import { tell } from "../../core/state/actions";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { Boxes, LawBoxes } from "../../core/widgets/desk";
-import { factorOf } from "./look";
-import { nameColumn } from "./names";
+import { factorOf, nameColumn } from "./look";
 import { begin, isBusy, list, problem } from "./studies";
 
 const words = text.studies;

@@ -1,12 +1,11 @@
 import type { Estimate } from "../../core/api/studies";
 import { isGoing } from "../../core/jobs/progress";
-import { dotOf } from "../../core/plots/lawlinestyles";
+import { dotOf } from "../../core/plots/linestyles";
 import { writeFault } from "../../core/state/faults";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
-import { factorOf, shownUnit } from "./look";
-import { nameColumn } from "./names";
+import { factorOf, nameColumn, shownUnit } from "./look";
 import { estimateShare, formatPercents } from "./points";
 import { columnOf, ended, good, lawLineStyles, marksOf } from "./shown";
 import { axes, brush, indices, study, summary } from "./studies";

@@ -1,5 +1,6 @@
 /** A small chart: a few curves on two axes, each even or logarithmic. */
 import { useId } from "preact/hooks";
+import { text } from "../../core/text/en";
 
 export interface Axis {
   from: number;
@@ -130,4 +131,24 @@ export function Curves({ title, told, x, y, curves, note, caveat }: CurvesProps)
       </svg>
     </figure>
   );
+}
+
+const HEIGHTS = [2, 3, 4, 5, 6, 8, 10, 15, 20, 40];
+
+/** The error, high enough for both curves, with the side on which they are. */
+export function errorAxis(curves: readonly Curve["points"][]): Axis {
+  const values = curves.flatMap((points) => points.map(([, value]) => value));
+  const least = Math.min(0, ...values);
+  const most = Math.max(0, ...values);
+  const height = (size: number) =>
+    size < 0.05 * Math.max(-least, most)
+      ? 0
+      : (HEIGHTS.find((one) => one >= 1.05 * size) ?? (HEIGHTS.at(-1) as number));
+  const from = -height(-least);
+  const to = height(most) || (from === 0 ? 2 : 0.15 * -from);
+  const reach = Math.max(-from, to);
+  const ticks = [-reach, -reach / 2, 0, reach / 2, reach].filter(
+    (tick) => tick >= from && tick <= to,
+  );
+  return { from, to, ticks, label: text.stability.error };
 }

@@ -2,8 +2,8 @@ import { useEffect } from "preact/hooks";
 import { lawOf } from "../../core/state/laws";
 import { isLive, session } from "../../core/state/session";
 import { text } from "../../core/text/en";
+import { Problem } from "../../core/widgets/form";
 import { Panel } from "../../core/widgets/panel";
-import { Problem } from "../../core/widgets/problem";
 import { Bandwidths } from "./bandwidths";
 import {
   apply,

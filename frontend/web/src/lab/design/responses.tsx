@@ -1,9 +1,8 @@
 import type { DesignResponse } from "../../core/api/design";
 import { text } from "../../core/text/en";
 import { formatNumber, toDegrees } from "../../core/units";
-import { type Axis, type Curve, Curves } from "./curves";
+import { type Axis, type Curve, Curves, errorAxis } from "./curves";
 import { isChanged } from "./draft";
-import { errorAxis } from "./erroraxis";
 import { present, tried } from "./stability";
 import { caveatOf } from "./words";
 

@@ -1,7 +1,7 @@
 import { isLive } from "../../core/state/session";
 import { text } from "../../core/text/en";
+import { Problem } from "../../core/widgets/form";
 import { PanelButton } from "../../core/widgets/panel";
-import { Problem } from "../../core/widgets/problem";
 import { discard, inUse, isOpen } from "./draft";
 import { steps, undo } from "./history";
 import { describePoles } from "./words";

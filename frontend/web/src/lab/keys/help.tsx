@@ -1,7 +1,7 @@
 import type { ComponentChildren } from "preact";
 import { useId } from "preact/hooks";
-import { bench } from "../../core/state/bench";
 import { areKeysOn, chooseKeys } from "../../core/state/preferences";
+import { bench } from "../../core/state/session";
 import { text } from "../../core/text/en";
 import { Panel, PanelButton } from "../../core/widgets/panel";
 import { isHelpOpen } from "./keys";

@@ -10,7 +10,7 @@ import {
 import { defaultName, LONGEST_NAME, personName } from "../../core/state/preferences";
 import { isLive } from "../../core/state/session";
 import { text } from "../../core/text/en";
-import { Problem } from "../../core/widgets/problem";
+import { Problem } from "../../core/widgets/form";
 import { InTurn } from "./inturn";
 
 const words = text.control;

@@ -4,7 +4,7 @@ import { addLane, CONTROL, toggleCompare } from "../../core/state/commands";
 import { comparedWith, comparisonLanes } from "../../core/state/lanes";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
-import { Problem } from "../../core/widgets/problem";
+import { Problem } from "../../core/widgets/form";
 import { Beside } from "./comparisonlanes";
 import { LawPicker } from "./lawpicker";
 

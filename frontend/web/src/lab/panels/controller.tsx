@@ -1,14 +1,16 @@
-import { putLaw } from "../../core/api/client";
-import type { SessionState } from "../../core/api/types";
+import { type GainsRequest, putGains, putLaw } from "../../core/api/client";
+import type { Configuration, SessionState } from "../../core/api/types";
 import { perform } from "../../core/state/actions";
 import { comparisonLaws } from "../../core/state/lanes";
 import { lawOf, titleOf } from "../../core/state/laws";
+import { standing } from "../../core/state/meanwhile";
 import { text } from "../../core/text/en";
+import { Problem } from "../../core/widgets/form";
 import { PanelButton } from "../../core/widgets/panel";
-import { Problem } from "../../core/widgets/problem";
+import { DesignSummary } from "../design/summary";
 import { isOpen as isTuning } from "../tuning/tuning";
 import { Compare } from "./compare";
-import { Gains } from "./gains";
+import { Field } from "./field";
 import { Group } from "./group";
 import { LawForm } from "./law";
 import { LawPicker } from "./lawpicker";
@@ -43,5 +45,53 @@ export function Controller({ state }: { state: SessionState }) {
       </div>
       <Compare state={state} />
     </Group>
+  );
+}
+
+type GainsState = Configuration["gains"];
+type CoefficientsKey = "position_coefficients" | "stiffness_coefficients";
+
+interface CoefficientsProps {
+  which: CoefficientsKey;
+  symbol: string;
+  gains: GainsState;
+}
+
+function Coefficients({ which, symbol, gains }: CoefficientsProps) {
+  const values = gains[which];
+  const send = (changed: number, value: number) => {
+    const request: GainsRequest = {
+      [which]: standing("gains", gains)[which].map((held, index) =>
+        index === changed ? value : held,
+      ),
+    };
+    return putGains(request);
+  };
+  return (
+    <>
+      {values.map((value, index) => (
+        <Field
+          key={`${which}.${index}`}
+          name={`gains.${which}.${index}`}
+          label={text.gains.coefficient(symbol, index)}
+          unit={text.gains.coefficientUnit(values.length - index)}
+          value={value}
+          send={(next) => send(index, next)}
+        />
+      ))}
+    </>
+  );
+}
+
+export function Gains({ gains }: { gains: GainsState }) {
+  return (
+    <>
+      <DesignSummary />
+      <details class="more">
+        <summary>{text.gains.coefficients}</summary>
+        <Coefficients which="position_coefficients" symbol="q" gains={gains} />
+        <Coefficients which="stiffness_coefficients" symbol="σ" gains={gains} />
+      </details>
+    </>
   );
 }

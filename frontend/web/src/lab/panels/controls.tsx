@@ -3,7 +3,7 @@ import type { SessionState } from "../../core/api/types";
 import { takesCommands } from "../../core/state/control";
 import { text } from "../../core/text/en";
 import { Controller } from "./controller";
-import { GroupIndex } from "./groupindex";
+import { GroupIndex } from "./group";
 import { Identification } from "./identification";
 import { Loads } from "./load";
 import { Motion } from "./motion";

@@ -4,10 +4,8 @@ import type { Load } from "../../core/api/types";
 import { shownAs } from "../../core/quantities";
 import { perform } from "../../core/state/actions";
 import { text } from "../../core/text/en";
-import { Choice } from "../../core/widgets/choice";
-import { Problem } from "../../core/widgets/problem";
+import { Choice, NumberBox, Problem } from "../../core/widgets/form";
 import { EnduranceNote } from "../../hardware/endurance";
-import { NumberBox } from "./numberbox";
 
 type Kind = "constant" | "pulse" | "sine";
 type Channel = "0" | "1" | "2";

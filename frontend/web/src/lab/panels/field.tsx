@@ -1,7 +1,7 @@
 import { useId } from "preact/hooks";
 import { text } from "../../core/text/en";
 import { formatInput } from "../../core/units";
-import { Problem } from "../../core/widgets/problem";
+import { Problem } from "../../core/widgets/form";
 import { positionOf, type SliderRange, STEPS, valueAt } from "../../core/widgets/scale";
 import { type HeldNumber, useDraft } from "./draft";
 

@@ -1,7 +1,10 @@
-import type { ComponentChildren } from "preact";
+/** A group of settings, and the index of the groups below the edge of the panel. */
+import type { ComponentChildren, RefObject } from "preact";
 import { useId } from "preact/hooks";
 import { EquationButton } from "../../core/equations/equation";
 import type { Topic } from "../../core/equations/equations";
+import { text } from "../../core/text/en";
+import { goTo, headingOf, useBelow } from "../../core/widgets/below";
 
 interface GroupProps {
   title: string;
@@ -25,5 +28,29 @@ export function Group({ title, topic, aside, children }: GroupProps) {
       </div>
       {children}
     </section>
+  );
+}
+
+/** The groups that are scrolled out of sight below; a touch goes there. */
+export function GroupIndex({ groups }: { groups: RefObject<HTMLElement | null> }) {
+  const below = useBelow(groups, ".group");
+  return (
+    <nav class="group-index" aria-label={text.controls.index}>
+      {below.map((group) => {
+        const heading = headingOf(group);
+        return (
+          <a
+            key={heading?.id}
+            href={`#${heading?.id}`}
+            onClick={(event) => {
+              event.preventDefault();
+              goTo(group);
+            }}
+          >
+            {heading?.textContent}
+          </a>
+        );
+      })}
+    </nav>
   );
 }

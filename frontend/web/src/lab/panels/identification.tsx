@@ -4,7 +4,7 @@ import type { SessionState } from "../../core/api/types";
 import { perform } from "../../core/state/actions";
 import { text } from "../../core/text/en";
 import { formatSeconds } from "../../core/units";
-import { Problem } from "../../core/widgets/problem";
+import { Problem } from "../../core/widgets/form";
 import { Group } from "./group";
 
 const words = text.identification;

@@ -4,7 +4,7 @@ import { shownAs } from "../../core/quantities";
 import { perform } from "../../core/state/actions";
 import { type ComparisonLane, gainsOf, hasOwnSettings } from "../../core/state/lanes";
 import { text } from "../../core/text/en";
-import { Problem } from "../../core/widgets/problem";
+import { Problem } from "../../core/widgets/form";
 import type { SliderRange } from "../../core/widgets/scale";
 import { coefficientsOf } from "../design/poles";
 import { Field } from "./field";

@@ -1,6 +1,6 @@
 /** References that are typed or opened as a list: steps line by line, a time series as CSV. */
 import { text } from "../../core/text/en";
-import { MAX_LEVELS } from "./levels";
+import { MAX_LEVELS } from "./shapes";
 
 const words = text.references;
 

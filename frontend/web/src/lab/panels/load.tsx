@@ -8,11 +8,10 @@ import {
   presentLoads,
   type WeightForm,
   weightForm,
-} from "../../core/state/load";
+} from "../../core/state/plant";
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
-import { Choice } from "../../core/widgets/choice";
-import { Problem } from "../../core/widgets/problem";
+import { Choice, Problem } from "../../core/widgets/form";
 import { CustomLoad } from "./customload";
 import { Group } from "./group";
 

@@ -8,10 +8,10 @@ import {
   nextWeightAt,
   weightForm,
   weightOf,
-} from "../../core/state/load";
+} from "../../core/state/plant";
 import { isLive } from "../../core/state/session";
 import { text } from "../../core/text/en";
-import { Problem } from "../../core/widgets/problem";
+import { Problem } from "../../core/widgets/form";
 import { EnduranceNote } from "../../hardware/endurance";
 
 function WeightPicture({ isHung }: { isHung: boolean }) {

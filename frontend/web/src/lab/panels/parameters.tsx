@@ -4,7 +4,7 @@ import type { ActuatorParameters } from "../../core/api/types";
 import { perform } from "../../core/state/actions";
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
-import { Problem } from "../../core/widgets/problem";
+import { Problem } from "../../core/widgets/form";
 import { type HeldNumber, useDraft } from "./draft";
 
 const words = text.realism;

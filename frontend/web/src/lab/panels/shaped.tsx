@@ -11,14 +11,20 @@ import type { PositionReference, Sent, StiffnessReference } from "../../core/api
 import { explain, perform } from "../../core/state/actions";
 import { session } from "../../core/state/session";
 import { text } from "../../core/text/en";
-import { DEGREES_PER_RADIAN } from "../../core/units";
-import { Choice } from "../../core/widgets/choice";
-import { Problem } from "../../core/widgets/problem";
-import { Course } from "./course";
-import { readLevels, writeLevels } from "./levels";
+import { DEGREES_PER_RADIAN, formatNumber } from "../../core/units";
+import { Choice, NumberBox, Problem } from "../../core/widgets/form";
 import { Levels, Series } from "./listed";
-import { NumberBox } from "./numberbox";
-import { buildReference, FIRST, INPUTS, type Input, SHAPES, type Shape } from "./shapes";
+import {
+  buildReference,
+  drawCourse,
+  FIRST,
+  INPUTS,
+  type Input,
+  readLevels,
+  SHAPES,
+  type Shape,
+  writeLevels,
+} from "./shapes";
 
 const words = text.references;
 const OPTIONS = SHAPES.map((value) => ({ value, label: words.kinds[value] }));
@@ -158,5 +164,39 @@ export function Shaped({ follows, held }: { follows: Follows; held: string }) {
       <p class="hint">{words.does[shape]}</p>
       <Problem control={`${follows}.shaped`} />
     </form>
+  );
+}
+
+const WIDTH = 240;
+const HEIGHT = 56;
+
+interface CourseProps {
+  preview: Preview;
+  unit: string;
+  factor: number;
+}
+
+/** What a reference would ask for, before anything follows it. */
+export function Course({ preview, unit, factor }: CourseProps) {
+  const shown = (value: number) => formatNumber(value * factor, 3);
+  const caption = text.references.course(
+    shown(preview.low),
+    shown(preview.high),
+    unit,
+    formatNumber(preview.time_s.at(-1), 3),
+    shown(preview.peak_rate),
+  );
+  return (
+    <figure class="course">
+      <svg
+        viewBox={`0 -2 ${WIDTH} ${HEIGHT + 4}`}
+        preserveAspectRatio="none"
+        role="img"
+        aria-label={caption}
+      >
+        <polyline points={drawCourse(preview.time_s, preview.value, WIDTH, HEIGHT)} />
+      </svg>
+      <figcaption>{caption}</figcaption>
+    </figure>
   );
 }

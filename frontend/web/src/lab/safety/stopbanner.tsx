@@ -1,11 +1,11 @@
 import type { ComponentChildren } from "preact";
 import { clearBench, restartBench } from "../../core/api/client";
-import type { BenchState, SessionState } from "../../core/api/types";
+import type { BenchState, SessionFault, SessionState } from "../../core/api/types";
 import { perform } from "../../core/state/actions";
 import { mayCommand } from "../../core/state/control";
 import { isLive, session } from "../../core/state/session";
 import { text } from "../../core/text/en";
-import { Problem } from "../../core/widgets/problem";
+import { Problem } from "../../core/widgets/form";
 import {
   allowedOn,
   isLoopLost,
@@ -13,8 +13,7 @@ import {
   isQuickStop,
   isStoppedSimulation,
 } from "../../hardware/status";
-import { FaultAdvice } from "./advice";
-import { stop } from "./stop";
+import { pressStop, type StopStage, stop } from "./stop";
 
 interface StopNoticeProps {
   title: string;
@@ -101,5 +100,46 @@ export function StopBanners() {
         />
       )}
     </>
+  );
+}
+
+/** Why a fault happens and what to try; nothing if its message says it all. */
+export function FaultAdvice({ fault: { advice } }: { fault: SessionFault }) {
+  if (advice === null) return null;
+  return (
+    <details class="fault-advice">
+      <summary>{text.fault.adviceTitle}</summary>
+      {advice}
+    </details>
+  );
+}
+
+const WORDS: Record<StopStage, string> = {
+  idle: text.stop.button,
+  sending: text.stop.sending,
+  confirmed: text.stop.confirmed,
+  unconfirmed: text.stop.again,
+  refused: text.stop.refused,
+};
+
+/** Always in sight and never disabled, whatever the page believes of the connection.
+ *
+ * Where it is known that nothing but a simulation runs, it is as modest as any other button. */
+export function StopButton() {
+  const { stage } = stop.value;
+  const isSimulation = session.value?.bench === null;
+  return (
+    <button
+      type="button"
+      class={`stop-button ${isSimulation ? "is-simulation" : "is-bench"}`}
+      aria-keyshortcuts="Shift+Escape"
+      title={isSimulation ? text.stop.doesSimulation : text.stop.doesBench}
+      onClick={() => void pressStop()}
+    >
+      <span class="stop-sign" aria-hidden="true" />
+      <strong>{WORDS[stage]}</strong>
+      <small>{text.stop.keys}</small>
+      {stage !== "idle" && <span class="visually-hidden">{text.stop.button}</span>}
+    </button>
   );
 }

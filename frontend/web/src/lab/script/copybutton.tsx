@@ -1,7 +1,6 @@
 import type { ComponentChildren } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { text } from "../../core/text/en";
-import { copyText } from "./copy";
 
 interface CopyButtonProps {
   /** What to copy; null where it could not be made, which is said elsewhere. */
@@ -45,4 +44,23 @@ export function CopyButton({ read, label, hint, disabled, children, ...rest }: C
       </span>
     </>
   );
+}
+
+/** False where the browser does not let a page copy. */
+export async function copyText(content: string): Promise<boolean> {
+  try {
+    await navigator.clipboard.writeText(content);
+    return true;
+  } catch {
+    return false;
+  }
+}
+
+export function saveText(content: string, fileName: string): void {
+  const address = URL.createObjectURL(new Blob([content], { type: "text/x-python" }));
+  const link = document.createElement("a");
+  link.href = address;
+  link.download = fileName;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(address));
 }

@@ -4,10 +4,9 @@ import { type Call, calls, clearCalls } from "../../core/api/calls";
 import { API } from "../../core/api/request";
 import { text } from "../../core/text/en";
 import { formatTime } from "../../core/units";
-import { Choice } from "../../core/widgets/choice";
-import { saveText } from "./copy";
-import { CopyButton } from "./copybutton";
-import { makeExperimentScript, scriptProblem } from "./repeat";
+import { Choice } from "../../core/widgets/form";
+import { CopyButton, saveText } from "./copybutton";
+import { makeExperimentScript, scriptProblem } from "./experiment";
 import { LANGUAGES, type Language, toSnippet, toSnippets } from "./snippets";
 
 const words = text.script;

@@ -4,8 +4,8 @@ import { explain } from "../../core/state/actions";
 import { titleOf, usableLaws } from "../../core/state/laws";
 import { isLive, session } from "../../core/state/session";
 import { text } from "../../core/text/en";
+import { Problem } from "../../core/widgets/form";
 import { Panel } from "../../core/widgets/panel";
-import { Problem } from "../../core/widgets/problem";
 import { CostCurve } from "./costcurve";
 import { RunTable, ValueTable } from "./tables";
 import {

@@ -5,11 +5,10 @@ import type { ExportName, RunDetails } from "../../core/api/types";
 import { text } from "../../core/text/en";
 import { Popup } from "../../core/widgets/popup";
 import { CopyButton } from "../../lab/script/copybutton";
-import { makeRunScript, scriptProblem } from "../../lab/script/repeat";
+import { makeRunScript, scriptProblem } from "../../lab/script/experiment";
 import { putIntoTrash } from "./list";
-import { makeFile, making } from "./making";
 import { goTo, linkTo } from "./place";
-import { attempt } from "./problem";
+import { attempt, makeFile, making } from "./problem";
 
 const words = text.run;
 const KINDS: readonly (ExportName | "html")[] = ["csv", "parquet", "mat", "mcap", "html"];

@@ -1,6 +1,6 @@
 import type { RunDifference } from "../../core/api/types";
 import { text } from "../../core/text/en";
-import { formatSetting } from "./difference";
+import { formatInput, toDegrees } from "../../core/units";
 
 const words = text.difference;
 type Row = RunDifference["differences"][number];
@@ -60,4 +60,18 @@ export function DifferenceTable({ difference }: { difference: RunDifference }) {
       </table>
     </section>
   );
+}
+
+const NONE = "–";
+const IN_DEGREES: Readonly<Record<string, string>> = { rad: "deg" };
+
+export function formatSetting({ unit, values }: Row): { unit: string; values: string[] } {
+  const shown = IN_DEGREES[unit];
+  const format = (value: Row["values"][number]): string => {
+    if (value === null) return NONE;
+    if (typeof value === "boolean") return value ? text.difference.yes : text.difference.no;
+    if (typeof value === "string") return value;
+    return formatInput(shown === undefined ? value : toDegrees(value), 6).replace("-", "−");
+  };
+  return { unit: shown ?? unit, values: values.map(format) };
 }

@@ -12,8 +12,7 @@ import {
   refresh,
   showAll,
 } from "./list";
-import { goTo } from "./place";
-import { PlaceLink } from "./placelink";
+import { goTo, PlaceLink } from "./place";
 import { RunTable } from "./table";
 
 const words = text.runs;

@@ -11,8 +11,7 @@ import {
 } from "../../core/plots/staticchart";
 import { text } from "../../core/text/en";
 import { DifferenceTable } from "./differencetable";
-import { drawBands, drawOutside, drawWorst } from "./drawnverdict";
-import { drawEdges } from "./edges";
+import { drawBands, drawEdges, drawOutside, drawWorst } from "./drawnverdict";
 import {
   CHANNELS,
   nameCurve,
@@ -22,7 +21,7 @@ import {
   TITLES,
 } from "./overlaid";
 import { OverlayTable } from "./overlaytable";
-import { PlaceLink } from "./placelink";
+import { PlaceLink } from "./place";
 import { attempt } from "./problem";
 import { type Judged, listBands, listJudged } from "./verdict";
 import { VerdictPanel } from "./verdictpanel";

@@ -3,9 +3,8 @@ import { type MetricsColumn, MetricsTable } from "../../core/plots/metricstable"
 import { text } from "../../core/text/en";
 import { formatError, formatNumber, toDegrees } from "../../core/units";
 import { bestOf } from "../../core/widgets/tables";
-import { areOfOneLength, whyUnlike } from "./alike";
 import { describeMeasured } from "./measured";
-import { nameCurve, type Overlaid } from "./overlaid";
+import { areOfOneLength, nameCurve, type Overlaid, whyUnlike } from "./overlaid";
 
 const words = text.overlay;
 

@@ -4,13 +4,11 @@ import { markOf } from "../../core/state/plant";
 import { text } from "../../core/text/en";
 import { PlantMark } from "../../core/widgets/plantmark";
 import { COLUMNS } from "./columns";
-import { excerpt, searchedWords } from "./found";
 import { chosen, MAX_CHOSEN, putIntoTrash, takeBack, toggleChosen } from "./list";
-import { Marked } from "./marked";
-import { OriginLink } from "./originlink";
-import { PlaceLink } from "./placelink";
-import { type Glance, keepGlance } from "./spark";
-import { Sparkline } from "./sparkline";
+import { excerpt, Marked, searchedWords } from "./marked";
+import { OriginLink } from "./origin";
+import { PlaceLink } from "./place";
+import { type Glance, keepGlance, Sparkline } from "./sparkline";
 
 const words = text.runs;
 

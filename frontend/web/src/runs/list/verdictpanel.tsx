@@ -1,6 +1,6 @@
 import { useId, useState } from "preact/hooks";
 import { text } from "../../core/text/en";
-import { NumberBox } from "../../lab/panels/numberbox";
+import { NumberBox } from "../../core/widgets/form";
 import { CHANNELS, type Overlaid, type OverlayChannel, TITLES } from "./overlaid";
 import { attempt } from "./problem";
 import { type Bounds, type Judged, judgeRuns, type Tolerances } from "./verdict";

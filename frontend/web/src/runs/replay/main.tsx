@@ -12,12 +12,17 @@ import "./numbers.css";
 import "./plots.css";
 import "./playback.css";
 import { render } from "preact";
+import { useMemo } from "preact/hooks";
 import { type Theme, theme } from "../../core/state/preferences";
 import { text } from "../../core/text/replay";
-import { App } from "./app";
-import { seek, setUpClock, timeS } from "./clock";
-import { readRecording } from "./data";
-import { answerKey } from "./keys";
+import { Header } from "./about";
+import { answerKey, seek, setUpClock, timeS } from "./clock";
+import { definePlots, makeTimeAxis } from "./curves";
+import { type Recording, readRecording } from "./data";
+import { Numbers } from "./numbers";
+import { Plot } from "./plot";
+import { Transport } from "./transport";
+import { View } from "./view";
 
 declare global {
   interface Window {
@@ -52,4 +57,31 @@ try {
 } catch (error) {
   console.error(error);
   host.textContent = text.broken;
+}
+
+export function App({ recording }: { recording: Recording }) {
+  const plots = useMemo(() => definePlots(recording), [recording]);
+  const time = useMemo(() => makeTimeAxis(recording), [recording]);
+  return (
+    <>
+      <Header run={recording.run} />
+      <main>
+        <View recording={recording} />
+        <Numbers recording={recording} />
+        <section class="surface plots" aria-label={text.plots.heading}>
+          {plots.map((plot, index) => (
+            <Plot
+              key={plot.key}
+              plot={plot}
+              time={time}
+              events={recording.run.events}
+              isFirst={index === 0}
+              isLast={index === plots.length - 1}
+            />
+          ))}
+        </section>
+      </main>
+      <Transport recording={recording} />
+    </>
+  );
 }

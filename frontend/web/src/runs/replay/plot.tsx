@@ -1,14 +1,14 @@
 import { effect } from "@preact/signals";
 import { useCallback, useMemo, useRef, useState } from "preact/hooks";
-import { drawEventLines, type RunEvent } from "../../core/plots/eventlines";
+import type uPlot from "uplot";
+import { drawEventLines, eventsInView, type RunEvent } from "../../core/plots/eventlines";
 import { Legend, useHidden } from "../../core/plots/legend";
+import { palette } from "../../core/plots/linestyles";
 import { type StaticChart, type StaticContent, useStaticChart } from "../../core/plots/staticchart";
 import { text } from "../../core/text/replay";
 import { formatNumber } from "../../core/units";
 import { range, seek, showAll, showRange, timeS } from "./clock";
 import type { Curve, ReplayPlot } from "./curves";
-import { drawEventLabels } from "./marks";
-import { addTimeLine, placeTimeLine, readCurve } from "./present";
 
 const X_AXIS_PX = 24;
 const LABELS_PX = 17;
@@ -115,4 +115,57 @@ export function Plot(props: PlotProps) {
       <div class="plot-canvas" ref={host} title={props.isFirst ? text.plots.hint : undefined} />
     </section>
   );
+}
+
+// The present time of the replay on a plot: a line, and the values there.
+
+const LINE = "now";
+
+export function addTimeLine({ plot }: StaticChart): void {
+  const line = document.createElement("div");
+  line.className = LINE;
+  plot.over.append(line);
+  placeTimeLine(plot);
+}
+
+export function placeTimeLine(plot: uPlot): void {
+  const line = plot.over.querySelector<HTMLElement>(`.${LINE}`);
+  if (line === null) return;
+  const { from, to } = range.peek();
+  const time = timeS.peek();
+  line.hidden = time < from || time > to;
+  line.style.translate = `${plot.valToPos(time, "x").toFixed(2)}px`;
+}
+
+/** Value of a curve at the pointer, or else at the present time. */
+export function readCurve({ plot, content }: StaticChart, values: Float32Array): number {
+  const { time } = content;
+  const step = (time[1] ?? 1) - (time[0] ?? 0);
+  const now = Math.min(Math.round(timeS.peek() / step), time.length - 1);
+  return values[plot.cursor.idx ?? now] ?? Number.NaN;
+}
+
+// The names of the run's events, above the first plot.
+
+const LABEL_PX = 11;
+
+/** Names, each where there is room left for it. */
+export function drawEventLabels(plot: uPlot, events: readonly RunEvent[]): void {
+  const { ctx: context, bbox } = plot;
+  const gap = 4 * devicePixelRatio;
+  let free = 0;
+  context.save();
+  context.fillStyle = palette.peek().mark;
+  context.font = `600 ${LABEL_PX * devicePixelRatio}px system-ui, sans-serif`;
+  context.textAlign = "left";
+  context.textBaseline = "bottom";
+  for (const event of eventsInView(plot, events)) {
+    const width = context.measureText(event.label).width;
+    const x = plot.valToPos(event.time_s, "x", true) - gap;
+    const left = Math.max(bbox.left, Math.min(x, bbox.left + bbox.width - width));
+    if (left < free) continue;
+    free = left + width + 2 * gap;
+    context.fillText(event.label, left, bbox.top - 2 * devicePixelRatio);
+  }
+  context.restore();
 }

@@ -5,9 +5,8 @@ import { theme } from "../../core/state/preferences";
 import { text } from "../../core/text/replay";
 import { PlantMark } from "../../core/widgets/plantmark";
 import { SceneLabels } from "../../lab/scene/labels";
-import { timeS } from "./clock";
+import { answerKey, timeS } from "./clock";
 import { findMark, type Recording, type Run } from "./data";
-import { answerKey } from "./keys";
 import { Scene } from "./scene";
 
 const FASTEST_MS = 1000 / 30;

@@ -1,11 +1,9 @@
+import { signal } from "@preact/signals";
 import { useId, useState } from "preact/hooks";
 import { comeBack, join, login } from "../../core/api/access";
 import { access } from "../../core/state/control";
 import { LONGEST_NAME, personName, rememberPerson } from "../../core/state/preferences";
 import { text } from "../../core/text/en";
-import { takeCode } from "./joincode";
-import { returnCode } from "./returncode";
-import { type EnterProps, SecretForm } from "./secretform";
 
 const words = text.classroom;
 
@@ -76,5 +74,82 @@ export function Join({ enter }: EnterProps) {
         ))}
       </p>
     </>
+  );
+}
+
+/** How one gets in. */
+export interface EnterProps {
+  /** Tells what went wrong, or lets the page in. */
+  enter: (way: () => Promise<unknown>) => void;
+}
+
+interface SecretProps extends EnterProps {
+  /** What is asked for. */
+  label: string;
+  send: (secret: string) => Promise<unknown>;
+}
+
+/** A secret, a token or a code that is one's own. */
+export function SecretForm({ label, enter, send }: SecretProps) {
+  const id = useId();
+  const [secret, setSecret] = useState("");
+  return (
+    <form
+      onSubmit={(event) => {
+        event.preventDefault();
+        enter(() => send(secret));
+      }}
+    >
+      <label for={id}>{label}</label>
+      <input
+        id={id}
+        type="password"
+        required
+        autocomplete="current-password"
+        value={secret}
+        onInput={(event) => setSecret(event.currentTarget.value)}
+      />
+      <button type="submit" class="button is-primary">
+        {text.login.enter}
+      </button>
+    </form>
+  );
+}
+
+// The class code that a QR code put behind the # of the address, where no server sees it.
+
+const FRAGMENT = "#join=";
+
+/** Takes the code out of the address, so that nobody reads it there; "" where there is none. */
+export function takeCode(): string {
+  if (!location.hash.startsWith(FRAGMENT)) return "";
+  const code = decodeURIComponent(location.hash.slice(FRAGMENT.length));
+  history.replaceState(history.state, "", location.pathname + location.search);
+  return code;
+}
+
+// One's own code to come back by: told when one has joined, until it is put away.
+
+/** Empty where none is to be told. */
+export const returnCode = signal("");
+
+export function ReturnCodeBanner() {
+  if (returnCode.value === "") return null;
+  return (
+    <div class="banner is-news" role="status">
+      <p>
+        <strong>{words.returnCodeTitle}</strong>{" "}
+        <code class="class-return">{returnCode.value}</code> {words.returnCodeText}
+      </p>
+      <button
+        type="button"
+        class="button"
+        onClick={() => {
+          returnCode.value = "";
+        }}
+      >
+        {words.returnCodeNoted}
+      </button>
+    </div>
   );
 }

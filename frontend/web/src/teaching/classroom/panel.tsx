@@ -1,4 +1,4 @@
-import { useSignal } from "@preact/signals";
+import { signal, useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import {
   broadcast,
@@ -18,14 +18,10 @@ import { access, isClass, isInstructor, learnAccess } from "../../core/state/con
 import { phase } from "../../core/state/session";
 import { text } from "../../core/text/en";
 import { Panel, PanelButton } from "../../core/widgets/panel";
-import { PlaceLink } from "../../runs/list/placelink";
+import { PlaceLink } from "../../runs/list/place";
 import { AuditLog } from "./auditlog";
-import { Code } from "./code";
-import { isOpen, READ_MS } from "./open";
-import { People, Removed } from "./people";
-import { returnCode } from "./returncode";
-import { Sessions } from "./sessions";
-import { Waiting } from "./waiting";
+import { returnCode } from "./join";
+import { People, Removed, Sessions, Waiting } from "./people";
 
 const words = text.classroom;
 
@@ -197,5 +193,24 @@ export function ClassButton() {
         <path d="M5.5 7.5a2.75 2.75 0 1 0 0-5.5 2.75 2.75 0 0 0 0 5.5zM0 14c0-3 2.2-5 5.5-5S11 11 11 14zM11 7.5a2.25 2.25 0 1 0-.9-4.3 4 4 0 0 1 0 3.9q.4.4.9.4zM12.3 14H16c0-2.6-1.8-4.5-4.6-4.5l-.6.1c1 1 1.5 2.5 1.5 4.4z" />
       </svg>
     </PanelButton>
+  );
+}
+
+// Whether the panel of the class is open, and how often it is read anew then.
+
+export const isOpen = signal(false);
+export const READ_MS = 2000;
+
+/** A new class code, to be read and scanned from a wall. */
+export function Code({ code }: { code: ClassCode }) {
+  return (
+    <figure class="class-qr">
+      <figcaption>
+        {words.codeOnce} <strong class="class-code">{code.code}</strong>
+      </figcaption>
+      <img src={code.qr} alt={words.qr(code.code)} />
+      <span class="class-address">{code.address}</span>
+      {code.is_local && <strong>{words.onlyHere}</strong>}
+    </figure>
   );
 }

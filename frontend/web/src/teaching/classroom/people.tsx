@@ -1,5 +1,6 @@
+/** The people of a class, their queue for the control lease, and their private sessions. */
 import type { ClassState } from "../../core/api/access";
-import { access, isInstructor } from "../../core/state/control";
+import { access, handOver, isInstructor, lock, queue } from "../../core/state/control";
 import { text } from "../../core/text/en";
 
 const words = text.classroom;
@@ -86,6 +87,87 @@ export function Removed({
               onClick={() => restore(one.id)}
             >
               {words.restoreShort}
+            </button>
+          </li>
+        ))}
+      </ul>
+    </section>
+  );
+}
+
+/** Who waits for control, the first first; the instructor gives it to any, and locks it. */
+export function Waiting() {
+  const waiting = queue.value?.waiting ?? [];
+  return (
+    <section>
+      <h3>{words.queue}</h3>
+      {waiting.length === 0 && <p class="hint">{words.nobodyWaits}</p>}
+      <ol class="class-queue">
+        {waiting.map((one) => (
+          <li key={one.id}>
+            <div class="class-waits">
+              <span>{one.name}</span>
+              {isInstructor.value && (
+                <button
+                  type="button"
+                  class="button is-small"
+                  aria-label={words.give(one.name)}
+                  onClick={() => void handOver(one.id)}
+                >
+                  {words.giveShort}
+                </button>
+              )}
+            </div>
+          </li>
+        ))}
+      </ol>
+      {isInstructor.value && queue.value !== null && (
+        <button
+          type="button"
+          class="button"
+          title={words.lockHint}
+          onClick={() => void lock(queue.peek()?.locked !== true)}
+        >
+          {queue.value.locked ? words.unlock : words.lock}
+        </button>
+      )}
+    </section>
+  );
+}
+
+/** The private sessions that one may see. */
+export function Sessions({
+  sessions,
+  end,
+}: {
+  sessions: ClassState["sessions"];
+  end: (name: string) => void;
+}) {
+  return (
+    <section>
+      <h3>{words.sessions}</h3>
+      {sessions.length === 0 && <p class="hint">{words.noSessions}</p>}
+      <ul class="class-list">
+        {sessions.map((one) => (
+          <li key={one.session}>
+            <span>
+              {one.owner} · {text.status[one.status as "running" | "paused" | "fault"]}
+              {one.recording && ` · ${words.recording}`}
+            </span>
+            <a
+              class="button is-small"
+              aria-label={words.openSession(one.owner)}
+              href={`?session=${encodeURIComponent(one.session)}`}
+            >
+              {words.openShort}
+            </a>
+            <button
+              type="button"
+              class="button is-small"
+              aria-label={words.end(one.owner)}
+              onClick={() => end(one.session)}
+            >
+              {words.endShort}
             </button>
           </li>
         ))}

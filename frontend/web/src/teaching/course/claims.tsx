@@ -1,8 +1,9 @@
 import { signal } from "@preact/signals";
+import { request } from "../../core/api/request";
+import type { components } from "../../core/api/schema";
 import type { Claim, ClaimNumbers, Figure } from "../../core/api/types";
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
-import { figureClaims, loadClaims } from "./claimtexts";
 import { ErrorCourse } from "./course";
 import { runFigureApart, type Tried } from "./trial";
 
@@ -125,4 +126,14 @@ export function Claims() {
       {now?.tried && <Result figure={now.figure} tried={now.tried} />}
     </div>
   );
+}
+
+// What the paper claims of each figure, in the server's words.
+
+export const figureClaims = signal<ReadonlyMap<string, string>>(new Map());
+
+export async function loadClaims(): Promise<void> {
+  if (figureClaims.peek().size > 0) return;
+  const figures = (await request("get", "figures")) as components["schemas"]["FigureState"][];
+  figureClaims.value = new Map(figures.map(({ key, claim }) => [key, claim]));
 }

@@ -1,13 +1,14 @@
 /** What was done is submitted. */
-import { useState } from "preact/hooks";
+import { useEffect, useState } from "preact/hooks";
+import { OWN_PAGE, readOwnGrades, type Submission } from "../../core/api/course";
+import { explain } from "../../core/state/actions";
 import { isClass } from "../../core/state/control";
 import { personName } from "../../core/state/preferences";
 import { text } from "../../core/text/en";
-import { PlaceLink } from "../../runs/list/placelink";
-import { isBusy, submit } from "./lesson";
-import { OwnGrade } from "./owngrade";
+import { Criteria, formatPoints, VerifiedRuns } from "../../core/widgets/criteria";
+import { PlaceLink } from "../../runs/list/place";
+import { isBusy, submit, type Task } from "./lesson";
 import { OwnLaw } from "./ownlaw";
-import type { Task } from "./task";
 
 const words = text.lesson;
 
@@ -77,5 +78,50 @@ export function Ending({ of, exercise, onDone }: Task) {
         <small>{words.submitHint}</small>
       </form>
     </>
+  );
+}
+
+// The grade of what was submitted, once there is one.
+
+const gradeWords = text.grades;
+
+export function OwnGrade({ exercise }: { exercise: string }) {
+  const [submission, setSubmission] = useState<Submission | null>(null);
+  const [problem, setProblem] = useState("");
+  useEffect(() => {
+    let isGone = false;
+    readOwnGrades().then(
+      (all) => {
+        if (!isGone) setSubmission(all.find((one) => one.exercise === exercise) ?? null);
+      },
+      (error) => {
+        if (!isGone) setProblem(explain(error));
+      },
+    );
+    return () => {
+      isGone = true;
+    };
+  }, [exercise]);
+  if (problem !== "") return <p class="problem">{problem}</p>;
+  if (submission === null) return null;
+  const { grade } = submission;
+  return (
+    <section class="lesson-grade" aria-labelledby="lesson-grade">
+      <h4 id="lesson-grade">
+        {grade === null
+          ? gradeWords.noOwn
+          : gradeWords.own(formatPoints(grade.points), formatPoints(grade.max_points))}
+      </h4>
+      {grade === null && <p class="hint">{submission.problem || gradeWords.waits}</p>}
+      {grade !== null && (
+        <>
+          <Criteria grade={grade} />
+          <VerifiedRuns grade={grade} />
+          <a href={OWN_PAGE} target="_blank" rel="noopener">
+            {gradeWords.ownPage}
+          </a>
+        </>
+      )}
+    </section>
   );
 }

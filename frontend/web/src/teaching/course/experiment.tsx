@@ -1,13 +1,12 @@
 /** A session is set up and run, and its record judged. */
 import { useEffect } from "preact/hooks";
 import type { Step } from "../../core/api/course";
-import { bench } from "../../core/state/bench";
 import { mayCommand } from "../../core/state/control";
-import { session } from "../../core/state/session";
+import { bench, session } from "../../core/state/session";
 import { text } from "../../core/text/en";
-import { Problem } from "../../core/widgets/problem";
+import { Problem } from "../../core/widgets/form";
 import { isHeld } from "../../hardware/hold";
-import { PlaceLink } from "../../runs/list/placelink";
+import { PlaceLink } from "../../runs/list/place";
 import { askedOf, handDue, isDoneHere, readinessOf } from "./benchstep";
 import {
   CONTROL_OF_LESSON,
@@ -18,11 +17,11 @@ import {
   resume,
   run,
   setUp,
+  type Task,
   trial,
 } from "./lesson";
 import { CutOff, Obstacle } from "./obstacle";
 import { Results } from "./results";
-import type { Task } from "./task";
 
 const words = text.lesson;
 

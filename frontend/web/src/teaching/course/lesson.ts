@@ -242,3 +242,10 @@ export async function workApart(): Promise<void> {
 export const clearRefusal = (): void => {
   if (refusal.peek()?.control === CONTROL_OF_LESSON) refusal.value = null;
 };
+
+/** What a step's task is given. onDone: called when what came of it is shown in place of what was asked. */
+export interface Task {
+  of: Step;
+  exercise: Exercise;
+  onDone: () => void;
+}

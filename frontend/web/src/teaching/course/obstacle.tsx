@@ -1,7 +1,6 @@
 /** What keeps one from beginning a step here, and the ways out. */
 import type { Step } from "../../core/api/course";
 import { isPrivate } from "../../core/api/request";
-import { bench } from "../../core/state/bench";
 import {
   hasControl,
   isInstructor,
@@ -11,7 +10,7 @@ import {
   queue,
   wishControl,
 } from "../../core/state/control";
-import { isLive } from "../../core/state/session";
+import { bench, isLive } from "../../core/state/session";
 import { text } from "../../core/text/en";
 import { isHeld } from "../../hardware/hold";
 import { isDoneHere, readinessOf } from "./benchstep";

@@ -1,9 +1,8 @@
 /** A number is foretold before the run that judges it. */
 import { useState } from "preact/hooks";
 import { text } from "../../core/text/en";
-import { answer } from "./lesson";
+import { answer, type Task } from "./lesson";
 import { Results } from "./results";
-import type { Task } from "./task";
 
 const words = text.lesson;
 

@@ -1,9 +1,8 @@
 /** One of several answers is chosen, once. */
 import { useState } from "preact/hooks";
 import { text } from "../../core/text/en";
-import { answer } from "./lesson";
+import { answer, type Task } from "./lesson";
 import { Results } from "./results";
-import type { Task } from "./task";
 
 const words = text.lesson;
 

@@ -1,5 +1,5 @@
 /** The columns of the leaderboard: what each is of, and the order that it makes. */
-import type { BoardEntry } from "../../core/api/leaderboard";
+import type { BoardEntry } from "../../core/api/ranking";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 

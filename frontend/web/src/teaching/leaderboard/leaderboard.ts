@@ -1,6 +1,6 @@
 /** The season's entries, the order that they are shown in, and the law that is being measured. */
 import { computed, effect, signal } from "@preact/signals";
-import { type BoardEntry, measureLaws, readBoard, submitLaw } from "../../core/api/leaderboard";
+import { type BoardEntry, measureLaws, readBoard, submitLaw } from "../../core/api/ranking";
 import { isGoing } from "../../core/jobs/progress";
 import { followResults } from "../../core/jobs/results";
 import { place } from "../../runs/list/place";

@@ -1,9 +1,9 @@
-import type { BoardEntry } from "../../core/api/leaderboard";
+import type { BoardEntry } from "../../core/api/ranking";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
 import { ScoreBar, ScoreKey, SortHead } from "../../core/widgets/tables";
-import { PlaceLink } from "../../runs/list/placelink";
+import { PlaceLink } from "../../runs/list/place";
 import { formatMoment, formatMomentShort } from "../../runs/list/words";
 import { COLUMNS, type Column, nameOf } from "./columns";
 import { board, entries, ranks, sort, submitted } from "./leaderboard";

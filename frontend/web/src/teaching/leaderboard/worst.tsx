@@ -1,7 +1,7 @@
-import { worstRunAddress } from "../../core/api/leaderboard";
+import { worstRunAddress } from "../../core/api/ranking";
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
-import { PlaceLink } from "../../runs/list/placelink";
+import { PlaceLink } from "../../runs/list/place";
 import { ReplayFrame } from "../../runs/list/replayframe";
 import { nameOf } from "./columns";
 import { board, looked, ranks } from "./leaderboard";

@@ -81,7 +81,7 @@ describe("a law has one line style", () => {
   });
 
   it("and what is installed nowhere one that no other has", async () => {
-    const { lineStylesOfLaws } = await import("../../../src/core/plots/lawlinestyles");
+    const { lineStylesOfLaws } = await import("../../../src/core/plots/linestyles");
     expect(lineStylesOfLaws(["theirs", "ndobc"])).toEqual([lineStyleOf(1), lineStyleOf(0)]);
   });
 });

@@ -5,11 +5,11 @@ import {
   changeKind,
   describeTerms,
   readForm,
+  spanOf,
   writeForm,
 } from "../../../src/evaluation/falsifier/definition";
 
 const { rankLaws } = await import("../../../src/evaluation/falsifier/laws");
-const { spanOf } = await import("../../../src/evaluation/falsifier/span");
 const { baselinesOf, kept, laws, scenario, search } = await import(
   "../../../src/evaluation/falsifier/falsifier"
 );

@@ -16,12 +16,13 @@ let bearsUpTo: typeof import("../../../src/evaluation/ranking/radar").bearsUpTo;
 let bearsFromTo: typeof import("../../../src/evaluation/ranking/radar").bearsFromTo;
 let choose: typeof import("../../../src/evaluation/ranking/ranking").choose;
 let chosen: typeof import("../../../src/evaluation/ranking/ranking").chosen;
+let splitSource: typeof import("../../../src/evaluation/ranking/ranking").splitSource;
 let readPlace: typeof import("../../../src/runs/list/place").readPlace;
 let writePlace: typeof import("../../../src/runs/list/place").writePlace;
 
 beforeAll(async () => {
   ({ pointOf, bearsUpTo, bearsFromTo } = await import("../../../src/evaluation/ranking/radar"));
-  ({ choose, chosen } = await import("../../../src/evaluation/ranking/ranking"));
+  ({ choose, chosen, splitSource } = await import("../../../src/evaluation/ranking/ranking"));
   ({ readPlace, writePlace } = await import("../../../src/runs/list/place"));
 });
 
@@ -124,4 +125,16 @@ describe("what is looked at", () => {
     expect(writePlace({ kind: "ranking" }, "?runs=all")).toBe("?ranking=all");
     expect(writePlace({ kind: "lab" }, "?ranking=all")).toBe("");
   });
+});
+
+test("a DOI at the end of a citation is what is linked", () => {
+  const said = 'D. Q. Mayne, "Constrained model predictive control", Automatica 36(6), 2000, ';
+  const doi = "10.1016/S0005-1098(99)00214-9";
+  expect(splitSource(`${said}doi:${doi}`)).toEqual({ said, doi });
+});
+
+test("an equation, and a citation whose DOI nobody looked up, are not linked", () => {
+  for (const source of ["Eq 24", 'P. Tomei, "A simple PD controller", 1991', ""]) {
+    expect(splitSource(source)).toEqual({ said: source, doi: "" });
+  }
 });

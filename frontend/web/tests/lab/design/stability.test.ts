@@ -1,6 +1,5 @@
 import { describe, expect, test } from "vitest";
-import { pathOf, shareOf } from "../../../src/lab/design/curves";
-import { errorAxis } from "../../../src/lab/design/erroraxis";
+import { errorAxis, pathOf, shareOf } from "../../../src/lab/design/curves";
 import { caveatOf, rangeOf } from "../../../src/lab/design/words";
 
 const RANGE = { parameter: "link_inertia_kg_m2", symbol: "M", present: 0.67 };

@@ -1,6 +1,12 @@
 import { describe, expect, it } from "vitest";
-import { readLevels, writeLevels } from "../../../src/lab/panels/levels";
-import { buildReference, drawCourse, FIRST, INPUTS } from "../../../src/lab/panels/shapes";
+import {
+  buildReference,
+  drawCourse,
+  FIRST,
+  INPUTS,
+  readLevels,
+  writeLevels,
+} from "../../../src/lab/panels/shapes";
 
 describe("references from what is typed", () => {
   it("stiffness stays in its own unit", () => {

@@ -1,9 +1,9 @@
+import "../../browserless";
 import { beforeEach, describe, expect, it } from "vitest";
 import { calls, clearCalls, noteCall, noteDownload } from "../../../src/core/api/calls";
 import type { CommandKind, RunOrigin } from "../../../src/core/api/types";
 import { writeCommand, writeExperiment } from "../../../src/lab/script/experiment";
-import { buildValue, toPython } from "../../../src/lab/script/python";
-import { toSnippet, toSnippets } from "../../../src/lab/script/snippets";
+import { buildValue, toPython, toSnippet, toSnippets } from "../../../src/lab/script/snippets";
 
 const LAB = new URL("http://127.0.0.1:8000/api/v1/");
 const load = { method: "post", path: "sessions/lab/loads", body: { kind: "paper" } };

@@ -17,7 +17,7 @@ async function load(answer: () => Promise<Response>) {
   URL.revokeObjectURL = () => undefined;
   const link = { href: "", download: "", click: () => void saved.push(link.download) };
   vi.stubGlobal("document", { baseURI: "http://lab.test/", createElement: () => link });
-  return import("../../../src/runs/list/making");
+  return import("../../../src/runs/list/problem");
 }
 
 describe("a file that the server makes for long", () => {

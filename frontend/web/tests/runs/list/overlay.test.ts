@@ -7,7 +7,7 @@ stubBrowser();
 vi.stubGlobal("document", { baseURI: "http://lab/", documentElement: { dataset: {} } });
 vi.stubGlobal("location", { search: "" });
 const { chooseAlignment, overlay } = await import("../../../src/runs/list/overlaid");
-const { whyUnlike } = await import("../../../src/runs/list/alike");
+const { whyUnlike } = await import("../../../src/runs/list/overlaid");
 const { COLUMNS, findBest } = await import("../../../src/runs/list/overlaytable");
 
 describe("runs laid over one another", () => {

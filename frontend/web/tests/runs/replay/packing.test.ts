@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { unpack } from "../../../src/runs/replay/packing";
+import { unpack } from "../../../src/runs/replay/data";
 
 /** Words of 4 bytes as planes: all lowest bytes, then the next. */
 const planesOf = (words: Uint32Array) =>

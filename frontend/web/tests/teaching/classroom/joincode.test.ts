@@ -1,5 +1,6 @@
+import "../../browserless";
 import { afterEach, describe, expect, it, vi } from "vitest";
-import { takeCode } from "../../../src/teaching/classroom/joincode";
+import { takeCode } from "../../../src/teaching/classroom/join";
 
 afterEach(() => vi.unstubAllGlobals());
 

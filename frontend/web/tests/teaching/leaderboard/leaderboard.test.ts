@@ -1,6 +1,6 @@
 import "../../browserless";
 import { beforeEach, describe, expect, test, vi } from "vitest";
-import type { BoardEntry } from "../../../src/core/api/leaderboard";
+import type { BoardEntry } from "../../../src/core/api/ranking";
 
 const { COLUMNS, rankEntries, sortEntries } = await import(
   "../../../src/teaching/leaderboard/columns"

@@ -1,0 +1,95 @@
+/** Parts of a form: a choice among a few options, a number, and the reason why a request was rejected. */
+import { useEffect, useId, useRef, useState } from "preact/hooks";
+import { problem } from "../state/actions";
+import { text } from "../text/en";
+
+export interface Option<T extends string> {
+  value: T;
+  label: string;
+}
+
+interface ChoiceProps<T extends string> {
+  label: string;
+  options: readonly Option<T>[];
+  /** null: none of them. */
+  value: T | null;
+  describedBy?: string;
+  /** Resolves when the choice was taken or refused; until then it stands as chosen. */
+  onChoose: (value: T) => unknown;
+}
+
+/** One of a few, all in sight. */
+export function Choice<T extends string>(props: ChoiceProps<T>) {
+  const group = useId();
+  const [pending, setPending] = useState<T | null>(null);
+  const choose = async (value: T) => {
+    setPending(value);
+    await props.onChoose(value);
+    setPending(null);
+  };
+  return (
+    <div class="choice" role="radiogroup" aria-label={props.label}>
+      {props.options.map((option) => (
+        <label key={option.value}>
+          <input
+            type="radio"
+            name={group}
+            checked={(pending ?? props.value) === option.value}
+            aria-describedby={props.describedBy}
+            onChange={() => void choose(option.value)}
+          />
+          <span>{option.label}</span>
+        </label>
+      ))}
+    </div>
+  );
+}
+
+interface NumberBoxProps {
+  label: string;
+  unit: string;
+  value: string;
+  onInput: (value: string) => void;
+}
+
+/** A number of a form, as it is typed. */
+export function NumberBox({ label, unit, value, onInput }: NumberBoxProps) {
+  const id = useId();
+  return (
+    <div class="field is-plain">
+      <label for={id}>{label}</label>
+      <input
+        id={id}
+        type="number"
+        step="any"
+        required
+        value={value}
+        onInput={(event) => onInput(event.currentTarget.value)}
+      />
+      <span class="unit">{unit}</span>
+    </div>
+  );
+}
+
+/** Why the server refused what a control asked for; brought into sight where its panel scrolls. */
+export function Problem({ control, id }: { control: string; id?: string }) {
+  const line = useRef<HTMLParagraphElement>(null);
+  const mine = problem.value?.control === control ? problem.value : null;
+  const again = mine?.again;
+  useEffect(() => {
+    if (mine !== null) line.current?.scrollIntoView({ block: "nearest" });
+  }, [mine]);
+  return (
+    <p class="problem" id={id} role="alert" hidden={mine === null} ref={line}>
+      {mine?.message}
+      {again && (
+        <>
+          {" "}
+          <button type="button" class="button is-small" onClick={() => void again()}>
+            {text.meanwhile.again}
+          </button>
+        </>
+      )}
+    </p>
+  );
+}
