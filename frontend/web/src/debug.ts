@@ -9,12 +9,12 @@
  */
 import { samples } from "./core/state/session";
 
-export interface Series {
+interface Series {
   time: number[];
   value: number[];
 }
 
-export interface DebugAccess {
+interface DebugAccess {
   channels(): string[];
   series(channel: string, lane?: number): Series;
 }

@@ -8,7 +8,7 @@ export const toRadians = (deg: number): number => deg / DEGREES_PER_RADIAN;
 const MINUS = "\u2212";
 
 /** Number of decimals that show `digits` significant ones, at most `most`. */
-export function decimalsFor(value: number, digits: number, most = 4): number {
+function decimalsFor(value: number, digits: number, most = 4): number {
   const size = Math.abs(value);
   if (!Number.isFinite(size) || size === 0) return Math.min(digits - 1, most);
   const decimals = digits - 1 - Math.floor(Math.log10(size));

@@ -6,8 +6,8 @@ import { saySwitchIsHeld, session } from "../core/state/session";
 
 export type Grip = "pointer" | "button" | "key";
 /** What ended the last run of this page's holding: its user, or its being too busy to be heard. */
-export type Ended = "letGo" | "late";
-export type HoldWords = "idle" | "ready" | "armed" | "running" | "dropped" | Ended;
+type Ended = "letGo" | "late";
+type HoldWords = "idle" | "ready" | "armed" | "running" | "dropped" | Ended;
 
 const PERIOD_MS = 40;
 /** Silence after which the bench ramps to zero. */
@@ -50,7 +50,7 @@ export function letGo(grip: Grip): void {
   if (grips.delete(grip) && grips.size === 0) release();
 }
 
-export function letGoAll(): void {
+function letGoAll(): void {
   if (grips.size === 0) return;
   grips.clear();
   release();

@@ -2,8 +2,8 @@
 import type { BenchState, BenchStatus, SessionState } from "../core/api/types";
 
 export const STAGES = ["off", "reset", "config", "mode", "ready", "run"] as const;
-export type Stage = (typeof STAGES)[number];
-export type Place = "done" | "here" | "ahead";
+type Stage = (typeof STAGES)[number];
+type Place = "done" | "here" | "ahead";
 
 /** A ramp is the end of a run; a fault is nowhere on the way; null: nobody knows where it is. */
 export function placeOf(stage: Stage, status: BenchStatus | null): Place {
@@ -14,7 +14,7 @@ export function placeOf(stage: Stage, status: BenchStatus | null): Place {
   return index < here ? "done" : "ahead";
 }
 
-export const isHomed = (bench: BenchState): boolean => bench.homing.next_step === null;
+const isHomed = (bench: BenchState): boolean => bench.homing.next_step === null;
 
 /** Whether its loop does not tick: nothing can be asked of it but to be started anew. */
 export const isLoopLost = ({ loop }: BenchState): boolean => loop.state !== "ticking";
@@ -108,7 +108,7 @@ export const isQuickStop = ({ fault }: SessionState): boolean => fault?.code ===
 
 // The histogram of a loop's lateness as bars, and how old a reading may be.
 
-export interface Bar {
+interface Bar {
   /** Upper edge, s; null for the last bin, which has none. */
   edgeS: number | null;
   count: number;

@@ -36,7 +36,7 @@ const shownPages = computed(() =>
 );
 
 /** A run and an overlay are of the runs. */
-export const pageOf = (at: Place): Page => (isOfRuns(at) ? "runs" : at.kind);
+const pageOf = (at: Place): Page => (isOfRuns(at) ? "runs" : at.kind);
 
 function Entry({ name }: { name: keyof typeof words.names }): ComponentChildren {
   return (

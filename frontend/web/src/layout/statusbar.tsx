@@ -171,7 +171,7 @@ export function StatusBar() {
 const readTime = () => formatTime(samples.ring.newestTime || 0);
 
 /** Session time of the newest sample. */
-export function Clock() {
+function Clock() {
   const element = useLiveText<HTMLSpanElement>(readTime);
   return (
     <span class="clock" title={text.status.timeHint} role="timer" aria-label={text.status.time}>

@@ -9,7 +9,7 @@ export type ClassState = Schemas["ClassState"];
 export type ClassCode = Schemas["ClassCode"];
 export type AuditPage = Schemas["AuditPage"];
 export type AuditLine = Schemas["AuditLine"];
-export type Broadcast = Schemas["BroadcastState"];
+type Broadcast = Schemas["BroadcastState"];
 
 /** Whoever gave up on an answer that was under way would be somebody twice. */
 const COMING_IN_MS = 30_000;

@@ -11,7 +11,7 @@ export type ExerciseSummary = Schemas["ExerciseSummary"];
 export type Exercise = Schemas["ExerciseState"];
 export type Step = Schemas["StepState"];
 export type CriterionResult = Schemas["CriterionState"];
-export type Judgement = Schemas["JudgementState"];
+type Judgement = Schemas["JudgementState"];
 
 const LONG_WAIT_MS = 60_000;
 const pathOf = (exercise: string, rest = "") => `course/${encodeURIComponent(exercise)}${rest}`;
@@ -54,10 +54,8 @@ export type Grades = Schemas["GradesState"];
 export type Student = Schemas["StudentState"];
 export type Submission = Schemas["GradedSubmissionState"];
 export type Grade = NonNullable<Submission["grade"]>;
-export type Criterion = Grade["criteria"][number];
 
 /** Whether this machine isolates a law is tried before the first answer. */
-
 export const readGrades = () =>
   request("get", "grades", undefined, LONG_WAIT_MS) as Promise<Grades>;
 export const gradeClass = (again: boolean) => request("post", "grades", { again }) as Promise<Job>;

@@ -9,11 +9,11 @@ export type Prediction = Schemas["Prediction"];
 export type DesignRequest = Partial<Schemas["DesignRequest"]>;
 export type DesignResponse = Schemas["ResponseState"];
 export type Stability = Schemas["StabilityState"];
-export type RegionRequest = Partial<Schemas["RegionRequest"]>;
+type RegionRequest = Partial<Schemas["RegionRequest"]>;
 export type Region = Schemas["RegionState"];
 export type Fate = Schemas["FateState"];
 export type Endurance = Schemas["EnduranceState"];
-export type PredictRequest = Partial<Schemas["PredictRequest"]>;
+type PredictRequest = Partial<Schemas["PredictRequest"]>;
 
 const SESSION = `sessions/${encodeURIComponent(sessionName)}`;
 /** A worker that has to begin first takes its time. */
@@ -41,7 +41,7 @@ export const simulateDesign = (wanted: DesignRequest) =>
 export type Follows = "position" | "stiffness";
 export type Reference = Sent<PositionReference> | Sent<StiffnessReference>;
 export type Preview = Schemas["ReferencePreview"];
-export type Series = Schemas["PositionSeries"] | Schemas["StiffnessSeries"];
+type Series = Schemas["PositionSeries"] | Schemas["StiffnessSeries"];
 
 export const readSeries = (csv: string) =>
   request("post", "references/csv", csv) as Promise<Series>;

@@ -6,7 +6,7 @@ import { request } from "./request";
 import type { OutcomeState } from "./types";
 
 /** asking: nobody knows yet whether it was carried out; carriedOut: it was, as the server says. */
-export type Told = "asking" | "carriedOut" | null;
+type Told = "asking" | "carriedOut" | null;
 export const told = signal<Told>(null);
 
 const PAUSE_MS = 500;

@@ -11,7 +11,7 @@ export type Results = Schemas["Results"];
 export type Row = Schemas["Row"];
 export type Outcome = Schemas["Outcome"];
 export type SweepOutcome = Schemas["SweepOutcome"];
-export type MeasuredRow = Schemas["MeasuredRow"];
+type MeasuredRow = Schemas["MeasuredRow"];
 
 /** A worker that has to begin first, and to compile a law, takes its time. */
 const LONGEST_MEASURING_MS = 120_000;
@@ -30,9 +30,9 @@ export const seeScenario = (law: Law, scenario: string) =>
 
 // The leaderboard: laws on a season that nobody knows, and their worst runs.
 
-export type Board = Schemas["LeaderboardState"];
+type Board = Schemas["LeaderboardState"];
 export type BoardEntry = Board["entries"][number];
-export type Submission = Schemas["SubmissionState"];
+type Submission = Schemas["SubmissionState"];
 
 /** Whether this machine isolates a law is tried before the first answer. */
 const LONG_WAIT_MS = 60_000;

@@ -6,7 +6,7 @@ import type { Method, Refusal } from "./types";
 const KEY = "svsa.client";
 
 /** 128 random bits as text. */
-export function drawText(): string {
+function drawText(): string {
   const bytes = crypto.getRandomValues(new Uint8Array(16));
   return Array.from(bytes, (byte) => byte.toString(16).padStart(2, "0")).join("");
 }

@@ -17,7 +17,7 @@ import type {
 const LONG_WAIT_MS = 60_000;
 const LONGEST_MAKING_MS = 300_000;
 
-export interface RunsWanted {
+interface RunsWanted {
   search: string;
   /** Only runs that have these: facet and value, "" for any. */
   filters: Readonly<Record<string, string>>;

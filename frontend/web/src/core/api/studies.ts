@@ -13,7 +13,7 @@ export type StudyList = Schemas["StudyList"];
 export type StudySummary = Schemas["StudySummary"];
 export type Estimate = Schemas["Estimate"];
 export type SobolIndices = Schemas["SobolIndices"];
-export type RowReplay = Schemas["RowReplay"];
+type RowReplay = Schemas["RowReplay"];
 export type StudyRow = Readonly<Record<string, string | number | boolean | null>>;
 
 /** What is asked for; what is left out is as in the source or the text. */

@@ -12,7 +12,7 @@ export interface Equation {
   note?: NoteKey;
 }
 
-export type NoteKey =
+type NoteKey =
   | "lever"
   | "zeroStiffness"
   | "signLaw"

@@ -11,7 +11,7 @@ function loadKatex(): Promise<typeof import("katex")> {
 }
 
 /** Puts a formula into an element, unless it is no longer wanted when the typesetter is there. */
-export async function typeset(
+async function typeset(
   element: HTMLElement,
   tex: string,
   isDisplayed: boolean,

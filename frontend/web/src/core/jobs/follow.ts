@@ -4,7 +4,7 @@ import { type Job, listJobs, readJob, stopJob } from "../api/jobs";
 import { polling } from "./poll";
 import { isGoing } from "./progress";
 
-export interface Followed {
+interface Followed {
   /** null while none is looked at, and where the server does not know it any more. */
   job: Signal<Job | null>;
   /** Follows it; resolves once it has ended or is gone, or another is followed, or none. */

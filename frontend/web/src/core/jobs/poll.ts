@@ -5,9 +5,9 @@ const PAUSE_MS = 700;
 const pause = () => new Promise((resolve) => setTimeout(resolve, PAUSE_MS));
 
 /** Whether it has come to its end, the server knows no more of it, or the page looks elsewhere. */
-export type Ending = "ended" | "refused" | "left";
+type Ending = "ended" | "refused" | "left";
 
-export interface Poll {
+interface Poll {
   /**
    * Asks until `take` returns true, also over answers that do not come; one thing at a time: what
    * was asked for before is left. isLeft, of `take`: whether that has happened meanwhile.

@@ -4,7 +4,7 @@ import type { Job } from "../api/jobs";
 import { attempting, telling } from "../state/actions";
 import { followJobs } from "./follow";
 
-export interface Results<T> {
+interface Results<T> {
   /** null until the server has answered. */
   found: Signal<T | null>;
   /** Why the last wish was refused. */

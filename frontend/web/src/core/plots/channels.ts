@@ -81,7 +81,7 @@ export const CHANNELS: Readonly<Record<ChannelName, ChannelLook>> = {
   lever_ratio: { unit: "1", factor: 1, span: 0.1, colour: "green" },
 };
 
-export const CHANNEL_NAMES = Object.keys(CHANNELS) as ChannelName[];
+const CHANNEL_NAMES = Object.keys(CHANNELS) as ChannelName[];
 
 export const isChannel = (name: unknown): name is ChannelName =>
   typeof name === "string" && Object.hasOwn(CHANNELS, name);

@@ -10,7 +10,7 @@ import { CHANNELS, type ChannelName } from "./channels";
 import { isWithin, type Trace } from "./definitions";
 import type { Span } from "./spans";
 
-export interface CsvColumn {
+interface CsvColumn {
   channel: ChannelName;
   name: string;
   pieces: readonly Pick<Trace, "lane" | "from" | "to">[];
@@ -41,7 +41,7 @@ export function columnsOf(
 /** A name ends in its unit; this is how the unit is written. */
 const SI_UNITS: Readonly<Record<string, string>> = { deg: "rad", "deg/s": "rad/s" };
 
-export function siUnit(channel: ChannelName): string {
+function siUnit(channel: ChannelName): string {
   const { unit } = CHANNELS[channel];
   return SI_UNITS[unit] ?? unit;
 }

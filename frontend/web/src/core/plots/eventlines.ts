@@ -46,7 +46,7 @@ export interface PlacedMark {
   rank: number;
 }
 
-export type Side = "right" | "left" | null;
+type Side = "right" | "left" | null;
 
 const HALF_MARK_PX = 6;
 const OFFSET_PX = 7;

@@ -19,10 +19,10 @@ export function toggleZoom(): void {
 }
 
 /** The last of them that is not after a time. */
-export const lastEvent = (events: readonly SessionEvent[], untilS: number): SessionEvent | null =>
+const lastEvent = (events: readonly SessionEvent[], untilS: number): SessionEvent | null =>
   events.filter(({ time_s }) => time_s <= untilS).at(-1) ?? null;
 
-export const spanAround = ({ time_s }: SessionEvent): Span => ({
+const spanAround = ({ time_s }: SessionEvent): Span => ({
   from: time_s - BEFORE_S,
   to: time_s - BEFORE_S + LENGTH_S,
 });

@@ -13,7 +13,7 @@ import { channelsInUse } from "./setups";
 import { held, isHeld, shownSpan } from "./span";
 
 /** What is drawn whenever there is something new. */
-export interface Drawing {
+interface Drawing {
   /** Draws it again. */
   renew(): void;
   /** Nobody sees what is scrolled out of sight: it waits. */

@@ -9,7 +9,7 @@ import { shownRing, shownSpan } from "./span";
 export const hoverShare = signal<number | null>(null);
 
 /** The time under the pointer, s; null where it is not over a plot. */
-export function hoverTime(): number | null {
+function hoverTime(): number | null {
   const share = hoverShare.peek();
   if (share === null) return null;
   const { from, to } = shownSpan();

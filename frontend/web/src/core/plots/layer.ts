@@ -11,7 +11,7 @@ import { palette } from "./linestyles";
 import type { Span } from "./spans";
 
 /** Columns of the roll, from one up to before another; `shift` is from columns of the plot to them. */
-export interface Piece {
+interface Piece {
   from: number;
   to: number;
   shift: number;

@@ -24,7 +24,7 @@ export function Swatch({ look, sign = "none" }: { look: LineStyle; sign?: PlotSi
   );
 }
 
-export interface LegendEntry extends LineStyle {
+interface LegendEntry extends LineStyle {
   key: string;
   label: string;
   sign?: PlotSign;
@@ -32,7 +32,7 @@ export interface LegendEntry extends LineStyle {
   remark?: ComponentChildren;
 }
 
-export interface LegendProps {
+interface LegendProps {
   class?: string;
   note?: string | undefined;
   entries: readonly LegendEntry[];

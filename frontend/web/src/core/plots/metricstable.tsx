@@ -6,7 +6,7 @@ import { Swatch } from "./legend";
 const { compare: words } = plotsText;
 
 /** Who was measured. */
-export interface MeasuredRow {
+interface MeasuredRow {
   key: string;
   look: LineStyle;
   name: string;

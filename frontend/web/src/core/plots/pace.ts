@@ -20,7 +20,7 @@ export function framesToPass(withView: number, without: number): number {
 }
 
 /** Gives a window's animation the frames that are left for it; all of them while it is handled. */
-export function pace(view: Window): void {
+function pace(view: Window): void {
   const requestFrame = view.requestAnimationFrame.bind(view);
   const waiting = new Map<number, FrameRequestCallback>();
   const lapses = { withView: 0, without: 0 };

@@ -16,7 +16,7 @@ const MIN_STEP_PX = 2;
 const STROKE_WIDTH = 1;
 const SIGN_PX = 4;
 
-export interface PhaseAxes {
+interface PhaseAxes {
   x: { channel: string; factor: number; span: number };
   y: { channel: string; factor: number; span: number };
 }

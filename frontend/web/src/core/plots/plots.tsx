@@ -19,7 +19,7 @@ import { Toolbar } from "./toolbar";
 
 /** The events above the plots, and the axis of time below them. */
 const TOP_PX = 22;
-export const FOOT_PX = 24;
+const FOOT_PX = 24;
 /** A plot's title and legend, where the legend has one row. */
 const HEAD_PX = 26;
 
@@ -37,7 +37,7 @@ export function shareOfList(height: number, leastPicture: number, head = HEAD_PX
 }
 
 /** Keeps `--plot-share` of a list with these plots; returns the function that ends it. */
-export function keepShare(list: HTMLElement): () => void {
+function keepShare(list: HTMLElement): () => void {
   const heads = [...list.querySelectorAll(".plots-stage > .plot > .plot-head")];
   const measure = () => {
     const least = Number.parseFloat(getComputedStyle(list).getPropertyValue("--least-plot"));

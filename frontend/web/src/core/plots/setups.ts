@@ -23,8 +23,8 @@ const EVERY_PRESET = {
   phase: ["position_error_rad", "velocity_error_rad_per_s"],
 } as const satisfies Record<string, readonly ChannelName[]>;
 
-export type PresetName = keyof typeof EVERY_PRESET;
-export const PRESETS: Readonly<Record<PresetName, readonly ChannelName[]>> = EVERY_PRESET;
+type PresetName = keyof typeof EVERY_PRESET;
+const PRESETS: Readonly<Record<PresetName, readonly ChannelName[]>> = EVERY_PRESET;
 export const PRESET_NAMES = Object.keys(PRESETS) as PresetName[];
 const AT_FIRST: readonly PresetName[] = ["position", "error", "stiffness", "torque", "disturbance"];
 
@@ -54,7 +54,7 @@ const phaseOf = (channels: readonly ChannelName[]): PlotSetup => ({
   channels,
 });
 
-export const setupsAtFirst = (): PlotSetup[] => AT_FIRST.map(ofPreset);
+const setupsAtFirst = (): PlotSetup[] => AT_FIRST.map(ofPreset);
 
 function readSetup(stored: unknown, index: number): PlotSetup[] {
   if (typeof stored !== "object" || stored === null) return [];

@@ -6,7 +6,7 @@ import { measureStep, type StepMetrics } from "./statistics";
 
 const ERROR = "position_error_rad";
 
-export interface Step {
+interface Step {
   /** Its end, session time in s; infinity where it goes on. */
   untilS: number;
   /** Of the lane of an index among those shown; null where nothing is known of it. */

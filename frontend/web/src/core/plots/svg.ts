@@ -5,7 +5,7 @@ import type { Points } from "./decimation";
 import type { Bound, Trace } from "./definitions";
 import type { Palette } from "./linestyles";
 
-export interface DrawnAxis {
+interface DrawnAxis {
   label: string;
   from: number;
   to: number;

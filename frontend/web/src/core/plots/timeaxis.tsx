@@ -55,7 +55,7 @@ function drawTicks(canvas: HTMLCanvasElement, { from, to }: Span): void {
 }
 
 /** A canvas that has the numbers of a span, drawn with every frame. onDrawn: what else is due then. */
-export function useTicks(spanOf: () => Span, onDrawn: () => void = () => undefined) {
+function useTicks(spanOf: () => Span, onDrawn: () => void = () => undefined) {
   const canvas = useRef<HTMLCanvasElement>(null);
   useEffect(() => {
     const draw = () => {

@@ -84,7 +84,7 @@ export const cast = computed<Cast>(() =>
 );
 
 /** Who controls a lane now. */
-export const presentOf = (lane: readonly Stretch[]): Stretch | undefined => lane.at(-1);
+const presentOf = (lane: readonly Stretch[]): Stretch | undefined => lane.at(-1);
 
 /** Who controlled a lane at a time. */
 export const controllerAt = (lane: readonly Stretch[], timeS: number): Stretch | undefined =>

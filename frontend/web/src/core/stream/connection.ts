@@ -5,7 +5,7 @@
 export type Finding = "up" | "down" | "locked" | "ended";
 export type Phase = "connecting" | "live" | "lost" | "locked" | "ended";
 
-export interface StreamHandlers {
+interface StreamHandlers {
   onPhase(phase: Phase): void;
   onText(message: string): void;
   onBinary(message: ArrayBuffer): void;

@@ -10,7 +10,7 @@ export const LONGEST_WINDOW_S = 60;
 
 // Channels that the page derives from two that are streamed: `of` less `less`, sample by sample.
 
-export const DERIVED = {
+const DERIVED = {
   /** ė = q̇_d − q̇. */
   velocity_error_rad_per_s: { of: "velocity_reference_rad_per_s", less: "velocity_rad_per_s" },
 } as const satisfies Record<string, { of: StreamedName; less: StreamedName }>;
@@ -19,7 +19,7 @@ export type DerivedName = keyof typeof DERIVED;
 const NAMES = Object.keys(DERIVED) as DerivedName[];
 
 /** What can be derived from these channels. */
-export const derivedFrom = (channels: readonly string[]): DerivedName[] =>
+const derivedFrom = (channels: readonly string[]): DerivedName[] =>
   NAMES.filter(
     (name) => channels.includes(DERIVED[name].of) && channels.includes(DERIVED[name].less),
   );

@@ -57,8 +57,8 @@ export function SortHead({ column, sort, hint, isDownFirst, onSort, ...rest }: S
 
 /** What a score is made of: 0.5 robustness + 0.3 trials + 0.2 accuracy. */
 const WEIGHTS = { robustness: 0.5, trials: 0.3, accuracy: 0.2 } as const;
-export type ScorePart = keyof typeof WEIGHTS;
-export const SCORE_PARTS = Object.keys(WEIGHTS) as readonly ScorePart[];
+type ScorePart = keyof typeof WEIGHTS;
+const SCORE_PARTS = Object.keys(WEIGHTS) as readonly ScorePart[];
 
 interface ScoreBarProps {
   parts: Readonly<Record<ScorePart, number>>;

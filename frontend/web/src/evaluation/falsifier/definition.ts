@@ -8,7 +8,7 @@ export const BODIES = ["link", "motor1", "motor2"] as const;
 export const EFFECTS = ["ideal", "rig", "every"] as const;
 export const FIGURES = ["4a", "4b", "5"] as const;
 export type Kind = (typeof KINDS)[number];
-export type Body = (typeof BODIES)[number];
+type Body = (typeof BODIES)[number];
 type Ends = readonly [number, number];
 
 /** A load of the family, its own range beside the onset: length or frequency. */

@@ -51,7 +51,7 @@ export const scenario = computed((): Scenario | null => {
   return search.value?.scenario ?? search.value?.worst ?? null;
 });
 
-export interface Finding {
+interface Finding {
   adversary: string;
   law: Law;
   harm: string;

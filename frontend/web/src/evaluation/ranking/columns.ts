@@ -22,7 +22,7 @@ export interface Column {
   scenarioOf: (row: Row) => string | null;
 }
 
-export const outcomeOf = (row: Row, scenario: string): Outcome | undefined =>
+const outcomeOf = (row: Row, scenario: string): Outcome | undefined =>
   row.outcomes.find((one) => one.scenario === scenario);
 
 const error = (key: Column["key"], scenario: string, read: Column["read"], unit = "°"): Column => ({

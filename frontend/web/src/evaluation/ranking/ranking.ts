@@ -14,7 +14,7 @@ import { explain } from "../../core/state/actions";
 import { sortRows } from "./columns";
 
 const PAPERS_LAW = "ndobc";
-export const MAX_CHOSEN = 4;
+const MAX_CHOSEN = 4;
 
 export const results = signal<Results | null>(null);
 export const problem = signal("");

@@ -1,7 +1,7 @@
 /** Paints a hundred thousand dots at once, pixel by pixel: a disc held, a ring missed, a cross faulted. */
 import type uPlot from "uplot";
 
-export interface Dots {
+interface Dots {
   x: Float64Array;
   y: Float64Array;
   /** Of each dot the place of its colour among `colours`. */

@@ -3,7 +3,7 @@ import type { StudyColumn } from "../../core/api/studies";
 import { DEGREES_PER_RADIAN } from "../../core/units";
 import type { Brush } from "./points";
 
-export const PLANES = ["s", "t"] as const;
+const PLANES = ["s", "t"] as const;
 export type Plane = (typeof PLANES)[number];
 
 /** A brush, and in which of the two planes it was drawn. */

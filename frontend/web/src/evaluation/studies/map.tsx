@@ -10,7 +10,7 @@ const WIDTH = 320;
 const HEIGHT = 240;
 
 /** From vermilion, none, to blue, all. */
-export const shadeOf = (share: number): string =>
+const shadeOf = (share: number): string =>
   `color-mix(in oklab, var(--plot-blue) ${Math.round(100 * share)}%, var(--plot-vermilion))`;
 
 const formatSpan = (label: string, edges: readonly number[]): string =>

@@ -78,7 +78,7 @@ export function findNearest(
   return found < 0 ? null : found;
 }
 
-export interface Cell {
+interface Cell {
   column: number;
   line: number;
   runs: number;

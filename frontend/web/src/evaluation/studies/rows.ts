@@ -1,6 +1,6 @@
 /** Rows of a study as columns of numbers, unpacked from what the server sends. */
 
-export interface Column {
+interface Column {
   values: Float64Array;
   /** What its numbers stand for, where they are no numbers. */
   labels: readonly string[] | null;

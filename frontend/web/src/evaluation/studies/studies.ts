@@ -67,7 +67,7 @@ export async function openList(): Promise<void> {
   list.value = (await attempt(listStudies)) ?? list.peek();
 }
 
-export const wantedColumns = (names: Readonly<Record<string, string>>): string[] => [
+const wantedColumns = (names: Readonly<Record<string, string>>): string[] => [
   ...new Set(["law", "fault", "succeeded", ...Object.values(names)].filter((name) => name !== "")),
 ];
 

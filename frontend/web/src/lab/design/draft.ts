@@ -30,7 +30,7 @@ const RETRY_MS = 1500;
 let timer: ReturnType<typeof setTimeout> | undefined;
 let asked = 0;
 
-export function draftOf({ gains, observer }: Configuration): Draft {
+function draftOf({ gains, observer }: Configuration): Draft {
   return {
     position: polesOf(gains.position_roots_rad_per_s),
     stiffness: polesOf(gains.stiffness_roots_rad_per_s),

@@ -9,7 +9,7 @@ import { session } from "../../core/state/session";
 const MAX_STEPS = 50;
 
 /** parameters: by law. beside: by the identity of the lane. */
-export interface Design {
+interface Design {
   position: readonly number[];
   stiffness: readonly number[];
   observer: readonly [number, number, number];
@@ -39,13 +39,13 @@ const isEqual = (one: unknown, other: unknown): boolean =>
   JSON.stringify(one) === JSON.stringify(other);
 
 /** The laws that both designs know, and that are set differently. */
-export const changedLaws = (one: Design, other: Design): string[] =>
+const changedLaws = (one: Design, other: Design): string[] =>
   Object.keys(one.parameters).filter(
     (law) => law in other.parameters && !isEqual(one.parameters[law], other.parameters[law]),
   );
 
 /** The lanes that both designs have, set differently; under another law if settings went. */
-export const changedLanes = (one: Design, other: Design): string[] =>
+const changedLanes = (one: Design, other: Design): string[] =>
   Object.keys(one.beside).filter((id) => {
     const [held, now] = [one.beside[id], other.beside[id]];
     if (held === undefined || now === undefined || isEqual(held, now)) return false;
@@ -53,7 +53,7 @@ export const changedLanes = (one: Design, other: Design): string[] =>
   });
 
 /** The lanes with settings of their own that are no more. */
-export const lostLanes = (one: Design, other: Design): string[] =>
+const lostLanes = (one: Design, other: Design): string[] =>
   Object.keys(one.beside).filter(
     (id) => other.beside[id] === undefined && hasOwnSettings(one.beside[id] as Lane),
   );
@@ -69,7 +69,7 @@ export const isSame = (one: Design, other: Design): boolean =>
   lostLanes(one, other).length === 0;
 
 /** The steps after a change to `next`: the one before it is kept. */
-export function keepStep(kept: readonly Design[], before: Design): Design[] {
+function keepStep(kept: readonly Design[], before: Design): Design[] {
   return [...kept, before].slice(-MAX_STEPS);
 }
 

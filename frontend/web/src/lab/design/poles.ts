@@ -9,7 +9,7 @@ export interface Pole {
 export type Poles = readonly Pole[];
 
 /** Closer to the real axis than this, a pole lies on it, rad/s. */
-export const SNAP = 4;
+const SNAP = 4;
 export const MAX_RE = 40;
 export const MIN_RE = -300;
 export const MAX_IM = 120;
@@ -108,7 +108,7 @@ export const areTogether = (poles: Poles): boolean =>
 export const toRequest = ({ re, im }: Pole): number | [number, number] =>
   im === 0 ? re : [re, im];
 
-export interface Place {
+interface Place {
   pole: Pole;
   count: number;
 }

@@ -83,7 +83,7 @@ function Coefficients({ which, symbol, gains }: CoefficientsProps) {
   );
 }
 
-export function Gains({ gains }: { gains: GainsState }) {
+function Gains({ gains }: { gains: GainsState }) {
   return (
     <>
       <DesignSummary />

@@ -5,7 +5,7 @@ import { Problem } from "../../core/widgets/form";
 import { positionOf, type SliderRange, STEPS, valueAt } from "../../core/widgets/scale";
 import { type HeldNumber, useDraft } from "./draft";
 
-export interface FieldProps extends HeldNumber {
+interface FieldProps extends HeldNumber {
   label: string;
   /** Goes on where the group makes the label clear to the eye, but not to a screen reader. */
   labelRest?: string;

@@ -82,7 +82,7 @@ function EffectRow({ name, label, isOn, onToggle }: EffectRowProps) {
 }
 
 /** Every effect with its switch, and with its values while it is on. */
-export function EffectList({ effects }: { effects: Effects }) {
+function EffectList({ effects }: { effects: Effects }) {
   const last = useRef<Partial<Effects>>({});
   for (const effect of EFFECTS) {
     if (effects[effect]) last.current = { ...last.current, [effect]: effects[effect] };

@@ -177,7 +177,7 @@ interface CourseProps {
 }
 
 /** What a reference would ask for, before anything follows it. */
-export function Course({ preview, unit, factor }: CourseProps) {
+function Course({ preview, unit, factor }: CourseProps) {
   const shown = (value: number) => formatNumber(value * factor, 3);
   const caption = text.references.course(
     shown(preview.low),

@@ -5,7 +5,7 @@ import { DEGREES_PER_RADIAN } from "../../core/units";
 
 export const SHAPES = ["steps", "minimum_jerk", "chirp", "series"] as const;
 export type Shape = (typeof SHAPES)[number];
-export type Typed = Exclude<Shape, "series">;
+type Typed = Exclude<Shape, "series">;
 export type Input =
   | "low"
   | "high"

@@ -1,7 +1,7 @@
 /** From where the page looks at the actuator; viser's first camera is one of these too. */
 import presets from "../../../../scene/svsa_scene/cameras.json";
 
-export type Point = readonly [number, number, number];
+type Point = readonly [number, number, number];
 export type CameraName = keyof typeof presets;
 
 /** A camera in the scene's coordinates; fov: from the lower to the upper edge, degrees. */

@@ -3,7 +3,7 @@ import type { Camera } from "./ray";
 
 type Numbers = ArrayLike<number>;
 
-export interface Matrix {
+interface Matrix {
   elements: readonly number[];
   clone(): Matrix & { invert(): Matrix };
 }

@@ -12,7 +12,7 @@ import { LANGUAGES, type Language, toSnippet, toSnippets } from "./snippets";
 const words = text.script;
 const OPTIONS = LANGUAGES.map((value) => ({ value, label: words.languages[value] }));
 
-export const isDrawerOpen = signal(false);
+const isDrawerOpen = signal(false);
 
 export function toggleDrawer(): void {
   isDrawerOpen.value = !isDrawerOpen.peek();

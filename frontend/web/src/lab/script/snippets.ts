@@ -43,11 +43,11 @@ export const LANGUAGES = ["python", "curl"] as const;
 export type Language = (typeof LANGUAGES)[number];
 type Request = Pick<Call, "method" | "path" | "body">;
 
-export const IMPORT = "import httpx\n\n";
+const IMPORT = "import httpx\n\n";
 
 const inShell = (value: string): string => `'${value.replaceAll("'", "'\\''")}'`;
 
-export function toCurl({ method, path, body }: Request, api: URL): string {
+function toCurl({ method, path, body }: Request, api: URL): string {
   const address = inShell(String(new URL(path, api)));
   if (method === "get") return `curl -OJ ${address}`;
   const head = `curl -X ${method.toUpperCase()} ${address}`;
@@ -55,7 +55,7 @@ export function toCurl({ method, path, body }: Request, api: URL): string {
   return `${head} -H 'Content-Type: application/json' -d ${inShell(JSON.stringify(body))}`;
 }
 
-export function toHttpx({ method, path, body }: Request, api: URL): string {
+function toHttpx({ method, path, body }: Request, api: URL): string {
   const address = toPython(String(new URL(path, api)));
   const json = body === undefined ? "" : `, json=${toPython(body)}`;
   return `httpx.${method}(${address}${json})`;

@@ -86,7 +86,7 @@ const setting = (read: (settings: NonNullable<RunSummary["settings"]>) => string
 });
 
 /** "Fig. 4A", "from Fig. 4A", or the motion of a run that is no figure. */
-export function figureOf({ settings }: Pick<RunSummary, "settings">): string {
+function figureOf({ settings }: Pick<RunSummary, "settings">): string {
   if (settings === null) return "";
   if (settings.figure === "") return settings.motion;
   return words.figureShown(settings.figure.toUpperCase(), settings.figure_held);

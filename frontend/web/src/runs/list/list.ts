@@ -16,7 +16,7 @@ const UNFILTERED: Readonly<Record<Filter, string>> = {
   plant: "",
   tag: "",
 };
-export const NEWEST_FIRST = "-created";
+const NEWEST_FIRST = "-created";
 
 export const search = signal("");
 export const filters = signal(UNFILTERED);

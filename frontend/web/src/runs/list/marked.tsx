@@ -2,7 +2,7 @@
 import { computed } from "@preact/signals";
 import { search } from "./list";
 
-export interface Part {
+interface Part {
   text: string;
   isFound: boolean;
 }

@@ -38,7 +38,7 @@ export function OriginLink({ origin }: { origin: Origin }) {
 }
 
 /** The recorded run that the page's session goes on from, as far as it can still be read. */
-export function SessionOrigin({ runId, tick }: { runId: string; tick: number }) {
+function SessionOrigin({ runId, tick }: { runId: string; tick: number }) {
   const [run, setRun] = useState<RunDetails | null>(null);
   useEffect(() => {
     let isGone = false;

@@ -3,7 +3,7 @@ import { signal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 
 /** What of a study is looked at: axes, metric, brush, each by its name in the address. */
-export type Look = Readonly<Record<string, string>>;
+type Look = Readonly<Record<string, string>>;
 
 export type Place =
   | { kind: "lab" }

@@ -35,7 +35,7 @@ async function describeOutcome(error: unknown): Promise<string> {
 
 // A file that the server works on for long before it can be saved: that it does, and what came of it.
 
-export interface Making {
+interface Making {
   run: string;
   stage: "making" | "saved" | "failed";
   /** Why it failed. */

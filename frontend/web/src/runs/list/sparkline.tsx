@@ -5,15 +5,15 @@ import { lineStyleOf } from "../../core/plots/linestyles";
 import { text } from "../../core/text/en";
 import { formatNumber, toDegrees } from "../../core/units";
 
-export const WIDTH = 300;
-export const HEIGHT = 44;
+const WIDTH = 300;
+const HEIGHT = 44;
 const POINTS = 240;
 const MARGIN = 2;
 const CHANNEL: StreamedName = "position_error_rad";
 /** A smaller error than this fills no plot, rad. */
 const SMALLEST = 1e-4;
 
-export interface Spark {
+interface Spark {
   /** One a stretch of a lane, in the line style of who controlled it. */
   paths: { lineStyle: number; path: string }[];
   /** Height of zero error. */

@@ -3,7 +3,7 @@ import { signal } from "@preact/signals";
 
 export const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4] as const;
 
-export interface Range {
+interface Range {
   from: number;
   to: number;
 }
@@ -47,7 +47,7 @@ export function seek(time: number): void {
 }
 
 /** Whole frames back or forth, from the frame shown. */
-export function stepFrames(count: number): void {
+function stepFrames(count: number): void {
   isPlaying.value = false;
   seek((Math.round(timeS.peek() / frameS) + count) * frameS);
 }

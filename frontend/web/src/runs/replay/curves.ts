@@ -18,7 +18,7 @@ export interface Curve {
 }
 
 /** One set of curves of a plot; where there are several, the reader chooses. */
-export interface Choice {
+interface Choice {
   label: string;
   curves: Curve[];
 }

@@ -84,7 +84,7 @@ async function inflate(base64: string): Promise<Uint8Array> {
 // Arrays as `svsa_scene/replay_packing.py` packs them.
 
 /** First byte, number of values and, of a curve, the step of which they are multiples. */
-export type Packed = [start: number, count: number, step?: number];
+type Packed = [start: number, count: number, step?: number];
 
 /** No number. */
 const NONE = -(2 ** 31);

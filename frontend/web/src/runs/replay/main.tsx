@@ -59,7 +59,7 @@ try {
   host.textContent = text.broken;
 }
 
-export function App({ recording }: { recording: Recording }) {
+function App({ recording }: { recording: Recording }) {
   const plots = useMemo(() => definePlots(recording), [recording]);
   const time = useMemo(() => makeTimeAxis(recording), [recording]);
   return (

@@ -13,7 +13,7 @@ import type { Curve, ReplayPlot } from "./curves";
 const X_AXIS_PX = 24;
 const LABELS_PX = 17;
 
-export interface PlotProps {
+interface PlotProps {
   plot: ReplayPlot;
   time: Float64Array;
   events: readonly RunEvent[];
@@ -121,14 +121,14 @@ export function Plot(props: PlotProps) {
 
 const LINE = "now";
 
-export function addTimeLine({ plot }: StaticChart): void {
+function addTimeLine({ plot }: StaticChart): void {
   const line = document.createElement("div");
   line.className = LINE;
   plot.over.append(line);
   placeTimeLine(plot);
 }
 
-export function placeTimeLine(plot: uPlot): void {
+function placeTimeLine(plot: uPlot): void {
   const line = plot.over.querySelector<HTMLElement>(`.${LINE}`);
   if (line === null) return;
   const { from, to } = range.peek();
@@ -138,7 +138,7 @@ export function placeTimeLine(plot: uPlot): void {
 }
 
 /** Value of a curve at the pointer, or else at the present time. */
-export function readCurve({ plot, content }: StaticChart, values: Float32Array): number {
+function readCurve({ plot, content }: StaticChart, values: Float32Array): number {
   const { time } = content;
   const step = (time[1] ?? 1) - (time[0] ?? 0);
   const now = Math.min(Math.round(timeS.peek() / step), time.length - 1);
@@ -150,7 +150,7 @@ export function readCurve({ plot, content }: StaticChart, values: Float32Array):
 const LABEL_PX = 11;
 
 /** Names, each where there is room left for it. */
-export function drawEventLabels(plot: uPlot, events: readonly RunEvent[]): void {
+function drawEventLabels(plot: uPlot, events: readonly RunEvent[]): void {
   const { ctx: context, bbox } = plot;
   const gap = 4 * devicePixelRatio;
   let free = 0;

@@ -5,7 +5,7 @@ import { tell } from "../../core/state/actions";
 import { text } from "../../core/text/en";
 
 const words = text.classroom.audit;
-export const PAGE_SIZE = 50;
+const PAGE_SIZE = 50;
 const NEWEST: AuditWish = { person: "", kind: "", onlyRefused: false, page: 1, until: "" };
 
 export const wish = signal<AuditWish>(NEWEST);

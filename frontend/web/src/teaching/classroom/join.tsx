@@ -78,7 +78,7 @@ export function Join({ enter }: EnterProps) {
 }
 
 /** How one gets in. */
-export interface EnterProps {
+interface EnterProps {
   /** Tells what went wrong, or lets the page in. */
   enter: (way: () => Promise<unknown>) => void;
 }

@@ -198,11 +198,11 @@ export function ClassButton() {
 
 // Whether the panel of the class is open, and how often it is read anew then.
 
-export const isOpen = signal(false);
-export const READ_MS = 2000;
+const isOpen = signal(false);
+const READ_MS = 2000;
 
 /** A new class code, to be read and scanned from a wall. */
-export function Code({ code }: { code: ClassCode }) {
+function Code({ code }: { code: ClassCode }) {
   return (
     <figure class="class-qr">
       <figcaption>

@@ -4,7 +4,7 @@ import type { BenchState, SessionState } from "../../core/api/types";
 import { type Advice, adviceFor } from "../../hardware/status";
 
 /** What a bench may be asked for by a step: to be set to it, and to run. */
-export interface Readiness {
+interface Readiness {
   /** It stands, and takes a configuration. */
   mayBeSet: boolean;
   /** It would start at once. */
@@ -33,7 +33,7 @@ export const isDoneHere = (of: Step, bench: BenchState | null): boolean =>
 export const askedOf = (of: Step, bench: BenchState | null): readonly string[] =>
   (bench !== null && of.bench?.criteria) || of.criteria;
 
-export type Hand = NonNullable<Step["bench"]>["hands"][number];
+type Hand = NonNullable<Step["bench"]>["hands"][number];
 const STILL_SHOWN_S = 2;
 
 /** What is to be done by hand next, or was due a moment ago; null where nothing is left. */

@@ -130,9 +130,9 @@ export function Claims() {
 
 // What the paper claims of each figure, in the server's words.
 
-export const figureClaims = signal<ReadonlyMap<string, string>>(new Map());
+const figureClaims = signal<ReadonlyMap<string, string>>(new Map());
 
-export async function loadClaims(): Promise<void> {
+async function loadClaims(): Promise<void> {
   if (figureClaims.peek().size > 0) return;
   const figures = (await request("get", "figures")) as components["schemas"]["FigureState"][];
   figureClaims.value = new Map(figures.map(({ key, claim }) => [key, claim]));

@@ -85,7 +85,7 @@ export function Ending({ of, exercise, onDone }: Task) {
 
 const gradeWords = text.grades;
 
-export function OwnGrade({ exercise }: { exercise: string }) {
+function OwnGrade({ exercise }: { exercise: string }) {
   const [submission, setSubmission] = useState<Submission | null>(null);
   const [problem, setProblem] = useState("");
   useEffect(() => {

@@ -19,7 +19,7 @@ import {
 } from "../../core/api/course";
 import { RefusedError } from "../../core/api/errors";
 import { readRun } from "../../core/api/runs";
-import { explain, perform, problem as refusal } from "../../core/state/actions";
+import { explain, perform } from "../../core/state/actions";
 import { hasControl } from "../../core/state/control";
 import { acceptState, session } from "../../core/state/session";
 import { place, writePlace } from "../../runs/list/place";
@@ -36,7 +36,7 @@ export const problem = signal("");
 export const isBusy = signal(false);
 
 /** The run of a step that is under way, or being judged. */
-export interface Trial {
+interface Trial {
   exercise: string;
   step: string;
   run: string;
@@ -238,10 +238,6 @@ export async function workApart(): Promise<void> {
   query.set("session", name);
   location.search = writePlace(place.peek(), `?${query}`);
 }
-
-export const clearRefusal = (): void => {
-  if (refusal.peek()?.control === CONTROL_OF_LESSON) refusal.value = null;
-};
 
 /** What a step's task is given. onDone: called when what came of it is shown in place of what was asked. */
 export interface Task {

@@ -5,7 +5,7 @@ import { text } from "../../core/text/en";
 
 const words = text.leaderboard.columns;
 
-export type Ranks = ReadonlyMap<string, number>;
+type Ranks = ReadonlyMap<string, number>;
 
 export interface Column {
   key: keyof typeof words;
