@@ -4,6 +4,7 @@ import { RefusedError } from "../core/api/errors";
 import { access, comings, learnAccess } from "../core/state/control";
 import { openStream, phase } from "../core/state/session";
 import { text } from "../core/text/en";
+import { ErrorLine } from "../core/widgets/form";
 import { StopBanners, StopButton } from "../lab/safety/stopbanner";
 import { Join, SecretForm } from "../teaching/classroom/join";
 
@@ -44,9 +45,7 @@ export function Login() {
       ) : (
         <SecretForm label={text.login.secret} enter={(way) => void enter(way)} send={login} />
       )}
-      <p class="problem" role="alert" hidden={problem === ""}>
-        {problem}
-      </p>
+      <ErrorLine>{problem}</ErrorLine>
       <StopBanners />
       <StopButton />
     </dialog>

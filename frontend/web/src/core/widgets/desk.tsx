@@ -1,32 +1,48 @@
-/** A page with what was kept and begun at its side, and what is looked at beside it. */
+/** Pages of their own, with or without a side, and the boxes of their forms. */
+
 import type { ComponentChildren } from "preact";
 import type { Law } from "../api/types";
 import { usableLaws } from "../state/laws";
+import { ErrorLine } from "./form";
 
-interface DeskProps {
+interface PageProps {
   title: string;
+  /** What the page shows, in a sentence. */
   lead: string;
+  /** Why the last request was rejected; empty without one. */
   problem: string;
-  side: ComponentChildren;
-  children: ComponentChildren;
+  /** Stands at the end of the title's line. */
+  aside?: ComponentChildren;
   class?: string;
+  children: ComponentChildren;
 }
 
-export function Desk({ title, lead, problem, side, children, class: look = "" }: DeskProps) {
+/** A page of its own: title, error of the last request, content. */
+export function Page({ title, lead, problem, aside, children, class: look = "" }: PageProps) {
   return (
     <main class={`page ${look}`} aria-label={title}>
       <div class="page-head">
-        <h2>{title}</h2>
-        <p>{lead}</p>
+        <div>
+          <h2>{title}</h2>
+          <p>{lead}</p>
+        </div>
+        {aside}
       </div>
-      <p class="problem" role="alert" hidden={problem === ""}>
-        {problem}
-      </p>
+      <ErrorLine>{problem}</ErrorLine>
+      {children}
+    </main>
+  );
+}
+
+/** A page with a side for what was begun and kept. */
+export function Desk({ side, children, ...page }: PageProps & { side: ComponentChildren }) {
+  return (
+    <Page {...page}>
       <div class="desk-body">
         <aside class="desk-side">{side}</aside>
         {children}
       </div>
-    </main>
+    </Page>
   );
 }
 

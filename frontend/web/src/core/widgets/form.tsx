@@ -1,4 +1,4 @@
-/** Parts of a form: a choice among a few options, a number, and the reason why a request was rejected. */
+/** Parts of a form: choices, numbers, and the reason why a request was rejected. */
 import { useEffect, useId, useRef, useState } from "preact/hooks";
 import { problem } from "../state/actions";
 import { text } from "../text/en";
@@ -91,5 +91,72 @@ export function Problem({ control, id }: { control: string; id?: string }) {
         </>
       )}
     </p>
+  );
+}
+
+/** Why a request of the page or of its form was rejected; hidden while it is empty. */
+export function ErrorLine({ children }: { children: string }) {
+  return (
+    <p class="problem" role="alert" hidden={children === ""}>
+      {children}
+    </p>
+  );
+}
+
+interface SelectFieldProps<T extends string> {
+  label: string;
+  value: T;
+  options: readonly T[];
+  /** What is shown of an option. */
+  name: (value: T) => string;
+  title?: string;
+  disabled?: boolean;
+  onChoose: (value: T) => void;
+}
+
+/** One of some options, below its label. */
+export function SelectField<T extends string>(props: SelectFieldProps<T>) {
+  const { label, value, options, name, title, disabled, onChoose } = props;
+  return (
+    <label title={title}>
+      <span>{label}</span>
+      <select
+        value={value}
+        disabled={disabled}
+        onChange={(event) => onChoose(event.currentTarget.value as T)}
+      >
+        {options.map((one) => (
+          <option key={one} value={one}>
+            {name(one)}
+          </option>
+        ))}
+      </select>
+    </label>
+  );
+}
+
+interface NumberFieldProps {
+  label: string;
+  value: number;
+  min: number;
+  max?: number;
+  title?: string;
+  onChange: (value: number) => void;
+}
+
+/** A required number, below its label. */
+export function NumberField({ label, value, title, onChange, ...ends }: NumberFieldProps) {
+  return (
+    <label title={title}>
+      <span>{label}</span>
+      <input
+        type="number"
+        step="any"
+        required
+        {...ends}
+        value={value}
+        onInput={(event) => onChange(event.currentTarget.valueAsNumber)}
+      />
+    </label>
   );
 }

@@ -1,6 +1,8 @@
 /** A law of one's own, as a file or as a text. */
+
 import { useState } from "preact/hooks";
 import { text } from "../text/en";
+import { ErrorLine } from "./form";
 
 const words = text.lawText;
 export const MAX_BYTES = 1 << 16;
@@ -70,9 +72,7 @@ export function LawText({ law, onLaw, onFile, start, startWord }: LawTextProps) 
           {startWord}
         </button>
       )}
-      <p class="problem" role="alert" hidden={fault === ""}>
-        {fault}
-      </p>
+      <ErrorLine>{fault}</ErrorLine>
     </>
   );
 }

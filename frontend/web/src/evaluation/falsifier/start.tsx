@@ -2,6 +2,7 @@ import { useState } from "preact/hooks";
 import type { Adversary } from "../../core/api/falsifications";
 import { titleOf, usableLaws } from "../../core/state/laws";
 import { text } from "../../core/text/en";
+import { NumberField, SelectField } from "../../core/widgets/form";
 import {
   type AdversaryForm,
   describeTerms,
@@ -19,76 +20,20 @@ const words = text.falsifier;
 const OWN = "";
 const RUNS = 20_000;
 
-interface ChooseProps<T extends string> {
-  label: string;
-  value: T;
-  options: readonly T[];
-  name: (value: T) => string;
-  title?: string;
-  onChoose: (value: T) => void;
-}
-
-function Choose<T extends string>({
-  label,
-  value,
-  options,
-  name,
-  title,
-  onChoose,
-}: ChooseProps<T>) {
-  return (
-    <label title={title}>
-      <span>{label}</span>
-      <select value={value} onChange={(event) => onChoose(event.currentTarget.value as T)}>
-        {options.map((one) => (
-          <option key={one} value={one}>
-            {name(one)}
-          </option>
-        ))}
-      </select>
-    </label>
-  );
-}
-
-interface NumberProps {
-  label: string;
-  value: number;
-  min: number;
-  max?: number;
-  title?: string;
-  onChange: (value: number) => void;
-}
-
-function NumberField({ label, value, title, onChange, ...ends }: NumberProps) {
-  return (
-    <label title={title}>
-      <span>{label}</span>
-      <input
-        type="number"
-        step="any"
-        required
-        {...ends}
-        value={value}
-        onInput={(event) => onChange(event.currentTarget.valueAsNumber)}
-      />
-    </label>
-  );
-}
-
 /** What the runs begin from: effects, references. */
 function Base({ form, onChange }: FieldsProps) {
   const { base } = form;
   const effects = EFFECTS.find((one) => one === (base.effects ?? "ideal"));
   return (
     <div class="desk-fields">
-      <Choose
+      <SelectField
         label={words.effects}
         value={effects ?? "given"}
         options={effects ? EFFECTS : [...EFFECTS, "given" as const]}
         name={(one) => words.effect[one]}
         onChoose={(one) => one !== "given" && onChange({ base: { ...base, effects: one } })}
       />
-      <Choose
+      <SelectField
         label={words.figure}
         value={String(base.figure ?? FIGURES[0])}
         options={FIGURES}
@@ -164,7 +109,7 @@ export function Start() {
       }}
     >
       <h3>{words.begin}</h3>
-      <Choose
+      <SelectField
         label={words.adversary}
         value={chosen}
         options={[...known.map(({ name }) => name), OWN]}
@@ -172,7 +117,7 @@ export function Start() {
         onChoose={choose}
       />
       {from && <p class="hint">{from.title}</p>}
-      <Choose
+      <SelectField
         label={words.law}
         value={hurt}
         options={[...(form ? [] : [""]), ...usableLaws.value.map(({ name }) => name)]}
@@ -181,7 +126,7 @@ export function Start() {
       />
       {form ? (
         <>
-          <Choose
+          <SelectField
             label={words.harm}
             value={form.harm}
             options={HARMS}

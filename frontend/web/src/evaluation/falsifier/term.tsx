@@ -1,5 +1,6 @@
 import { text } from "../../core/text/en";
-import { BODIES, changeKind, KINDS, type Kind, type TermForm } from "./definition";
+import { NumberField, SelectField } from "../../core/widgets/form";
+import { BODIES, changeKind, KINDS, type TermForm } from "./definition";
 
 const words = text.falsifier;
 
@@ -10,26 +11,20 @@ interface RangeProps {
 }
 
 function Range({ label, ends, onChange }: RangeProps) {
-  const field = (at: 0 | 1, name: string) => (
-    <label>
-      <span>{name}</span>
-      <input
-        type="number"
-        step="any"
-        min={0}
-        required
-        value={ends[at]}
-        onInput={(event) => {
-          const value = event.currentTarget.valueAsNumber;
-          onChange(at === 0 ? [value, ends[1]] : [ends[0], value]);
-        }}
-      />
-    </label>
-  );
   return (
     <div class="desk-fields">
-      {field(0, label)}
-      {field(1, words.to)}
+      <NumberField
+        label={label}
+        min={0}
+        value={ends[0]}
+        onChange={(from) => onChange([from, ends[1]])}
+      />
+      <NumberField
+        label={words.to}
+        min={0}
+        value={ends[1]}
+        onChange={(to) => onChange([ends[0], to])}
+      />
     </div>
   );
 }
@@ -48,31 +43,20 @@ export function TermFields({ number, term, canBeRemoved, onChange, onRemove }: T
     <fieldset class="falsifier-term">
       <legend>{words.load(number)}</legend>
       <div class="desk-fields">
-        <label>
-          <span>{words.kind}</span>
-          <select
-            value={term.kind}
-            onChange={(event) => onChange(changeKind(term, event.currentTarget.value as Kind))}
-          >
-            {KINDS.map((kind) => (
-              <option key={kind} value={kind}>
-                {words.kinds[kind]}
-              </option>
-            ))}
-          </select>
-        </label>
-        <label>
-          <span>{words.torque}</span>
-          <input
-            type="number"
-            step="any"
-            min={0}
-            max={50}
-            required
-            value={term.torqueNm}
-            onInput={(event) => onChange({ ...term, torqueNm: event.currentTarget.valueAsNumber })}
-          />
-        </label>
+        <SelectField
+          label={words.kind}
+          value={term.kind}
+          options={KINDS}
+          name={(kind) => words.kinds[kind]}
+          onChoose={(kind) => onChange(changeKind(term, kind))}
+        />
+        <NumberField
+          label={words.torque}
+          min={0}
+          max={50}
+          value={term.torqueNm}
+          onChange={(torqueNm) => onChange({ ...term, torqueNm })}
+        />
       </div>
       <p class="falsifier-bodies">
         <span class="hint">{words.onBodies}</span>

@@ -1,6 +1,7 @@
 import { useEffect } from "preact/hooks";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
+import { Page } from "../../core/widgets/desk";
 import { ScoreKey } from "../../core/widgets/tables";
 import { COLUMNS, versionsOf } from "./columns";
 import { LawCard } from "./law";
@@ -70,17 +71,12 @@ export function RankingPage() {
   }, []);
   const found = results.value;
   return (
-    <main class="page" aria-label={words.title}>
-      <div class="page-head ranking-head">
-        <div>
-          <h2>{words.title}</h2>
-          <p>{words.lead}</p>
-        </div>
-        {found && <Measure />}
-      </div>
-      <p class="problem" role="alert" hidden={problem.value === ""}>
-        {problem.value}
-      </p>
+    <Page
+      title={words.title}
+      lead={words.lead}
+      problem={problem.value}
+      aside={found && <Measure />}
+    >
       {found === null ? (
         problem.value === "" && <p class="hint">{words.loading}</p>
       ) : (
@@ -97,6 +93,6 @@ export function RankingPage() {
           </div>
         </>
       )}
-    </main>
+    </Page>
   );
 }

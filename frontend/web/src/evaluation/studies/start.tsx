@@ -4,6 +4,7 @@ import { tell } from "../../core/state/actions";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { Boxes, LawBoxes } from "../../core/widgets/desk";
+import { SelectField } from "../../core/widgets/form";
 import { factorOf, nameColumn } from "./look";
 import { begin, isBusy, list, problem } from "./studies";
 
@@ -56,25 +57,17 @@ export function Start() {
       }}
     >
       <h3>{words.begin}</h3>
-      <label>
-        <span>{words.source}</span>
-        <select
-          value={source}
-          onChange={(event) => {
-            const chosen = event.currentTarget.value;
-            const template = builtIn.find((one) => one.name === source)?.text ?? "";
-            change(() => setSource(chosen));
-            if (chosen === OWN && own === "") setOwn(template);
-          }}
-        >
-          {builtIn.map((one) => (
-            <option key={one.name} value={one.name}>
-              {one.name}
-            </option>
-          ))}
-          <option value={OWN}>{words.own}</option>
-        </select>
-      </label>
+      <SelectField
+        label={words.source}
+        value={source}
+        options={[...builtIn.map((one) => one.name), OWN]}
+        name={(one) => (one === OWN ? words.own : one)}
+        onChoose={(chosen) => {
+          const template = builtIn.find((one) => one.name === source)?.text ?? "";
+          change(() => setSource(chosen));
+          if (chosen === OWN && own === "") setOwn(template);
+        }}
+      />
       <p class="hint">{builtIn.find((one) => one.name === source)?.title}</p>
       {source === OWN && (
         <label>
@@ -121,20 +114,14 @@ export function Start() {
         <p class="hint">{words.metricsHint}</p>
         <Boxes offered={offered} chosen={kept} onChange={(next) => change(() => setKept(next))} />
       </details>
-      <label title={words.successHint}>
-        <span>{words.success}</span>
-        <select
-          value={metric}
-          onChange={(event) => change(() => setMetric(event.currentTarget.value))}
-        >
-          <option value="">{words.asInStudy}</option>
-          {offered.map((one) => (
-            <option key={one.name} value={one.name}>
-              {one.title}
-            </option>
-          ))}
-        </select>
-      </label>
+      <SelectField
+        label={words.success}
+        title={words.successHint}
+        value={metric}
+        options={["", ...offered.map((one) => one.name)]}
+        name={(one) => offered.find(({ name }) => name === one)?.title ?? words.asInStudy}
+        onChoose={(chosen) => change(() => setMetric(chosen))}
+      />
       <label>
         <span>{words.most}</span>
         <input

@@ -1,9 +1,10 @@
 import { useId, useState } from "preact/hooks";
 import { explain } from "../../core/state/actions";
-import { usableLaws } from "../../core/state/laws";
+import { titleOf, usableLaws } from "../../core/state/laws";
 import { session } from "../../core/state/session";
 import { text } from "../../core/text/en";
 import { formatInput, formatNumber } from "../../core/units";
+import { SelectField } from "../../core/widgets/form";
 import {
   fates,
   fillRegion,
@@ -115,20 +116,14 @@ export function RegionMap() {
         {words.region}
       </h3>
       <div class="region-choice">
-        <label>
-          <span>{words.law}</span>
-          <select
-            value={law ?? own}
-            disabled={isFilling.value}
-            onChange={(event) => setLaw(event.currentTarget.value)}
-          >
-            {usableLaws.value.map(({ name, title }) => (
-              <option key={name} value={name}>
-                {title}
-              </option>
-            ))}
-          </select>
-        </label>
+        <SelectField
+          label={words.law}
+          value={law ?? own}
+          options={usableLaws.value.map(({ name }) => name)}
+          name={titleOf}
+          disabled={isFilling.value}
+          onChoose={setLaw}
+        />
         <label>
           <span>σ</span>
           <input

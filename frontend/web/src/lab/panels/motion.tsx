@@ -1,13 +1,12 @@
-import { useRef, useState } from "preact/hooks";
+import { useRef } from "preact/hooks";
 import { putPosition } from "../../core/api/client";
 import type { PositionReference, Sent, SessionState } from "../../core/api/types";
 import { shownAs } from "../../core/quantities";
-import { perform } from "../../core/state/actions";
 import { standing } from "../../core/state/meanwhile";
 import { text } from "../../core/text/en";
 import { toRadians } from "../../core/units";
 import { Field } from "./field";
-import { type Kind, kindOf, ReferenceGroup } from "./reference";
+import { ReferenceGroup } from "./reference";
 
 type Sine = Extract<PositionReference, { kind: "sine" }>;
 
@@ -53,16 +52,10 @@ export function Motion({ state }: { state: SessionState }) {
   const lastSine = useRef<Sent<Sine>>(FIRST_SINE);
   if (reference.kind === "sine") lastSine.current = reference;
 
-  const [isOther, setOther] = useState(false);
-  const shown = isOther ? "other" : kindOf(reference);
-
-  const choose = (kind: Kind) => {
-    setOther(kind === "other");
-    if (kind === "other") return;
+  const choose = (kind: "sine" | "constant") => {
+    if (kind === "sine") return putPosition(lastSine.current);
     const held = reference.kind === "sine" ? reference.offset_rad : 0;
-    const next: Sent<PositionReference> =
-      kind === "sine" ? lastSine.current : { kind: "constant", position_rad: held };
-    return perform("motion.kind", () => putPosition(next));
+    return putPosition({ kind, position_rad: held });
   };
 
   return (
@@ -71,7 +64,6 @@ export function Motion({ state }: { state: SessionState }) {
       follows="position"
       reference={reference}
       kinds={KINDS}
-      shown={shown}
       onChoose={choose}
     >
       {reference.kind === "sine" ? (

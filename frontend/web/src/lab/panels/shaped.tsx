@@ -12,7 +12,7 @@ import { explain, perform } from "../../core/state/actions";
 import { session } from "../../core/state/session";
 import { text } from "../../core/text/en";
 import { DEGREES_PER_RADIAN, formatNumber } from "../../core/units";
-import { Choice, NumberBox, Problem } from "../../core/widgets/form";
+import { Choice, ErrorLine, NumberBox, Problem } from "../../core/widgets/form";
 import { Levels, Series } from "./listed";
 import {
   buildReference,
@@ -143,9 +143,7 @@ export function Shaped({ follows, held }: { follows: Follows; held: string }) {
           factor={follows === "position" ? DEGREES_PER_RADIAN : 1}
         />
       )}
-      <p class="problem" role="alert" hidden={refusal === ""}>
-        {refusal}
-      </p>
+      <ErrorLine>{refusal}</ErrorLine>
       <div class="shaped-acts">
         <button type="submit" class="button" disabled={wanted === null}>
           {words.apply}

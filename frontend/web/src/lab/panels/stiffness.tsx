@@ -1,13 +1,12 @@
-import { useRef, useState } from "preact/hooks";
+import { useRef } from "preact/hooks";
 import { putStiffness } from "../../core/api/client";
 import type { Sent, SessionState, StiffnessReference } from "../../core/api/types";
 import { shownAs } from "../../core/quantities";
-import { perform } from "../../core/state/actions";
 import { standing } from "../../core/state/meanwhile";
 import { text } from "../../core/text/en";
 import type { SliderRange } from "../../core/widgets/scale";
 import { Field } from "./field";
-import { type Kind, kindOf, ReferenceGroup } from "./reference";
+import { ReferenceGroup } from "./reference";
 
 type Sine = Extract<StiffnessReference, { kind: "sine" }>;
 
@@ -69,23 +68,11 @@ export function Stiffness({ state }: { state: SessionState }) {
   const lastSine = useRef<Sent<Sine> | null>(null);
   if (reference.kind === "sine") lastSine.current = reference;
 
-  const [isOther, setOther] = useState(false);
-  const shown = isOther ? "other" : kindOf(reference);
-
-  const choose = (kind: Kind) => {
-    setOther(kind === "other");
-    if (kind === "other") return;
+  const choose = (kind: "sine" | "constant") => {
     const mean = meanOf(reference);
-    const next: Sent<StiffnessReference> =
-      kind === "constant"
-        ? { kind: "constant", stiffness_nm_per_rad: mean }
-        : (lastSine.current ?? {
-            kind: "sine",
-            offset_nm_per_rad: mean,
-            amplitude_nm_per_rad: 1,
-            frequency_hz: 0.2,
-          });
-    return perform("stiffness.kind", () => putStiffness(next));
+    if (kind === "constant") return putStiffness({ kind, stiffness_nm_per_rad: mean });
+    const first = { kind, offset_nm_per_rad: mean, amplitude_nm_per_rad: 1, frequency_hz: 0.2 };
+    return putStiffness(lastSine.current ?? first);
   };
 
   return (
@@ -94,7 +81,6 @@ export function Stiffness({ state }: { state: SessionState }) {
       follows="stiffness"
       reference={reference}
       kinds={KINDS}
-      shown={shown}
       onChoose={choose}
     >
       {reference.kind === "sine" ? (

@@ -4,7 +4,7 @@ import { explain } from "../../core/state/actions";
 import { titleOf, usableLaws } from "../../core/state/laws";
 import { isLive, session } from "../../core/state/session";
 import { text } from "../../core/text/en";
-import { Problem } from "../../core/widgets/form";
+import { Problem, SelectField } from "../../core/widgets/form";
 import { Panel } from "../../core/widgets/panel";
 import { CostCurve } from "./costcurve";
 import { RunTable, ValueTable } from "./tables";
@@ -38,20 +38,14 @@ function Choice() {
   const isTaken = Number.isInteger(budget) && budget >= 1 && budget <= MAX_BUDGET;
   return (
     <div class="tuning-choice">
-      <label>
-        <span>{words.law}</span>
-        <select
-          value={law}
-          disabled={isUnderWay.value}
-          onChange={(event) => setLaw(event.currentTarget.value)}
-        >
-          {usableLaws.value.map(({ name, title }) => (
-            <option key={name} value={name}>
-              {title}
-            </option>
-          ))}
-        </select>
-      </label>
+      <SelectField
+        label={words.law}
+        value={law}
+        options={usableLaws.value.map(({ name }) => name)}
+        name={titleOf}
+        disabled={isUnderWay.value}
+        onChoose={setLaw}
+      />
       <label title={words.budgetHint}>
         <span>{words.budget}</span>
         <input

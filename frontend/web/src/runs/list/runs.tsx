@@ -1,5 +1,6 @@
 import { useEffect } from "preact/hooks";
 import { text } from "../../core/text/en";
+import { ErrorLine } from "../../core/widgets/form";
 import { deleted, takeBack } from "./list";
 import { ListPage } from "./listpage";
 import { OverlayPage } from "./overlaypage";
@@ -47,9 +48,7 @@ export function Runs({ at }: { at: RunsPlace }) {
   }, [at.kind]);
   return (
     <main class={`runs is-${at.kind}`} aria-label={text.runs.title}>
-      <p class="problem" role="alert" hidden={runsProblem.value === ""}>
-        {runsProblem.value}
-      </p>
+      <ErrorLine>{runsProblem.value}</ErrorLine>
       <Inside at={at} />
       <Undo />
     </main>

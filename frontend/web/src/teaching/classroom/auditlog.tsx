@@ -1,6 +1,7 @@
 import { useEffect } from "preact/hooks";
 import type { AuditLine } from "../../core/api/access";
 import { text } from "../../core/text/en";
+import { ErrorLine } from "../../core/widgets/form";
 import {
   askFor,
   countPages,
@@ -134,9 +135,7 @@ function Lines() {
   return (
     <>
       <Filters />
-      <p class="problem" role="alert" hidden={problem.value === ""}>
-        {problem.value}
-      </p>
+      <ErrorLine>{problem.value}</ErrorLine>
       {page === null ? (
         <p class="hint">{problem.value === "" && words.reading}</p>
       ) : page.lines.length === 0 ? (

@@ -17,6 +17,7 @@ import { explain } from "../../core/state/actions";
 import { access, isClass, isInstructor, learnAccess } from "../../core/state/control";
 import { phase } from "../../core/state/session";
 import { text } from "../../core/text/en";
+import { ErrorLine } from "../../core/widgets/form";
 import { Panel, PanelButton } from "../../core/widgets/panel";
 import { PlaceLink } from "../../runs/list/place";
 import { AuditLog } from "./auditlog";
@@ -59,9 +60,7 @@ function Inside() {
   }, []);
   return (
     <div class="class-body">
-      <p class="problem" role="alert" hidden={note.value === ""}>
-        {note.value}
-      </p>
+      <ErrorLine>{note.value}</ErrorLine>
       {isInstructor.value && (
         <div class="class-acts">
           <button

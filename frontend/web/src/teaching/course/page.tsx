@@ -3,6 +3,7 @@ import type { ExerciseSummary } from "../../core/api/course";
 import { EquationCard } from "../../core/equations/equation";
 import { TOPICS, type Topic } from "../../core/equations/equations";
 import { text } from "../../core/text/en";
+import { ErrorLine } from "../../core/widgets/form";
 import { goTo, PlaceLink } from "../../runs/list/place";
 import { Claims } from "./claims";
 import { exercises, openCourse, problem } from "./lesson";
@@ -70,9 +71,7 @@ export function LearnPage() {
           {text.tour.take}
         </button>
       </div>
-      <p class="problem" role="alert" hidden={problem.value === ""}>
-        {problem.value}
-      </p>
+      <ErrorLine>{problem.value}</ErrorLine>
       <section aria-label={lesson.exercises}>
         <h3>{lesson.exercises}</h3>
         {exercises.value === null && problem.value === "" && <p class="hint">{lesson.loading}</p>}

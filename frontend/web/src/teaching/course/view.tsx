@@ -2,6 +2,7 @@ import { useEffect, useRef } from "preact/hooks";
 import type { Exercise, Step } from "../../core/api/course";
 import { Prose } from "../../core/equations/formula";
 import { text } from "../../core/text/en";
+import { ErrorLine } from "../../core/widgets/form";
 import { PlaceLink, place } from "../../runs/list/place";
 import { Ending } from "./ending";
 import { Trial } from "./experiment";
@@ -130,9 +131,7 @@ export function Lesson({ name }: { name: string }) {
       ) : (
         problem.value === "" && <p class="hint">{words.loading}</p>
       )}
-      <p class="problem" role="alert" hidden={problem.value === ""}>
-        {problem.value}
-      </p>
+      <ErrorLine>{problem.value}</ErrorLine>
     </section>
   );
 }

@@ -9,6 +9,7 @@ import {
 import { isGoing, JobProgress } from "../../core/jobs/progress";
 import { text } from "../../core/text/en";
 import { Criteria, formatPoints, VerifiedRuns } from "../../core/widgets/criteria";
+import { Page } from "../../core/widgets/desk";
 import {
   cancel,
   columns,
@@ -185,14 +186,7 @@ export function GradesPage() {
   }, []);
   const found = grades.value;
   return (
-    <main class="page grades" aria-label={words.title}>
-      <div class="page-head">
-        <h2>{words.title}</h2>
-        <p>{words.lead}</p>
-      </div>
-      <p class="problem" role="alert" hidden={problem.value === ""}>
-        {problem.value}
-      </p>
+    <Page title={words.title} lead={words.lead} problem={problem.value} class="grades">
       {found?.not_isolated && (
         <p class="surface card problem">
           {words.notIsolated} {found.not_isolated}
@@ -212,6 +206,6 @@ export function GradesPage() {
           <Picked />
         </>
       )}
-    </main>
+    </Page>
   );
 }

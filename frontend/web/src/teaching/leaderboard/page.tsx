@@ -1,6 +1,7 @@
 import { useEffect } from "preact/hooks";
 import { text } from "../../core/text/en";
 import { Desk } from "../../core/widgets/desk";
+import { ErrorLine } from "../../core/widgets/form";
 import { place } from "../../runs/list/place";
 import { formatMoment } from "../../runs/list/words";
 import { board, leave, openBoard, problem } from "./leaderboard";
@@ -28,9 +29,7 @@ export function LeaderboardPage() {
   if (at.kind === "leaderboard" && at.entry !== "") {
     return (
       <main class="runs is-run" aria-label={words.title}>
-        <p class="problem" role="alert" hidden={problem.value === ""}>
-          {problem.value}
-        </p>
+        <ErrorLine>{problem.value}</ErrorLine>
         <Worst />
       </main>
     );
