@@ -1,5 +1,6 @@
 import "uplot/dist/uPlot.min.css";
 import "./theme.css";
+import "./base.css";
 import "./layout/layout.css";
 import "./layout/statusbar.css";
 import "./core/widgets/plantmark.css";
@@ -37,9 +38,7 @@ import "./runs/list/run.css";
 import "./runs/list/overlay.css";
 import "./runs/list/verdict.css";
 import "./evaluation/ranking/ranking.css";
-import "./core/widgets/scorebar.css";
-import "./core/widgets/sorthead.css";
-import "./core/widgets/lawtext.css";
+import "./core/widgets/tables.css";
 import "./core/widgets/desk.css";
 import "./teaching/leaderboard/leaderboard.css";
 import "./teaching/grades/grades.css";

@@ -2,6 +2,7 @@
  * around it move it. */
 import "uplot/dist/uPlot.min.css";
 import "../../theme.css";
+import "../../base.css";
 import "../../core/widgets/plantmark.css";
 import "../../lab/scene/labels.css";
 import "../../core/plots/plots.css";
