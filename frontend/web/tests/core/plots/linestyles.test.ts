@@ -2,6 +2,7 @@ import "../../browserless";
 import { beforeEach, describe, expect, it } from "vitest";
 import type { LawRow } from "../../../src/core/api/types";
 import { lineStyleAt, lineStyleOf, shareLineStyles } from "../../../src/core/plots/linestyles";
+import css from "../../../src/theme.css?raw";
 
 const colours = (own: readonly (number | null)[]) =>
   shareLineStyles(own).map(({ colour }) => colour);
@@ -83,5 +84,83 @@ describe("a law has one line style", () => {
   it("and what is installed nowhere one that no other has", async () => {
     const { lineStylesOfLaws } = await import("../../../src/core/plots/linestyles");
     expect(lineStylesOfLaws(["theirs", "ndobc"])).toEqual([lineStyleOf(1), lineStyleOf(0)]);
+  });
+});
+
+type Triple = [number, number, number];
+
+/** Machado, Oliveira and Fernandes 2009, of linear RGB: as few see it, at full strength. */
+const SIGHTS: Record<string, readonly Triple[]> = {
+  "all cones": [
+    [1, 0, 0],
+    [0, 1, 0],
+    [0, 0, 1],
+  ],
+  "no green cones": [
+    [0.367322, 0.860646, -0.227968],
+    [0.280085, 0.672501, 0.047413],
+    [-0.01182, 0.04294, 0.968881],
+  ],
+  "no red cones": [
+    [0.152286, 1.052583, -0.204868],
+    [0.114503, 0.786281, 0.099216],
+    [-0.003882, -0.048116, 1.051998],
+  ],
+};
+const TO_XYZ: readonly Triple[] = [
+  [0.4124, 0.3576, 0.1805],
+  [0.2126, 0.7152, 0.0722],
+  [0.0193, 0.1192, 0.9505],
+];
+const WHITE: Triple = [0.9505, 1, 1.089];
+
+const times = (rows: readonly Triple[], [x, y, z]: Triple): Triple =>
+  rows.map(([a, b, c]) => a * x + b * y + c * z) as Triple;
+const linear = (hex: string): Triple =>
+  [1, 3, 5].map((at) => {
+    const share = Number.parseInt(hex.slice(at, at + 2), 16) / 255;
+    return share <= 0.04045 ? share / 12.92 : ((share + 0.055) / 1.055) ** 2.4;
+  }) as Triple;
+const luminance = (hex: string) => times(TO_XYZ, linear(hex))[1];
+
+function contrast(one: string, other: string): number {
+  const [dark, bright] = [luminance(one), luminance(other)].sort((a, b) => a - b) as Triple;
+  return (bright + 0.05) / (dark + 0.05);
+}
+
+/** CIE L*a*b* of 1976. */
+function toLab(rgb: Triple): Triple {
+  const bounded = rgb.map((part) => Math.min(1, Math.max(0, part))) as Triple;
+  const [x, y, z] = times(TO_XYZ, bounded).map((part, axis) => {
+    const share = part / (WHITE[axis] as number);
+    return share > 0.008856 ? Math.cbrt(share) : 7.787 * share + 16 / 116;
+  }) as Triple;
+  return [116 * y - 16, 500 * (x - y), 200 * (y - z)];
+}
+
+function difference(sight: readonly Triple[], one: string, other: string): number {
+  const [a, b] = [one, other].map((hex) => toLab(times(sight, linear(hex)))) as [Triple, Triple];
+  return Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+const NAMES = ["blue", "orange", "green", "vermilion", "purple"];
+const themes = ["light", "dark"].map((theme, place) => {
+  const read = (name: string) =>
+    [...css.matchAll(new RegExp(`--${name}: (#[0-9a-f]{6})`, "g"))][place]?.[1] ?? "";
+  return { theme, surface: read("surface"), lineStyles: NAMES.map((name) => read(`plot-${name}`)) };
+});
+
+describe.each(themes)("the lineStyles of curves, $theme", ({ surface, lineStyles }) => {
+  it("stand out from the page", () => {
+    for (const lineStyle of lineStyles)
+      expect(contrast(lineStyle, surface), lineStyle).toBeGreaterThan(3);
+  });
+
+  it.each(Object.keys(SIGHTS))("are told apart with %s, for dashes may be the same", (sight) => {
+    for (const [at, one] of lineStyles.entries()) {
+      for (const other of lineStyles.slice(at + 1)) {
+        expect(difference(SIGHTS[sight] ?? [], one, other), `${one} ${other}`).toBeGreaterThan(14);
+      }
+    }
   });
 });
