@@ -7,12 +7,12 @@ PAGE_SOURCES := $(shell find frontend/web -path '*/node_modules' -prune -o -type
   frontend/scene/svsa_scene/cameras.json
 # All but the peers of `svsa benchmark`, which are large and which nothing here needs.
 LOCKED_EXTRAS := server client bench plot nidaqmx xarray cluster lti
-# Each module in one process: in the order of the folders, the browser last, since its driver keeps
-# an event loop running. On two cores two more, for what waits for something most of the time.
-SIDE_BY_SIDE := --dist loadfile --no-loadscope-reorder
-BY_FOUR := -n 4 $(SIDE_BY_SIDE)
-# What computes all the time, and in `make test` what is against the clock and waits for a rig.
-BY_TWO := -n 2 $(SIDE_BY_SIDE)
+# Each module in one process, in the order of tests/conftest.py: the browser tests are last.
+# Four processes on two cores, because many tests wait for a server or a browser.
+BY_MODULE := --dist loadfile --no-loadscope-reorder
+BY_FOUR := -n 4 $(BY_MODULE)
+# For tests that compute all the time, and in `make test` for those against the clock.
+BY_TWO := -n 2 $(BY_MODULE)
 # A search at less depth than `make test-all`'s (tests/conftest.py).
 SHOWN := --hypothesis-profile=shown
 SERVED := package hardware scene server client browser

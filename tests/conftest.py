@@ -6,12 +6,9 @@ from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
-from xdist.remote import Producer
 
 from svsa.numerics.compilation import watch_compilation
 from tests.lab import Lab, run_lab
-from tests.run_anew import RunAnew
-from tests.side_by_side import SideBySide
 
 SEARCHED = settings(deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow])
 """Of what hypothesis draws: the same cases each time, however slow the machine."""
@@ -21,10 +18,15 @@ settings.register_profile("shown", SEARCHED, max_examples=25)
 TESTS = Path(__file__).parent
 COMPILED = "compiled"
 ORDER = (
-    *("package", "", "inputs", "numerics", "actuators", "control", "simulation", "runs"),
+    *("package", "inputs", "numerics", "actuators", "control", "simulation", "runs"),
     *("analysis", "evaluation", "teaching", "hardware", "scene", "server", "client", "browser"),
 )
-"""Of the folders; what stands in none is \"\"."""
+"""The folders, fast tests first. The browser tests are last: the synchronous driver of Playwright
+leaves an event loop running in its process, in which `asyncio.run` raises an error. xdist assigns
+modules in this order, so no process receives another module after its first browser module.
+"""
+RERUNS = 2
+"""A shared machine may stop a process for longer than a test against the clock tolerates."""
 
 gc.disable()
 """Until all tests are read: what is read stays, and is looked through again and again otherwise."""
@@ -37,23 +39,12 @@ def pytest_collection() -> Iterator[None]:
     gc.enable()
 
 
-def pytest_configure(config: pytest.Config) -> None:
-    config.pluginmanager.register(RunAnew())
-
-
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Quick tests first; the browser last, since its driver keeps an event loop running."""
-    items.sort(key=rank)
-
-
-def rank(item: pytest.Item) -> int:
-    folders = item.path.relative_to(TESTS).parts[:-1]
-    return ORDER.index(folders[0] if folders else "")
-
-
-@pytest.hookimpl(optionalhook=True)
-def pytest_xdist_make_scheduler(config: pytest.Config, log: Producer) -> SideBySide | None:
-    return SideBySide(config, log) if config.getvalue("dist") == "loadfile" else None
+    """Sort the tests by folder, and rerun those that are marked `wall_clock` if they fail."""
+    items.sort(key=lambda item: ORDER.index(item.path.relative_to(TESTS).parts[0]))
+    for item in items:
+        if item.get_closest_marker("wall_clock"):
+            item.add_marker(pytest.mark.flaky(reruns=RERUNS))
 
 
 @pytest.hookimpl(hookwrapper=True)

@@ -8,7 +8,7 @@ import pytest
 from playwright.sync_api import BrowserContext, Locator, Page, expect
 
 from tests.browser.test_page import go_to_page, open_page
-from tests.hardware.live_bench import FAIR_S, start_live_emulator, write_bench
+from tests.hardware.live_bench import start_live_emulator, write_bench
 from tests.lab import Lab, run_lab
 from tests.server.sessions.bench_lab import BenchLab
 
@@ -170,7 +170,7 @@ def find_run(page: Page) -> Locator:
     return bench.get_by_role("button", name="Run", exact=True)
 
 
-@pytest.mark.wall_clock(stall_s=FAIR_S)
+@pytest.mark.wall_clock
 def test_the_bench_runs_only_while_the_switch_is_held(
     context: BrowserContext, bench: BenchLab
 ) -> None:
@@ -198,7 +198,7 @@ def test_the_bench_runs_only_while_the_switch_is_held(
 
 
 @pytest.mark.exhaustive
-@pytest.mark.wall_clock(stall_s=FAIR_S)
+@pytest.mark.wall_clock
 def test_only_the_switch_of_who_is_in_control_counts(
     context: BrowserContext, bench: BenchLab
 ) -> None:

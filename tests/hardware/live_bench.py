@@ -21,8 +21,6 @@ START_SILENCE_S, IDLE_S = 300.0, 600.0
 """A loop may start later on a busy machine than on a bench, and an emulator waits longer."""
 STALL_S = PATIENT["loop_s"]
 """The machine may stand still for so long: nobody misses a loop, and the emulator waits for it."""
-FAIR_S = 0.5 * STALL_S
-"""A metronome that was late by more tells of a machine on which a loop may have been, too."""
 
 
 def start_live_emulator() -> contextlib.AbstractContextManager[RunningEmulator]:

@@ -12,7 +12,7 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
 from svsa_server.responsive import SILENT_S
-from tests.hardware.live_bench import FAIR_S, start_live_emulator, write_bench
+from tests.hardware.live_bench import start_live_emulator, write_bench
 from tests.hardware.safety.survivors import LOAD
 from tests.lab import END_TIMEOUT_S, PATIENCE_S, Lab, run_lab
 from tests.server.blocked_lab import BLOCKING, BLOCKING_WAKE, PROGRAM
@@ -77,7 +77,7 @@ def test_sigterm_ends_a_server_whose_session_blocks() -> None:
         assert end_blocked(lab, signal.SIGTERM) == -signal.SIGTERM
 
 
-@pytest.mark.wall_clock(stall_s=FAIR_S)
+@pytest.mark.wall_clock
 def test_the_quick_stop_reaches_a_bench_whose_session_blocks(tmp_path: Path) -> None:
     with (
         start_live_emulator() as emulator,

@@ -8,7 +8,7 @@ from svsa.hardware.calibration import find_calibration
 from svsa.hardware.cli import bench_check, bench_home
 from svsa.hardware.emulator.launch import start_emulator
 from svsa.hardware.file import read_bench
-from tests.hardware.emulator.bus_in_time import EMULATOR_BENCH, copy_bench
+from tests.hardware.emulator.bus_in_time import copy_bench
 
 APP = Typer()
 APP.command("bench-check")(bench_check)
@@ -39,7 +39,7 @@ def test_the_command_names_the_fields_of_the_bench_file_with_their_sections(tmp_
 
 
 @pytest.mark.exhaustive
-@pytest.mark.wall_clock(stall_s=read_bench(EMULATOR_BENCH).safety.stale_fault_s)
+@pytest.mark.wall_clock
 def test_the_commands_over_a_socket_in_wall_clock_time(tmp_path):
     """An emulator in its own process, python-can in between: the record is written, all is left
     off.

@@ -20,11 +20,10 @@ from tests.hardware.live_bench import IDLE_S, write_bench
 
 MISSED = 60
 """Ticks of all 19 laws together: they were 300. A busy machine takes some itself."""
-STALL_S = 0.02
 WAKE_S = 1.0 / 60.0
 PATIENCE_S = 30.0
 
-pytestmark = pytest.mark.wall_clock(stall_s=STALL_S)
+pytestmark = pytest.mark.wall_clock
 
 
 def wake_until(session: BenchSession, status: BenchStatus) -> None:

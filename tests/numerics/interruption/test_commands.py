@@ -19,7 +19,7 @@ main()
 """
 
 
-@pytest.mark.wall_clock(2.0)
+@pytest.mark.wall_clock
 @pytest.mark.parametrize(
     "command", ["stability --starts 101", "ranking run --json", "ranking bench ndobc --json"]
 )

@@ -22,12 +22,12 @@ from tests.client.copied_script import (
     write_copied_script,
 )
 from tests.exhaustive import exhaust
-from tests.hardware.live_bench import FAIR_S, start_live_emulator, write_bench
+from tests.hardware.live_bench import start_live_emulator, write_bench
 from tests.lab import run_lab
 from tests.lab_in_process import run_lab_in_process
 from tests.server.sessions.bench_lab import BenchLab
 
-pytestmark = pytest.mark.wall_clock(stall_s=FAIR_S)
+pytestmark = pytest.mark.wall_clock
 
 ADA, BOB = Person("p-1", "Ada", Role.OPERATOR), Person("p-2", "Bob", Role.OPERATOR)
 RAMP_TICKS = 300

@@ -11,11 +11,11 @@ from svsa.runs.records.bench_start import START_FILE
 from svsa.teaching.course.file import read_course
 from svsa.teaching.grading.grade import Grade, grade
 from svsa.teaching.grading.submitted_work import SubmittedWork
-from tests.hardware.live_bench import FAIR_S, start_live_emulator, write_bench
+from tests.hardware.live_bench import start_live_emulator, write_bench
 from tests.lab import run_lab
 from tests.server.sessions.bench_lab import BenchLab, wait_until
 
-pytestmark = pytest.mark.wall_clock(stall_s=FAIR_S)
+pytestmark = pytest.mark.wall_clock
 
 COURSE = "/api/v1/course/held"
 SLOWER = [40.0, 40.0, 40.0]

@@ -9,12 +9,12 @@ from pathlib import Path
 import pytest
 
 from svsa.hardware.emulator.launch import start_emulator
-from tests.hardware.live_bench import FAIR_S, IDLE_S, write_bench
+from tests.hardware.live_bench import IDLE_S, write_bench
 from tests.hardware.safety.survivors import LOOP
 from tests.lab import run_lab
 from tests.server.sessions.bench_lab import BenchLab, wait_until
 
-pytestmark = pytest.mark.wall_clock(stall_s=FAIR_S)
+pytestmark = pytest.mark.wall_clock
 
 STOPPED_S = 0.6
 PROMPT = {"loop_s": 0.2, "stale_fault_s": 0.2}

@@ -12,11 +12,10 @@ from typing import Any
 
 import pytest
 
-from tests.hardware.live_bench import FAIR_S
 from tests.hardware.safety.survivors import LOAD, LOOP, SUPERVISOR, wait_until_held
 from tests.server.sessions.bench_lab import BenchLab, run_bench_lab, wait_until
 
-pytestmark = pytest.mark.wall_clock(stall_s=FAIR_S)
+pytestmark = pytest.mark.wall_clock
 
 
 @pytest.fixture(scope="module")

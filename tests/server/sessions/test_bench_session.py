@@ -4,10 +4,9 @@ from collections.abc import Iterator
 
 import pytest
 
-from tests.hardware.live_bench import FAIR_S
 from tests.server.sessions.bench_lab import BenchLab, run_bench_lab, wait_until
 
-pytestmark = pytest.mark.wall_clock(stall_s=FAIR_S)
+pytestmark = pytest.mark.wall_clock
 
 ZERO_S = 5.0
 LASTING_S = 60.0

@@ -16,7 +16,7 @@ from svsa.runs.command import Set
 from svsa_server.sessions.bench_start import open_bench
 from svsa_server.sessions.hosted import HostedSession
 from svsa_server.sessions.state import build_state
-from tests.hardware.live_bench import FAIR_S, start_live_emulator, write_bench
+from tests.hardware.live_bench import start_live_emulator, write_bench
 from tests.lab import run_lab
 from tests.server.sessions.bench_lab import wait_until
 from tests.server.sessions.scripted_bench import STEP, Processes, build_bench_session
@@ -136,7 +136,7 @@ def test_whether_it_is_emulated_is_known_once_the_bus_was_listened_to(
 
 
 @pytest.mark.exhaustive
-@pytest.mark.wall_clock(stall_s=FAIR_S)
+@pytest.mark.wall_clock
 def test_a_lab_whose_bench_is_not_there_is_served_and_finds_it_again(tmp_path: Path) -> None:
     """Nobody listens at the port in the bench file, until it is corrected."""
     with start_live_emulator() as emulator:
