@@ -23,7 +23,7 @@ STOP = "/api/v1/quick-stop"
 
 @contextlib.contextmanager
 def blocked(lab: Lab, factor: float = BLOCKING) -> Iterator[list[httpx.Response]]:
-    """The shared session computes without end; yields what its request is answered."""
+    """The shared session blocks without end; yields what its request is answered."""
     answers: list[httpx.Response] = []
 
     def ask() -> None:
@@ -70,7 +70,7 @@ def test_every_request_is_answered_while_a_session_blocks() -> None:
         assert end_blocked(lab, signal.SIGINT) == 1
 
 
-def test_sigterm_ends_a_server_whose_session_blocks() -> None:
+def test_sigterm_ends_a_server_whose_session_computes_without_end() -> None:
     with run_lab(program=PROGRAM) as lab:
         with blocked(lab, BLOCKING_WAKE):
             assert lab.client.post(STOP).status_code == 503
