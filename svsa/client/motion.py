@@ -1,6 +1,7 @@
 """A session that is run on, stopped, and begun again."""
 
 import time
+from dataclasses import fields
 from typing import Any, Literal
 
 from svsa.client.lease import ControlledConnection
@@ -75,5 +76,7 @@ class RunningConnection(ControlledConnection):
 
 
 def _read_fault(state: dict[str, Any]) -> Fault | None:
-    """The fault in a session's state."""
-    return None if state["fault"] is None else Fault(**state["fault"])
+    """The fault in a session's state, without the label and the advice that the page shows."""
+    if (fault := state["fault"]) is None:
+        return None
+    return Fault(**{one.name: fault[one.name] for one in fields(Fault)})

@@ -47,6 +47,7 @@ def _simulate(configuration: Configuration) -> None:
         build_fault(code, 0, 0, run.blocks[0], x)
     result = svsa.simulate(configuration, duration_s=0.01)
     measure_samples(result, 0.0, 0.01)
+    _ = result.metrics
 
 
 def _identify() -> None:

@@ -6,7 +6,7 @@ import { text } from "../../core/text/en";
 import { formatTime } from "../../core/units";
 import { Choice } from "../../core/widgets/form";
 import { CopyButton, saveText } from "./copybutton";
-import { makeExperimentScript, scriptProblem } from "./experiment";
+import { makeExperimentScript, scriptProblem } from "./repeat";
 import { LANGUAGES, type Language, toSnippet, toSnippets } from "./snippets";
 
 const words = text.script;

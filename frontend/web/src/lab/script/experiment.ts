@@ -1,13 +1,7 @@
-/** A run as a Python file that does it again in a private session, every change at its own tick. */
+/** A run as a Python file that does it again in a private session, every change at its own tick.
+ * It imports nothing of the browser: tests of the client bundle it alone and run it with Node. */
 
-import { signal } from "@preact/signals";
-import { LockedError, RefusedError } from "../../core/api/errors";
-import { API } from "../../core/api/request";
-import { readOrigin, readRunOrigin } from "../../core/api/runs";
 import type { CommandKind, RunOrigin } from "../../core/api/types";
-import { laneNames } from "../../core/state/lanes";
-import { phase } from "../../core/state/session";
-import { text } from "../../core/text/en";
 import { buildValue, type Fields, inDocstring, toPython, toRows } from "./snippets";
 
 const INDENT = "        ";
@@ -164,31 +158,3 @@ for lane in state["lanes"]:
 print(f"reached {state['time_s']:.3f} s")
 `;
 }
-
-// The experiment on the page, and a recorded run, as scripts.
-
-/** Why the last script could not be made. */
-export const scriptProblem = signal("");
-
-const LAB = new URL("../..", API).href.replace(/\/$/, "");
-
-async function attempt(make: () => Promise<string>): Promise<string | null> {
-  scriptProblem.value = "";
-  try {
-    return await make();
-  } catch (error) {
-    if (error instanceof LockedError) phase.value = "locked";
-    scriptProblem.value =
-      error instanceof RefusedError ? error.message : text.connection.unreachable;
-    return null;
-  }
-}
-
-export const makeExperimentScript = (): Promise<string | null> =>
-  attempt(async () => {
-    const title = text.script.experimentTitle(text.compare.versus(laneNames.peek()));
-    return writeExperiment(await readOrigin(), title, LAB);
-  });
-
-export const makeRunScript = (run: string, name: string): Promise<string | null> =>
-  attempt(async () => writeExperiment(await readRunOrigin(run), name, LAB));

@@ -5,7 +5,7 @@ import type { ExportName, RunDetails } from "../../core/api/types";
 import { text } from "../../core/text/en";
 import { Popup } from "../../core/widgets/popup";
 import { CopyButton } from "../../lab/script/copybutton";
-import { makeRunScript, scriptProblem } from "../../lab/script/experiment";
+import { makeRunScript, scriptProblem } from "../../lab/script/repeat";
 import { putIntoTrash } from "./list";
 import { goTo, linkTo } from "./place";
 import { attempt, makeFile, making } from "./problem";
