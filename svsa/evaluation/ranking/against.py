@@ -97,7 +97,7 @@ _STEPS = (
     ("bench", "Rig with friction and lag"),
 )
 _FAILS = (
-    ("draw", "Draws"), ("model", "One thing far off"), ("corner", "All inertias far off"),
+    ("trial", "Trials"), ("model", "One thing far off"), ("corner", "All inertias far off"),
     ("step", "Great steps"), ("impulse", "Impulses"), ("lag", "Lag"), ("delay", "Delay"),
     ("push", "Pushes"), ("shaken", "Torque noise"),
 )  # fmt: skip
@@ -116,7 +116,7 @@ CONTESTS = (
     Contest("Rig, long after: rms", "°", "steady", _geometric(_rms)),
     Contest("Loads again and again: rms", "°", "again", _geometric(_rms)),
     Contest("Loads again and again: peak", "°", "again", _mean(_peak)),
-    Contest("Draws: median rms", "°", "draw", lambda runs: median(map(_rms, runs))),
+    Contest("Trials: median rms", "°", "trial", lambda runs: median(map(_rms, runs))),
     *(Contest(f"{title}: fails", "", runs, _count_fails) for runs, title in _FAILS),
 )
 """What NDOBC-S was tuned to be better in, as the ranking's columns are."""

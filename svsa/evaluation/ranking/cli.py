@@ -48,7 +48,7 @@ def run_ranking(
         Path | None, typer.Option(help="Show what was kept there, and measure nothing.")
     ] = None,
     secret: Annotated[
-        Path | None, typer.Option(help="Draws of the season whose secret is in this file.")
+        Path | None, typer.Option(help="Trials of the season whose secret is in this file.")
     ] = None,
 ) -> None:
     """Run laws through the scenarios and print the table: position errors in degrees."""

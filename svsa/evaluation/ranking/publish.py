@@ -178,8 +178,8 @@ def _judge(results: Results, row: Row) -> list[str]:
 def _describe_provenance(results: Results, rows: Sequence[Row]) -> str:
     versions = " and ".join(sorted({row.version for row in rows}))
     return (
-        f"Simulated by SVSA Lab {versions} with the law's defaults; suite {results.suite}, draws of"
-        f" the {'public seed' if results.is_public else 'seed ' + results.seed}. The same again:"
+        f"Simulated by SVSA Lab {versions} with the law's defaults; suite {results.suite}, trials"
+        f" of the {'public seed' if results.is_public else 'seed ' + results.seed}. The same again:"
         " `svsa ranking run`."
     )
 

@@ -1,7 +1,7 @@
 """Rehearsal: two hundred runs in columns like the table's, none of them in the table.
 
 What NDOBC-S is tuned on, so that the table can judge it: other references, loads, stiffnesses,
-times, models, noise and draws. What is random in them comes from a seed of their own.
+times, models, noise and trials. What is random in them comes from a seed of their own.
 """
 
 import math
@@ -170,7 +170,7 @@ def _build_moving(chance: _Chance) -> Iterator[Scenario]:
 
 def _build_trials() -> Iterator[Scenario]:
     for number in range(TRIALS):
-        yield build_trial(number, TRIALS_SEED)._replace(name="draw", duration_s=REST_S)
+        yield build_trial(number, TRIALS_SEED)._replace(name="trial", duration_s=REST_S)
 
 
 def _build_wrong_models(chance: _Chance) -> Iterator[Scenario]:

@@ -29,7 +29,7 @@ class Results(Checked):
 
     @classmethod
     def build(cls, rows: Sequence[Row], seed: int) -> Self:
-        """Of rows that were measured with this suite and draws of this seed."""
+        """Of rows that were measured with this suite and trials of this seed."""
         return cls(
             suite=SUITE_VERSION,
             is_public=seed == PUBLIC_SEED,
@@ -48,7 +48,7 @@ class Results(Checked):
     def renew(self, newer: Self) -> Self:
         """With the rows of `newer` in place of those of the same laws, others behind them.
 
-        Raises `ParameterError` where one of them has another suite or other draws: numbers of
+        Raises `ParameterError` where one of them has another suite or other trials: numbers of
         different runs do not stand in one table.
         """
         for name in ("suite", "seed"):

@@ -67,7 +67,7 @@ class SweepOutcome(Checked):
 
 
 class ScoreParts(Checked):
-    """What the score is made of: 0.5 robustness + 0.3 draws + 0.2 accuracy."""
+    """What the score is made of: 0.5 robustness + 0.3 trials + 0.2 accuracy."""
 
     robustness: Number = quantity("1", "Mean of the six sweeps' shares", ge=0, le=1)
     trials: Number = quantity("1", "Share of the trials that held", ge=0, le=1)
@@ -89,12 +89,12 @@ class Row(Checked):
     sine_2hz_rms_deg: Number | None = quantity("°", "rms under 1.5 N·m at 2 Hz")
     mass_rms_deg: Number | None = quantity("°", "rms under 3 kg")
     trials_median_deg: Number | None = quantity("°", "Median of the trials' rms, None if a fault")
-    trials_faults: Whole = quantity("", "Draws that ended in a fault", ge=0)
+    trials_faults: Whole = quantity("", "Trials that ended in a fault", ge=0)
     trials_fails: Whole = quantity(
-        "", "Draws that ended in a fault, or with more than 1° in the last second", ge=0
+        "", "Trials that ended in a fault, or with more than 1° in the last second", ge=0
     )
     largest_link_step_nm: Number = quantity("N·m", "Largest step on the link that is survived")
-    score: Number = quantity("1", "0.5 robustness + 0.3 draws + 0.2 accuracy", ge=0, le=1)
+    score: Number = quantity("1", "0.5 robustness + 0.3 trials + 0.2 accuracy", ge=0, le=1)
     parts: ScoreParts = quantity("", "Parts of the score")
     sweeps: tuple[SweepOutcome, ...] = quantity("", "The six sweeps of robustness")
     outcomes: tuple[Outcome, ...] = quantity("", "Every scenario that is told by itself")
@@ -162,5 +162,5 @@ def build_parts(
 
 
 def compute_score(parts: ScoreParts) -> float:
-    """0.5 robustness + 0.3 draws + 0.2 accuracy, from 0 to 1."""
+    """0.5 robustness + 0.3 trials + 0.2 accuracy, from 0 to 1."""
     return ROBUSTNESS * parts.robustness + TRIALS * parts.trials + ACCURACY * parts.accuracy

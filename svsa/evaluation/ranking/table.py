@@ -10,12 +10,12 @@ HEADINGS = (
     "score",
     "4A ideal: before / peak / steady",
     "4A rig: peak / steady / recovery s",
-    "load_removal",
+    "load removal",
     "faults of 48",
     "settled, worst of 48",
     "2 Hz",
     "3 kg",
-    "draws: median / faults / fails",
+    "trials: median / faults / fails",
     "largest step N·m",
 )
 

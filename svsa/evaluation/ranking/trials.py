@@ -10,7 +10,7 @@ from svsa.simulation.plant.effects import RIG, Friction, SensorNoise
 from svsa.simulation.plant.loads import ConstantLoad, Load, MassLoad, PulseLoad, SineLoad
 
 SUITE_VERSION = "1"
-"""Changes with all that the score counts, draws, sweeps, scenarios, weights: scores compare within
+"""Changes with all that the score counts, trials, sweeps, scenarios, weights: scores compare within
 one."""
 
 
@@ -29,7 +29,7 @@ PUBLIC_SEED = derive_seed(b"public")
 def start_generator(seed: int, number: int) -> np.random.Generator:
     """The generator of the draw `number` of a season: Philox, its key the seed and the number.
 
-    Draws are the same in whatever order, and however many of them, are made. seed: below 2^64.
+    Trials are the same in whatever order, and however many of them, are made. seed: below 2^64.
     """
     return np.random.Generator(np.random.Philox(key=np.array([seed, number], dtype=np.uint64)))
 

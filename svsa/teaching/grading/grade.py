@@ -83,7 +83,7 @@ def grade(
 ) -> Grade:
     """The grade of a submission. runs: folder of the runs, None for this machine's.
 
-    secret: the class's, from which and from the law's text come its draws, so that one law is
+    secret: the class's, from which and from the law's text come its trials, so that one law is
     worth the same whoever submits it; None for practice: public trials, and the law runs without
     walls, as one's own. Raises `ParameterError` for a submission that does not fit the exercise,
     `NotIsolatedError` for a law where the machine cannot hold one.

@@ -34,7 +34,7 @@ def grade_file(
 ) -> Grade:
     """The grade of a submission's file, kept in the book; the one that it has there, if any.
 
-    again: run it again, though it has one. Same submission, same draws, same grade.
+    again: run it again, though it has one. Same submission, same trials, same grade.
     """
     work = SubmittedWork.read(path)
     before = book.find(work.digest) if book and not again else None

@@ -87,7 +87,7 @@ def _write_grade(grade: Grade, anchor: str) -> str:
         f"{_write_points(one.points, one.max_points)}<td>{escape(one.feedback)}</td></tr>"
         for one in grade.criteria
     )
-    seed = f"; draws of seed {grade.seed}" if grade.seed else ""
+    seed = f"; trials of seed {grade.seed}" if grade.seed else ""
     walls = "" if grade.is_isolated else "; practice: its law was not isolated"
     head = f"{escape(grade.student)}: {escape(grade.exercise)}"
     runs = "".join(

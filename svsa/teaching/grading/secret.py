@@ -1,4 +1,4 @@
-"""A secret that draws come from: drawn once, and readable by nobody else."""
+"""A secret that trials come from: drawn once, and readable by nobody else."""
 
 import os
 import secrets

@@ -56,7 +56,7 @@ async def grade_class(
 ) -> JobState:
     """Grade what was submitted and has no grade, or all of it again: a job.
 
-    Runs are simulated again from their records, laws run in isolation on draws of the class's
+    Runs are simulated again from their records, laws run in isolation on trials of the class's
     secret and the submission: graded again, a submission has the grade that it had. Where nothing
     isolates, a law gets no grade, and the table says why.
     """

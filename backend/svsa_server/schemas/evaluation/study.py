@@ -166,7 +166,7 @@ class LawOutcome(BaseModel):
 
     law: str
     runs: int = Field(description="Without those that were refused")
-    refused: int = Field(description="Draws whose settings do not go together: nothing was run")
+    refused: int = Field(description="Samples whose settings do not go together: nothing was run")
     success: Estimate = Field(description="Share of the runs, with Wilson's interval")
     faults: dict[str, int] = Field(description="How many runs ended in a fault, by code")
     quantiles: dict[str, list[float | None]] = Field(

@@ -24,7 +24,7 @@ export const leaderboardText = {
       },
       robustness: { name: "Robust", hint: "Mean share of runs that held in the six sweeps" },
       trials: {
-        name: "Draws",
+        name: "Trials",
         hint: "Share of the season's hidden trials that held: no fault, and at most 1° rms in the last second",
       },
       accuracy: {

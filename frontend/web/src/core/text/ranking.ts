@@ -63,7 +63,7 @@ export const rankingText = {
         hint: "Rig with noise of 0.1 mrad on the motors and 1 mrad on the deflection: rms error 8–20 s under the paper's load",
       },
       trials: {
-        name: "Draws",
+        name: "Trials",
         hint: "100 trials: inertias ±50 % of nominal, σ 16–70, friction, noise, one or two samples of delay, a step, pulse, sine or mass from 3 s on; median of the rms error 3–10 s, a fault counting as worst. A press shows the first draw",
       },
       fails: {

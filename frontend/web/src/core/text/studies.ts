@@ -15,7 +15,7 @@ export const studiesText = {
     text: "Text of the study",
     name: "Keep it as",
     nameHint: "1 to 64 letters, digits, -, _ or .; left out, the study's own name",
-    runs: "Draws",
+    runs: "Samples",
     runsHint:
       "How many samples, each of which every law runs; left out, as the study says. Of a grid: how often the whole of it",
     laws: "Laws",
