@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from svsa.actuators.dynamics import Actuator, compute_deflection
+from svsa.actuators.faults import find_number
 from svsa.actuators.lever import (
     compute_lever_ratio,
     compute_lever_ratio_for_stiffness,
@@ -14,7 +15,6 @@ from svsa.actuators.lever import (
 from svsa.actuators.parameters import ActuatorParameters, Limits
 from svsa.actuators.signals import State
 from svsa.actuators.spring import compute_spring
-from svsa.faults import find_number
 from svsa.numerics.compilation import compiled
 from svsa.numerics.simd.choice import choose, least
 

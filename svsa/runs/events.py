@@ -3,9 +3,9 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from svsa.actuators.faults import label_fault
 from svsa.control.installed import LawName, get_title
 from svsa.errors import Fault
-from svsa.faults import label_fault
 from svsa.runs.command import ApplyLoad, Command, RemoveLoad, Set
 from svsa.runs.configuration import Configuration
 from svsa.runs.loads import name_load

@@ -8,11 +8,11 @@ from svsa.actuators.domain import (
     compute_relative_determinant,
 )
 from svsa.actuators.dynamics import compute_deflection
+from svsa.actuators.faults import FAULT_CODES
 from svsa.actuators.lever import compute_lever_ratio, compute_zero_stiffness_deflection
 from svsa.actuators.signals import State
 from svsa.actuators.spring import compute_stiffness
 from svsa.errors import Fault
-from svsa.faults import FAULT_CODES
 from svsa.simulation.loop.lane import Blocks
 
 

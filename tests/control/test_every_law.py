@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 import svsa
+from svsa.actuators.faults import FAULT_CODES
 from svsa.actuators.signals import CHANNEL_INDEX, State
 from svsa.control.installed import list_law_names
-from svsa.faults import FAULT_CODES
 from svsa.runs.batch import run_configurations
 from svsa.runs.command import ApplyLoad
 from svsa.runs.records.recorder import Recorder

@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 import can
 import pytest
 
+from svsa.actuators.faults import BENCH_FAULTS
 from svsa.errors import StateError
-from svsa.faults import BENCH_FAULTS
 from svsa.hardware import can_plant
 from svsa.hardware.drives.drive import build_broadcast_resets
 from svsa.hardware.emulation import ADVANCE_ID, encode_time

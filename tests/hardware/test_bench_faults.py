@@ -11,9 +11,9 @@ from typing import Any
 
 import pytest
 
+from svsa.actuators.faults import BENCH_FAULTS
 from svsa.actuators.signals import Torque
 from svsa.errors import StateError
-from svsa.faults import BENCH_FAULTS
 from svsa.hardware.emulator.experiment import LockstepBench, connect_bench
 from svsa.hardware.emulator.faults import (
     CurrentOffset,

@@ -6,9 +6,9 @@ from collections.abc import Callable
 import can
 import pytest
 
+from svsa.actuators.faults import BENCH_FAULTS
 from svsa.actuators.signals import Disturbance, Torque
 from svsa.errors import StateError
-from svsa.faults import BENCH_FAULTS
 from svsa.hardware.drives.drive import build_broadcast_resets, build_zero_currents
 from svsa.hardware.drives.robomodule import Current, Feedback, encode
 from svsa.hardware.emulator.faults import (

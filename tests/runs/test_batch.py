@@ -7,9 +7,9 @@ from hypothesis import strategies as st
 
 import svsa
 from svsa.actuators.domain import DEFLECTION_LIMIT, INSIDE
+from svsa.actuators.faults import FAULT_CODES
 from svsa.actuators.signals import CHANNELS, State
 from svsa.control.laws.ilc import Learning
-from svsa.faults import FAULT_CODES
 from svsa.runs.batch import build_run_batch, run_configurations
 from svsa.runs.configuration import Configuration
 from svsa.runs.metrics import compute_metrics

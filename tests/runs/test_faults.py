@@ -3,7 +3,15 @@
 import pytest
 
 from svsa.actuators import domain
-from svsa.faults import FAULT_CODES, FAULTS, HELD_BACK, LOSSES, advise, find_number, label_fault
+from svsa.actuators.faults import (
+    FAULT_CODES,
+    FAULTS,
+    HELD_BACK,
+    LOSSES,
+    advise,
+    find_number,
+    label_fault,
+)
 
 VALUES = {"deflection_rad": 0.012, "motor2_position_rad": 1.09}
 

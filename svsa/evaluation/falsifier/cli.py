@@ -220,8 +220,8 @@ def _print_found(found: "Falsified") -> None:
 
 def _build_table(compared: "list[LawOutcome]") -> Table:
     """What came of each law; the metrics of a run in a fault are those until then."""
+    from svsa.actuators.faults import label_fault
     from svsa.evaluation.studies.tables import format_unit, format_value
-    from svsa.faults import label_fault
 
     names = {
         "peak_position_error_rad": "peak",

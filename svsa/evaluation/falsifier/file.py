@@ -17,11 +17,11 @@ _Kind = TypeVar("_Kind", bound=Checked)
 
 
 def list_adversaries() -> dict[str, str]:
-    """The adversaries that come with the package: name and title."""
-    return {
-        path.stem: str(read_toml(path, ADVERSARY_FILE)["title"])
-        for path in sorted(ADVERSARY_FOLDER.glob("*.toml"))
-    }
+    """The adversaries that come with the package: name and title, fewest terms first."""
+    paths = sorted(ADVERSARY_FOLDER.glob("*.toml"))
+    read = {path.stem: read_toml(path, ADVERSARY_FILE) for path in paths}
+    simplest = sorted(read, key=lambda name: len(read[name]["terms"]))
+    return {name: str(read[name]["title"]) for name in simplest}
 
 
 def read_adversary(source: str | Path, **changes: Any) -> Adversary:

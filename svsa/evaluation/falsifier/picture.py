@@ -6,10 +6,10 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure as Picture
 
+from svsa.actuators.faults import label_fault
 from svsa.control.installed import get_title
 from svsa.evaluation.falsifier.scenario import LoadScenario
 from svsa.evaluation.falsifier.trace import trace_scenario
-from svsa.faults import label_fault
 from svsa.runs.result.law_style import style_law
 
 BODIES = (("link", "#1b2733", "-"), ("motor 1", "#c0892b", "--"), ("motor 2", "#7a4fa3", ":"))

@@ -3,13 +3,13 @@
 import math
 from typing import Any
 
+from svsa.actuators.faults import label_fault
 from svsa.evaluation.falsifier.adversary import Harm
 from svsa.evaluation.falsifier.measure import METRIC, Measured
 from svsa.evaluation.falsifier.scenario import Attack
 from svsa.evaluation.falsifier.simpler import BODIES, NUMBERS, format_run_number
 from svsa.evaluation.studies.outcome import REFUSED
 from svsa.evaluation.studies.tables import format_metric, format_unit, format_value
-from svsa.faults import label_fault
 from svsa.simulation.plant.loads import Load
 
 

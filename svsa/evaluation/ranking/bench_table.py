@@ -4,9 +4,9 @@ from rich.box import SIMPLE_HEAD
 from rich.table import Table
 from rich.text import Text
 
+from svsa.actuators.faults import label_fault
 from svsa.control.installed import PAPERS_LAW, get_title
 from svsa.evaluation.ranking.bench_runs import NUMBERS, BenchRun, BenchRuns
-from svsa.faults import label_fault
 
 SHORT = dict(zip(NUMBERS, ("before", "peak", "settled", "recov."), strict=True))
 LONG = dict(zip(NUMBERS, ("rms 1–5 s", "peak", "rms 8–20 s", "recovery"), strict=True))

@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Picture
 from matplotlib.ticker import FormatStrFormatter, LogLocator, NullLocator
 
+from svsa.actuators.faults import label_fault
 from svsa.control.installed import BASELINE, PAPERS_LAW, get_title
 from svsa.evaluation.ranking.measure import Entry, run_scenario
 from svsa.evaluation.ranking.results import Results
@@ -21,7 +22,6 @@ from svsa.evaluation.ranking.scenarios import (
     Scenario,
     build_link_step,
 )
-from svsa.faults import label_fault
 from svsa.runs.result.law_style import COLORS, style_law
 
 BAD, GOOD, MARKED = "#c0892b", "#0072B2", "#1b2733"

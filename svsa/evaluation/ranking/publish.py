@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+from svsa.actuators.faults import label_fault
 from svsa.control.call import is_measuring
 from svsa.control.gains import Gains
 from svsa.control.installed import PAPERS_LAW, get_law, get_notes, get_title
@@ -17,7 +18,6 @@ from svsa.evaluation.ranking.bench_table import build_section, format_bench
 from svsa.evaluation.ranking.results import Results
 from svsa.evaluation.ranking.row import Row
 from svsa.evaluation.ranking.table import format_markdown
-from svsa.faults import label_fault
 
 FOLDER = Path("docs") / "laws"
 README = Path("README.md")

@@ -4,8 +4,8 @@ from typing import Any
 
 import numpy as np
 
+from svsa.actuators.faults import FAULT_CODES
 from svsa.evaluation.studies.metrics import METRICS, compute_metrics
-from svsa.faults import FAULT_CODES
 from svsa.inputs.checked import Checked, Number, quantity
 from svsa.simulation.loop.tally import SUMMARY
 

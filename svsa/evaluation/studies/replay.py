@@ -8,13 +8,13 @@ import numpy as np
 import pyarrow.compute as pc
 
 from svsa.actuators.domain import INSIDE
+from svsa.actuators.faults import FAULT_CODES
 from svsa.actuators.signals import CHANNELS
 from svsa.evaluation.studies.metrics import METRICS
 from svsa.evaluation.studies.outcome import Success, build_outcome
 from svsa.evaluation.studies.samples import build_configurations, draw
 from svsa.evaluation.studies.store import StoredStudy, StudyError, read_rows
 from svsa.evaluation.studies.work import ROW
-from svsa.faults import FAULT_CODES
 from svsa.inputs.checked import check_number
 from svsa.inputs.extras import __version__
 from svsa.runs.blocks import build_blocks, compute_start_ratio

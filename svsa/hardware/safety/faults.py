@@ -2,17 +2,17 @@
 
 Two processes hold a fault, each in a latch of its own: that of the loop, whose `Machine` sends zero
 current while it holds one, and that of the server, which outlives the loop. Both follow one rule.
-The codes are in `svsa.faults`.
+The codes are in `svsa.actuators.faults`.
 """
 
 from typing import Any, NamedTuple
 
+from svsa.actuators.faults import LOSSES
 from svsa.errors import Fault
-from svsa.faults import LOSSES
 
 
 class Alarm(NamedTuple):
-    """A fault that a check found: its code in `svsa.faults`, a message, and the values in it."""
+    """A fault that a check found: its code in `svsa.actuators.faults`, a message and its values."""
 
     code: str
     message: str

@@ -5,8 +5,8 @@ from collections import deque
 
 from svsa.actuators.domain import INSIDE, Bounds, Domain, check_packed_domain
 from svsa.actuators.dynamics import Actuator
+from svsa.actuators.faults import FAULT_CODES, HELD_BACK, label_fault
 from svsa.actuators.signals import Disturbance, State, Torque
-from svsa.faults import FAULT_CODES, HELD_BACK, label_fault
 from svsa.hardware.file import AXIS_WORDS, BenchFile, MotorSettings
 from svsa.hardware.safety.faults import Alarm
 from svsa.hardware.safety.heat import HeldBack, HoldingBack, Winding, describe_held_back

@@ -4,8 +4,8 @@ import math
 from collections import deque
 from collections.abc import Callable
 
+from svsa.actuators.faults import label_fault
 from svsa.errors import Fault, StateError
-from svsa.faults import label_fault
 from svsa.runs.command import ApplyLoad, Command, RemoveLoad, Stop
 from svsa.runs.configuration import MAX_LANES, Configuration
 from svsa.runs.events import Event, describe_change, describe_end, describe_onset

@@ -5,9 +5,9 @@ from typing import Any
 
 import pytest
 
+from svsa.actuators.faults import FAULTS
 from svsa.actuators.signals import Torque
 from svsa.errors import ParameterError, StateError
-from svsa.faults import FAULTS
 from svsa.hardware.drives.phase import Phase
 from svsa.hardware.file import read_bench
 from svsa.hardware.homing import STEPS

@@ -3,6 +3,7 @@
 from typing import Any, cast
 
 import svsa
+from svsa.actuators.faults import FAULT_CODES
 from svsa.actuators.signals import Disturbance, State
 from svsa.analysis.design.report import build_report
 from svsa.analysis.design.steady_error import compute_fl_steady_error
@@ -11,7 +12,6 @@ from svsa.control.installed import list_law_names
 from svsa.evaluation.falsifier.trace import sample_torque
 from svsa.evaluation.studies.replay import measure_samples
 from svsa.evaluation.timing.benchmark import list_c_constants
-from svsa.faults import FAULT_CODES
 from svsa.hardware.emulator.experiment import LockstepBench
 from svsa.runs.batch import run_configurations
 from svsa.runs.configuration import Configuration

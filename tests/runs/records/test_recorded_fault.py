@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 import svsa
+from svsa.actuators.faults import label_fault
 from svsa.errors import Fault
-from svsa.faults import label_fault
 from svsa.runs.paper import get_figure
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.runs.records.header import RecordError

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import svsa
-from svsa.faults import label_fault
+from svsa.actuators.faults import label_fault
 from svsa.runs import events
 from svsa.runs.command import ApplyLoad, Set
 from svsa.runs.session.clock import LONGEST_BACKLOG_S

@@ -1,6 +1,6 @@
 """Faults over REST: the table of all kinds, and the fault that a session holds with its advice."""
 
-from svsa.faults import FAULTS, advise
+from svsa.actuators.faults import FAULTS, advise
 from tests.lab import Lab
 
 

@@ -7,8 +7,8 @@ from typing import Any
 import httpx
 import pytest
 
+from svsa.actuators.faults import BENCH_FAULTS, LOSSES
 from svsa.errors import Fault
-from svsa.faults import BENCH_FAULTS, LOSSES
 from svsa.hardware.realtime.launch import BenchError
 from svsa.hardware.realtime.memory import LoopMemory
 from svsa.hardware.safety.machine import BenchStatus

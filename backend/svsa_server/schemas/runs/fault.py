@@ -4,8 +4,8 @@ from typing import Any, Literal, Self
 
 from pydantic import BaseModel, Field
 
+from svsa.actuators.faults import FAULTS, FaultKind, advise, label_fault
 from svsa.errors import Fault
-from svsa.faults import FAULTS, FaultKind, advise, label_fault
 
 
 class FaultKindState(BaseModel):

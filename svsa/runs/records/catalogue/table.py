@@ -9,7 +9,7 @@ import re
 import sqlite3
 from typing import Any
 
-from svsa.faults import label_fault
+from svsa.actuators.faults import label_fault
 from svsa.runs.records.catalogue.entry import (
     SORTS,
     CatalogueError,
