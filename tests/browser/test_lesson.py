@@ -79,7 +79,7 @@ class Hand:
             tried = self.page.get_by_text(re.compile("^(It holds|Kept, not tried)")).first
             expect(tried).to_be_visible(timeout=LONG_MS)
         self.page.keyboard.press("Tab")
-        self.page.keyboard.type("Ada")
+        self.page.keyboard.type("Grace")
         self.page.keyboard.press("Enter")
 
 
