@@ -5,7 +5,6 @@ PORT ?= 8000
 PAGE := backend/svsa_server/page/index.html
 PAGE_SOURCES := $(shell find frontend/web -path '*/node_modules' -prune -o -type f -print) \
   frontend/scene/svsa_scene/cameras.json
-# All but the peers of `svsa benchmark`, which are large and which nothing here needs.
 LOCKED_EXTRAS := server client bench plot nidaqmx xarray cluster lti
 # Each module in one process, in the order of tests/conftest.py: the browser tests are last.
 # Four processes on two cores, because many tests wait for a server or a browser.

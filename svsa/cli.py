@@ -29,7 +29,7 @@ from svsa.evaluation.studies.cli import study
 from svsa.evaluation.tuning.cli import tune
 from svsa.hardware.cli import bench_check, bench_home
 from svsa.hardware.emulator.cli import emulator
-from svsa.inputs.extras import DISTRIBUTION, list_missing, require_extra
+from svsa.inputs.extras import require_extra
 from svsa.numerics.compilation import is_compiled_before
 from svsa.runs.result.cli import compare
 from svsa.runs.result.progress import hide_progress
@@ -144,8 +144,6 @@ def measure_costs(
             "No C loop to compare with: it needs a C compiler (cc) and tests/benchmarks/loop.c of"
             " the source tree, which an installed package has not. Ratios are null."
         )
-    if not laws and (missing := list_missing("peers")):
-        _messages.print(f"No peers: {', '.join(missing)}, of the extra `{DISTRIBUTION}[peers]`.")
     if as_json:
         each = {law: cost._asdict() for law, cost in ticks.items()}
         print(json.dumps(each or costs, indent=2))
@@ -156,8 +154,8 @@ def measure_costs(
         table.add_row(law, *(f"{value:.4g}" for value in cost))
     by_effects = costs.pop("runs_per_second_1_core_by_effects", {})
     costs |= {f"runs_per_second_1_core: {name}": rate for name, rate in by_effects.items()}
-    for name, peer in costs.pop("peers", {}).items():
-        costs |= {f"peer {name}: {key}": value for key, value in peer.items()}
+    for name, solver in costs.pop("solvers", {}).items():
+        costs |= {f"solver {name}: {key}": value for key, value in solver.items()}
     for name, value in costs.items():
         table.add_row(name, f"{value:.4g}" if isinstance(value, float) else str(value))
     Console().print(table)

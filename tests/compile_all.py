@@ -16,7 +16,7 @@ from svsa.analysis.design.prediction import predict
 from svsa.analysis.identification.identify import identify
 from svsa.cli import prepare
 from svsa.control.installed import list_law_names
-from svsa.evaluation.timing.peers.comparison import measure_peers
+from svsa.evaluation.timing.scipy_comparison import compare_with_scipy
 from svsa.hardware.emulator.experiment import LockstepBench
 from svsa.runs.batch import run_configurations
 from svsa.runs.paper import FIGURES
@@ -39,7 +39,7 @@ def main() -> None:
     compile_bench()
     compile_identification()
     predict(FIGURES["4a"].build_configuration("ndobc"), STIFFNESS)
-    measure_peers(repeats=1, duration_s=0.02)
+    compare_with_scipy(repeats=1, duration_s=0.02)
     for process in beside:
         assert process.wait() == 0, process.args
 

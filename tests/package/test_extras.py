@@ -30,7 +30,7 @@ class WithoutExtras:
 assert not hidden & set(sys.modules), "importing the library has imported an extra's package"
 sys.meta_path[:] = [WithoutExtras(finder) for finder in sys.meta_path]
 """
-ALL = ("server", "client", "bench", "plot", "nidaqmx", "xarray", "cluster", "lti", "peers")
+ALL = ("server", "client", "bench", "plot", "nidaqmx", "xarray", "cluster", "lti")
 CALLS = {
     "svsa.simulate('4a', duration_s=0.01).plot()": "plot",
     "svsa.reproduce(('6a',))": "bench",
@@ -107,7 +107,7 @@ def test_the_server_needs_the_bench_s_packages_for_a_bench_only():
     assert "pip install 'svsa-lab[bench]'" in printed
 
 
-def test_each_extra_is_locked_but_the_peers_which_are_large() -> None:
+def test_each_extra_is_locked() -> None:
     """What is locked is what `make run`, the tests and CI fetch."""
     root = Path(__file__).parents[2]
     extras = tomllib.loads((root / "pyproject.toml").read_text())["project"][
@@ -116,6 +116,5 @@ def test_each_extra_is_locked_but_the_peers_which_are_large() -> None:
     locked = set(re.findall(r"^[\w-]+", (root / "requirements.lock").read_text(), re.MULTILINE))
     names = {extra: {re.split(r"[\[>=<;]", each)[0] for each in extras[extra]} for extra in extras}
     assert {*extras} == {*MODULES} == {*ALL}
-    assert not names.pop("peers") & locked
     assert set().union(*names.values()) <= locked
     assert {"gs-usb", "uptime"} <= locked, "of python-can's adapters"

@@ -23,7 +23,7 @@ from svsa.control.laws.feedback_linearization import build_gains
 from svsa.evaluation.timing.batch_rates import measure_effects, measure_two_cores
 from svsa.evaluation.timing.bench_tick import measure_bench_tick
 from svsa.evaluation.timing.c_compiler import FLAGS, find_c_compiler
-from svsa.evaluation.timing.peers.comparison import measure_peers
+from svsa.evaluation.timing.scipy_comparison import compare_with_scipy
 from svsa.evaluation.timing.turns import measure_in_turns
 from svsa.runs.batch import build_run_batch
 from svsa.runs.paper import DURATION_S, LOAD_TIME_S, get_figure
@@ -141,7 +141,7 @@ def measure(repeats: int = REPEATS) -> dict[str, Any]:
         "two_cores_over_one": measure_two_cores(batch, ticks, repeats),
         "load_average": os.getloadavg()[0],
         "bench_tick_cpu_us": 1e6 * measure_bench_tick(run, repeats),
-        "peers": {name: each._asdict() for name, each in measure_peers(repeats).items()},
+        "solvers": {name: each._asdict() for name, each in compare_with_scipy(repeats).items()},
     }
 
 

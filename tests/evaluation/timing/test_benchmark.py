@@ -12,8 +12,7 @@ from typer.testing import CliRunner
 import svsa
 from svsa.actuators.signals import CHANNEL_INDEX, TORQUES
 from svsa.cli import app
-from svsa.evaluation.timing import batch_rates, bench_tick, benchmark
-from svsa.evaluation.timing.peers import comparison
+from svsa.evaluation.timing import batch_rates, bench_tick, benchmark, scipy_comparison
 from svsa.runs.run import Run
 
 RUNNER = CliRunner()
@@ -66,8 +65,8 @@ def test_the_command_tells_costs_and_their_ratio_to_c(c_loop: benchmark.CLoop) -
         "two_cores_over_one",
     )
     assert all(costs[name] > 0.0 for name in numbers)
-    assert costs["peers"]["svsa"]["ratio"] == 1.0
-    assert costs["peers"]["scipy"]["ratio"] > 1.0
+    assert costs["solvers"]["svsa"]["ratio"] == 1.0
+    assert costs["solvers"]["scipy"]["ratio"] > 1.0
     rates = costs["runs_per_second_1_core_by_effects"]
     assert list(rates) == list(batch_rates.EFFECTS)
     assert rates["ideal"] > rates["every"] > 0.0
@@ -94,7 +93,7 @@ def test_without_the_c_loop_the_ratios_are_unknown_and_it_says_why(
     monkeypatch.setattr(benchmark, "C_LOOP", tmp_path / "loop.c")
     one = {"ideal": svsa.IDEAL}
     monkeypatch.setattr(batch_rates, "EFFECTS", one)  # each is compiled, and not the subject
-    monkeypatch.setattr(comparison, "PEERS", {})
+    monkeypatch.setattr(scipy_comparison, "METHODS", ())
     answer = RUNNER.invoke(app, ["benchmark", "--json", "--repeats", "1", "--no-start"])
     costs = json.loads(answer.stdout)
     assert costs["ratio_to_c"] is None

@@ -14,8 +14,8 @@ import svsa
 
 COMPILING = {"compiled", "overload", "intrinsic"}
 """Decorators: what such a function calls is called from compiled code."""
-LEFT_OUT = "svsa.evaluation.timing.peers"
-"""Programs that other packages are compared with, which are no part of the product."""
+LEFT_OUT = "svsa.evaluation.timing.plant_problem"
+"""What scipy is compared on, which is no part of the product."""
 
 
 def import_library() -> list[ModuleType]:

@@ -1,9 +1,11 @@
-"""What is solved: the plant of a run under the torques of that run, each held for a period.
+"""The problem of the comparison with scipy: the plant of a run under that run's torques.
 
-The loop is open, so that a solver's own speed is compared and no law: the torques are those that
-the paper's law asked for over Figure 4A, from before the load to well after it.
+Each torque is held for a period. The loop is open, so only the solvers are compared and no law: the
+torques are those that the paper's law commanded over Figure 4A, from before the load to well after
+it.
 """
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -24,6 +26,8 @@ FIGURE, LAW = "4a", "ndobc"
 COLUMNS = [CHANNEL_INDEX[name] for name in STATES]
 ANGLES = [0, 2, 4]
 """q, θ1, θ2 in a state."""
+Solver = Callable[[], np.ndarray]
+"""Solves one problem: the states at the end of each period, (periods, 6)."""
 
 
 class Problem(NamedTuple):

@@ -1,16 +1,13 @@
-"""The peers of `svsa benchmark`: the same problem, solved as exactly as here."""
-
-from importlib.util import find_spec
+"""scipy in `svsa benchmark`: the same problem, solved to our accuracy."""
 
 import numpy as np
 import pytest
 
 import svsa
-from svsa.evaluation.timing.peers import comparison, problem, scipy_ivp
+from svsa.evaluation.timing import plant_problem as problem
+from svsa.evaluation.timing import scipy_comparison as comparison
 
 DURATION_S = 0.2
-PEERS = comparison.PEERS
-INSTALLED = [name for name, peer in PEERS.items() if find_spec(peer.package)]
 
 
 @pytest.fixture(scope="module")
@@ -20,7 +17,7 @@ def posed() -> problem.Problem:
 
 @pytest.fixture(scope="module")
 def exact(posed: problem.Problem) -> np.ndarray:
-    return scipy_ivp.solve_exactly(posed)
+    return comparison.solve_exactly(posed)
 
 
 def test_the_problem_is_the_plant_of_the_run_bit_for_bit(posed: problem.Problem) -> None:
@@ -44,47 +41,39 @@ def test_the_exact_solution_is_what_ever_smaller_steps_of_ours_tend_to(
     assert 12.0 < errors[1] / errors[2] < 20.0
 
 
-@pytest.mark.parametrize(
-    ("name", "method"), [(name, method) for name in INSTALLED for method in PEERS[name].methods]
-)
-def test_a_peer_has_its_least_accurate_setting_that_is_no_worse_than_ours(
-    posed: problem.Problem, exact: np.ndarray, name: str, method: str
+@pytest.mark.parametrize("method", comparison.METHODS)
+def test_a_method_has_its_loosest_tolerance_whose_error_is_not_above_ours(
+    posed: problem.Problem, exact: np.ndarray, method: str
 ) -> None:
     ours = comparison.compute_error(problem.solve(posed), exact) + comparison.ROUNDING_RAD
-    (found,) = comparison.find_setting(name, method, posed, exact, ours)
+    found = comparison.find_tolerance(method, posed, exact, ours)
+    assert found is not None
     assert found.error_rad == comparison.compute_error(found.solver(), exact)
     assert found.error_rad <= ours
-    for setting in PEERS[name].methods[method]:
-        if found.setting == f"{method}: {setting:g}":
+    for tolerance in comparison.TOLERANCES:
+        if found.setting == f"{method}: {tolerance:g}":
             break
-        worse = PEERS[name].build(posed, method, setting)()
+        worse = comparison.solve_by_scipy(posed, method, tolerance, posed.period)
         assert comparison.compute_error(worse, exact) > ours
 
 
 def test_a_method_that_never_gets_as_exact_is_not_compared(
     posed: problem.Problem, exact: np.ndarray
 ) -> None:
-    assert comparison.find_setting("scipy", "LSODA", posed, exact, -1.0) == []
+    assert comparison.find_tolerance("LSODA", posed, exact, -1.0) is None
 
 
-def test_each_peer_is_told_by_the_cheapest_of_its_methods(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_scipy_is_reported_by_the_cheapest_of_its_methods(monkeypatch: pytest.MonkeyPatch) -> None:
     prices = {"svsa RK4: 1": 2e-3, "scipy RK45: 0.001": 8e-3, "scipy DOP853: 0.001": 6e-3}
-    monkeypatch.setattr(comparison, "PEERS", {"scipy": PEERS["scipy"]})
     monkeypatch.setattr(
         comparison,
         "measure_in_turns",
         lambda works, _: {name: prices.get(name, 1.0) for name in works},
     )
-    reported = comparison.measure_peers(1, DURATION_S)
+    reported = comparison.compare_with_scipy(1, DURATION_S)
     assert list(reported) == ["svsa", "scipy"]
     assert reported["svsa"].ratio == 1.0
     assert reported["svsa"].cpu_us_per_period == pytest.approx(10.0)
     assert reported["scipy"].ratio == pytest.approx(3.0)
     assert reported["scipy"].setting == "DOP853: 0.001"
     assert 0.0 < reported["scipy"].error_rad <= reported["svsa"].error_rad
-
-
-def test_a_peer_that_is_not_installed_is_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
-    absent = PEERS["scipy"]._replace(package="a_package_that_nobody_has")
-    monkeypatch.setattr(comparison, "PEERS", {"absent": absent})
-    assert list(comparison.measure_peers(1, DURATION_S)) == ["svsa"]

@@ -1,1 +1,0 @@
-"""The plant of a run solved by others, to the accuracy that it has here."""
