@@ -60,3 +60,23 @@ def test_a_refusal_and_a_missing_lab_are_told_as_by_the_other(server: Server) ->
         asyncio.run(refuse())
     with pytest.raises(LabError, match="does not answer"):
         asyncio.run(svsa.connect_async("http://127.0.0.1:9", patience_s=0.0))
+
+
+def test_every_method_of_the_blocking_client_is_awaited_by_its_name(server: Server) -> None:
+    async def work() -> None:
+        async with await svsa.connect_async(server.url) as lab, lab.private(load=False) as session:
+            await session.pause()
+            await session.set_laws("fl")
+            configuration = (await session.read_state())["configuration"]
+            assert configuration["law"] == "fl"
+            assert {"set_laws", "run_until", "record"} <= set(dir(session))
+            with pytest.raises(AttributeError, match="no call 'time_s'"):
+                _ = session.time_s
+            with pytest.raises(TypeError, match="No setting of a session: lwa"):
+                await session.set(
+                    position=svsa.SinePosition(amplitude_rad=0.1, frequency_hz=0.2), lwa="fl"
+                )
+            unchanged = (await session.read_state())["configuration"]
+            assert unchanged["position"] == configuration["position"]
+
+    asyncio.run(work())
