@@ -12,12 +12,7 @@ from urllib.parse import urlencode
 
 import numpy as np
 from websockets.asyncio import client as asynchronous
-from websockets.exceptions import (
-    ConnectionClosedError,
-    ConnectionClosedOK,
-    InvalidHandshake,
-    InvalidStatus,
-)
+from websockets.exceptions import ConnectionClosedError, InvalidHandshake, InvalidStatus
 from websockets.sync import client as synchronous
 
 from svsa.client.connection import API, CONNECT_S, PAUSE_S, Connection, LabError, build_refusal
@@ -88,43 +83,35 @@ class BlockStream:
         self._name = f"The stream of session {session} at {connection.url}"
         self._duration_s, self._patience_s = duration_s, connection.patience_s
         self._until: float | None = None
+        self._is_complete = False
         self._reported_at = time.monotonic()
 
     def __iter__(self) -> Iterator[Block]:
         while True:
-            try:
-                with synchronous.connect(self._address, **self._options) as socket:
-                    reader = BlockReader()
-                    for message in socket:
-                        block, is_last = self._take(reader, message)
-                        if block is not None:
-                            yield block
-                        if is_last:
-                            return
+            with (
+                self._outlast_break(),
+                synchronous.connect(self._address, **self._options) as socket,
+            ):
+                reader = BlockReader()
+                for message in socket:
+                    yield from self._cut(reader.read(message))
+                    if self._is_complete:
+                        return
                 return
-            except ConnectionClosedOK:
-                return
-            except _BROKEN as error:
-                self._check_patience(error)
-                time.sleep(PAUSE_S)
+            time.sleep(PAUSE_S)
 
     async def __aiter__(self) -> AsyncIterator[Block]:
         while True:
-            try:
+            with self._outlast_break():
                 async with asynchronous.connect(self._address, **self._options) as socket:
                     reader = BlockReader()
                     async for message in socket:
-                        block, is_last = self._take(reader, message)
-                        if block is not None:
+                        for block in self._cut(reader.read(message)):
                             yield block
-                        if is_last:
+                        if self._is_complete:
                             return
                 return
-            except ConnectionClosedOK:
-                return
-            except _BROKEN as error:
-                self._check_patience(error)
-                await asyncio.sleep(PAUSE_S)
+            await asyncio.sleep(PAUSE_S)
 
     @contextmanager
     def held_open(self) -> Iterator[None]:
@@ -135,27 +122,31 @@ class BlockStream:
             yield
         reading.join(CONNECT_S)
 
-    def _take(self, reader: "BlockReader", message: str | bytes) -> tuple[Block | None, bool]:
-        """What of a message is within the time that was asked for, and whether that is all."""
-        block = reader.read(message)
+    def _cut(self, block: Block | None) -> Iterator[Block]:
+        """The part of a block within the requested time; nothing if there is none."""
         if block is None:
-            return None, False
+            return
         self._reported_at = time.monotonic()
         if self._until is None:
             self._until = float(block.time_s[0]) + self._duration_s
         inside = block.time_s < self._until - block.period_s / 2
-        if inside.all():
-            return block, False
-        if not inside.any():
-            return None, True
-        return replace(block, ticks=block.ticks[inside], values=block.values[inside]), True
+        self._is_complete = not inside.all()
+        if not self._is_complete:
+            yield block
+        elif inside.any():
+            yield replace(block, ticks=block.ticks[inside], values=block.values[inside])
 
-    def _check_patience(self, error: Exception) -> None:
-        if isinstance(error, InvalidStatus) and error.response.status_code in (401, 403):
-            reported = error.response.body or b"null"
-            raise build_refusal(error.response.status_code, json.loads(reported)) from None
-        if time.monotonic() - self._reported_at > self._patience_s:
-            raise LabError(f"{self._name} broke off: {error}.") from None
+    @contextmanager
+    def _outlast_break(self) -> Iterator[None]:
+        """Suppress a broken connection, up to the patience; raise `LabError` after that."""
+        try:
+            yield
+        except _BROKEN as error:
+            if isinstance(error, InvalidStatus) and error.response.status_code in (401, 403):
+                reported = error.response.body or b"null"
+                raise build_refusal(error.response.status_code, json.loads(reported)) from None
+            if time.monotonic() - self._reported_at > self._patience_s:
+                raise LabError(f"{self._name} broke off: {error}.") from None
 
 
 def _let_go(socket: synchronous.ClientConnection) -> None:
