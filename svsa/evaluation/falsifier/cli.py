@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from svsa.evaluation.falsifier.adversary import Adversary
     from svsa.evaluation.falsifier.find import Falsified
     from svsa.evaluation.falsifier.measure import LawOutcome
+    from svsa.evaluation.falsifier.scenario import LoadScenario
 
 falsify = typer.Typer(
     no_args_is_help=True, help="The load that hurts a law most, and the simplest that still does."
@@ -38,6 +39,7 @@ _Adversary = Annotated[
 ]
 _Runs = Annotated[int, typer.Option(min=1, max=1_000_000, help="Runs at most.")]
 _Law = Annotated[str | None, typer.Option(help="Law to hurt, in place of the file's.")]
+_Picture = Annotated[Path | None, typer.Option(help="Draw it into this file.")]
 _Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 
 
@@ -50,39 +52,29 @@ def search_command(
     output: Annotated[
         Path | None, typer.Option(help="Scenario file to write; ADVERSARY-LAW.toml if left out.")
     ] = None,
-    picture: Annotated[Path | None, typer.Option(help="Draw it into this file.")] = None,
+    picture: _Picture = None,
     as_json: _Json = False,
 ) -> None:
     """Search for what hurts most, shrink it, keep it. Ctrl-C keeps the worst so far."""
     from svsa.evaluation.falsifier.file import read_adversary, write_scenario
     from svsa.evaluation.falsifier.find import falsify as find
-    from svsa.evaluation.falsifier.measure import run_scenario
     from svsa.evaluation.falsifier.progress import forget_search, keep_search, read_search
-    from svsa.evaluation.studies.tables import write_json
 
     if picture is not None:
         require_extra("plot")
+        _check_writable("picture", picture)
     adversary = read_adversary(source, **({} if law is None else {"law": law}))
     path = output or Path(f"{Path(source).stem}-{adversary.law}.toml")
     _check_writable("output", path)
-    if picture is not None:
-        _check_writable("picture", picture)
     known = read_search(path, adversary, seed, "cma")
     with _show_progress(adversary, runs, len(known)) as report:
         found = find(adversary, runs=runs, seed=seed, known=known, on_generation=report)
     scenario = found.scenario
     write_scenario(path, scenario)
-    compared = run_scenario(scenario, _list_baselines(adversary.law))
-    if as_json:
-        write_json(_describe(found, path) | {"laws": [one._asdict() for one in compared]})
-    else:
+    if not as_json:
         _print_found(found)
-        Console().print(_build_table(compared))
-    if picture is not None:
-        from svsa.evaluation.falsifier.picture import save_picture
-
-        save_picture(scenario, _list_baselines(adversary.law), picture)
-        _messages.print(f"Picture: {picture}", highlight=False)
+    described = _describe(found, path) if as_json else None
+    _compare_laws(scenario, _list_baselines(adversary.law), described, picture)
     _messages.print(f"Kept as {path}. Other laws: svsa falsify run {path} --laws all")
     if not found.is_complete:
         keep_search(path, found)
@@ -102,13 +94,11 @@ def run_command(
     laws: Annotated[
         str | None, typer.Option(help="Names joined by commas, or all; else that it was found for.")
     ] = None,
-    picture: Annotated[Path | None, typer.Option(help="Draw it into this file.")] = None,
+    picture: _Picture = None,
     as_json: _Json = False,
 ) -> None:
     """Put laws through a scenario that was kept."""
     from svsa.evaluation.falsifier.kept import open_scenario
-    from svsa.evaluation.falsifier.measure import run_scenario
-    from svsa.evaluation.studies.tables import write_json
 
     if picture is not None:
         require_extra("plot")
@@ -117,16 +107,9 @@ def run_command(
         names = _list_baselines(scenario.found.law if scenario.found else PAPERS_LAW)
     else:
         names = list_law_names() if laws == "all" else tuple(map(str.strip, laws.split(",")))
-    compared = run_scenario(scenario, names)
-    if as_json:
-        write_json({"scenario": scenario.title, "laws": [one._asdict() for one in compared]})
-    else:
-        Console().print(scenario.title, _build_table(compared), sep="\n")
-    if picture is not None:
-        from svsa.evaluation.falsifier.picture import save_picture
-
-        save_picture(scenario, names, picture)
-        _messages.print(f"Picture: {picture}", highlight=False)
+    if not as_json:
+        Console().print(scenario.title)
+    _compare_laws(scenario, names, {"scenario": scenario.title} if as_json else None, picture)
 
 
 @falsify.command("list")
@@ -172,6 +155,31 @@ def compare_command(
         table.add_row(str(lap.seed), *cells)
     Console().print(table)
     Console().print(raced.message)
+
+
+def _compare_laws(
+    scenario: "LoadScenario",
+    laws: tuple[str, ...],
+    described: dict[str, object] | None,
+    picture: Path | None,
+) -> None:
+    """Run laws through a scenario and print the results; draw them if there is a picture.
+
+    described: what the JSON holds next to the laws; None prints a table instead.
+    """
+    from svsa.evaluation.falsifier.measure import run_scenario
+    from svsa.evaluation.studies.tables import write_json
+
+    compared = run_scenario(scenario, laws)
+    if described is None:
+        Console().print(_build_table(compared))
+    else:
+        write_json(described | {"laws": [one._asdict() for one in compared]})
+    if picture is not None:
+        from svsa.evaluation.falsifier.picture import save_picture
+
+        save_picture(scenario, laws, picture)
+        _messages.print(f"Picture: {picture}", highlight=False)
 
 
 def _list_baselines(law: str) -> tuple[str, ...]:
