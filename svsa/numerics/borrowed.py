@@ -20,6 +20,7 @@ def _borrow(typing: Any, array: Any) -> Any:
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         found = cgutils.create_struct_proxy(array)(context, builder, value=arguments[0])
+        # numba counts references through `meminfo`; it does not count an array without one.
         found.meminfo = cgutils.get_null_value(found.meminfo.type)
         found.parent = cgutils.get_null_value(found.parent.type)
         return found._getvalue()

@@ -25,11 +25,14 @@ def _box_tuple(kind: Any, value: Any, context: Any) -> Any:
     built = cgutils.alloca_once_value(builder, missing)
     with ExitStack() as nested:
         nested.enter_context(_if_found(builder, found))
+        # The blocks nest: after the first missing part nothing more is boxed, and `built` stays
+        # NULL.
         for i, part in enumerate(kind):
             boxed = context.box(part, builder.extract_value(value, i))
             api.tuple_setitem(found, i, boxed)
             nested.enter_context(_if_found(builder, boxed))
         builder.store(found, built)
+    # `Py_DecRef` accepts NULL, so this also covers a tuple that could not be created.
     with builder.if_then(cgutils.is_null(builder, builder.load(built)), likely=False):
         api.decref(found)
     return builder.load(built)
@@ -58,6 +61,8 @@ def _box_array(kind: Any, value: Any, context: Any) -> Any:
     with _if_found(builder, python_type):
         word = ir.IntType(32)
         given = [api.voidptr, api.pyobj, word, word, api.pyobj]
+        # numba's own `nrt_adapt_ndarray_to_python` passes the type on without a check for NULL.
+        # Hence its function of the runtime is called here directly.
         name = "NRT_adapt_ndarray_to_python_acqref"
         adapt = api._get_function(ir.FunctionType(api.pyobj, given), name=name)
         array = builder.bitcast(cgutils.alloca_once_value(builder, value), api.voidptr)
@@ -65,6 +70,7 @@ def _box_array(kind: Any, value: Any, context: Any) -> Any:
         boxed = builder.call(adapt, [array, python_type, dimensions, is_writable, dtype])
         builder.store(boxed, built)
         api.decref(python_type)
+    # The adapter takes a reference of its own (`acqref`), so the native one is released here.
     context.context.nrt.decref(builder, kind, value)
     return builder.load(built)
 
@@ -78,6 +84,7 @@ def _if_found(builder: ir.IRBuilder, found: Any) -> Any:
 def replace_boxing() -> None:
     """Have numba use the functions of this module in all that it compiles from now on."""
     import_module("numba.core.boxing")  # registers those that are replaced: 18 ms of a start
+    # The table is an internal of numba, whose minor version is pinned for such reasons.
     _boxers.functions |= {
         types.Tuple: _box_tuple,
         types.UniTuple: _box_tuple,

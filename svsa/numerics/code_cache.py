@@ -25,6 +25,7 @@ UNUSED_S = 24 * 3600.0
 ABANDONED_S = 30 * UNUSED_S
 """So long nobody has opened a whole folder that goes: its file, or its version, is no more."""
 _FINGERPRINT = "[0-9a-f]{16}"
+# Earlier versions had one folder for all code, named after the fingerprint alone.
 _OF_EARLIER_VERSION = re.compile(f"compiled-{_FINGERPRINT}")
 _OF_FILE = re.compile(r"\w+(\.\w+)*")
 
@@ -43,6 +44,8 @@ class SharedCache(FunctionCache):
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """The function's code for the types `sig`; None where there is none."""
+        # Loading takes the lock as well: numba writes the list before the code, so that a reader in
+        # between would find an entry without its own code.
         with _hold(Path(self.cache_path)):
             return super().load_overload(sig, target_context)
 
@@ -52,6 +55,8 @@ def _hold(folder: Path) -> Iterator[None]:
     """The only one who writes in a folder; without a lock where there can be none."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
+        # The folder itself is locked: it exists before any file of the cache, and the system
+        # releases the lock if the process dies.
         descriptor = os.open(folder, os.O_RDONLY)
     except OSError:  # not ours to write in, or a system that opens no folders
         yield
@@ -77,6 +82,7 @@ def open_folder(module: str, fingerprint: str) -> Path | None:
     folder = root / module / fingerprint
     try:
         folder.mkdir(parents=True, exist_ok=True)
+        # The age that decides about removal is that of the last use, not of the creation.
         os.utime(folder)
     except OSError:
         return None

@@ -57,6 +57,8 @@ _IMPORT = re.compile(r"^from (svsa[\w.]*) import (\([^)]*\)|.*)$", re.MULTILINE)
 _OPTIONS: dict[str, Any] = {
     "nogil": True,
     "error_model": "numpy",
+    # Without inlining a run of 10 s took 13.8 ms instead of 4.4 ms (same equations, before all
+    # other improvements).
     "forceinline": True,
     "pipeline_class": FusingCompiler,
 }
@@ -141,6 +143,8 @@ def compiled(function: Callable[..., Any]) -> Any:
     def open_inlined() -> Any:
         return _compile_into(folder and folder / "inlined", function, **_NO_WRAPPERS)
 
+    # numba calls these two when it compiles a caller of this function. Without wrappers the first
+    # law took 11 s of processor time to compile instead of 19.5 s.
     called.get_call_template = lambda *given: open_inlined().get_call_template(*given)
     called.get_overload = lambda signature: open_inlined().get_overload(signature)
     return called
@@ -170,6 +174,8 @@ def specialize(function: Callable[..., Any], name: str, **given: Any) -> Any:
 
     name: stands for what is given in the cache, so that another has another.
     """
+    # numba treats globals as constants: they become part of the machine code. Hence other globals
+    # need another function, and another name in the cache.
     copy = FunctionType(function.__code__, function.__globals__ | given, name)
     copy.__qualname__ = name
     return compiled(copy)
@@ -183,6 +189,7 @@ class _CompilationListener(event.Listener):
         pass
 
     def on_end(self, event: event.Event) -> None:
+        # numba may send the event without data.
         if event.data is not None:
             self._tell(event.data["dispatcher"].py_func.__name__)
 

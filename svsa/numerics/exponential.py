@@ -63,6 +63,7 @@ def split_exponent(x: float) -> tuple[float, float]:
     e = fma(r, fma(r, fma(r, fma(r, e, E[6]), E[5]), E[4]), E[3])
     e = fma(r, fma(r, fma(r, e, E[2]), E[1]), E[0])
     low = (exact - r) + y
+    # Two numbers instead of their product, so that `expm1` can subtract 1 from 2^k first.
     return raise_two(k), r + fma(r * z, e, fma(0.5, z, low))
 
 
@@ -77,6 +78,7 @@ def exp(x: float) -> float:
 def expm1(x: float) -> float:
     """eˣ − 1, exact to the last digits for small x too; beyond the bounds that of the bound."""
     power, grown = split_exponent(x)
+    # `exp(x) - 1` would lose the digits of a small x; here power is exactly 1 then.
     return fma(power, grown, power - 1.0)
 
 
@@ -84,6 +86,7 @@ def expm1(x: float) -> float:
 def log(x: float) -> float:
     """ln x for 10⁻³⁰⁰ ≤ x < ∞."""
     m, e = choose(abs(x) < math.inf, take_fraction(x), x), take_exponent(x)
+    # The polynomial holds from ½√2 to √2, and `take_fraction` returns ½ to 1.
     small = m < HALF_SQRT_2
     m, e = choose(small, 2.0 * m, m), choose(small, e - 1.0, e)
     f = m - 1.0
@@ -100,12 +103,14 @@ def log(x: float) -> float:
 def log1p(x: float) -> float:
     """ln(1 + x) for x > −1, exact to the last digits for small x too."""
     u = 1.0 + x
+    # 1 + x rounds a small x. u − 1 is exact there, so that the difference is what was lost.
     return log(u) + (x - (u - 1.0)) / u
 
 
 @compiled
 def tanh(x: float) -> float:
     """tanh x = −(e^(−2|x|) − 1)/(e^(−2|x|) + 1) with the sign of x."""
+    # The negative exponent cannot overflow; the sign is restored at the end.
     t = expm1(-2.0 * abs(x))
     size = -t / (2.0 + t)
     return choose(x >= 0.0, size, -size)

@@ -56,6 +56,8 @@ def multiply_add(a: Any, b: Any, c: Any) -> Any:
 def choose_multiply_add(a: Any, b: Any, c: Any) -> Any:
     """`fma` for numbers of which one is a float64 or a vector."""
 
+    # The pass runs before types are known, so it also rewrites sums of integers. Here, with the
+    # types known, these keep their plain form.
     def fused(a: Any, b: Any, c: Any) -> Any:
         return fma(a, b, c)
 
@@ -87,6 +89,8 @@ class _FuseProducts(FunctionPass):
         )
         changed = [_fuse_block(block, used) for block in function.blocks.values()]
         if any(changed):
+            # numba keeps tables about the statements; those that were replaced make the tables
+            # stale.
             function._definitions = build_definitions(function.blocks)
             PostProcessor(function).run()
         return any(changed)
@@ -108,6 +112,8 @@ def _fuse_block(block: ir.Block, used: Counter[str]) -> bool:
         value: Any = getattr(statement, "value", None)
         operation = value.fn if isinstance(value, ir.Expr) and value.op == "binop" else None
         name = statement.target.name if operation else ""
+        # `$` marks a temporary of numba. A product with a name in the source, or with a second use,
+        # has a rounding of its own that must remain.
         if operation is operator.mul and name.startswith("$") and used[name] == 1:
             products[name] = statement
         right = products.get(value.rhs.name) if operation in _SUMS else None
@@ -115,6 +121,7 @@ def _fuse_block(block: ir.Block, used: Counter[str]) -> bool:
         if right is None and left is None:
             body.append(statement)
             continue
+        # In a·b + c·d it is the right product that is fused, since it is computed last.
         product: Any = right or left
         gone.append(product)
         other = value.lhs if right else value.rhs
@@ -157,6 +164,8 @@ class FusingCompiler(CompilerBase):
         """The passes of numba, and the fusing right after a function is read."""
         replace_boxing()
         passes = DefaultPassBuilder.define_nopython_pipeline(self.state)
+        # numba inlines in a later pass. Fused after that, the bits of an equation would depend on
+        # the place from which it is called.
         passes.add_pass_after(_FuseProducts, IRProcessing)
         passes.finalize()
         return [passes]

@@ -78,6 +78,8 @@ def sin_cos(x: float) -> tuple[float, float]:
     exact = fma(-k, HALF_PI[0], x)
     part = k * HALF_PI[1]
     r = exact - part
+    # In order: what the subtraction rounded away, the rounding of k·HALF_PI[1], and the third part
+    # of π/2.
     y = (exact - r) - part - fma(k, HALF_PI[2], fma(k, HALF_PI[1], -part))
     z = r * r
     rest = fma(z, fma(z, fma(z, fma(z, fma(z, S[5], S[4]), S[3]), S[2]), S[1]), S[0])
@@ -86,6 +88,7 @@ def sin_cos(x: float) -> tuple[float, float]:
     high = fma(-0.5, z, 1.0)
     low = fma(-0.5, z, 1.0 - high)
     cosine = high + (low + fma(z * z, rest, -r * y))
+    # The quadrant is found with floats alone, so that the same lines compile for a vector.
     half = floor(0.5 * k)
     sign = 1.0 - 2.0 * (half - 2.0 * floor(0.5 * half))
     even = k == 2.0 * half
@@ -109,6 +112,8 @@ def acos(x: float) -> float:
     """arccos x = 2 asin √((1 − x)/2), rad, for ½ ≤ x ≤ 1; NaN above 1."""
     z = 0.5 - 0.5 * x
     s = math.sqrt(z)
+    # What the square root rounded away, by one step of Newton's method. At x = 1 both s and the
+    # numerator are 0, and TINY prevents 0/0.
     low = 0.5 * fma(-s, s, z) / greatest(s, TINY)
     p = fma(z, fma(z, fma(z, P[11], P[10]), P[9]), P[8])
     p = fma(z, fma(z, fma(z, fma(z, p, P[7]), P[6]), P[5]), P[4])

@@ -24,6 +24,8 @@ def choose(condition: Any, a: Any, b: Any) -> Any:
 
 def least(a: Any, b: Any) -> Any:
     """b where b < a, else a: with NaN in either it is a, as `min(a, b)` has it."""
+    # With the operands exchanged a NaN would pass the torque limit as a finite torque, and the
+    # guard that looks for NaN would not see it.
     return b if b < a else a
 
 
@@ -98,6 +100,7 @@ def _define_extreme(function: Any, sign: str) -> None:
     def lower(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         a, b = arguments
         is_whole = isinstance(signature.return_type, types.Integer)
+        # Ordered comparisons are false with NaN, as those of Python are.
         compare = builder.icmp_signed if is_whole else builder.fcmp_ordered
         return builder.select(compare(sign, b, a), b, a)
 
@@ -121,5 +124,6 @@ def _lower_some_of_one(context: Any, builder: Any, signature: Any, arguments: An
 
 @lower_builtin(some, Mask)
 def _lower_some(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    # Eight truths are one byte: one comparison with zero tests all of them.
     bits = builder.bitcast(arguments[0], ir.IntType(WIDTH))
     return cgutils.is_not_null(builder, bits)

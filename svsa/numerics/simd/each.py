@@ -91,6 +91,7 @@ def choose_call(condition: Any, function: Any, arguments: Any, otherwise: Any) -
         return function(*arguments) if condition else otherwise
 
     def call_each(condition: Any, function: Any, arguments: Any, otherwise: Any) -> Any:
+        # Makes a vector of `otherwise` also if it is a number: `put` needs a vector.
         values = choose(condition, otherwise, otherwise)
         if some(condition):
             for element in range(WIDTH):

@@ -22,6 +22,7 @@ def point(context: Any, builder: Any, kind: Any, array: Any, row: Any) -> Any:
 
 def are_rows(kind: Any) -> bool:
     """Whether a kind is an array that vectors can be read of."""
+    # Only in C order are the eight doubles of a row next to one another.
     return isinstance(kind, types.Array) and kind.dtype == types.float64 and kind.layout == "C"
 
 

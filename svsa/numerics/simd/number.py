@@ -107,6 +107,8 @@ def define(
         pairs = list(zip(operands, kinds, strict=False))
         if len(kinds) != len(operands) or not any(a == b for a, b in pairs):
             return None
+        # One operand must be a vector already (above): otherwise an operation of two floats would
+        # match as well, and become one of vectors.
         fits = all(a == b or context.can_convert(b, a) is not None for a, b in pairs)
         return signature(result, *operands) if fits else None
 
@@ -137,6 +139,7 @@ def _compare(sign: str) -> Callable[..., Any]:
 
 
 for _name, _instruction in (("add", "fadd"), ("sub", "fsub"), ("mul", "fmul"), ("truediv", "fdiv")):
+    # numba types `a += b` as an operation of its own.
     for _operation in (getattr(operator, _name), getattr(operator, f"i{_name}")):
         define(_operation, getattr(ir.IRBuilder, _instruction), VECTOR, VECTOR, VECTOR)
 for _operation, _name in ((np.floor, "llvm.floor"), (math.sqrt, "llvm.sqrt"), (abs, "llvm.fabs")):

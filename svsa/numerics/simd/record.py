@@ -139,6 +139,7 @@ class VectorSeries(types.Type):
 SERIES = VectorSeries()
 
 
+# A pointer alone, without a reference count: the caller keeps the array alive.
 @register_model(VectorRecord)
 @register_model(VectorSeries)
 class _VectorRecordModel(models.PrimitiveModel):
