@@ -129,8 +129,11 @@ def _lay_out(values: Any, name: str, columns: Iterator[np.ndarray], rows: Iterat
         ]
         return type(values)(*parts) if hasattr(values, "_fields") else tuple(parts)
     row, bits = next(rows), next(columns)
+    # A literal 0 removes the effect from the machine code: 0.49 of the rate of C, and 0.37 with a
+    # switch at run time.
     if not bits.any() and (".effects" in name or name.endswith(".decay")):
         return type(values)(0)
+    # Whole numbers of 64 bits, which a double cannot hold exactly.
     if name.endswith((".seed", "_address")):
         return Word(row)
     is_shared = isinstance(values, int) or name.endswith(".period")
@@ -170,6 +173,7 @@ def run_batch(batch: Batch, ticks: int, begin: int = 0) -> np.ndarray:
 def _specialize(control: Any, memory: Any, layout: Beginning) -> Any:
     """`advance_groups` with this law and this layout."""
     source = control.py_func if control else compute_one_by_one.py_func
+    # The layout is part of the name in the cache, since its literals are part of the code.
     text = repr((source.__module__, source.__qualname__, find_fingerprint(source), memory, layout))
     name = f"advance_groups_{hashlib.sha256(text.encode()).hexdigest()[:16]}"
     compute, view = compute_one_by_one, borrow
@@ -216,6 +220,8 @@ def advance_groups(
         left = some(code != 0.0)
         F = compute_internal_torque(blocks.nominal, lane.known)
         window = build_window(begin, end, blocks.period)
+        # A group whose eight runs have ended costs nothing: with half of the groups lost, a batch
+        # took 0.51 of the processor time.
         for tick in range(first, stop if some(runs) else first):
             reference = read_first_reference(given, tick * blocks.period)
             found = check_domain(blocks.domain, blocks.plant, lane.x)
@@ -234,6 +240,7 @@ def advance_groups(
                 tick,
             )
             torque = limit_torque(commanded, blocks.torque1_max, blocks.torque2_max)
+            # `math.isfinite` has no form for vectors.
             is_torque = abs(torque.u1 + torque.u2) < math.inf
             found = choose((found != INSIDE) | is_torque, found, NOT_FINITE)
             leaves = runs & (found != INSIDE)
@@ -245,6 +252,7 @@ def advance_groups(
             action = act(blocks, given, lane, torque, tick)
             tally = measure(tally, runs, window, blocks, reference, lane.x, action.actual, tick)
             reached, F = move(blocks, given, lane, F, action, tick)
+            # `hold` copies the whole state, which is not needed until a run of the group has ended.
             lane = hold(runs, reached, lane) if left else reached
         row = write(results[i], 0, (code, ended))
         row = write(results[i], row, tally)

@@ -53,6 +53,7 @@ def _join(parts: Sequence[Stack] | Sequence[LoadTable], kind: int, first: int) -
             arrays = [one for one in part[1:] if isinstance(one, np.ndarray)]
             rows = known[id(part)] = np.zeros((length, part.rows.shape[1]))
             rows[: len(part.rows)] = part.rows
+            # The index of the first point counts from the beginning of the joined array.
             rows[rows[:, 0] == kind, first] += count
             pointed.append(arrays)
             count += len(arrays[0])

@@ -50,6 +50,7 @@ def _compile(control: Any, nominal: Any, constants: Any, memory: Any) -> bool:
     reported = [find_kind(_lay_out(UNMOVED))] if is_measuring(control) else []
     kinds = nominal, constants, VectorRecord(memory), *signals, numba.float64, *reported
     try:
+        # Compiling is the test: numba rejects an `if` on a vector by its type.
         control.get_call_template(kinds, {})
     except NumbaError:
         return False
@@ -92,6 +93,7 @@ def compute_one_by_one(
     words), written. effects, state: what is measured is read of, at `tick`. Else as `Law` says.
     """
     nothing = Torque(0.0, 0.0)
+    # Makes vectors of the two numbers, which `put` needs below.
     torque = choose(runs, nothing, nothing)
     measured = (
         read_positions(effects, state, tick) if constants.is_measuring else build_positions(x)

@@ -39,6 +39,7 @@ def hold_signals() -> Iterator[HeldSignals]:
     held = HeldSignals()
     if threading.current_thread() is threading.main_thread():
         for number in signal.valid_signals():
+            # SIG_DFL, SIG_IGN and handlers in C run no Python code that could raise.
             if callable(handler := signal.getsignal(number)):
                 held.handlers[number] = handler
     try:
@@ -46,6 +47,7 @@ def hold_signals() -> Iterator[HeldSignals]:
             signal.signal(number, held.hold)
         yield held
     finally:
+        # First restore all handlers: one that raises in `handle` must leave none of ours behind.
         for number, handler in held.handlers.items():
             signal.signal(number, handler)
         held.handle()

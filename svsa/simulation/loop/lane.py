@@ -83,6 +83,8 @@ class Action(NamedTuple):
 
 def build_lane_state(memory: np.ndarray, x: State = AT_REST) -> LaneState:
     """A lane at its start. memory: of its law. x: where its plant is, which is known."""
+    # The length is part of the type: with a queue as long as the delay, each delay would compile
+    # the loop again.
     limited = (0.0,) * (2 * MAX_DELAY_SAMPLES + 2)
     return LaneState(x, x, UNDISTURBED, NO_TORQUE, NO_TORQUE, limited, memory)
 

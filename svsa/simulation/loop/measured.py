@@ -122,12 +122,15 @@ def follow_and_decide(
 
     constants, carried: `BenchConstants` and `Carried`, packed. Nothing is sent yet.
     """
+    # Packed records: as named tuples the arguments took 14 to 30 µs of the 38 µs of a call from
+    # Python.
     k, c = constants[0], carried[0]
     actual, applied = find_late_torque(k, c)
     y = c.measured
     measured = Measurement(y.theta1, y.theta2, y.phi, y.dq, y.dtheta1, y.dtheta2)
     known, estimate = read_state(c.known), read_disturbance(c.estimate)
     x, w = observe(k.blocks, known, estimate, applied, measured)
+    # The link has no encoder of its own: q is the sum of motor 1 and deflection.
     positions = Positions(y.theta1 + y.phi, y.theta1, y.theta2)
     r, limited = decide(k.blocks, k.call, inputs, x, w, applied, positions, tick)
     store_state(c.known, x)
@@ -146,6 +149,7 @@ def publish_and_predict(
 ) -> None:
     """What was sent (u1, u2, N·m) is carried on, `publish_measured` into `sample`, `predict`."""
     k, c = constants[0], carried[0]
+    # Kept before it is replaced: it acts until the new torque arrives (`latency`).
     store_torque(c.before, c.sent)
     store_torque(c.sent, Torque(u1, u2))
     publish_measured(k.blocks, c, tick, sample)
@@ -171,6 +175,7 @@ def pass_ticks(
         store_torque(c.actual, actual)
         store_torque(c.before, c.sent)
         positions = Positions(x.q, x.theta1, x.theta2)
+        # Called for the memory of the law alone; its result is dropped.
         decide(k.blocks, k.call, inputs, x, w, applied, positions, first + passed)
     store_state(c.expected, predict(k, c))
 

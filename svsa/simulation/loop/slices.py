@@ -37,6 +37,7 @@ def cut(kind: Hashable, ticks: int) -> Iterator[tuple[int, int]]:
         begin = time.perf_counter()
         yield first, stop
         share = SLICE_S / max(time.perf_counter() - begin, 1e-9)
+        # A last, shorter slice does not show how long a whole one takes, unless it took too long.
         if stop - first == length or share < 1.0:
             _lengths[kind] = max(1, int((stop - first) * min(share, _MOST_GROWTH)))
         first = stop

@@ -122,6 +122,7 @@ def advance_stepwise(
         nonlocal tick
         words = (ctypes.c_double * _WORDS).from_address(address)
         try:
+            # Here, and not in ctypes' own code, an exception of a signal handler can be caught.
             held.handle()
             time = tick * blocks.period
             given = Reference(*words[:8]), State(*words[8:14]), Disturbance(*words[14:17])
@@ -129,11 +130,15 @@ def advance_stepwise(
             reported: dict[str, tuple[float, ...]] = {"applied": torque, "measured": positions}
             answer = controller(time, *given, **{name: reported[name] for name in named})
             words[22:] = _read_torque(answer)
+        # ctypes prints an exception of a callback and drops it, also that of Ctrl-C: it is kept,
+        # and raised after the compiled call.
         except BaseException as error:
             raised.append(error)
+            # NaN ends the compiled loop at this tick.
             words[22:] = (np.nan, np.nan)
         tick += 1
 
+    # ctypes frees the callback with this object: it must live as long as `advance` runs.
     called = _Call(ask)
     address = ctypes.cast(called, ctypes.c_void_p).value or 0
     nominal, constants, reported = pack(blocks.nominal), pack(_Address(address)), pack(_ZEROS)

@@ -72,6 +72,7 @@ _U1, _U2 = CHANNEL_INDEX["torque1_nm"], CHANNEL_INDEX["torque2_nm"]
 @compiled
 def build_window(begin: int, end: int, period: float) -> Window:
     """`Window` of a run of `end` ticks of `period`, s."""
+    # Rounding may put the quotient just above a whole number; `ceil` would then add a tick.
     return Window(begin, end, math.ceil(STEADY_STATE_S / period - 1e-9))
 
 

@@ -49,6 +49,7 @@ def compute_late_torque(
     """
     rest = period - latency
     met = compute_lagged_torque(start, before, lag, latency)
+    # The mean over an interval of zero length would be 0/0.
     early = compute_mean_torque(start, before, lag, latency) if latency > 0.0 else start
     late = compute_mean_torque(met, delayed, lag, rest) if rest > 0.0 else met
     mean = Torque(

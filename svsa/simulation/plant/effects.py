@@ -152,6 +152,8 @@ def build_effect_constants(
         deflection_step=turn / deflection_counts,
         motor_std=noise.motor_std_rad if noise else 0.0,
         deflection_std=noise.deflection_std_rad if noise else 0.0,
+        # Without noise every seed gives 0, which a batch makes a literal: else each seed would
+        # compile a batch again.
         seed=seed if noise else 0,
         delay=effects.delay_samples,
         lag=effects.current_lag.time_constant_s if effects.current_lag else 0.0,

@@ -32,6 +32,7 @@ def hit_stops(stops: Stops, x: State, inertia: float, inertia1: float) -> State:
     """
     q, dq, theta1, dtheta1 = x.q, x.dq, x.theta1, x.dtheta1
     theta2, dtheta2 = x.theta2, x.dtheta2
+    # Plain branches: only the emulator has stops, and it is never part of a batch.
     if theta2 < stops.theta2_min:
         theta2, dtheta2 = stops.theta2_min, max(dtheta2, 0.0)
     elif theta2 > stops.theta2_max:
@@ -131,6 +132,7 @@ def integrate_from(
         u2 = compute_lagged_torque(start, delayed, effects.lag, since + h)
         middle = follow_load(table, early, tick, period, time + 0.5 * h)
         late = follow_load(table, early, tick, period, time + h)
+        # The caller has computed it at the beginning of the period, for the sample.
         k1 = rate if i == 0 else compute_plant_rate(actuator, effects, x, u0, early)
         k2 = compute_plant_rate(actuator, effects, shift(x, k1, 0.5 * h), u1, middle)
         k3 = compute_plant_rate(actuator, effects, shift(x, k2, 0.5 * h), u1, middle)

@@ -185,6 +185,7 @@ def schedule_load(number: int, load: Load, tick: int, period: float) -> Schedule
     """Onset and end in whole ticks of `period` (s); an onset in the past is now (`tick`)."""
     start = tick if load.start_s is None else max(tick, round(load.start_s / period))
     duration = load.get_duration()
+    # At least one tick, or a pulse shorter than half a period would not exist.
     end = math.inf if math.isinf(duration) else start + max(1, round(duration / period))
     return ScheduledLoad(number, load, start, end)
 

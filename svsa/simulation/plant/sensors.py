@@ -37,13 +37,17 @@ def scramble(counter: int) -> np.uint64:
 def draw_uniform(seed: int, tick: int, channel: int) -> float:
     """A number in (0, 1) for this seed, tick and channel (whole numbers ≥ 0, channel < 64)."""
     position = np.uint64(tick) * _CHANNELS + np.uint64(channel)
+    # The seed is mixed first: in seed + position two neighbouring seeds would have the same noise,
+    # shifted by one draw.
     bits = scramble(scramble(as_bits(seed)) + position)
+    # The half step keeps 0 out, whose logarithm `draw_normal` could not use.
     return (as_float(bits >> _S11) + 0.5) * 2.0**-53
 
 
 @compiled
 def draw_normal(seed: int, tick: int, channel: int) -> float:
     """A standard normal number (Box–Muller) from the channels 2·channel and 2·channel + 1."""
+    # `log` and `cos` of this library: those of libm differ from machine to machine.
     radius = math.sqrt(-2.0 * log(draw_uniform(seed, tick, 2 * channel)))
     return radius * cos(2.0 * math.pi * draw_uniform(seed, tick, 2 * channel + 1))
 

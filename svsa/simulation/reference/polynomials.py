@@ -65,6 +65,7 @@ def compute_polynomial(
             high = middle
     dt = time - breaks[low]
     p0, p1, p2, p3, p4 = 0.0, 0.0, 0.0, 0.0, 0.0
+    # In this scheme each p is a derivative over its factorial: hence the factors 2, 6 and 24.
     for k in range(DEGREE, -1, -1):
         p4 = p4 * dt + p3
         p3 = p3 * dt + p2

@@ -90,6 +90,7 @@ def _build(points: Points) -> SeriesPosition | SeriesStiffness:
         if not least <= value <= most:
             bound = f"from {least:g} to {most:g} {unit}"
             raise ParameterError(Violation(place(name, number), value, unit, bound))
+    # The values are within the bounds already; the conversion may round one just beyond.
     si = tuple(min(max(value * factor, lowest), bounds[0]) for value in values)
     check_curve(name, build_spline(points._replace(values=si)), unit, factor, bounds)
     if name == "stiffness_nm_per_rad":

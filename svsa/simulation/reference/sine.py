@@ -83,6 +83,7 @@ def compute_sine(
     """offset + amplitude sin(ωt + phase) with four derivatives; ω in rad/s, t in s."""
     moves = amplitude != 0.0
     held = Derivatives(offset, 0.0, 0.0, 0.0, 0.0)
+    # Makes a vector of the zeros if `moves` is one.
     still = choose(moves, held, held)
     if not some(moves):
         return still

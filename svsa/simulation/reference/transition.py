@@ -57,6 +57,7 @@ def push_trajectory(stack: Stack, trajectory: Trajectory, time: float) -> Stack:
 
     Raises `StateError` while `MAX_FADES` changes are still fading.
     """
+    # Below a finished fade every trajectory has the weight 0.
     done = stack.rows[:, START] + stack.rows[:, FADE] <= time
     kept = _drop(stack, int(np.flatnonzero(done)[-1])) if done.any() else stack
     if len(kept.rows) >= MAX_FADES:
@@ -92,6 +93,7 @@ def compute_row(stack: Stack, i: int, time: float) -> Derivatives:
     r, kind = stack.rows, read(stack.rows, i, KIND)
     a, b, c, d = read(r, i, A), read(r, i, B), read(r, i, C), read(r, i, D)
     nothing = Derivatives(0.0, 0.0, 0.0, 0.0, 0.0)
+    # Makes a vector of the zeros if `kind` is one.
     value = choose(kind == SINE, nothing, nothing)
     if some(kind == SINE):
         value = compute_sine(a, b, c, d, time)
@@ -112,5 +114,6 @@ def compute_trajectory(stack: Stack, time: float) -> Derivatives:
     for i in range(1, stack.rows.shape[0]):
         target = compute_row(stack, i, time)
         weight = compute_fade(stack.rows[i, START], stack.rows[i, FADE], time)
+        # A blend with the weight 1 would leave rounding errors of the old reference for ever.
         value = target if weight.d0 == 1.0 else blend(value, target, weight)
     return value
