@@ -23,6 +23,7 @@ from svsa.hardware.safety.machine import NO_TORQUE, BenchStatus, Conditions, Mac
 from svsa.hardware.sensing import Sensing
 
 HOME_TOLERANCE_RAD = 0.05
+# A drive needs at least 1 ms between two commands (CAN manual of 2018-07).
 PAUSE_S = 0.0011
 _ORDER = (Phase.SILENT, Phase.OFF, Phase.RESET, Phase.CONFIG, Phase.MODE, Phase.READY)
 
@@ -187,6 +188,8 @@ class CanPlant:
         torque = self._machine.update(self._find_conditions(missed), limited, known, estimate)
         status, sent = self._machine.status, NO_TORQUE
         try:
+            # In every tick again, since a drive holds its last current for ever and has no
+            # watchdog.
             if status is BenchStatus.FAULT:
                 self._silence(now)
             elif status is not BenchStatus.OFF:
@@ -274,6 +277,7 @@ class CanPlant:
         with contextlib.suppress(SvsaError, *BUS_TROUBLE):
             self._pause()
             for drive in self._drives:
+                # An infinite time is later than any command: the gate of 1 ms is always open.
                 self._try_zero(bus, drive, math.inf)
             self._pause()
             self._send_resets(bus)

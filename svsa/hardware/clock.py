@@ -66,6 +66,8 @@ class WallClock:
         self._offset = self._arrival = 0.0
         self._sleep = None
         if sys.platform == "linux":
+            # `time.sleep` is relative: a pause between its computation and its beginning would be
+            # added to the tick.
             self._sleep = ctypes.CDLL(None, use_errno=True).clock_nanosleep
 
     def bind(self, bus: can.BusABC) -> None:
@@ -87,6 +89,7 @@ class WallClock:
             return
         seconds = int(deadline)
         wanted = _Timespec(seconds, int((deadline - seconds) * 1e9))
+        # Another result than 0 is an interruption by a signal: sleep on.
         while self._sleep(_CLOCK_MONOTONIC, _TIMER_ABSTIME, ctypes.byref(wanted), None):
             if time.monotonic() >= deadline:
                 return
@@ -148,6 +151,7 @@ class LockstepClock:
             raise ClockError("The clock of an emulator in lockstep has no bus to go on with.")
         ask = can.Message(arbitration_id=ADVANCE_ID, is_extended_id=True, data=encode_time(time_us))
         self._bus.send(ask)
+        # The emulator sends the frames of the interval before the echo: with it nothing is missing.
         while (message := self._bus.recv(_ECHO_S)) is not None:
             if message.is_extended_id and message.arbitration_id == ADVANCE_ID:
                 return self._check(decode_time(message.data), time_us)
@@ -205,6 +209,7 @@ class PacedClock(LockstepClock):
         late_s = self._wall.now() - max(deadline, self.now())
         self._ahead_s = max(self._ahead_s, late_s - CATCH_UP_S)
         super().wait_until(deadline)
+        # If the emulator went on alone, its time is ahead: the plan follows it.
         self._ahead_s = min(self._ahead_s, self._wall.now() - self.now())
 
     def find_lateness(self, deadline: float) -> float:

@@ -116,6 +116,7 @@ class Sensing:
 
         With it moved on for longer, an error of the velocity would come back as a greater one.
         """
+        # With a late frame the run goes on by the model for `FRESH_PERIODS`; a fault comes later.
         if age > self._fresh_s and self._measurement is not None:
             return known
         return angle + velocity * age

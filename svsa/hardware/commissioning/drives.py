@@ -69,6 +69,7 @@ def check_drive(probe: Probe, name: str, address: Address) -> CheckStep:
             if address in traffic.online:
                 delays.append(traffic.online[address][0] - sent)
                 break
+        # A drive that is silent three times is not waited for seventeen times more.
         if attempt == ATTEMPTS - 1 and not delays:
             break
     if not delays:

@@ -47,6 +47,7 @@ def open_bus(settings: BusSettings) -> can.BusABC:
     would be waited for without end.
     """
     logging.getLogger("can").setLevel(logging.ERROR)
+    # python-can's back ends open their sockets themselves: only the default reaches them.
     before = socket.getdefaulttimeout()
     socket.setdefaulttimeout(_ANSWER_S)
     try:

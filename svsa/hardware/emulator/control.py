@@ -85,6 +85,7 @@ def answer(emulator: Emulator, line: bytes) -> dict[str, Any]:
         return {"ok": True, **_do(emulator, wanted)}
     except ValidationError as error:
         return {"ok": False, "message": str(ParameterError(*explain(error)))}
+    # `json.loads` raises RecursionError for deeply nested brackets.
     except (SvsaError, ValueError, RecursionError) as error:
         return {"ok": False, "message": str(error)}
 

@@ -154,6 +154,8 @@ class Emulator:
 
     def _at(self, time_us: int, happen: Callable[[], None]) -> None:
         self._order += 1
+        # The number keeps events of one instant in the order in which they were scheduled, and
+        # heapq from comparing functions.
         heapq.heappush(self._events, (time_us, self._order, happen))
 
     def _drive(self) -> None:
@@ -213,6 +215,7 @@ class Emulator:
         if len(self._waiting) >= MAX_WAITING:
             return
         self._order += 1
+        # CAN's arbitration: the lowest identifier first, equal ones in their order.
         heapq.heappush(self._waiting, (frame.can_id, self._order, frame, sender))
         if not self._busy:
             self._busy = True

@@ -72,11 +72,13 @@ class BenchProcesses:
         self._waiting: list[int] = []
         self._answers: dict[int, dict[str, Any]] = {}
         self._link, theirs = build_links()
+        # Without a first beat the server counts as silent, and the loop would stop every run.
         self.beats.beat("server")
         names = [str(bench), self.memory.name, self.beats.name, str(theirs.fileno())]
         supervise = [str(bench), self.beats.name]
         self._loop = _start("svsa.hardware.realtime.process", names, theirs.fileno())
         self._supervisor = _start("svsa.hardware.safety.supervisor", supervise)
+        # Only the child may hold its end: otherwise its death would not close the link.
         theirs.close()
         self.third_line = _watch(bench, self.beats, self._loop, self._supervisor)
         with contextlib.suppress(LinkClosedError):  # who waits until it is ready reads why
@@ -156,6 +158,8 @@ class BenchProcesses:
         """
         if not self.listens:
             raise BenchError(self._describe_silence())
+        # The loop rejects the command after this time: the caller has reported a failure by then,
+        # and a late command would contradict it.
         until = time.monotonic() + self.patience_s
         try:
             number = self._send(wanted, argument, until)
@@ -163,6 +167,8 @@ class BenchProcesses:
             try:
                 while time.monotonic() < until:
                     self._read()
+                    # Several requests may rest at a time; the journal needs their answers in their
+                    # order.
                     if number in self._answers and self._waiting[0] == number:
                         return _check(self._answers.pop(number))
                     self._rest(_REST_S)
@@ -214,6 +220,7 @@ class BenchProcesses:
             self._loop.kill()
         self._link.close()
         self._wait(self._loop)
+        # Before the supervisor ends: with both gone it would intervene.
         self.third_line.stop(self._rest)
         self._supervisor.terminate()
         self._wait(self._supervisor)
@@ -241,6 +248,8 @@ def _watch(bench: Path, beats: Heartbeats, loop: Process, supervisor: Process) -
 
 def _start(module: str, arguments: list[str], *descriptors: int) -> subprocess.Popen[bytes]:
     command = [sys.executable, "-m", module, *arguments]
+    # A session of its own keeps Ctrl-C of the terminal away from loop and supervisor: the server
+    # ends them in order.
     return subprocess.Popen(  # noqa: S603
         command, pass_fds=descriptors, stdin=subprocess.DEVNULL, start_new_session=True
     )

@@ -34,6 +34,7 @@ class Link:
     def send(self, message: dict[str, Any]) -> None:
         """Send a message; raises `LinkClosedError` where nobody reads any more."""
         self._unsent += json.dumps(message).encode() + b"\n"
+        # A side that never reads must not make the loop wait, nor its memory grow.
         if len(self._unsent) > MAX_UNSENT_BYTES:
             raise LinkClosedError("the other side does not read")
         self.flush()

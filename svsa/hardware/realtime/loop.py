@@ -128,6 +128,7 @@ class BenchLoop:
         if self.plant.status in MOVING:
             raise StateError("The bench is moving: stop it before another run is loaded.")
         x = State(*self._known.tolist())
+        # A reference cannot start farther away; `start` rejects such a run and says why.
         near = x if abs(x.q) <= FARTHEST_RAD else AT_REST
         self.run = Run(configuration, start=Start(self._mu0, near), bind=self._bind)
 
@@ -204,6 +205,7 @@ class BenchLoop:
         known, estimate, limited = self._decide(measurement, reading.ages_s)
         sent = plant.write(now, limited if moving else NO_TORQUE, known, estimate, missed)
         tick = self.run.tick
+        # Computed at rest as well: the prediction in it brings the next counts to their tick.
         row = self.sink.get_row(tick) if moving else self._scratch
         self._publish(sent, row)
         if moving:

@@ -80,6 +80,7 @@ class LoopMemory:
 
     def begin_run(self, number: int) -> None:
         """Samples from now on are those of this run, from tick 0."""
+        # The count before the number: a reader that sees the new run must not find the old count.
         self.fields["end_tick"] = self.fields["skipped_in_run"] = 0
         self.fields["run"] = number
 

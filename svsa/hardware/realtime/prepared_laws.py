@@ -80,6 +80,8 @@ class PreparedLaws:
             raise LawError(f"The law {lane.law} is not ready on this bench. {reason} {_RESTART}")
         parameters, setting = configuration.get_parameters(lane), build_setting(blocks)
         key = lane.law, parameters.model_dump_json(), setting
+        # Taken out and put back at the end: the order of the dictionary is that of the last use,
+        # and `_keep` drops the first.
         bound = self._bound.pop(key, None)
         if bound is None and self._is_closed:
             raise UnpreparedLawError(dict(zip(_KEY, key, strict=True)))
@@ -103,6 +105,7 @@ class PreparedLaws:
                 " parameters decide how many numbers it has. Use parameters that leave the layout"
                 " as it was when the loop was started."
             )
+        # As bits: the constants hold whole numbers and floats, and JSON keeps both exactly so.
         words = np.array(computed["constants"], np.uint64)
         bound = get_law(name).bind_packed(pack(setting.nominal), words.view(layout[1]))
         self._keep((name, computed["parameters"], setting), bound)

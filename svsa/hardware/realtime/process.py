@@ -66,19 +66,27 @@ class LoopProcess:
         deadline = self._clock.now()
         while not (self._ending and self._plant.status not in MOVING):
             deadline += period
+            # Frames are fetched before the deadline, and the last 0.15 ms are not slept. Measured:
+            # p99 of the cost of a tick 398 to 204 µs, median of the lateness 40 to 1 µs.
             self._clock.wait_until(deadline - LISTEN_S)
             self._plant.listen()
             self._clock.wait_until(deadline)
+            # Two clocks: that of the bench, which an emulator in lockstep stops, and the wall's for
+            # the cost.
             begin, lateness = self._clock.now(), self._clock.find_lateness(deadline)
             begin_s = time.monotonic()
             missed = int((begin - deadline) / period)
             self._loop.tick(begin, missed)
+            # After the tick, so that a loop that hangs in a tick stops beating.
             self._beats.beat("loop")
             self._note(lateness, time.monotonic() - begin_s, missed)
             deadline += missed * period
+            # Shared memory reaches the loop also if the link is full or the server's sessions are
+            # blocked.
             if self._fields["quick_stop"]:
                 self._fields["quick_stop"] = 0
                 self._plant.quick_stop(begin, "quick stop")
+            # After the tick: a command must not delay the torque.
             self._listen()
             self._tell()
 
@@ -143,6 +151,7 @@ class LoopProcess:
             case "prepare":
                 self._laws.add(argument)
             case "arm":
+                # The collector is off while the loop runs. Here no torque is sent.
                 gc.collect()
                 self._beats.beat("loop")
                 plant.arm(now)
@@ -212,6 +221,8 @@ def main(arguments: list[str]) -> int:
     memory, beats = LoopMemory.attach(memory_name), Heartbeats.attach(heartbeat_name)
     report = Progress(link)
     try:
+        # The bus comes first: opening it resets the drives, which may hold an old current, and the
+        # compilation after it can take 15 s.
         report("opening the bus")
         bench = read_bench(path)
         clock = choose_clock(bench)
@@ -247,6 +258,7 @@ def main(arguments: list[str]) -> int:
         sys.stderr.write(f"Loop: {error}\n")
         return 1
     finally:
+        # First of all: zero current, whatever fails after it.
         plant.close()
         beats.end("loop")
         memory.close()

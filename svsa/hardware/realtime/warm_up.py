@@ -46,6 +46,8 @@ def warm_up(loop: BenchLoop, laws: PreparedLaws, report: Callable[[str], None]) 
     ready = [name for name in names if name not in laws.refused]
     for kind, argument in list_changes(configuration, ready):
         _use(loop, kind, argument)
+    # From here a law that was not prepared is rejected: loading it would cost 10 to 100 ms in a
+    # tick.
     laws.close()
     loop.load(configuration)
 

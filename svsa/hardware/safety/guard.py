@@ -92,6 +92,8 @@ class MotorGuard:
         torque = min(max(torque, -most), most)
         step = self._rate * period
         torque = min(max(torque, self.last - step), self.last + step)
+        # Last of all: beyond its end the outward torque becomes zero at once, whatever the rate
+        # limit allows.
         if angle > self._motor.position_max_rad:
             torque = min(torque, 0.0)
         elif angle < self._motor.position_min_rad:
@@ -111,6 +113,7 @@ class MotorGuard:
                 "rad/s",
             )
         beyond = max(angle - motor.position_max_rad, motor.position_min_rad - angle)
+        # Up to the margin only the outward torque is blocked (`limit`); beyond it the run ends.
         if beyond > POSITION_MARGIN_RAD:
             end = motor.position_max_rad if angle > 0.0 else motor.position_min_rad
             words = f"{self._title} stood at"
@@ -191,6 +194,7 @@ class Guard:
 
     def check(self, limited: Torque, known: State, estimate: Disturbance) -> Alarm | None:
         """Why the run ends, or None. known: x̂. estimate: ŵ, N·m."""
+        # First of all: every comparison below is false with NaN.
         if not math.isfinite(limited.u1 + limited.u2 + sum(known) + sum(estimate)):
             return Alarm("not_finite", "A torque or a state was not a finite number.", {})
         alarm = (

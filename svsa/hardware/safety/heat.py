@@ -48,6 +48,7 @@ class Winding:
     def warm(self, torque: float, seconds: float) -> None:
         """Heat after so long with this torque, N·m; of one that changes its rms."""
         share = (torque / self.lasting_nm) ** 2
+        # The exact solution for a constant torque, so that many missed ticks are one step.
         self.heat += -expm1(-seconds / self._time_s) * (share - self.heat)
 
     def allow(self) -> float:

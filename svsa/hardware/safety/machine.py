@@ -137,6 +137,7 @@ class Machine:
 
         limited: torque of the law, N·m. known: x̂. estimate: ŵ.
         """
+        # What was missed before tick 0 is not part of the run.
         if self._tick and self.status in MOVING:
             self._tick += conditions.missed
         alarm = self._find_alarm(conditions)
@@ -150,12 +151,15 @@ class Machine:
         if self.status is BenchStatus.RUN and silent:
             self.status = BenchStatus.RAMP
         if self.status is BenchStatus.RAMP:
+            # Missed ticks count: the ramp lasts `ramp_s` of real time.
             self._share -= (1 + conditions.missed) * self._period / self._safety.ramp_s
             if self._share <= 0.0:
                 self.status = BenchStatus.READY
         if self.status not in MOVING:
             return NO_TORQUE
         self._tick += 1
+        # Feedback older than 5 ms gives zero torque, older than 20 ms (`stale_fault_s`) a fault: a
+        # short gap on the bus does not end the run.
         if max(conditions.ages_s) > self._safety.stale_zero_s:
             return NO_TORQUE
         share = self._share
@@ -165,6 +169,8 @@ class Machine:
         """What of the bench itself ends its run, in the states in which it is watched."""
         if self.status in (BenchStatus.OFF, BenchStatus.FAULT):
             return None
+        # Before the alarms of the bus: the frames of the supervisor would be taken for those of
+        # another program, and its reset for a drive that restarted.
         if conditions.late_s is not None:
             return _describe_lateness(conditions.late_s, self._safety.loop_s)
         supervisor_age_s = conditions.supervisor_age_s

@@ -48,12 +48,15 @@ class Supervisor:
         if self.listen():
             self._heard_s = now
         if now - self._heard_s <= DEAF_S:
+            # Only while the bus is heard: the loop then ends a run that nobody could stop.
             self._beats.beat("supervisor")
         age = self._beats.age_s("loop")
         if age == math.inf or age <= self._loop_s:
             self.silenced = False
             return
         if not self.silenced:
+            # Counted before the first frame: a loop that wakes up in between must know whose frames
+            # they are.
             self._beats.count_stop()
             print(f"Supervisor: the loop is silent, the drives are stopped ({age:.3f} s).")
             sys.stdout.flush()

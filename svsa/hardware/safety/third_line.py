@@ -67,6 +67,7 @@ class ThirdLine:
             rest(PERIOD_S)
 
     def _watch(self) -> None:
+        # For this thread alone; the rest of the server keeps its priority.
         request_priority(SUPERVISOR_PRIORITY)
         while not self._ended.wait(PERIOD_S):
             if self._is_needed():
@@ -90,6 +91,7 @@ class ThirdLine:
 
         A process that is being ended may hold the bus for some time yet: then it is tried again.
         """
+        # Many adapters serve one program only: a process that hangs may still hold the bus.
         for process in (self._loop, self._supervisor):
             process.kill()
         while not self._ended.is_set():

@@ -79,6 +79,7 @@ class BenchRun(Run):
         """
         done = min(samples.shape[1], self.count_ready())
         self._memory.read(self.tick, samples[0, :done])
+        # The rows of missed ticks are NaN, also in their time, which is known.
         samples[0, :done, 0] = (self.tick + np.arange(done)) * self.period_s
         for number in range(1, len(self.lanes)):
             self._advance_twin(number, samples[number, :done])

@@ -228,6 +228,7 @@ class BenchSession:
 
     def quick_stop(self) -> None:
         """The quick stop: zero current now, latched, even where the loop does not listen."""
+        # Through shared memory first: that needs no answer of the loop.
         self.stop_from_keyboard()
         self.report.look_for_loss()
         if self.loop.loss is None and not self.loop.starting:

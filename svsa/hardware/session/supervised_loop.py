@@ -118,6 +118,7 @@ class SupervisedLoop:
         Constants of a law that the loop lacks are computed here: it has no time for it.
         """
         self.check_started()
+        # Each lane may lack the constants of its law, and the loop reports one of them at a time.
         for _ in range(MAX_LANES):
             try:
                 return self.processes.request(wanted, argument)
