@@ -54,6 +54,8 @@ def read_acting(header: RecordHeader, commands: Commands, first_tick: int, ticks
             changes = _read_changes(command, held["comparisons"], header.plant != "simulated")
             held |= changes
             for name, value in changes.items():
+                # Commands before the first sample count as given at it: the last of them holds
+                # there.
                 values[name][max(first_tick, tick)] = value
     return Acting(
         {name: _drop_repeated(list(found.items())) for name, found in values.items()},

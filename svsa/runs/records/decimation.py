@@ -26,6 +26,7 @@ def decimate(values: np.ndarray, points: int) -> Decimated:
         return Decimated(1, np.arange(count), values)
     stride = -(-count // (points // 2))
     starts = np.arange(0, count, stride)
+    # `fmin` and `fmax` ignore NaN, where `minimum` would spread it over the stretch.
     low, high = np.fmin.reduceat(values, starts), np.fmax.reduceat(values, starts)
     rising = _find_first(values, low, starts, stride) <= _find_first(values, high, starts, stride)
     thinned = np.empty((2 * len(starts), *values.shape[1:]))

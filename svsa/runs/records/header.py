@@ -138,6 +138,7 @@ def write_header(folder: Path, header: RecordHeader) -> None:
 
 def replace_file(path: Path, content: bytes) -> None:
     """Put `content` at `path` in one step; raises `OSError` with the old file in place."""
+    # Process and thread are in the name, so that two writers do not share a draft.
     draft = path.with_name(f"{path.name}.{os.getpid()}-{threading.get_ident()}.tmp")
     try:
         with draft.open("wb") as file:

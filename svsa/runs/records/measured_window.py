@@ -56,6 +56,7 @@ def find_measured_window(record: Record) -> MeasuredWindow | None:
     timeline = trace_record(record)
     if timeline is None:
         whole = Window("start", "", 0)
+        # Without commands nothing changed, so that the whole record is one window.
         return None if record.commands else _build(record, whole, record.header.lanes)
     first, end = record.first_tick, record.first_tick + record.tick_count
     there = timeline.list_windows(first, end)

@@ -70,6 +70,7 @@ def finish(folder: Path) -> Finished:
             with contextlib.suppress(OSError):
                 draft.unlink(missing_ok=True)
     with open_parquet(folder) as file:
+        # The stream is deleted only after the new file was opened: until then it is the only copy.
         ticks = file.metadata.num_rows
     with contextlib.suppress(OSError):
         stream.unlink(missing_ok=True)
@@ -124,6 +125,7 @@ def unpack_parquet(content: bytes, folder: Path) -> None:
     for key, name in names.items():
         if key in inside:
             (draft / name).write_bytes(inside[key])
+    # In one step: whoever lists the runs sees the whole folder, or none.
     draft.rename(folder)
 
 

@@ -146,6 +146,7 @@ def open_record(folder: Path) -> Record:
 
 def _read_unfinished(folder: Path, header: RecordHeader) -> list[pa.RecordBatch] | None:
     """What is whole in the stream of a record; None where its Parquet file has taken its place."""
+    # The Parquet file first: for a moment both are there, and then it is the whole one.
     if (folder / PARQUET_FILE).exists() or not (folder / STREAM_FILE).exists():
         return None
     try:

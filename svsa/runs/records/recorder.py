@@ -59,6 +59,8 @@ class Recorder:
         self._start: BenchStart | None = None
         self._events: tuple[Event, ...] = ()
         self._written_events: tuple[Event, ...] = ()
+        # A deque needs no lock for one thread that appends and one that pops: the loop never waits.
+        # Two byte counters with one writer each, for the same reason.
         self._queue: deque[tuple[int, bytes | np.ndarray, int]] = deque()
         self._bytes_in = 0
         self._bytes_out = 0
@@ -150,6 +152,7 @@ class Recorder:
             self._write_queue()
         except (OSError, RecordError) as error:
             self._failure = f"Recording ended after {self._ticks} ticks: {error}"
+        # An error of the program here ends the recording, and never the control.
         except Exception as error:
             self._failure = f"Recording ended by an error of the program: {error!r}"
         self._queue.clear()
@@ -169,6 +172,8 @@ class Recorder:
             lines: list[bytes] = []
             parts: list[np.ndarray] = []
             first, rows = 0, 0
+            # As many parts as fit into a row group: each batch costs a message with its own
+            # metadata.
             while self._queue and rows < ROWS_A_GROUP:
                 tick, item, size = self._queue.popleft()
                 self._bytes_out += size

@@ -63,6 +63,7 @@ def compare_with_simulation(record: Record) -> Comparison:
                 return Comparison(False, compared, (tick + offset, "the simulation ended"))
             if simulated.shape != row.shape:
                 raise RecordError(f"Record {record.header.run_id} has other lanes or channels.")
+            # Bytes and not values: NaN equals itself, and −0.0 differs from 0.0.
             if simulated.tobytes() != row.tobytes():
                 return Comparison(False, compared, (tick + offset, _name(record, simulated, row)))
             compared += 1

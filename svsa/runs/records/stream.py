@@ -101,8 +101,10 @@ def write_all(descriptor: int, content: bytes | memoryview) -> None:
     start, rest = os.lseek(descriptor, 0, os.SEEK_END), memoryview(content)
     try:
         while len(rest):
+            # A disk that fills up writes a part; the next call raises the error.
             rest = rest[os.write(descriptor, rest) :]
     except OSError:
+        # A half-written message in the middle would hide every message after it.
         os.ftruncate(descriptor, start)
         raise
 
@@ -147,9 +149,11 @@ def _read_messages(file: pa.NativeFile, path: Path) -> Iterator[pa.Message]:
             return  # blocks that the machine lost power before it filled
         if mark != _CONTINUATION or length > _LONGEST_METADATA:
             raise RecordError(f"{_name(path)} is damaged at byte {start}.")
+        # Cut off, not damaged: the process was killed while it wrote this message.
         if start + 8 + length > size:
             return
         file.seek(start + 8)
+        # Found here without pyarrow, which raises an error for a message that is cut off.
         body = _read_body_length(file.read(length), path, start)
         end = start + 8 + length + body
         if end > size:

@@ -112,12 +112,14 @@ def _judge_channels(
         values = read_channel(run, name, begins[0], ticks)
         wanted = read_channel(other, name, begins[1], ticks)
         low, high = build_band(wanted, tolerance, round(tolerance.time_s / header.period_s))
+        # Unknown in both runs is no difference; unknown in one of them is.
         unknown = np.isnan(values) & np.isnan(wanted)
         excesses = np.where(unknown, -np.inf, np.maximum(low - values, values - high))
         for number, lane in enumerate(header.lanes):
             excess = excesses[:, number]
             missing = np.flatnonzero(np.isnan(excess))
             worst = int(missing[0]) if len(missing) else int(np.argmax(excess))
+            # Not `excess > 0`, which is false for NaN: a value that only one run has is outside.
             is_outside = ~(excess <= 0.0)
             yield ChannelVerdict(
                 lane=lane,

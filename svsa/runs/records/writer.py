@@ -38,6 +38,8 @@ class RecordWriter:
             raise RecordError(f"Cannot record into {folder}: {error}.") from None
         try:
             self._stream = self._create(STREAM_FILE)
+            # Held while the record grows, so that `recover` leaves it alone. The system releases it
+            # if the process dies, also by a kill.
             take_lock(self._stream)
             self._commands = self._create(COMMANDS_FILE)
             write_header(folder, header)

@@ -55,10 +55,15 @@ class Database:
         raises, with the run unchanged.
         """
         with self._connect() as connection:
+            # IMMEDIATE takes the write lock before the entry is read. A deferred transaction takes
+            # it at its first write, when another process may have changed the run already.
             connection.execute("BEGIN IMMEDIATE")
             entry = get(connection, run_id)
+            # `decide` may move folders: the lock makes that one change with the entry.
             changed = dataclasses.replace(entry, **decide(entry))
             put(connection, changed)
+            # The list shows and searches the title of a branch's origin: its branches change with
+            # it.
             if changed.title != entry.title:
                 put_branches(connection, run_id)
         return changed

@@ -83,6 +83,8 @@ def describe_older(database: Database, places: tuple[Path, ...]) -> None:
 def _recover_run(database: Database, folder: Path, deleted: bool, state: str) -> RunEntry | None:
     """Finish and enter one run; None for a folder that a recording had only begun to make."""
     if not state:
+        # The process died before its first byte: there is nothing to recover, or it records just
+        # now.
         if not any(path.stat().st_size for path in folder.iterdir()):
             return None
         database.add(build_entry(folder))
@@ -93,6 +95,8 @@ def _recover_run(database: Database, folder: Path, deleted: bool, state: str) ->
         changes |= _finish(folder, entry, unfinished)
 
     def apply(now: RunEntry) -> dict[str, Any]:
+        # Finishing a record takes long, and the lock of the database is not held meanwhile: what
+        # was found is entered only if nothing else has changed.
         is_as_seen = (now.state, now.deleted) == (entry.state, entry.deleted)
         if is_as_seen and folder.is_dir():
             return changes
@@ -103,6 +107,7 @@ def _recover_run(database: Database, folder: Path, deleted: bool, state: str) ->
 
 def _miss(places: tuple[Path, ...], _: RunEntry) -> dict[str, Any]:
     """What changes of an entry whose folder was not found; nothing where it has moved."""
+    # Looked for again under the lock: the run may have moved to the trash, or out of it.
     if any(place.exists() for place in places):
         return {}
     return {"state": "missing", "message": GONE}

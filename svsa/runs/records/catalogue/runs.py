@@ -65,6 +65,7 @@ class Catalogue:
 
     def record(self, header: RecordHeader) -> Recorder:
         """Begin to record a run and put it into the list; raises `RecordError`."""
+        # The folder before the entry: after a crash in between, `recover` enters the folder.
         recorder = Recorder(self._runs / header.run_id, header)
         try:
             self.register(header)
@@ -185,6 +186,8 @@ class Catalogue:
         if self.get(run_id).deleted is None:
             raise StateError(f"Run {run_id} is not in the trash: delete it first.")
         try:
+            # The folder before the entry: a folder that is left would be entered again by
+            # `recover`.
             shutil.rmtree(self._trash / run_id)
         except FileNotFoundError:
             pass
@@ -228,6 +231,7 @@ def build_run_id() -> str:
 
 def _move(source: Path, target: Path) -> None:
     try:
+        # Within one file system a rename is atomic: the run is never in both places.
         source.replace(target)
     except FileNotFoundError:
         return

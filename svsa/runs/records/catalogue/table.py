@@ -73,6 +73,7 @@ def prepare(connection: sqlite3.Connection) -> None:
         return
     with connection:
         connection.execute("BEGIN IMMEDIATE")
+        # Read again under the lock: another process may have built the tables since.
         version = _read_version(connection)
         if version in _REBUILT:
             _build(connection)
