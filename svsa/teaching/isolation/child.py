@@ -49,6 +49,7 @@ def filter_calls(program: bytes) -> None:
     length = len(program) // _INSTRUCTION_BYTES
     packed = _Program(length, ctypes.cast(code, ctypes.c_void_p))
     for call in (
+        # Without this flag the kernel takes a filter from privileged processes only.
         (_PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0),
         (_PR_SET_SECCOMP, _SECCOMP_MODE_FILTER, ctypes.byref(packed), 0, 0),
     ):
@@ -58,6 +59,8 @@ def filter_calls(program: bytes) -> None:
 
 def offer_equations() -> None:
     """Make `svsa.actuators` importable as plain Python: define here what is compiled elsewhere."""
+    # Neither numba nor numpy is imported for them: with numpy a process of a law takes five times
+    # as long to start.
     words: dict[str, dict[str, Any]] = {
         "numerics.compilation": {"compiled": lambda function: function},
         "numerics.fused": {"fma": lambda a, b, c: a * b + c},
@@ -147,6 +150,7 @@ def serve(path: Path, answers: int) -> None:
     except BaseException as error:
         print_in_law(error)
         os.write(answers, ANSWER.pack(FAILED, number, 0.0, 0.0))
+        # Neither `atexit` functions nor destructors of the law run after it has failed.
         os._exit(1)
 
 
@@ -160,6 +164,7 @@ def main(law: str, program: str, answers: str, *bounds: str) -> None:
 
     import svsa.actuators.dynamics  # noqa: F401
 
+    # Read before the limits and the filter; the law's file is read after them.
     compiled = b"" if program == "-" else Path(program).read_bytes()
     limit(*map(int, bounds))
     if compiled:

@@ -92,6 +92,7 @@ def confine(source: bytes, answers: int, bounds: Bounds) -> Iterator[Command]:
             *_mount_interpreter(), *mounts,
             "--size", str(FOLDER_BYTES), "--tmpfs", "/work", "--chdir", "/work",
             "--remount-ro", "/",
+            # Threads are refused by the filter, and OpenBLAS starts some when numpy is imported.
             "--setenv", "OPENBLAS_NUM_THREADS", "1", "--setenv", "PYTHONHASHSEED", "0",
             *_start_child("/lab", "/lab/filter", answers, bounds),
         )  # fmt: skip

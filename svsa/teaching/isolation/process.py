@@ -43,6 +43,8 @@ class LawProcess:
         self.cost_s: list[float] = []
         self.torques: list[tuple[float, float]] = []
         with ExitStack() as opened:
+            # A file, bounded by `output_bytes`: a pipe that nobody empties would block a law that
+            # prints.
             self._output = opened.enter_context(tempfile.TemporaryFile())
             asked, self._asking = os.pipe()
             opened.callback(os.close, self._asking)
@@ -58,6 +60,7 @@ class LawProcess:
             finally:
                 os.close(asked)
                 os.close(answering)
+            # A law that does not read must not block the lab, which answers with "late" instead.
             os.set_blocking(self._asking, False)
             os.set_blocking(self._answers, False)
             self._poll = select.poll()
@@ -120,6 +123,7 @@ class LawProcess:
         return u1, u2
 
     def _read_answer(self, wait_s: float) -> bytes:
+        # Both bounds are needed: many answers, each just in time, could take hours.
         end_s = min(monotonic() + wait_s, self._end_s)
         got = b""
         while len(got) < ANSWER.size:
@@ -149,6 +153,7 @@ class LawProcess:
             code = self._process.wait(_NO_MORE_S)
         except subprocess.TimeoutExpired:
             return self._fail("ended", "The law closed its end of the pipe.")
+        # bwrap reports a signal of its child as an exit code of 128 and its number.
         number = -code if code < 0 else code - _SIGNAL_BASE
         if number in (signal.SIGKILL, signal.SIGXCPU):
             bound = self._bounds.cpu_s

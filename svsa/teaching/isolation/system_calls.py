@@ -52,6 +52,7 @@ def compile_filter() -> bytes:
         for command in commands:
             second = pyseccomp.Arg(1, pyseccomp.EQ, command)
             refused.add_rule(pyseccomp.ALLOW, name, second)
+    # The C library asks for limits by `prlimit64` too, with NULL in place of new ones.
     reading = pyseccomp.Arg(2, pyseccomp.EQ, 0)
     refused.add_rule(pyseccomp.ALLOW, "prlimit64", reading)
     with tempfile.TemporaryFile() as file:
