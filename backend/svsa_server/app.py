@@ -108,6 +108,8 @@ def build_app(
     app.state.course_progress = ProgressStore(find_data_folder())
     app.state.lti = open_lti(config)
     app.state.outcomes = Outcomes()
+    # The last one that is added is the first to see a request: the audit log also sees what the
+    # guard rejects, and outcomes are kept for the person whom the guard has found.
     app.add_middleware(
         OutcomeKeeper,
         outcomes=app.state.outcomes,
@@ -242,6 +244,7 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
     )
     scenes = Scenes(laboratory)
     proxy = ViserProxy(scenes.open)
+    # The proxy is of one run of the application, which may be started again.
     routes = list(app.router.routes)
     app.router.routes.extend(proxy.routes)
     tasks = [
@@ -262,6 +265,7 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
         for task in tasks:
             task.cancel()
         await asyncio.gather(*tasks, return_exceptions=True)
+        # Sessions before recordings: closing them ends the recordings, which are then finished.
         await take_turn(laboratory.close)
         app.state.heavy_work.close()
         app.state.jobs.close()

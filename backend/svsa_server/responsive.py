@@ -67,6 +67,8 @@ class ResponsiveApp:
         try:
             while not asked.done():
                 await asyncio.wait({asked}, timeout=LOOK_S)
+                # An answer that has begun cannot be replaced by another one; a stream can be closed
+                # at any time.
                 is_stream = scope["type"] == "websocket"
                 is_silent = self._thread.silence_s > longest_s
                 if is_silent and not asked.done() and (is_stream or not crossing.has_answered):
@@ -82,6 +84,7 @@ class ResponsiveApp:
             asked.cancel()
             await send({"type": "websocket.close", "code": 1013, "reason": "not responding"})
         elif _is_urgent(scope):
+            # Answered here and not in the application, so the same guard has to be passed here.
             await self._guard(scope, receive, send)
         else:
             await self._answer(scope, receive, send)
@@ -100,6 +103,7 @@ class ResponsiveApp:
             " if this persists."
         )
         if path in _STOPS and isinstance(self._shared, BenchSession):
+            # Through shared memory: the sessions' thread is not needed for it.
             self._shared.stop_from_keyboard()
             _log.warning("A quick stop was passed to the loop of the bench. %s", detail)
             if path == _LAB_STOP:

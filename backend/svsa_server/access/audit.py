@@ -50,6 +50,7 @@ class AuditLog:
     def catch_up(self) -> None:
         """Wait until all that was added before is in the file: in a thread, not the event loop."""
         with self._turn:
+            # `stop` returns once the queue is empty.
             self._listener.stop()
             self._listener.start()
 
@@ -75,6 +76,7 @@ class Auditor:
 
         async def send_noted(message: Message) -> None:
             nonlocal is_noted
+            # Before the answer leaves: the log is complete for the client that opens it next.
             if not is_noted:
                 self._note(scope, message["status"])
                 is_noted = True

@@ -114,6 +114,7 @@ class ClassAuthentication:
     def __init__(self, keys: ClassKeys, people: People, members: Memberships) -> None:
         self.keys, self.people, self.members = keys, people, members
         self.patience = Patience()
+        # One thread: scrypt's 16 MB are kept by every thread that has used them.
         self._hashing = ThreadPoolExecutor(1, "class code")
 
     def admit(self, headers: Headers) -> Person | None:
@@ -125,6 +126,8 @@ class ClassAuthentication:
             return None
         else:
             member = membership.person
+            # A cookie from before keeps its role at most: a membership that has risen does not
+            # raise it, and one that has fallen does lower it.
             person = member._replace(role=min(carried.role, member.role))
         self.people.hear(person)
         return person

@@ -143,6 +143,8 @@ def _write(path: Path, kept: dict[str, str]) -> None:
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         partly.unlink(missing_ok=True)
+        # With its mode from the first moment: a later `chmod` would leave a time in which others
+        # read.
         descriptor = os.open(partly, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
         with os.fdopen(descriptor, "w", encoding="utf-8") as file:
             json.dump(kept, file)

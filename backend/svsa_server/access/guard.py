@@ -125,6 +125,8 @@ class AccessGuard:
             message = f"This lab does not answer to {host[:80]!r}: name it in SVSA_HOSTS."
             raise Refusal(403, "unknown_host", message)
         length = Headers(scope=scope).get("content-length", "0")
+        # The length that is stated costs nothing to check; a body without one is counted as it
+        # comes, in `_bound_body`.
         if not length.isdecimal() or int(length) > LONGEST_BODY_BYTES:
             raise Refusal(413, "too_large", _TOO_LARGE)
 
@@ -134,11 +136,14 @@ class AccessGuard:
         permission = find_permission(method, find_path(scope)).permission
         headers = Headers(scope=scope)
         person = self._authentication.admit(headers)
+        # Before the role is checked: wrong guesses must count, too.
         self._count(scope, person)
         if permission.role is None or person is EVERYBODY:
             return person
         if person is None:
             if read_bearer(headers):
+                # A wrong token is a guess: guesses are answered one after another, half a second
+                # each.
                 await self._authentication.patience.wait()
             raise Refusal(401, *self._authentication.describe_needed(headers))
         if person.role < permission.role:

@@ -95,6 +95,7 @@ class Memberships:
     def _open(self) -> Iterator[sqlite3.Connection]:
         try:
             self._path.parent.mkdir(parents=True, exist_ok=True)
+            # SQLite would create the file with the mode that the umask gives.
             os.close(os.open(self._path, os.O_RDWR | os.O_CREAT, 0o600))
             with closing(sqlite3.connect(self._path)) as file, file:
                 yield file

@@ -107,6 +107,7 @@ def run_server(
     read_course(config.course)
     chosen = config.choose_host(host)
     config.check_exposure(chosen)
+    # Before laws are compiled: a port that is in use is reported at once.
     listener = bind(chosen, port)
     # A bench's loop cannot wait for a compiler: it has every law before it begins.
     prepare((PAPERS_LAW, BASELINE) if bench is None else None)
@@ -116,6 +117,8 @@ def run_server(
     from svsa_server.sessions.laboratory import build_shared_session
 
     shared = build_shared_session(bench, design)
+    # Sessions run in a thread of their own: one that blocks leaves health, the quick stop and the
+    # end of the server to this thread.
     lab = ResponsiveApp(build_app(config, shared, keys, chosen), shared)
     server = AnnouncedServer(
         uvicorn.Config(

@@ -89,6 +89,8 @@ class Job:
     def cancel(self) -> None:
         """Let it end as soon as it can, with what is done kept; at once where it waits."""
         ask_to_stop(self.folder)
+        # A job that runs ends by itself, with what is done kept; one that waits has nothing to
+        # keep.
         if self.status == "waiting":
             self.drop()
 

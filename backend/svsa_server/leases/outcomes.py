@@ -79,6 +79,7 @@ class OutcomeKeeper:
                 self._outcomes.note(person_id, name, message["status"])
             await send(message)
 
+        # Noted before the route runs: a client that lost its connection may ask at once.
         self._outcomes.note(person_id, name, None)
         try:
             await self._app(scope, receive, send_noted)

@@ -33,6 +33,7 @@ class Launch(NamedTuple):
 def read_launch(platform: Platform, keys: KeySet, token: str, nonce: str) -> Launch:
     """The launch of a token; raises `LaunchError` that says what is wrong with it."""
     try:
+        # The algorithm is fixed: the header of a token must not choose how it is verified.
         claims = jwt.decode(token, keys, algorithms=["RS256"]).claims
         needed = jwt.JWTClaimsRegistry(
             leeway=LEEWAY_S,

@@ -85,6 +85,7 @@ class LtiTool:
                 "It was not begun in this browser, or its cookies are blocked: launch it again, in"
                 " a window of its own."
             )
+        # Ended by its first use, so that a launch cannot be sent twice.
         login = self._logins.end(state)
         if login is None:
             raise LaunchError("It was used already, or is too old: launch it again.")

@@ -93,6 +93,7 @@ class Scenes:
         session = self._laboratory.get(name).session
         async with self._starting:
             if name not in self.views:
+                # Under the lock: two viewers at a time must not start two servers for a session.
                 self.views[name] = View(session, await asyncio.to_thread(_start_viser))
         view = self.views[name]
         view.seen = time.monotonic()

@@ -37,6 +37,7 @@ _NOBODY = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
 _SUBPROTOCOL_PREFIX = "viser-v"
 _KEPT_HEADERS = ("content-type",)
 _INJECTED = (
+    # viser reconnects only with the focus, which a frame rarely has.
     b"<script>document.hasFocus=()=>true</script>"
     b"<style>[data-dock-root]>:not(:first-child),.mantine-Paper-root,"
     b".mantine-Notifications-root{display:none!important}</style>"
@@ -85,6 +86,7 @@ def filter_browser_message(message: bytes) -> bytes | None:
     )
     if not all(map(math.isfinite, numbers)):
         return None
+    # Encoded again from its checked fields, so that nothing else in the message gets through.
     return _camera_encoder.encode(camera)
 
 
@@ -111,6 +113,7 @@ class ViserProxy:
 
     def __init__(self, find_port: Callable[[str], Awaitable[int]]) -> None:
         self._find_port = find_port
+        # A connection to this machine needs no certificates, which take time to read.
         self._http = httpx.AsyncClient(verify=_NOBODY, trust_env=False, timeout=_CONNECT_TIMEOUT_S)
         self._page: _Page | None = None
 
@@ -186,6 +189,7 @@ class ViserProxy:
                 f"ws://127.0.0.1:{port}/",
                 subprotocols=[Subprotocol(protocol)],
                 compression=None,
+                # A proxy that the environment names is not for the loopback.
                 proxy=None,
                 max_size=MAX_SCENE_MESSAGE_BYTES,
                 max_queue=4,

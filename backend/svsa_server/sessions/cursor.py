@@ -85,6 +85,7 @@ class SampleCursor:
         first, count = self._next, len(range(self._next, history.end_tick, stride))
         if not count:
             return None
+        # Moved on also where the batch was packed for another client.
         self._next = first + stride * count
         lanes = tuple(self.read_lanes())
         return self._packed.get(

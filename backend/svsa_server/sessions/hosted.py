@@ -26,6 +26,7 @@ class Round:
 
     def begin(self) -> None:
         """Have everybody send who waits."""
+        # `set` wakes all who wait now, `clear` makes the next ones wait for the next round.
         self._begun.set()
         self._begun.clear()
 

@@ -158,6 +158,7 @@ class Laboratory:
         """As fast as it goes: bursts of ticks for this session's share of half the time."""
         others = (hosted.session for hosted in self.sessions.values())
         unpaced = sum(math.isinf(other.pace.speed) for other in others)
+        # All unpaced sessions together get half of the time, so that live sessions are not late.
         end = time.monotonic() + BURST_S / unpaced
         while session.status == "running":
             session.burst(time.monotonic())
@@ -198,6 +199,8 @@ class EmulatorOperator(Hands):
 
     def __init__(self, control_port: int) -> None:
         self._port = control_port
+        # One thread keeps the order of what is done to the emulator, and the event loop does not
+        # wait for its port.
         self._thread = ThreadPoolExecutor(1, "hands")
 
     def hang(self, loads: tuple[Load, ...]) -> None:

@@ -28,12 +28,14 @@ class Turn(greenlet):
 async def take_turn(do: Callable[P, T], *args: P.args, **kwargs: P.kwargs) -> T:
     """What `do` returns or raises; other tasks go on while it lets time pass."""
     turn = Turn(do)
+    # A greenlet begins with an empty context, in which the caller of the request is missing.
     turn.gr_context = contextvars.copy_context()
     seconds = turn.switch(*args, **kwargs)
     while not turn.dead:
         try:
             await asyncio.sleep(seconds)
         except BaseException as error:
+            # A cancelled request ends the function where it waits, with its `finally` blocks.
             seconds = turn.throw(type(error), error, error.__traceback__)
         else:
             seconds = turn.switch()

@@ -93,6 +93,7 @@ class Recordings:
 
     async def _finish(self, recorder: Recorder) -> None:
         status = await asyncio.to_thread(recorder.close)
+        # `close` returns after 5 s at most: a long file is waited for again.
         while status.state == "recording":
             status = await asyncio.to_thread(recorder.close)
         try:

@@ -98,6 +98,7 @@ async def _send(
     websocket: WebSocket, hosted: HostedSession, cursor: SampleCursor, channels: tuple[str, ...]
 ) -> None:
     with contextlib.suppress(WebSocketDisconnect, RuntimeError):
+        # Read before the greeting is sent: a change during that wait is sent next instead of lost.
         version, sent_in = hosted.version, _count_periods(hosted, time.monotonic())
         reported = Reported.all_of(hosted)
         await websocket.send_text(_greet(hosted, cursor, channels))
@@ -113,12 +114,15 @@ async def _send(
                 )
             elif period != sent_in:
                 sent_in, broadcast = period, write_progress(hosted, reported, period)
+            # Taken before the first `await`: state and samples are of one moment.
             batch = cursor.take_batch(slow)
             if broadcast is not None:
                 reported = broadcast.reported
                 await websocket.send_text(broadcast.text)
             if batch is not None:
                 await websocket.send_bytes(batch)
+            # Sending waits only while the buffers of socket and server are full: the client does
+            # not keep up, and gets the newest samples with a gap before them.
             slow = time.monotonic() - now > SLOW_AFTER_S
             await hosted.round.wait()
         await websocket.close(1000, "The session has ended.")
