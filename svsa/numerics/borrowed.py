@@ -1,7 +1,7 @@
 """Arrays that compiled code looks at without keeping them alive.
 
-numba counts every reference to an array, also those that a tuple of arrays makes when it is handed
-on, with an atomic operation each: in a loop of a few hundred operations that is most of the time.
+numba counts every reference to an array with an atomic operation, also each time that a tuple of
+arrays is passed on: in a loop of a few hundred operations that is most of the time.
 A borrowed array has no owner, and nothing is counted.
 """
 
@@ -31,5 +31,5 @@ def _borrow(typing: Any, array: Any) -> Any:
 borrow = cast("Callable[[np.ndarray], np.ndarray]", _borrow)
 """The same array without an owner, in compiled functions only.
 
-Whoever borrows sees to it that the array itself outlives this, and returns it to nobody.
+The caller must keep the array itself alive, and must not return the borrowed one.
 """

@@ -1,8 +1,8 @@
 """Where compiled code is kept between starts, and when it goes.
 
 A folder for each file with compiled functions, in it one for each text that the file and what it
-imports have had. Other processes and other versions of the lab use the same folders: what one of
-them may still use is told by its age, and who misses what is gone compiles it again.
+imports have had. Other processes and other versions of the lab use the same folders. The age of a
+folder decides whether it may still be in use; a process that misses removed code compiles it again.
 """
 
 import contextlib
@@ -21,9 +21,9 @@ from svsa.inputs.file_lock import take_lock
 
 KEPT_TEXTS = 3
 UNUSED_S = 24 * 3600.0
-"""So long nobody has opened a text's folder that goes, where `KEPT_TEXTS` newer ones are kept."""
+"""A text's folder that was not opened for this time is removed if `KEPT_TEXTS` newer ones exist."""
 ABANDONED_S = 30 * UNUSED_S
-"""So long nobody has opened a whole folder that goes: its file, or its version, is no more."""
+"""A file's folder that was not opened for this time is removed: the file no longer exists."""
 _FINGERPRINT = "[0-9a-f]{16}"
 # Earlier versions had one folder for all code, named after the fingerprint alone.
 _OF_EARLIER_VERSION = re.compile(f"compiled-{_FINGERPRINT}")
@@ -52,7 +52,7 @@ class SharedCache(FunctionCache):
 
 @contextlib.contextmanager
 def _hold(folder: Path) -> Iterator[None]:
-    """The only one who writes in a folder; without a lock where there can be none."""
+    """Hold the lock of a folder; hold nothing if the folder cannot be locked."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
         # The folder itself is locked: it exists before any file of the cache, and the system
@@ -101,7 +101,7 @@ def _remove_texts(folder: Path) -> None:
 
 @cache
 def _remove_abandoned(root: Path) -> None:
-    """Once in a process. What is not called as this cache calls its own is somebody else's."""
+    """Remove abandoned folders, once in a process; keep those that are not of this cache."""
     for folder in list(root.iterdir()):
         texts = _list_texts(folder)
         if texts is not None and all(_is_older(text, ABANDONED_S) for text in texts):
@@ -109,7 +109,7 @@ def _remove_abandoned(root: Path) -> None:
 
 
 def _list_texts(folder: Path) -> list[Path] | None:
-    """The folders that tell when this one was last used; None where it is not of this cache."""
+    """The folders whose times show the last use of this one; None if it is not of this cache."""
     if _OF_EARLIER_VERSION.fullmatch(folder.name) and folder.is_dir():
         return [folder]
     if not _OF_FILE.fullmatch(folder.name) or not folder.is_dir():

@@ -10,7 +10,7 @@ The compiled code is cached between starts. numba notices a change in the file o
 function, but not in the files of the functions it calls. Each file with a compiled function has
 therefore a cache folder of its own, named after its text and that of all that it imports: of the
 library by what it names, of a package outside by the whole package. A change in a file compiles
-anew what is made of it, and nothing else: a law is no part of the loop that calls it.
+again only what depends on it: a law is not part of the loop that calls it.
 """
 
 import atexit
@@ -36,9 +36,9 @@ from svsa.numerics.fused import FusingCompiler
 
 
 def _import_arrays_of_numba() -> None:
-    """Numba imports scipy.linalg, a fifth of a start, only to see whether it is there: it is.
+    """Import numba's arrays without scipy.linalg, which costs a fifth of a start.
 
-    Compiled code that needs it has numba import it then.
+    numba imports it only to check that it exists. Compiled code that needs it imports it later.
     """
     ensure, linalg.ensure_blas = linalg.ensure_blas, lambda: None
     try:
@@ -49,8 +49,8 @@ def _import_arrays_of_numba() -> None:
 
 _import_arrays_of_numba()
 atexit.register(gc.freeze)
-"""A quarter of a second less at the end of every process: Python need not walk through all of numba
-for circles, of which the system takes the memory anyway."""
+"""Ends every process a quarter of a second earlier: Python does not search numba for reference
+cycles whose memory the system frees anyway."""
 
 _LIBRARY = Path(__file__).parents[1]
 _IMPORT = re.compile(r"^from (svsa[\w.]*) import (\([^)]*\)|.*)$", re.MULTILINE)
@@ -172,7 +172,7 @@ def find_fingerprint(function: Callable[..., Any]) -> str:
 def specialize(function: Callable[..., Any], name: str, **given: Any) -> Any:
     """The function compiled with these in place of the globals of its file.
 
-    name: stands for what is given in the cache, so that another has another.
+    name: identifies the given values in the cache; each set of values needs its own name.
     """
     # numba treats globals as constants: they become part of the machine code. Hence other globals
     # need another function, and another name in the cache.
@@ -197,7 +197,7 @@ class _CompilationListener(event.Listener):
 def watch_compilation(report: Callable[[str], None]) -> contextlib.AbstractContextManager[None]:
     """While this is open, `report` gets the name of every function once it is compiled.
 
-    What comes out of the cache is not told: it takes no time.
+    Functions that are loaded from the cache are not reported: that takes no time.
     """
     return event.install_listener("numba:compile", _CompilationListener(report))
 
