@@ -78,9 +78,9 @@ class Batch(NamedTuple):
 
     control: of the law, None where it is called for one run after the other. memory: its layout,
     see `lay_out_record`. layout: a `Beginning` of `svsa.numerics.simd.record`, see `build_reader`.
-    rows: (groups, rows, 8), what it stands for. memories: where the law begins, (groups, numbers,
-    8), or (groups, 8, numbers) without a control. inputs: see `join_inputs`. runs: how many there
-    are. laws: what the addresses in the rows are of.
+    rows: (groups, rows, 8), the values of the layout. memories: where the law begins, (groups,
+    numbers, 8), or (groups, 8, numbers) without a control. inputs: see `join_inputs`. runs: their
+    number. laws: what the addresses in the rows are of.
     """
 
     control: Any

@@ -67,7 +67,7 @@ class Addresses(NamedTuple):
 
 
 def find_addresses(law: BoundLaw) -> Addresses:
-    """`Addresses` of a law whose arrays somebody keeps."""
+    """`Addresses` of a law; the caller must keep its arrays alive."""
     words = law.nominal.ctypes.data, law.constants.ctypes.data
     return Addresses(law.function, *words, int(law.is_measuring))
 
@@ -124,7 +124,7 @@ def compute_one_by_one(
 
 law: Any = None
 is_reported: Any = None
-"""Of `compute_side_by_side`: a law's function, and whether it is told what was measured."""
+"""Of `compute_side_by_side`: a law's function, and whether it receives the measured positions."""
 
 
 def compute_side_by_side(

@@ -74,7 +74,7 @@ def compute_control(
     applied: Torque,
     measured: Positions,
 ) -> Torque:
-    """The torque that the law of this `Call` asks for, after the limits, N·m."""
+    """The torque that the law of this `Call` commands, after the limits, N·m."""
     commanded = compute_law(call, x, reference, estimate, applied, blocks.period, measured)
     return limit_torque(commanded, blocks.torque1_max, blocks.torque2_max)
 
@@ -158,7 +158,7 @@ def sense(blocks: Blocks, lane: LaneState, x: State, applied: Torque, tick: int)
 
 @compiled
 def measure(blocks: Blocks, call: Call, x: State, tick: int) -> Positions:
-    """`Positions` that a law is told which takes them; what another one is not told is x itself."""
+    """The measured `Positions` for a law that takes them; for any other law those of x itself."""
     if call.is_measuring:
         return read_positions(blocks.effects, x, tick)
     return build_positions(x)

@@ -49,10 +49,10 @@ class BenchConstants(NamedTuple):
 class Carried(NamedTuple):
     """The numbers of a bench's loop.
 
-    Carried from tick to tick: known, estimate: x̂ and ŵ. made: what the motors make now, N·m.
+    Carried from tick to tick: known, estimate: x̂ and ŵ. actual: what the motors make now, N·m.
     before, sent: the torques sent last but one and last, N·m. expected: x̂ a period later.
-    Of this tick: measured; ages_s: of motor 1, motor 2, deflection; reference; asked: what the
-    law asks for, N·m; believed: the ŵ that it acts on.
+    Of this tick: measured; ages_s: of motor 1, motor 2, deflection; reference; limited: torque
+    of the law within its limits, N·m; believed: the ŵ that the law acts on.
     """
 
     known: State = AT_REST
@@ -118,7 +118,7 @@ def find_late_torque(constants: np.record, carried: np.record) -> tuple[Torque, 
 def follow_and_decide(
     constants: np.ndarray, inputs: np.ndarray, carried: np.ndarray, tick: int
 ) -> None:
-    """A period later: x̂, ŵ and made with what was measured then, reference and asked.
+    """A period later: x̂, ŵ and actual torque from the measurement, reference and limited torque.
 
     constants, carried: `BenchConstants` and `Carried`, packed. Nothing is sent yet.
     """
@@ -162,9 +162,9 @@ def pass_ticks(
 ) -> None:
     """`count` periods in which the loop did not run: x̂ goes on with ŵ and the torque last sent.
 
-    A state that stood still meanwhile would take all that the axes have moved since for what
-    they moved in one period, and so for a velocity. The law, which may have an observer of its
-    own, is led through these ticks, `first` and on, by the same x̂; what it asks for is not sent.
+    If x̂ were held, the motion of several periods would count as that of one period, which is a
+    wrong velocity. The law, which may have an observer of its own, is called for these ticks,
+    `first` and on, with the same x̂; its torque is not sent.
     """
     k, c = constants[0], carried[0]
     w = read_disturbance(c.estimate)
@@ -203,7 +203,7 @@ def predict(constants: np.record, carried: np.record) -> State:
 def publish_measured(blocks: Blocks, carried: np.record, tick: int, row: np.ndarray) -> None:
     """Write one `Sample` of a bench into its row, (channels,).
 
-    The true w is unknown; the residuals are filled in by whoever has the twin.
+    The true w is unknown; `BenchRun`, which simulates the twin, fills in the residuals.
     """
     y, reference, torque = carried.measured, carried.reference, carried.sent
     known, estimate, nothing = carried.known, carried.believed, math.nan

@@ -1,7 +1,7 @@
-"""The same loop with a controller that is not compiled: it is asked once a tick, from within.
+"""The same loop with a controller in plain Python, which the compiled loop calls once a tick.
 
-To the compiled loop the controller is a law as any other, whose memory is what it is told, and
-which calls Python. Hence the samples are the same.
+For the compiled loop the controller is a law as any other. The memory of that law holds the
+arguments, and its function calls Python. Hence the samples are the same.
 """
 
 import ctypes
@@ -43,7 +43,7 @@ _Call = ctypes.CFUNCTYPE(None, ctypes.c_void_p)
 
 
 class _Told(NamedTuple):
-    """What the controller is told, and its answer."""
+    """The arguments of the controller, and its answer."""
 
     reference: Reference
     x: State
@@ -114,7 +114,7 @@ def advance_stepwise(
     """As `svsa.simulation.loop.loop.advance`, with the torque from `controller`.
 
     What the controller raises is raised. Raises `ParameterError` where it returns anything but two
-    numbers, or takes something that it is not told.
+    numbers, or has a parameter that does not exist.
     """
     tick, raised, named = first, list[BaseException](), _find_named(controller)
 

@@ -29,7 +29,7 @@ def compute_lagged_torque(start: Torque, delayed: Torque, lag: float, since: flo
 
 @compiled
 def compute_mean_torque(start: Torque, delayed: Torque, lag: float, period: float) -> Torque:
-    """The mean of `compute_lagged_torque` over a period (s): what the observer is told."""
+    """The mean of `compute_lagged_torque` over a period (s): the input of the observer."""
     lags = lag > 0.0
     if not some(lags):
         return delayed

@@ -142,7 +142,7 @@ Load = Annotated[
 
 
 def get_hung_mass(load: Load) -> float:
-    """The mass that a load hangs on the link, kg; the paper's torque stands for 3 kg."""
+    """The mass that a load hangs on the link, kg; the paper's torque counts as 3 kg."""
     match load:
         case MassLoad():
             return load.mass_kg
@@ -169,7 +169,7 @@ class LoadTable(NamedTuple):
 
 
 class ScheduledLoad(NamedTuple):
-    """A load that was asked for: its number in the session and its onset and end in ticks."""
+    """A load of a session: its number, and its onset and end in ticks."""
 
     number: int
     load: Load

@@ -1,6 +1,6 @@
-"""The references of the paper's figures, and by which of them a pair of references is known.
+"""The references of the paper's figures, and the figure that a pair of references belongs to.
 
-Figures 4A, 4B and 5 are simulated; 6A, 6B and 7 ask the same of a bench, in this order.
+Figures 4A, 4B and 5 are simulated; 6A, 6B and 7 have the same references on a bench.
 """
 
 import math
@@ -16,7 +16,7 @@ from svsa.simulation.reference.trajectories import (
 
 
 class References(NamedTuple):
-    """What a run is asked for: q_d and σ_d."""
+    """The references of a run: q_d and σ_d."""
 
     position: PositionReference
     stiffness: StiffnessReference

@@ -1,4 +1,4 @@
-"""What a reference looks like by itself, before anything follows it."""
+"""Samples of a reference alone, without a controller that follows it."""
 
 import numpy as np
 

@@ -13,7 +13,7 @@ FASTEST_HZ = 5.0
 MAX_NM_PER_RAD = 1e4
 FASTEST_POSITION = tuple(FULL_TURN_RAD * (2.0 * math.pi * FASTEST_HZ) ** k for k in range(5))
 FASTEST_STIFFNESS = tuple(MAX_NM_PER_RAD * (2.0 * math.pi * FASTEST_HZ) ** k for k in range(3))
-"""Bounds of a value and its derivatives: those of the fastest sine that can be asked for."""
+"""Bounds of a value and its derivatives: those of the fastest sine that is accepted."""
 TRANSITION = {"ge": 0.05, "le": 60, "default": 1.0}
 
 
