@@ -1,6 +1,6 @@
 """The calibration record: what was found out about a bench, when and by whom.
 
-It lies beside the bench file, as NAME.calibration.toml, and holds for that bench file only:
+It is stored next to the bench file, as NAME.calibration.toml, and holds for that bench file only:
 a fingerprint of the motors, the deflection encoder and the home marks ties the two together.
 Without it, or with that of another bench, nothing is armed.
 """
@@ -43,7 +43,7 @@ def get_calibration_path(bench: BenchFile) -> Path:
 
 
 def find_calibration(bench: BenchFile) -> Calibration | None:
-    """The record beside the bench file, or None; raises `ParameterError` for a damaged one."""
+    """The record next to the bench file, or None; raises `ParameterError` for a damaged one."""
     path = get_calibration_path(bench)
     if not path.exists():
         return None
@@ -59,7 +59,7 @@ def find_calibration(bench: BenchFile) -> Calibration | None:
 
 
 def write_calibration(bench: BenchFile, calibration: Calibration) -> Path:
-    """Write the record beside the bench file, and say where; an older one is replaced."""
+    """Write the record next to the bench file and return its path; an older one is replaced."""
     path = get_calibration_path(bench)
     draft = path.with_suffix(".tmp")
     draft.write_text(tomli_w.dumps(calibration.model_dump(mode="json")), encoding="utf-8")

@@ -126,7 +126,7 @@ class CanPlant:
             drive.begin()
 
     def confirm_home(self, step: str, by: str) -> None:
-        """An axis stands at its zero mark, says `by`; raises `StateError`.
+        """Confirm that an axis is at its zero mark, by `by`; raises `StateError`.
 
         A drive's zero is where it was reset: what has moved since is not at its mark.
         """
@@ -225,7 +225,7 @@ class CanPlant:
         self._zero_sent = self._zero_sent or all(reached)
 
     def _try_zero(self, bus: can.BusABC, drive: Drive, now: float) -> bool:
-        """Whether the drive was told zero; one that cannot be told does not keep the other."""
+        """Send zero current; whether it was sent. A failure does not affect the other drive."""
         try:
             return drive.send_current(bus, 0, now)
         except BUS_TROUBLE:

@@ -30,7 +30,7 @@ class BenchClock(Protocol):
     """What the loop waits on. Times are s from any fixed origin."""
 
     def bind(self, bus: can.BusABC) -> None:
-        """The bus whose frames' times are to be told in this clock's."""
+        """Use this bus: `convert` turns the times of its frames into those of this clock."""
         ...
 
     def now(self) -> float:
@@ -107,7 +107,7 @@ class WallClock:
 
         No frame comes before it was sent: the least distance between arrival and timestamp is
         that between the two clocks, up to a drift of 2e-4. A distance 0.1 s greater
-        means that the adapter's clock began anew; the silence before it has been a fault.
+        means that the adapter's clock was restarted; the silence before it has been a fault.
         """
         if self._of_day is None:
             self._of_day = abs(time.time() - timestamp) < SAME_DAY_S
@@ -146,7 +146,7 @@ class LockstepClock:
             self._now_us = self._advance(wanted)
 
     def _advance(self, time_us: int) -> int:
-        """Returns the emulator's time, µs, which the echo tells."""
+        """Return the time of the emulator, µs, as its echo reports it."""
         if self._bus is None:
             raise ClockError("The clock of an emulator in lockstep has no bus to go on with.")
         ask = can.Message(arbitration_id=ADVANCE_ID, is_extended_id=True, data=encode_time(time_us))
@@ -160,7 +160,7 @@ class LockstepClock:
 
     @staticmethod
     def _check(reported_us: int, requested_us: int) -> int:
-        """An emulator whose time goes on by itself has not come as far as it is asked to."""
+        """Raise `ClockError` for an emulator that is not in lockstep: its time is too early."""
         if reported_us < requested_us:
             raise ClockError(
                 f"The emulator is at {reported_us * 1e-6:g} s and was asked to go on to"
@@ -183,7 +183,7 @@ class LockstepClock:
 
 
 CATCH_UP_S = 0.05
-"""What was lost beyond this is not made up for by ticks in a row without a rest."""
+"""Lost time beyond this is not made up for by ticks without a pause between them, s."""
 
 
 class PacedClock(LockstepClock):
@@ -201,7 +201,7 @@ class PacedClock(LockstepClock):
     def wait_until(self, deadline: float) -> None:
         """Let the emulator go on to this time, once it is due on the wall.
 
-        An emulator that had no loop for a while has gone on by itself: it is not waited for again.
+        An emulator that had no loop for a while went on alone: its time is not waited for again.
         """
         if math.isinf(self._ahead_s):
             self._ahead_s = self._wall.now() - self.now()

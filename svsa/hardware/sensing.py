@@ -25,7 +25,7 @@ MAX_FRAMES_UNHEARD = 100_000
 """Some seconds of a bus that never rests."""
 NEW_PERIODS = 2
 FRESH_PERIODS = 5
-"""What is older says nothing of the present: x̂ goes on by its model alone."""
+"""Older feedback is not used: x̂ is predicted by the model alone."""
 UNHEARD = (math.inf, math.inf, math.inf)
 
 
@@ -72,7 +72,7 @@ class Sensing:
         self._alarm = None
 
     def catch_up(self, bus: can.BusABC, now: float) -> None:
-        """Take what has come while nobody listened, for which a tick has no time."""
+        """Take the frames that came before the loop ran: too many for one tick."""
         with contextlib.suppress(*BUS_TROUBLE):
             for message in take_waiting(bus, self._settings, MAX_FRAMES_UNHEARD):
                 self._take(message, now)

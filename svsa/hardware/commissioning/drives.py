@@ -22,7 +22,7 @@ DRIVE_POWER = "the drive's supply is on and within 7 V to 33 V"
 
 
 def check_bus(probe: Probe) -> CheckStep:
-    """Listen only: error frames, and whether somebody else commands the drives."""
+    """Listen only: error frames, and whether another program commands the drives."""
     traffic = probe.listen(QUIET_S)
     bus = probe.bench.bus
     emulated = ", EMULATED: no machine is behind this bus" if probe.emulated else ""

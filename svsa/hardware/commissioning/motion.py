@@ -113,7 +113,7 @@ def _judge_deflection(bench: BenchFile, pulse: Pulse) -> CheckStep:
 
 
 def check_directions(bench: BenchFile, watch: Callable[[str], bool] | None) -> Iterator[CheckStep]:
-    """What only somebody who looks can say: which way each motor went first."""
+    """Ask an observer which way each motor went first."""
     ways = {
         "motor1": "the way that you count as positive angles of the link",
         "motor2": "the way that makes the actuator stiffer (lever ratio growing)",

@@ -174,7 +174,7 @@ class Probe:
         self.send(self.motors[name], Current(limit, current_ma))
 
     def release(self) -> None:
-        """Zero current and reset for every drive that was told anything, until they are silent.
+        """Zero current and reset for the drives, if any was commanded, until they are silent.
 
         The last frames must also have left: an adapter behind a socket loses what is on its way
         when it is closed too soon.

@@ -23,14 +23,14 @@ COAST_S = 0.02
 """A motor's counts are followed for so long after a pulse: both lag behind the current."""
 SETTLE_S = 0.2
 MAX_UNHEARD = 0.25
-"""A pulse tells only where no longer share of it went by without feedback of its drive."""
+"""A pulse is valid if its longest time without feedback is at most this share of it."""
 MAX_REPEATS = 5
-"""Of pulses that told nothing, per motor: the motor gets no more impulse than that."""
+"""Of invalid pulses, per motor: this bounds the impulse that the motor gets."""
 _SEND_S = 0.002
 
 
 class Pulse(NamedTuple):
-    """What a pulse did. current_ma, duration_s: asked for.
+    """What a pulse did. current_ma, duration_s: commanded.
 
     moved, deflected: largest change of counts, either way. measured_ma: largest feedback of
     the current, with its sign. errors: D frames. unheard_s: longest time of the pulse without
@@ -64,12 +64,12 @@ class Turn(NamedTuple):
 
     @property
     def was_followed(self) -> bool:
-        """Whether enough of it was heard for what it did to tell something of the motor."""
+        """Whether there was enough feedback to judge the motor."""
         return self.unheard_s <= MAX_UNHEARD * self.forth.duration_s
 
 
 def turn_a_little(probe: Probe, name: str) -> Turn:
-    """Turns of a motor, each stronger, until one has told enough; returns the last.
+    """Turn a motor with growing strength until a turn is conclusive; returns the last.
 
     One that was not followed, by a computer or a bus that stood still, is given again.
     """

@@ -103,8 +103,8 @@ def _choose_options(settings: BusSettings) -> dict[str, Any]:
 def take_waiting(bus: can.BusABC, settings: BusSettings, most: int) -> Iterator[can.Message]:
     """The messages that have come, at most so many, without waiting for one.
 
-    An slcan adapter acknowledges every command, and python-can tells that as nothing: there,
-    several nothings in a row are the end.
+    An slcan adapter acknowledges every command, and python-can returns None for that: there,
+    the end is several None in a row.
     """
     patience = nothings = _ACKNOWLEDGEMENTS if settings.interface == _SLCAN else 1
     for _ in range(most):

@@ -44,7 +44,7 @@ class Drive:
     """The frames to and from one drive. speed_max: counts/s that its motor never reaches.
 
     counts, current_ma: as it last said. heard_s: when, by the clock of the plant; None
-    before. errors: D frames since the reset. zeroed: its position jumped to zero by itself.
+    before. errors: D frames since the reset. zeroed: its position jumped to zero without a reset.
     """
 
     def __init__(self, settings: MotorSettings, period_s: float, speed_max: float) -> None:

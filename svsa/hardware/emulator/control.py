@@ -1,4 +1,4 @@
-"""What happens to the emulator, told from outside: JSON lines over TCP on this machine.
+"""Commands that change the emulator from outside: JSON lines over TCP on this machine.
 
     {"do": "load", "load": {"kind": "mass"}, "at_s": 5.0}    {"do": "set_loads", "loads": [...]}
     {"do": "fault", "fault": {"kind": "freeze", "node": "deflection"}}

@@ -32,9 +32,9 @@ STALL_PROTECTION = 1
 
 
 class EmulatedDrive:
-    """A drive, its motor's counter, and the current that it was told.
+    """A drive, its motor's counter, and the commanded current.
 
-    mode: None until one was taken. current_ma: asked for, the same since `since_us`. errors:
+    mode: None until one was taken. current_ma: commanded, the same since `since_us`. errors:
     commands at the wrong moment. stalled, powered, plugged, frozen: see
     `svsa.hardware.emulator.faults`.
     """

@@ -72,7 +72,7 @@ class Emulator:
 
     @property
     def next_event_us(self) -> int:
-        """When something happens next by itself."""
+        """The time of the next event, µs."""
         return self._events[0][0]
 
     def advance_to(self, time_us: int) -> list[Said]:
@@ -159,7 +159,7 @@ class Emulator:
         heapq.heappush(self._events, (time_us, self._order, happen))
 
     def _drive(self) -> None:
-        """Ask the motors for what their drives were told."""
+        """Set the torques that the drives' current loops aim at."""
         one, two = self.drives.values()
         self.mechanics.set_target(self.now_us, Torque(one.target_nm, two.target_nm))
 
@@ -211,7 +211,7 @@ class Emulator:
             self._request(frame, None)
 
     def _request(self, frame: Frame, sender: Any) -> None:
-        """Have a frame sent when the bus is free; one that is asked for too much loses frames."""
+        """Queue a frame until the bus is free; a full queue drops it."""
         if len(self._waiting) >= MAX_WAITING:
             return
         self._order += 1

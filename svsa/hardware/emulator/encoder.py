@@ -1,4 +1,4 @@
-"""The emulated deflection encoder: a node that sends its counts by itself."""
+"""The emulated deflection encoder: a node that sends its counts unasked."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Between an emulator and its clients: frames in, time on where it is asked for, frames out."""
+"""Between an emulator and its clients: frames in, time on at request, frames out."""
 
 from typing import Any
 
@@ -13,7 +13,7 @@ class Exchange:
     """Carries frames between an emulator and the clients of its servers.
 
     lockstep: time goes on only when a client asks for it with `ADVANCE_ID`. origin_s: what the
-    stamps of frames count from, s, in the emulator's time. `asked`: how often time was asked for.
+    stamps of frames count from, s, in the emulator's time. `asked`: number of requests for time.
     """
 
     def __init__(

@@ -106,7 +106,7 @@ def connect_bench(emulator: RunningEmulator) -> BenchFile:
 def run_on_emulator(
     figure: Figure, law: str, duration_s: float, progress: Callable[[float], None]
 ) -> Result:
-    """Run a figure with its load on the emulator; progress: told the share done.
+    """Run a figure with its load on the emulator; progress: called with the share done.
 
     Raises `FaultError` where the run ends in a fault.
     """

@@ -42,7 +42,7 @@ class _Plant(NamedTuple):
 
 
 class _Moving(NamedTuple):
-    """Where it is; what the motors make, and what they are asked for, N·m."""
+    """State; actual torque of the motors, and the torque that they aim at, N·m."""
 
     x: State = AT_REST
     torque: Torque = NO_TORQUE

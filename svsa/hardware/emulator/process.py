@@ -16,12 +16,12 @@ GRAIN_S = 0.00025
 
 
 class EmulatorProcess:
-    """Serves an emulator to its clients until told to stop, or idle for `idle_s` (0: for ever).
+    """Serves an emulator to its clients until `stopped`, or idle for `idle_s` (0: for ever).
 
     lockstep: time goes on only when a client asks for it. Frames are stamped with the emulator's
-    time then, and with the time of day against the clock, as adapters do. alone_s: where nobody
-    asks any more for so long, it goes on by itself until somebody does, as a machine whose loop
-    is gone.
+    time then, and with the time of day against the clock, as adapters do. alone_s: if no
+    client asks for time for so long, time goes on in real time until one does, as on a machine
+    whose loop is gone.
     """
 
     def __init__(
@@ -63,7 +63,7 @@ class EmulatorProcess:
                 return
 
     def _go_on_alone(self, now: float) -> None:
-        """Let as much time pass as nobody has asked for; what has come is done before."""
+        """Go on in real time if no client has requested time for `alone_s`."""
         if self._exchange.asked != self._asked:
             self._asked = self._exchange.asked
             self._alone_since, self._left_us = now + self._alone_s, self._rig.now_us

@@ -2,7 +2,7 @@
 
 Source: LAWICEL CANUSB manual, its ASCII commands. Each line ends with CR and is answered with CR,
 or with BELL where it is not known or not to be had now. Every bit rate is taken and makes no
-difference; a remote frame is acknowledged and goes nowhere, since nobody here would answer it.
+difference; a remote frame is acknowledged and dropped, since no node here would answer it.
 The protocol has no error frames: bus trouble is bit 7 of the status flags.
 """
 
@@ -26,7 +26,7 @@ _VERSION, _SERIAL_NUMBER = b"V1013\r", b"NSVSA\r"
 
 
 class SlcanServer:
-    """A `FrameServer` whose one client is whoever opens the terminal at `path`."""
+    """A `FrameServer` whose one client is the program that opens the terminal at `path`."""
 
     def __init__(self) -> None:
         self._ours, self._theirs = os.openpty()

@@ -1,4 +1,4 @@
-"""An encoder that sends its counts on the CAN bus by itself."""
+"""An encoder that sends its counts on the CAN bus unasked."""
 
 import can
 

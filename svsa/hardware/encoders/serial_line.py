@@ -28,7 +28,7 @@ class SerialLineSettings(Checked):
 
 
 class SerialLine:
-    """Counts from a device that sends them by itself; what is damaged is passed over."""
+    """Counts from a device that sends them unasked; damaged ones are skipped."""
 
     bits = 32
 

@@ -1,6 +1,6 @@
 """Start the processes of a bench, the loop and its supervisor, and talk with the loop.
 
-Nothing here blocks but by `rest`: whoever has more to do than wait for a bench says how to.
+Everything waits by `rest` only: a caller with other work passes its own function.
 """
 
 import contextlib
@@ -34,11 +34,11 @@ Rest = Callable[[float], None]
 
 Teller = Callable[[str, float], None]
 COLD = (0.0, 0.0)
-"""The heat of both motors where nobody has run them."""
+"""The heat of both motors before their first run."""
 
 
 def keep_quiet(step: str, seconds: float) -> None:
-    """Tell nobody what a loop does while it starts."""
+    """Report nothing of a loop that starts."""
 
 
 class BenchError(StateError):
@@ -49,7 +49,7 @@ class BenchProcesses:
     """The loop and the supervisor of one bench, each a process that is being started.
 
     `memory`: see `LoopMemory`. rest: lets time pass while they start, answer or end. `events`:
-    what the loop has said and nobody has read yet. `notes`: what real time was granted. `step`:
+    messages of the loop that were not read yet. `notes`: what real time was granted. `step`:
     what the loop does until it is ready. `failure`: why it did not get ready, or None. heat: of
     both motors as a loop before this one left them, see `Winding`. patience_s: a loop that has not
     ticked for longer is silent, and a command is answered within it.
@@ -146,7 +146,7 @@ class BenchProcesses:
 
     @property
     def listens(self) -> bool:
-        """Whether the loop can be asked for something: its process runs and ticks."""
+        """Whether the loop takes requests: its process runs and ticks."""
         return self.alive and self.silence_s <= self.patience_s
 
     def request(self, wanted: str, argument: Any = None) -> dict[str, Any]:
@@ -205,7 +205,7 @@ class BenchProcesses:
         return events
 
     def _read(self) -> None:
-        """Take what has come: events, and answers that somebody waits for."""
+        """Take what has come: events, and the answers that a request waits for."""
         for message in self._link.receive():
             if "event" in message:
                 self.events.append(message)

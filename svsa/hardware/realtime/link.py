@@ -32,7 +32,7 @@ class Link:
         return self._socket.fileno()
 
     def send(self, message: dict[str, Any]) -> None:
-        """Send a message; raises `LinkClosedError` where nobody reads any more."""
+        """Send a message; raises `LinkClosedError` if the other side is gone."""
         self._unsent += json.dumps(message).encode() + b"\n"
         # A side that never reads must not make the loop wait, nor its memory grow.
         if len(self._unsent) > MAX_UNSENT_BYTES:

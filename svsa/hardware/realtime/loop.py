@@ -133,7 +133,7 @@ class BenchLoop:
         self.run = Run(configuration, start=Start(self._mu0, near), bind=self._bind)
 
     def start(self, now: float) -> Start:
-        """Begin a run at tick 0 from where the bench stands; raises `StateError`.
+        """Begin a run at tick 0 from the measured position; raises `StateError`.
 
         The references fade in from the measured position and stiffness, and ŵ begins at
         zero, so that the first torque is about zero.
@@ -161,7 +161,7 @@ class BenchLoop:
         return {name: view_field(self._carried, name).tolist() for name in MOTION}
 
     def know(self, motion: Mapping[str, Sequence[float]]) -> None:
-        """Know the bench as `read_motion` told it, in place of a first measurement."""
+        """Take the state that `read_motion` returned, in place of a first measurement."""
         for name in MOTION:
             view_field(self._carried, name)[:] = motion[name]
         self._is_known = True
@@ -215,7 +215,7 @@ class BenchLoop:
     def _decide(
         self, y: Measurement, ages_s: tuple[float, float, float]
     ) -> tuple[State, Disturbance, Torque]:
-        """x̂, ŵ and the torque that is asked for. It begins at rest where y was measured first."""
+        """x̂, ŵ and the limited torque of the law. A first y gives a state at rest."""
         if not self._is_known:
             self._known[:] = (y.theta1 + y.phi, 0.0, y.theta1, 0.0, y.theta2, 0.0)
             self._is_known = True

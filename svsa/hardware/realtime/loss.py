@@ -19,7 +19,7 @@ _WHAT = {
 class Loss(NamedTuple):
     """code: of `svsa.actuators.faults.LOSSES`. message: what happened and what was done, in words.
 
-    stopped_by: who keeps the drives at zero current; None where nobody does yet. problem: why
+    stopped_by: who keeps the drives at zero current; None while that is not done. problem: why
     the server cannot.
     """
 

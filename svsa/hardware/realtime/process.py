@@ -60,7 +60,7 @@ class LoopProcess:
         self._ending = False
 
     def run(self) -> None:
-        """Tick until the server ends it, or is gone and the bench stands still."""
+        """Tick until the server ends it, or is gone and the bench is at rest."""
         period = self._loop.run.period_s
         self._plant.catch_up()
         deadline = self._clock.now()
@@ -198,7 +198,7 @@ class LoopProcess:
 
 
 class Progress:
-    """What a loop that starts is doing, told to the server."""
+    """Reports to the server what a loop does while it starts."""
 
     def __init__(self, link: Link) -> None:
         self._link = link

@@ -1,4 +1,4 @@
-"""What a bench may be told while its loop runs, done once before time counts.
+"""Every command that a bench takes while its loop runs, carried out once before the first tick.
 
 The first use of a law, of a kind of reference or of an effect imports modules, loads machine code
 from the cache, and compiles what is not there. That takes up to 100 ms, and a tick has 1 ms.

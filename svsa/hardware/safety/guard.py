@@ -59,8 +59,8 @@ _STILL = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 class MotorGuard:
     """The limits of one motor.
 
-    Its winding is warmed by the current that was asked for or, where it is greater, the one that
-    the drive says it makes. A drive that makes more than heat allows brings it above 1.05, which
+    Its winding is warmed by the commanded current or, if that is greater, by the one that the
+    drive reports. A drive that makes more than heat allows brings it above 1.05, which
     ends the run. last: sent, N·m.
     """
 
@@ -121,7 +121,7 @@ class MotorGuard:
         return None
 
     def find_overload(self) -> Alarm | None:
-        """Whether the winding is warmer than any torque that was asked for makes it."""
+        """The alarm of a winding that is warmer than any commanded torque can make it, or None."""
         heat = self.winding.heat
         if heat <= OVERLOAD:
             return None
@@ -178,7 +178,7 @@ class Guard:
     def pass_ticks(self, missed: int, held_s: float, current_a: tuple[float, float]) -> None:
         """Nothing was sent for so many periods: a drive holds its last current meanwhile.
 
-        held_s: for so long at most, s; the supervisor told it zero then. current_a: as the
+        held_s: for so long at most, s; the supervisor then sent zero current. current_a: as the
         drives say now.
         """
         seconds = missed * self._period

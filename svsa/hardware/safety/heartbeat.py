@@ -1,6 +1,6 @@
 """Heartbeats of the processes of a bench, in shared memory: who was alive when.
 
-Beside them, how often the supervisor has stopped the drives: a loop that was late knows why.
+Also how often the supervisor has stopped the drives: a loop that was late learns why.
 """
 
 import math
@@ -17,7 +17,7 @@ SLOTS: tuple[Slot, ...] = ("loop", "supervisor", "server", "operator", "stopping
 class Heartbeats:
     """A time (CLOCK_MONOTONIC, s) for each slot; 0 before its first beat.
 
-    stopping: beats whenever the supervisor has told the drives to stop.
+    stopping: beats whenever the supervisor has sent zero current and resets.
     """
 
     def __init__(self, block: shared_memory.SharedMemory, owner: bool) -> None:
@@ -58,7 +58,7 @@ class Heartbeats:
         return int(self._stops[0])
 
     def count_stop(self) -> None:
-        """The supervisor stops the drives now: told before its first frame is on the bus."""
+        """Count that the supervisor stops the drives, before its first frame is on the bus."""
         self._stops[0] += 1
 
     def close(self) -> None:
@@ -72,7 +72,7 @@ class Heartbeats:
 def attach_block(name: str) -> shared_memory.SharedMemory:
     """A block of shared memory that another process made and will remove.
 
-    Python's resource tracker would remove it when this process ends: it is told not to.
+    Python's resource tracker would remove it when this process ends: it is unregistered there.
     """
     block = shared_memory.SharedMemory(name)
     resource_tracker.unregister(block._name, "shared_memory")  # pyright: ignore[reportAttributeAccessIssue]

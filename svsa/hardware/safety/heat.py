@@ -13,7 +13,7 @@ LINGERS_S = 0.5
 
 
 def compute_lasting_torque(motor: MotorSettings) -> float:
-    """The torque at the output that a motor bears for ever: that of its nominal current, N·m."""
+    """The continuous torque at the output, N·m: that of the nominal current."""
     return motor.nominal_current_a * _compute_scale(motor)
 
 
@@ -59,7 +59,7 @@ class Winding:
         return min(self.cold_nm, self.lasting_nm + room * (self._peak - self.lasting_nm))
 
     def find_held_back(self, torque: float) -> HeldBack | None:
-        """What heat takes of a torque that is asked for, N·m; None where it takes nothing."""
+        """How heat reduces a commanded torque, N·m; None if it does not."""
         asked, allowed = min(abs(torque), self.cold_nm), self.allow()
         return HeldBack(asked, allowed) if asked > allowed else None
 

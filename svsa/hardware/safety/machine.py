@@ -82,7 +82,7 @@ class Machine:
         return self._latch.fault
 
     def check_arming(self) -> None:
-        """Raise `StateError` unless OFF, or READY to be armed anew, and calibrated."""
+        """Raise `StateError` unless OFF, or READY to be armed again, and calibrated."""
         if self.status not in (BenchStatus.OFF, BenchStatus.READY):
             raise StateError(f"The bench is {self.status}: it is armed from OFF or READY.")
         if self.problems:
@@ -95,7 +95,7 @@ class Machine:
         self.status = BenchStatus.RESET
 
     def confirm_home(self, step: str, by: str) -> None:
-        """An axis stands at its zero mark; raises `StateError` unless READY."""
+        """Confirm that an axis is at its zero mark; raises `StateError` unless READY."""
         if self.status is not BenchStatus.READY:
             raise StateError(f"The bench is {self.status}: its marks are confirmed in READY.")
         self.homing.confirm(step, by)
@@ -202,7 +202,7 @@ class Machine:
 
 
 def _describe_lateness(late_s: float, waits_s: float) -> Alarm:
-    """The supervisor's own frames have stopped the drives: nobody else's."""
+    """The alarm for drives that the frames of the supervisor have stopped."""
     late_s = max(late_s, waits_s)
     words = (
         f"The control loop was {1e3 * late_s:.0f} ms late. The supervisor, which waits"

@@ -1,8 +1,8 @@
 """An encoder that stands still while the torque on its axis changes: frozen, or its cable is off.
 
-Whatever stands still is in balance: the observer sees a torque there that changes by no more
-than friction can take up. With counts that have stopped, ŵ goes on growing against what the
-controller asks for, long before it is greater than any load.
+An axis at rest is in balance: the torque that the observer estimates there changes by no more than
+friction can balance. If the counts have stopped although the axis moves, ŵ grows against the
+commanded torque; the change is detected long before ŵ exceeds any load.
 """
 
 from svsa.actuators.signals import Disturbance

@@ -3,8 +3,8 @@
     python -m svsa.hardware.safety.supervisor BENCH HEARTBEATS
 
 The drives hold their last current for ever. When the loop, once begun, has not beaten for
-`loop_s` (20 ms), both drives are told zero current and every drive is reset, again and again
-until it beats. It ends at SIGTERM, or by itself when its parent is gone and the loop silent.
+`loop_s` (20 ms), the supervisor sends zero current to both drives and resets every drive, and
+repeats that until the loop beats. It ends at SIGTERM, or if its parent is gone and the loop silent.
 """
 
 import math
@@ -42,7 +42,7 @@ class Supervisor:
     def watch(self) -> None:
         """One look: stop the drives where the loop is silent, and beat while the bus is heard.
 
-        A bus can be lost without a word: a supervisor that hears nothing on it is no use.
+        A bus can be lost without an error: a supervisor that hears nothing on it cannot act.
         """
         now = time.monotonic()
         if self.listen():
@@ -74,13 +74,13 @@ class Supervisor:
             self._bus.send(frame)
 
     def is_orphaned(self, parent: int) -> bool:
-        """Whether nobody is left to work for: parent gone and loop silent for long."""
+        """Whether its work is done: the parent is gone, and the loop was silent for long."""
         age = self._beats.age_s("loop")
         return os.getppid() != parent and age > ORPHANED_S
 
 
 def main(arguments: list[str]) -> int:
-    """Watch until told to end; 1 where the bus cannot be opened or is lost."""
+    """Watch until SIGTERM; return 1 if the bus cannot be opened or is lost."""
     path, name = arguments
     parent = os.getppid()
     ended: list[int] = []

@@ -1,9 +1,9 @@
-"""The third line: whoever started loop and supervisor stops the drives where both are gone.
+"""The third line: the process that started loop and supervisor stops the drives if both are gone.
 
 Without a supervisor the loop stops the drives, and without the loop the supervisor does.
 Without both the drives would hold their last current for ever: the process that started them,
 and lives, opens the bus and does what the supervisor would. Many adapters serve one program
-only: what stands still and holds the bus is ended first, and by force.
+only: a process that hangs and holds the bus is killed first.
 """
 
 import math
@@ -23,7 +23,7 @@ from svsa.hardware.schedule import SUPERVISOR_PRIORITY, request_priority
 STILL = 5.0
 """So many times `loop_s`: a supervisor that lives has acted by then."""
 LOOKS = 5
-"""So often in a row both stand still: this process was awake, and they were not."""
+"""Both must be silent in so many looks in a row: this process was awake, and they were not."""
 RETRY_S = 0.05
 STOP_S = 10.0
 """A bus that is being opened cannot be interrupted: `stop` waits no longer for it."""
@@ -87,7 +87,7 @@ class ThirdLine:
         return self._looks >= LOOKS
 
     def _intervene(self) -> None:
-        """End what stands still, and stop the drives until told to stop.
+        """Kill both processes, and stop the drives until `stop`.
 
         A process that is being ended may hold the bus for some time yet: then it is tried again.
         """

@@ -1,7 +1,7 @@
 """A bench's record followed again: what it measured and sent, through the bench's own loop.
 
-Nobody can run a bench again. But the loop that had it under control is made of functions of what
-was measured and what was sent, so that everything else in the record has to come out the same.
+A bench cannot be run again. But its loop consists of functions of what was measured and what was
+sent, so that everything else in the record must be the same when it is computed again.
 """
 
 from typing import NamedTuple
@@ -81,7 +81,7 @@ class RecordedPlant:
 
 
 def verify_bench_record(record: Record) -> Verified:
-    """Work out again what a bench's record tells; raises `RecordError` where it differs."""
+    """Compute a bench's record again from its measurements; raises `RecordError` if it differs."""
     header, start = record.header, record.start
     if start is None or record.first_tick:
         raise RecordError(

@@ -13,7 +13,7 @@ from svsa.runs.session.journal import Journal
 
 
 class HeatEvents:
-    """Which motors were held back when it was last told; of a loop that begins, none."""
+    """Which motors heat limited at the last report; none before the first report of a loop."""
 
     def __init__(self) -> None:
         self._axes: frozenset[str] = frozenset()
@@ -45,7 +45,7 @@ class BenchReport:
         self.begin()
 
     def begin(self) -> None:
-        """The loop was started anew: nothing has been told yet."""
+        """The loop was restarted: it has reported nothing yet."""
         self.loop_status = BenchStatus.OFF
         self.homing_step: Axis | None = STEPS[0].name
         self._heat = HeatEvents()
@@ -72,7 +72,7 @@ class BenchReport:
             self._journal.begin_stop()
 
     def take(self, states: list[dict[str, Any]]) -> None:
-        """What the loop has told, in its order."""
+        """Take the reports of the loop, in their order."""
         for reported in states:
             self.problems, self.homing_step = reported["problems"], reported["homing_step"]
             self._heat.log(

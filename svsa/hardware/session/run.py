@@ -48,7 +48,7 @@ class BenchRun(Run):
     The first comparison is the bench's twin: the same law, commands and loads on the simulated
     plant. A twin that leaves the domain of the model ends, with NaN from there on; the bench
     goes on. Ticks that the bench's loop missed have a time and no numbers in lane 1.
-    is_still: it stands until another run begins, and has none of the samples of the one before.
+    is_still: it has no ticks, and none of the samples of the run before.
     fault: the bench's, set by who watches its state.
     """
 

@@ -33,10 +33,10 @@ UNWATCHED_S = 1.0
 class BenchSession:
     """A `Session` of a bench: `start` begins a run at t = 0, `pause` ramps to zero torque.
 
-    Every start begins a new run, from where the bench stands. hands: told of the loads that
-    are on whenever they change, and of the marks. rest: lets time pass where a command waits for
+    Every start begins a new run, from the measured position. hands: is called with the active
+    loads whenever they change, and at the marks. rest: lets time pass where a command waits for
     the bench; `wake` waits for nothing. `bench`: the bench file. `loop`: its processes, which are
-    being started until `open` returns. `report`: what they have told. Raises `BenchError` where the
+    being started until `open` returns. `report`: their reports. Raises `BenchError` where the
     loop is silent, `MissingExtraError` without the extra `bench`.
     """
 
@@ -150,11 +150,11 @@ class BenchSession:
         self._ask("arm")
 
     def confirm_home(self, step: str, by: str) -> None:
-        """That an axis stands at its zero mark, and who says so."""
+        """Confirm that an axis is at its zero mark; by: who confirms it."""
         self._ask("home", {"step": step, "by": by})
 
     def clear(self) -> None:
-        """Clear the latched fault: FAULT → OFF; loop and supervisor begin anew if one is gone."""
+        """Clear the latched fault: FAULT → OFF; loop and supervisor restart if one is gone."""
         if self.loop.loss is not None or not self.loop.processes.supervisor_alive:
             self.restart()
         elif self.report.loop_status is BenchStatus.FAULT:
@@ -163,7 +163,7 @@ class BenchSession:
         self.journal.version += 1
 
     def restart(self) -> None:
-        """End loop and supervisor, by force where they do not listen, and start both anew.
+        """End loop and supervisor, by force if they do not respond, and restart both.
 
         Raises `StateError` in motion, and `BenchError` where the bench cannot be opened.
         """

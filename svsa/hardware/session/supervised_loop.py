@@ -21,7 +21,7 @@ from svsa.hardware.realtime.prepared_laws import UnpreparedLawError, compute_con
 from svsa.runs.configuration import MAX_LANES, Configuration
 
 UNKNOWN_S = 0.25
-"""So long after the last tick it may not be known yet who stops the drives."""
+"""For so long after the last tick it may be unknown who stops the drives, s."""
 SILENT = 2.0
 """So many times `loop_s`, by which a loop may be late: the supervisor comes before the server."""
 LISTENED_S = 3.0 * EMULATED_PERIOD_S
@@ -29,7 +29,7 @@ LISTENED_S = 3.0 * EMULATED_PERIOD_S
 
 
 class SupervisedLoop:
-    """Both processes, which `launch` starts anew.
+    """Both processes, which `launch` starts and restarts.
 
     path: of the bench file. bench: that file. rest: lets time pass where a command waits.
     `starting`: they refuse commands until `open` returns. `memory`: see `LoopMemory`.
@@ -61,7 +61,7 @@ class SupervisedLoop:
     def restart(self, launch: Callable[[], None]) -> None:
         """End both processes, by force where they do not listen, have them launched, and open.
 
-        The motors are as warm as the loop before left them: how long they cooled nobody has seen.
+        The motors are as warm as the loop before left them: how long they cooled is unknown.
         """
         self.starting = True
         try:
@@ -127,7 +127,7 @@ class SupervisedLoop:
         return self.processes.request(wanted, argument)
 
     def take_states(self) -> list[dict[str, Any]]:
-        """What the loop has told of its state since the last time."""
+        """The states that the loop has reported since the last call."""
         events = self.processes.take_events()
         return [event for event in events if event["event"] == "state"]
 
