@@ -21,7 +21,7 @@ class BenchStart:
 
     mu0: lever ratio at the zero marks. latency_s, lag_s: from a torque that is decided to one that
     acts. torque_step_nm: of both motors, of the least step of current that their drives know.
-    motion: what the first tick found, as `BenchLoop.read_motion` tells it. commands: how many of
+    motion: what the first tick found, as `BenchLoop.read_motion` returns it. commands: how many of
     the record's commands were given before it began.
     """
 
@@ -47,7 +47,7 @@ def dump_start(start: BenchStart) -> bytes:
 
 
 def read_start(folder: Path) -> BenchStart | None:
-    """What the run began from; None for a simulated one, and where nobody wrote it.
+    """What the run began from; None for a simulated one, and if it was not written.
 
     Raises `RecordError` where the file is damaged.
     """

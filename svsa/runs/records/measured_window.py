@@ -1,4 +1,4 @@
-"""Which window of a recorded run its numbers are of: one law a lane, and nothing changed in it."""
+"""The window of a recorded run that is measured: one law a lane, and no change in it."""
 
 import math
 from collections.abc import Iterable
@@ -33,7 +33,7 @@ class MeasuredWindow:
 
 
 def trace_record(record: Record) -> Timeline | None:
-    """The timeline of a recorded run; None where its commands do not tell its lanes."""
+    """The timeline of a recorded run; None if its commands do not determine its lanes."""
     try:
         configuration, commands = read_origin(record)
         ticks = record.first_tick, record.first_tick + record.tick_count
@@ -47,7 +47,7 @@ def trace_record(record: Record) -> Timeline | None:
 def find_measured_window(record: Record) -> MeasuredWindow | None:
     """The window of the last load that came on in the record; without one, the last window.
 
-    A bench's ramp to zero torque is measured only where there is nothing else: no law asked for it.
+    A bench's ramp to zero torque is measured only if there is nothing else: no law commanded it.
     Where this version cannot read what was changed, the whole record if that was nothing, else
     None. None also for a record without samples.
     """
@@ -74,7 +74,7 @@ def summarize(
 ) -> tuple[Metrics, ...] | None:
     """The metrics of every lane, which has taken in the window; None where they are no numbers.
 
-    There is no settled error under a load that ended by itself.
+    A load that ended within the window has no steady-state error under load.
     """
     found = tuple(metrics for lane in lanes if (metrics := lane.summarize()) is not None)
     if window.load_ended:

@@ -14,7 +14,7 @@ _EVENTS = TypeAdapter(tuple[Event, ...])
 
 
 def write_events(folder: Path, events: Sequence[Event]) -> None:
-    """Say that these were told, in the order of time; raises `OSError`."""
+    """Write the reported events, in the order of time; raises `OSError`."""
     replace_file(folder / EVENTS_FILE, dump_events(events))
 
 
@@ -24,7 +24,7 @@ def dump_events(events: Sequence[Event]) -> bytes:
 
 
 def read_events(folder: Path) -> tuple[Event, ...]:
-    """The events that were told; none where nobody wrote any, as an older version did not.
+    """The reported events; none if none were written, as by an older version.
 
     Raises `RecordError` where the file is damaged.
     """
@@ -54,7 +54,7 @@ def dump_fault(fault: Fault) -> bytes:
 
 
 def read_fault(folder: Path) -> Fault | None:
-    """The fault that the run ended in; None where it ended otherwise, and where nobody wrote it.
+    """The fault that the run ended in; None if it ended otherwise, or if it was not written.
 
     Raises `RecordError` where the file is damaged.
     """

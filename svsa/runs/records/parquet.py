@@ -1,4 +1,4 @@
-"""The finished samples: one Parquet file that says by itself what it holds."""
+"""The finished samples: one Parquet file that describes its own content."""
 
 import contextlib
 import io

@@ -47,8 +47,8 @@ class Record:
 
     commands: (tick, command) in the order they were given. fault: what the run ended in; None
     where it ended otherwise, and where an older version recorded. start: what a bench's run began
-    from; None where it was simulated, or recorded from later on. events: those that a bench told
-    and no command explains, in the order of time. Samples are read when asked for; reading them
+    from; None where it was simulated, or recorded from later on. events: those that a bench has
+    reported and no command explains, in the order of time. Samples are read on demand; reading them
     raises `RecordError` where they are damaged.
     """
 
@@ -123,7 +123,7 @@ def read_record(folder: Path) -> Record:
 
 
 def open_record(folder: Path) -> Record:
-    """The record in a folder, its samples read only when asked for; raises `RecordError`.
+    """The record in a folder, its samples read on demand; raises `RecordError`.
 
     Of one that is being recorded, or was cut off, everything that is whole.
     """
@@ -158,7 +158,7 @@ def _read_unfinished(folder: Path, header: RecordHeader) -> list[pa.RecordBatch]
 
 
 def recover(folder: Path) -> Finished | None:
-    """Finish a record that a crash left; None where somebody is recording it right now.
+    """Finish a record that a crash left; None while a process records it.
 
     Raises `RecordError` where it is damaged; its files are left as they are then.
     """

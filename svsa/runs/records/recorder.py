@@ -1,6 +1,6 @@
-"""Record a run while it goes on: the loop hands over, one thread writes.
+"""Record a run while it is computed: the loop passes samples on, one thread writes them.
 
-What is handed over is with the operating system 0.2 s later, so that a process killed at
+What is passed on is with the operating system 0.2 s later, so that a process killed at
 any moment loses less than 0.5 s. The loop never waits: a disk that is full, gone or too
 slow ends the recording, not the control.
 """
@@ -30,7 +30,7 @@ _COMMAND_BYTES = 200
 
 @dataclass(frozen=True)
 class RecordStatus:
-    """How a recording stands. ticks, bytes: what the operating system has."""
+    """The state of a recording. ticks, bytes: what the operating system has."""
 
     state: Literal["recording", "failed", "closed"]
     message: str
@@ -71,7 +71,7 @@ class Recorder:
 
     @property
     def status(self) -> RecordStatus:
-        """How the recording stands at this instant."""
+        """The present state of the recording."""
         if self._failure is not None:
             return RecordStatus("failed", self._failure, self._ticks, self._bytes)
         if self._ended:
@@ -116,7 +116,7 @@ class Recorder:
             self._fault = fault
 
     def write_event(self, event: Event) -> None:
-        """Something that the bench told of itself; commands and loads tell theirs themselves."""
+        """An event that the bench reported; those of commands and loads follow from these."""
         if self._failure is None and not self._close_asked.is_set():
             self._events = (*self._events, event)
 

@@ -1,4 +1,4 @@
-"""A record held against its own simulation: the same configuration, seed and commands."""
+"""A record compared with its own simulation: the same configuration, seed and commands."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass

@@ -157,7 +157,7 @@ def read_channel(run: Record, name: str, begin: int, ticks: int) -> np.ndarray:
 def build_band(
     values: np.ndarray, tolerance: Tolerance, reach: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Least and greatest value that a run may have beside one of these (ticks, …).
+    """Least and greatest value that a run may have at each of these (ticks, …).
 
     reach: of the tolerance in time, in samples. NaN where within reach nothing is known.
     """

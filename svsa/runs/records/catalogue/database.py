@@ -1,4 +1,4 @@
-"""The table of runs in SQLite: an index that can be built anew from the folders of the runs."""
+"""The table of runs in SQLite: an index that can be built again from the folders of the runs."""
 
 import contextlib
 import dataclasses
@@ -48,10 +48,10 @@ class Database:
         return self.revise(run_id, lambda _: changes)
 
     def revise(self, run_id: str, decide: Callable[[RunEntry], dict[str, Any]]) -> RunEntry:
-        """Replace the fields that `decide` makes of the run as it stands.
+        """Replace the fields that `decide` returns for the present entry.
 
         No thread and no process changes the table meanwhile: what `decide` does to the run's
-        folder and what the table says of it agree. Raises `UnknownRunError`, and what `decide`
+        folder agrees with the table. Raises `UnknownRunError`, and what `decide`
         raises, with the run unchanged.
         """
         with self._connect() as connection:

@@ -142,7 +142,7 @@ class Query:
     branched from; or be its id. tag, law, load, figure, plant: only runs with this one; a law
     that controlled any lane, a kind of load that was on or "none", a key of a figure. sort: a
     column of `SORTS`, with - before it from the greatest down; what is not known comes last.
-    trash: what was deleted instead. reader: for whom it is; None for somebody who sees all.
+    trash: what was deleted instead. reader: for whom it is; None for a reader who sees all.
     """
 
     search: str = ""
@@ -188,7 +188,7 @@ def write_entry(entry: RunEntry) -> str:
 
 
 def read_entry(text: str) -> RunEntry:
-    """An entry from `write_entry`; without metrics of a window that nobody wrote down."""
+    """An entry from `write_entry`; without metrics of a window that was not written."""
     written = json.loads(text)
     for name in ("tags", "lanes"):
         written[name] = tuple(written[name])

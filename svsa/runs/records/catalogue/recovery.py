@@ -69,8 +69,8 @@ def recover_runs(database: Database, runs: Path, trash: Path) -> Recovery:
 def describe_older(database: Database, places: tuple[Path, ...]) -> None:
     """Give the runs what older versions did not enter: settings, metrics of a named window, fault.
 
-    What cannot be read stays without. It leaves half the time to others, so that thousands of runs
-    hold up no loop beside it.
+    What cannot be read stays without. It sleeps half of the time, so that thousands of runs
+    do not delay a loop on the same machine.
     """
     for run_id in database.list_undescribed():
         begin = time.perf_counter()
@@ -173,7 +173,7 @@ def build_entry(folder: Path) -> RunEntry:
 
 
 def _finish(folder: Path, entry: RunEntry, unfinished: bool) -> dict[str, Any]:
-    """What changes of the entry by finishing its record; nothing where somebody records it."""
+    """What changes of the entry by finishing its record; nothing while a process records it."""
     try:
         if unfinished and recover(folder) is None:
             return {}

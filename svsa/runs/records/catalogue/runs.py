@@ -1,7 +1,7 @@
 """The runs on this machine: find, name, tag, delete and take back.
 
 SVSA_DATA holds runs/<id> (see `recorder`), trash/<id>, and catalogue.sqlite, which is only
-an index: what is in it is in the folders too, and `recover` builds it anew from them.
+an index: its content is in the folders too, and `recover` builds it again from them.
 """
 
 import dataclasses
@@ -202,7 +202,7 @@ class Catalogue:
     def describe_older(self) -> None:
         """Read of older runs what the version that entered them did not; once for each.
 
-        It takes some milliseconds a run, and is harmless beside everything else.
+        It takes some milliseconds a run, and may run at the same time as all else.
         """
         describe_older(self._database, (self._runs, self._trash))
 

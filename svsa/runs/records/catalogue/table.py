@@ -67,7 +67,7 @@ _DIGITS = 20
 
 
 def prepare(connection: sqlite3.Connection) -> None:
-    """Make the tables, or those of an older format anew; raises `CatalogueError` for a newer."""
+    """Create the tables, or rebuild older ones; raises `CatalogueError` for a newer format."""
     connection.execute("PRAGMA journal_mode = WAL")
     if _read_version(connection) == VERSION:
         return
@@ -111,7 +111,7 @@ def put(connection: sqlite3.Connection, entry: RunEntry) -> None:
 
 
 def put_branches(connection: sqlite3.Connection, run_id: str) -> None:
-    """Write the runs anew that branched from this one, whose name they show."""
+    """Write the runs again that branched from this one, since they show its name."""
     select = "SELECT id FROM runs WHERE branch_run = ?"
     for (branch,) in connection.execute(select, (run_id,)).fetchall():
         put(connection, get(connection, branch))
