@@ -1,1 +1,1 @@
-"""A control law that nobody has read, in a process of its own that has nothing but its task."""
+"""An untrusted control law, in a process of its own that can only compute."""

@@ -1,10 +1,10 @@
-"""The law's side: started anew in an empty world, it has the law and the two ends of a pipe.
+"""The law's side: a new process in empty namespaces, with the law and two ends of pipes.
 
     python -I -S -B child.py LAW FILTER ANSWERS MEMORY_BYTES CPU_S OUTPUT_BYTES
 
 LAW: the law's file. FILTER: the compiled filter of system calls, or "-" for none. ANSWERS: number
-of the pipe that answers go to; what is asked comes on standard input. The law is read only when
-every limit stands. Imports nothing of the lab but `frames`, `plain_law` and what a law may use.
+of the pipe that answers go to; requests come on standard input. The law is read only when every
+limit is set. Imports nothing of the lab but `frames`, `plain_law` and what a law may use.
 """
 
 import ctypes
@@ -18,7 +18,7 @@ from types import ModuleType
 from typing import Any
 
 NICENESS = 10
-"""No lower than its grader's in a job: where much else runs it would be late without its fault."""
+"""The same as its grader's in a job: with a lower priority a busy machine would make it late."""
 _PR_SET_NO_NEW_PRIVS, _PR_SET_SECCOMP, _SECCOMP_MODE_FILTER = 38, 22, 2
 _INSTRUCTION_BYTES = 8
 

@@ -1,4 +1,4 @@
-"""Whether this machine can hold a law that nobody has read: tried, not believed."""
+"""Whether this machine can isolate an untrusted law, found by an attempt to break out."""
 
 from functools import cache
 
@@ -48,7 +48,7 @@ def check_isolation() -> None:
 
 
 def find_isolation_problem() -> str | None:
-    """Why this machine cannot hold a law, in words; None where it can."""
+    """Why this machine cannot isolate a law, in words; None if it can."""
     try:
         check_isolation()
     except NotIsolatedError as error:

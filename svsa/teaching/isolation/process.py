@@ -1,4 +1,4 @@
-"""The lab's side of a law in a process of its own: asked once a tick, answered in time or not."""
+"""The lab's side of a law in a process of its own: one request a tick, with a time limit."""
 
 import os
 import select

@@ -14,7 +14,7 @@ _OWN_LINE = re.compile(r'File "law\.py", line (\d+)')
 
 
 class NotIsolatedError(SvsaError):
-    """A machine that cannot hold a law that nobody has read, and why."""
+    """A machine that cannot isolate an untrusted law, and why."""
 
     def __init__(self, reason: str) -> None:
         self.reason = reason
