@@ -180,7 +180,7 @@ def build_authentication(config: Settings, keys: ClassKeys | None = None) -> Aut
 
 
 def open_lti(config: Settings) -> "LtiTool | None":
-    """What takes launches of learning platforms, where it is told of any.
+    """The LTI tool for launches of learning platforms, if it is configured.
 
     Raises `ParameterError` for a wrong file, or without a class that one could be launched into.
     """

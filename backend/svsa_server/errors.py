@@ -93,7 +93,7 @@ def install_error_handlers(app: FastAPI) -> None:
 
 
 def _refuse_request(request: Request, error: RequestValidationError) -> JSONResponse:
-    """A body that is no JSON, or was not sent as such, is told as that."""
+    """Reject a request; a body that is not JSON, or not sent as such, has its own problem."""
     body: list[Any] = []
     others: list[Any] = []
     for problem in error.errors():

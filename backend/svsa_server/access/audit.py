@@ -26,7 +26,7 @@ NOWHERE = {"run": None, "tick": None, "in_control": None}
 
 
 class AuditLog:
-    """Written beside the event loop, which waits for no disk; a full file is set aside."""
+    """Written in a thread, so that the event loop waits for no disk; a full file is rotated."""
 
     def __init__(self, folder: Path) -> None:
         folder.mkdir(parents=True, exist_ok=True)

@@ -1,4 +1,4 @@
-"""The audit log read again: who did what, the newest first, in a worker beside the server."""
+"""The audit log read again: who did what, the newest first, in a worker process."""
 
 import json
 import re

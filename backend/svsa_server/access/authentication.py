@@ -1,4 +1,4 @@
-"""How people come in: everybody on this machine, whoever knows a shared secret, or a class."""
+"""Authentication: open on this machine, by a shared secret, or as a member of a class."""
 
 import asyncio
 import hashlib
@@ -26,14 +26,14 @@ AuthenticationKind = Literal["open", "secret", "class"]
 class Authentication(Protocol):
     """Says who calls. kind: how one comes in.
 
-    patience: what whoever gave a wrong secret waits for before the answer.
+    patience: delays the answer to a wrong secret.
     """
 
     kind: AuthenticationKind
     patience: "Patience"
 
     def describe_needed(self, headers: Headers) -> tuple[str, str]:
-        """What a stranger is told, kind and text."""
+        """The problem for an unknown caller, kind and text."""
         ...
 
     def admit(self, headers: Headers) -> Person | None:
@@ -41,7 +41,7 @@ class Authentication(Protocol):
         ...
 
     def log_in(self, secret: str) -> str | None:
-        """The cookie for whoever knows the secret, or the instructor token; None for others."""
+        """The cookie for the right secret or instructor token; None for any other."""
         ...
 
 
@@ -58,7 +58,7 @@ class Patience:
 
 
 class OpenAuthentication:
-    """A lab on loopback: whoever is on this machine is in."""
+    """A lab on loopback: every user of this machine has access."""
 
     kind: AuthenticationKind = "open"
 
@@ -99,7 +99,7 @@ class SecretAuthentication:
         return EVERYBODY if self.log_in(read_bearer(headers)) is not None else None
 
     def log_in(self, secret: str) -> str | None:
-        """The cookie that stands for the secret."""
+        """The cookie in place of the secret."""
         return self._cookie if hmac.compare_digest(secret.encode(), self._secret) else None
 
 
@@ -118,7 +118,7 @@ class ClassAuthentication:
         self._hashing = ThreadPoolExecutor(1, "class code")
 
     def admit(self, headers: Headers) -> Person | None:
-        """Whose cookie or token it is; what nobody signed, or of one removed, counts as none."""
+        """The person of the cookie or token; None if it is not signed or the person was removed."""
         carried, membership = self._read(headers)
         if carried == INSTRUCTOR or self.keys.is_instructor(read_bearer(headers)):
             person = INSTRUCTOR
@@ -133,12 +133,12 @@ class ClassAuthentication:
         return person
 
     def is_removed(self, headers: Headers) -> bool:
-        """Whether the instructor has removed whoever's cookie or token it is."""
+        """Whether the instructor has removed the person of this cookie or token."""
         _, membership = self._read(headers)
         return membership is not None and membership.is_ended
 
     def describe_needed(self, headers: Headers) -> tuple[str, str]:
-        """To join; who was removed is told that."""
+        """That one has to join, or was removed."""
         if self.is_removed(headers):
             return "removed", REMOVED
         return "join_needed", "This lab is a class: join it with your name and the class code."
@@ -195,7 +195,7 @@ class ClassAuthentication:
         return carried, carried and self.members.find(carried.id)
 
     async def _hash(self, work: Callable[[str], T], code: str) -> T:
-        """One at a time, beside the event loop.
+        """Hash one code at a time, outside the event loop.
 
         Always in the same thread, since each one that hashes keeps the 16 MB that it takes.
         """

@@ -1,4 +1,4 @@
-"""The class code and the instructor token: drawn once, told once, kept as hashes.
+"""The class code and the instructor token: drawn once, shown once, kept as hashes.
 
 The code is short enough to be read from a wall, so its hash is a slow one (scrypt); the token is
 256 random bits, for which a quick one is as good. What people carry, cookie or bearer token, is
@@ -29,7 +29,7 @@ _SCRYPT = {"n": 2**14, "r": 8, "p": 1}
 
 
 class ShownOnce(NamedTuple):
-    """What stands nowhere else after it was told."""
+    """Secrets that are shown once and stored as hashes only."""
 
     code: str
     instructor_token: str
@@ -54,7 +54,7 @@ class ClassKeys:
 
     @classmethod
     def open(cls, folder: Path) -> tuple["ClassKeys", ShownOnce | None]:
-        """The keys of the class in this folder, made if there are none and then told once."""
+        """The keys of the class in this folder, created if there are none and then shown once."""
         path = folder / FILE
         reported = None
         if not path.exists():
@@ -80,7 +80,7 @@ class ClassKeys:
         return hmac.compare_digest(_digest(token), self._token)
 
     def renew_code(self) -> str:
-        """A new class code; who has joined stays, the old one lets nobody in any more."""
+        """A new class code; members stay, and the old code is not accepted any more."""
         code = _draw_code(_CODE_LENGTH)
         hashed = _hash_with_salt(code)
         kept = json.loads(self._path.read_text(encoding="utf-8"))
@@ -89,7 +89,7 @@ class ClassKeys:
         return code
 
     def hash_return_code(self, code: str) -> bytes:
-        """What a code by which somebody comes back is known by; takes some 50 ms.
+        """The hash of a return code; takes some 50 ms.
 
         The salt is the class's own and not the person's, since the code alone says who comes.
         """

@@ -35,7 +35,7 @@ FindOwner = Callable[[Scope, Kind, str], Awaitable[Owner | None]]
 
 
 class Refusal(Exception):  # noqa: N818
-    """Answered at once: status, kind of problem, and what is told."""
+    """A rejected request: status, kind of problem, and its text."""
 
     def __init__(
         self, status: int, kind: str, detail: str, headers: dict[str, str] | None = None
@@ -96,7 +96,7 @@ class AccessGuard:
         send: Send,
         connection: AbstractContextManager[asyncio.Event],
     ) -> None:
-        """Serve a WebSocket until it ends, or whoever has opened it is removed from the class."""
+        """Serve a WebSocket until it ends, or its person is removed from the class."""
         with connection as dismissed:
             served = asyncio.ensure_future(self._app(scope, receive, send))
             removed = asyncio.create_task(dismissed.wait())
@@ -131,7 +131,7 @@ class AccessGuard:
             raise Refusal(413, "too_large", _TOO_LARGE)
 
     async def _admit(self, scope: Scope) -> Person | None:
-        """Who calls; None for somebody without a name, where that is allowed."""
+        """The caller; None for an anonymous one, where that is allowed."""
         method = scope.get("method", WEBSOCKET)
         permission = find_permission(method, find_path(scope)).permission
         headers = Headers(scope=scope)

@@ -2,7 +2,7 @@
 
 A site may point its own name at this machine, and its pages then have the same origin as the lab.
 So the lab answers to names that no other site can have: addresses, names of this machine, and
-those that it was told.
+those of its configuration.
 """
 
 import ipaddress

@@ -23,11 +23,11 @@ class People:
         self._connected: defaultdict[str, set[asyncio.Event]] = defaultdict(set)
 
     def join(self, name: str, role: Role) -> Person:
-        """A new person; a name that somebody here has already gets a number."""
+        """A new person; a name that is in use already gets a number."""
         return self.come(Person(f"p-{secrets.token_hex(6)}", name, role))
 
     def come(self, person: Person) -> Person:
-        """A person comes, or comes back, under a name that nobody else here has."""
+        """A person comes, or comes back, under a name that is not in use."""
         name = person.name
         taken = {one.name for one in self.list_here() if one.id != person.id}
         numbered = (f"{name} ({number})" for number in itertools.count(2))

@@ -1,4 +1,4 @@
-"""Laws that nobody has used yet are compiled beside the server: choosing one then takes no time."""
+"""Unused laws are compiled in parallel with the server: choosing one then takes no time."""
 
 import subprocess
 import sys

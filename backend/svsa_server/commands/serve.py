@@ -1,4 +1,4 @@
-"""Listen, say where, and serve until told to stop."""
+"""Listen, print the address, and serve until a signal ends the server."""
 
 import gc
 import os
@@ -157,7 +157,7 @@ def _bound_exit(is_stuck: bool) -> None:
 
 
 def describe_class(reported: ShownOnce | None) -> str:
-    """What lets people into the class; told once, at its first start."""
+    """The credentials of the class, shown once at its first start."""
     if reported is None:
         return (
             "A class: its code and instructor token are those of its first start. The instructor's"

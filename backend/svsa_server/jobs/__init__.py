@@ -1,1 +1,1 @@
-"""Long work beside the live sessions: queue, progress, cancelling."""
+"""Long work in parallel with the live sessions: queue, progress, cancelling."""

@@ -1,7 +1,7 @@
 """Exports, replays, comparisons, maps, laws in the ranking: in processes of their own, few at once.
 
 They take seconds of computing, which would make every live session late, so that a worker has a
-low priority. Who finds the queue full is told to come again.
+low priority. If the queue is full, the request is rejected with a time after which to retry.
 """
 
 import asyncio
@@ -70,7 +70,7 @@ class HeavyWork:
             return target.open("rb")
 
     def _hand_over(self, job: Callable[..., T], *arguments: object) -> Future[T]:
-        """Waits until a worker has begun where none is idle: seconds, for the first of a server."""
+        """Wait until a worker has begun if none is idle: seconds, for the first of a server."""
         with self._handing_over:
             if self._is_closed:
                 raise BusyError("This lab is ending: nothing is begun any more.")

@@ -1,4 +1,4 @@
-"""What a job's worker and the server tell each other, through the job's folder."""
+"""Messages between a job's worker and the server, through the job's folder."""
 
 import json
 import time
@@ -15,7 +15,7 @@ RATED_S = 15.0
 
 class Progress(NamedTuple):
     """How far a job is. done, total: in what it counts, as candidates or runs. rate_per_s: lately,
-    None while nobody can say.
+    None while unknown.
     """
 
     done: int = 0
@@ -24,7 +24,7 @@ class Progress(NamedTuple):
 
     @property
     def left_s(self) -> float | None:
-        """How long it still takes at this rate, s; None while nobody can say."""
+        """How long it still takes at this rate, s; None while unknown."""
         return (self.total - self.done) / self.rate_per_s if self.rate_per_s else None
 
 
@@ -51,7 +51,7 @@ class JobFolder:
             self.write()
 
     def write(self) -> None:
-        """Write what was told last."""
+        """Write the last report."""
         replace_file(self.path / PROGRESS, json.dumps(self._progress).encode())
 
     def is_cancelled(self) -> bool:
@@ -60,7 +60,7 @@ class JobFolder:
 
 
 def read_progress(folder: Path) -> Progress:
-    """What the worker in this folder told last."""
+    """The last report of the worker in this folder."""
     try:
         return Progress(*json.loads((folder / PROGRESS).read_bytes()))
     except FileNotFoundError:

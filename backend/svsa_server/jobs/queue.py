@@ -1,7 +1,8 @@
-"""Long work: minutes or hours in a process of its own, that anybody follows and cancels.
+"""Long work: minutes or hours in a process of its own, which users follow and cancel.
 
-A job's worker says in a folder how far it is, and looks there whether it is to stop; so that the
-server only reads, and a job goes on whoever looks. It has a low priority, and ends with the server.
+A job's worker writes its progress into a folder, and reads there whether it has to stop. The
+server only reads, so that a job does not depend on who follows it. It has a low priority, and ends
+with the server.
 """
 
 import asyncio
@@ -49,7 +50,7 @@ class _Queue(NamedTuple):
 class Job:
     """One piece of long work. asked: what its worker is given. folder: where that writes.
 
-    owner: the id of the person who asked for it; empty for everybody's.
+    owner: the id of the person who started it; empty if it is everybody's.
     """
 
     def __init__(self, kind: Kind, title: str, asked: Any, folder: Path, owner: str) -> None:

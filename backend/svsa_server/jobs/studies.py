@@ -1,4 +1,4 @@
-"""A study as a job, and what is worked out of one beside the server."""
+"""A study as a job, and what a worker computes from one."""
 
 from typing import Any
 

@@ -56,7 +56,7 @@ class Holder(NamedTuple):
 
 
 class Settled(NamedTuple):
-    """Who was let go without having asked for it.
+    """A holder whose lease ended without a request.
 
     why: gone, a holder of whom nothing was heard; idle, one who gave no command while others wait;
     gone_from_queue, one who waits, of whom nothing was heard.
@@ -84,7 +84,7 @@ class ControlLease:
         return self.holder is not None and self.holder.client == client
 
     def admits(self, client: str | None) -> bool:
-        """Whether this client may command: it is in control, or nobody is."""
+        """Whether this client may command: it is in control, or control is free."""
         return self.holder is None or self.is_held_by(client)
 
     def check(self, client: str | None) -> None:

@@ -1,9 +1,9 @@
 """Control of the shared session of a class: one operator at a time, and those who wait for it.
 
-Whoever asks while it is free has it, everybody else waits in the order of asking. It goes on to the
-first of them when its holder gives it back, hands it over, is gone, or has given no command for a
-while; nobody loses it to nobody. The instructor takes it from anybody, who is then the first to get
-it back, and locks it. Pure: all times are given to it, monotonic, s.
+A request while it is free succeeds; later ones wait in their order. Control passes to the first of
+them when its holder gives it back, hands it over, is gone, or has given no command for a while; an
+idle holder keeps it while the queue is empty. The instructor can take it from any holder, who is
+then first in the queue, and can lock it. Pure: all times are given to it, monotonic, s.
 """
 
 from collections.abc import Callable
@@ -15,8 +15,8 @@ from svsa_server.leases.lease import ControlLease, HeldError, Holder, Settled
 class ControlQueue(ControlLease):
     """The lease of a class's session. waiting: who gets it next, the first first.
 
-    is_instructor: whether a client is one, who commands also while nobody is in control. idle_s:
-    for how long a holder may give no command while somebody waits, s.
+    is_instructor: whether a client is one, who commands also while control is free. idle_s: for how
+    long a holder may give no command while others wait, s.
     """
 
     rests_when_free = True
@@ -31,7 +31,7 @@ class ControlQueue(ControlLease):
         self._waiting_heard: dict[str, float] = {}
 
     def admits(self, client: str | None) -> bool:
-        """Whether this client may command: it is in control, or an instructor while nobody is."""
+        """Whether this client may command: as the holder, or as an instructor while it is free."""
         if self.holder is None:
             return client is not None and self._is_instructor(client)
         return self.is_held_by(client)

@@ -1,4 +1,4 @@
-"""A 3D view beside the server: viser on loopback, at the pose of a session."""
+"""A 3D view next to the server: viser on loopback, at the pose of a session."""
 
 import contextlib
 import io
@@ -10,7 +10,7 @@ from svsa_scene.scene import ActuatorScene
 
 
 class _LoopbackViser(viser.ViserServer):
-    """A viser server that never opens a public tunnel, whoever asks for one."""
+    """A viser server that never opens a public tunnel, also on request."""
 
     def request_share_url(self, verbose: bool = True) -> str | None:
         return None

@@ -56,13 +56,13 @@ _log = logging.getLogger("svsa")
 
 
 class View:
-    """A session and its view; `seen` is when somebody last looked at it."""
+    """A session and its view; `seen` is when it last had a viewer."""
 
     def __init__(self, session: Session, bridge: "SceneBridge") -> None:
         self.session, self.bridge, self.seen = session, bridge, time.monotonic()
 
     def update(self, now: float) -> None:
-        """Nothing is read or sent while nobody watches, nor while there is no pose."""
+        """Nothing is read or sent without a viewer or without a pose."""
         if not self.bridge.viewers:
             return
         self.seen = now
@@ -71,13 +71,13 @@ class View:
             self.bridge.show(pose)
 
     def is_over(self, now: float) -> bool:
-        """Whether it may go: its session has ended, or nobody has looked for a minute."""
+        """Whether it may end: its session has ended, or it had no viewer for a minute."""
         is_left = self.session.name != SHARED_SESSION and now - self.seen > IDLE_S
         return self.session.closed or is_left
 
 
 class Scenes:
-    """One viser for each session that somebody looks at; views: by the session's name."""
+    """One viser for each session that has a viewer; views: by the session's name."""
 
     def __init__(self, laboratory: Laboratory) -> None:
         self._laboratory = laboratory
@@ -124,7 +124,7 @@ class Scenes:
 
 
 def _start_viser() -> "SceneBridge":
-    """Loaded here, when somebody looks: it would be a quarter of a server's start."""
+    """Start viser; imported here, at the first viewer: it is a quarter of a server's start."""
     from svsa_server.scene.bridge import SceneBridge
 
     return SceneBridge()

@@ -70,7 +70,7 @@ _camera_encoder = msgspec.msgpack.Encoder()
 
 
 def filter_browser_message(message: bytes) -> bytes | None:
-    """The camera message in `message`, written anew, or None for anything else."""
+    """The camera message in `message`, encoded again, or None for anything else."""
     try:
         camera = _camera_decoder.decode(message)
     except (msgspec.DecodeError, UnicodeDecodeError):

@@ -1,4 +1,4 @@
-"""A bench as it is told on the wire."""
+"""The state of a bench as the API reports it."""
 
 import math
 
@@ -98,7 +98,7 @@ def _is_ticking(session: BenchSession) -> bool:
 
 
 def _find_silence_s(session: BenchSession) -> float:
-    """How much older the loop's word is than it says, s; infinite where nobody knows."""
+    """How much older the loop's word is than it says, s; infinite if unknown."""
     return 0.0 if _is_ticking(session) else session.loop.processes.silence_s or math.inf
 
 

@@ -1,7 +1,7 @@
-"""What streams are told of a session: made once for all who are told the same.
+"""Messages of a session to its streams: each is built once for all streams that need the same.
 
-What is over is told once: a message has it from the tick on up to which its stream knows the past,
-so that it does not grow with the changes of a minute.
+The past is sent once: a message contains it only from the tick up to which its stream knows it, so
+that it does not grow with the changes of a minute.
 """
 
 from collections.abc import Callable, Hashable, Mapping
@@ -36,7 +36,7 @@ class Reported:
         return cls(session.journal.run_number, session.run.tick, lane_ids, names)
 
     def find_since(self, now: "Reported") -> int:
-        """From which tick on the past is to be told; 0, all, where it reads otherwise now."""
+        """The tick from which the past has to be sent; 0, all of it, if it has changed."""
         if (self.run_number, self.lane_ids) != (now.run_number, now.lane_ids):
             return 0
         if self.names is not now.names and any(
@@ -54,9 +54,9 @@ class Broadcast(NamedTuple):
 
 
 def write_broadcast(hosted: HostedSession, reported: Reported) -> Broadcast:
-    """The message of a stream after a change: made once for all clients that are told the same.
+    """The message of a stream after a change: built once for all clients that need the same.
 
-    What moves by itself in it is of the first that was told.
+    Its continuous values are those at the time of the first client.
     """
     control, queue = build_control(hosted), build_queue(hosted.lease)
     key = (reported, control.mine, queue and queue.place)
@@ -64,7 +64,7 @@ def write_broadcast(hosted: HostedSession, reported: Reported) -> Broadcast:
 
 
 def write_progress(hosted: HostedSession, reported: Reported, period: Hashable) -> Broadcast:
-    """What moves by itself, for a stream that was told of every change: once in each period."""
+    """The continuous values, for a stream that knows every change: once in each period."""
     version = (hosted.version, period)
     return hosted.progress.get(version, reported, lambda: _write(hosted, reported, build_progress))
 

@@ -101,7 +101,7 @@ class SampleCursor:
         return pack_batch(self._run, first, stride, missed, ids, rows)
 
     def read_lanes(self) -> list[int]:
-        """The lanes of the next batch, counted from 0: those asked for that there are."""
+        """The lanes of the next batch, counted from 0: the requested ones that exist."""
         there = range(len(self._session.run.lanes))
         return [lane for lane in there if self._lanes is None or lane + 1 in self._lanes]
 

@@ -68,7 +68,7 @@ class Excitation:
 
 
 def check_excitable(session: Session) -> None:
-    """Raise `StateError` where the excitation would not tell what it should."""
+    """Raise `StateError` if the excitation could not be used for an identification."""
     if session.journal.recorder is not None:
         raise StateError("The session is being recorded: stop that first, this is its own run.")
     if any(load.end_tick > session.run.tick for load in session.run.loads):

@@ -25,7 +25,7 @@ class Round:
         self._begun = asyncio.Event()
 
     def begin(self) -> None:
-        """Have everybody send who waits."""
+        """Wake every stream that waits."""
         # `set` wakes all who wait now, `clear` makes the next ones wait for the next round.
         self._begun.set()
         self._begun.clear()
@@ -40,11 +40,11 @@ class HostedSession:
 
     session: what people start, pause and change. `lease`: who is in control of it. `excitation`:
     what is being played on it, or None. `broadcast`, `progress`, `reported`, `batches`: what its
-    streams are sent in each `round`, made once for all. `last_use`: when it was last asked for;
-    infinite for one that never ends by itself. `owner`: the id of the person whose it is; empty for
+    streams are sent in each `round`, made once for all. `last_use`: time of the last request;
+    infinite for one that does not end when idle. `owner`: the id of its person; empty for
     everybody's. `note`: what whoever it was opened for is to know of it. `instance`: no other
     session has it, also none of this name before or after.
-    note_settled: told whom the lease let go without having been asked.
+    note_settled: is called when the lease ends without a request of its holder.
     """
 
     def __init__(
@@ -81,13 +81,13 @@ class HostedSession:
     def revision(self) -> str:
         """Another one after every change of settings or loads, for `If-Match`.
 
-        No other session has it, also none of this name in a server that was started anew.
+        No other session has it, also none of this name after a restart of the server.
         """
         journal = self.session.journal
         return f"{self.instance}.{journal.run_number}.{len(journal.commands)}"
 
     def close(self) -> None:
-        """End the session for good, and tell its streams."""
+        """End the session for good, and wake its streams."""
         self.session.close()
         self.round.begin()
 
@@ -97,11 +97,11 @@ class HostedSession:
         return self._streams.total()
 
     def touch(self) -> None:
-        """Somebody has asked for it."""
+        """Note a request."""
         self.last_use = max(self.last_use, time.monotonic())
 
     def is_idle(self, now: float, idle_s: float) -> bool:
-        """Whether nobody has used it for longer than idle_s."""
+        """Whether it was not used for longer than idle_s."""
         return not self.streams and now - self.last_use > idle_s
 
     @contextlib.contextmanager
@@ -145,7 +145,7 @@ class HostedSession:
             self.lease.give_back(client, time.monotonic())
 
     def hand_control_over(self, client: str | None, to: str) -> None:
-        """As `ControlQueue.hand_over`; raises `StateError` where nobody waits in a queue."""
+        """As `ControlQueue.hand_over`; raises `StateError` if there is no queue."""
         with self._changing_lease():
             self.find_queue().hand_over(client, to, time.monotonic())
 
@@ -195,7 +195,7 @@ class HostedSession:
             self.session.halt("control was handed over")
 
     def check_excitable(self) -> None:
-        """Raise `StateError` where the excitation would not tell what it should."""
+        """Raise `StateError` if the excitation could not be used for an identification."""
         if self.excitation is not None:
             raise StateError("The excitation is being played already.")
         check_excitable(self.session)

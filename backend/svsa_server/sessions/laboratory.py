@@ -36,12 +36,12 @@ _log = logging.getLogger("svsa")
 
 
 class Laboratory:
-    """The sessions by name: the shared one, and private ones that end when nobody uses them.
+    """The sessions by name: the shared one, and private ones that end when they are idle.
 
     max_sessions: private ones at once; max_each: of one owner, but the instructor. idle_s: how
     long a private session lives without a request or a stream, s. control_s: how long control of
     a session outlives what its holder does, s. shared_lease: that of the shared session, of a
-    class. note_settled: told of each lease that goes on by itself.
+    class. note_settled: is called when a control lease passes to the next user in the queue.
     """
 
     def __init__(
@@ -166,7 +166,7 @@ class Laboratory:
                 break
 
     def free_leases(self, now: float) -> None:
-        """End the control of whoever is gone at `now` (monotonic, s), and tell everybody."""
+        """End the control of holders that are gone at `now` (monotonic, s), and report it."""
         for hosted in self.sessions.values():
             hosted.free_hand_if_left(now, self._control_s)
 
@@ -208,7 +208,7 @@ class EmulatorOperator(Hands):
         self._thread.submit(self._tell, lambda control: control.set_loads(loads))
 
     def set_to_marks(self) -> None:
-        """Set the mechanism to its zero marks; time passes until it stands there."""
+        """Set the mechanism to its zero marks; time passes until it is there."""
         done = self._thread.submit(self._tell, EmulatorControl.home)
         end = time.monotonic() + LONGEST_HANDS_S
         while not done.done():
@@ -228,11 +228,11 @@ class EmulatorOperator(Hands):
 
 
 def find_hands(bench: Path) -> Hands:
-    """Who stands at the bench: a person, or the stand-in of its emulator."""
+    """The operator at the bench: a person, or the stand-in of its emulator."""
     emulator = read_bench(bench).emulator
     return EmulatorOperator(emulator.control_port) if emulator else Hands()
 
 
 def build_name() -> str:
-    """A name that nobody guesses for a private session."""
+    """A name for a private session that cannot be guessed."""
     return f"private-{secrets.token_hex(4)}"

@@ -2,7 +2,7 @@
 
 A session is plain functions: a command of a bench asks its loop and lets time pass until it
 answers. Taken as a turn, such a function runs as a greenlet on the event loop's own thread, and
-where it lets time pass the event loop goes on, as at an `await`. Nothing else runs beside it.
+where it lets time pass the event loop goes on, as at an `await`. It runs in no other thread.
 """
 
 import asyncio
@@ -43,7 +43,7 @@ async def take_turn(do: Callable[P, T], *args: P.args, **kwargs: P.kwargs) -> T:
 
 
 def let_pass(seconds: float) -> None:
-    """Let time pass: for others in a turn, and for nobody elsewhere."""
+    """Let time pass: in a turn other tasks go on; elsewhere the thread sleeps."""
     turn = getcurrent()
     if isinstance(turn, Turn) and turn.parent is not None:
         turn.parent.switch(seconds)

@@ -1,4 +1,4 @@
-"""A session as it is told on the wire."""
+"""The state of a session as the API reports it."""
 
 import math
 from dataclasses import asdict
@@ -92,7 +92,7 @@ def build_state(hosted: HostedSession, since_tick: int = 0) -> SessionState:
 
 
 def build_control(hosted: HostedSession) -> ControlState:
-    """Who is in control, told to the client that asks."""
+    """The holder of the control lease, as the requesting client sees it."""
     lease = hosted.lease
     return ControlState(
         holder=lease.holder.name if lease.holder else None,
@@ -102,7 +102,7 @@ def build_control(hosted: HostedSession) -> ControlState:
 
 
 def build_queue(lease: ControlLease) -> QueueState | None:
-    """Who waits, told to the client that asks; None where nobody waits in turn."""
+    """The queue as the requesting client sees it; None if there is no queue."""
     if not isinstance(lease, ControlQueue):
         return None
     return QueueState(

@@ -1,10 +1,10 @@
 """Samples to a client: a greeting, then binary batches; a slow client gets the newest.
 
 Messages and the batch's header are described in `stream_schemas`, and from there in `/docs`.
-A change is told before the samples that it made, which have the lanes that it told of.
+A change is sent before the samples that it affects, so that their lanes are known.
 
 Every message of the client holds the dead-man's switch of a bench for `operator_s` (0.1 s), as
-long as the client may command: it is in control, or nobody is.
+long as the client may command: it holds the control lease, or the lease is free.
 """
 
 import asyncio
@@ -129,7 +129,7 @@ async def _send(
 
 
 def _count_periods(hosted: HostedSession, now: float) -> tuple[float, int]:
-    """In which period it is told what moves by itself: how long one is, s, and its number."""
+    """The present period of progress messages: its length, s, and its number."""
     every_s = FRESH_PROGRESS_PERIOD_S if is_fresh(hosted) else PROGRESS_PERIOD_S
     return every_s, int(now / every_s)
 

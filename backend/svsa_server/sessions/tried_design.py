@@ -1,4 +1,4 @@
-"""The design that somebody tries: a session's configuration with other gains, stable or not."""
+"""A design that is tried: a session's configuration with other gains, stable or not."""
 
 from svsa.actuators.signals import CHANNEL_INDEX
 from svsa.control.gains import TriedGains
