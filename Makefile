@@ -80,8 +80,9 @@ $(PAGE): .venv/installed $(PAGE_SOURCES)
 	@$(BIN)/python frontend/web/hatch_build.py
 	@touch $@
 
-schema: .venv/installed  ## docs/openapi.json, the schema of the API, and the page's types of it (not in git)
+schema: .venv/installed  ## docs/openapi.json, docs/permissions.txt, and the page's types of the API (not in git)
 	$(BIN)/svsa openapi > docs/openapi.json
+	$(BIN)/svsa openapi --permissions > docs/permissions.txt
 	$(WEB) run schema
 
 screenshots: .venv/installed $(PAGE)  ## the README's pictures

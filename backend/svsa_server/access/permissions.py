@@ -20,6 +20,11 @@ class Permission(NamedTuple):
 
     role: Role | None
 
+    @property
+    def word(self) -> str:
+        """The role's name as in the schema and in the printed table."""
+        return "anybody" if self.role is None else self.role.word
+
 
 ANYBODY = Permission(None)
 FROM_ELSEWHERE = frozenset({"/lti/login", "/lti/launch"})
@@ -96,6 +101,7 @@ TABLE: dict[Permission, tuple[str, ...]] = {
         f"GET {_SESSION}/claim",
         "GET /viser/{session}",
         "WEBSOCKET /viser/{session}",
+        "GET /viser/{session}/",
         "GET /viser/{session}/{path:path}",
         "WEBSOCKET /viser/{session}/",
         f"POST {_SESSION}/pause",
@@ -231,3 +237,13 @@ def find_permission(method: str, path: str) -> Found:
         if known == method and (match := pattern.match(path)):
             return Found(permission, match.groupdict())
     return Found(INSTRUCTOR_ONLY, {})
+
+
+def write_permissions() -> str:
+    """Return the whole table as text, one line for each method and path, by path."""
+    lines = [
+        (path, method, permission.word)
+        for permission, entries in TABLE.items()
+        for method, path in (entry.split(" ", 1) for entry in entries)
+    ]
+    return "".join(f"{word:<11}{method:<10}{path}\n" for path, method, word in sorted(lines))

@@ -69,9 +69,19 @@ def excite(
     play_excitation(url, session, name)
 
 
-def openapi() -> None:
+def openapi(
+    permissions: Annotated[
+        bool,
+        typer.Option("--permissions", help="Print the table of permissions instead, as text."),
+    ] = False,
+) -> None:
     """Print the OpenAPI schema of the server."""
     require_extra("server")
+    if permissions:
+        from svsa_server.access.permissions import write_permissions
+
+        print(write_permissions(), end="")
+        return
     from svsa_server.app import build_app
 
     print(_write_lines(build_app().openapi(), depth=3))

@@ -19,6 +19,7 @@ from svsa_server.access.permissions import (
     WEBSOCKET,
     Permission,
     find_permission,
+    write_permissions,
 )
 from svsa_server.access.roles import INSTRUCTOR, Person, Role
 from svsa_server.app import build_app
@@ -84,6 +85,12 @@ def test_the_first_entry_that_fits_a_path_is_the_one_meant() -> None:
 def test_what_is_not_listed_is_the_instructors() -> None:
     for method, path in (("GET", "/api/v1/new"), ("PUT", "/"), (WEBSOCKET, "/x")):
         assert find_permission(method, path).permission == INSTRUCTOR_ONLY
+
+
+def test_the_table_in_docs_is_the_one_that_the_server_uses() -> None:
+    """A change of a permission appears in the diff of this file."""
+    kept = Path(__file__).parents[3] / "docs" / "permissions.txt"
+    assert kept.read_text(encoding="utf-8") == write_permissions(), "run: make schema"
 
 
 PEOPLE = {
