@@ -7,7 +7,6 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from fastapi import FastAPI
-from starlette.routing import BaseRoute
 
 import svsa
 from svsa.errors import ParameterError, Violation
@@ -28,6 +27,7 @@ from svsa_server.access.class_keys import ClassKeys
 from svsa_server.access.guard import AccessGuard, read_person
 from svsa_server.access.memberships import FILE, Memberships
 from svsa_server.access.people import People
+from svsa_server.access.permissions import PermissionTable
 from svsa_server.access.rates import Rates
 from svsa_server.access.roles import INSTRUCTOR
 from svsa_server.config import Settings
@@ -38,25 +38,7 @@ from svsa_server.leases.outcomes import OutcomeKeeper, Outcomes
 from svsa_server.leases.queue import ControlQueue
 from svsa_server.openapi import install_openapi
 from svsa_server.page import build_page_routes
-from svsa_server.routes.access import access, audit, classroom
-from svsa_server.routes.evaluation import falsifications, jobs, ranking, scenarios, studies, tunings
-from svsa_server.routes.hardware import bench
-from svsa_server.routes.lab import (
-    claims,
-    design,
-    identification,
-    lab,
-    lease,
-    loads,
-    outcomes,
-    recordings,
-    references,
-    sessions,
-    settings,
-    stability,
-)
-from svsa_server.routes.runs import files, origins, runs, samples, verdict
-from svsa_server.routes.teaching import course, grades, leaderboard, lti
+from svsa_server.routes import build_routes
 from svsa_server.scene.scenes import Scenes
 from svsa_server.scene.viser_proxy import ViserProxy
 from svsa_server.sessions.bench_start import open_bench
@@ -108,6 +90,10 @@ def build_app(
     app.state.course_progress = ProgressStore(find_data_folder())
     app.state.lti = open_lti(config)
     app.state.outcomes = Outcomes()
+    install_openapi(app, build_routes, needs_secret=authentication.kind != "open")
+    app.state.viser = ViserProxy(lambda session: app.state.scenes.open(session))
+    app.router.routes.extend((*build_routes(), *build_page_routes(), *app.state.viser.routes))
+    app.state.permissions = PermissionTable(app.router.routes)
     # The last one that is added is the first to see a request: the audit log also sees what the
     # guard rejects, and outcomes are kept for the person whom the guard has found.
     app.add_middleware(
@@ -118,56 +104,16 @@ def build_app(
     app.add_middleware(
         AccessGuard,
         authentication=authentication,
+        permissions=app.state.permissions,
         hosts=config.host_names,
         find_owner=find_owner,
         rates=build_rates(config) if config.classroom else None,
     )
     if config.classroom:
         app.state.audit = AuditLog(find_data_folder())
-        app.add_middleware(Auditor, log=app.state.audit)
+        app.add_middleware(Auditor, log=app.state.audit, permissions=app.state.permissions)
     install_error_handlers(app)
-    app.router.routes.extend(build_routes())
-    app.router.routes.extend(build_page_routes())
-    install_openapi(app, build_routes, needs_secret=authentication.kind != "open")
     return app
-
-
-def build_routes() -> list[BaseRoute]:
-    """All that is asked below /api/v1, and of a platform: the same for every application."""
-    parts = (
-        lab,
-        access,
-        classroom,
-        audit,
-        sessions,
-        claims,
-        lease,
-        bench,
-        settings,
-        design,
-        stability,
-        identification,
-        loads,
-        recordings,
-        course,
-        grades,
-        references,
-        samples,
-        files,
-        origins,
-        verdict,
-        runs,
-        jobs,
-        tunings,
-        studies,
-        falsifications,
-        scenarios,
-        ranking,
-        leaderboard,
-        outcomes,
-        lti,
-    )
-    return [route for part in parts for route in part.router.routes]
 
 
 def build_authentication(config: Settings, keys: ClassKeys | None = None) -> Authentication:
@@ -242,11 +188,7 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
             "grading": MAX_GRADINGS,
         }
     )
-    scenes = Scenes(laboratory)
-    proxy = ViserProxy(scenes.open)
-    # The proxy is of one run of the application, which may be started again.
-    routes = list(app.router.routes)
-    app.router.routes.extend(proxy.routes)
+    app.state.scenes = scenes = Scenes(laboratory)
     tasks = [
         asyncio.create_task(laboratory.run()),
         asyncio.create_task(scenes.run()),
@@ -261,7 +203,6 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
     try:
         yield
     finally:
-        app.router.routes[:] = routes
         for task in tasks:
             task.cancel()
         await asyncio.gather(*tasks, return_exceptions=True)
@@ -270,7 +211,7 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
         app.state.heavy_work.close()
         app.state.jobs.close()
         await app.state.recordings.close()
-        await proxy.close()
+        await app.state.viser.close()
         await scenes.close()
         if app.state.lti is not None:
             await app.state.lti.client.aclose()

@@ -6,10 +6,10 @@ from typing import Any
 
 from fastapi import FastAPI
 from fastapi.openapi.utils import get_openapi
-from starlette.routing import BaseRoute
+from starlette.routing import BaseRoute, Route
 
 from svsa_server.access.guard import LONGEST_BODY_BYTES
-from svsa_server.access.permissions import find_permission
+from svsa_server.access.permissions import ANYBODY, OBSERVER, PermissionTable, allow
 from svsa_server.problems import MEDIA_TYPE
 
 BuildRoutes = Callable[[], list[BaseRoute]]
@@ -17,6 +17,8 @@ BuildRoutes = Callable[[], list[BaseRoute]]
 SCHEME = "bearer"
 UPGRADED = "default"
 """What a route writes for the answer 101, whose messages FastAPI takes for no body at all."""
+PERMISSION = "x-permission"
+"""Of an operation: the least role that may call it in a class."""
 
 _METHODS = ("get", "put", "post", "patch", "delete")
 _PROBLEM = {"schema": {"$ref": "#/components/schemas/Problem"}}
@@ -34,20 +36,24 @@ def install_openapi(app: FastAPI, build_routes: BuildRoutes, needs_secret: bool)
         return app.openapi_schema
 
     app.openapi = build
+    for route in app.router.routes:
+        if isinstance(route, Route) and route.path == app.openapi_url:
+            allow(OBSERVER)(route.endpoint)  # a function of FastAPI's own
 
 
 @cache
 def _build_schema(
     title: str, version: str, description: str, build_routes: BuildRoutes, needs_secret: bool
 ) -> dict[str, Any]:
-    schema = get_openapi(
-        title=title, version=version, description=description, routes=build_routes()
-    )
-    return _complete(schema, needs_secret)
+    routes = build_routes()
+    schema = get_openapi(title=title, version=version, description=description, routes=routes)
+    return _complete(schema, PermissionTable(routes), needs_secret)
 
 
-def _complete(schema: dict[str, Any], needs_secret: bool) -> dict[str, Any]:
-    """Add the secret, and what the guard in front of every route may answer."""
+def _complete(
+    schema: dict[str, Any], permissions: PermissionTable, needs_secret: bool
+) -> dict[str, Any]:
+    """Add the secret, each operation's permission, and what the guard before it may answer."""
     schema["components"]["securitySchemes"] = {
         SCHEME: {
             "type": "http",
@@ -58,8 +64,9 @@ def _complete(schema: dict[str, Any], needs_secret: bool) -> dict[str, Any]:
     for path, item in schema["paths"].items():
         for method in _METHODS:
             if method in item:
-                is_open = find_permission(method.upper(), path).permission.role is None
-                _complete_operation(item[method], needs_secret and not is_open)
+                permission = permissions.find(method.upper(), path).permission
+                item[method][PERMISSION] = permission.word
+                _complete_operation(item[method], needs_secret and permission != ANYBODY)
     return schema
 
 

@@ -8,6 +8,8 @@ from starlette.responses import FileResponse, PlainTextResponse, RedirectRespons
 from starlette.routing import BaseRoute, Mount, Route
 from starlette.staticfiles import StaticFiles
 
+from svsa_server.access.permissions import ANYBODY, OBSERVER, allow
+
 PAGE = Path(__file__).parent / "page"
 PLACES = ("ranking", "falsifier", "grades", "leaderboard", "learn", "runs", "studies")
 """What of the page has an address that people type; the page itself keeps it in its query."""
@@ -32,19 +34,22 @@ def build_page_routes() -> list[BaseRoute]:
         *(Route(f"/{place}", _lead_to_place) for place in PLACES),
         Route("/learn/{exercise}", _lead_to_exercise),
         Route("/learn/{exercise}/{step}", _lead_to_exercise),
-        Mount("/assets", StaticFiles(directory=PAGE / "assets", check_dir=False)),
+        Mount("/assets", allow(ANYBODY)(StaticFiles(directory=PAGE / "assets", check_dir=False))),
     ]
 
 
+@allow(ANYBODY)
 async def _serve_index(_: Request) -> Response:
     return _serve_page("index.html")
 
 
+@allow(ANYBODY)
 async def _lead_to_place(request: Request) -> Response:
     here = request.url.path
     return RedirectResponse(f"{here.rpartition('/')[0]}/?{here.rpartition('/')[2]}=all")
 
 
+@allow(ANYBODY)
 async def _lead_to_exercise(request: Request) -> Response:
     parts = request.path_params
     start = "../" * len(parts)
@@ -52,6 +57,7 @@ async def _lead_to_exercise(request: Request) -> Response:
     return RedirectResponse(f"{start}?learn={named}")
 
 
+@allow(OBSERVER)
 async def _serve_docs(_: Request) -> Response:
     return _serve_page("docs.html")
 
@@ -64,5 +70,6 @@ def _serve_page(name: str) -> Response:
     return FileResponse(PAGE / name, headers=_HEADERS)
 
 
+@allow(ANYBODY)
 async def _serve_icon(_: Request) -> Response:
     return FileResponse(PAGE / "icon.svg", headers=_HEADERS)

@@ -51,8 +51,13 @@ class ResponsiveApp:
 
     def __init__(self, app: FastAPI, shared: Session) -> None:
         self._thread, self._shared = AppThread(app), shared
-        authentication, hosts = app.state.authentication, app.state.config.host_names
-        self._guard = AccessGuard(self._answer, authentication, hosts, _find_owner)
+        self._guard = AccessGuard(
+            self._answer,
+            app.state.authentication,
+            app.state.permissions,
+            app.state.config.host_names,
+            _find_owner,
+        )
         self.is_stuck = False
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:

@@ -1,1 +1,1 @@
-"""Who may do what: doors that tell who comes, the table of permissions, the guard before all."""
+"""Who may do what: doors that tell who comes, the permissions, the guard before all."""

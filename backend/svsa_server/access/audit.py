@@ -15,7 +15,7 @@ from typing import Any
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from svsa_server.access.guard import PERSON, find_path
-from svsa_server.access.permissions import find_permission
+from svsa_server.access.permissions import PermissionTable
 from svsa_server.leases.lease import CHANGING
 
 FILE = "audit.jsonl"
@@ -64,8 +64,8 @@ class AuditLog:
 class Auditor:
     """ASGI middleware that notes what changes something, done or refused, before it is answered."""
 
-    def __init__(self, app: ASGIApp, log: AuditLog) -> None:
-        self._app, self._log = app, log
+    def __init__(self, app: ASGIApp, log: AuditLog, permissions: PermissionTable) -> None:
+        self._app, self._log, self._permissions = app, log, permissions
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Hand the request on, and note what came of it."""
@@ -90,7 +90,7 @@ class Auditor:
 
     def _note(self, scope: Scope, status: int) -> None:
         method, path, person = scope["method"], find_path(scope), scope.get(PERSON)
-        session = find_permission(method, path).named.get("session")
+        session = self._permissions.find(method, path).named.get("session")
         hosted = scope["app"].state.laboratory.sessions.get(session)
         self._log.write(
             person=person.id if person else None,

@@ -21,7 +21,7 @@ from svsa_server.access.authentication import (
 )
 from svsa_server.access.origin import is_own_name, is_same_origin, read_host
 from svsa_server.access.owned import Kind, Owner, begin_claims
-from svsa_server.access.permissions import FROM_ELSEWHERE, WEBSOCKET, find_permission
+from svsa_server.access.permissions import FROM_ELSEWHERE, WEBSOCKET, PermissionTable
 from svsa_server.access.rates import Rates, find_kind
 from svsa_server.access.roles import EVERYBODY, Person
 from svsa_server.config import is_loopback
@@ -47,14 +47,16 @@ class Refusal(Exception):  # noqa: N818
 class AccessGuard:
     """Refuses what may not come in, and says in `scope[PERSON]` who calls.
 
-    hosts: names that it answers to besides its own. find_owner: looks up the owner of an id that a
-    request gives (see `owned`). rates: how often people may, in a class.
+    permissions: of the routes behind it. hosts: names that it answers to besides its own.
+    find_owner: looks up the owner of an id that a request gives (see `owned`). rates: how often
+    people may, in a class.
     """
 
     def __init__(
         self,
         app: ASGIApp,
         authentication: Authentication,
+        permissions: PermissionTable,
         hosts: frozenset[str],
         find_owner: FindOwner,
         rates: Rates | None = None,
@@ -65,7 +67,7 @@ class AccessGuard:
             hosts,
             find_owner,
         )
-        self._rates = rates
+        self._permissions, self._rates = permissions, rates
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answer a refusal, or hand the request on."""
@@ -133,7 +135,7 @@ class AccessGuard:
     async def _admit(self, scope: Scope) -> Person | None:
         """The caller; None for an anonymous one, where that is allowed."""
         method = scope.get("method", WEBSOCKET)
-        permission = find_permission(method, find_path(scope)).permission
+        permission = self._permissions.find(method, find_path(scope)).permission
         headers = Headers(scope=scope)
         person = self._authentication.admit(headers)
         # Before the role is checked: wrong guesses must count, too.

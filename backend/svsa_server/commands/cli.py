@@ -77,14 +77,13 @@ def openapi(
 ) -> None:
     """Print the OpenAPI schema of the server."""
     require_extra("server")
-    if permissions:
-        from svsa_server.access.permissions import write_permissions
-
-        print(write_permissions(), end="")
-        return
     from svsa_server.app import build_app
 
-    print(_write_lines(build_app().openapi(), depth=3))
+    app = build_app()
+    if permissions:
+        print(app.state.permissions.write(), end="")
+    else:
+        print(_write_lines(app.openapi(), depth=3))
 
 
 def _write_lines(schema: dict[str, Any], depth: int) -> str:

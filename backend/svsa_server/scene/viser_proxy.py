@@ -27,6 +27,7 @@ from websockets.typing import Subprotocol
 from svsa.errors import SvsaError
 from svsa_server.access.origin import is_same_origin
 from svsa_server.access.owned import check_owned
+from svsa_server.access.permissions import OBSERVER, allow
 
 MAX_BROWSER_MESSAGE_BYTES = 4096
 MAX_SCENE_MESSAGE_BYTES = 16 * 1024 * 1024
@@ -113,8 +114,7 @@ class ViserProxy:
 
     def __init__(self, find_port: Callable[[str], Awaitable[int]]) -> None:
         self._find_port = find_port
-        # A connection to this machine needs no certificates, which take time to read.
-        self._http = httpx.AsyncClient(verify=_NOBODY, trust_env=False, timeout=_CONNECT_TIMEOUT_S)
+        self._http: httpx.AsyncClient | None = None
         self._page: _Page | None = None
 
     @property
@@ -129,13 +129,17 @@ class ViserProxy:
         ]
 
     async def close(self) -> None:
-        """Close the connections to viser that are kept for plain requests."""
-        await self._http.aclose()
+        """Close the connections to viser; the next request opens new ones."""
+        if self._http is not None:
+            await self._http.aclose()
+            self._http = None
 
+    @allow(OBSERVER)
     async def _redirect(self, request: Request) -> Response:
         query = f"?{request.url.query}" if request.url.query else ""
         return RedirectResponse(f"{request.url.path}/{query}")
 
+    @allow(OBSERVER)
     async def _serve_page(self, request: Request) -> Response:
         if self._page is None:
             try:
@@ -162,6 +166,7 @@ class ViserProxy:
         etag = f'"{hashlib.sha256(plain).hexdigest()[:32]}"'
         return _Page(plain, await asyncio.to_thread(gzip.compress, plain, 6), etag)
 
+    @allow(OBSERVER)
     async def _serve_file(self, request: Request) -> Response:
         try:
             answer = await self._fetch(request, "/" + request.path_params["path"])
@@ -174,8 +179,13 @@ class ViserProxy:
         await check_owned("session", request.path_params["session"])
         port = await self._find_port(request.path_params["session"])
         address = httpx.URL(scheme="http", host="127.0.0.1", port=port, path=path)
+        if self._http is None:
+            self._http = httpx.AsyncClient(
+                verify=_NOBODY, trust_env=False, timeout=_CONNECT_TIMEOUT_S
+            )
         return await self._http.get(address, headers={"Accept-Encoding": "identity"})
 
+    @allow(OBSERVER)
     async def _relay(self, websocket: WebSocket) -> None:
         offered = websocket.scope.get("subprotocols", [])
         protocol = next((p for p in offered if p.startswith(_SUBPROTOCOL_PREFIX)), None)

@@ -18,6 +18,7 @@ from svsa_server.access.guard import AccessGuard
 from svsa_server.access.memberships import FILE, Membership, Memberships
 from svsa_server.access.people import People
 from svsa_server.access.roles import Person, Role
+from svsa_server.app import build_app
 from tests.server.access.classroom import SHARED, Classroom, read_kind, read_person, run_class
 
 PEOPLE, CONTROL = "/api/v1/class/people", SHARED + "/control"
@@ -128,7 +129,8 @@ def test_a_websocket_of_who_is_removed_is_closed_with_the_reason(tmp_path: Path)
     async def see_all(*_: object) -> bool:
         return True
 
-    guard = AccessGuard(serve, authentication, frozenset(), see_all)  # type: ignore[arg-type]
+    permissions = build_app().state.permissions
+    guard = AccessGuard(serve, authentication, permissions, frozenset(), see_all)  # type: ignore[arg-type]
 
     async def remove() -> list[dict]:
         sent: list[dict] = []

@@ -16,7 +16,6 @@ from fastapi import FastAPI
 
 from svsa.evaluation.studies.file import read_study
 from svsa.evaluation.studies.store import keep_study
-from svsa_server.access.permissions import find_permission
 from svsa_server.access.roles import Role
 from svsa_server.jobs.queue import Job
 from tests.server.access.classroom import (
@@ -118,6 +117,7 @@ def test_the_id_of_anothers_thing_is_answered_as_one_that_does_not_exist(
 ) -> None:
     browser = things.others[role]
     assert len(PLACES) > 85
+    permissions = find_app(things.room).state.permissions
     leaks = []
     for place in PLACES:
         kind = str(place.owned)
@@ -125,7 +125,7 @@ def test_the_id_of_anothers_thing_is_answered_as_one_that_does_not_exist(
         for name in (things.adas[kind], MISSING[kind]):
             asked = build_request(SCHEMA, place, name, things.shared)
             answers.append(describe(send(browser, asked), name))
-        needed = find_permission(place.method, place.route).permission.role
+        needed = permissions.find(place.method, place.route).permission.role
         assert needed is not None, place.label
         status = 401 if role is None else 404 if role >= needed else 403
         is_refused = f"There is no {kind} 'ID' that you may use" in answers[0][1] or status != 404

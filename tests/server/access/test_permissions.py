@@ -4,6 +4,7 @@ import asyncio
 import re
 from collections.abc import Iterable, Iterator
 from pathlib import Path
+from unittest.mock import patch
 
 import pytest
 from starlette.routing import BaseRoute, Mount, Route, WebSocketRoute
@@ -14,20 +15,21 @@ from svsa_server.access.guard import AccessGuard
 from svsa_server.access.memberships import Membership, Memberships
 from svsa_server.access.people import People
 from svsa_server.access.permissions import (
+    ANYBODY,
     INSTRUCTOR_ONLY,
-    TABLE,
+    OPERATOR,
     WEBSOCKET,
     Permission,
-    find_permission,
-    write_permissions,
+    PermissionTable,
+    allow,
 )
 from svsa_server.access.roles import INSTRUCTOR, Person, Role
 from svsa_server.app import build_app
-from svsa_server.scene.viser_proxy import ViserProxy
-
-
-async def find_no_port(name: str) -> int:
-    raise AssertionError(name)
+from svsa_server.openapi import PERMISSION
+from svsa_server.routes import build_routes
+from svsa_server.routing import OwnedRoute, build_router
+from svsa_server.sessions.lock import TurnRoute
+from tests.server.schema import SCHEMA
 
 
 def list_routes(routes: Iterable[BaseRoute]) -> Iterator[str]:
@@ -44,11 +46,13 @@ def list_routes(routes: Iterable[BaseRoute]) -> Iterator[str]:
 
 @pytest.fixture(scope="module")
 def served() -> list[str]:
-    routes = [*build_app().router.routes, *ViserProxy(find_no_port).routes]
-    return sorted(one for one in set(list_routes(routes)) if not one.startswith("HEAD "))
+    routes = list_routes(build_app().router.routes)
+    return sorted(one for one in routes if not one.startswith("HEAD "))
 
 
-ENTRIES = [(entry, permission) for permission, entries in TABLE.items() for entry in entries]
+@pytest.fixture(scope="module")
+def table() -> PermissionTable:
+    return build_app().state.permissions
 
 
 def fill(path: str) -> str:
@@ -56,41 +60,86 @@ def fill(path: str) -> str:
     return re.sub(r"\{(\w+)(:\w+)?\}", lambda found: f"some-{found[1]}", path)
 
 
-def test_every_route_stands_in_the_table(served: list[str]) -> None:
-    listed = {entry for entry, _ in ENTRIES}
-    for route in served:
-        method, path = route.split(" ", 1)
-        found = find_permission(method, fill(path)).permission
-        assert route in listed or found != INSTRUCTOR_ONLY, f"{route}: say who may call it"
-
-
-def test_the_table_names_only_what_there_is_and_each_once(served: list[str]) -> None:
-    entries = [entry for entry, _ in ENTRIES]
-    assert len(entries) == len(set(entries))
+def test_the_table_has_every_route_once_and_nothing_else(
+    table: PermissionTable, served: list[str]
+) -> None:
     assert len(served) > 85
-    unserved = [
-        entry
-        for entry in entries
-        if entry not in served and not entry.startswith("GET /viser/{session}/{path")
-    ]
-    assert unserved == []
+    assert sorted(f"{one.method} {one.path}" for one in table.entries) == served
 
 
-def test_the_first_entry_that_fits_a_path_is_the_one_meant() -> None:
-    for entry, permission in ENTRIES:
-        method, path = entry.split(" ", 1)
-        assert find_permission(method, fill(path)).permission == permission, entry
+def test_the_first_entry_that_fits_a_path_is_the_one_meant(table: PermissionTable) -> None:
+    for method, path, permission in table.entries:
+        assert table.find(method, fill(path)).permission == permission, (method, path)
 
 
-def test_what_is_not_listed_is_the_instructors() -> None:
+def test_what_is_no_route_is_the_instructors(table: PermissionTable) -> None:
     for method, path in (("GET", "/api/v1/new"), ("PUT", "/"), (WEBSOCKET, "/x")):
-        assert find_permission(method, path).permission == INSTRUCTOR_ONLY
+        assert table.find(method, path).permission == INSTRUCTOR_ONLY
 
 
-def test_the_table_in_docs_is_the_one_that_the_server_uses() -> None:
+def test_the_table_in_docs_is_the_one_that_the_server_uses(table: PermissionTable) -> None:
     """A change of a permission appears in the diff of this file."""
     kept = Path(__file__).parents[3] / "docs" / "permissions.txt"
-    assert kept.read_text(encoding="utf-8") == write_permissions(), "run: make schema"
+    assert kept.read_text(encoding="utf-8") == table.write(), "run: make schema"
+
+
+def test_a_server_does_not_start_with_a_route_that_states_no_permission() -> None:
+    router = build_router("/new")
+
+    @router.post("/thing")
+    async def make_thing() -> None:
+        raise AssertionError
+
+    with (
+        patch("svsa_server.app.build_routes", lambda: [*build_routes(), *router.routes]),
+        pytest.raises(RuntimeError, match=r"/new/thing.*states no permission"),
+    ):
+        build_app()
+
+
+def test_a_permission_above_the_routers_decorator_is_not_taken_for_one() -> None:
+    """It is declared after the route was made, so that the order is always the same."""
+    router = build_router("/new")
+
+    @allow(ANYBODY)
+    @router.post("/thing")
+    async def make_thing() -> None:
+        raise AssertionError
+
+    with pytest.raises(RuntimeError, match="states no permission"):
+        PermissionTable(router.routes)
+
+
+@pytest.mark.parametrize("route_class", [OwnedRoute, TurnRoute])
+def test_a_route_keeps_the_permission_of_its_function(route_class: type[OwnedRoute]) -> None:
+    router = build_router("/new", route_class)
+
+    @router.get("/thing")
+    @router.put("/thing")
+    @allow(OPERATOR)
+    def read_thing() -> None:
+        raise AssertionError
+
+    words = [(one.method, one.permission.word) for one in PermissionTable(router.routes).entries]
+    assert words == [("PUT", "operator"), ("GET", "operator")]
+
+
+def test_two_routes_of_one_method_and_path_are_refused() -> None:
+    """The second would never be called, and its permission would stand in the table."""
+
+    @allow(ANYBODY)
+    async def serve(_: object) -> None:
+        raise AssertionError
+
+    with pytest.raises(RuntimeError, match="GET /new"):
+        PermissionTable([Route("/new", serve), Route("/new", serve)])
+
+
+def test_each_operation_of_the_schema_names_its_permission(table: PermissionTable) -> None:
+    for path, item in SCHEMA["paths"].items():
+        for method, operation in item.items():
+            word = table.find(method.upper(), path).permission.word
+            assert operation[PERMISSION] == word, (method, path)
 
 
 PEOPLE = {
@@ -133,12 +182,12 @@ async def see_all(*_: object) -> bool:
 
 @pytest.mark.parametrize("role", list(PEOPLE), ids=lambda role: role.word if role else "stranger")
 def test_each_route_and_websocket_lets_in_who_may_and_nobody_else(
-    tmp_path: Path, role: Role | None
+    tmp_path: Path, table: PermissionTable, role: Role | None
 ) -> None:
     keys, _ = ClassKeys.open(tmp_path)
     members = Memberships(tmp_path / "members.sqlite")
     authentication = ClassAuthentication(keys, People(), members)
-    guard = AccessGuard(answer, authentication, frozenset(), see_all)  # type: ignore[arg-type]
+    guard = AccessGuard(answer, authentication, table, frozenset(), see_all)  # type: ignore[arg-type]
     person = PEOPLE[role]
     if person is not None:
         members.keep(Membership(person))
@@ -152,8 +201,8 @@ def test_each_route_and_websocket_lets_in_who_may_and_nobody_else(
         return 204 if role >= permission.role else 403
 
     async def try_all() -> None:
-        for entry, permission in ENTRIES:
-            method, path = entry.split(" ", 1)
-            assert await call(guard, method, fill(path), cookie) == expect(permission), entry
+        for method, path, permission in table.entries:
+            status = await call(guard, method, fill(path), cookie)
+            assert status == expect(permission), (method, path)
 
     asyncio.run(try_all())

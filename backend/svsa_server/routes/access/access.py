@@ -8,6 +8,7 @@ from fastapi.responses import JSONResponse
 from svsa.errors import StateError
 from svsa_server.access.authentication import COOKIE, REMOVED, Authentication, ClassAuthentication
 from svsa_server.access.guard import PERSON
+from svsa_server.access.permissions import ANYBODY, OBSERVER, allow
 from svsa_server.access.roles import Person, Role
 from svsa_server.problems import Problem, answer_problem
 from svsa_server.routes.access.classroom import find_class
@@ -30,6 +31,7 @@ _WRONG = {401: {"model": Problem, "description": "A wrong secret, token or code"
 
 
 @router.get("/access")
+@allow(ANYBODY)
 async def read_access(request: Request) -> AccessState:
     """How one comes in, and as whom this request has come."""
     authentication = _find_authentication(request)
@@ -40,6 +42,7 @@ async def read_access(request: Request) -> AccessState:
 
 
 @router.post("/login", status_code=204, responses={**_WRONG, 422: REFUSALS[422]})
+@allow(ANYBODY)
 async def log_in(
     request: Request,
     credentials: Annotated[LoginRequest, Body(examples=[{"secret": "the shared secret"}])],
@@ -66,6 +69,7 @@ async def log_in(
     response_model=JoinState,
     responses={**_WRONG, 409: REFUSALS[409], 422: REFUSALS[422]},
 )
+@allow(ANYBODY)
 async def join(
     request: Request,
     response: Response,
@@ -93,6 +97,7 @@ async def join(
     operation_id="come_back",
     responses={**_WRONG, 409: REFUSALS[409], 422: REFUSALS[422]},
 )
+@allow(ANYBODY)
 async def come_back(
     request: Request,
     response: Response,
@@ -111,6 +116,7 @@ async def come_back(
 
 
 @router.post("/return-code", status_code=201, responses={409: REFUSALS[409]})
+@allow(OBSERVER)
 async def renew_return_code(request: Request, person: NamedPerson) -> ReturnCode:
     """A new return code, told once; the one before lets nobody back in any more."""
     code = await find_class(request).renew_return_code(person)
@@ -123,6 +129,7 @@ async def renew_return_code(request: Request, person: NamedPerson) -> ReturnCode
 
 
 @router.post("/leave", status_code=204)
+@allow(OBSERVER)
 async def leave(request: Request, person: NamedPerson) -> Response:
     """Forget who this browser is."""
     authentication = _find_authentication(request)
@@ -134,6 +141,7 @@ async def leave(request: Request, person: NamedPerson) -> Response:
 
 
 @router.post("/tokens", status_code=201, responses={409: REFUSALS[409], 422: REFUSALS[422]})
+@allow(OBSERVER)
 async def create_token(
     request: Request,
     person: NamedPerson,

@@ -8,6 +8,7 @@ from fastapi import Query, Request
 from svsa.runs.records.catalogue.runs import find_data_folder
 from svsa_server.access.audit_reading import Question, list_operations, read_audit
 from svsa_server.access.owned import Owned
+from svsa_server.access.permissions import INSTRUCTOR_ONLY, allow
 from svsa_server.routes.access.classroom import find_class
 from svsa_server.routes.depends import BUSY, REFUSALS, Work
 from svsa_server.routing import build_router
@@ -21,6 +22,7 @@ Word = Annotated[str, Query(max_length=LONGEST_WORD)]
 
 
 @router.get("/audit")
+@allow(INSTRUCTOR_ONLY)
 async def read_audit_log(
     request: Request,
     work: Work,

@@ -13,6 +13,7 @@ from svsa.runs.configuration import Configuration
 from svsa_server.access.authentication import ClassAuthentication
 from svsa_server.access.origin import EVERYWHERE, find_outward_address
 from svsa_server.access.owned import Owned
+from svsa_server.access.permissions import INSTRUCTOR_ONLY, OBSERVER, allow
 from svsa_server.access.roles import Person, Role
 from svsa_server.config import is_loopback
 from svsa_server.routes.depends import REFUSALS, NamedPerson
@@ -38,6 +39,7 @@ Member = Annotated[
 
 
 @router.get("")
+@allow(OBSERVER)
 async def read_class(request: Request, person: NamedPerson) -> ClassState:
     """Who is here, in the order of their names, and which private sessions one may see."""
     people, laboratory = find_class(request).people, _find_laboratory(request)
@@ -60,6 +62,7 @@ async def read_class(request: Request, person: NamedPerson) -> ClassState:
 
 
 @router.delete("/people/{person}", responses={404: REFUSALS[404]})
+@allow(INSTRUCTOR_ONLY)
 async def remove_person(request: Request, name: Member) -> MemberState:
     """Remove a person at once: what they carry is worth nothing, and control and place are free.
 
@@ -73,12 +76,14 @@ async def remove_person(request: Request, name: Member) -> MemberState:
 
 
 @router.post("/people/{person}/restore", responses={404: REFUSALS[404]})
+@allow(INSTRUCTOR_ONLY)
 async def restore_person(request: Request, name: Member) -> MemberState:
     """Let a person in again who was removed: what they carry is as good as before."""
     return _build_member(await find_class(request).set_removed(name, False))
 
 
 @router.post("/code", status_code=201)
+@allow(INSTRUCTOR_ONLY)
 async def renew_code(request: Request) -> ClassCode:
     """A new class code, told once, also as a QR code; who has joined stays."""
     code = await asyncio.to_thread(find_class(request).keys.renew_code)
@@ -105,6 +110,7 @@ def choose_join_address(base: URL, host: str) -> URL:
 
 
 @router.post("/broadcast")
+@allow(INSTRUCTOR_ONLY)
 async def broadcast(request: Request) -> BroadcastState:
     """Give every private session law, gains, observer and references of the shared session."""
     find_class(request)

@@ -12,6 +12,7 @@ from svsa.evaluation.falsifier.file import ADVERSARY_FOLDER, list_adversaries, r
 from svsa.evaluation.falsifier.scenario import LoadScenario
 from svsa.runs.configuration import Lane
 from svsa_server.access.owned import Owned
+from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
 from svsa_server.jobs.falsifications import (
     Asked,
     find_file,
@@ -45,6 +46,7 @@ _TOML = {"application/toml": {"schema": {"type": "string"}}}
 
 
 @router.get("/adversaries")
+@allow(OBSERVER)
 def list_all_adversaries() -> list[AdversaryState]:
     """The adversaries that come with the lab: which loads each may choose, and what it is after."""
     return [
@@ -59,12 +61,14 @@ def list_all_adversaries() -> list[AdversaryState]:
 
 
 @router.get("")
+@allow(OBSERVER)
 def list_falsifications(request: Request, person: NamedPerson) -> list[FalsificationState]:
     """The last searches, the newest first; in a class one's own."""
     return [_build(job) for job in list_visible(request, person, KIND)]
 
 
 @router.post("", status_code=201, responses=BUSY)
+@allow(OPERATOR)
 async def start_falsification(
     request: Request,
     person: NamedPerson,
@@ -80,12 +84,14 @@ async def start_falsification(
 
 
 @router.get("/{falsification}")
+@allow(OBSERVER)
 def read_falsification(request: Request, name: Search) -> FalsificationState:
     """How far a search is, and what it found."""
     return _build(find_jobs(request).get(name, KIND))
 
 
 @router.delete("/{falsification}")
+@allow(OPERATOR)
 async def stop_falsification(request: Request, name: Search) -> FalsificationState:
     """Break a search off; the worst so far is kept, but not made simple."""
     found = find_jobs(request).get(name, KIND)
@@ -98,6 +104,7 @@ async def stop_falsification(request: Request, name: Search) -> FalsificationSta
     response_class=Response,
     responses={200: {"content": _TOML, "description": "The file"}},
 )
+@allow(OBSERVER)
 def read_scenario_file(request: Request, name: Search) -> Response:
     """The scenario (TOML), through which `svsa falsify run` puts any law."""
     found = find_jobs(request).get(name, KIND)
@@ -109,6 +116,7 @@ def read_scenario_file(request: Request, name: Search) -> Response:
 
 
 @router.post("/{falsification}/sessions", status_code=201)
+@allow(OPERATOR)
 async def see_falsification(
     request: Request, _: NamedClient, person: NamedPerson, name: Search
 ) -> SessionState:

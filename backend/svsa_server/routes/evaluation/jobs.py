@@ -5,6 +5,7 @@ from typing import Annotated
 from fastapi import Path, Request
 
 from svsa_server.access.owned import Owned
+from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
 from svsa_server.access.roles import Person
 from svsa_server.jobs.queue import Job, Jobs, Kind
 from svsa_server.routes.depends import REFUSALS, NamedPerson
@@ -16,18 +17,21 @@ JobId = Annotated[str, Owned("job"), Path(description="Id of a job", examples=["
 
 
 @router.get("")
+@allow(OBSERVER)
 async def list_jobs(request: Request, person: NamedPerson) -> list[JobState]:
     """The last jobs of every kind, the newest first; in a class one's own."""
     return [describe_job(job) for job in list_visible(request, person)]
 
 
 @router.get("/{job}")
+@allow(OBSERVER)
 async def read_job(request: Request, job: JobId) -> JobState:
     """How far a job is, how fast it goes and how long it still takes."""
     return describe_job(find_jobs(request).get(job))
 
 
 @router.delete("/{job}")
+@allow(OPERATOR)
 async def cancel_job(request: Request, job: JobId) -> JobState:
     """Cancel a job: at once where it waits, else as soon as it can; what is done is kept."""
     found = find_jobs(request).get(job)

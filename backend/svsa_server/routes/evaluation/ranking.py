@@ -9,6 +9,7 @@ from svsa.control.installed import InstalledLaw
 from svsa.evaluation.ranking.measure import Entry, measure_law
 from svsa.evaluation.ranking.results import Results, load_published
 from svsa.evaluation.ranking.single_run import build_seen, find_scenario
+from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
 from svsa_server.routes.depends import BUSY, REFUSALS, NamedClient, NamedPerson, Work
 from svsa_server.routing import build_router
 from svsa_server.schemas.evaluation.ranking import MeasuredRow, ScenarioRequest
@@ -19,6 +20,7 @@ router = build_router("/ranking", tags=["ranking"])
 
 
 @router.get("", responses={422: REFUSALS[422]})
+@allow(OBSERVER)
 async def read_ranking(_: NamedClient) -> Results:
     """The table that this version of the lab was published with, a row a law.
 
@@ -28,6 +30,7 @@ async def read_ranking(_: NamedClient) -> Results:
 
 
 @router.post("/laws/{law}/measurement", operation_id="measure_law", responses=REFUSALS | BUSY)
+@allow(OPERATOR)
 async def measure(
     _: NamedClient,
     work: Work,
@@ -40,6 +43,7 @@ async def measure(
 
 
 @router.post("/sessions", status_code=201, responses=REFUSALS)
+@allow(OPERATOR)
 async def see_scenario(
     request: Request,
     _: NamedClient,

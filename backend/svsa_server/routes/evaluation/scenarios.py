@@ -15,6 +15,7 @@ from svsa.evaluation.falsifier.kept import (
     open_scenario,
 )
 from svsa.evaluation.falsifier.scenario import LoadScenario
+from svsa_server.access.permissions import INSTRUCTOR_ONLY, OBSERVER, OPERATOR, allow
 from svsa_server.jobs.falsifications import run_laws
 from svsa_server.problems import UnknownError
 from svsa_server.routes.depends import BUSY, REFUSALS, NamedClient, NamedPerson, Work
@@ -47,12 +48,14 @@ _TOML = {"application/toml": {"schema": {"type": "string"}}}
 
 
 @router.get("")
+@allow(OBSERVER)
 def list_kept() -> list[KeptScenario]:
     """The scenarios that are kept in this lab, by name."""
     return [describe_kept(name, one) for name, one in list_scenarios().items()]
 
 
 @router.post("/runs", responses=BUSY)
+@allow(OPERATOR)
 async def run_scenario(
     work: Work,
     wanted: Annotated[ScenarioRuns, Body(examples=[{"scenario": _EXAMPLE, "laws": ["ndobc"]}])],
@@ -62,6 +65,7 @@ async def run_scenario(
 
 
 @router.post("/sessions", status_code=201)
+@allow(OPERATOR)
 async def open_scenario_session(
     request: Request,
     _: NamedClient,
@@ -76,6 +80,7 @@ async def open_scenario_session(
 
 
 @router.put("/{scenario}")
+@allow(OPERATOR)
 def keep(name: Name, wanted: Annotated[LoadScenario, Body(examples=[_EXAMPLE])]) -> KeptScenario:
     """Keep a scenario by a name, which no other one may have."""
     keep_scenario(name, wanted)
@@ -83,6 +88,7 @@ def keep(name: Name, wanted: Annotated[LoadScenario, Body(examples=[_EXAMPLE])])
 
 
 @router.get("/{scenario}")
+@allow(OBSERVER)
 def read_scenario(name: Name) -> KeptScenario:
     """One that is kept."""
     return describe_kept(name, _open(name))
@@ -93,6 +99,7 @@ def read_scenario(name: Name) -> KeptScenario:
     response_class=Response,
     responses={200: {"content": _TOML, "description": "The file"}},
 )
+@allow(OBSERVER)
 def download_scenario(name: Name) -> Response:
     """Its file (TOML), through which `svsa falsify run` puts any law."""
     text = format_scenario(_open(name))
@@ -101,6 +108,7 @@ def download_scenario(name: Name) -> Response:
 
 
 @router.delete("/{scenario}", status_code=204)
+@allow(INSTRUCTOR_ONLY)
 def forget(name: Name) -> None:
     """Keep it no longer."""
     if not forget_scenario(name):

@@ -24,6 +24,7 @@ from svsa.evaluation.studies.summary import SUCCEEDED
 from svsa.evaluation.studies.tables import format_metric
 from svsa.evaluation.studies.work import build_schema
 from svsa_server.access.owned import Owned
+from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
 from svsa_server.jobs.queue import Job
 from svsa_server.jobs.studies import decide, replay, run, summarize
 from svsa_server.jobs.study_rows import MAX_ROWS, MEDIA_TYPE, pack_rows
@@ -58,6 +59,7 @@ _PARQUET = {"application/vnd.apache.parquet": {"schema": {"type": "string", "for
 
 
 @router.get("")
+@allow(OBSERVER)
 def list_all(request: Request, person: NamedPerson) -> StudyList:
     """The studies that come with the lab, and those that were begun here, the last one first.
 
@@ -80,12 +82,14 @@ def list_all(request: Request, person: NamedPerson) -> StudyList:
 
 
 @router.post("/check")
+@allow(OBSERVER)
 def check_study(person: NamedPerson, wanted: Wanted) -> StudyPlan:
     """What a study would be; nothing is begun. A wrong text is refused with lines and bounds."""
     return describe_plan(*wanted.build(person))
 
 
 @router.post("", status_code=201, responses=BUSY)
+@allow(OPERATOR)
 async def start_study(request: Request, person: NamedPerson, wanted: Wanted) -> StudyState:
     """Begin a study, or go on with one of this name: a job, that makes no live session late.
 
@@ -106,12 +110,14 @@ async def start_study(request: Request, person: NamedPerson, wanted: Wanted) -> 
 
 
 @router.get("/{study}")
+@allow(OBSERVER)
 def read_study(request: Request, study: Study) -> StudyState:
     """A study, how much of it is done, and the job that works at it."""
     return describe_study(_open(study), _find_job(request, study))
 
 
 @router.delete("/{study}", status_code=204)
+@allow(OPERATOR)
 async def delete_study(request: Request, study: ChangedStudy) -> None:
     """Delete a study with all its rows, for good; one that is being run is cancelled first.
 
@@ -130,12 +136,14 @@ async def delete_study(request: Request, study: ChangedStudy) -> None:
 
 
 @router.get("/{study}/summary", responses=BUSY)
+@allow(OBSERVER)
 async def summarize_study(work: Work, study: Study) -> StudySummary:
     """Success, faults and quantiles of each law so far, and the first law less each other one."""
     return StudySummary(**await work.run(summarize, await asyncio.to_thread(_open, study)))
 
 
 @router.get("/{study}/sensitivity", responses=BUSY)
+@allow(OBSERVER)
 async def read_sensitivity(
     work: Work,
     study: Study,
@@ -151,6 +159,7 @@ async def read_sensitivity(
     response_class=Response,
     responses={200: {"content": _BINARY, "description": "Columns, see the description"}},
 )
+@allow(OBSERVER)
 def read_rows(
     study: Study,
     column: Annotated[list[str], Query(max_length=40, description="Names of columns")],
@@ -170,6 +179,7 @@ def read_rows(
 
 
 @router.get("/{study}/rows/{row}")
+@allow(OBSERVER)
 def read_row(study: Study, row: Row) -> dict[str, str | bool | int | float | None]:
     """One row with every column; null where it has no value."""
     return find_row(_open(study), row)
@@ -180,6 +190,7 @@ def read_row(study: Study, row: Row) -> dict[str, str | bool | int | float | Non
     response_class=FileResponse,
     responses={200: {"content": _PARQUET, "description": "The table"}},
 )
+@allow(OBSERVER)
 def download_rows(study: Study) -> FileResponse:
     """The whole table as Parquet, once the study was ended or cancelled."""
     stored = _open(study)
@@ -195,6 +206,7 @@ def download_rows(study: Study) -> FileResponse:
 
 
 @router.post("/{study}/rows/{row}/replay", status_code=201, responses=BUSY)
+@allow(OPERATOR)
 async def replay_row(
     request: Request, person: NamedPerson, work: Work, study: Study, row: Row
 ) -> RowReplay:

@@ -11,6 +11,7 @@ from svsa.evaluation.tuning.search_space import build_space
 from svsa.evaluation.tuning.training import DURATION_S, TRAINING
 from svsa.runs.configuration import Design, Lane
 from svsa_server.access.owned import Owned
+from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
 from svsa_server.jobs.queue import Job
 from svsa_server.jobs.tunings import Asked, read_file, read_trials, search
 from svsa_server.routes.depends import BUSY, REFUSALS, NamedPerson
@@ -33,12 +34,14 @@ _TOML = {"application/toml": {"schema": {"type": "string"}}}
 
 
 @router.get("")
+@allow(OBSERVER)
 def list_tunings(request: Request, person: NamedPerson) -> list[TuningState]:
     """The last tunings, the newest first, without what they tried; in a class one's own."""
     return [_build(tuning, None) for tuning in list_visible(request, person, "tuning")]
 
 
 @router.post("", status_code=201, responses=BUSY)
+@allow(OPERATOR)
 async def start_tuning(
     request: Request,
     person: NamedPerson,
@@ -56,6 +59,7 @@ async def start_tuning(
 
 
 @router.get("/{tuning}")
+@allow(OPERATOR)
 def read_tuning(
     request: Request, tuning: TuningId, first: Annotated[FirstTrial, Query()] = 0
 ) -> TuningState:
@@ -64,6 +68,7 @@ def read_tuning(
 
 
 @router.delete("/{tuning}")
+@allow(OPERATOR)
 async def stop_tuning(request: Request, tuning: TuningId) -> TuningState:
     """Break a tuning off before its next candidate; the best so far is kept."""
     found = find_jobs(request).get(tuning, "tuning")
@@ -76,6 +81,7 @@ async def stop_tuning(request: Request, tuning: TuningId) -> TuningState:
     response_class=Response,
     responses={200: {"content": _TOML, "description": "The file"}},
 )
+@allow(OPERATOR)
 def read_tuned_file(request: Request, tuning: TuningId) -> Response:
     """The parameter file (TOML) of the best, which says what it was measured on."""
     found = find_jobs(request).get(tuning, "tuning")

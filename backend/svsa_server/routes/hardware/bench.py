@@ -10,6 +10,7 @@ from svsa.hardware.endurance import find_endurance
 from svsa.hardware.session.session import BenchSession
 from svsa.runs.session.session import Session
 from svsa.simulation.plant.loads import Load
+from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
 from svsa_server.routes.depends import REFUSALS, NamedSession
 from svsa_server.routing import build_router
 from svsa_server.schemas.hardware.bench import EnduranceState, HomingRequest
@@ -23,6 +24,7 @@ router = build_router(
 
 
 @router.post("/arm")
+@allow(OPERATOR)
 def arm(hosted: NamedSession) -> SessionState:
     """Reset the drives and bring them to current mode, in about a second: OFF → READY."""
     _find_bench(hosted.session).arm()
@@ -30,6 +32,7 @@ def arm(hosted: NamedSession) -> SessionState:
 
 
 @router.post("/home")
+@allow(OPERATOR)
 def confirm_home(
     hosted: NamedSession,
     request: Annotated[HomingRequest, Body(examples=[{"step": "link", "by": "Ada"}])],
@@ -40,6 +43,7 @@ def confirm_home(
 
 
 @router.post("/clear")
+@allow(OPERATOR)
 def clear_fault(hosted: NamedSession) -> SessionState:
     """Clear a latched fault: FAULT → OFF; it must be armed again."""
     _find_bench(hosted.session).clear()
@@ -47,6 +51,7 @@ def clear_fault(hosted: NamedSession) -> SessionState:
 
 
 @router.post("/restart")
+@allow(OPERATOR)
 def restart_loop(hosted: NamedSession) -> SessionState:
     """End loop and supervisor, by force where they do not listen, and start both anew, in seconds.
 
@@ -57,6 +62,7 @@ def restart_loop(hosted: NamedSession) -> SessionState:
 
 
 @router.post("/endurance")
+@allow(OBSERVER)
 async def predict_heat(
     hosted: NamedSession,
     load: Annotated[Load, Body(examples=[{"kind": "paper"}])],

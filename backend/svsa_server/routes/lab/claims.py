@@ -9,6 +9,7 @@ from svsa.actuators.signals import CHANNEL_INDEX
 from svsa.errors import StateError
 from svsa.runs.claims import CLAIM_LAWS, ClaimNumbers, judge_claim, measure_claim
 from svsa.runs.metrics import MEASURED
+from svsa_server.access.permissions import OBSERVER, allow
 from svsa_server.routes.depends import REFUSALS, NamedSession
 from svsa_server.routing import build_router
 from svsa_server.sessions.lock import TurnRoute
@@ -49,6 +50,7 @@ class ClaimState(BaseModel):
 
 
 @router.get("/{session}/claim")
+@allow(OBSERVER)
 def compare_claim(
     hosted: NamedSession,
     figure: Annotated[Literal["4a", "4b", "5"], Query(description="Figure that the run is of")],

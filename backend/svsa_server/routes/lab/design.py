@@ -12,6 +12,7 @@ from svsa.control.gains import Gains, compute_roots
 from svsa.control.installed import get_title
 from svsa.errors import ParameterError
 from svsa.runs.configuration import Configuration
+from svsa_server.access.permissions import OBSERVER, allow
 from svsa_server.routes.depends import REFUSALS, NamedSession
 from svsa_server.routing import build_router
 from svsa_server.schemas.lab.design import (
@@ -29,6 +30,7 @@ router = build_router("/sessions/{session}", tags=["settings"], responses=REFUSA
 
 
 @router.post("/predict")
+@allow(OBSERVER)
 async def predict_design(
     hosted: NamedSession,
     request: Annotated[

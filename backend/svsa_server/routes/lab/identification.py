@@ -6,6 +6,7 @@ from fastapi import Body, Depends, Request
 
 from svsa.runs.command import Set
 from svsa.runs.configuration import PROTOTYPE_FILE, parse_design
+from svsa_server.access.permissions import OPERATOR, allow
 from svsa_server.routes.depends import (
     CHANGED,
     REFUSALS,
@@ -27,6 +28,7 @@ router = build_router(
 
 
 @router.post("/excitation", status_code=201)
+@allow(OPERATOR)
 async def excite(
     request: Request,
     hosted: NamedSession,
@@ -50,6 +52,7 @@ async def excite(
 
 
 @router.delete("/excitation")
+@allow(OPERATOR)
 async def stop_excitation(hosted: NamedSession) -> SessionState:
     """Break the excitation off, and end its recording; the references stay as they are."""
     hosted.end_excitation()
@@ -57,6 +60,7 @@ async def stop_excitation(hosted: NamedSession) -> SessionState:
 
 
 @router.put("/nominal", responses=CHANGED, dependencies=[Depends(check_unchanged)])
+@allow(OPERATOR)
 def load_nominal(
     hosted: NamedSession,
     request: Annotated[

@@ -5,6 +5,7 @@ from fastapi import Request
 import svsa
 from svsa.runs.paper import FIGURES
 from svsa.simulation.plant.effects import PRESETS
+from svsa_server.access.permissions import ANYBODY, OBSERVER, allow
 from svsa_server.routing import build_router
 from svsa_server.schemas.lab.lab import EffectsPreset, FigureState, Health
 from svsa_server.schemas.lab.law import LawState, list_laws
@@ -16,12 +17,14 @@ router = build_router(tags=["lab"], route_class=TurnRoute)
 
 
 @router.get("/health")
+@allow(ANYBODY)
 async def read_health() -> Health:
     """That the server lives, and its version."""
     return Health(version=svsa.__version__)
 
 
 @router.post("/quick-stop", status_code=204)
+@allow(ANYBODY)
 def quick_stop_lab(request: Request) -> None:
     """Stop the shared session at once, whoever asks: no secret is needed to stop a machine."""
     laboratory = request.app.state.laboratory
@@ -29,24 +32,28 @@ def quick_stop_lab(request: Request) -> None:
 
 
 @router.get("/laws")
+@allow(OBSERVER)
 async def read_laws() -> list[LawState]:
     """The control laws that are installed, the paper's first, each with its own parameters."""
     return list_laws()
 
 
 @router.get("/faults")
+@allow(OBSERVER)
 async def read_faults() -> list[FaultKindState]:
     """The table of faults: what can end a run, why, and what to try."""
     return list_faults()
 
 
 @router.get("/effects")
+@allow(OBSERVER)
 async def list_effects() -> list[EffectsPreset]:
     """The presets of non-ideal effects, as `PUT /sessions/{session}/effects` takes them."""
     return [EffectsPreset(name=name, effects=effects) for name, effects in PRESETS.items()]
 
 
 @router.get("/figures")
+@allow(OBSERVER)
 async def list_figures() -> list[FigureState]:
     """The paper's simulated figures as data."""
     return [

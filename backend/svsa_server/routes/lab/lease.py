@@ -5,6 +5,7 @@ from typing import Annotated
 from fastapi import Body
 
 from svsa.errors import ParameterError, Violation
+from svsa_server.access.permissions import INSTRUCTOR_ONLY, OPERATOR, allow
 from svsa_server.leases.lease import CLIENT_HEADER, Holder
 from svsa_server.routes.depends import REFUSALS, NamedClient, NamedPerson, NamedSession
 from svsa_server.routing import build_router
@@ -16,6 +17,7 @@ router = build_router("/sessions/{session}/control", tags=["control"], responses
 
 
 @router.put("")
+@allow(OPERATOR)
 async def take_control(
     hosted: NamedSession,
     client: NamedClient,
@@ -39,6 +41,7 @@ async def take_control(
 
 
 @router.delete("")
+@allow(OPERATOR)
 async def give_control_back(hosted: NamedSession, client: NamedClient) -> SessionState:
     """Everybody may command again; in a class who waits first, or one waits no longer."""
     hosted.give_control_back(client)
@@ -46,6 +49,7 @@ async def give_control_back(hosted: NamedSession, client: NamedClient) -> Sessio
 
 
 @router.post("/handover")
+@allow(OPERATOR)
 async def hand_control_over(
     hosted: NamedSession,
     client: NamedClient,
@@ -57,6 +61,7 @@ async def hand_control_over(
 
 
 @router.put("/lock")
+@allow(INSTRUCTOR_ONLY)
 async def lock_control(
     hosted: NamedSession, request: Annotated[LockRequest, Body(examples=[{"locked": True}])]
 ) -> SessionState:

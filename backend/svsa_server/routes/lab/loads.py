@@ -7,6 +7,7 @@ from fastapi import Body
 from svsa.runs.command import ApplyLoad, RemoveLoad
 from svsa.runs.session.session import take_loads_off
 from svsa.simulation.plant.loads import PAPER_ARM_M, PAPER_MASS_KG, Load
+from svsa_server.access.permissions import OPERATOR, allow
 from svsa_server.problems import UnknownError
 from svsa_server.routes.depends import REFUSALS, NamedSession
 from svsa_server.routing import build_router
@@ -39,6 +40,7 @@ GivenLoad = Annotated[
 
 
 @router.post("", status_code=201)
+@allow(OPERATOR)
 def apply_load(
     hosted: NamedSession,
     load: GivenLoad,
@@ -52,6 +54,7 @@ def apply_load(
 
 
 @router.delete("")
+@allow(OPERATOR)
 def clear_loads(hosted: NamedSession) -> SessionState:
     """Take every load off."""
     take_loads_off(hosted.session)
@@ -59,6 +62,7 @@ def clear_loads(hosted: NamedSession) -> SessionState:
 
 
 @router.delete("/{load_id}")
+@allow(OPERATOR)
 def remove_load(hosted: NamedSession, load_id: int) -> SessionState:
     """Take one load off."""
     if load_id not in (load.number for load in hosted.session.run.loads):

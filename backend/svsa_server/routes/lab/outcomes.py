@@ -5,6 +5,7 @@ from typing import Annotated
 from fastapi import Path, Request
 from pydantic import BaseModel, Field
 
+from svsa_server.access.permissions import OBSERVER, allow
 from svsa_server.leases.outcomes import LONGEST_NAME, Outcome, Outcomes
 from svsa_server.routes.depends import REFUSALS, NamedPerson
 from svsa_server.routing import build_router
@@ -24,6 +25,7 @@ class OutcomeState(BaseModel):
 
 
 @router.get("/{request_name}")
+@allow(OBSERVER)
 async def read_outcome(
     request: Request,
     person: NamedPerson,

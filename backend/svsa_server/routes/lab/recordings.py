@@ -6,6 +6,7 @@ from typing import Annotated
 from fastapi import Body, Request
 
 from svsa.runs.records.resimulation import check_simulated, read_origin
+from svsa_server.access.permissions import OPERATOR, allow
 from svsa_server.routes.depends import REFUSALS, NamedPerson, NamedSession, RunId
 from svsa_server.routing import build_router
 from svsa_server.schemas.lab.session import BranchRequest, SessionState
@@ -16,6 +17,7 @@ router = build_router(tags=["recording"], responses=REFUSALS)
 
 
 @router.post("/sessions/{session}/recording", status_code=201)
+@allow(OPERATOR)
 async def start_recording(
     request: Request,
     hosted: NamedSession,
@@ -31,6 +33,7 @@ async def start_recording(
 
 
 @router.delete("/sessions/{session}/recording")
+@allow(OPERATOR)
 async def stop_recording(hosted: NamedSession) -> SessionState:
     """End the recording; the run is in the list as soon as its file is finished."""
     hosted.session.stop_recording()
@@ -38,6 +41,7 @@ async def stop_recording(hosted: NamedSession) -> SessionState:
 
 
 @router.post("/runs/{run_id}/branch", status_code=201)
+@allow(OPERATOR)
 async def branch_run(
     request: Request,
     run_id: RunId,

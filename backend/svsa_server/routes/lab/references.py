@@ -16,6 +16,7 @@ from svsa.simulation.reference.trajectories import (
     Trajectory,
     get_range,
 )
+from svsa_server.access.permissions import OBSERVER, allow
 from svsa_server.routes.depends import REFUSALS
 from svsa_server.routing import build_router
 
@@ -50,6 +51,7 @@ class ReferencePreview(BaseModel):
 
 
 @router.post("/csv")
+@allow(OBSERVER)
 async def read_csv(
     text: Annotated[
         str,
@@ -69,6 +71,7 @@ async def read_csv(
 
 
 @router.post("/position/preview")
+@allow(OBSERVER)
 async def preview_position(
     reference: Annotated[
         PositionReference,
@@ -80,6 +83,7 @@ async def preview_position(
 
 
 @router.post("/stiffness/preview")
+@allow(OBSERVER)
 async def preview_stiffness(
     reference: Annotated[
         StiffnessReference,

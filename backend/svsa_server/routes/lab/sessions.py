@@ -5,6 +5,7 @@ from typing import Annotated
 from fastapi import Body, Request, WebSocket
 from fastapi.responses import JSONResponse
 
+from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
 from svsa_server.openapi import UPGRADED
 from svsa_server.problems import Problem, answer_problem
 from svsa_server.routes.depends import REFUSALS, NamedClient, NamedPerson, NamedSession
@@ -26,6 +27,7 @@ router = build_router("/sessions", tags=["session"], responses=REFUSALS, route_c
 
 
 @router.get("")
+@allow(OBSERVER)
 async def list_sessions(
     request: Request, _: NamedClient, person: NamedPerson
 ) -> list[SessionState]:
@@ -35,6 +37,7 @@ async def list_sessions(
 
 
 @router.post("", status_code=201)
+@allow(OPERATOR)
 async def create_session(
     request: Request,
     person: NamedPerson,
@@ -48,18 +51,21 @@ async def create_session(
 
 
 @router.delete("/{session}", status_code=204)
+@allow(OPERATOR)
 async def end_session(request: Request, hosted: NamedSession) -> None:
     """End a private session."""
     request.app.state.laboratory.end(hosted.session.name)
 
 
 @router.get("/{session}")
+@allow(OBSERVER)
 async def read_session(hosted: NamedSession) -> SessionState:
     """Where a session is, how it is set, and how well it does."""
     return build_state(hosted)
 
 
 @router.post("/{session}/start")
+@allow(OPERATOR)
 def start(hosted: NamedSession) -> SessionState:
     """Run on from where it is."""
     hosted.session.start()
@@ -67,6 +73,7 @@ def start(hosted: NamedSession) -> SessionState:
 
 
 @router.post("/{session}/pause")
+@allow(OBSERVER)
 def pause(hosted: NamedSession) -> SessionState:
     """Stop time; nothing is lost."""
     hosted.session.pause()
@@ -74,6 +81,7 @@ def pause(hosted: NamedSession) -> SessionState:
 
 
 @router.post("/{session}/quick-stop")
+@allow(OBSERVER)
 def quick_stop(hosted: NamedSession) -> SessionState:
     """Zero current at once on a bench, latched until cleared; a simulation pauses.
 
@@ -84,6 +92,7 @@ def quick_stop(hosted: NamedSession) -> SessionState:
 
 
 @router.post("/{session}/reset")
+@allow(OPERATOR)
 def reset(hosted: NamedSession) -> SessionState:
     """Begin again at t = 0 with everything as it is set now, after a fault too."""
     hosted.session.reset()
@@ -91,6 +100,7 @@ def reset(hosted: NamedSession) -> SessionState:
 
 
 @router.post("/{session}/step")
+@allow(OPERATOR)
 def step(
     hosted: NamedSession, request: Annotated[StepRequest, Body(examples=[{"ticks": 1}])]
 ) -> SessionState:
@@ -100,6 +110,7 @@ def step(
 
 
 @router.put("/{session}/speed")
+@allow(OPERATOR)
 def set_speed(
     hosted: NamedSession, request: Annotated[SpeedRequest, Body(examples=[{"factor": 0.5}])]
 ) -> SessionState:
@@ -109,6 +120,7 @@ def set_speed(
 
 
 @router.post("/{session}/experiment")
+@allow(OPERATOR)
 def load_experiment(
     request: Request,
     hosted: NamedSession,
@@ -139,6 +151,7 @@ def load_experiment(
     responses={UPGRADED: {"model": StreamMessage, "description": "The text messages"}},
     openapi_extra={"parameters": list_stream_parameters()},
 )
+@allow(OBSERVER)
 async def describe(_: NamedSession) -> JSONResponse:
     """The stream beside REST: who asks without a WebSocket is told that it is one."""
     headers = {"Upgrade": "websocket", "Connection": "Upgrade"}
@@ -146,6 +159,7 @@ async def describe(_: NamedSession) -> JSONResponse:
 
 
 @router.websocket("/{session}/stream")
+@allow(OBSERVER)
 async def stream(websocket: WebSocket, hosted: NamedSession, person: NamedPerson) -> None:
     """Samples as they come; see `stream_schemas` for the format."""
     await stream_session(websocket, hosted, person)

@@ -17,6 +17,7 @@ from svsa.runs.command import Set
 from svsa.runs.configuration import LaneSetting
 from svsa.simulation.plant.effects import Effects
 from svsa.simulation.reference.trajectories import PositionReference, StiffnessReference
+from svsa_server.access.permissions import OPERATOR, allow
 from svsa_server.routes.depends import CHANGED, REFUSALS, NamedSession, check_unchanged
 from svsa_server.routing import build_router
 from svsa_server.schemas.lab.gain import GainsRequest
@@ -43,6 +44,7 @@ else:
 
 
 @router.put("/position")
+@allow(OPERATOR)
 def set_position(
     hosted: NamedSession,
     reference: Annotated[
@@ -61,6 +63,7 @@ def set_position(
 
 
 @router.post("/position/repeat")
+@allow(OPERATOR)
 def repeat_position(hosted: NamedSession) -> SessionState:
     """Begin the present position reference again, faded over as another one would be."""
     hosted.session.change(Set("position", hosted.session.run.configuration.position))
@@ -68,6 +71,7 @@ def repeat_position(hosted: NamedSession) -> SessionState:
 
 
 @router.put("/stiffness")
+@allow(OPERATOR)
 def set_stiffness(
     hosted: NamedSession,
     reference: Annotated[
@@ -91,6 +95,7 @@ def set_stiffness(
 
 
 @router.post("/stiffness/repeat")
+@allow(OPERATOR)
 def repeat_stiffness(hosted: NamedSession) -> SessionState:
     """Begin the present stiffness reference again, faded over as another one would be."""
     hosted.session.change(Set("stiffness", hosted.session.run.configuration.stiffness))
@@ -98,6 +103,7 @@ def repeat_stiffness(hosted: NamedSession) -> SessionState:
 
 
 @router.put("/law")
+@allow(OPERATOR)
 def set_law(
     hosted: NamedSession,
     request: Annotated[
@@ -113,6 +119,7 @@ def set_law(
 
 
 @router.put("/gains")
+@allow(OPERATOR)
 def set_gains(
     hosted: NamedSession,
     request: Annotated[
@@ -131,6 +138,7 @@ def set_gains(
 
 
 @router.put("/parameters")
+@allow(OPERATOR)
 def set_parameters(
     hosted: NamedSession,
     request: Annotated[
@@ -147,6 +155,7 @@ def set_parameters(
 
 
 @router.put("/observer")
+@allow(OPERATOR)
 def set_observer(
     hosted: NamedSession,
     request: Annotated[
@@ -159,6 +168,7 @@ def set_observer(
 
 
 @router.patch("/actuator")
+@allow(OPERATOR)
 def change_actuator(
     hosted: NamedSession,
     patch: Annotated[ActuatorPatch, Body(examples=[{"link_inertia_kg_m2": 0.0206}])],
@@ -169,6 +179,7 @@ def change_actuator(
 
 
 @router.patch("/nominal")
+@allow(OPERATOR)
 def change_nominal(
     hosted: NamedSession,
     patch: Annotated[NominalPatch, Body(examples=[{"link_inertia_kg_m2": 0.0103}])],
@@ -179,6 +190,7 @@ def change_nominal(
 
 
 @router.put("/effects")
+@allow(OPERATOR)
 def set_effects(
     hosted: NamedSession,
     effects: Annotated[
@@ -192,6 +204,7 @@ def set_effects(
 
 
 @router.put("/lanes")
+@allow(OPERATOR)
 def set_lanes(
     hosted: NamedSession,
     request: Annotated[
@@ -204,6 +217,7 @@ def set_lanes(
 
 
 @router.put("/lanes/{lane}")
+@allow(OPERATOR)
 def set_lane(
     hosted: NamedSession,
     lane: Annotated[int, Path(description="Number of a lane beside lane 1", examples=[2])],

@@ -21,6 +21,7 @@ from svsa.analysis.design.stability import Stability, assess
 from svsa.control.installed import get_law
 from svsa.runs.configuration import Configuration
 from svsa.simulation.plant.loads import PaperLoad
+from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
 from svsa_server.routes.depends import BUSY, REFUSALS, NamedPerson, NamedSession, Work
 from svsa_server.routing import build_router
 from svsa_server.schemas.lab.gain import Root
@@ -48,6 +49,7 @@ Tried = Annotated[DesignRequest, Body(examples=[_POLES])]
 
 
 @router.post("/response")
+@allow(OBSERVER)
 async def respond(hosted: NamedSession, request: Tried) -> ResponseState:
     """What this design does when the 3 kg come, and to a sine on the link; nothing is changed."""
     configuration, sigma = build_tried(hosted.session, request)
@@ -68,6 +70,7 @@ async def respond(hosted: NamedSession, request: Tried) -> ResponseState:
 
 
 @router.post("/stability")
+@allow(OBSERVER)
 async def show_stability(hosted: NamedSession, work: Work, request: Tried) -> StabilityState:
     """Theorem 1 for this design about rest; nothing is changed.
 
@@ -80,6 +83,7 @@ async def show_stability(hosted: NamedSession, work: Work, request: Tried) -> St
 
 
 @router.post("/region")
+@allow(OBSERVER)
 async def map_attraction(
     hosted: NamedSession,
     work: Work,
@@ -109,6 +113,7 @@ async def map_attraction(
 
 
 @router.post("/simulation", status_code=201)
+@allow(OPERATOR)
 async def simulate_design(
     asked: Request, hosted: NamedSession, person: NamedPerson, request: Tried
 ) -> SessionState:

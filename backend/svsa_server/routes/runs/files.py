@@ -11,6 +11,7 @@ from fastapi.responses import StreamingResponse
 
 from svsa.runs.records.export.formats import EXPORT_KINDS, build_file_name, get_kind
 from svsa.runs.records.resimulation import Comparison, check_simulated
+from svsa_server.access.permissions import OBSERVER, allow
 from svsa_server.routes.depends import BUSY, REFUSALS, RunId, Runs, Work
 from svsa_server.routing import build_router
 from svsa_server.runs.work import compare, write_export, write_replay
@@ -33,6 +34,7 @@ router = build_router(tags=["runs"], responses=REFUSALS | BUSY)
     response_class=StreamingResponse,
     responses={200: {"content": _FILES, "description": "The file"}},
 )
+@allow(OBSERVER)
 async def export_run(
     runs: Runs,
     work: Work,
@@ -49,6 +51,7 @@ async def export_run(
 
 
 @router.get("/runs/{run_id}/replay", response_class=StreamingResponse, responses=PAGE)
+@allow(OBSERVER)
 async def show_replay(runs: Runs, work: Work, run_id: RunId) -> StreamingResponse:
     """The page of `replay.html` to be looked at in place; `?t=12.3` opens it at 12.3 s."""
     file = await work.write(write_replay, await asyncio.to_thread(runs.find_folder, run_id))
@@ -56,6 +59,7 @@ async def show_replay(runs: Runs, work: Work, run_id: RunId) -> StreamingRespons
 
 
 @router.get("/runs/{run_id}/replay.html", response_class=StreamingResponse, responses=PAGE)
+@allow(OBSERVER)
 async def download_replay(runs: Runs, work: Work, run_id: RunId) -> StreamingResponse:
     """The run as one page with 3D replay and plots together; opens from a file, offline."""
     record = await asyncio.to_thread(runs.open, run_id)
@@ -65,6 +69,7 @@ async def download_replay(runs: Runs, work: Work, run_id: RunId) -> StreamingRes
 
 
 @router.post("/runs/{run_id}/compare")
+@allow(OBSERVER)
 async def compare_run(runs: Runs, work: Work, run_id: RunId) -> Comparison:
     """Simulate a run again from its record alone and compare every bit."""
     check_simulated(await asyncio.to_thread(runs.open, run_id))

@@ -9,6 +9,7 @@ from svsa.runs.command import Command, read_command
 from svsa.runs.configuration import Design
 from svsa.runs.records.catalogue.entry import RunEntry
 from svsa.runs.records.header import BranchPoint, PlantKind
+from svsa_server.access.permissions import OBSERVER, allow
 from svsa_server.routes.depends import REFUSALS, NamedSession, RunId, Runs
 from svsa_server.routing import build_router
 from svsa_server.schemas.lab.session import SessionRequest
@@ -18,6 +19,7 @@ router = build_router(tags=["runs"], responses=REFUSALS)
 
 
 @router.get("/sessions/{session}/origin")
+@allow(OBSERVER)
 async def read_origin(request: Request, hosted: NamedSession) -> RunOrigin:
     """The run that a session is on: how it stood at t = 0 and what was changed since."""
     return _tell(
@@ -31,6 +33,7 @@ async def read_origin(request: Request, hosted: NamedSession) -> RunOrigin:
 
 
 @router.get("/runs/{run_id}/origin")
+@allow(OBSERVER)
 def read_run_origin(request: Request, runs: Runs, run_id: RunId) -> RunOrigin:
     """A recorded run: how it stood at its t = 0 and what was changed, to its last sample."""
     record = runs.open(run_id)

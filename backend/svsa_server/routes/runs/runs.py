@@ -16,6 +16,7 @@ from svsa.runs.records.catalogue.entry import (
 from svsa.runs.records.catalogue.entry import Query as RunQuery
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.runs.records.measured_window import trace_record
+from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
 from svsa_server.access.roles import Role
 from svsa_server.routes.depends import CHANGED, REFUSALS, ChangedRunId, NamedPerson, RunId, Runs
 from svsa_server.routes.runs.origins import name_origin
@@ -40,6 +41,7 @@ Facet = Annotated[str | None, Query(max_length=LONGEST_FACET)]
 
 
 @router.get("/runs")
+@allow(OBSERVER)
 def list_runs(
     runs: Runs,
     person: NamedPerson,
@@ -94,6 +96,7 @@ def list_runs(
 
 
 @router.get("/runs/{run_id}")
+@allow(OBSERVER)
 def read_run(runs: Runs, run_id: RunId) -> RunDetails:
     """A run with its configuration, its channels and the commands given while it went on."""
     entry, record = runs.get(run_id), runs.open(run_id)
@@ -114,6 +117,7 @@ def read_run(runs: Runs, run_id: RunId) -> RunDetails:
 
 
 @router.patch("/runs/{run_id}", responses=CHANGED)
+@allow(OPERATOR)
 def change_run(
     runs: Runs,
     run_id: ChangedRunId,
@@ -132,12 +136,14 @@ def change_run(
 
 
 @router.delete("/runs/{run_id}")
+@allow(OPERATOR)
 def delete_run(runs: Runs, run_id: ChangedRunId) -> RunSummary:
     """Put a run into the trash, from which `restore` takes it back."""
     return RunSummary(**_tell(runs, runs.delete(run_id)))
 
 
 @router.post("/runs/{run_id}/restore")
+@allow(OPERATOR)
 def restore_run(runs: Runs, run_id: ChangedRunId) -> RunSummary:
     """Take a run out of the trash."""
     return RunSummary(**_tell(runs, runs.restore(run_id)))

@@ -15,6 +15,7 @@ from svsa.runs.metrics import MEASURED, Metrics, RunningMetrics
 from svsa.runs.records.decimation import decimate
 from svsa.runs.records.measured_window import trace_record
 from svsa.runs.records.reader import Record
+from svsa_server.access.permissions import OBSERVER, allow
 from svsa_server.routes.depends import REFUSALS, RunId, Runs
 from svsa_server.routing import build_router
 from svsa_server.runs.lanes import build_window
@@ -30,6 +31,7 @@ RunTime = Annotated[
 
 
 @router.get("/runs/{run_id}/samples", response_model=RunSamples)
+@allow(OBSERVER)
 def read_samples(
     runs: Runs,
     run_id: RunId,
@@ -67,6 +69,7 @@ def read_samples(
 
 
 @router.get("/runs/{run_id}/metrics")
+@allow(OBSERVER)
 def read_metrics(
     runs: Runs, run_id: RunId, start_s: RunTime = None, end_s: RunTime = None
 ) -> RunMetrics:

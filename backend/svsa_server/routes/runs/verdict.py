@@ -13,6 +13,7 @@ from svsa.runs.records.measured_window import find_measured_window
 from svsa.runs.records.reader import Record
 from svsa.runs.records.verdict import FROM_THE_FIRST, Tolerance, build_band, judge, read_channel
 from svsa_server.access.owned import Owned
+from svsa_server.access.permissions import OBSERVER, allow
 from svsa_server.routes.depends import REFUSALS, RunId, Runs
 from svsa_server.routing import build_router
 from svsa_server.schemas.runs.run import RunDifference, SettingDifference
@@ -30,6 +31,7 @@ MAX_OTHERS = 7
 
 
 @router.get("/runs/{run_id}/difference")
+@allow(OBSERVER)
 def read_difference(
     runs: Runs,
     run_id: RunId,
@@ -49,6 +51,7 @@ def read_difference(
 
 
 @router.post("/runs/{run_id}/verdict")
+@allow(OBSERVER)
 def judge_run(
     runs: Runs,
     run_id: RunId,

@@ -30,6 +30,7 @@ from svsa.teaching.course.progress import (
 from svsa.teaching.course.steps import Experiment, Predict
 from svsa.teaching.course.submission import check_law_length, write_submission
 from svsa.teaching.grading import law_trial
+from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
 from svsa_server.access.roles import Person
 from svsa_server.problems import UnknownError
 from svsa_server.routes.depends import BUSY, REFUSALS, NamedPerson, NamedSession, Runs, Work
@@ -63,6 +64,7 @@ _AT_HOME = "Student"
 
 
 @router.get("/course")
+@allow(OBSERVER)
 def read_course(request: Request, person: NamedPerson) -> CourseState:
     """The exercises, and how far one is in each."""
     kept = find_store(request).read(person.id)
@@ -73,6 +75,7 @@ def read_course(request: Request, person: NamedPerson) -> CourseState:
 
 
 @router.get("/course/{exercise}")
+@allow(OBSERVER)
 def read_exercise(request: Request, person: NamedPerson, exercise: ExerciseName) -> ExerciseState:
     """An exercise with the text of its steps, and one's own progress in it."""
     found = _find_exercise(request, exercise)
@@ -80,6 +83,7 @@ def read_exercise(request: Request, person: NamedPerson, exercise: ExerciseName)
 
 
 @router.put("/course/{exercise}/place")
+@allow(OPERATOR)
 def visit(
     request: Request,
     person: NamedPerson,
@@ -91,6 +95,7 @@ def visit(
 
 
 @router.put("/course/{exercise}/steps/{step}/answer")
+@allow(OPERATOR)
 def answer(
     request: Request,
     person: NamedPerson,
@@ -112,6 +117,7 @@ def answer(
 
 
 @router.post("/sessions/{session}/exercise")
+@allow(OPERATOR)
 async def set_up(
     request: Request,
     hosted: NamedSession,
@@ -143,6 +149,7 @@ async def set_up(
 
 
 @router.post("/course/{exercise}/steps/{step}/check")
+@allow(OPERATOR)
 def check(
     request: Request,
     person: NamedPerson,
@@ -167,6 +174,7 @@ def check(
 
 
 @router.put("/course/{exercise}/law", responses=BUSY)
+@allow(OPERATOR)
 async def try_law(
     request: Request,
     person: NamedPerson,
@@ -191,6 +199,7 @@ async def try_law(
 
 
 @router.post("/course/{exercise}/submission", status_code=201)
+@allow(OPERATOR)
 def submit(
     request: Request,
     person: NamedPerson,

@@ -11,6 +11,7 @@ from svsa.teaching.grading.class_grades import BOOK_FOLDER, list_graded, list_gr
 from svsa.teaching.grading.report import write_csv, write_page
 from svsa.teaching.isolation.probe import find_isolation_problem
 from svsa_server.access.owned import Owned
+from svsa_server.access.permissions import INSTRUCTOR_ONLY, OBSERVER, allow
 from svsa_server.jobs.gradings import Asked, grade_all
 from svsa_server.routes.depends import BUSY, REFUSALS, NamedPerson
 from svsa_server.routes.evaluation.jobs import find_jobs
@@ -38,6 +39,7 @@ _Person = Annotated[
 
 
 @router.get("")
+@allow(INSTRUCTOR_ONLY)
 async def read_grades(request: Request) -> GradesState:
     """Who submitted what, its points by criterion, and why something has no grade."""
     submitted = await asyncio.to_thread(list_graded, find_store(request))
@@ -49,6 +51,7 @@ async def read_grades(request: Request) -> GradesState:
 
 
 @router.post("", status_code=201, responses=BUSY)
+@allow(INSTRUCTOR_ONLY)
 async def grade_class(
     request: Request,
     person: NamedPerson,
@@ -76,6 +79,7 @@ async def grade_class(
 
 
 @router.get("/class.csv", response_class=Response, responses=_CSV)
+@allow(INSTRUCTOR_ONLY)
 async def download_grades(request: Request) -> Response:
     """All grades, a line each, with a column for every criterion."""
     submitted = await asyncio.to_thread(list_graded, find_store(request))
@@ -84,6 +88,7 @@ async def download_grades(request: Request) -> Response:
 
 
 @router.get("/class.html", response_class=HTMLResponse)
+@allow(INSTRUCTOR_ONLY)
 async def show_grades(request: Request, person: _Person = "") -> HTMLResponse:
     """The same as a page to be read or printed, of the class or of one student."""
     submitted = await asyncio.to_thread(list_graded, find_store(request), person or None)
@@ -91,6 +96,7 @@ async def show_grades(request: Request, person: _Person = "") -> HTMLResponse:
 
 
 @router.get("/mine")
+@allow(OBSERVER)
 async def read_own_grades(request: Request, person: NamedPerson) -> list[GradedSubmissionState]:
     """What one submitted oneself, with points and reasons."""
     submitted = await asyncio.to_thread(list_graded, find_store(request), person.id)
@@ -98,6 +104,7 @@ async def read_own_grades(request: Request, person: NamedPerson) -> list[GradedS
 
 
 @router.get("/mine.html", response_class=HTMLResponse)
+@allow(OBSERVER)
 async def show_own_grades(request: Request, person: NamedPerson) -> HTMLResponse:
     """The same as a page."""
     submitted = await asyncio.to_thread(list_graded, find_store(request), person.id)

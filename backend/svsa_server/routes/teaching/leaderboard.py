@@ -11,6 +11,7 @@ from svsa.evaluation.ranking.trials import SUITE_VERSION
 from svsa.teaching.course.submission import check_law_length
 from svsa.teaching.isolation.probe import check_isolation, find_isolation_problem
 from svsa.teaching.leaderboard.board import FOLDER, Board, digest_law
+from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
 from svsa_server.access.roles import Person
 from svsa_server.jobs.submissions import Asked, enter
 from svsa_server.problems import UnknownError
@@ -31,6 +32,7 @@ router = build_router("/leaderboard", tags=["leaderboard"], responses=REFUSALS)
 
 
 @router.get("")
+@allow(OBSERVER)
 async def read_leaderboard(request: Request) -> LeaderboardState:
     """Every entry of the season, the best first: the lab's laws and those that were submitted."""
     board = await _open_board(request)
@@ -46,6 +48,7 @@ async def read_leaderboard(request: Request) -> LeaderboardState:
 
 
 @router.get("/entries/{key}/replay", response_class=StreamingResponse, responses=PAGE | BUSY)
+@allow(OBSERVER)
 async def show_worst_run(
     request: Request,
     work: Work,
@@ -64,6 +67,7 @@ async def show_worst_run(
 
 
 @router.post("/submissions", status_code=201, responses=BUSY)
+@allow(OPERATOR)
 async def submit_law(
     request: Request,
     person: NamedPerson,
@@ -88,6 +92,7 @@ async def submit_law(
 
 
 @router.post("/laws", status_code=201, responses=BUSY)
+@allow(OPERATOR)
 async def measure_installed_laws(request: Request, person: NamedPerson) -> JobState:
     """Measure the lab's laws that have no entry on this season: a job of a minute or two."""
     board = await _open_board(request)

@@ -17,6 +17,7 @@ from fastapi.responses import (
     Response,
 )
 
+from svsa_server.access.permissions import ANYBODY, allow
 from svsa_server.lti.keys import LaunchError
 from svsa_server.problems import UnknownError
 from svsa_server.routes.access.access import set_cookie
@@ -36,12 +37,14 @@ _COOKIE_AGE_S = 600
 
 
 @router.get("/keys")
+@allow(ANYBODY)
 async def read_lti_keys(request: Request) -> JSONResponse:
     """The lab's public keys (JWKS), with which a platform checks what the lab signs."""
     return JSONResponse(_find_tool(request).list_keys())
 
 
 @router.api_route("/login", methods=["GET", "POST"])
+@allow(ANYBODY)
 async def begin_login(request: Request) -> Response:
     """The platform says that somebody comes: back to it, with a state and a nonce (OIDC)."""
     tool = _find_tool(request)
@@ -67,6 +70,7 @@ async def begin_login(request: Request) -> Response:
 
 
 @router.post("/launch")
+@allow(ANYBODY)
 async def launch(request: Request) -> Response:
     """Somebody comes, as a token of the platform says: into the class, to an exercise."""
     tool, authentication, base = _find_tool(request), find_class(request), str(request.base_url)

@@ -14,9 +14,9 @@ from fastapi import FastAPI
 from svsa.actuators.signals import CHANNEL_INDEX
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.runs.records.writer import write_record
-from svsa_server.app import build_routes
 from svsa_server.errors import install_error_handlers
 from svsa_server.jobs.heavy_work import HeavyWork
+from svsa_server.routes import build_routes
 from tests.runs.records.records import build_header, build_samples
 
 FIRST_TICK = 1000
