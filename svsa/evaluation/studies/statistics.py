@@ -1,10 +1,13 @@
 """What can be said of a sample: a share, a quantile, a paired difference, with its interval."""
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 
 CONFIDENCE = 0.95
+NORMAL_QUANTILE = 1.959963984540054
+"""97.5 % of a standard normal distribution lies below it: the two-sided confidence of 95 %."""
 RESAMPLES = 2000
 MAX_BLOCKS = 10_000
 _AT_ONCE = 2_000_000
@@ -19,13 +22,27 @@ class Interval(NamedTuple):
 
 
 def estimate_share(count: int, total: int) -> Interval:
-    """The share of `count` of `total`, by Wilson's score interval; of none at all NaN, 0 to 1."""
+    """Estimate a share with Wilson's score interval of 95 %.
+
+    The formulas are those of Newcombe (1998), in the order of operations of SciPy's
+    `binomtest(...).proportion_ci(0.95, "wilson")`: the same bits without its import.
+
+    Args:
+        count: How many have the property, at least 0.
+        total: Of how many, at least `count`.
+
+    Returns:
+        The share and the ends of its interval, 1; of none at all NaN, 0 and 1.
+    """
     if not total:
         return Interval(np.nan, 0.0, 1.0)
-    from scipy.stats import binomtest  # late: it takes a while
-
-    ends = binomtest(count, total).proportion_ci(CONFIDENCE, "wilson")
-    return Interval(count / total, float(ends.low), float(ends.high))
+    share, z = count / total, NORMAL_QUANTILE
+    scale = 2 * (total + z**2)
+    center = (2 * total * share + z**2) / scale
+    half = z / scale * math.sqrt(4 * total * share * (1 - share) + z**2)
+    low = 0.0 if count == 0 else center - half
+    high = 1.0 if count == total else center + half
+    return Interval(share, low, high)
 
 
 def compute_quantiles(values: np.ndarray, shares: tuple[float, ...]) -> list[float]:

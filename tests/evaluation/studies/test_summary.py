@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pyarrow as pa
 import pytest
+from scipy.stats import binomtest
 
 from svsa.errors import ParameterError
 from svsa.evaluation.studies.samples import draw
@@ -51,6 +52,15 @@ def test_wilsons_interval_is_that_of_the_book_and_holds_the_truth_as_often_as_it
     counts = np.random.default_rng(1).binomial(60, 0.07, 1000)
     held = [estimate_share(int(k), 60) for k in counts]
     assert np.mean([one.low <= 0.07 <= one.high for one in held]) == pytest.approx(0.95, abs=0.025)
+
+
+def test_wilsons_interval_has_the_bits_of_scipy():
+    random = np.random.default_rng(3)
+    totals = [*range(1, 40), *(int(10**x) for x in random.uniform(2.0, 7.0, 30))]
+    for total in totals:
+        for count in {0, 1, total // 7, total // 2, total - 1, total}:
+            ends = binomtest(count, total).proportion_ci(0.95, "wilson")
+            assert estimate_share(count, total)[1:] == (ends.low, ends.high), (count, total)
 
 
 @pytest.mark.parametrize("count", exhaust([200, 3 * MAX_BLOCKS], [200]))

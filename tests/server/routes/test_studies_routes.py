@@ -9,6 +9,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from svsa.evaluation.studies.metrics import METRICS
+from svsa.evaluation.studies.statistics import estimate_share
 from svsa.evaluation.studies.store import find_missing, open_study, read_rows
 from svsa.evaluation.studies.summary import summarize_laws
 from svsa_server.jobs.study_rows import thin_out
@@ -225,3 +226,15 @@ def test_what_is_asked_otherwise_than_in_the_file_is_so(lab):
     assert roles["loads[0].torque_nm[0]"] == "varied"
     assert roles["peak_position_error_rad"] == "metric"
     assert not lab.get(f"{STUDIES}/load").is_success
+
+
+def test_shares_have_the_interval_of_the_library():
+    with run_lab_in_process() as lab:
+        asked = {"count": [8, 0, 0], "total": [10, 81, 0]}
+        found = lab.client.get("/api/v1/shares", params=asked).raise_for_status().json()
+        for one, count, total in zip(found[:2], asked["count"], asked["total"], strict=False):
+            assert tuple(one.values()) == estimate_share(count, total)
+        assert found[2] == {"value": None, "low": 0.0, "high": 1.0}
+        for count, total in (([2], [1]), ([1, 1], [2]), ([-1], [2]), ([1] * 257, [1] * 257)):
+            answer = lab.client.get("/api/v1/shares", params={"count": count, "total": total})
+            assert answer.status_code == 422, answer.text

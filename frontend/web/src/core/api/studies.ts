@@ -61,6 +61,12 @@ export const replayRow = (study: string, row: number) =>
   ) as Promise<RowReplay>;
 export const tableOf = (study: string): string => new URL(pathOf(study, "/rows.parquet"), API).href;
 
+/** Shares with their intervals of 95 %; counts: how many of how many, at most 256 of them. */
+export const estimateShares = (counts: readonly (readonly [number, number])[]) => {
+  const pairs = counts.flatMap(([count, total]) => [`count=${count}`, `total=${total}`]);
+  return request("get", `shares?${pairs.join("&")}`) as Promise<Estimate[]>;
+};
+
 /** Columns of all rows, or of so many draws by lot, as the server packs them. */
 export async function readRows(study: string, columns: readonly string[]): Promise<ArrayBuffer> {
   const query = new URLSearchParams(columns.map((column) => ["column", column]));

@@ -1,9 +1,11 @@
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
-import { countCells, cutBins, estimateShare, formatPercents } from "./points";
+import { countCells, cutBins } from "./points";
 import { valuesOf } from "./rows";
+import { shareOf } from "./shares";
 import { good, planes, shownMarks } from "./shown";
 import { axes, brush, rows, setBrush } from "./studies";
+import { formatShare } from "./tables";
 
 const words = text.studies;
 const WIDTH = 320;
@@ -36,7 +38,7 @@ export function SuccessMap() {
         aria-label={`${words.map}: ${up.label} / ${across.label}`}
       >
         {cells.map(({ column, line, runs, good: held }) => {
-          const estimate = estimateShare(held, runs);
+          const share = shareOf(held, runs);
           return (
             // biome-ignore lint/a11y/noStaticElementInteractions: the brush has its own number fields
             <rect
@@ -45,7 +47,7 @@ export function SuccessMap() {
               y={HEIGHT - (HEIGHT * (line + 1)) / lines}
               width={WIDTH / columns}
               height={HEIGHT / lines}
-              style={{ fill: shadeOf(estimate[0]) }}
+              style={{ fill: shadeOf(held / runs) }}
               onClick={() =>
                 setBrush({
                   plane: "s",
@@ -54,7 +56,7 @@ export function SuccessMap() {
                 })
               }
             >
-              <title>{`${held}/${runs}: ${words.interval(...formatPercents(estimate))}`}</title>
+              <title>{`${held}/${runs}${share === null ? "" : `: ${formatShare(share)}`}`}</title>
             </rect>
           );
         })}

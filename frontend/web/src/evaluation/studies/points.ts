@@ -184,19 +184,6 @@ export function distribute(
   });
 }
 
-const Z = 1.959963984540054;
-
-/** A share and Wilson's interval of 95 %. */
-export function estimateShare(good: number, runs: number): readonly [number, number, number] {
-  if (runs === 0) return [Number.NaN, 0, 1];
-  const share = good / runs;
-  const middle = (share + (Z * Z) / (2 * runs)) / (1 + (Z * Z) / runs);
-  const half =
-    (Z / (1 + (Z * Z) / runs)) *
-    Math.sqrt((share * (1 - share)) / runs + (Z * Z) / (4 * runs * runs));
-  return [share, Math.max(0, middle - half), Math.min(1, middle + half)];
-}
-
 const DECIMALS = 1;
 const MAX_DECIMALS = 12;
 type Shares = readonly [number, number, number];

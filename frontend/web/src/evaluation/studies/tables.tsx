@@ -6,7 +6,8 @@ import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
 import { factorOf, nameColumn, shownUnit } from "./look";
-import { estimateShare, formatPercents } from "./points";
+import { formatPercents } from "./points";
+import { shareOf } from "./shares";
 import { columnOf, ended, good, lawLineStyles, marksOf } from "./shown";
 import { axes, brush, indices, study, summary } from "./studies";
 
@@ -14,10 +15,10 @@ const words = text.studies;
 const percent = (value: number | null): string =>
   formatNumber(value === null ? null : 100 * value, 3, 1);
 
-const formatShare = ({ value, low, high }: Estimate): string =>
+export const formatShare = ({ value, low, high }: Estimate): string =>
   value === null ? "–" : words.interval(...formatPercents([value, low ?? 0, high ?? 1]));
 
-/** How a law did in the brush, with Wilson's interval. */
+/** How a law did in the brush, with its interval once the server has sent it. */
 function inBrush(place: number): string {
   const [marks, isGood, isEnded] = [marksOf(place), good.value, ended.value];
   let [runs, held] = [0, 0];
@@ -26,8 +27,9 @@ function inBrush(place: number): string {
     runs++;
     if (isGood[index] === 1 && isEnded[index] === 0) held++;
   });
-  const [value, low, high] = estimateShare(held, runs);
-  return runs === 0 ? "–" : `${held}/${runs}: ${formatShare({ value, low, high })}`;
+  if (runs === 0) return "–";
+  const share = shareOf(held, runs);
+  return share === null ? `${held}/${runs}` : `${held}/${runs}: ${formatShare(share)}`;
 }
 
 /** A law with the colour of its runs. place: among the laws of the study. */

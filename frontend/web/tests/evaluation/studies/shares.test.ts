@@ -1,0 +1,59 @@
+import { effect } from "@preact/signals";
+import { afterEach, beforeEach, expect, it, vi } from "vitest";
+import { stubBrowser } from "../../browser";
+
+const asked: string[] = [];
+let isDown = false;
+
+async function load() {
+  stubBrowser();
+  vi.stubGlobal("fetch", async (url: URL) => {
+    asked.push(url.search);
+    if (isDown) return new Response(JSON.stringify({ detail: "busy" }), { status: 503 });
+    const counts = url.searchParams.getAll("count").map(Number);
+    const totals = url.searchParams.getAll("total").map(Number);
+    const found = counts.map((count, at) => ({
+      value: count / (totals[at] as number),
+      low: 0.1,
+      high: 0.9,
+    }));
+    return new Response(JSON.stringify(found));
+  });
+  return import("../../../src/evaluation/studies/shares");
+}
+
+beforeEach(() => {
+  vi.resetModules();
+  asked.length = 0;
+  isDown = false;
+});
+afterEach(() => vi.unstubAllGlobals());
+
+it("shares that are shown together are asked for together, and each once", async () => {
+  const { shareOf } = await load();
+  const seen: unknown[] = [];
+  const stop = effect(() => {
+    seen.push([shareOf(8, 10)?.value, shareOf(0, 81)?.value, shareOf(8, 10)?.high]);
+  });
+  expect(seen).toEqual([[undefined, undefined, undefined]]);
+  await vi.waitFor(() => expect(seen.at(-1)).toEqual([0.8, 0, 0.9]));
+  expect(shareOf(8, 10)).toEqual({ value: 0.8, low: 0.1, high: 0.9 });
+  expect(asked).toEqual(["?count=8&total=10&count=0&total=81"]);
+  stop();
+});
+
+it("many shares are asked for in parts that an address has room for", async () => {
+  const { shareOf } = await load();
+  for (let count = 0; count < 450; count++) shareOf(count, 1000);
+  await vi.waitFor(() => expect(shareOf(449, 1000)).not.toBeNull());
+  expect(asked.map((query) => query.split("count=").length - 1)).toEqual([200, 200, 50]);
+});
+
+it("a share that could not be had is asked for again when it is shown again", async () => {
+  const { shareOf } = await load();
+  isDown = true;
+  shareOf(1, 2);
+  await vi.waitFor(() => expect(asked.length).toBe(1));
+  isDown = false;
+  await vi.waitFor(() => expect(shareOf(1, 2)).toEqual({ value: 0.5, low: 0.1, high: 0.9 }), 5000);
+});
