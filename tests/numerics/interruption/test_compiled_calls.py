@@ -6,15 +6,19 @@ import sys
 
 import pytest
 
-SECONDS_EACH = 0.3
+from tests.exhaustive import exhaust
+
+SECONDS_EACH = (0.1, 0.3)
+"""The first interrupts every function, most of them some hundred times."""
 CHECKED = {"NoneType", "Boolean", "Integer", "Float", "Array"}
 """Types that numba or `svsa.numerics.boxing` returns to Python with a check of every object."""
 
 
 @pytest.mark.long
-def test_signals_interrupt_every_compiled_function_that_python_calls():
+@pytest.mark.parametrize("seconds", exhaust(SECONDS_EACH, shown=SECONDS_EACH[:1]))
+def test_signals_interrupt_every_compiled_function_that_python_calls(seconds):
     process = subprocess.run(
-        [sys.executable, "-m", "tests.numerics.interruption.struck", str(SECONDS_EACH)],
+        [sys.executable, "-m", "tests.numerics.interruption.struck", str(seconds)],
         capture_output=True,
         text=True,
         check=False,

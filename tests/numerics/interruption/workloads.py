@@ -51,8 +51,10 @@ def _simulate(configuration: Configuration) -> None:
 
 
 def _identify() -> None:
-    configuration = build_configuration()
-    samples, _ = play(configuration, duration_s=6.5)
+    """With a sine in place of the excitation: the fit takes a third of the time."""
+    move = svsa.SinePosition(amplitude_rad=0.5, frequency_hz=1.0)
+    configuration = build_configuration(position=move)
+    samples, _ = play(configuration, [], 6.5)
     record = build_run(configuration, samples)
     identify(record)
 
