@@ -53,9 +53,16 @@ def test_a_healthy_bench_that_moves_has_its_signs_confirmed(path, bus):
     assert calibration is not None and calibration.signs_confirmed
 
 
-def test_pulses_stay_small_and_keep_the_gate_of_the_drives(path, bus):
+@pytest.fixture(scope="module")
+def moved(tmp_path_factory):
+    """The steps of a check that moves a healthy bench without an observer, and its bus."""
+    bus = EmulatorBus()
+    return check(copy_bench(tmp_path_factory.mktemp("bench")), bus, move=True), bus
+
+
+def test_pulses_stay_small_and_keep_the_gate_of_the_drives(moved):
     """At most 15 % of nominal, both axes back within a few degrees, 1 ms between commands."""
-    check(path, bus, move=True)
+    bus = moved[1]
     currents = list_currents(bus)
     assert max(abs(mA) for _, address, mA in currents if address.number == 1) <= 1350
     assert max(abs(mA) for _, address, mA in currents if address.number == 2) <= 174
@@ -66,8 +73,8 @@ def test_pulses_stay_small_and_keep_the_gate_of_the_drives(path, bus):
         assert min(b - a for a, b in itertools.pairwise(times)) >= 0.00099
 
 
-def test_signs_are_not_confirmed_where_nobody_watches(path, bus):
-    steps = check(path, bus, move=True, watch=None)
+def test_signs_are_not_confirmed_where_nobody_watches(moved):
+    steps = moved[0]
     assert steps["motor1: direction"].result is Result.WARN
     assert steps["motor2: direction"].result is Result.WARN
 
@@ -80,9 +87,9 @@ def test_a_motor_that_was_seen_to_turn_the_wrong_way_takes_the_confirmation_back
     assert steps["calibration"].result is Result.WARN
 
 
-def test_the_latency_is_that_of_bus_lag_and_feedback_period(path, bus):
+def test_the_latency_is_that_of_bus_lag_and_feedback_period(moved):
     """Frame 0.13 ms, lag 0.5 ms · ln 2, half a ms of waiting for B, frame 0.13 ms."""
-    steps = check(path, bus, move=True)
+    steps = moved[0]
     median = float(steps["motor1: latency"].measured.split("after ")[1].split(" ms")[0])
     assert median == pytest.approx(0.13 + 0.35 + 0.5 + 0.13, abs=0.5)
 
