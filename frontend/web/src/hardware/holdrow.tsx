@@ -29,7 +29,7 @@ export function HoldRow({ bench: { status } }: { bench: BenchState }) {
   const id = useId();
   const held = isHeld.value;
   const other = otherHolder.value;
-  const told =
+  const label =
     other === null ? words.words[wordsFor(status, held, ended.value)] : words.other(other);
   return (
     <section class={`hold is-${held ? "held" : "free"}`} aria-label={words.heading}>
@@ -58,7 +58,7 @@ export function HoldRow({ bench: { status } }: { bench: BenchState }) {
         <strong>
           <span aria-hidden="true">{held ? "●" : "○"}</span> {held ? words.held : words.notHeld}
         </strong>{" "}
-        {isLive.value ? told : words.unheard}
+        {isLive.value ? label : words.unheard}
       </p>
     </section>
   );

@@ -1,5 +1,5 @@
 import { reset, stopRecording } from "../core/api/client";
-import { told } from "../core/api/outcome";
+import { commandStatus } from "../core/api/outcome";
 import { perform } from "../core/state/actions";
 import { isAnother, phase, session } from "../core/state/session";
 import { text } from "../core/text/en";
@@ -10,7 +10,7 @@ import { ReturnCodeBanner } from "../teaching/classroom/join";
 import { SavedNote } from "./savednote";
 
 /** Of a command whose answer was lost: that nobody knows yet, or that it was carried out. */
-function Told({ now }: { now: NonNullable<typeof told.value> }) {
+function CommandStatus({ now }: { now: NonNullable<typeof commandStatus.value> }) {
   const words = text.connection;
   const isAsking = now === "asking";
   return (
@@ -51,7 +51,7 @@ export function Banners() {
   return (
     <div class="banners">
       <StopBanners />
-      {told.value !== null && <Told now={told.value} />}
+      {commandStatus.value !== null && <CommandStatus now={commandStatus.value} />}
       {isLost && (
         <div class="banner is-lost" role="alert">
           <span class="banner-sign" aria-hidden="true" />

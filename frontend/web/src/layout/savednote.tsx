@@ -7,7 +7,12 @@ import { isOfLesson } from "../teaching/course/lesson";
 
 const words = text.recording;
 
-function told({ state, title, duration_s: durationS, message }: RunDetails): [string, string] {
+function describeSaved({
+  state,
+  title,
+  duration_s: durationS,
+  message,
+}: RunDetails): [string, string] {
   if (state === "complete") return [words.saved, `${title} · ${formatDuration(durationS)}`];
   return [words.savedPartly, `${title} · ${formatDuration(durationS)}. ${message}`];
 }
@@ -24,7 +29,7 @@ export function SavedNote() {
     now === null
       ? ["", ""]
       : now.stage === "saved"
-        ? told(now.details)
+        ? describeSaved(now.details)
         : now.stage === "saving"
           ? [words.saving, ""]
           : [words.savedUnknown, ""];

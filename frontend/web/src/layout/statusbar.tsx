@@ -136,9 +136,9 @@ function usePublishedHeight() {
   useLayoutEffect(() => {
     const { current } = bar;
     if (current === null) return;
-    const tell = () =>
+    const publish = () =>
       document.documentElement.style.setProperty("--statusbar", `${current.offsetHeight}px`);
-    const watching = new ResizeObserver(tell);
+    const watching = new ResizeObserver(publish);
     watching.observe(current, { box: "border-box" });
     return () => watching.disconnect();
   }, []);

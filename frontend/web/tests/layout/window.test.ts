@@ -49,8 +49,8 @@ it("says it in the words of the replay and the overlay", async () => {
   ] as const) {
     const live = sinceOf(window(kind, label));
     const recorded = { label, start_s: 5, end_s: 9, is_whole: false, lanes: [], load_ended: false };
-    const told = describeMeasured(recorded);
-    expect(told.split(",")[0]).toBe(live.split(",")[0]);
+    const message = describeMeasured(recorded);
+    expect(message.split(",")[0]).toBe(live.split(",")[0]);
   }
   expect(page.compare.rms).toBe(replay.numbers.rms);
   expect(page.readout.peak).toBe(replay.numbers.peak);

@@ -6,8 +6,8 @@ import { request } from "./request";
 import type { OutcomeState } from "./types";
 
 /** asking: nobody knows yet whether it was carried out; carriedOut: it was, as the server says. */
-type Told = "asking" | "carriedOut" | null;
-export const told = signal<Told>(null);
+type CommandStatus = "asking" | "carriedOut" | null;
+export const commandStatus = signal<CommandStatus>(null);
 
 const PAUSE_MS = 500;
 const LONGEST_ASKED_MS = 60_000;
@@ -17,11 +17,11 @@ const wait = (ms: number) => new Promise((resolve) => setTimeout(resolve, ms));
 
 let asking = 0;
 
-function tell(next: Told): void {
-  told.value = next;
+function setStatus(next: CommandStatus): void {
+  commandStatus.value = next;
   if (next === "carriedOut") {
     setTimeout(() => {
-      if (told.peek() === next) told.value = null;
+      if (commandStatus.peek() === next) commandStatus.value = null;
     }, SHOWN_MS);
   }
 }
@@ -32,15 +32,15 @@ function tell(next: Told): void {
  */
 export async function learnOutcome(unanswered: UnansweredError): Promise<void> {
   asking++;
-  tell("asking");
+  setStatus("asking");
   try {
     const status = await askUntilKnown(unanswered);
     if (unanswered.call !== null) answerCall(unanswered.call, status);
     if (status === null || status >= 400) throw new NotCarriedOutError(status);
-    tell("carriedOut");
+    setStatus("carriedOut");
   } finally {
     asking--;
-    if (asking === 0 && told.peek() === "asking") tell(null);
+    if (asking === 0 && commandStatus.peek() === "asking") setStatus(null);
   }
 }
 

@@ -18,11 +18,11 @@ interface Followed {
 /** tell: as that of `polling`. onEnd: once a job has ended. */
 export function followJobs(
   kind: Job["kind"],
-  tell: (error: unknown) => void,
+  onError: (error: unknown) => void,
   onEnd: () => void,
 ): Followed {
   const job = signal<Job | null>(null);
-  const poll = polling(tell);
+  const poll = polling(onError);
   const follow = async (begun: Job): Promise<void> => {
     job.value = begun;
     const ending = await poll.follow(

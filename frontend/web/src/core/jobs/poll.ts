@@ -20,7 +20,7 @@ interface Poll {
 }
 
 /** tell: why no answer came, or a refusal; null once one has come after all. */
-export function polling(tell: (error: unknown) => void): Poll {
+export function polling(onError: (error: unknown) => void): Poll {
   let round = 0;
   return {
     follow: async (ask, take) => {
@@ -31,14 +31,14 @@ export function polling(tell: (error: unknown) => void): Poll {
         try {
           const found = await ask();
           if (isLeft()) return "left";
-          if (isUnanswered) tell(null);
+          if (isUnanswered) onError(null);
           isUnanswered = false;
           const isEnded = await take(found, isLeft);
           if (isLeft()) return "left";
           if (isEnded) return "ended";
         } catch (error) {
           if (isLeft()) return "left";
-          tell(error);
+          onError(error);
           if (!(error instanceof UnansweredError)) return "refused";
           isUnanswered = true;
         }
@@ -55,13 +55,13 @@ export function polling(tell: (error: unknown) => void): Poll {
 /** For `take`, of what it asks for besides: null for a refusal; what is not answered is asked again. */
 export async function unlessRefused<T>(
   asked: Promise<T>,
-  tell: (error: unknown) => void,
+  onError: (error: unknown) => void,
 ): Promise<T | null> {
   try {
     return await asked;
   } catch (error) {
     if (error instanceof UnansweredError) throw error;
-    tell(error);
+    onError(error);
     return null;
   }
 }

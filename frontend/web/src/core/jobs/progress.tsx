@@ -12,12 +12,12 @@ export const isGoing = (job: Pick<Job, "status"> | null): boolean =>
 /** How it stands in a few words: nothing more of what is simply done. */
 export function describeJob(job: Job | null): string[] {
   if (job === null) return [];
-  const told = isGoing(job) || job.status !== "done" ? [words.status[job.status]] : [];
-  if (job.problem) told.push(job.problem);
-  if (job.status !== "running") return told;
-  told.push(job.rate_per_s === null ? words.compiling : words.rate(job.rate_per_s));
-  if (job.left_s !== null) told.push(words.left(formatSeconds(job.left_s)));
-  return told;
+  const parts = isGoing(job) || job.status !== "done" ? [words.status[job.status]] : [];
+  if (job.problem) parts.push(job.problem);
+  if (job.status !== "running") return parts;
+  parts.push(job.rate_per_s === null ? words.compiling : words.rate(job.rate_per_s));
+  if (job.left_s !== null) parts.push(words.left(formatSeconds(job.left_s)));
+  return parts;
 }
 
 interface JobProgressProps {

@@ -1,7 +1,7 @@
 /** What jobs of one kind add to: read where it is looked at, and again when one of them has ended. */
 import { type Signal, signal } from "@preact/signals";
 import type { Job } from "../api/jobs";
-import { attempting, telling } from "../state/actions";
+import { attempting, showErrorIn } from "../state/actions";
 import { followJobs } from "./follow";
 
 interface Results<T> {
@@ -30,7 +30,7 @@ export function followResults<T>(kind: Job["kind"], ask: () => Promise<T>): Resu
   };
   const { job, follow, resume, leave, cancel } = followJobs(
     kind,
-    telling(problem),
+    showErrorIn(problem),
     () => void read(),
   );
   return {

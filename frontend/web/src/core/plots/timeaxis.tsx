@@ -77,7 +77,7 @@ function useTicks(spanOf: () => Span, onDrawn: () => void = () => undefined) {
 export function TimeAxis() {
   const axis = useRef<HTMLDivElement>(null);
   const writtenAt = useRef(0);
-  const tell = () => {
+  const publish = () => {
     const { from, to } = shownSpan();
     const value = text.plots.spanValue(from.toFixed(2), to.toFixed(2));
     axis.current?.setAttribute("aria-valuetext", value);
@@ -88,7 +88,7 @@ export function TimeAxis() {
     writtenAt.current = performance.now();
   };
   const canvas = useTicks(shownSpan, () => {
-    if (isHeld.peek() || performance.now() - writtenAt.current > SHOWN_MS) tell();
+    if (isHeld.peek() || performance.now() - writtenAt.current > SHOWN_MS) publish();
   });
   return (
     <div
@@ -117,10 +117,10 @@ export function ZoomTitle() {
   void session.value;
   const event = zoomedEvent.value;
   const words = event && text.zoom.title(event.time_s.toFixed(2), event.label);
-  const told = words === null ? text.zoom.none : hasZoomed() ? words : text.zoom.gone;
+  const label = words === null ? text.zoom.none : hasZoomed() ? words : text.zoom.gone;
   return (
     <p class="zoom-title" title={words ?? undefined}>
-      <span>{told}</span>
+      <span>{label}</span>
     </p>
   );
 }

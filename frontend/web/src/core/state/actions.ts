@@ -39,7 +39,7 @@ export function explain(error: unknown): string {
 }
 
 /** As `explain`, but a refusal in the server's words, which name file, line, value and bound. */
-export const tell = (error: unknown): string =>
+export const describeError = (error: unknown): string =>
   error instanceof RefusedError ? error.message : explain(error);
 
 /**
@@ -104,14 +104,14 @@ export const asking =
     try {
       return await wish();
     } catch (error) {
-      problem.value = tell(error);
+      problem.value = describeError(error);
       return null;
     }
   };
 
 /** Makes what tells why there is no answer, and with null that there is one after all. */
-export const telling = (problem: Signal<string>) => (error: unknown) => {
-  problem.value = error === null ? "" : tell(error);
+export const showErrorIn = (problem: Signal<string>) => (error: unknown) => {
+  problem.value = error === null ? "" : describeError(error);
 };
 
 /** Makes what carries out wishes: null for one that was refused, with its reason alone told. */

@@ -19,22 +19,22 @@ type Over = { end_tick: number | null };
  * The state after a message, which tells events, ended windows and ended stretches of lanes from
  * its `sinceTick` on: those before are as they were known.
  */
-export function joinPast(known: SessionState, told: Progress, sinceTick: number): SessionState {
-  const joined = { ...known, ...told };
+export function joinPast(known: SessionState, progress: Progress, sinceTick: number): SessionState {
+  const joined = { ...known, ...progress };
   if (sinceTick === 0) return joined;
   const firstTick = joined.tick - LONGEST_WINDOW_S * joined.rate_hz;
   const isBefore = ({ end_tick }: Over) =>
     end_tick !== null && end_tick < sinceTick && end_tick > firstTick;
-  if (told.events !== undefined) {
+  if (progress.events !== undefined) {
     const before = known.events.filter(({ tick }) => tick < sinceTick);
-    joined.events = [...before, ...told.events].slice(-MAX_EVENTS);
+    joined.events = [...before, ...progress.events].slice(-MAX_EVENTS);
   }
-  if (told.ended_windows !== undefined) {
-    joined.ended_windows = [...known.ended_windows.filter(isBefore), ...told.ended_windows];
+  if (progress.ended_windows !== undefined) {
+    joined.ended_windows = [...known.ended_windows.filter(isBefore), ...progress.ended_windows];
   }
-  if (told.lanes !== undefined) {
+  if (progress.lanes !== undefined) {
     const pastOf = (lane: number) => known.lanes.find(({ id }) => id === lane)?.stretches ?? [];
-    joined.lanes = told.lanes.map((lane) => ({
+    joined.lanes = progress.lanes.map((lane) => ({
       ...lane,
       stretches: [...pastOf(lane.id).filter(isBefore), ...lane.stretches],
     }));

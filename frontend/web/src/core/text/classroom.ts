@@ -164,7 +164,7 @@ export const gradesText = {
     criteria: "Points by criterion",
     asked: "Asked",
     points: "Points",
-    told: "Told",
+    feedback: "Feedback",
     grade: (count: number) => (count === 0 ? "All is graded" : `Grade ${count}`),
     gradeHint: "What was submitted and has no grade",
     again: "Grade again",

@@ -50,16 +50,16 @@ export const stabilityText = {
     unstableOn: {
       rig: {
         short: "unstable on the rig",
-        told: (pole: string) =>
+        summary: (pole: string) =>
           `On the rig this loop is unstable (largest pole |z| = ${pole}). The curves are of the loop as it is simulated here, without the encoders' counts and delay: there it would do none of this.`,
       },
       session: {
         short: "unstable: does not come to rest",
-        told: (pole: string) =>
+        summary: (pole: string) =>
           `The loop as it is set here is unstable (largest pole |z| = ${pole}): what looks calm at first goes on growing.`,
       },
     },
-    caveat: (told: string, short: string) => `${told}; ${short}`,
+    caveat: (summary: string, short: string) => `${summary}; ${short}`,
     lineStyles: (name: string, short: string | null) => (short ? `${name} (${short})` : name),
     tried: "these poles",
     inUse: "in use",

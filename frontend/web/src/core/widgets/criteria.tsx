@@ -14,7 +14,7 @@ export function Criteria({ grade }: { grade: Grade }) {
         <tr>
           <th scope="col">{words.asked}</th>
           <th scope="col">{words.points}</th>
-          <th scope="col">{words.told}</th>
+          <th scope="col">{words.feedback}</th>
         </tr>
       </thead>
       <tbody>

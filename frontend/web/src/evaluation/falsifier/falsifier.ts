@@ -20,7 +20,7 @@ import {
 import type { Law } from "../../core/api/types";
 import { polling } from "../../core/jobs/poll";
 import { isGoing } from "../../core/jobs/progress";
-import { asking, telling } from "../../core/state/actions";
+import { asking, showErrorIn } from "../../core/state/actions";
 import { goTo, place } from "../../runs/list/place";
 
 const PAPERS_LAW = "ndobc";
@@ -89,7 +89,7 @@ export async function openLists(): Promise<void> {
   kept.value = named ?? kept.peek();
 }
 
-const poll = polling(telling(problem));
+const poll = polling(showErrorIn(problem));
 export const { leave } = poll;
 
 /** Looks at a search, and follows it until it has ended. */

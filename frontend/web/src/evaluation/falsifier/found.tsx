@@ -11,7 +11,7 @@ const words = text.falsifier;
 
 /** A link to what is looked at; of a search one that lasts as long as the lab. */
 function Link() {
-  const [told, setMessage] = useState("");
+  const [message, setMessage] = useState("");
   const copy = async () => {
     setMessage((await copyText(location.href)) ? words.copied : words.notCopied);
   };
@@ -20,7 +20,7 @@ function Link() {
       <button type="button" class="button" onClick={() => void copy()}>
         {words.copy}
       </button>
-      <span role="status">{told}</span>
+      <span role="status">{message}</span>
     </>
   );
 }
@@ -56,7 +56,7 @@ function Keep({ offered }: { offered: string }) {
 /** What was found in words: who is hurt how, by what, at which run of the search. */
 function Facts({ scenario }: { scenario: Scenario }) {
   const finding = findingOf(scenario);
-  const told = shown.value?.description ?? [];
+  const parts = shown.value?.description ?? [];
   return (
     <>
       {finding && (
@@ -68,8 +68,8 @@ function Facts({ scenario }: { scenario: Scenario }) {
           </span>
         </p>
       )}
-      <ul class="falsifier-told">
-        {told.map((one) => (
+      <ul class="falsifier-summary">
+        {parts.map((one) => (
           <li key={one}>{one}</li>
         ))}
       </ul>

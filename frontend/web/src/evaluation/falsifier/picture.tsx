@@ -108,7 +108,7 @@ function ErrorChart(props: ChartProps) {
         {title} <span class="unit">{unit}</span>
         {bodies.length > 1 &&
           bodies.map(({ key, colour }) => (
-            <span key={key} class={`falsifier-body ink-${colour}`}>
+            <span key={key} class={`falsifier-body line-${colour}`}>
               {words.bodies[key as (typeof BODIES)[number]]}
             </span>
           ))}

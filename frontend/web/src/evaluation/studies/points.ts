@@ -196,7 +196,7 @@ export function formatPercents(shares: Shares): [string, string, string] {
   const exact = (share: number) => Number(share.toFixed(MAX_DECIMALS));
   const ends = [...new Set([0, 1, ...shares.map(exact)])];
   let decimals = DECIMALS;
-  const tell = (share: number) => (100 * share).toFixed(decimals);
-  while (decimals < MAX_DECIMALS && new Set(ends.map(tell)).size < ends.length) decimals++;
-  return [tell(shares[0]), tell(shares[1]), tell(shares[2])];
+  const format = (share: number) => (100 * share).toFixed(decimals);
+  while (decimals < MAX_DECIMALS && new Set(ends.map(format)).size < ends.length) decimals++;
+  return [format(shares[0]), format(shares[1]), format(shares[2])];
 }

@@ -1,6 +1,6 @@
 import { useState } from "preact/hooks";
 import { checkStudy, type StudyPlan, type StudyWish } from "../../core/api/studies";
-import { tell } from "../../core/state/actions";
+import { describeError } from "../../core/state/actions";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { Boxes, LawBoxes } from "../../core/widgets/desk";
@@ -41,7 +41,7 @@ export function Start() {
       problem.value = "";
     } catch (error) {
       setPlan(null);
-      problem.value = tell(error);
+      problem.value = describeError(error);
     }
   };
   const change = (next: () => void) => {

@@ -20,7 +20,7 @@ import {
 } from "../../core/api/studies";
 import { polling, unlessRefused } from "../../core/jobs/poll";
 import { isGoing } from "../../core/jobs/progress";
-import { asking, telling } from "../../core/state/actions";
+import { asking, showErrorIn } from "../../core/state/actions";
 import { goTo, keepLook, place } from "../../runs/list/place";
 import { type Brushed, chooseAxes, readBrush, writeBrush } from "./look";
 import { NOTHING, type Rows, unpackRows } from "./rows";
@@ -60,7 +60,7 @@ export const setBrush = (next: Brushed | null): void =>
   setLook({ brush: next === null ? "" : writeBrush(next) });
 
 const attempt = asking(problem);
-const poll = polling(telling(problem));
+const poll = polling(showErrorIn(problem));
 export const { leave } = poll;
 
 export async function openList(): Promise<void> {
@@ -79,9 +79,9 @@ async function takeRows(name: string): Promise<void> {
 export const fetchRows = (name: string) => attempt(() => takeRows(name));
 
 async function sumUp(found: Study): Promise<void> {
-  const told = await unlessRefused(readSummary(found.name), telling(problem));
+  const read = await unlessRefused(readSummary(found.name), showErrorIn(problem));
   if (chosenName.peek() !== found.name) return;
-  summary.value = told;
+  summary.value = read;
   if (found.study.sampling !== "sensitivity") return;
   const shares = await unlessRefused(readSensitivity(found.name, "succeeded"), () => {});
   if (chosenName.peek() === found.name) indices.value = shares ?? [];
@@ -104,7 +104,7 @@ export async function follow(name: string): Promise<void> {
       study.value = found;
       const isEnded = !isGoing(found.job);
       if (found.done > 0 && (isEnded || found.done > shown * GROWTH)) {
-        await unlessRefused(takeRows(name), telling(problem));
+        await unlessRefused(takeRows(name), showErrorIn(problem));
         if (isLeft()) return false;
         shown = found.done;
       }

@@ -78,7 +78,7 @@ export function LawTable() {
           </thead>
           <tbody>
             {(study.value?.laws ?? []).map((law, place) => {
-              const one = found?.laws.find((told) => told.law === law);
+              const one = found?.laws.find((row) => row.law === law);
               const faults = Object.entries(one?.faults ?? {}).map(
                 ([code, count]) => `${count} ${writeFault(code)}`,
               );

@@ -46,7 +46,7 @@ export function pathOf(points: Curve["points"], x: Axis, y: Axis): string {
 interface CurvesProps {
   title: string;
   /** What the curves show, for who does not see them. */
-  told: string;
+  summary: string;
   x: Axis;
   y: Axis;
   curves: readonly Curve[];
@@ -56,7 +56,7 @@ interface CurvesProps {
   caveat?: string | null;
 }
 
-export function Curves({ title, told, x, y, curves, note, caveat }: CurvesProps) {
+export function Curves({ title, summary, x, y, curves, note, caveat }: CurvesProps) {
   const clip = useId();
   const hatch = useId();
   const right = WIDTH - RIGHT;
@@ -64,7 +64,7 @@ export function Curves({ title, told, x, y, curves, note, caveat }: CurvesProps)
   return (
     <figure class="curves">
       <figcaption>{title}</figcaption>
-      <svg viewBox={`0 0 ${WIDTH} ${HEIGHT}`} role="img" aria-label={told}>
+      <svg viewBox={`0 0 ${WIDTH} ${HEIGHT}`} role="img" aria-label={summary}>
         <clipPath id={clip}>
           <rect x={LEFT} y={TOP} width={right - LEFT} height={bottom - TOP} />
         </clipPath>

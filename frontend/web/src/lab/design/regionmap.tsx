@@ -54,12 +54,12 @@ const percent = (part: number) => `${formatNumber(100 * part, 3, 1)} %`;
 function Picture() {
   const found = shown.value;
   const part = share.value;
-  const told =
+  const summary =
     found === null || part === null
       ? words.regionEmpty
       : words.regionSummary(percent(part), formatNumber(found.stiffness_nm_per_rad, 3, 1));
   return (
-    <svg class="region-map" viewBox={`0 0 ${WIDTH} ${HEIGHT}`} role="img" aria-label={told}>
+    <svg class="region-map" viewBox={`0 0 ${WIDTH} ${HEIGHT}`} role="img" aria-label={summary}>
       <rect
         class="region-ground"
         x={LEFT}

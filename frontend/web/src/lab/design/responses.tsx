@@ -58,14 +58,14 @@ export function Responses() {
   const caveat = caveatOf(found);
   const doubt = caveat?.short ?? null;
   const now = present.value;
-  const tell = (told: string) => (caveat ? words.caveat(told, caveat.short) : told);
+  const addCaveat = (summary: string) => (caveat ? words.caveat(summary, caveat.short) : summary);
   const peak = formatNumber(toDegrees(found.load.peak_error_rad), 3, 2);
   return (
     <div class="responses">
       <div class="response">
         <Curves
           title={words.loadTitle}
-          told={tell(words.loadSummary(peak, found.load.fault))}
+          summary={addCaveat(words.loadSummary(peak, found.load.fault))}
           x={TIME}
           y={errorAxis(errors.map(({ points }) => points))}
           curves={errors}
@@ -75,7 +75,7 @@ export function Responses() {
       </div>
       <Curves
         title={words.bodeTitle}
-        told={tell(
+        summary={addCaveat(
           words.bodeSummary(
             formatNumber(Math.max(0, ...magnitudeOf(found).map(([, value]) => value)), 3, 2),
             found.disturbance === null,
@@ -87,7 +87,7 @@ export function Responses() {
         note={found.disturbance === null ? words.bodeUnstable : null}
         caveat={found.disturbance === null ? null : doubt}
       />
-      {caveat && <p class="hint is-fault responses-caveat">{caveat.told}</p>}
+      {caveat && <p class="hint is-fault responses-caveat">{caveat.summary}</p>}
       <p class="responses-legend" aria-hidden="true">
         <span class="is-tried">{isChanged.value ? words.tried : words.inUse}</span>
         {isChanged.value && (

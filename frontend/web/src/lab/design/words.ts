@@ -34,14 +34,14 @@ interface Caveat {
   /** In the chart. */
   short: string;
   /** Beneath it. */
-  told: string;
+  summary: string;
 }
 
 /** Why the curves of a design are not what it would do, or null where they are. */
 export function caveatOf(found: Pick<DesignResponse, "largest_pole" | "encoders">): Caveat | null {
   if (found.largest_pole < 1) return null;
-  const { short, told } = text.stability.unstableOn[found.encoders];
-  return { short, told: told(found.largest_pole.toFixed(4)) };
+  const { short, summary } = text.stability.unstableOn[found.encoders];
+  return { short, summary: summary(found.largest_pole.toFixed(4)) };
 }
 
 const ratio = (value: number) => formatNumber(value, 3, 2);

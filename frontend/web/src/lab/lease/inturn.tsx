@@ -15,7 +15,7 @@ const words = text.classroom;
 type Queue = NonNullable<SessionState["queue"]>;
 
 /** Who is in control of a class's session, and one's own place; empty where there is nothing to say. */
-function tell(queue: Queue): { title: string; more: string } | null {
+function describeTurn(queue: Queue): { title: string; more: string } | null {
   const now = control.value;
   const [next] = queue.waiting;
   if (now?.mine) {
@@ -67,15 +67,15 @@ function Act({ queue }: { queue: Queue }) {
 
 /** Says whose turn it is; nothing before the lab has told as whom one is in. */
 export function InTurn({ queue }: { queue: Queue }) {
-  const told = access.value === null ? null : tell(queue);
-  if (told === null) return null;
+  const turn = access.value === null ? null : describeTurn(queue);
+  if (turn === null) return null;
   return (
     <div class="banner is-calm" role="status">
       <span class="banner-sign" aria-hidden="true">
         ▪
       </span>
       <p>
-        <strong>{told.title}</strong> {told.more}
+        <strong>{turn.title}</strong> {turn.more}
       </p>
       <Act queue={queue} />
     </div>

@@ -26,7 +26,7 @@ export function Beside({ state, beside, isRecording }: ComparisonLanesProps) {
   const id = useId();
   const law = lawOf(controller.law);
   const title = titleOf(controller.law);
-  const told = name.startsWith(title) ? name.slice(title.length).trim() : name;
+  const label = name.startsWith(title) ? name.slice(title.length).trim() : name;
   return (
     <li class="beside">
       <div class="beside-row">
@@ -38,7 +38,9 @@ export function Beside({ state, beside, isRecording }: ComparisonLanesProps) {
           button={title}
           onChoose={(next) => perform(CONTROL.compare, () => putLane(lane, { law: next }))}
         />
-        <span class="beside-told">{told || (hasOwnSettings(controller) ? words.own : "")}</span>
+        <span class="comparison-label">
+          {label || (hasOwnSettings(controller) ? words.own : "")}
+        </span>
         <button
           type="button"
           class="quiet"

@@ -22,19 +22,19 @@ let latest = 0;
 /** Sends the stop; another press sends another one, which takes the place of this one. */
 export async function pressStop(): Promise<void> {
   const mine = ++latest;
-  const tell = (stage: StopStage, message = "") => {
+  const report = (stage: StopStage, message = "") => {
     if (mine === latest) stop.value = { stage, message };
   };
-  tell("sending");
+  report("sending");
   for (let attempt = 0; attempt < ATTEMPTS && mine === latest; attempt++) {
     try {
       await send();
-      tell("confirmed");
+      report("confirmed");
       await wait(CONFIRMED_MS);
-      return tell("idle");
+      return report("idle");
     } catch (error) {
-      if (isFinal(error)) return tell("refused", error.message);
-      tell("unconfirmed");
+      if (isFinal(error)) return report("refused", error.message);
+      report("unconfirmed");
       await wait(RETRY_MS);
     }
   }

@@ -26,9 +26,9 @@ export function holdOf({ speed, real_time_factor: factor }: Pace): number {
 }
 
 /** Whether a torque is told: it begins a push, it differs, or it is time to be heard of. */
-export function isUpdateDue(torque: number, told: number | null, sinceMs: number): boolean {
-  if (told === null) return Math.abs(torque) > MIN_NM;
-  return Math.abs(torque - told) > CHANGE_NM || sinceMs >= UPDATE_MS;
+export function isUpdateDue(torque: number, sent: number | null, sinceMs: number): boolean {
+  if (sent === null) return Math.abs(torque) > MIN_NM;
+  return Math.abs(torque - sent) > CHANGE_NM || sinceMs >= UPDATE_MS;
 }
 
 const wait = (ms: number) => new Promise((resolve) => setTimeout(resolve, ms));
@@ -41,8 +41,8 @@ let isKept = false;
 export async function keepPush(): Promise<void> {
   if (isKept) return;
   isKept = true;
-  let [id, told, writtenAt] = [null as number | null, null as number | null, 0];
-  const tell = async (torque: number, pace: Pace) => {
+  let [id, sent, writtenAt] = [null as number | null, null as number | null, 0];
+  const send = async (torque: number, pace: Pace) => {
     const load: Load = { kind: "push", torque_nm: [torque, 0, 0], hold_s: holdOf(pace) };
     const state = await addLoad(load);
     id = numberOf(state);
@@ -50,9 +50,9 @@ export async function keepPush(): Promise<void> {
   };
   for (let torque = heldTorque.peek(); torque !== null; torque = heldTorque.peek()) {
     const [now, state] = [torque, session.peek()];
-    if (state && isUpdateDue(now, told, performance.now() - writtenAt)) {
-      [told, writtenAt] = [now, performance.now()];
-      if (!(await perform("scene.push", () => tell(now, state)))) heldTorque.value = null;
+    if (state && isUpdateDue(now, sent, performance.now() - writtenAt)) {
+      [sent, writtenAt] = [now, performance.now()];
+      if (!(await perform("scene.push", () => send(now, state)))) heldTorque.value = null;
     }
     await wait(LOOK_MS);
   }

@@ -35,7 +35,11 @@ export function CostCurve({ trials, budget }: { trials: readonly Trial[]; budget
     <div>
       <Curves
         title={words.curve}
-        told={words.curveSummary(formatNumber(first.cost), formatNumber(last), trials.length - 1)}
+        summary={words.curveSummary(
+          formatNumber(first.cost),
+          formatNumber(last),
+          trials.length - 1,
+        )}
         x={x}
         y={y}
         curves={[

@@ -63,7 +63,7 @@ export function RunTable({ tuning, present, best }: FoundProps) {
             const before = present.runs[index];
             const after = best.runs[index];
             if (before === undefined || after === undefined) return null;
-            const tell = (old: number, now: number) =>
+            const formatPair = (old: number, now: number) =>
               words.arrow(formatNumber(old), formatNumber(now));
             return (
               <tr key={run.name}>
@@ -71,10 +71,12 @@ export function RunTable({ tuning, present, best }: FoundProps) {
                   {run.title}
                   {after.fault && <span class="is-fault"> {words.fault}</span>}
                 </th>
-                <td class="is-best">{tell(before.cost, after.cost)}</td>
-                <td>{tell(before.position_error_deg, after.position_error_deg)}</td>
-                <td>{tell(before.stiffness_error_nm_per_rad, after.stiffness_error_nm_per_rad)}</td>
-                <td>{tell(before.torque_change_nm, after.torque_change_nm)}</td>
+                <td class="is-best">{formatPair(before.cost, after.cost)}</td>
+                <td>{formatPair(before.position_error_deg, after.position_error_deg)}</td>
+                <td>
+                  {formatPair(before.stiffness_error_nm_per_rad, after.stiffness_error_nm_per_rad)}
+                </td>
+                <td>{formatPair(before.torque_change_nm, after.torque_change_nm)}</td>
               </tr>
             );
           })}

@@ -18,9 +18,9 @@ export function OriginLink({ origin }: { origin: Origin }) {
   const { run_id: run, title, time_s: timeS } = origin;
   const name = title ?? run;
   const at = timeS === null ? "" : words.at(words.seconds(Number(timeS.toFixed(3))));
-  const told = words.branchOf(name, at);
+  const message = words.branchOf(name, at);
   return (
-    <span class="run-origin" title={told}>
+    <span class="run-origin" title={message}>
       <svg viewBox="0 0 12 12" aria-hidden="true">
         <path d="M3 1v10M3 8c0-3 6-2 6-6" />
       </svg>

@@ -26,11 +26,11 @@ export async function followSaved(run: string, patienceMs = PATIENCE_MS): Promis
     const details = await readRun(run).catch(() => null);
     if (!isStill()) return;
     if (details !== null && details.state !== "recording") {
-      const told: Saved = { stage: "saved", run, details };
-      saved.value = told;
+      const shown: Saved = { stage: "saved", run, details };
+      saved.value = shown;
       if (details.state === "complete") {
         setTimeout(() => {
-          if (saved.peek() === told) saved.value = null;
+          if (saved.peek() === shown) saved.value = null;
         }, SHOWN_MS);
       }
       return;

@@ -110,7 +110,7 @@ export function Sparkline({ glance }: { glance: Glance | null }) {
           return (
             <path
               key={index}
-              class={`ink-${lineStyle.colour}`}
+              class={`line-${lineStyle.colour}`}
               d={path}
               stroke-dasharray={lineStyle.dash.join(" ") || undefined}
             />

@@ -10,8 +10,8 @@ const words = text.verdict;
 function describeCompared({ run, verdict }: Judged, curves: readonly Overlaid[]): string {
   const { ticks, own_ticks: own, other_ticks: other, compared_s: seconds } = verdict;
   const name = curves.find((one) => one.run === run)?.runName ?? run;
-  const told = words.compared(name, formatNumber(seconds, 4, 3));
-  return ticks === own && ticks === other ? `${told}.` : `${told}; ${words.notAll}.`;
+  const message = words.compared(name, formatNumber(seconds, 4, 3));
+  return ticks === own && ticks === other ? `${message}.` : `${message}; ${words.notAll}.`;
 }
 
 function Row({ one }: { one: JudgedCurve }) {
@@ -49,11 +49,11 @@ interface VerdictTableProps {
 export function VerdictTable({ curves, judged }: VerdictTableProps) {
   const rows = listJudged(curves, judged);
   const failed = rows.filter(({ isHeld }) => !isHeld).length;
-  const told = failed === 0 ? words.allHeld(rows.length) : words.notHeld(failed, rows.length);
+  const message = failed === 0 ? words.allHeld(rows.length) : words.notHeld(failed, rows.length);
   return (
     <>
-      <p class="verdict-told" role="status">
-        <strong class={failed === 0 ? "verdict-held" : "verdict-left"}>{told}</strong>{" "}
+      <p class="verdict-summary" role="status">
+        <strong class={failed === 0 ? "verdict-held" : "verdict-left"}>{message}</strong>{" "}
         {judged.map((one) => describeCompared(one, curves)).join(" ")} {words.marks}
       </p>
       {/* biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls is reached by keyboard */}

@@ -1,7 +1,7 @@
 /** The audit log on the instructor's page: what is asked of it, and what came. */
 import { signal } from "@preact/signals";
 import { type AuditLine, type AuditPage, type AuditWish, readAudit } from "../../core/api/access";
-import { tell } from "../../core/state/actions";
+import { describeError } from "../../core/state/actions";
 import { text } from "../../core/text/en";
 
 const words = text.classroom.audit;
@@ -9,7 +9,7 @@ const PAGE_SIZE = 50;
 const NEWEST: AuditWish = { person: "", kind: "", onlyRefused: false, page: 1, until: "" };
 
 export const wish = signal<AuditWish>(NEWEST);
-export const told = signal<AuditPage | null>(null);
+export const auditPage = signal<AuditPage | null>(null);
 export const problem = signal("");
 export const isReading = signal(false);
 
@@ -22,10 +22,10 @@ async function read(): Promise<void> {
   try {
     const page = await readAudit(wish.peek());
     if (number !== asked) return;
-    told.value = page;
+    auditPage.value = page;
     problem.value = "";
   } catch (error) {
-    if (number === asked) problem.value = tell(error);
+    if (number === asked) problem.value = describeError(error);
   }
   if (number === asked) isReading.value = false;
 }
@@ -38,7 +38,7 @@ export function askFor(change: Partial<Pick<AuditWish, "person" | "kind" | "only
 
 /** Another page of the same, as it was when the first one was read. */
 export function turnTo(page: number): Promise<void> {
-  wish.value = { ...wish.peek(), page, until: told.peek()?.until ?? "" };
+  wish.value = { ...wish.peek(), page, until: auditPage.peek()?.until ?? "" };
   return read();
 }
 

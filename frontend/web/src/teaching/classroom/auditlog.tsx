@@ -4,13 +4,13 @@ import { text } from "../../core/text/en";
 import { ErrorLine } from "../../core/widgets/form";
 import {
   askFor,
+  auditPage,
   countPages,
   describeEnd,
   formatTime,
   isReading,
   nameKind,
   problem,
-  told,
   turnTo,
   wish,
 } from "./audit";
@@ -50,7 +50,7 @@ function Line({ line, now }: { line: AuditLine; now: Date }) {
 }
 
 function Filters() {
-  const { people = [], kinds = [] } = told.value ?? {};
+  const { people = [], kinds = [] } = auditPage.value ?? {};
   const { person, kind, onlyRefused } = wish.value;
   return (
     <div class="audit-filters">
@@ -127,7 +127,7 @@ function Pages({ total }: { total: number }) {
 }
 
 function Lines() {
-  const page = told.value;
+  const page = auditPage.value;
   useEffect(() => {
     void askFor();
   }, []);

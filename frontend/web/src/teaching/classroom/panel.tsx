@@ -32,7 +32,7 @@ function close(): void {
 
 /** Who is here, who waits, whose sessions; what only the instructor may, for the instructor. */
 function Inside() {
-  const told = useSignal<ClassState | null>(null);
+  const classState = useSignal<ClassState | null>(null);
   const code = useSignal<ClassCode | null>(null);
   const token = useSignal("");
   const note = useSignal("");
@@ -41,7 +41,7 @@ function Inside() {
     note.value = "";
     try {
       await act();
-      told.value = await readClass();
+      classState.value = await readClass();
     } catch (error) {
       note.value = explain(error);
     }
@@ -51,7 +51,7 @@ function Inside() {
     const timer = setInterval(() => {
       readClass().then(
         (state) => {
-          told.value = state;
+          classState.value = state;
         },
         () => {},
       );
@@ -98,21 +98,21 @@ function Inside() {
       )}
       {code.value && <Code code={code.value} />}
       <Waiting />
-      {told.value && (
+      {classState.value && (
         <>
           <People
-            people={told.value.people}
+            people={classState.value.people}
             remove={(id) => void attempt(() => removePerson(id))}
           />
           <Removed
-            removed={told.value.removed}
+            removed={classState.value.removed}
             restore={(id) => void attempt(() => restorePerson(id))}
           />
         </>
       )}
-      {told.value && (
+      {classState.value && (
         <Sessions
-          sessions={told.value.sessions}
+          sessions={classState.value.sessions}
           end={(name) => void attempt(() => endSession(name))}
         />
       )}

@@ -6,7 +6,7 @@ import { Results } from "./results";
 
 const words = text.lesson;
 
-const told = (value: number) => String(Number(value.toPrecision(6)));
+const formatBound = (value: number) => String(Number(value.toPrecision(6)));
 
 export function Prediction({ of, exercise, onDone }: Task) {
   const [isChanging, setChanging] = useState(false);
@@ -14,7 +14,7 @@ export function Prediction({ of, exercise, onDone }: Task) {
   const [isSent, setSent] = useState(false);
   const given = of.answer;
   const judge = exercise.parts.find(({ name }) => name === of.judged_by);
-  const range = words.from(told(of.low ?? 0), told(of.high ?? 0), of.unit);
+  const range = words.from(formatBound(of.low ?? 0), formatBound(of.high ?? 0), of.unit);
   if (given !== null && !isChanging) {
     return (
       <>

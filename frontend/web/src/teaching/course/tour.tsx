@@ -84,7 +84,7 @@ function useTarget(selector: string, isShown: boolean): Box | null {
 
 function Card({ index }: { index: number }) {
   const { key, target } = STEPS[index] as (typeof STEPS)[number];
-  const { title, words: told } = words.steps[key];
+  const { title, words: explanation } = words.steps[key];
   const isFirst = index === 0;
   const isLast = index === STEPS.length - 1;
   const card = useRef<HTMLElement>(null);
@@ -117,7 +117,7 @@ function Card({ index }: { index: number }) {
       <section ref={card} class="tour" aria-label={words.label} onKeyDown={turn}>
         <p class="tour-count">{words.of(index + 1, STEPS.length)}</p>
         <h2>{title}</h2>
-        <p aria-live="polite">{told}</p>
+        <p aria-live="polite">{explanation}</p>
         <div class="tour-buttons">
           <button type="button" class="quiet" onClick={endTour} title={words.keys}>
             {words.skip}

@@ -20,13 +20,13 @@ async function load(server: Server) {
   });
   const { start } = await import("../../../src/core/api/client");
   const { perform, problem } = await import("../../../src/core/state/actions");
-  const { told } = await import("../../../src/core/api/outcome");
+  const { commandStatus } = await import("../../../src/core/api/outcome");
   const { session } = await import("../../../src/core/state/session");
   const { calls } = await import("../../../src/core/api/calls");
   const { text } = await import("../../../src/core/text/en");
   session.value = { ...STATE, tick: 0, status: "paused" } as never;
   const words = text.connection;
-  return { press: () => perform("session", start), problem, told, session, calls, words };
+  return { press: () => perform("session", start), problem, commandStatus, session, calls, words };
 }
 
 const outcome = (outcome: string, status: number | null, age_s = 1e6): Answer => ({
@@ -59,12 +59,12 @@ describe("a command whose answer was lost", () => {
     });
     const pressed = page.press();
     await vi.advanceTimersByTimeAsync(2000);
-    expect(page.told.value, "nobody knows yet").toBe("asking");
+    expect(page.commandStatus.value, "nobody knows yet").toBe("asking");
     expect(page.problem.value).toBeNull();
     isUp = true;
     await vi.advanceTimersByTimeAsync(1000);
     expect(await pressed).toBe(true);
-    expect(page.told.value).toBe("carriedOut");
+    expect(page.commandStatus.value).toBe("carriedOut");
     expect(page.session.value?.status).toBe("running");
     expect(page.problem.value).toBeNull();
     expect(page.calls.value.map((call) => call.status)).toEqual([200]);
@@ -73,7 +73,7 @@ describe("a command whose answer was lost", () => {
       "never sent again",
     ).toHaveLength(1);
     await vi.advanceTimersByTimeAsync(10_000);
-    expect(page.told.value).toBeNull();
+    expect(page.commandStatus.value).toBeNull();
   });
 
   it("is told as not carried out only where the server says twice that it never came", async () => {
@@ -84,7 +84,7 @@ describe("a command whose answer was lost", () => {
     await vi.advanceTimersByTimeAsync(2000);
     expect(await pressed).toBe(false);
     expect(page.problem.value?.message).toBe(page.words.notCarriedOut);
-    expect(page.told.value).toBeNull();
+    expect(page.commandStatus.value).toBeNull();
     expect(page.calls.value.map((call) => call.status)).toEqual([null]);
   });
 
@@ -105,7 +105,7 @@ describe("a command whose answer was lost", () => {
       await vi.advanceTimersByTimeAsync(70_000);
       expect(await pressed).toBe(false);
       expect(page.problem.value?.message).toBe(page.words.stillUnknown);
-      expect(page.told.value).toBeNull();
+      expect(page.commandStatus.value).toBeNull();
     }
   });
 });
@@ -144,6 +144,6 @@ describe("an answer that came", () => {
     }));
     expect(await refusing.press()).toBe(false);
     expect(refusing.problem.value?.message).toBe("Arm it first.");
-    expect(refusing.told.value).toBeNull();
+    expect(refusing.commandStatus.value).toBeNull();
   });
 });

@@ -7,7 +7,7 @@ vi.doMock("../../../src/core/api/jobs", async (load) => ({ ...(await load<object
 const { followJobs } = await import("../../../src/core/jobs/follow");
 const { polling } = await import("../../../src/core/jobs/poll");
 
-const told: unknown[] = [];
+const errors: unknown[] = [];
 const unanswered = new UnansweredError(new TypeError("Failed to fetch"));
 const gone = new RefusedError(404, "There is no job a here");
 const stateOf = (status: string) => ({ id: "a", kind: "grading", status });
@@ -15,14 +15,14 @@ let ends: number;
 const followed = () =>
   followJobs(
     "grading",
-    (error) => told.push(error),
+    (error) => errors.push(error),
     () => ends++,
   );
 
 beforeEach(() => {
   vi.useFakeTimers();
   for (const call of Object.values(api)) call.mockReset();
-  told.length = 0;
+  errors.length = 0;
   ends = 0;
 });
 afterEach(() => vi.useRealTimers());
@@ -32,10 +32,10 @@ test("a server that does not answer for a minute is asked on, and it is told unt
   api.readJob.mockRejectedValue(unanswered);
   const ended = follow(stateOf("waiting") as never);
   await vi.advanceTimersByTimeAsync(60_000);
-  expect(new Set(told)).toEqual(new Set([unanswered]));
+  expect(new Set(errors)).toEqual(new Set([unanswered]));
   api.readJob.mockResolvedValueOnce(stateOf("running")).mockResolvedValue(stateOf("done"));
   await vi.advanceTimersByTimeAsync(700);
-  expect([told.at(-1), job.value?.status]).toEqual([null, "running"]);
+  expect([errors.at(-1), job.value?.status]).toEqual([null, "running"]);
   await vi.runAllTimersAsync();
   await ended;
   expect([job.value?.status, ends]).toEqual(["done", 1]);
@@ -45,7 +45,7 @@ test("a job that the server does not know any more is none, and why is told", as
   const { job, follow } = followed();
   api.readJob.mockRejectedValue(gone);
   await follow(stateOf("running") as never);
-  expect([job.value, told, ends]).toEqual([null, [gone], 0]);
+  expect([job.value, errors, ends]).toEqual([null, [gone], 0]);
 });
 
 test("what else was refused meanwhile stays told", async () => {
@@ -54,11 +54,11 @@ test("what else was refused meanwhile stays told", async () => {
   const ended = follow(stateOf("running") as never);
   await vi.runAllTimersAsync();
   await ended;
-  expect(told).toEqual([]);
+  expect(errors).toEqual([]);
 });
 
 test("an answer to what was asked for before comes to nothing", async () => {
-  const { follow, leave } = polling((error) => told.push(error));
+  const { follow, leave } = polling((error) => errors.push(error));
   let arrive: (found: string) => void = () => undefined;
   let fail: (error: unknown) => void = () => undefined;
   const taken: string[] = [];
@@ -69,5 +69,5 @@ test("an answer to what was asked for before comes to nothing", async () => {
   arrive("late");
   fail(unanswered);
   expect(await Promise.all([first, second])).toEqual(["left", "left"]);
-  expect([taken, told]).toEqual([[], []]);
+  expect([taken, errors]).toEqual([[], []]);
 });

@@ -68,11 +68,11 @@ describe("the curves of a switch", () => {
     tracesOf(composeContent(["position_error_rad"], cast), new Set(["position_error_rad"]), 2);
 
   it("keep name and lineStyle of the law whose samples they are, past and present", () => {
-    const told = curves(swapped).map(({ lane, from, to, label, colour }) => {
+    const message = curves(swapped).map(({ lane, from, to, label, colour }) => {
       return { lane, from, to, label, colour };
     });
     const at = (lane: number, from: number) =>
-      told.find((one) => one.lane === lane && one.from === from);
+      message.find((one) => one.lane === lane && one.from === from);
     expect(at(1, 0)).toEqual({ lane: 1, from: 0, to: 7, label: "NDOBC", colour: "blue" });
     expect(at(2, 0)).toEqual({ lane: 2, from: 0, to: 7, label: "FL", colour: "vermilion" });
     expect(at(1, 7)).toMatchObject({ label: "FL", colour: "vermilion" });

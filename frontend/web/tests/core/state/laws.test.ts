@@ -56,7 +56,7 @@ it("Enter takes the law that is written out, or the first that is shown", async 
 it("a refused parameter has the name of its field, a lane's where all laws call it the same", async () => {
   const { laws } = await import("../../../src/core/state/laws");
   const { explainViolation } = await import("../../../src/core/state/refusal");
-  const told = (name: string) =>
+  const message = (name: string) =>
     explainViolation({
       ...{ name, value: 5000, unit: "rad/s", bound: "at most 100 rad/s", limits: { le: 100 } },
       ...{ finding: "", message: "as the server says" },
@@ -75,12 +75,12 @@ it("a refused parameter has the name of its field, a lane's where all laws call 
     law("lqi", { parameters: [rate, wordy, clash] }),
     law("pd", { parameters: [rate, { ...clash, meaning: "Pole of the motor" }] }),
   ];
-  expect(told("lqi.velocity_rad_per_s")).toBe(out("e_v"));
-  expect(told("comparisons[0].parameters.velocity_rad_per_s")).toBe(out("e_v"));
-  expect(told("parameters.rate")).toBe(out("Rate"));
-  expect(told("pd.rate[1]")).toBe(out("Rate 2"));
-  expect(told("parameters.pole")).toBe("as the server says");
-  expect(told("lqi.gone")).toBe("as the server says");
+  expect(message("lqi.velocity_rad_per_s")).toBe(out("e_v"));
+  expect(message("comparisons[0].parameters.velocity_rad_per_s")).toBe(out("e_v"));
+  expect(message("parameters.rate")).toBe(out("Rate"));
+  expect(message("pd.rate[1]")).toBe(out("Rate 2"));
+  expect(message("parameters.pole")).toBe("as the server says");
+  expect(message("lqi.gone")).toBe("as the server says");
 });
 
 it("a law that controls stands among the equations in its own words, the paper's once", async () => {

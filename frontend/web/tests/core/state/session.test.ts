@@ -19,7 +19,7 @@ const KNOWN = stateAt(500, {
 });
 
 it("keeps what was over before, and takes what a message tells from its tick on", () => {
-  const told = stateAt(700, {
+  const progress = stateAt(700, {
     events: [{ tick: 600 }],
     ended_windows: [ended(400, 600)],
     lanes: [
@@ -27,7 +27,7 @@ it("keeps what was over before, and takes what a message tells from its tick on"
       { id: 3, stretches: [stretch("FL", null)] },
     ],
   });
-  const joined = joinPast(KNOWN, told as Progress, 500);
+  const joined = joinPast(KNOWN, progress as Progress, 500);
   expect(joined.events.map(({ tick }) => tick)).toEqual([100, 400, 600]);
   expect(joined.ended_windows.map(({ end_tick }) => end_tick)).toEqual([100, 400, 600]);
   expect(joined.lanes.map((lane) => lane.stretches.map(({ name }) => name))).toEqual([
@@ -37,17 +37,17 @@ it("keeps what was over before, and takes what a message tells from its tick on"
 });
 
 it("takes nothing twice where an answer has told it already", () => {
-  const told = stateAt(500, {
+  const progress = stateAt(500, {
     events: [{ tick: 400 }],
     ended_windows: [ended(100, 400)],
     lanes: KNOWN.lanes,
   });
-  expect(joinPast(KNOWN, told as Progress, 300)).toEqual(KNOWN);
+  expect(joinPast(KNOWN, progress as Progress, 300)).toEqual(KNOWN);
 });
 
 it("forgets all where a message tells all, and what is over for a minute", () => {
-  const told = stateAt(500, { events: [], ended_windows: [] });
-  expect(joinPast(KNOWN, told as Progress, 0).events).toEqual([]);
+  const progress = stateAt(500, { events: [], ended_windows: [] });
+  expect(joinPast(KNOWN, progress as Progress, 0).events).toEqual([]);
   const later = joinPast(KNOWN, stateAt(60_200, { ended_windows: [] }) as Progress, 60_000);
   expect(later.ended_windows.map(({ end_tick }) => end_tick)).toEqual([400]);
 });

@@ -52,14 +52,14 @@ describe("curves of a loop that is unstable", () => {
   test("of one that only settles here it is said where it does not, and by how much", () => {
     const caveat = caveatOf({ largest_pole: 1.0312, encoders: "rig" });
     expect(caveat?.short).toBe("unstable on the rig");
-    expect(caveat?.told).toContain("|z| = 1.0312");
-    expect(caveat?.told).toContain("without the encoders' counts and delay");
+    expect(caveat?.summary).toContain("|z| = 1.0312");
+    expect(caveat?.summary).toContain("without the encoders' counts and delay");
   });
 
   test("a session with encoders of its own is spoken of itself, also at the edge", () => {
     const caveat = caveatOf({ largest_pole: 1, encoders: "session" });
     expect(caveat?.short).toContain("does not come to rest");
-    expect(caveat?.told).not.toContain("rig");
+    expect(caveat?.summary).not.toContain("rig");
   });
 });
 

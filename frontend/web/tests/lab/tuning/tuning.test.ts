@@ -15,7 +15,7 @@ const trial = (number: number, cost: number): Trial => ({
   runs: [],
 });
 
-const state = (status: Tuning["status"], told: Trial[], more: Partial<Tuning> = {}): Tuning => ({
+const state = (status: Tuning["status"], tried: Trial[], more: Partial<Tuning> = {}): Tuning => ({
   id: "abc",
   law: "fl_integral",
   status,
@@ -25,8 +25,8 @@ const state = (status: Tuning["status"], told: Trial[], more: Partial<Tuning> = 
   duration_s: 8,
   axes: [],
   runs: [],
-  tried: told.length,
-  trials: told,
+  tried: tried.length,
+  trials: tried,
   present: null,
   best: null,
   best_setting: null,

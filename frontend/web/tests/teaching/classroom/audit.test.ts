@@ -88,7 +88,7 @@ describe("the audit log", () => {
     await log.askFor({ kind: "settings" });
     late(await answer(page(99)));
     await first;
-    expect(log.told.value?.total).toBe(7);
+    expect(log.auditPage.value?.total).toBe(7);
     expect(log.isReading.value).toBe(false);
   });
 
@@ -98,7 +98,7 @@ describe("the audit log", () => {
     answers = [() => answer({ detail: "Too much is being made.", violations: [] }, 503)];
     await log.askFor();
     expect(log.problem.value).toBe("Too much is being made.");
-    expect(log.told.value?.total).toBe(120);
+    expect(log.auditPage.value?.total).toBe(120);
   });
 });
 
