@@ -54,15 +54,17 @@ class Supervisor:
         if age == math.inf or age <= self._loop_s:
             self.silenced = False
             return
-        if not self.silenced:
+        is_first, self.silenced = not self.silenced, True
+        if is_first:
             # Counted before the first frame: a loop that wakes up in between must know whose frames
             # they are.
             self._beats.count_stop()
-            print(f"Supervisor: the loop is silent, the drives are stopped ({age:.3f} s).")
-            sys.stdout.flush()
-        self.silenced = True
         self.stop_drives()
         self._beats.beat("stopping")
+        if is_first:
+            # After the frames: a standard output that nothing reads would block here.
+            print(f"Supervisor: the loop is silent, the drives are stopped ({age:.3f} s).")
+            sys.stdout.flush()
 
     def listen(self) -> bool:
         """Take what has come off the bus; whether there was anything."""

@@ -1,6 +1,7 @@
 """The supervisor: another process with its own bus stops the drives of a loop that is dead."""
 
 import contextlib
+import io
 import select
 import signal
 import subprocess
@@ -96,6 +97,23 @@ def test_stops_the_drives_after_20_ms_and_until_the_loop_beats_again(
     supervisor.watch()
     assert len(bus.sent) == 9
     assert not supervisor.silenced
+
+
+def test_the_drives_are_stopped_before_anything_is_written(
+    watched: tuple[Supervisor, RecordingBus, Ages], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    supervisor, bus, ages = watched
+
+    class FullPipe(io.StringIO):
+        def write(self, text: str) -> int:
+            raise BlockingIOError
+
+    monkeypatch.setattr(sys, "stdout", FullPipe())
+    ages.loop_s = 1.0
+    with pytest.raises(BlockingIOError):
+        supervisor.watch()
+    assert bus.sent == [(0x013, ZERO), (0x023, ZERO), (0x000, RESET)]
+    assert ages.beats[-1] == "stopping"
 
 
 def test_how_long_it_waits_is_said_in_the_bench_file() -> None:
