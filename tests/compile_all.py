@@ -32,15 +32,15 @@ BATCHES, EXHAUSTIVE = "batches", "--exhaustive"
 
 def main() -> None:
     """On two cores: the loop and what goes through it here, what shares nothing with it beside."""
-    beside = [start("tests.compile_all", BATCHES, *sys.argv[1:])]
+    processes = [start("tests.compile_all", BATCHES, *sys.argv[1:])]
     if EXHAUSTIVE in sys.argv:
-        beside.append(start("tests.runs.paper.golden", "--figures", **GENERIC))
+        processes.append(start("tests.runs.paper.golden", "--figures", **GENERIC))
     prepare()
     compile_bench()
     compile_identification()
     predict(FIGURES["4a"].build_configuration("ndobc"), STIFFNESS)
     compare_with_scipy(repeats=1, duration_s=0.02)
-    for process in beside:
+    for process in processes:
         assert process.wait() == 0, process.args
 
 

@@ -105,14 +105,14 @@ def test_the_same_law_twice_is_told_apart_by_what_it_is_set_to(page: Page, still
     page.keyboard.press("ArrowDown")
     expect(laws.get_by_role("button", name=re.compile("^NDOBC "))).to_be_focused()
     page.keyboard.press("Enter")
-    beside = page.get_by_role("list", name="Beside it")
-    settings = beside.get_by_role("button", name="Settings of NDOBC (2)", exact=True)
+    lanes = page.get_by_role("list", name="Beside it")
+    settings = lanes.get_by_role("button", name="Settings of NDOBC (2)", exact=True)
     settings.press("Enter")
     expect(settings).to_have_attribute("aria-expanded", "true")
-    field = beside.get_by_role("spinbutton", name=re.compile("^ωq"))
+    field = lanes.get_by_role("spinbutton", name=re.compile("^ωq"))
     field.fill("40")
     field.press("Enter")
-    expect(beside.get_by_role("button", name="Remove NDOBC ωq 40", exact=True)).to_be_visible()
+    expect(lanes.get_by_role("button", name="Remove NDOBC ωq 40", exact=True)).to_be_visible()
     legend = page.get_by_role("region", name="Position error plot", exact=True)
     expect(legend.get_by_role("button", name=re.compile("^NDOBC ωq 40"))).to_be_visible()
     still_lab.jump(1)  # of what it was set to then there are samples to tell apart
@@ -120,13 +120,13 @@ def test_the_same_law_twice_is_told_apart_by_what_it_is_set_to(page: Page, still
 
     field.fill("9000")
     field.press("Enter")
-    expect(beside.get_by_role("alert")).to_contain_text("1000 rad/s")
+    expect(lanes.get_by_role("alert")).to_contain_text("1000 rad/s")
     page.get_by_role("button", name=re.compile("^Undo")).press("Enter")
-    remove = beside.get_by_role("button", name="Remove NDOBC ωq 60 (2)", exact=True)
+    remove = lanes.get_by_role("button", name="Remove NDOBC ωq 60 (2)", exact=True)
     expect(remove).to_be_visible()
     assert [lane["id"] for lane in still_lab.read()["lanes"]] == ids
     remove.press("Enter")
-    expect(beside).to_have_count(0)
+    expect(lanes).to_have_count(0)
     assert still_lab.read()["configuration"]["comparisons"] == []
 
 

@@ -50,15 +50,15 @@ def test_a_law_is_no_part_of_the_loop() -> None:
 
 
 def test_files_beside_the_equations_compile_nothing_anew() -> None:
-    beside = {
+    named = {
         "cli.py",
         "runs/session/journal.py",
         "runs/run.py",
         "runs/metrics.py",
         "runs/command.py",
     }
-    assert all((LIBRARY / name).exists() for name in beside)
-    assert not beside & find_names("simulation/loop/loop.py")
+    assert all((LIBRARY / name).exists() for name in named)
+    assert not named & find_names("simulation/loop/loop.py")
 
 
 @pytest.fixture

@@ -62,10 +62,10 @@ def test_fl_beside_ndobc_is_two_single_runs_bit_for_bit(effects):
 def test_a_lane_has_gains_and_an_observer_of_its_own_or_those_of_the_run():
     """Each lane equals the run that has its settings as its own."""
     lanes = (SLOW, WIDE, FL)
-    beside = svsa.simulate(
+    together = svsa.simulate(
         build_configuration(PULSE, comparisons=lanes), duration_s=0.3
     ).comparisons
-    for lane, result in zip(lanes, beside, strict=True):
+    for lane, result in zip(lanes, together, strict=True):
         own = {key: value for key, value in lane if value is not None}
         alone = svsa.simulate(build_configuration(PULSE, **own), duration_s=0.3)
         np.testing.assert_array_equal(result.samples, alone.samples)

@@ -160,7 +160,7 @@ class HostedSession:
             raise StateError(f"Nobody waits for control of session {self.session.name}.")
         return self.lease
 
-    def free_hand_if_left(self, now: float, patience_s: float) -> None:
+    def release_if_left(self, now: float, patience_s: float) -> None:
         """End the control of a holder who, with no stream open, is silent for patience_s."""
         for client in self.list_viewers():
             self.lease.hear(client, now)

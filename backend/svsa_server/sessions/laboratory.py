@@ -168,7 +168,7 @@ class Laboratory:
     def free_leases(self, now: float) -> None:
         """End the control of holders that are gone at `now` (monotonic, s), and report it."""
         for hosted in self.sessions.values():
-            hosted.free_hand_if_left(now, self._control_s)
+            hosted.release_if_left(now, self._control_s)
 
     def _end_idle(self, now: float) -> None:
         for name, hosted in list(self.sessions.items()):

@@ -103,14 +103,14 @@ def make_tube(path: Array, radius: float, *, sections: int = 10) -> trimesh.Trim
     vertices = np.vstack([rings.reshape(-1, 3), path[:1], path[-1:]])
     step = np.arange(len(path) - 1)[:, None] * sections
     here = step + np.arange(sections)
-    beside = step + np.roll(np.arange(sections), -1)
+    beyond = step + np.roll(np.arange(sections), -1)
     first, last = len(vertices) - 2, len(vertices) - 1
     rim = np.arange(sections)
     end = (len(path) - 1) * sections
     faces = np.vstack(
         [
-            np.column_stack([here.ravel(), beside.ravel(), (beside + sections).ravel()]),
-            np.column_stack([here.ravel(), (beside + sections).ravel(), (here + sections).ravel()]),
+            np.column_stack([here.ravel(), beyond.ravel(), (beyond + sections).ravel()]),
+            np.column_stack([here.ravel(), (beyond + sections).ravel(), (here + sections).ravel()]),
             np.column_stack([np.roll(rim, -1), rim, np.full(sections, first)]),
             np.column_stack([end + rim, end + np.roll(rim, -1), np.full(sections, last)]),
         ]

@@ -93,9 +93,9 @@ def read_correction(corrections: np.ndarray, knot: int, share: float) -> float:
 def learn(constants: Constants, corrections: np.ndarray, knot: int, error: float) -> None:
     """Correct at a knot what led to this error, in place."""
     q = constants.smoothing
-    beside = 0.5 * (corrections[(knot - 1) % KNOTS] + corrections[(knot + 1) % KNOTS])
+    neighbours = 0.5 * (corrections[(knot - 1) % KNOTS] + corrections[(knot + 1) % KNOTS])
     own = corrections[knot % KNOTS] + constants.learned * error
-    corrections[knot % KNOTS] = (1.0 - q) * own + q * beside
+    corrections[knot % KNOTS] = (1.0 - q) * own + q * neighbours
 
 
 @compiled

@@ -17,18 +17,18 @@ SUFFIX = ".search"
 
 def keep_search(path: Path, found: Falsified) -> Path:
     """Keep what a search has run that writes to `path`; the file where it is."""
-    beside = path.with_name(path.name + SUFFIX)
+    kept_path = path.with_name(path.name + SUFFIX)
     reported = _describe(found.adversary, found.seed, found.method)
     content = reported | {"severities": [_write(value) for value in found.severities.tolist()]}
-    replace_file(beside, json.dumps(content).encode())
-    return beside
+    replace_file(kept_path, json.dumps(content).encode())
+    return kept_path
 
 
 def read_search(path: Path, adversary: Adversary, seed: int, method: Method) -> np.ndarray:
     """What was run of the same search; nothing where there is none, or another one."""
-    beside = path.with_name(path.name + SUFFIX)
+    kept_path = path.with_name(path.name + SUFFIX)
     try:
-        kept = json.loads(beside.read_text(encoding="utf-8"))
+        kept = json.loads(kept_path.read_text(encoding="utf-8"))
         severities = kept.pop("severities")
     except (OSError, ValueError, KeyError, AttributeError):
         return np.empty(0)

@@ -6,7 +6,7 @@ from statistics import fmean, geometric_mean, median
 from typing import NamedTuple
 
 from svsa.evaluation.ranking.measure import (
-    SETTLED_DEG,
+    STEADY_STATE_DEG,
     Entry,
     Tell,
     measure_peak,
@@ -30,13 +30,13 @@ class Passage(NamedTuple):
 
     peak_deg: float
     rms_deg: float
-    settled_deg: float
+    steady_state_deg: float
     recovery_s: float
 
     @property
     def fails(self) -> bool:
         """Whether it ended early, or is off by more than 1° at its end."""
-        return not self.settled_deg <= SETTLED_DEG
+        return not self.steady_state_deg <= STEADY_STATE_DEG
 
 
 class Contest(NamedTuple):
@@ -78,7 +78,7 @@ def _peak(one: Passage) -> float:
 
 
 def _settled(one: Passage) -> float:
-    return one.settled_deg
+    return one.steady_state_deg
 
 
 def _recovery(one: Passage) -> float:

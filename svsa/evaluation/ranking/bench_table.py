@@ -96,7 +96,7 @@ def _describe_ends(runs: tuple[BenchRun, ...]) -> list[str]:
 def _describe_count(runs: BenchRuns, law: str) -> list[str]:
     versions = " and ".join(sorted({run.version for run in runs.list_runs(law)}))
     no_worse, count = runs.count_no_worse(law, PAPERS_LAW)
-    beside = "" if law == PAPERS_LAW else f"No worse than NDOBC in {no_worse} of {count}. "
+    verdict = "" if law == PAPERS_LAW else f"No worse than NDOBC in {no_worse} of {count}. "
     return [
-        f"{beside}By SVSA Lab {versions}, in lockstep; the same again: `svsa ranking bench {law}`."
+        f"{verdict}By SVSA Lab {versions}, in lockstep; the same again: `svsa ranking bench {law}`."
     ]

@@ -40,7 +40,7 @@ from svsa.runs.paper import STEADY_S
 from svsa.runs.result.result import Result
 from svsa.runs.result.simulate import simulate
 
-SETTLED_DEG = 1.0
+STEADY_STATE_DEG = 1.0
 LAST_S = 1.0
 REST_LAST_S = 2.0
 _FIGURE = {
@@ -135,7 +135,7 @@ def has_held(result: Result, scenario: Scenario) -> bool:
     """No fault, and in the last second an rms error of at most 1°."""
     end = scenario.duration_s
     error = measure_rms(result, end - LAST_S, end)
-    return error is not None and error <= SETTLED_DEG
+    return error is not None and error <= STEADY_STATE_DEG
 
 
 def tally_sweep(sweep: Sweep, held: Sequence[Sequence[bool]]) -> SweepOutcome:

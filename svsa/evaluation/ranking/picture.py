@@ -156,13 +156,13 @@ def _draw_run(axes: Axes, loss: Loss, law: str, style: dict[str, Any]) -> None:
 
 def save_law(results: Results, law: str, path: Path) -> None:
     """A law beside NDOBC: figure 4A on the rig, load removal, and the six sweeps."""
-    beside = BASELINE if law == PAPERS_LAW else PAPERS_LAW
+    baseline = BASELINE if law == PAPERS_LAW else PAPERS_LAW
     picture = Picture(figsize=(11.0, 3.6), layout="constrained")
     grid = picture.add_gridspec(1, 3, width_ratios=(1.25, 1.25, 1.0))
     rig, load_removal = picture.add_subplot(grid[0, 0]), picture.add_subplot(grid[0, 1])
     web: Any = picture.add_subplot(grid[0, 2], projection="polar")
     shown_in = ((rig, RIG_4A, (4.8, 6.2)), (load_removal, LOAD_REMOVAL, (7.8, 9.2)))
-    for name in (beside, law):
+    for name in (baseline, law):
         style = style_law(name)
         for axes, scenario, window in shown_in:
             result = run_scenario(scenario, Entry(name))

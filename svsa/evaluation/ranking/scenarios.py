@@ -79,8 +79,8 @@ class Scenario(NamedTuple):
 
     def build_compared(self, law: str) -> Configuration:
         """The same beside NDOBC, and NDOBC beside FL."""
-        beside = BASELINE if law == PAPERS_LAW else PAPERS_LAW
-        return self.build_configuration(law).changed(comparisons=(Lane(law=beside),))
+        baseline = BASELINE if law == PAPERS_LAW else PAPERS_LAW
+        return self.build_configuration(law).changed(comparisons=(Lane(law=baseline),))
 
 
 PAPER = PaperLoad(start_s=LOAD_TIME_S)

@@ -55,21 +55,21 @@ def build_seen(scenario: Scenario, law: str) -> Seen:
     measured, goes on for longer than the other's.
     """
     compared = scenario.build_compared(law)
-    (beside,) = compared.comparisons
+    (baseline,) = compared.comparisons
     ticks = len(run_scenario(scenario, Entry(law)).samples)
-    alone = explain_alone(scenario, get_title(law), beside.law, ticks)
+    alone = explain_alone(scenario, get_title(law), baseline.law, ticks)
     return Seen(scenario.build_configuration(law) if alone else compared, alone)
 
 
-def explain_alone(scenario: Scenario, name: str, beside: str, ticks: int) -> str:
+def explain_alone(scenario: Scenario, name: str, baseline: str, ticks: int) -> str:
     """Why another law cannot be beside one whose run has so many ticks; "" where it can.
 
     name: of the one that is shown.
     """
-    fault = run_scenario(scenario, Entry(beside)).fault
+    fault = run_scenario(scenario, Entry(baseline)).fault
     if fault is None or fault.tick >= ticks:
         return ""
-    other = get_title(beside)
+    other = get_title(baseline)
     return (
         f"In “{scenario.title}” nothing was put beside {name}: the earlier end of {other} there"
         f" would have ended both. {other}: {fault.message}"

@@ -42,14 +42,14 @@ class Verified(NamedTuple):
     def description(self) -> str:
         """The same in words."""
         what = "an emulator" if self.plant == "emulated" else "a bench"
-        beside = {0: "", 1: ", and the simulated lane beside it"}.get(
+        with_lane = {0: "", 1: ", and the simulated lane beside it"}.get(
             self.lanes, f", and the {self.lanes} simulated lanes beside it"
         )
         late = f" ({self.missed} of them were missed)" if self.missed else ""
         return (
             f"Recorded on {what}, which cannot be run again. From the angles measured and the"
             f" torques sent in its {self.ticks} samples{late} references, observer, estimate and"
-            f" errors were worked out again{beside}: the same, bit for bit. The torques sent are"
+            f" errors were worked out again{with_lane}: the same, bit for bit. The torques sent are"
             f" those that its law asks for, to a step of the drives, in"
             f" {100.0 * self.share_as_limited:.1f} % of the samples, and never beyond them."
         )

@@ -140,8 +140,8 @@ def _describe_laws(acting: Acting, header: RecordHeader) -> str:
         UNKNOWN if law is None else describe_law(law) for law in acting.get_values("law")
     )
     is_twin = header.plant != "simulated" and bool(every[0])
-    beside = follow(describe_lanes(lanes[1:] if is_twin else lanes) for lanes in every)
-    others = ["twin", beside] if is_twin else [beside]
+    comparisons = follow(describe_lanes(lanes[1:] if is_twin else lanes) for lanes in every)
+    others = ["twin", comparisons] if is_twin else [comparisons]
     return VERSUS.join(part for part in (first, *others) if part)
 
 

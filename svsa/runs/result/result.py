@@ -154,7 +154,7 @@ class Result(Channels):
     def _describe(self) -> tuple[str, str]:
         """The run in two lines: what it is, and how it went."""
         period = self.configuration.sampling.period_s
-        beside = (
+        comparison = (
             f" beside {', '.join(name_law(r.law) for r in self.comparisons)}"
             if self.comparisons
             else ""
@@ -163,7 +163,7 @@ class Result(Channels):
         laws = " → ".join(name_law(law) for law, _ in stretches)
         called = f"{self.name}: " if self.name else ""
         first = (
-            f"{called}{laws}{beside}, {len(self.samples) * period:g} s at"
+            f"{called}{laws}{comparison}, {len(self.samples) * period:g} s at"
             f" {1.0 / period:g} Hz ({len(self.samples)} samples of {len(CHANNELS)} channels)"
         )
         if not len(self.samples):

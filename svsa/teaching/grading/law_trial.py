@@ -1,6 +1,6 @@
 """A law tried before it is submitted: one run, on a scenario that everybody may see."""
 
-from svsa.evaluation.ranking.measure import SETTLED_DEG
+from svsa.evaluation.ranking.measure import STEADY_STATE_DEG
 from svsa.evaluation.ranking.trials import build_trial
 from svsa.teaching.course.submission import LONGEST_OUTPUT, KeptLaw
 from svsa.teaching.grading.law_runs import LawRun, run_law
@@ -41,10 +41,10 @@ def judge_trial(text: str, run: LawRun) -> KeptLaw:
     rms = f"{run.rms_deg:.3g}° rms from the load on"
     if run.held:
         reported = (
-            f"It went to its end: {rms}, and at most {SETTLED_DEG:g}° rms in the last second."
+            f"It went to its end: {rms}, and at most {STEADY_STATE_DEG:g}° rms in the last second."
         )
         return KeptLaw(text=text, verdict="held", feedback=f"{reported} {cost}")
     reported = (
-        f"It went to its end with {rms}, but more than {SETTLED_DEG:g}° rms in the last second."
+        f"It went to its end with {rms}, but over {STEADY_STATE_DEG:g}° rms in the last second."
     )
     return KeptLaw(text=text, verdict="ran", feedback=f"{reported} {cost}")

@@ -36,7 +36,7 @@ def test_what_is_measured_of_a_run_is_what_its_samples_say():
     error = [math.degrees(abs(e)) for e in result.position_error_rad]
     assert passage.peak_deg == pytest.approx(max(error[begin:]))
     last = error[-500:]
-    assert passage.settled_deg == pytest.approx(math.sqrt(sum(e * e for e in last) / 500))
+    assert passage.steady_state_deg == pytest.approx(math.sqrt(sum(e * e for e in last) / 500))
     late = begin + round(passage.recovery_s / 0.001)
     assert max(error[late + 1 :]) <= 0.021 * passage.peak_deg
     assert error[late - 2] > 0.019 * passage.peak_deg

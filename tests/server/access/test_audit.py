@@ -64,7 +64,7 @@ def test_control_that_goes_on_by_itself_is_written_down_with_why_and_tick(tmp_pa
     for later, here in ((91.0, (ADA, BOB, EVE)), (107.0, (BOB,)), (200.0, ())):
         for person in here:
             lease.hear(person.client, begin + later)
-        hosted.free_hand_if_left(begin + later, 15.0)
+        hosted.release_if_left(begin + later, 15.0)
     log.close()
     text = (tmp_path / audit.FILE).read_text(encoding="utf-8")
     lines = [json.loads(line) for line in text.splitlines()]

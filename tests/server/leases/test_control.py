@@ -192,15 +192,15 @@ def test_a_hand_is_free_15_s_after_the_last_call_and_stream() -> None:
     with hosted.streamed_to("1"), hosted.streamed_to("2"), hosted.streamed_to(None):
         assert (hosted.streams, hosted.session.watched) == (3, True)
         version = hosted.version
-        hosted.free_hand_if_left(200.0, 15.0)
+        hosted.release_if_left(200.0, 15.0)
     assert (hosted.streams, hosted.session.watched) == (0, False)
     assert hosted.version > version, "everybody is told how many watch"
-    hosted.free_hand_if_left(214.0, 15.0)
+    hosted.release_if_left(214.0, 15.0)
     lease.hear("2", 214.0)
     lease.hear("1", 210.0)
-    hosted.free_hand_if_left(224.0, 15.0)
+    hosted.release_if_left(224.0, 15.0)
     assert lease.is_held_by("1")
-    hosted.free_hand_if_left(226.0, 15.0)
+    hosted.release_if_left(226.0, 15.0)
     assert lease.admits(None)
 
 

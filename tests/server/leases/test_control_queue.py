@@ -153,7 +153,7 @@ def test_a_bench_comes_to_rest_whenever_it_is_handed_on(queue: ControlQueue) -> 
         lambda hosted: hosted.hand_control_over("p-1", "p-2"),
         lambda hosted: hosted.take_control(TEACHER, True),
         lambda hosted: hosted.lock_control(True),
-        lambda hosted: hosted.free_hand_if_left(float("inf"), GONE_S),
+        lambda hosted: hosted.release_if_left(float("inf"), GONE_S),
     )
     for change in changes:
         bench = Bench()
@@ -189,7 +189,7 @@ def test_streams_keep_a_place_in_the_queue() -> None:
         hosted.take_control(ADA, False)
         hosted.take_control(BOB, False)
         with hosted.streamed_to("p-1"), hosted.streamed_to("p-2"):
-            hosted.free_hand_if_left(1e8, GONE_S)
+            hosted.release_if_left(1e8, GONE_S)
         assert hosted.find_queue().find_place("p-2") == 1
 
     asyncio.run(wait())

@@ -16,15 +16,15 @@ def test_the_table_is_the_published_one_with_its_provenance(shared_lab: Lab) -> 
     assert {row["law"] for row in answer["rows"]} >= {"ndobc", "ndobc_w", "fl"}
 
 
-@pytest.mark.parametrize(("law", "beside"), [("ndobc_w", ["ndobc"]), ("ndobc", ["fl"])])
+@pytest.mark.parametrize(("law", "baselines"), [("ndobc_w", ["ndobc"]), ("ndobc", ["fl"])])
 def test_a_run_of_the_suite_is_seen_beside_the_papers_law(
-    lab: Lab, law: str, beside: list[str]
+    lab: Lab, law: str, baselines: list[str]
 ) -> None:
     wanted = {"law": law, "scenario": "load_removal_18_4"}
     state = lab.client.post(f"{RANKING}/sessions", json=wanted).raise_for_status().json()
     configuration = state["configuration"]
     assert configuration["law"] == law
-    assert [comparison["law"] for comparison in configuration["comparisons"]] == beside
+    assert [comparison["law"] for comparison in configuration["comparisons"]] == baselines
     assert state["note"] == ""
     assert configuration["stiffness"]["stiffness_nm_per_rad"] == 18.0
     assert [load["load"]["duration_s"] for load in state["loads"]] == [3.0]

@@ -75,11 +75,11 @@ def test_side_by_side_each_gets_the_grade_that_it_gets_alone(store):
     reported = []
     assert give(store, report=lambda done, total: reported.append((done, total)), workers=2)
     assert reported == [(0, 3), (1, 3), (2, 3), (3, 3)]
-    beside = list_graded(store)
+    graded = list_graded(store)
     shutil.rmtree(open_book(store).folder)
     assert give(store)
-    assert list_graded(store) == beside
-    assert "one of feedback-linearization" in beside[-1].problem
+    assert list_graded(store) == graded
+    assert "one of feedback-linearization" in graded[-1].problem
 
 
 @pytest.mark.exhaustive

@@ -54,8 +54,8 @@ def test_a_submitted_laws_worst_run_is_the_one_that_was_measured(tmp_path, monke
     assert alone == ""
     assert entry.author == "Ada"
     np.testing.assert_array_equal(result.samples, once.samples)
-    beside = simulate(scenario.build_configuration("ndobc"), duration_s=scenario.duration_s)
-    np.testing.assert_array_equal(result.comparisons[0].samples, beside.samples)
+    ndobc = simulate(scenario.build_configuration("ndobc"), duration_s=scenario.duration_s)
+    np.testing.assert_array_equal(result.comparisons[0].samples, ndobc.samples)
     measured = result.measure(scenario.measured_s, scenario.duration_s).rms_position_error_rad
     assert entry.standing.worst.rms_deg == pytest.approx(np.degrees(measured))
 

@@ -122,9 +122,9 @@ async def see_falsification(
 ) -> SessionState:
     """A private session, running, of the law in what was found, and another law beside it."""
     found = find_jobs(request).get(name, KIND)
-    law, beside = list_baselines(found.asked.adversary.law)
+    law, baseline = list_baselines(found.asked.adversary.law)
     configuration = _find_scenario(found).build_configuration(law)
-    compared = configuration.changed(comparisons=(Lane(law=beside),))
+    compared = configuration.changed(comparisons=(Lane(law=baseline),))
     return build_state(request.app.state.laboratory.create(compared, person.id))
 
 
