@@ -24,6 +24,17 @@ _METHODS = ("get", "put", "post", "patch", "delete")
 _PROBLEM = {"schema": {"$ref": "#/components/schemas/Problem"}}
 
 
+_TAGS = [
+    {"name": name}
+    for name in (
+        *("lab", "access", "class", "session", "control", "bench", "settings", "identification"),
+        *("loads", "recording", "references", "runs", "course", "jobs", "tuning", "studies"),
+        *("falsifier", "ranking", "leaderboard"),
+    )
+]
+"""The order of the sections in the documentation; a section that is not here comes last."""
+
+
 def install_openapi(app: FastAPI, build_routes: BuildRoutes, needs_secret: bool) -> None:
     """Have the application answer with the schema of these routes.
 
@@ -46,7 +57,9 @@ def _build_schema(
     title: str, version: str, description: str, build_routes: BuildRoutes, needs_secret: bool
 ) -> dict[str, Any]:
     routes = build_routes()
-    schema = get_openapi(title=title, version=version, description=description, routes=routes)
+    schema = get_openapi(
+        title=title, version=version, description=description, routes=routes, tags=_TAGS
+    )
     return _complete(schema, PermissionTable(routes), needs_secret)
 
 

@@ -3,8 +3,8 @@
 from typing import Annotated
 
 from fastapi import Query
+from pydantic import Field
 
-from svsa.errors import ParameterError, Violation
 from svsa.evaluation.studies.statistics import estimate_share
 from svsa_server.access.permissions import OBSERVER, allow
 from svsa_server.routes.depends import REFUSALS
@@ -12,30 +12,25 @@ from svsa_server.routing import build_router
 from svsa_server.schemas.evaluation.study import Estimate
 
 MAX_SHARES = 256
-MAX_COUNT = 10**9
 router = build_router("/shares", tags=["studies"], responses={422: REFUSALS[422]})
-Counts = Annotated[list[Annotated[int, Query(ge=0, le=MAX_COUNT)]], Query(max_length=MAX_SHARES)]
-_COUNT = Query(description="How many of them have the property", examples=[[8, 0]])
-_TOTAL = Query(description="How many there are, for each count", examples=[[10, 81]])
+Counts = Annotated[str, Field(pattern=r"^[0-9]{1,9},[0-9]{1,9}$")]
+_COUNTS = Query(
+    description="How many have the property, and how many do not; once for each share",
+    max_length=MAX_SHARES,
+    examples=[["8,2", "0,81"]],
+)
 
 
 @router.get("")
 @allow(OBSERVER)
-async def estimate_shares(
-    count: Annotated[Counts, _COUNT], total: Annotated[Counts, _TOTAL]
-) -> list[Estimate]:
-    """Shares with Wilson's interval of 95 %, one for each count and its total.
+async def estimate_shares(counts: Annotated[list[Counts], _COUNTS]) -> list[Estimate]:
+    """Shares with Wilson's interval of 95 %, in the order of the counts.
 
-    Repeat both parameters: `?count=8&total=10&count=0&total=81`. The share of nothing is null, from
-    0 to 1.
+    Repeat the parameter: `?counts=8,2&counts=0,81`. The share of nothing is null, from 0 to 1.
     """
-    if len(count) != len(total):
-        raise ParameterError(Violation("total", len(total), "", f"{len(count)} of them, as counts"))
-    for one, of in zip(count, total, strict=True):
-        if one > of:
-            raise ParameterError(Violation("count", one, "", f"at most its total, {of}"))
-    found = (estimate_share(one, of) for one, of in zip(count, total, strict=True))
-    return [
-        Estimate(value=one.value if of else None, low=one.low, high=one.high)
-        for one, of in zip(found, total, strict=True)
-    ]
+    return [_estimate(*map(int, one.split(","))) for one in counts]
+
+
+def _estimate(count: int, others: int) -> Estimate:
+    found = estimate_share(count, count + others)
+    return Estimate(value=found.value if count + others else None, low=found.low, high=found.high)

@@ -63,7 +63,7 @@ export const tableOf = (study: string): string => new URL(pathOf(study, "/rows.p
 
 /** Shares with their intervals of 95 %; counts: how many of how many, at most 256 of them. */
 export const estimateShares = (counts: readonly (readonly [number, number])[]) => {
-  const pairs = counts.flatMap(([count, total]) => [`count=${count}`, `total=${total}`]);
+  const pairs = counts.map(([count, total]) => `counts=${count},${total - count}`);
   return request("get", `shares?${pairs.join("&")}`) as Promise<Estimate[]>;
 };
 
