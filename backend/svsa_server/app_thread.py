@@ -37,6 +37,7 @@ class Crossing:
         self._outer = asyncio.get_running_loop()
         self._is_over = self.has_answered = False
         self._sending: Future[None] | None = None
+        self._start: Message | None = None
 
     def end(self) -> None:
         """Pass no more messages: another answer is sent instead of the application's."""
@@ -72,9 +73,18 @@ class Crossing:
         return {"type": "http.disconnect"} if self._is_over else await self._receive()
 
     async def _send_outside(self, message: Message) -> None:
-        if not self._is_over:
-            self.has_answered = True
-            await self._send(message)
+        if self._is_over:
+            return
+        if message["type"] == "http.response.start":
+            # Kept until the body comes: sessions that block in between would leave an answer that
+            # has begun and that no other one can replace.
+            self._start = message
+            return
+        self.has_answered = True
+        if self._start is not None:
+            start, self._start = self._start, None
+            await self._send(start)
+        await self._send(message)
 
 
 class AppThread:

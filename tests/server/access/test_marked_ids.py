@@ -73,6 +73,7 @@ NO_IDS_THERE = {
     "PUT /api/v1/sessions/{session}/parameters body:{}.{}": "a parameter of a law",
     "POST /api/v1/references/csv body:": "a file",
     "POST /api/v1/sessions/{session}/control/handover body:to": "waits in a queue that all see",
+    "GET /api/v1/shares query:counts.[]": "two numbers",
     "GET /api/v1/requests/{request_name} path:request_name": "looked up among the caller's own",
 }
 """The same, where the name alone does not say it."""

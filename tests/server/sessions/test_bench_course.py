@@ -186,8 +186,8 @@ def test_its_run_is_judged_and_graded_by_what_was_verified_of_it(room: Room, run
     assert given.points == 1.0
     (found,) = given.runs
     assert found.run_id == run_id
-    assert found.reported.startswith("Recorded on an emulator, which cannot be run again.")
-    assert "the same, bit for bit" in found.reported
+    assert found.description.startswith("Recorded on an emulator, which cannot be run again.")
+    assert "the same, bit for bit" in found.description
 
 
 def test_a_record_that_was_tampered_with_is_refused(room: Room, run_id: str) -> None:
