@@ -12,14 +12,15 @@ import pyarrow as pa
 import pyarrow.compute as pc
 
 from svsa.errors import ParameterError, Violation
-from svsa.evaluation.studies.metrics import METRICS, RECOVERY
-from svsa.evaluation.studies.outcome import REFUSED
-from svsa.evaluation.studies.statistics import (
+from svsa.evaluation.statistics import (
     Interval,
     compute_quantiles,
-    estimate_difference,
+    estimate_paired_share,
     estimate_share,
+    estimate_statistic,
 )
+from svsa.evaluation.studies.metrics import METRICS, RECOVERY
+from svsa.evaluation.studies.outcome import REFUSED
 from svsa.evaluation.studies.store import StoredStudy, StudyError, read_rows
 from svsa.evaluation.studies.study import Study
 from svsa.evaluation.studies.work import DRAW, LAW
@@ -138,17 +139,18 @@ def pair_rows(one: pa.Table, other: pa.Table, name: str, other_name: str) -> Pai
         faults = side["fault"].to_pylist()
         refused |= np.array([fault == REFUSED for fault in faults], dtype=bool)
         ended |= np.array([fault is not None for fault in faults], dtype=bool)
-    a, b = (side[SUCCEEDED].to_numpy()[~refused].astype(float) for side in (one, other))
+    a, b = (side[SUCCEEDED].to_numpy()[~refused] for side in (one, other))
+    only_one, only_other = int(np.sum(a & ~b)), int(np.sum(b & ~a))
     return Pairing(
         one=name,
         other=other_name,
         pairs=len(a),
         whole=int(np.sum(~ended)),
-        success=estimate_difference(a - b),
-        only_one=int(np.sum(a > b)),
-        only_other=int(np.sum(b > a)),
+        success=estimate_paired_share(only_one, only_other, len(a)),
+        only_one=only_one,
+        only_other=only_other,
         differences={
-            metric: estimate_difference(_subtract(one, other, metric)[~ended])
+            metric: estimate_statistic(_subtract(one, other, metric)[~ended])
             for metric in one.column_names
             if metric in METRICS and metric in other.column_names
         },

@@ -15,7 +15,7 @@ from svsa.evaluation.ranking.row import ScoreParts, SweepOutcome, build_parts, c
 from svsa.evaluation.ranking.scenarios import SINGLE, Scenario
 from svsa.evaluation.ranking.sweeps import Sweep, build_sweeps
 from svsa.evaluation.ranking.trials import build_trials
-from svsa.evaluation.studies.statistics import estimate_share
+from svsa.evaluation.statistics import estimate_share
 from svsa.inputs.checked import Checked, Number, Whole, quantity
 from svsa.teaching.grading.law_runs import LawRun
 from svsa.teaching.isolation.refusal import describe_last_output

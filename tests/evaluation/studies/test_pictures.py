@@ -5,8 +5,8 @@ import pytest
 from matplotlib.collections import LineCollection
 from matplotlib.container import BarContainer
 
+from svsa.evaluation.statistics import Interval
 from svsa.evaluation.studies.pictures import draw_sensitivity
-from svsa.evaluation.studies.statistics import Interval
 from svsa.evaluation.studies.summary import Sensitivity
 
 ISHIGAMI = Sensitivity(

@@ -5,16 +5,10 @@ import math
 import numpy as np
 import pyarrow as pa
 import pytest
-from scipy.stats import binomtest
 
 from svsa.errors import ParameterError
+from svsa.evaluation.statistics import estimate_share
 from svsa.evaluation.studies.samples import draw
-from svsa.evaluation.studies.statistics import (
-    MAX_BLOCKS,
-    compute_quantiles,
-    estimate_difference,
-    estimate_share,
-)
 from svsa.evaluation.studies.store import StudyError
 from svsa.evaluation.studies.summary import (
     estimate_sensitivity,
@@ -25,7 +19,6 @@ from svsa.evaluation.studies.summary import (
 from svsa.evaluation.studies.tables import format_share
 from svsa.evaluation.studies.work import build_schema
 from tests.evaluation.studies.studies import build_study
-from tests.exhaustive import exhaust
 
 ISHIGAMI = tuple(
     {"kind": "uniform", "path": f"actuator.{name}", "low": 0.5, "high": 1.5, "relative": True}
@@ -41,43 +34,6 @@ def build_rows(study, outcomes):
         row = {"row": number, "draw": index, "law": study.laws[law], "seed": 0, "succeeded": True}
         rows.append(row | outcome)
     return pa.Table.from_pylist(rows, schema=build_schema(study))
-
-
-def test_wilsons_interval_is_that_of_the_book_and_holds_the_truth_as_often_as_it_says():
-    """10 of 100: 5.52 to 17.44 % (Brown, Cai, DasGupta 2001). Of none nothing is known."""
-    share = estimate_share(10, 100)
-    assert (share.value, share.low, share.high) == pytest.approx((0.1, 0.0552, 0.1744), abs=1e-4)
-    assert estimate_share(0, 50).low == 0.0 < estimate_share(0, 50).high < 0.08
-    assert estimate_share(0, 0)[1:] == (0.0, 1.0)
-    counts = np.random.default_rng(1).binomial(60, 0.07, 1000)
-    held = [estimate_share(int(k), 60) for k in counts]
-    assert np.mean([one.low <= 0.07 <= one.high for one in held]) == pytest.approx(0.95, abs=0.025)
-
-
-def test_wilsons_interval_has_the_bits_of_scipy():
-    random = np.random.default_rng(3)
-    totals = [*range(1, 40), *(int(10**x) for x in random.uniform(2.0, 7.0, 30))]
-    for total in totals:
-        for count in {0, 1, total // 7, total // 2, total - 1, total}:
-            ends = binomtest(count, total).proportion_ci(0.95, "wilson")
-            assert estimate_share(count, total)[1:] == (ends.low, ends.high), (count, total)
-
-
-@pytest.mark.parametrize("count", exhaust([200, 3 * MAX_BLOCKS], [200]))
-def test_the_bootstraps_interval_holds_the_mean_as_often_as_it_says(count):
-    """Of a skew distribution, whether pairs are drawn one by one or in blocks."""
-    random = np.random.default_rng(2)
-    samples = [random.exponential(3.0, count) - 2.0 for _ in range(40)]
-    found = [estimate_difference(sample, seed) for seed, sample in enumerate(samples)]
-    assert np.mean([one.low <= 1.0 <= one.high for one in found]) >= 0.85
-    widths = np.mean([one.high - one.low for one in found])
-    assert widths == pytest.approx(2 * 1.96 * 3.0 / math.sqrt(count), rel=0.1)
-
-
-def test_a_quantile_is_a_value_of_the_sample_and_a_fault_where_so_many_faulted():
-    values = np.array([3.0, 1.0, 2.0, np.inf])
-    assert compute_quantiles(values, (0.05, 0.5, 0.75, 0.95)) == [1.0, 2.0, 3.0, math.inf]
-    assert math.isnan(compute_quantiles(np.empty(0), (0.5,))[0])
 
 
 def test_a_summary_counts_faults_as_failures_and_leaves_refused_draws_out():

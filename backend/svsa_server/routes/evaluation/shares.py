@@ -5,7 +5,7 @@ from typing import Annotated
 from fastapi import Query
 from pydantic import Field
 
-from svsa.evaluation.studies.statistics import estimate_share
+from svsa.evaluation.statistics import estimate_share
 from svsa_server.access.permissions import OBSERVER, allow
 from svsa_server.routes.depends import REFUSALS
 from svsa_server.routing import build_router
