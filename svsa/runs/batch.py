@@ -1,17 +1,20 @@
 """Many configurations at once, eight side by side: what a sweep of parameters is made of."""
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
 from svsa.control.installed import get_law
+from svsa.control.observers.disturbance import compute_shares
 from svsa.numerics.simd.record import lay_out_record
-from svsa.runs.blocks import bind_law, build_blocks, build_constants, compute_start_ratio
-from svsa.runs.configuration import Configuration
+from svsa.runs.blocks import build_blocks, build_setting, compute_start_ratio
+from svsa.runs.configuration import Configuration, Design, Lane
 from svsa.runs.loads import follow_loads
 from svsa.simulation.loop.batch import Batch, build_batch, run_batch
+from svsa.simulation.loop.batch_inputs import join_inputs
 from svsa.simulation.loop.batch_law import is_for_vectors
-from svsa.simulation.loop.lane import Inputs
+from svsa.simulation.loop.lane import Blocks, Inputs
 from svsa.simulation.loop.tally import SUMMARY
 from svsa.simulation.plant.loads import LoadTable, build_load_table
 from svsa.simulation.reference.trajectories import Trajectory
@@ -45,21 +48,75 @@ def _find_alike(configurations: Sequence[Configuration]) -> list[list[int]]:
     return list(alike.values())
 
 
+class RunSet:
+    """Configurations that run side by side under any law and design; what they share is built once.
+
+    Their own laws, gains, observers and parameters do not count.
+    """
+
+    def __init__(self, configurations: Sequence[Configuration], steps: int = 1) -> None:
+        self.count = len(configurations)
+        self._parts = [
+            (numbers, _build_part([configurations[number] for number in numbers], steps))
+            for numbers in _find_alike(configurations)
+        ]
+
+    def run(
+        self, law: str, duration_s: float, begin_s: float = 0.0, design: Design | None = None
+    ) -> np.ndarray:
+        """Run all from t = 0; an array (runs,) of `SUMMARY`, in their order.
+
+        begin_s: when measuring begins. design: of gains, observer and parameters; if left out, each
+        configuration's own.
+        """
+        summaries = np.empty(self.count, dtype=SUMMARY)
+        for numbers, part in self._parts:
+            period = part.blocks[0].period
+            ticks, begin = round(duration_s / period), round(begin_s / period)
+            summaries[numbers] = run_batch(part.bind(law, design), ticks, begin)
+        return summaries
+
+
+class _Part(NamedTuple):
+    """Configurations of one batch, with their first lanes' blocks and joined inputs."""
+
+    configurations: Sequence[Configuration]
+    blocks: Sequence[Blocks]
+    inputs: Inputs
+
+    def bind(self, law: str, design: Design | None = None) -> Batch:
+        """The batch under a law."""
+        installed, lane, blocks = get_law(law), Lane(law=law), self.blocks
+        designs: Sequence[Design] = self.configurations
+        if design is not None:
+            designs = [design] * len(blocks)
+            shares = compute_shares(design.observer, blocks[0].period)
+            blocks = [one._replace(shares=shares) for one in blocks]
+        given = [
+            (one.get_parameters(lane), build_setting(own))
+            for one, own in zip(designs, blocks, strict=True)
+        ]
+        first = installed.build(*given[0])
+        if is_for_vectors(
+            installed.control, blocks[0].nominal, first, lay_out_record(installed.memory())
+        ):
+            constants = [installed.build(*one) for one in given]
+            return build_batch(installed, blocks, constants, (), self.inputs)
+        bound = [installed.bind(*one) for one in given]
+        return build_batch(installed, blocks, (), bound, self.inputs)
+
+
 def build_run_batch(configurations: Sequence[Configuration], steps: int = 1) -> Batch:
     """The first lanes of configurations of one law, each under its own references and loads.
 
     Their sampling, delay and way of the reaction torque are the same.
     """
-    law = get_law(configurations[0].law)
-    lanes = [(one, one.lanes[0]) for one in configurations]
-    blocks = [build_blocks(c, lane, compute_start_ratio(c), steps) for c, lane in lanes]
-    parts = list(zip(lanes, blocks, strict=True))
-    first = build_constants(*lanes[0], blocks[0])
-    inputs = _build_inputs(configurations)
-    if is_for_vectors(law.control, blocks[0].nominal, first, lay_out_record(law.memory())):
-        constants = [build_constants(*lane, own) for lane, own in parts]
-        return build_batch(law, blocks, constants, (), inputs)
-    return build_batch(law, blocks, (), [bind_law(*lane, own) for lane, own in parts], inputs)
+    return _build_part(configurations, steps).bind(configurations[0].law)
+
+
+def _build_part(configurations: Sequence[Configuration], steps: int) -> _Part:
+    blocks = [build_blocks(c, c.lanes[0], compute_start_ratio(c), steps) for c in configurations]
+    return _Part(configurations, blocks, join_inputs(_build_inputs(configurations)))
 
 
 def _build_inputs(configurations: Sequence[Configuration]) -> list[Inputs]:

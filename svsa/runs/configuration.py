@@ -59,6 +59,20 @@ class Design(Checked):
     limits: Limits
     sampling: Sampling
 
+    def find_parameters(self, lane: "Lane") -> LawParameters | None:
+        """What the law of a lane was set to: the lane's own, or the design's; None."""
+        if has_own_parameters(lane.law):
+            return lane.parameters or self.parameters.get(lane.law)
+        return lane.gains or self.gains
+
+    def get_parameters(self, lane: "Lane") -> LawParameters:
+        """What the law of a lane is set to: the lane's own, the design's, or its defaults.
+
+        Raises `ParameterError` for a law that is not installed and not set either.
+        """
+        given = self.find_parameters(lane)
+        return get_law(lane.law).parameters() if given is None else given
+
 
 class Lane(Checked):
     """A controller with a plant of its own: same references, loads and noise as the others."""
@@ -121,20 +135,6 @@ class Configuration(Design):
     def lanes(self) -> tuple[Lane, ...]:
         """The run's own controller and its comparisons."""
         return (Lane(law=self.law), *self.comparisons)
-
-    def find_parameters(self, lane: Lane) -> LawParameters | None:
-        """What the law of a lane was set to: the lane's own, or the run's; None where nothing."""
-        if has_own_parameters(lane.law):
-            return lane.parameters or self.parameters.get(lane.law)
-        return lane.gains or self.gains
-
-    def get_parameters(self, lane: Lane) -> LawParameters:
-        """What the law of a lane is set to: the lane's own, the run's, or its defaults.
-
-        Raises `ParameterError` for a law that is not installed and not set either.
-        """
-        given = self.find_parameters(lane)
-        return get_law(lane.law).parameters() if given is None else given
 
     def list_parameters(self) -> dict[str, LawParameters]:
         """Of laws that have their own: what was set, and what those of the lanes are set to."""

@@ -10,7 +10,7 @@ from svsa.control.installed import check_installed
 from svsa.errors import ParameterError
 from svsa.evaluation.falsifier.adversary import Adversary, Harm
 from svsa.evaluation.falsifier.scenario import Attack, LoadScenario
-from svsa.evaluation.studies.metrics import METRICS, RECOVERY
+from svsa.evaluation.metrics import METRICS, RECOVERY
 from svsa.evaluation.studies.outcome import REFUSED, Success
 from svsa.evaluation.studies.work import measure_runs
 from svsa.runs.configuration import Configuration

@@ -116,7 +116,7 @@ def replay_command(
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
 ) -> None:
     """Run one row of a study again, with all its samples, as a recorded run of this machine."""
-    from svsa.evaluation.studies.metrics import METRICS
+    from svsa.evaluation.metrics import METRICS
     from svsa.evaluation.studies.replay import record_replay, replay_row
     from svsa.evaluation.studies.store import open_study
     from svsa.evaluation.studies.tables import format_metric, write_json

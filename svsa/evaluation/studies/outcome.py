@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from svsa.actuators.faults import FAULT_CODES
-from svsa.evaluation.studies.metrics import METRICS, compute_metrics
+from svsa.evaluation.metrics import METRICS, compute_metrics
 from svsa.inputs.checked import Checked, Number, quantity
 from svsa.simulation.loop.tally import SUMMARY
 
@@ -42,9 +42,21 @@ class Success(Checked):
     peak_stiffness_error_nm_per_rad: Number | None = _at_most(
         "peak_stiffness_error_nm_per_rad", "Largest |σ_d − σ|"
     )
+    peak_stiffness_error_share: Number | None = _at_most(
+        "peak_stiffness_error_share", "Largest |σ_d − σ| over σ_d"
+    )
+    steady_state_stiffness_error_nm_per_rad: Number | None = _at_most(
+        "steady_state_stiffness_error_nm_per_rad", "rms of σ_d − σ over the last 0.5 s"
+    )
+    rms_torque1_nm: Number | None = _at_most("rms_torque1_nm", "rms of τ_1")
+    rms_torque2_nm: Number | None = _at_most("rms_torque2_nm", "rms of τ_2")
     peak_torque1_nm: Number | None = _at_most("peak_torque1_nm", "Largest |τ_1|")
     peak_torque2_nm: Number | None = _at_most("peak_torque2_nm", "Largest |τ_2|")
     effort_n2m2_s: Number | None = _at_most("effort_n2m2_s", "Integral of τ_1² + τ_2²")
+    work_j: Number | None = _at_most("work_j", "Integral of |τ_1 θ̇_1| + |τ_2 θ̇_2|")
+    torque1_variation_nm_per_s: Number | None = _at_most(
+        "torque1_variation_nm_per_s", "Total variation of τ_1 a second"
+    )
     limit_share: Number | None = _at_most(
         "limit_share", "Share of the ticks in which a motor makes its limit", ge=0, le=1
     )

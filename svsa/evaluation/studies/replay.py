@@ -10,7 +10,7 @@ import pyarrow.compute as pc
 from svsa.actuators.domain import INSIDE
 from svsa.actuators.faults import FAULT_CODES
 from svsa.actuators.signals import CHANNELS
-from svsa.evaluation.studies.metrics import METRICS
+from svsa.evaluation.metrics import METRICS
 from svsa.evaluation.studies.outcome import Success, build_outcome
 from svsa.evaluation.studies.samples import build_configurations, draw
 from svsa.evaluation.studies.store import StoredStudy, StudyError, read_rows

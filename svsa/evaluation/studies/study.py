@@ -8,7 +8,7 @@ from pydantic import model_validator
 
 from svsa.control.installed import PAPERS_LAW, InstalledLaw
 from svsa.errors import ParameterError, Violation
-from svsa.evaluation.studies.metrics import METRICS, Metric
+from svsa.evaluation.metrics import METRICS, Metric
 from svsa.evaluation.studies.outcome import Success
 from svsa.evaluation.studies.setting import change_settings, read_setting
 from svsa.evaluation.studies.variation import DRAWN, Variation, Variations

@@ -12,6 +12,7 @@ import pyarrow as pa
 import pyarrow.compute as pc
 
 from svsa.errors import ParameterError, Violation
+from svsa.evaluation.metrics import METRICS, RECOVERY
 from svsa.evaluation.statistics import (
     Interval,
     compute_quantiles,
@@ -19,7 +20,6 @@ from svsa.evaluation.statistics import (
     estimate_share,
     estimate_statistic,
 )
-from svsa.evaluation.studies.metrics import METRICS, RECOVERY
 from svsa.evaluation.studies.outcome import REFUSED
 from svsa.evaluation.studies.store import StoredStudy, StudyError, read_rows
 from svsa.evaluation.studies.study import Study

@@ -10,8 +10,8 @@ import numpy as np
 from rich.table import Table
 
 from svsa.control.installed import get_title
+from svsa.evaluation.metrics import METRICS, RECOVERY
 from svsa.evaluation.statistics import Interval
-from svsa.evaluation.studies.metrics import METRICS, RECOVERY
 from svsa.evaluation.studies.study import Study
 from svsa.evaluation.studies.summary import LawSummary, Pairing, Sensitivity
 

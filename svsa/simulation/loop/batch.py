@@ -37,7 +37,6 @@ from svsa.numerics.simd.record import (
 )
 from svsa.simulation.loop.batch_inputs import (
     group,
-    join_inputs,
     pick_inputs,
     read_first_reference,
     slice_inputs,
@@ -98,13 +97,13 @@ def build_batch(
     blocks: Sequence[Blocks],
     constants: Sequence[tuple[Any, ...]],
     laws: Sequence[BoundLaw],
-    inputs: Sequence[Inputs],
+    inputs: Inputs,
 ) -> Batch:
-    """Runs of a law with these blocks, constants and inputs, one of each a run.
+    """Runs of a law with these blocks and constants, one of each a run.
 
     laws: the law bound to each, of one that is not `is_for_vectors`, which has no constants then.
-    Raises `ParameterError` where the period or a whole number, but for the seed, is not the same
-    in all of them.
+    inputs: of all, see `join_inputs`. Raises `ParameterError` where the period or a whole number,
+    but for the seed, is not the same in all of them.
     """
     start = Start(*build_lane_state(law.start_memory())[:-1])
     given = [find_addresses(one) for one in laws] or constants
@@ -115,8 +114,7 @@ def build_batch(
     if laws:
         memories = np.ascontiguousarray(memories.transpose(0, 2, 1))
     control, memory = (None, None) if laws else (law.control, lay_out_record(law.memory()))
-    rows, joined = group(numbers), join_inputs(inputs)
-    return Batch(control, memory, layout, rows, memories, joined, len(runs), tuple(laws))
+    return Batch(control, memory, layout, group(numbers), memories, inputs, len(runs), tuple(laws))
 
 
 def _lay_out(values: Any, name: str, columns: Iterator[np.ndarray], rows: Iterator[int]) -> Any:

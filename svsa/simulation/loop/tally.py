@@ -15,24 +15,29 @@ from svsa.simulation.loop.lane import Blocks
 
 RECOVERY_SHARE = 0.02
 STEADY_STATE_S = 0.5
+LAST_S = 1.0
 AT_LIMIT = 0.999
 
 
 class Window(NamedTuple):
-    """Which ticks are measured: from `begin` to before `end`; settled: how many are 0.5 s."""
+    """Measured ticks: from `begin` to before `end`; settled, last: how many are 0.5 s and 1 s."""
 
     begin: int
     end: int
     settled: int
+    last: int
 
 
 class Tally(NamedTuple):
     """Of a run's measured ticks: sums of squares and sizes, peaks and what came last, SI.
 
-    steady_state_squares: of the position error, of the last 0.5 s. recovered: the measured tick
-    from which on the position error stayed within 2 % of its peak until then for 0.5 s, −1 while it
-    has not; inside: that from which on it is within now. limited: ticks in which a motor made its
-    limit, to 0.1 %.
+    steady_state_squares, stiffness_steady_squares: of the errors in the last 0.5 s.
+    position_last_peak, share_last_peak: of the last 1 s; a share is |σ_d − σ|/σ_d. recovered: the
+    measured tick from which on the position error stayed within 2 % of its peak until then for
+    0.5 s, −1 while it has not; inside: that from which on it is within now. limited: ticks in which
+    a motor made its limit, to 0.1 %. torque1_variation: sum of |Δu1| from one measured tick to the
+    next; torque1_last: u1. power: sum of |u1 θ̇1| + |u2 θ̇2|, the motors' mechanical power without
+    recovery.
     """
 
     position_squares: float
@@ -50,6 +55,13 @@ class Tally(NamedTuple):
     inside: float
     recovered: float
     limited: float
+    stiffness_steady_squares: float
+    share_peak: float
+    position_last_peak: float
+    share_last_peak: float
+    torque1_variation: float
+    torque1_last: float
+    power: float
 
 
 SUMMARY = np.dtype(
@@ -73,14 +85,17 @@ _U1, _U2 = CHANNEL_INDEX["torque1_nm"], CHANNEL_INDEX["torque2_nm"]
 def build_window(begin: int, end: int, period: float) -> Window:
     """`Window` of a run of `end` ticks of `period`, s."""
     # Rounding may put the quotient just above a whole number; `ceil` would then add a tick.
-    return Window(begin, end, math.ceil(STEADY_STATE_S / period - 1e-9))
+    settled = math.ceil(STEADY_STATE_S / period - 1e-9)
+    return Window(begin, end, settled, math.ceil(LAST_S / period - 1e-9))
 
 
 @compiled
 def start_tally(nothing: float) -> Tally:
     """`Tally` before the first tick. nothing: 0."""
     n = nothing
-    return Tally(n, n, n, n, n, n, n, n, n, n, n, n, n, n - 1.0, n)
+    return Tally(
+        n, n, n, n, n, n, n, n, n, n, n, n, n, n - 1.0, n, n, n, n, n, n, n, n
+    )  # fmt: skip
 
 
 @compiled
@@ -136,18 +151,28 @@ def measure(
 
     torque: what the motors make, N·m.
     """
+    if tick < window.begin:
+        return tally
     t, plant = tally, blocks.plant
-    counts = runs & (tick >= window.begin)
     mu = compute_lever_ratio(x.theta2, plant.mu0, plant.gamma)
     sigma = compute_stiffness(mu, compute_deflection(x), plant.K)
     position, stiffness = reference.q - x.q, reference.sigma - sigma
-    e, s = choose(counts, abs(position), 0.0), choose(counts, abs(stiffness), 0.0)
-    u1, u2 = choose(counts, abs(torque.u1), 0.0), choose(counts, abs(torque.u2), 0.0)
+    e, s = choose(runs, abs(position), 0.0), choose(runs, abs(stiffness), 0.0)
+    u1, u2 = choose(runs, abs(torque.u1), 0.0), choose(runs, abs(torque.u2), 0.0)
     peak, passed = greatest(t.position_peak, e), float(tick - window.begin + 1)
     settled = float(window.settled)
-    inside, recovered = follow_recovery(counts, e, peak, passed, settled, t.inside, t.recovered)
+    inside, recovered = follow_recovery(runs, e, peak, passed, settled, t.inside, t.recovered)
     is_limited = (u1 >= AT_LIMIT * blocks.torque1_max) | (u2 >= AT_LIMIT * blocks.torque2_max)
-    late = choose(counts & (tick >= window.end - window.settled), e, 0.0)
+    share = s / reference.sigma
+    squares, stiffness_squares = t.steady_state_squares, t.stiffness_steady_squares
+    if tick >= window.end - window.settled:
+        squares, stiffness_squares = squares + e * e, stiffness_squares + s * s
+    last_peak, share_last_peak = t.position_last_peak, t.share_last_peak
+    if tick >= window.end - window.last:
+        last_peak, share_last_peak = greatest(last_peak, e), greatest(share_last_peak, share)
+    variation = t.torque1_variation
+    if tick > window.begin:
+        variation = variation + choose(runs, abs(torque.u1 - t.torque1_last), 0.0)
     return Tally(
         t.position_squares + e * e,
         t.stiffness_squares + s * s,
@@ -158,12 +183,19 @@ def measure(
         greatest(t.stiffness_peak, s),
         greatest(t.torque1_peak, u1),
         greatest(t.torque2_peak, u2),
-        choose(counts, position, t.position_last),
-        choose(counts, stiffness, t.stiffness_last),
-        t.steady_state_squares + late * late,
+        choose(runs, position, t.position_last),
+        choose(runs, stiffness, t.stiffness_last),
+        squares,
         inside,
         recovered,
         choose(is_limited, t.limited + 1.0, t.limited),
+        stiffness_squares,
+        greatest(t.share_peak, share),
+        last_peak,
+        share_last_peak,
+        variation,
+        torque.u1,
+        t.power + choose(runs, u1 * abs(x.dtheta1) + u2 * abs(x.dtheta2), 0.0),
     )
 
 

@@ -11,8 +11,8 @@ from typer.testing import CliRunner
 
 import svsa
 from svsa.cli import app
+from svsa.evaluation.metrics import METRICS
 from svsa.evaluation.studies.execution import run_study
-from svsa.evaluation.studies.metrics import METRICS
 from svsa.evaluation.studies.outcome import Success
 from svsa.evaluation.studies.replay import replay_row
 from svsa.evaluation.studies.store import StudyError, keep_study, open_study, read_rows

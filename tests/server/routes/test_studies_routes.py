@@ -8,8 +8,8 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
+from svsa.evaluation.metrics import METRICS
 from svsa.evaluation.statistics import estimate_share
-from svsa.evaluation.studies.metrics import METRICS
 from svsa.evaluation.studies.store import find_missing, open_study, read_rows
 from svsa.evaluation.studies.summary import summarize_laws
 from svsa_server.jobs.study_rows import thin_out

@@ -7,8 +7,8 @@ from fastapi import Body, Path, Query, Request
 from fastapi.responses import FileResponse, Response
 
 from svsa.errors import ParameterError, StateError, Violation
+from svsa.evaluation.metrics import METRICS
 from svsa.evaluation.studies.file import find_study_file, list_built_in
-from svsa.evaluation.studies.metrics import METRICS
 from svsa.evaluation.studies.store import (
     TABLE_FILE,
     StoredStudy,

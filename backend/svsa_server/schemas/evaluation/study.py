@@ -8,8 +8,8 @@ from pydantic import BaseModel, Field, model_validator
 
 from svsa.control.installed import InstalledLaw
 from svsa.errors import ParameterError, Violation
+from svsa.evaluation.metrics import METRICS, Metric
 from svsa.evaluation.studies.file import list_built_in, parse_study, read_study
-from svsa.evaluation.studies.metrics import METRICS, Metric
 from svsa.evaluation.studies.outcome import Success
 from svsa.evaluation.studies.setting_name import SettingName, name_variation
 from svsa.evaluation.studies.store import StoredStudy, count_done, is_kept, open_study, read_owner

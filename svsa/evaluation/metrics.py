@@ -1,5 +1,6 @@
-"""What is measured of a run, from what the batch has summed up of it."""
+"""The metrics of runs, from the tallies of a vectorised batch or of one recorded run."""
 
+import math
 from typing import Annotated
 
 import numpy as np
@@ -18,19 +19,33 @@ METRICS = {
     "integral_position_error_rad_s": "rad·s",
     "rms_stiffness_error_nm_per_rad": "N·m/rad",
     "peak_stiffness_error_nm_per_rad": "N·m/rad",
+    "peak_stiffness_error_share": "1",
+    "steady_state_stiffness_error_nm_per_rad": "N·m/rad",
+    "rms_torque1_nm": "N·m",
+    "rms_torque2_nm": "N·m",
     "peak_torque1_nm": "N·m",
     "peak_torque2_nm": "N·m",
     "effort_n2m2_s": "N²·m²·s",
+    "work_j": "J",
+    "torque1_variation_nm_per_s": "N·m/s",
     "limit_share": "1",
 }
 """Each metric with its unit; from `measure_from_s` to the end, or to the fault.
 
-Those of `svsa.runs.metrics.Metrics` by its names; recovery and settled error are NaN where it has
-none. last_position_error_rad: |q_d − q| of the last sample. limit_share: of the ticks in which a
-motor made its limit, to 0.1 %.
+Those of `svsa.runs.metrics.Metrics` by its names; recovery and steady-state errors are NaN where it
+has none. last_position_error_rad: |q_d − q| of the last sample. peak_stiffness_error_share: largest
+|σ_d − σ|/σ_d. work_j: ∫(|u1 θ̇1| + |u2 θ̇2|) dt, mechanical. torque1_variation_nm_per_s: Σ|Δu1| a
+second. limit_share: of the ticks in which a motor made its limit, to 0.1 %.
 """
 
 RECOVERY = "recovery_time_s"
+
+HELD_POSITION_RAD, HELD_STIFFNESS_SHARE = math.radians(1.0), 0.1
+HELD_PEAK_RAD = math.radians(30.0)
+HELD = (
+    "no fault, in the last second |q_d − q| ≤ 1° and |σ_d − σ| ≤ 10 % of σ_d, and a peak deviation"
+    " of at most 30°"
+)
 
 
 def check_metric(name: str) -> str:
@@ -53,23 +68,41 @@ def compute_metrics(
     counts = summaries["ticks"] - np.round(begin_s / periods)
     counts = np.where(counts > 0, counts, np.nan)
     measured = counts / counts
-    squares = summaries["torque1_squares"] + summaries["torque2_squares"]
+    squares1, squares2 = summaries["torque1_squares"], summaries["torque2_squares"]
     settled = np.ceil(STEADY_STATE_S / periods - 1e-9)
     is_settled = (summaries["code"] == INSIDE) & (counts >= 2 * settled)
+
+    def measure_steady_state(squares: str) -> np.ndarray:
+        return np.sqrt(np.where(is_settled, summaries[squares] / settled, np.nan))
+
     recovered = np.where(summaries["recovered"] < 0.0, np.nan, summaries["recovered"])
     return {
         "rms_position_error_rad": np.sqrt(summaries["position_squares"] / counts),
         "peak_position_error_rad": summaries["position_peak"] * measured,
         "last_position_error_rad": np.abs(summaries["position_last"]) * measured,
-        "steady_state_position_error_rad": np.sqrt(
-            np.where(is_settled, summaries["steady_state_squares"] / settled, np.nan)
-        ),
+        "steady_state_position_error_rad": measure_steady_state("steady_state_squares"),
         "recovery_time_s": recovered * periods,
         "integral_position_error_rad_s": summaries["position_absolute"] * periods * measured,
         "rms_stiffness_error_nm_per_rad": np.sqrt(summaries["stiffness_squares"] / counts),
         "peak_stiffness_error_nm_per_rad": summaries["stiffness_peak"] * measured,
+        "peak_stiffness_error_share": summaries["share_peak"] * measured,
+        "steady_state_stiffness_error_nm_per_rad": measure_steady_state("stiffness_steady_squares"),
+        "rms_torque1_nm": np.sqrt(squares1 / counts),
+        "rms_torque2_nm": np.sqrt(squares2 / counts),
         "peak_torque1_nm": summaries["torque1_peak"] * measured,
         "peak_torque2_nm": summaries["torque2_peak"] * measured,
-        "effort_n2m2_s": squares * periods * measured,
+        "effort_n2m2_s": (squares1 + squares2) * periods * measured,
+        "work_j": summaries["power"] * periods * measured,
+        "torque1_variation_nm_per_s": summaries["torque1_variation"] / (counts * periods),
         "limit_share": summaries["limited"] / counts,
     }
+
+
+def find_held(summaries: np.ndarray) -> np.ndarray:
+    """Whether each run held, see `HELD`; (runs,) from `SUMMARY`. Runs last at least 1 s."""
+    return (
+        (summaries["code"] == INSIDE)
+        & (summaries["position_last_peak"] <= HELD_POSITION_RAD)
+        & (summaries["share_last_peak"] <= HELD_STIFFNESS_SHARE)
+        & (summaries["position_peak"] <= HELD_PEAK_RAD)
+    )
