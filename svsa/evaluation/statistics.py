@@ -114,6 +114,28 @@ def compute_mcnemar_p(only_one: int, only_other: int) -> float:
     return float(binomtest(only_one, only_one + only_other, 0.5).pvalue)
 
 
+def compute_signed_rank_p(differences: np.ndarray) -> float:
+    """Compute the p-value of Wilcoxon's signed-rank test: differences symmetric about zero.
+
+    F. Wilcoxon (1945), Biometrics Bulletin 1:80, as `scipy.stats.wilcoxon`.
+
+    Args:
+        differences: Of pairs, shape (n,), any unit; values that are not finite do not count.
+
+    Returns:
+        The two-sided p-value; 1 where all are zero, NaN of fewer than `MIN_PAIRS` pairs.
+    """
+    differences = differences[np.isfinite(differences)]
+    if len(differences) < MIN_PAIRS:
+        return np.nan
+    if not np.any(differences):
+        return 1.0
+    from scipy.stats import wilcoxon  # late: it takes a while
+
+    found: Any = wilcoxon(differences)
+    return float(found.pvalue)
+
+
 def correct_holm(p_values: Sequence[float]) -> list[float]:
     """Correct the p-values of several comparisons by Holm's method.
 

@@ -5,7 +5,7 @@ from typing import Any
 from svsa.evaluation.studies.execution import run_study
 from svsa.evaluation.studies.replay import record_replay, replay_row
 from svsa.evaluation.studies.store import StoredStudy, read_rows
-from svsa.evaluation.studies.summary import estimate_sensitivity, pair_laws, summarize_laws
+from svsa.evaluation.studies.summary import compare_laws, estimate_sensitivity, summarize_laws
 from svsa.evaluation.studies.tables import make_plain
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa_server.jobs.heavy_work import MAX_WORKERS
@@ -29,9 +29,8 @@ def run(folder: JobFolder, stored: StoredStudy) -> bool:
 def summarize(stored: StoredStudy) -> dict[str, Any]:
     """Every law of a study, and the first less each other one, as JSON."""
     study, rows = stored.study, read_rows(stored)
-    first, *others = study.laws
-    pairings = [pair_laws(rows, first, other) for other in others]
-    return make_plain({"laws": summarize_laws(study, rows), "pairings": pairings})
+    laws, pairings = summarize_laws(study, rows), compare_laws(study, rows)
+    return make_plain({"laws": laws, "pairings": pairings})
 
 
 def decide(stored: StoredStudy, outcome: str) -> list[dict[str, Any]]:

@@ -90,15 +90,14 @@ def compare_command(
 ) -> None:
     """Laws on the same samples: the first less each other, or each less itself in another study."""
     from svsa.evaluation.studies.store import open_study, read_rows
-    from svsa.evaluation.studies.summary import pair_laws, pair_studies
+    from svsa.evaluation.studies.summary import compare_laws, pair_studies
     from svsa.evaluation.studies.tables import build_pairing_table, write_json
 
     stored = open_study(name)
     if other is not None:
         pairings = pair_studies(stored, open_study(other))
     else:
-        rows, (first, *others) = read_rows(stored), stored.study.laws
-        pairings = [pair_laws(rows, first, law) for law in others]
+        pairings = compare_laws(stored.study, read_rows(stored))
     if as_json:
         write_json({"pairings": pairings})
     elif not pairings:

@@ -15,7 +15,10 @@ from svsa.errors import ParameterError, Violation
 from svsa.evaluation.metrics import METRICS, RECOVERY
 from svsa.evaluation.statistics import (
     Interval,
+    compute_mcnemar_p,
     compute_quantiles,
+    compute_signed_rank_p,
+    correct_holm,
     estimate_paired_share,
     estimate_share,
     estimate_statistic,
@@ -45,9 +48,14 @@ class LawSummary(NamedTuple):
 class Pairing(NamedTuple):
     """One law less another on the same samples.
 
-    success: difference of the shares, of all pairs. differences: of each metric that both keep the
-    mean difference over the `whole` pairs of which neither ended in a fault, and of which both have
-    it (some never recover). only_one, only_other: how many samples only one of them succeeded on.
+    success: difference of the shares, of all pairs, with Tango's interval. only_one, only_other:
+    samples on which only one of them succeeded. differences: of each metric that both keep the mean
+    difference, with its BCa interval, over the `whole` pairs of which neither ended in a fault, and
+    of which both have it (some never recover).
+
+    success_p: of McNemar's exact test, corrected by Holm's method over the pairings that are
+    compared together. p_values: of Wilcoxon's signed-rank test of each metric, corrected over the
+    metrics of all these pairings; NaN where a metric has too few pairs.
     """
 
     one: str
@@ -58,11 +66,16 @@ class Pairing(NamedTuple):
     only_one: int
     only_other: int
     differences: dict[str, Interval]
+    success_p: float
+    p_values: dict[str, float]
 
 
 class Sensitivity(NamedTuple):
     """Sobol indices of one outcome: of each variation its own share of the variance, and with all
     its interactions; of a base of `samples`.
+
+    The intervals are those of a bootstrap that takes the points of the Sobol' sequence as
+    independent. The sequence estimates more precisely: they are upper bounds of the uncertainty.
     """
 
     law: str
@@ -100,10 +113,11 @@ def _rank(metric: str, rows: pa.Table, ended: np.ndarray) -> np.ndarray:
     return np.where(ended | never, np.inf, values)
 
 
-def pair_laws(rows: pa.Table, one: str, other: str) -> Pairing:
-    """One law less another, draw by draw."""
-    sides = [rows.filter(pc.field(LAW) == law) for law in (one, other)]
-    return pair_rows(sides[0], sides[1], one, other)
+def compare_laws(study: Study, rows: pa.Table) -> list[Pairing]:
+    """The study's first law less each other one, on the same samples."""
+    first, *others = study.laws
+    sides = {law: rows.filter(pc.field(LAW) == law) for law in study.laws}
+    return _correct([pair_rows(sides[first], sides[law], first, law) for law in others])
 
 
 def pair_studies(first: StoredStudy, second: StoredStudy) -> list[Pairing]:
@@ -126,11 +140,21 @@ def pair_studies(first: StoredStudy, second: StoredStudy) -> list[Pairing]:
         count = min(map(len, sides))
         names = f"{law} in {first.name}", f"{law} in {second.name}"
         pairings.append(pair_rows(sides[0][:count], sides[1][:count], *names))
-    return pairings
+    return _correct(pairings)
+
+
+def _correct(pairings: list[Pairing]) -> list[Pairing]:
+    """Pairings with their p-values corrected by Holm's method: successes, and metrics of all."""
+    successes = correct_holm([one.success_p for one in pairings])
+    metrics = iter(correct_holm([p for one in pairings for p in one.p_values.values()]))
+    return [
+        one._replace(success_p=success, p_values={name: next(metrics) for name in one.p_values})
+        for one, success in zip(pairings, successes, strict=True)
+    ]
 
 
 def pair_rows(one: pa.Table, other: pa.Table, name: str, other_name: str) -> Pairing:
-    """Rows of the same samples, in the same order, one less the other."""
+    """Rows of the same samples, in the same order, one less the other; p-values uncorrected."""
     if one[DRAW].to_pylist() != other[DRAW].to_pylist():
         raise StudyError(f"{name} and {other_name} have not run the same samples yet.")
     refused = np.zeros(len(one), dtype=bool)
@@ -141,6 +165,11 @@ def pair_rows(one: pa.Table, other: pa.Table, name: str, other_name: str) -> Pai
         ended |= np.array([fault is not None for fault in faults], dtype=bool)
     a, b = (side[SUCCEEDED].to_numpy()[~refused] for side in (one, other))
     only_one, only_other = int(np.sum(a & ~b)), int(np.sum(b & ~a))
+    differences = {
+        metric: (one[metric].to_numpy() - other[metric].to_numpy())[~ended]
+        for metric in one.column_names
+        if metric in METRICS and metric in other.column_names
+    }
     return Pairing(
         one=name,
         other=other_name,
@@ -149,20 +178,14 @@ def pair_rows(one: pa.Table, other: pa.Table, name: str, other_name: str) -> Pai
         success=estimate_paired_share(only_one, only_other, len(a)),
         only_one=only_one,
         only_other=only_other,
-        differences={
-            metric: estimate_statistic(_subtract(one, other, metric)[~ended])
-            for metric in one.column_names
-            if metric in METRICS and metric in other.column_names
-        },
+        differences={metric: estimate_statistic(x) for metric, x in differences.items()},
+        success_p=compute_mcnemar_p(only_one, only_other),
+        p_values={metric: compute_signed_rank_p(x) for metric, x in differences.items()},
     )
 
 
-def _subtract(one: pa.Table, other: pa.Table, metric: str) -> np.ndarray:
-    return one[metric].to_numpy() - other[metric].to_numpy()
-
-
 def estimate_sensitivity(study: Study, rows: pa.Table, law: str, outcome: str) -> Sensitivity:
-    """Sobol indices of an outcome, a metric or `succeeded`, under a law, with bootstrap intervals.
+    """Sobol indices of an outcome, a metric or `succeeded`, under a law, as `Sensitivity`.
 
     Saltelli et al. 2010 on the sets that were done. Raises `StudyError` for a study that was not
     drawn for it, of a metric where a run has none or ended in a fault, and where nothing varies.

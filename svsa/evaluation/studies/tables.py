@@ -3,7 +3,8 @@
 import json
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -45,25 +46,37 @@ def build_summary_tables(study: Study, laws: Sequence[LawSummary]) -> list[Table
 
 
 def build_pairing_table(pairing: Pairing) -> Table:
-    """One law less another, with the intervals of the mean difference."""
-    table = Table("metric", "unit", "mean difference", "95 %", title_justify="left")
+    """One law less another: differences with intervals, and p-values corrected by Holm's method."""
+    table = Table("metric", "unit", "mean difference", "95 %", "p (Holm)", title_justify="left")
+    ends = format_ends(pairing.success, lambda x: f"{100 * x:+.2f}")
     table.title = (
         f"{pairing.one} less {pairing.other}, {pairing.pairs} samples. Success:"
-        f" {100 * pairing.success.value:+.2f} points ({100 * pairing.success.low:+.2f} to"
-        f" {100 * pairing.success.high:+.2f}); only the first on {pairing.only_one}, only the"
-        f" second on {pairing.only_other}. Below: the {pairing.whole} samples on which both are"
-        " whole"
+        f" {100 * pairing.success.value:+.2f} points ({ends}), McNemar's p (Holm)"
+        f" {format_p(pairing.success_p)}; only the first on {pairing.only_one}, only the second on"
+        f" {pairing.only_other}. Below: the {pairing.whole} samples on which both are whole"
     )
     for name, one in pairing.differences.items():
-        ends = f"{format_value(name, one.low)} to {format_value(name, one.high)}"
-        table.add_row(format_metric(name), format_unit(name), format_value(name, one.value), ends)
+        cells = format_value(name, one.value), format_ends(one, partial(format_value, name))
+        p_value = format_p(pairing.p_values[name])
+        table.add_row(format_metric(name), format_unit(name), *cells, p_value)
     return table
 
 
+def format_ends(one: Interval, format_one: Callable[[float], str]) -> str:
+    """The ends of an interval, or that the data support none."""
+    return "–" if math.isnan(one.low) else f"{format_one(one.low)} to {format_one(one.high)}"
+
+
+def format_p(value: float) -> str:
+    """A p-value to two digits."""
+    return "–" if math.isnan(value) else "< 0.0001" if value < 1e-4 else f"{value:.2g}"
+
+
 def build_sensitivity_table(one: Sensitivity) -> Table:
-    """Sobol indices, the greatest share first."""
+    """Sobol indices, the greatest share first, with upper bounds of their intervals."""
     table = Table("what varies", "its own share", "with interactions", title_justify="left")
     table.title = f"Sobol indices of {one.outcome} under {one.law}, {one.samples} base samples"
+    table.title += "; intervals as if points were independent: upper bounds"
     order = sorted(one.total_order, key=lambda name: -one.total_order[name].value)
     for name in order:
         cells = [

@@ -12,6 +12,7 @@ from typer.testing import CliRunner
 import svsa
 from svsa.cli import app
 from svsa.evaluation.metrics import METRICS
+from svsa.evaluation.statistics import MIN_VALUES
 from svsa.evaluation.studies.execution import run_study
 from svsa.evaluation.studies.outcome import Success
 from svsa.evaluation.studies.replay import replay_row
@@ -107,7 +108,10 @@ def test_success_may_ask_for_any_metric(data, metric):
 def test_laws_are_compared_on_the_same_draws_and_studies_that_drew_the_same(data):
     (pairing,) = json.loads(run("compare", "one", "--json"))["pairings"]
     assert (pairing["one"], pairing["other"], pairing["pairs"]) == ("ndobc", "fl", 40)
-    assert pairing["differences"]["last_position_error_rad"]["high"] < 0.0
+    difference = pairing["differences"]["last_position_error_rad"]
+    assert difference["value"] < 0.0
+    assert (difference["low"] is None) == (pairing["whole"] < MIN_VALUES)
+    assert pairing["success"]["low"] < pairing["success"]["value"] < pairing["success"]["high"]
     both = json.loads(run("compare", "one", "two", "--json"))["pairings"]
     assert [one["one"] for one in both] == ["ndobc in one", "fl in one"]
     assert "ndobc less fl" in run("compare", "one")

@@ -7,16 +7,16 @@ import pyarrow as pa
 import pytest
 
 from svsa.errors import ParameterError
-from svsa.evaluation.statistics import estimate_share
+from svsa.evaluation.statistics import estimate_paired_share, estimate_share
 from svsa.evaluation.studies.samples import draw
 from svsa.evaluation.studies.store import StudyError
 from svsa.evaluation.studies.summary import (
+    compare_laws,
     estimate_sensitivity,
-    pair_laws,
     pair_rows,
     summarize_laws,
 )
-from svsa.evaluation.studies.tables import format_share
+from svsa.evaluation.studies.tables import build_pairing_table, format_share
 from svsa.evaluation.studies.work import build_schema
 from tests.evaluation.studies.studies import build_study
 
@@ -83,20 +83,62 @@ def test_pairs_are_compared_where_both_are_whole_and_success_over_all():
         *({"rms_position_error_rad": 0.1}, fault),
         *({"fault": "refused", "succeeded": False}, {"rms_position_error_rad": 9.0}),
     ]
-    pairing = pair_laws(build_rows(study, outcomes), "ndobc", "fl")
+    (pairing,) = compare_laws(study, build_rows(study, outcomes))
     assert (pairing.pairs, pairing.whole) == (3, 2)
     assert (pairing.only_one, pairing.only_other) == (1, 0)
     assert pairing.success.value == pytest.approx(1 / 3)
-    assert pairing.differences["rms_position_error_rad"].value == pytest.approx(-0.2)
+    assert pairing.success[1:] == estimate_paired_share(1, 0, 3)[1:]
+    assert pairing.success_p == 1.0
+    difference = pairing.differences["rms_position_error_rad"]
+    assert difference.value == pytest.approx(-0.2)
+    assert math.isnan(difference.low)
+
+
+def test_p_values_are_corrected_over_the_laws_and_their_metrics():
+    """Twelve samples: fl fails on six of them, esp on none; both have the larger errors."""
+    names = ("rms_position_error_rad", "peak_torque1_nm")
+    study = build_study(laws=("ndobc", "fl", "esp"), metrics=names)
+    outcomes = []
+    for index in range(12):
+        own, other = {names[0]: 0.1, names[1]: 1.0}, {names[0]: 0.2 + 0.01 * index, names[1]: 1.0}
+        fl = other | {"succeeded": index >= 6}
+        outcomes += [own, fl, other]
+    fl, esp = compare_laws(study, build_rows(study, outcomes))
+    assert fl.success_p == pytest.approx(2 * 2 * 0.5**6)
+    assert esp.success_p == 1.0
+    assert fl.success.low > 0.0 > esp.success.low
+    signed_rank = 2 * 0.5**12
+    for pairing in (fl, esp):
+        assert pairing.p_values == pytest.approx({names[0]: 4 * signed_rank, names[1]: 1.0})
+        assert math.isnan(pairing.differences[names[1]].low)
+        assert pairing.differences[names[0]].high < 0.0
+
+
+def test_a_single_sample_has_no_interval():
+    study = build_study()
+    (pairing,) = compare_laws(study, build_rows(study, [{"rms_position_error_rad": 0.1}] * 2))
+    assert pairing.pairs == pairing.whole == 1
+    assert math.isnan(pairing.success.low)
+    assert all(math.isnan(one.low) for one in pairing.differences.values())
+    assert all(math.isnan(p) for p in pairing.p_values.values())
+    cells = [*build_pairing_table(pairing).columns[3].cells]
+    assert set(cells) == {"–"}
+
+
+def estimate_ishigami(seed, runs):
+    """Sobol indices of Ishigami's function (1990, a 7, b 0.1) by a study of this seed."""
+    study = build_study(
+        vary=ISHIGAMI, sampling="sensitivity", runs=runs, laws=("ndobc",), seed=seed
+    )
+    x1, x2, x3 = (np.array(values) * 2 * np.pi for values in draw(study, 0, 5 * runs).values)
+    outcome = np.sin(x1) + 7.0 * np.sin(x2) ** 2 + 0.1 * (x3 - 2 * np.pi) ** 4 * np.sin(x1)
+    rows = build_rows(study, [{"rms_position_error_rad": y} for y in outcome])
+    return study, rows, estimate_sensitivity(study, rows, "ndobc", "rms_position_error_rad")
 
 
 def test_sobol_indices_are_those_of_ishigamis_function():
-    """S = 0.314, 0.442, 0; S_T = 0.558, 0.442, 0.244 (Ishigami and Homma 1990, a 7, b 0.1)."""
-    study = build_study(vary=ISHIGAMI, sampling="sensitivity", runs=1024, laws=("ndobc",))
-    x1, x2, x3 = (np.array(values) * 2 * np.pi for values in draw(study, 0, 5 * 1024).values)
-    outcome = np.sin(x1) + 7.0 * np.sin(x2) ** 2 + 0.1 * (x3 - 2 * np.pi) ** 4 * np.sin(x1)
-    rows = build_rows(study, [{"rms_position_error_rad": y} for y in outcome])
-    found = estimate_sensitivity(study, rows, "ndobc", "rms_position_error_rad")
+    """S = 0.314, 0.442, 0; S_T = 0.558, 0.442, 0.244."""
+    study, rows, found = estimate_ishigami(0, 1024)
     expected = {"first_order": (0.314, 0.442, 0.0), "total_order": (0.558, 0.442, 0.244)}
     for order, truths in expected.items():
         for one, truth in zip(getattr(found, order).values(), truths, strict=True):
@@ -104,6 +146,15 @@ def test_sobol_indices_are_those_of_ishigamis_function():
             assert one.low - 0.01 <= truth <= one.high + 0.01
     unfinished = estimate_sensitivity(study, rows[:3000], "ndobc", "rms_position_error_rad")
     assert unfinished.samples == 512
+
+
+def test_sobol_intervals_are_upper_bounds():
+    """Over scrambles of the sequence the indices vary less than their intervals claim."""
+    found = [estimate_ishigami(seed, 512)[2].first_order.values() for seed in range(10)]
+    estimates = np.array([list(orders) for orders in found])
+    spread = 1.96 * estimates[:, :, 0].std(axis=0, ddof=1)
+    half_width = (estimates[:, :, 2] - estimates[:, :, 1]).mean(axis=0) / 2.0
+    assert np.all(spread < half_width)
 
 
 def test_indices_that_would_mean_nothing_are_refused():

@@ -154,7 +154,7 @@ class StudyList(BaseModel):
 
 
 class Estimate(BaseModel):
-    """An estimate, and between which ends the truth lies with 95 %; null where there is none."""
+    """An estimate with the ends of its 95 % interval; null ends: the data support no interval."""
 
     value: float | None
     low: float | None
@@ -181,11 +181,20 @@ class LawPair(BaseModel):
     other: str
     pairs: int
     whole: int = Field(description="Pairs of which neither ended in a fault")
-    success: Estimate = Field(description="Difference of the shares, of all pairs")
+    success: Estimate = Field(
+        description="Difference of the shares, of all pairs, with Tango's interval"
+    )
+    success_p: float = Field(
+        description="Of McNemar's exact test, corrected by Holm's method over the study's laws"
+    )
     only_one: int = Field(description="Draws on which only the one succeeded")
     only_other: int
     differences: dict[str, Estimate] = Field(
-        description="Mean difference of each metric over the whole pairs, bootstrap interval"
+        description="Mean difference of each metric over the whole pairs, with its BCa interval"
+    )
+    p_values: dict[str, float | None] = Field(
+        description="Of Wilcoxon's signed-rank test of each metric, corrected by Holm's method over"
+        " the metrics of all laws; null of too few pairs"
     )
 
 
@@ -197,7 +206,10 @@ class StudySummary(BaseModel):
 
 
 class SobolIndices(BaseModel):
-    """What decides an outcome under a law, by what varies."""
+    """What decides an outcome under a law, by what varies.
+
+    Intervals are upper bounds: they take the points of the Sobol' sequence as independent.
+    """
 
     law: str
     outcome: str

@@ -84,16 +84,20 @@ export const studiesText = {
     median: (metric: string) => `${metric}: 5, 50, 95 %`,
     fault: "fault",
     interval: (share: string, low: string, high: string) => `${share} % (${low} to ${high})`,
-    estimate: (value: string, low: string, high: string) => `${value} (${low} to ${high})`,
+    estimate: (value: string, low: string | null, high: string | null) =>
+      low === null ? `${value} (no interval)` : `${value} (${low} to ${high})`,
     pair: (one: string, other: string) => `${one} less ${other}`,
-    points: (value: string, low: string, high: string) => `${value} points (${low} to ${high})`,
+    points: (estimate: string) => `${estimate} percentage points`,
+    pSuccess: (value: string) => `McNemar's p, Holm-corrected: ${value}`,
+    pMetric: (value: string) => `Wilcoxon's p, Holm-corrected: ${value}`,
+    pSmall: "< 0.0001",
     only: (one: number, other: number) =>
       `only the first succeeded on ${one}, only the second on ${other}`,
     difference: (metric: string, whole: number) =>
       `${metric}, of the ${whole} samples on which both are whole`,
     sensitivity: "What decides it",
     sensitivityHint:
-      "Sobol indices of the success: the share of its variance that each setting has by itself, and with all its interactions",
+      "Sobol indices of the success: the share of its variance that each setting has by itself, and with all its interactions. The intervals take the points of the Sobol' sequence as independent: they are upper bounds",
     itself: "by itself",
     together: "with interactions",
     row: (row: number) => `Run ${row}`,

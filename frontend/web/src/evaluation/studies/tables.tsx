@@ -12,8 +12,17 @@ import { columnOf, ended, good, lawLineStyles, marksOf } from "./shown";
 import { axes, brush, indices, study, summary } from "./studies";
 
 const words = text.studies;
-const percent = (value: number | null): string =>
-  formatNumber(value === null ? null : 100 * value, 3, 1);
+
+/** An estimate with its interval, in a unit by a factor, or that there is no interval. */
+function formatEstimate({ value, low, high }: Estimate, factor: number, decimals?: number): string {
+  const shown = (one: number | null) =>
+    one === null ? null : formatNumber(one * factor, decimals ?? 3, decimals);
+  return words.estimate(shown(value) ?? "–", shown(low), shown(high));
+}
+
+const NONE: Estimate = { value: null, low: null, high: null };
+const formatP = (value: number | null | undefined): string =>
+  value != null && value < 1e-4 ? words.pSmall : formatNumber(value, 2);
 
 export const formatShare = ({ value, low, high }: Estimate): string =>
   value === null ? "–" : words.interval(...formatPercents([value, low ?? 0, high ?? 1]));
@@ -105,28 +114,17 @@ export function LawTable() {
       </div>
       {(found?.pairings ?? []).map((pair) => {
         const difference = metric && pair.differences[metric.name];
-        const scale = factorOf(metric?.unit ?? "");
-        const shown = (value: number | null) =>
-          formatNumber(value === null ? null : value * scale, 3);
         return (
           <p key={pair.other} class="studies-pair">
             <b>{words.pair(titleOf(pair.one), titleOf(pair.other))}</b>{" "}
-            {words.points(
-              percent(pair.success.value),
-              percent(pair.success.low),
-              percent(pair.success.high),
-            )}
-            ; {words.only(pair.only_one, pair.only_other)}.
+            {words.points(formatEstimate(pair.success, 100))};{" "}
+            {words.pSuccess(formatP(pair.success_p))}; {words.only(pair.only_one, pair.only_other)}.
             {metric && difference && (
               <>
                 {" "}
                 {words.difference(nameColumn(metric), pair.whole)}:{" "}
-                {words.estimate(
-                  shown(difference.value),
-                  shown(difference.low),
-                  shown(difference.high),
-                )}{" "}
-                {shownUnit(metric.unit)}
+                {formatEstimate(difference, factorOf(metric.unit))} {shownUnit(metric.unit)};{" "}
+                {words.pMetric(formatP(pair.p_values[metric.name]))}
               </>
             )}
           </p>
@@ -161,13 +159,7 @@ export function Sensitivity() {
                         class={at === 0 ? "is-own" : "is-total"}
                         style={{ width: `${100 * Math.min(1, Math.max(0, one?.value ?? 0))}%` }}
                       />
-                      <span>
-                        {words.estimate(
-                          formatNumber(one?.value, 2, 2),
-                          formatNumber(one?.low, 2, 2),
-                          formatNumber(one?.high, 2, 2),
-                        )}
-                      </span>
+                      <span>{formatEstimate(one ?? NONE, 1, 2)}</span>
                     </dd>
                   ))}
                 </div>
