@@ -82,6 +82,7 @@ MAY_BE_REFUSED = {
     "POST /api/v1/sessions/{session}/predict": PAIRS,
     "POST /api/v1/sessions/{session}/design/response": f"{PAIRS}; {RANGE}",
     "POST /api/v1/sessions/{session}/design/stability": f"{PAIRS}; {RANGE}",
+    "POST /api/v1/sessions/{session}/design/margins": f"{PAIRS}; {RANGE}",
     "POST /api/v1/sessions/{session}/design/region": f"{PAIRS}; {RANGE}",
     "POST /api/v1/sessions/{session}/design/simulation": f"{PAIRS}; {RANGE}",
     "PUT /api/v1/sessions/{session}/position": COURSE,

@@ -1,4 +1,8 @@
-"""The region of attraction: from which positions and velocities the loop comes to rest."""
+"""Samples of the region of attraction: from which starts the simulated loop comes to rest.
+
+A map is a slice of the state space with a sample of starts in it. It proves nothing about the
+starts between them, or about those outside the slice.
+"""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -17,6 +21,8 @@ from svsa.simulation.reference.sine import ConstantPosition, ConstantStiffness
 
 MAX_POSITION_RAD = math.pi / 2.0
 MAX_VELOCITY_RAD_PER_S = 20.0
+MAX_DEFLECTION_RAD = 0.3
+MAX_DEFLECTION_RATE_RAD_PER_S = 5.0
 DURATION_S = 2.0
 LAST_S = 0.2
 CLOSE_RAD = math.radians(1.0)
@@ -38,18 +44,35 @@ class Fate(NamedTuple):
     after_s: float
 
 
+Slice = Literal["rigid", "deflected"]
+
+
 class Map(NamedTuple):
-    """The starts. positions: q0, rad, a column each. velocities: q̇0, rad/s, a row each."""
+    """The starts. positions: q0, rad, a column each. velocities: q̇0, rad/s, a row each.
+
+    deflections, rates: φ0, rad, and φ̇0, rad/s, of each start, of shape (rows, columns).
+    """
 
     positions: np.ndarray
     velocities: np.ndarray
+    deflections: np.ndarray
+    rates: np.ndarray
 
 
-def build_map(count: int) -> Map:
-    """Starts in `count` rows and columns: q0 within ±90°, q̇0 within ±20 rad/s."""
+def build_map(count: int, chosen: Slice = "rigid") -> Map:
+    """Starts in `count` rows and columns: q0 within ±90°, q̇0 within ±20 rad/s.
+
+    chosen: "rigid" has φ0 = φ̇0 = 0, link and motor 1 as one body; "deflected" has for each start a
+    deflection of its own within ±0.3 rad and a rate within ±5 rad/s, uniformly distributed, the
+    same in every map of this size.
+    """
+    share = 1.0 if chosen == "deflected" else 0.0
+    random = np.random.default_rng(0).uniform(-share, share, (2, count, count))
     return Map(
         np.linspace(-MAX_POSITION_RAD, MAX_POSITION_RAD, count),
         np.linspace(-MAX_VELOCITY_RAD_PER_S, MAX_VELOCITY_RAD_PER_S, count),
+        MAX_DEFLECTION_RAD * random[0],
+        MAX_DEFLECTION_RATE_RAD_PER_S * random[1],
     )
 
 
@@ -70,10 +93,10 @@ def find_fates(
 ) -> Iterator[tuple[Cell, Fate]]:
     """What becomes of each start, one after another, simulated with the compiled loop.
 
-    The actuator starts as one body, φ = 0, with link and motor 1 at q0 and q̇0; σ = σ_d =
-    `sigma`, N·m/rad; the loop is to bring it to q_d = 0. It has come to rest if |e| < 1° in the
-    last 0.2 of 2 s. A run that leaves the domain of the model is a fault. The configuration's
-    first lane, limits and effects hold.
+    The link starts at q0 with q̇0, motor 1 at q0 − φ0 with q̇0 − φ̇0, the lever where the nominal σ
+    at φ = 0 is σ_d = `sigma`, N·m/rad; the loop is to bring it to q_d = 0. It has come to rest if
+    |e| < 1° in the last 0.2 of 2 s. A run that leaves the domain of the model is a fault. The
+    configuration's first lane, limits and effects hold.
     """
     run = Run(
         configuration.changed(
@@ -94,7 +117,8 @@ def find_fates(
     for cell in cells:
         q, dq = float(starts.positions[cell.column]), float(starts.velocities[cell.row])
         memory = get_law(configuration.law).start_memory()
-        lane = build_lane_state(memory, State(q, dq, q, dq, 0.0, 0.0))
+        theta1, dtheta1 = q - float(starts.deflections[cell]), dq - float(starts.rates[cell])
+        lane = build_lane_state(memory, State(q, dq, theta1, dtheta1, 0.0, 0.0))
         kind = law.function, blocks.steps
         _, done, _ = advance_in_slices(follow, kind, lane, 0, samples)
         if done < len(samples):

@@ -1,4 +1,4 @@
-"""`svsa stability`: Theorem 1 in tables, as JSON and as a picture."""
+"""`svsa stability`: Theorem 1 in tables, as JSON and as a picture; `svsa margins`: of all laws."""
 
 import json
 import math
@@ -59,25 +59,65 @@ def stability(
     Console().print(*_build_tables(reports), highlight=False)
 
 
+def margins(
+    laws: Annotated[
+        list[str] | None, typer.Argument(help="Names of laws; all that are installed if left out.")
+    ] = None,
+    stiffness: Annotated[
+        list[float] | None, typer.Option(help="σ_d, N·m/rad; 15 and 60 if left out.")
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the numbers as JSON.")] = False,
+) -> None:
+    """Show the margins of laws about rest on the rig: modulus, delay, gains, model error."""
+    from svsa.analysis.design.margin_table import (
+        HEADS,
+        STIFFNESSES,
+        compute_law_margins,
+        format_margins,
+    )
+    from svsa.control.installed import get_law, list_law_names
+
+    names = tuple(laws or list_law_names())
+    titles = [get_law(name).title for name in names]
+    table = Table("law", "σ", *HEADS, title="Margins of the sampled loop about rest, on the rig")
+    found: list[dict[str, Any]] = []
+    with Progress(console=Console(stderr=True), transient=True) as bar:
+        for name, title in bar.track(list(zip(names, titles, strict=True)), description="Margins"):
+            for sigma, one in compute_law_margins(name, tuple(stiffness or STIFFNESSES)):
+                table.add_row(title, f"{sigma:g}", *format_margins(one))
+                found.append({"law": name, "stiffness_nm_per_rad": sigma, **one.to_json()})
+    if as_json:
+        typer.echo(json.dumps({"margins": found}))
+        return
+    Console().print(table, highlight=False)
+
+
 def _build_tables(reports: "list[Report]") -> list[Table]:
     return [_build_loop_table(reports), _build_range_table(reports)]
 
 
 def _build_loop_table(reports: "list[Report]") -> Table:
-    table = Table("at σ, N·m/rad", title="The loop about rest", title_justify="left")
+    table = Table(
+        "at σ, N·m/rad",
+        title="The loop about rest",
+        caption="Gains of the linear loop, for small motions. Starts: a sample, no proof.",
+        title_justify="left",
+        caption_justify="left",
+    )
     rows: list[tuple[str, list[str]]] = [
         ("slowest real part, rad/s", [f"{one.stability.loop.slowest:.2f}" for one in reports]),
         ("least damping", [f"{one.stability.loop.least_damping:.2f}" for one in reports]),
         ("e per ẇ2, ° per N·m/s", [_format_degrees(one.stability.gain.ramp) for one in reports]),
         ("  by the formula", [_format_degrees(one.stability.formula) for one in reports]),
         ("  simulated ramps", [_format_ramps(one) for one in reports]),
-        ("  the worst ẇ2 can do", [_format_degrees(one.stability.gain.worst) for one in reports]),
+        ("  L1 gain, linear loop", [_format_degrees(one.stability.gain.l1) for one in reports]),
         ("  floor as β → ∞", [_format_degrees(one.stability.floor) for one in reports]),
         ("|w2 − ŵ2| per ẇ2, s", [_format_lag(one) for one in reports]),
         ("fastest β on the rig, rad/s", [_format_fastest(one, 1) for one in reports]),
         ("  with two samples of delay", [_format_fastest(one, 2) for one in reports]),
         ("  ideal", [_format_fastest(one, 0) for one in reports]),
-        ("share that comes to rest", [_format_share(one) for one in reports]),
+        ("sampled starts that come to rest", [_format_share(one.share) for one in reports]),
+        ("  with φ ±0.3 rad, φ̇ ±5 rad/s", [_format_share(one.bent_share) for one in reports]),
     ]
     for one in reports:
         table.add_column(f"{one.sigma:g}", justify="right")
@@ -135,5 +175,5 @@ def _format_fastest(report: "Report", delay: int) -> str:
     return "over 1000" if beta is None else f"{beta:.0f}"
 
 
-def _format_share(report: "Report") -> str:
-    return "–" if report.share is None else f"{report.share:.2f}"
+def _format_share(share: float | None) -> str:
+    return "–" if share is None else f"{share:.2f}"

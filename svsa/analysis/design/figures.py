@@ -112,7 +112,8 @@ def _draw_attraction(axes: Axes, report: Report | None) -> None:
         vmax=2,
     )
     axes.set(
-        title=f"Rig, σ = {report.sigma:g}: {report.share:.2f} of the starts come to rest",
+        title=f"Rig, σ = {report.sigma:g}, φ0 = φ̇0 = 0: {report.share:.2f} of {count} × {count}"
+        " starts come to rest\na sample of a slice, no proof",
         xlabel="q0 [°]",
         ylabel="q̇0 [rad/s]",
     )

@@ -8,12 +8,13 @@ from typing import Any, NamedTuple
 from svsa.analysis.design.attraction import (
     Cell,
     Fate,
+    Slice,
     build_map,
     compute_share,
     find_fates,
     order_cells,
 )
-from svsa.analysis.design.iss import RAMPS_NM_PER_S, RampRun, simulate_ramp
+from svsa.analysis.design.rate_gain import RAMPS_NM_PER_S, RampRun, simulate_ramp
 from svsa.analysis.design.sampled_loop import find_fastest_observer
 from svsa.analysis.design.stability import Stability, assess
 from svsa.control.gains import Gains
@@ -29,7 +30,8 @@ DELAYS = {0: IDEAL, 1: RIG, 2: RIG.changed(delay_samples=2)}
 class Report(NamedTuple):
     """At σ_d = sigma, N·m/rad. fastest: β, rad/s, by samples of delay, 0 being the ideal loop.
 
-    fates: of the map's starts on the paper's rig; empty without a map, and share None.
+    fates: of the rigid map's starts on the paper's rig; empty without a map. share, bent_share: of
+    the starts that come to rest in the rigid and in the deflected map; None without a map.
     """
 
     sigma: float
@@ -39,6 +41,7 @@ class Report(NamedTuple):
     is_observed: bool
     fates: dict[Cell, Fate]
     share: float | None
+    bent_share: float | None
 
     def to_json(self) -> dict[str, Any]:
         """Numbers with their units in their names; null where there is none."""
@@ -51,7 +54,7 @@ class Report(NamedTuple):
             "ranges": [one._asdict() for one in self.stability.ranges],
             "error_deg_per_nm_per_s": {
                 "linear": _finite(math.degrees(gain.ramp)),
-                "worst": _finite(math.degrees(gain.worst)),
+                "l1": _finite(math.degrees(gain.l1)),
                 "formula": _degrees(self.stability.formula),
                 "floor": _degrees(self.stability.floor),
                 "simulated": [_finite(math.degrees(ramp.gain)) for ramp in self.ramps],
@@ -61,6 +64,7 @@ class Report(NamedTuple):
                 f"{delay}_samples_of_delay": beta for delay, beta in self.fastest.items()
             },
             "share_that_comes_to_rest": self.share,
+            "share_with_deflection": self.bent_share,
         }
 
 
@@ -93,8 +97,18 @@ def build_report(
     """A report for each stiffness, N·m/rad. report: is given the share of the maps that is done."""
     for sigma in sigmas:
         configuration.limits.check_stiffness("stiffness", sigma, sigma)
-    done, total = 0, max(1, len(sigmas) * starts**2)
+    done, total = 0, max(1, 2 * len(sigmas) * starts**2)
     reports = []
+
+    def fill(sigma: float, chosen: Slice) -> tuple[dict[Cell, Fate], float | None]:
+        nonlocal done
+        fates: dict[Cell, Fate] = {}
+        on_rig, cells = configuration.changed(effects=RIG), order_cells(starts)
+        for cell, fate in find_fates(on_rig, sigma, build_map(starts, chosen), cells):
+            fates[cell], done = fate, done + 1
+            report(done / total)
+        return fates, compute_share(list(fates.values())) if fates else None
+
     for sigma in sigmas:
         stability = assess(configuration, sigma)
         ramps = [simulate_ramp(configuration, sigma, rate) for rate in RAMPS_NM_PER_S]
@@ -102,14 +116,9 @@ def build_report(
             delay: find_fastest_observer(configuration.changed(effects=effects), sigma)
             for delay, effects in DELAYS.items()
         }
-        fates: dict[Cell, Fate] = {}
-        on_rig = configuration.changed(effects=RIG)
-        for cell, fate in find_fates(on_rig, sigma, build_map(starts), order_cells(starts)):
-            fates[cell], done = fate, done + 1
-            report(done / total)
+        (fates, share), (_, bent) = fill(sigma, "rigid"), fill(sigma, "deflected")
         is_observed = get_law(configuration.law).estimate == "observer"
-        share = compute_share(list(fates.values())) if fates else None
-        reports.append(Report(sigma, stability, ramps, fastest, is_observed, fates, share))
+        reports.append(Report(sigma, stability, ramps, fastest, is_observed, fates, share, bent))
     return reports
 
 

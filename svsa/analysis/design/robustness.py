@@ -1,5 +1,7 @@
 """How wrong a parameter may be before the closed loop about rest is unstable."""
 
+from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple
 
 from svsa.analysis.design.closed_loop import LawDerivatives, connect, linearize_law
@@ -48,32 +50,34 @@ def find_stable_ranges(
         actuator = nominal.model_copy(update={name: ratio * getattr(nominal, name)})
         return connect(c, sigma, derivatives, actuator).is_hurwitz
 
-    def find_end(name: str, end: float) -> float | None:
-        step = _STRIDE if end > 1.0 else 1.0 / _STRIDE
-        inside = outside = 1.0
-        while is_stable(name, outside):
-            inside = outside
-            if inside == end:
-                return None
-            outside = min(inside * step, end) if end > 1.0 else max(inside * step, end)
-        while abs(outside - inside) > _CLOSE * inside:
-            middle = 0.5 * (inside + outside)
-            if is_stable(name, middle):
-                inside = middle
-            else:
-                outside = middle
-        return inside
-
     if not connect(c, sigma, derivatives, nominal).is_hurwitz:
         return []
     return [
         StableRange(
             name,
             symbol,
-            find_end(name, MIN_RATIO),
-            find_end(name, MAX_RATIO),
+            find_end(partial(is_stable, name), MIN_RATIO),
+            find_end(partial(is_stable, name), MAX_RATIO),
             getattr(c.actuator, name) / getattr(nominal, name),
         )
         for name, symbol in PARAMETERS.items()
         if getattr(nominal, name) > 0.0
     ]
+
+
+def find_end(is_stable: Callable[[float], bool], end: float) -> float | None:
+    """The factor from 1 towards `end` up to which all are stable; None if all are."""
+    step = _STRIDE if end > 1.0 else 1.0 / _STRIDE
+    inside = outside = 1.0
+    while is_stable(outside):
+        inside = outside
+        if inside == end:
+            return None
+        outside = min(inside * step, end) if end > 1.0 else max(inside * step, end)
+    while abs(outside - inside) > _CLOSE * inside:
+        middle = 0.5 * (inside + outside)
+        if is_stable(middle):
+            inside = middle
+        else:
+            outside = middle
+    return inside

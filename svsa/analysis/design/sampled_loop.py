@@ -8,7 +8,7 @@ import numpy as np
 
 from svsa.actuators.dynamics import compute_internal_torque
 from svsa.actuators.signals import CHANNELS, Disturbance, Measurement, Positions, State, Torque
-from svsa.analysis.design.differences import differentiate
+from svsa.analysis.design.differences import differentiate, differentiate_both
 from svsa.control.call import build_call, read_estimate
 from svsa.control.installed import get_law
 from svsa.control.observers.disturbance import ObserverBandwidth
@@ -18,29 +18,48 @@ from svsa.simulation.loop.lane import Inputs, LaneState
 from svsa.simulation.loop.loop import apply_torque, decide, observe
 from svsa.simulation.plant.effects import MAX_DELAY_SAMPLES
 from svsa.simulation.plant.loads import ConstantLoad, build_load_table, schedule_load
+from svsa.simulation.plant.sensors import read_sensors
 from svsa.simulation.reference.sine import ConstantPosition, ConstantStiffness
 
 TORQUES = slice(15, 17)
+APPLIED = slice(17, 19)
 _PUSH_NM = 1e-3
 _BEGINNING_S = 0.05
+_NO_EFFECT = 1e-9
 
 
 class SampledLoop(NamedTuple):
-    """z' = A z + B n + W w2, a tick of the loop about rest.
+    """z' = A z + B n + W w + X d, u = C z: a tick of the loop about rest.
 
     z = (x, x̂, ŵ, torque now and of the last period, queue of the delay, memory of the law, what was
-    heard last beside x), without what never changes; it begins with q. n: noise on θ1, θ2, φ, rad.
-    w2: a torque on the link during the tick, N·m.
+    heard last beside x), without what never changes; it begins with x. n: noise on θ1, θ2, φ, rad.
+    w: torques on link, motor 1 and motor 2 during the tick, N·m, of which the controller is not
+    informed. d: a change of the plant's x at the end of the tick, which its sensors see. u: mean
+    torque of both motors during the tick, N·m.
+
+    closing: indices of the states that the motors' torque changes and that change it. kink: among
+    them the largest difference between derivatives to both sides, relative to the largest
+    derivative of the same value; near 0 for a differentiable tick, 1 and more for a law that
+    switches at rest, of which A is then an average.
     """
 
     A: np.ndarray
     B: np.ndarray
     W: np.ndarray
+    X: np.ndarray
+    C: np.ndarray
+    closing: np.ndarray
+    kink: float
 
     @property
     def radius(self) -> float:
         """The largest |z| of the poles, 1; below 1 the loop is stable."""
-        return float(np.max(np.abs(np.linalg.eigvals(self.A))))
+        return compute_radius(self.A)
+
+
+def compute_radius(A: np.ndarray) -> float:
+    """The spectral radius: the largest absolute value of the eigenvalues of a square matrix."""
+    return float(np.max(np.abs(np.linalg.eigvals(A))))
 
 
 def linearize_tick(configuration: Configuration, sigma: float) -> SampledLoop:
@@ -81,18 +100,39 @@ def linearize_tick(configuration: Configuration, sigma: float) -> SampledLoop:
         known, estimate = observe(blocks, rest.known, rest.estimate, rest.actual, heard)
         return _pack(rest._replace(known=known, estimate=estimate), (n[0] + n[2], n[0], n[1]))
 
-    def push(torque: float) -> np.ndarray:
-        load = ConstantLoad(torque_nm=(torque, 0.0, 0.0))
+    def push(w: np.ndarray) -> np.ndarray:
+        load = ConstantLoad(torque_nm=(w[0], w[1], w[2]))
         table = build_load_table((schedule_load(1, load, 0, run.period_s),))
         return tick(_pack(rest), run.inputs._replace(loads=table))
 
-    A, B = differentiate(tick, _pack(rest)), differentiate(hear, np.zeros(3))
-    W = (push(_PUSH_NM) - push(-_PUSH_NM)) / (2.0 * _PUSH_NM)
+    def displace(x: np.ndarray) -> np.ndarray:
+        state = State(*x)
+        measurement = read_sensors(blocks.effects, state, 0)
+        known, estimate = observe(blocks, rest.known, rest.estimate, rest.actual, measurement)
+        return _pack(rest._replace(x=state, known=known, estimate=estimate))
+
+    A, kinks = differentiate_both(tick, _pack(rest))
+    B, W = differentiate(hear, np.zeros(3)), differentiate(push, np.zeros(3), _PUSH_NM)
+    X = differentiate(displace, np.array(rest.x))
     is_same = np.isclose(A, np.eye(len(A)), rtol=0.0, atol=1e-7)
     is_fixed = np.all(is_same, axis=1) & np.all(B == 0.0, axis=1)
     is_fixed[-3:] |= np.all(A[:, -3:] == 0.0, axis=0)
     moving = np.flatnonzero(~is_fixed)
-    return SampledLoop(A[np.ix_(moving, moving)], B[moving], W[moving])
+    A, kinks, C = A[np.ix_(moving, moving)], kinks[np.ix_(moving, moving)], A[APPLIED][:, moving]
+    W = W[moving]
+    closing = np.flatnonzero(_spread(A, W[:, 1:]) & _spread(A.T, C.T))
+    scales = np.max(np.abs(A[closing]), axis=1, keepdims=True, initial=_NO_EFFECT)
+    kink = float(np.max(kinks[np.ix_(closing, closing)] / scales, initial=0.0))
+    return SampledLoop(A, B[moving], W, X[moving], C, closing, kink)
+
+
+def _spread(A: np.ndarray, inputs: np.ndarray) -> np.ndarray:
+    """Which states the inputs change, at once or through others. A (n, n), inputs (n, m)."""
+    links = np.abs(A) > _NO_EFFECT
+    changed = np.any(np.abs(inputs) > _NO_EFFECT, axis=1)
+    for _ in range(len(A)):
+        changed = changed | np.any(links[:, changed], axis=1)
+    return changed
 
 
 def find_rest(run: Run) -> LaneState:
@@ -121,7 +161,7 @@ def _unpack(z: np.ndarray) -> LaneState:
         State(*values[6:12]),
         Disturbance(*values[12:15]),
         Torque(*values[TORQUES]),
-        Torque(*values[17:19]),
+        Torque(*values[APPLIED]),
         tuple(values[19 : 19 + queue]),
         z[19 + queue :].copy(),
     )
@@ -164,7 +204,7 @@ def compute_disturbance_response(
     frequency = np.geomspace(MIN_HZ, _NYQUIST_SHARE * 0.5 / period, points)
     shifts = np.exp(2j * math.pi * period * frequency)
     unit = np.eye(len(loop.A))
-    q = np.array([np.linalg.solve(shift * unit - loop.A, loop.W)[0] for shift in shifts])
+    q = np.array([np.linalg.solve(shift * unit - loop.A, loop.W[:, 0])[0] for shift in shifts])
     return FrequencyResponse(frequency, np.abs(q), np.unwrap(np.angle(-q)), loop.radius)
 
 

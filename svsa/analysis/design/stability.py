@@ -6,13 +6,13 @@ from typing import NamedTuple
 import numpy as np
 
 from svsa.analysis.design.closed_loop import ClosedLoop, connect, linearize_law
-from svsa.analysis.design.iss import (
+from svsa.analysis.design.loop_noise import choose_sensing
+from svsa.analysis.design.rate_gain import (
     RateGain,
     compute_floor,
     compute_formula,
     compute_rate_gain,
 )
-from svsa.analysis.design.loop_noise import choose_sensing
 from svsa.analysis.design.robustness import StableRange, find_stable_ranges
 from svsa.analysis.design.sampled_loop import find_fastest_observer, linearize_tick
 from svsa.control.installed import get_title
@@ -77,7 +77,7 @@ def _check_continuous(configuration: Configuration, sigma: float, loop: ClosedLo
     is_moving = min(np.min(np.abs(poles)), np.min(np.abs(loop.poles))) > _STANDING_RAD_PER_S
     if is_found and is_moving:
         slowest = float(np.max(poles.real))
-        still = np.linalg.solve(np.eye(len(sampled.A)) - sampled.A, sampled.W)[0]
+        still = np.linalg.solve(np.eye(len(sampled.A)) - sampled.A, sampled.W[:, 0])[0]
         reported = np.linalg.solve(loop.A, loop.B[:, 0])
         is_same_error = math.isclose(
             still, float(loop.C[0] @ reported), rel_tol=_CLOSE, abs_tol=1e-5

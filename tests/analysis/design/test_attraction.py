@@ -37,6 +37,17 @@ def test_the_share_that_comes_to_rest(law, pole, sigma, share):
     assert compute_share([fate for _, fate in found]) == pytest.approx(share, abs=0.04)
 
 
+def test_a_slice_with_deflection_shows_less_than_the_one_without():
+    """At 45/60 all rigid starts come to rest, and about 64 % of those with a bent spring."""
+    starts = build_map(21, "deflected")
+    found = find_fates(build("ndobc", 45.0), 15.0, starts, order_cells(21))
+    assert compute_share([fate for _, fate in found]) == pytest.approx(0.64, abs=0.05)
+    assert np.max(np.abs(starts.deflections)) <= 0.3
+    assert np.max(np.abs(starts.rates)) <= 5.0
+    again = build_map(21, "deflected")
+    np.testing.assert_array_equal(again.deflections, starts.deflections)
+
+
 def test_a_map_is_filled_from_coarse_to_fine():
     cells = order_cells(COARSE)
     assert len(set(cells)) == len(cells) == COARSE**2

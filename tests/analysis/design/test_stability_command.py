@@ -38,6 +38,19 @@ def test_the_tables_and_the_picture(tmp_path):
     assert picture.stat().st_size > 10_000
 
 
+def test_the_margins_of_chosen_laws():
+    result = CliRunner().invoke(
+        app, ["margins", "fl", "eso_saturated", "--stiffness", "15", "--json"]
+    )
+    assert result.exit_code == 0, result.output
+    fl, eso = json.loads(result.stdout)["margins"]
+    assert fl["modulus"] == pytest.approx(0.367, abs=0.002)
+    assert fl["torque2_gain"]["low"] is None
+    assert (eso["is_stable"], eso["joint_error"]) == (False, None)
+    table = CliRunner().invoke(app, ["margins", "fl", "--stiffness", "15"], env={"COLUMNS": "140"})
+    assert "0.50 (M −39%, B1 +26%, Ks +18%)" in table.stdout
+
+
 def test_a_law_without_an_observer_has_no_fastest_one():
     text = run("--law", "fl", "--stiffness", "15", "--starts", "0")
     assert "none: w itself stays" in text

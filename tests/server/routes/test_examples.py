@@ -17,6 +17,7 @@ WORKERS = {
     "POST /api/v1/falsifications",
     "POST /api/v1/leaderboard/submissions",
     "POST /api/v1/sessions/{session}/design/stability",
+    "POST /api/v1/sessions/{session}/design/margins",
     "POST /api/v1/sessions/{session}/design/region",
     "POST /api/v1/scenarios/runs",
     "POST /api/v1/grades",

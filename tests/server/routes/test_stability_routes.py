@@ -1,4 +1,4 @@
-"""Theorem 1 asked over REST for a design that is tried; the session asked stays as it is."""
+"""Stability of a design that is tried, over REST; the session stays as it is."""
 
 import math
 
@@ -102,6 +102,32 @@ def test_the_map_comes_in_parts_from_coarse_to_fine(lab: Lab) -> None:
     assert len(first["fates"]) + len(rest["fates"]) == 25
     stiff = ask(lab, "region", starts=5, count=25, stiffness_nm_per_rad=60.0)
     assert sum(one["outcome"] == "rest" for one in stiff["fates"]) > 20
+
+
+def test_another_slice_has_starts_with_a_bent_spring(lab: Lab) -> None:
+    lab.load_figure(law="ndobc")
+    slower = {"gains": {"position_poles_rad_per_s": [-45] * 4}, "starts": 7, "count": 49}
+    shares = [
+        sum(
+            one["outcome"] == "rest" for one in ask(lab, "region", chosen=chosen, **slower)["fates"]
+        )
+        for chosen in ("rigid", "deflected")
+    ]
+    assert shares[0] == 49
+    assert shares[1] < 40
+
+
+@pytest.mark.parametrize("law", ["ndobc", "ndobc_w"])
+def test_every_law_has_margins_also_one_without_a_continuous_model(lab: Lab, law: str) -> None:
+    lab.load_figure(law=law)
+    found = ask(lab, "margins")
+    assert (found["law"], found["encoders"], found["is_stable"]) == (law, "rig", True)
+    assert 0.2 < found["modulus"] < 0.5
+    assert 0.0015 < found["delay_s"] < 0.003
+    assert found["torque1_gain"]["low"] < 1.0 < found["torque1_gain"]["high"]
+    errors = found["joint_errors"]
+    assert math.hypot(*errors.values()) == pytest.approx(found["joint_error"])
+    assert set(errors) == {"M", "B1", "B2", "Ks"}
 
 
 def test_an_unstable_design_fails_in_a_private_simulation_only(lab: Lab) -> None:

@@ -8,8 +8,9 @@ from typing import Annotated, Literal
 import numpy as np
 from fastapi import Body, Request
 
-from svsa.analysis.design.attraction import Cell, Fate, build_map, find_fates, order_cells
+from svsa.analysis.design.attraction import Cell, Fate, Map, build_map, find_fates, order_cells
 from svsa.analysis.design.loop_noise import choose_sensing
+from svsa.analysis.design.margins import compute_margins
 from svsa.analysis.design.response import LoadResponse, simulate_load
 from svsa.analysis.design.robustness import MAX_RATIO, MIN_RATIO
 from svsa.analysis.design.sampled_loop import (
@@ -31,6 +32,7 @@ from svsa_server.schemas.lab.stability import (
     FateState,
     FrequencyResponseState,
     LoadResponseState,
+    MarginsState,
     RegionRequest,
     RegionState,
     ResponseState,
@@ -72,14 +74,32 @@ async def respond(hosted: NamedSession, request: Tried) -> ResponseState:
 @router.post("/stability")
 @allow(OBSERVER)
 async def show_stability(hosted: NamedSession, work: Work, request: Tried) -> StabilityState:
-    """Theorem 1 for this design about rest; nothing is changed.
+    """The linear loop of this design about rest, where Theorem 1 holds; nothing is changed.
 
-    The closed loop's poles with the true plant, for how wrong a model it stays stable, what a
-    disturbance that changes costs, and how fast the observer may be.
+    The closed loop's poles with the true plant, for how wrong a model it stays stable, the error
+    that a disturbance of bounded rate causes, and how fast the observer may be.
     """
     configuration, sigma = build_tried(hosted.session, request)
     found, radius = await work.run(_assess, configuration, sigma)
     return _build_stability(configuration, sigma, found, radius)
+
+
+@router.post("/margins")
+@allow(OBSERVER)
+async def show_margins(hosted: NamedSession, work: Work, request: Tried) -> MarginsState:
+    """Modulus, delay, gain and joint parameter margins of this design; nothing is changed.
+
+    Of any law: the tick of the sampled loop about rest is linearized numerically.
+    """
+    configuration, sigma = build_tried(hosted.session, request)
+    sensing = configuration.changed(effects=choose_sensing(configuration.effects))
+    margins = await work.run(compute_margins, sensing, sigma)
+    return MarginsState(
+        law=configuration.law,
+        stiffness_nm_per_rad=sigma,
+        encoders=_name_encoders(configuration),
+        **margins.to_json(),
+    )
 
 
 @router.post("/region")
@@ -89,17 +109,19 @@ async def map_attraction(
     work: Work,
     request: Annotated[RegionRequest, Body(examples=[{"starts": 31, "first": 0, "count": 100}])],
 ) -> RegionState:
-    """From which positions and velocities this design comes to rest, a part of the map at once.
+    """From which sampled starts this design comes to rest, a part of the map at once.
 
-    The starts come from coarse to fine, so that the first parts tell the shape.
+    The map is a slice of the state space, and a sample of it: no proof for any other start. The
+    starts come from coarse to fine, so that the first parts show the shape.
     """
     configuration, sigma = build_tried(hosted.session, request)
     sensing = configuration.changed(effects=choose_sensing(configuration.effects))
-    starts, end = build_map(request.starts), request.first + request.count
+    starts, end = build_map(request.starts, request.chosen), request.first + request.count
     cells = order_cells(request.starts)[request.first : end]
-    fates = await work.run(_find_part, sensing, sigma, request.starts, cells)
+    fates = await work.run(_find_part, sensing, sigma, starts, cells)
     return RegionState(
         law=configuration.law,
+        chosen=request.chosen,
         stiffness_nm_per_rad=sigma,
         encoders=_name_encoders(configuration),
         positions_rad=starts.positions.tolist(),
@@ -137,9 +159,9 @@ def _compute_sensed_radius(configuration: Configuration, sigma: float) -> float:
 
 
 def _find_part(
-    configuration: Configuration, sigma: float, count: int, cells: Sequence[Cell]
+    configuration: Configuration, sigma: float, starts: Map, cells: Sequence[Cell]
 ) -> list[tuple[Cell, Fate]]:
-    return list(find_fates(configuration, sigma, build_map(count), cells))
+    return list(find_fates(configuration, sigma, starts, cells))
 
 
 def _name_encoders(configuration: Configuration) -> Literal["session", "rig"]:
@@ -177,7 +199,7 @@ def _build_stability(
         least_ratio=MIN_RATIO,
         greatest_ratio=MAX_RATIO,
         ramp_gain_rad_s_per_nm=_finite(gain.ramp),
-        worst_gain_rad_s_per_nm=_finite(gain.worst),
+        l1_gain_rad_s_per_nm=_finite(gain.l1),
         formula_rad_s_per_nm=found.formula,
         floor_rad_s_per_nm=found.floor,
         is_observed=get_law(configuration.law).estimate == "observer",

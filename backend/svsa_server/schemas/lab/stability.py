@@ -4,6 +4,7 @@ from typing import Literal
 
 from pydantic import BaseModel, Field
 
+from svsa.analysis.design.attraction import Slice
 from svsa.control.installed import InstalledLaw
 from svsa.inputs.checked import Number, Whole, quantity
 from svsa_server.schemas.lab.design import PredictRequest
@@ -25,6 +26,12 @@ class DesignRequest(PredictRequest):
 class RegionRequest(DesignRequest):
     """A part of the map of starts, from coarse to fine: ask on until `next` is null."""
 
+    chosen: Slice = quantity(
+        "",
+        "rigid: φ0 = φ̇0 = 0; deflected: each start with its own φ0 within ±0.3 rad and φ̇0 within"
+        " ±5 rad/s",
+        default="rigid",
+    )
     starts: Whole = quantity("", "Starts along each side", ge=3, le=MAX_STARTS, default=31)
     first: Whole = quantity("", "First start of this part", ge=0, le=MAX_STARTS**2, default=0)
     count: Whole = quantity("", "Starts of this part", ge=1, le=MAX_AT_ONCE, default=100)
@@ -90,8 +97,9 @@ class StabilityState(BaseModel):
     ramp_gain_rad_s_per_nm: float | None = Field(
         description="|e| per ẇ2 that a ramp leaves; null where a constant torque does already"
     )
-    worst_gain_rad_s_per_nm: float | None = Field(
-        description="The most that any w2 of a bounded rate can do, per rate"
+    l1_gain_rad_s_per_nm: float | None = Field(
+        description="L1 gain of the linear loop from ẇ2 to e: the largest error that any w2 of a"
+        " bounded rate causes, per rate, for small motions; not an ISS gain of the nonlinear loop"
     )
     formula_rad_s_per_nm: float | None = Field(description="The ramp's gain in closed form, NDOBC")
     floor_rad_s_per_nm: float | None = Field(description="What the formula tends to as β → ∞")
@@ -101,6 +109,42 @@ class StabilityState(BaseModel):
     )
     encoders: Literal["session", "rig"] = Field(
         description="Whose sensing bounds the observer: the session's, or else the paper's rig's"
+    )
+
+
+class GainRangeState(BaseModel):
+    """Factors on one torque between which the loop stays stable, the other torque as it is."""
+
+    low: float | None = Field(description="Null where it is stable down to 0.01")
+    high: float | None = Field(description="Null where it is stable up to 100")
+
+
+class MarginsState(BaseModel):
+    """Margins of the sampled loop about rest, opened where the torques reach the plant."""
+
+    law: str
+    stiffness_nm_per_rad: float
+    encoders: Literal["session", "rig"] = Field(
+        description="Whose sensing and delay: the session's, or else the paper's rig's"
+    )
+    is_stable: bool = Field(description="If false, modulus and delay are 0, all else null")
+    is_switching: bool = Field(
+        description="Whether the law switches at rest: the margins are then of an average"
+    )
+    largest_pole: float = Field(description="Largest |z| of the poles of the loop")
+    modulus: float = Field(description="1/‖S‖∞ over both torques: 1 at best")
+    delay_s: float | None = Field(
+        description="Additional delay of both torques, unknown to the observer, at which the loop"
+        " is not stable; null where no delay is"
+    )
+    torque1_gain: GainRangeState | None
+    torque2_gain: GainRangeState | None
+    joint_error: float | None = Field(
+        description="√(Σ error²) of the smallest error of M, B1, B2 and Ks together that a search"
+        " found to destabilise the loop; null where none was found"
+    )
+    joint_errors: dict[str, float] | None = Field(
+        description="These errors, true over nominal minus 1, by the paper's symbol"
     )
 
 
@@ -114,9 +158,13 @@ class FateState(BaseModel):
 
 
 class RegionState(BaseModel):
-    """A part of the map: the actuator starts as one body at q0, q̇0, and is to come to rest."""
+    """A part of the map: the link starts at q0 with q̇0, and is to come to rest.
+
+    The starts are a sample of a slice of the state space: no proof for any other start.
+    """
 
     law: str
+    chosen: Slice
     stiffness_nm_per_rad: float
     encoders: Literal["session", "rig"]
     positions_rad: list[float] = Field(description="q0 of the columns")

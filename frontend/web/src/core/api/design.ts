@@ -9,6 +9,7 @@ export type Prediction = Schemas["Prediction"];
 export type DesignRequest = Partial<Schemas["DesignRequest"]>;
 export type DesignResponse = Schemas["ResponseState"];
 export type Stability = Schemas["StabilityState"];
+export type Margins = Schemas["MarginsState"];
 type RegionRequest = Partial<Schemas["RegionRequest"]>;
 export type Region = Schemas["RegionState"];
 export type Fate = Schemas["FateState"];
@@ -30,6 +31,8 @@ export const askResponse = (wanted: DesignRequest) =>
   request("post", `${SESSION}/design/response`, wanted, LONGEST_WORK_MS) as Promise<DesignResponse>;
 export const askStability = (wanted: DesignRequest) =>
   request("post", `${SESSION}/design/stability`, wanted, LONGEST_WORK_MS) as Promise<Stability>;
+export const askMargins = (wanted: DesignRequest) =>
+  request("post", `${SESSION}/design/margins`, wanted, LONGEST_WORK_MS) as Promise<Margins>;
 export const askRegion = (wanted: RegionRequest) =>
   request("post", `${SESSION}/design/region`, wanted, LONGEST_WORK_MS) as Promise<Region>;
 /** A private simulated session with this design, stable or not. */

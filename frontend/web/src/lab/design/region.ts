@@ -5,6 +5,7 @@ import type { Law } from "../../core/api/types";
 import { draft } from "./draft";
 import { designRequest } from "./stability";
 
+export type Slice = Region["chosen"];
 export const STARTS = 31;
 const PART = 48;
 
@@ -33,9 +34,15 @@ export function stopFilling(): void {
 }
 
 /** Part by part, from coarse to fine, until it is full, stopped, or the poles are moved. */
-export async function fillRegion(law: Law, stiffness: number): Promise<void> {
+export async function fillRegion(law: Law, chosen: Slice, stiffness: number): Promise<void> {
   const number = ++filling;
-  const request = { ...designRequest(), law, stiffness_nm_per_rad: stiffness, starts: STARTS };
+  const request = {
+    ...designRequest(),
+    law,
+    chosen,
+    stiffness_nm_per_rad: stiffness,
+    starts: STARTS,
+  };
   fates.value = [];
   shown.value = null;
   problem.value = null;

@@ -11,6 +11,7 @@ import {
   isFilling,
   isOutdated,
   problem,
+  type Slice,
   STARTS,
   share,
   shown,
@@ -30,6 +31,7 @@ const CELL_Y = (HEIGHT - TOP - BOTTOM) / STARTS;
 const POSITIONS = [-90, -45, 0, 45, 90];
 const VELOCITIES = [-20, -10, 0, 10, 20];
 const LOOKS = ["rest", "fault", "astray"] as const;
+const SLICES: readonly Slice[] = ["rigid", "deflected"];
 
 const placeX = (degrees: number) =>
   LEFT + CELL_X / 2 + ((degrees + 90) / 180) * (WIDTH - LEFT - RIGHT - CELL_X);
@@ -96,6 +98,7 @@ export function RegionMap() {
   const id = useId();
   const own = session.value?.configuration.law ?? "ndobc";
   const [law, setLaw] = useState<string | null>(null);
+  const [chosen, setChosen] = useState<Slice>("rigid");
   const [typed, setTyped] = useState<string | null>(null);
   const sigma = typed ?? formatInput(tried.value?.stiffness_nm_per_rad ?? 15, 3);
   const limits = session.value?.configuration.limits;
@@ -124,6 +127,14 @@ export function RegionMap() {
           disabled={isFilling.value}
           onChoose={setLaw}
         />
+        <SelectField
+          label={words.slice}
+          value={chosen}
+          options={SLICES}
+          name={(slice) => words.slices[slice]}
+          disabled={isFilling.value}
+          onChoose={setChosen}
+        />
         <label>
           <span>σ</span>
           <input
@@ -145,7 +156,7 @@ export function RegionMap() {
             type="button"
             class="button"
             disabled={!isTaken}
-            onClick={() => void fillRegion(law ?? own, value)}
+            onClick={() => void fillRegion(law ?? own, chosen, value)}
           >
             {words.fill}
           </button>
@@ -176,6 +187,7 @@ export function RegionMap() {
           </span>
         ))}
       </p>
+      <p class="hint">{words.regionCaption(words.slices[found?.chosen ?? chosen], STARTS)}</p>
       <p class="hint" role={isFilling.value ? undefined : "status"}>
         {found === null || part === null
           ? words.regionEmpty

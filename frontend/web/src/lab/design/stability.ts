@@ -1,10 +1,12 @@
 /** What is asked of the server about the stability of the design that is tried. */
 import { computed, effect, signal } from "@preact/signals";
 import {
+  askMargins,
   askResponse,
   askStability,
   type DesignRequest,
   type DesignResponse,
+  type Margins,
   type Stability,
 } from "../../core/api/design";
 import { session } from "../../core/state/session";
@@ -13,6 +15,7 @@ import { draft, isChanged, requestOf, surroundings } from "./draft";
 export const tried = signal<DesignResponse | null>(null);
 export const present = signal<DesignResponse | null>(null);
 export const stability = signal<Stability | null>(null);
+export const margins = signal<Margins | null>(null);
 /** Whether what is shown is of other gains than those that stand in the plane. */
 export const isStale = signal(false);
 
@@ -84,6 +87,12 @@ export function watchStability(): () => void {
       isStale.value = false;
     };
   });
+  const longer = asker(LONG_PAUSE_MS, async () => {
+    const found = await askMargins(designRequest());
+    return () => {
+      margins.value = found;
+    };
+  });
   const stop = effect(() => {
     if (wanted.value === "null") return;
     if (question.value !== seen) {
@@ -91,12 +100,15 @@ export function watchStability(): () => void {
       present.value = null;
     }
     isStale.value = true;
+    margins.value = null;
     quick.soon();
     long.soon();
+    longer.soon();
   });
   return () => {
     stop();
     quick.stop();
     long.stop();
+    longer.stop();
   };
 }

@@ -1,8 +1,8 @@
-import type { Stability } from "../../core/api/design";
+import type { Margins, Stability } from "../../core/api/design";
 import { text } from "../../core/text/en";
 import { formatNumber, toDegrees } from "../../core/units";
-import { isStale, stability } from "./stability";
-import { rangeOf } from "./words";
+import { isStale, margins, stability } from "./stability";
+import { errorsOf, gainRangeOf, rangeOf } from "./words";
 
 const words = text.stability;
 const ratio = (value: number) => formatNumber(value, 3, 2);
@@ -29,6 +29,10 @@ function Lines({ found }: { found: Stability }) {
         <dt>{words.gain}</dt>
         <dd>{gainOf(found.ramp_gain_rad_s_per_nm)}</dd>
       </div>
+      <div title={words.l1Hint}>
+        <dt>{words.l1}</dt>
+        <dd>{gainOf(found.l1_gain_rad_s_per_nm)}</dd>
+      </div>
       {floor !== null && (
         <div title={words.floorHint}>
           <dt>{words.floor}</dt>
@@ -45,6 +49,40 @@ function Lines({ found }: { found: Stability }) {
           </dd>
         </div>
       )}
+    </dl>
+  );
+}
+
+function MarginLines({ found }: { found: Margins }) {
+  const sensing = words.sensing[found.encoders];
+  if (!found.is_stable) return <p class="hint">{words.noMargins(sensing)}</p>;
+  const { delay_s: delay, joint_error: norm, joint_errors: errors } = found;
+  const lines: [string, string, string][] = [
+    [words.modulus, words.modulusHint, ratio(found.modulus)],
+    [
+      words.delay,
+      words.delayHint,
+      delay === null ? words.anyDelay : words.milliseconds(formatNumber(1000 * delay, 2, 1)),
+    ],
+    [words.gain1, words.gainMarginHint, gainRangeOf(found.torque1_gain)],
+    [words.gain2, words.gainMarginHint, gainRangeOf(found.torque2_gain)],
+    [
+      words.joint,
+      words.jointHint,
+      norm === null || errors === null
+        ? words.noJoint
+        : words.jointValue(ratio(norm), errorsOf(errors)),
+    ],
+  ];
+  return (
+    <dl class="stability-lines" aria-label={words.margins(sensing)}>
+      {lines.map(([name, hint, value]) => (
+        <div key={name} title={hint}>
+          <dt>{name}</dt>
+          <dd>{value}</dd>
+        </div>
+      ))}
+      {found.is_switching && <p class="hint">{words.switching}</p>}
     </dl>
   );
 }
@@ -77,7 +115,7 @@ function Ranges({ found }: { found: Stability }) {
   );
 }
 
-/** Theorem 1 in numbers: poles with the true plant, what ẇ costs, how wrong the model may be. */
+/** The linear loop about rest: poles with the true plant, gains from ẇ, ranges and margins. */
 export function StabilityTable() {
   const found = stability.value;
   return (
@@ -89,6 +127,7 @@ export function StabilityTable() {
         <>
           <Lines found={found} />
           <Ranges found={found} />
+          {margins.value && <MarginLines found={margins.value} />}
         </>
       )}
     </section>

@@ -1,5 +1,5 @@
 /** Poles and numbers of a design as they are read. */
-import type { DesignResponse, Prediction, Stability } from "../../core/api/design";
+import type { DesignResponse, Margins, Prediction, Stability } from "../../core/api/design";
 import { text } from "../../core/text/en";
 import { formatInput, formatNumber, toDegrees } from "../../core/units";
 import { countPlaces, type Pole, type Poles } from "./poles";
@@ -47,9 +47,26 @@ export function caveatOf(found: Pick<DesignResponse, "largest_pole" | "encoders"
 const ratio = (value: number) => formatNumber(value, 3, 2);
 
 /** For which true over nominal values of a parameter the loop is stable. */
-export function rangeOf({ low, high }: Stability["ranges"][number]): string {
+export function rangeOf({ low, high }: Pick<Stability["ranges"][number], "low" | "high">): string {
   if (high === null) return low === null ? text.stability.all : text.stability.from(ratio(low));
   return low === null
     ? text.stability.upTo(ratio(high))
     : text.stability.between(ratio(low), ratio(high));
+}
+
+/** Factors on a torque between which the loop stays stable. */
+export function gainRangeOf(found: Margins["torque1_gain"]): string {
+  if (found === null) return text.stability.all;
+  return rangeOf({ low: found.low ?? 0, high: found.high });
+}
+
+/** "M −24 %, B1 +18 %" without what rounds to nothing. */
+export function errorsOf(errors: Record<string, number>): string {
+  return Object.entries(errors)
+    .filter(([, error]) => Math.abs(error) >= 0.005)
+    .map(([symbol, error]) => {
+      const sign = error < 0 ? MINUS : "+";
+      return `${symbol} ${sign}${Math.round(100 * Math.abs(error))} %`;
+    })
+    .join(", ");
 }

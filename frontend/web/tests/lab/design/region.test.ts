@@ -28,7 +28,7 @@ it("a map is asked for part by part, until it is full", async () => {
   const { fates, fillRegion, isFilling, share, shown } = await import(
     "../../../src/lab/design/region"
   );
-  const filled = fillRegion("ndobc", 10);
+  const filled = fillRegion("ndobc", "rigid", 10);
   expect([isFilling.value, share.value]).toEqual([true, null]);
   await filled;
   expect(asked.map(({ first, count }) => [first, count])).toEqual(FIRSTS.map((one) => [one, 48]));
@@ -47,7 +47,7 @@ it("a map that is left asks for nothing more, and takes no answer that comes lat
     new Promise((resolve) => {
       give = resolve;
     });
-  const filled = fillRegion("ndobc", 10);
+  const filled = fillRegion("ndobc", "rigid", 10);
   stopFilling();
   give({ fates: FATES, next: 48 } as unknown as Region);
   await filled;
@@ -57,7 +57,7 @@ it("a map that is left asks for nothing more, and takes no answer that comes lat
 it("why it cannot be filled is told", async () => {
   const { fillRegion, isFilling, problem } = await import("../../../src/lab/design/region");
   answer = () => Promise.reject(new Error("Too busy."));
-  await fillRegion("ndobc", 10);
+  await fillRegion("ndobc", "rigid", 10);
   expect(problem.value).toEqual(new Error("Too busy."));
   expect(isFilling.value).toBe(false);
 });

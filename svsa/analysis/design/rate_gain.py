@@ -1,4 +1,8 @@
-"""Theorem 1 as a number: how far a disturbance that changes takes the link, from ẇ to e."""
+"""How far a disturbance that changes takes the link: gains from ẇ to e of the loop about rest.
+
+Theorem 1 says that the loop is locally input-to-state stable, without a number. These are gains of
+the *linear* loop, which hold for small motions; an ISS gain of the nonlinear loop is not computed.
+"""
 
 import math
 from typing import NamedTuple
@@ -26,13 +30,13 @@ _POINTS = 4000
 class RateGain(NamedTuple):
     """Error of position per rate of the link's torque, rad per N·m/s.
 
-    ramp: |e| that a steady ramp ẇ2 leaves. worst: the most that any w2 with |ẇ2| ≤ 1 N·m/s can
-    do, ∫|g(t)| dt of the impulse response g from ẇ2 to e: the gain in the sense of input-to-state
-    stability. Both infinite where a constant torque leaves an error already, or it is unstable.
+    ramp: |e| that a steady ramp ẇ2 leaves. l1: the L1 gain ∫|g(t)| dt of the impulse response g
+    from ẇ2 to e, the largest |e| that any w2 with |ẇ2| ≤ 1 N·m/s causes in the linear loop. Both
+    infinite if a constant torque leaves an error already, or the loop is unstable.
     """
 
     ramp: float
-    worst: float
+    l1: float
 
 
 def compute_rate_gain(loop: ClosedLoop) -> RateGain:

@@ -1,0 +1,57 @@
+"""Margins of laws in words, for the command line and for a law's page."""
+
+from collections.abc import Iterator
+
+from svsa.analysis.design.margins import SYMBOLS, GainRange, JointError, Margins, compute_margins
+from svsa.analysis.design.report import build_configuration
+from svsa.simulation.plant.effects import RIG
+
+HEADS = ("modulus", "delay", "gain of u1", "gain of u2", "joint error")
+STIFFNESSES = (15.0, 60.0)
+_LEAST_SHARE = 0.005
+
+
+def compute_law_margins(
+    law: str, sigmas: tuple[float, ...] = STIFFNESSES
+) -> Iterator[tuple[float, Margins]]:
+    """(σ, margins) of a law with its default parameters, the paper's design and the rig's effects.
+
+    law: name of an installed law. sigmas: σ_d, N·m/rad.
+    """
+    configuration = build_configuration(law, None, None, None).changed(effects=RIG)
+    for sigma in sigmas:
+        configuration.limits.check_stiffness("stiffness", sigma, sigma)
+        yield sigma, compute_margins(configuration, sigma)
+
+
+def format_margins(margins: Margins) -> tuple[str, ...]:
+    """One cell for each of `HEADS`."""
+    if not margins.is_stable:
+        return ("unstable", "–", "–", "–", "–")
+    note = ", switches at rest" if margins.is_switching else ""
+    delay = "any" if margins.delay_s is None else f"{1e3 * margins.delay_s:.1f} ms"
+    return (
+        f"{margins.modulus:.2f}{note}",
+        delay,
+        _format_range(margins.gain1),
+        _format_range(margins.gain2),
+        _format_error(margins.error),
+    )
+
+
+def _format_range(found: GainRange | None) -> str:
+    if found is None:
+        return "–"
+    low = "0" if found.low is None else f"{found.low:.2f}"
+    return f"from {low}" if found.high is None else f"{low} – {found.high:.2f}"
+
+
+def _format_error(found: JointError | None) -> str:
+    if found is None:
+        return "none found"
+    parts = [
+        f"{symbol} {error:+.0%}".replace("-", "\N{MINUS SIGN}")
+        for symbol, error in zip(SYMBOLS, found.errors, strict=True)
+        if abs(error) >= _LEAST_SHARE
+    ]
+    return f"{found.norm:.2f} ({', '.join(parts)})"
