@@ -1,11 +1,18 @@
 """Linear extended-state observers on both integral chains, with compensation of saturation.
 
-After the direct successor of the paper (see source): in the coordinates of the linearization the
-actuator is a chain q⁗ = y1 + d1 and one σ̈ = y2 + d2. An observer of fifth order knows q to its
-third derivative and d1, one of third order σ, σ̇ and d2, from q and σ alone; both are told the y
-that the motors really made. On s = (d/dt + λ)³ e the law slides; while a motor is at its limit an
-auxiliary state ζ̇ = −κ ζ + y_asked − y_made takes off the surface what it cannot make. Simplified:
-fixed gains, where the source adapts them.
+A simplification after the abstract of a published controller (see source), which treats an
+antagonistic and a serial variable stiffness actuator with a lever. Taken from there: in the
+coordinates of the linearization the actuator is a chain q⁗ = y1 + d1 and one σ̈ = y2 + d2 with
+matched lumped disturbances; linear extended-state observers with fixed gains estimate states and
+disturbances; a sliding surface; a compensation of input saturation. Not implemented, because its
+equations were not at hand: the adaptive laws of that compensation, the compensators of the
+observers' estimation errors, and the source's own plants. Results here say nothing about the
+published controller.
+
+An observer of fifth order estimates q to its third derivative and d1, one of third order σ, σ̇ and
+d2, from q and σ alone; both are fed the y of the torque that acted. The law approaches the surface
+s = (d/dt + λ)³ e exponentially, without a switching term; while a motor is at its limit an
+auxiliary state ζ̇ = −κ ζ + y_commanded − y_acted relaxes the surface.
 
 It assumes exact positions. In the ideal loop it leaves a third of a thousandth of a degree; on the
 rig it swings: five poles at ω make d1 of a position by some ω⁴, and at 249 rad/s, which a load on
@@ -186,12 +193,12 @@ def control(
 
 ESO_SATURATED = Law(
     name="eso_saturated",
-    title="ESO, saturated",
-    summary="Extended-state observers on the linearized chains, told what the motors really made,"
-    " with compensation of saturation: the paper's successor, simplified.",
+    title="ESO, simplified",
+    summary="Extended-state observers on the linearized chains with compensation of saturation: a"
+    " simplification of a published controller.",
     equation=r"y_1=\dots+\lambda(s-\zeta)-\hat d,\quad"
-    r"\dot\zeta=-\kappa\zeta+y_{\mathrm{asked}}-y_{\mathrm{made}}",
-    source="Int. J. Adv. Robot. Syst., 2020, doi:10.1177/1729881420911774",
+    r"\dot\zeta=-\kappa\zeta+y_{\mathrm{commanded}}-y_{\mathrm{acted}}",
+    source="Simplified after Int. J. Adv. Robot. Syst., 2020, doi:10.1177/1729881420911774",
     parameters=Observers,
     build=build,
     control=control,

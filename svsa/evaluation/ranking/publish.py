@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from svsa.actuators.faults import label_fault
+from svsa.analysis.design.margin_table import HEADS, compute_law_margins, format_margins
 from svsa.control.call import is_measuring
 from svsa.control.gains import Gains
 from svsa.control.installed import PAPERS_LAW, get_law, get_notes, get_title
@@ -25,6 +26,17 @@ LOSSES = Path("docs") / "laws" / "pictures" / "losses.png"
 _BLOCK = re.compile(r"(<!-- ranking -->\n).*?(<!-- /ranking -->)", re.DOTALL)
 _DOI = re.compile(r"doi:(10\.\d{4,}/\S+)")
 _EQUATION = re.compile(r"Eq \d+")
+_NOT_IMPLEMENTED = (
+    "## Not implemented",
+    "",
+    'M. Trumić, F. Angelini, K. Jovanović, A. Fagiolini, "Decoupled and Closed-Loop Motion and'
+    " Stiffness Control for Articulated Soft Robots Driven by a Class of Electromechanical Variable"
+    ' Stiffness Actuators", IEEE Trans. Control Syst. Technol. 34(2), 1051–1059, 2026,'
+    " [doi:10.1109/TCST.2025.3637320](https://doi.org/10.1109/TCST.2025.3637320). Its abstract"
+    " describes a cascade that shifts the eigenvalues of the actuator matrix and compensates the"
+    " shift by integral action, fixed and adaptive. Its equations could not be found in a public"
+    " source, so neither version is implemented.",
+)
 _ESTIMATES = {
     "none": "No estimate of the load.",
     "observer": "ŵ of the loop's disturbance observer.",
@@ -90,8 +102,8 @@ COLUMNS = (
 )  # fmt: skip
 
 
-def build_law_page(results: Results, bench: BenchRuns, name: str) -> str:
-    """The page of a law, Markdown. bench: runs on the emulator, where it has some."""
+def build_law_page(results: Results, bench: BenchRuns, name: str, margins: str) -> str:
+    """The page of a law, Markdown. bench: runs on the emulator. margins: see `build_margins`."""
     law, row, papers = get_law(name), results.get_row(name), results.get_row(PAPERS_LAW)
     count = len(results.rows)
     lines = [
@@ -125,12 +137,30 @@ def build_law_page(results: Results, bench: BenchRuns, name: str) -> str:
     lines += [
         "",
         _describe_provenance(results, [row]),
+        margins,
         *build_section(bench, name),
         "",
         "[All laws](README.md)",
         "",
     ]
     return "\n".join(lines)
+
+
+def build_margins(name: str) -> str:
+    """Compute a law's margins, and write the section of its page on them, Markdown."""
+    lines = [
+        "\n## Margins about rest\n",
+        f"| σ, N·m/rad | {' | '.join(HEADS)} |",
+        "| --- " * (1 + len(HEADS)) + "|",
+    ]
+    for sigma, margins in compute_law_margins(name):
+        lines.append(f"| {sigma:g} | {' | '.join(format_margins(margins))} |")
+    text = (
+        "\nOf the sampled loop, linearized on the rig with the law's defaults, without limits of"
+        " torque: [how they are defined](../stability.md#margins). The same again:"
+        f" `svsa margins {name}`."
+    )
+    return "\n".join([*lines, text])
 
 
 def _cite(law: Law) -> list[str]:
@@ -200,7 +230,8 @@ def build_index(results: Results, bench: BenchRuns) -> str:
     for row in rows:
         summary = get_law(row.law).summary
         lines.append(f"| [{get_title(row.law)}]({row.law}.md) | {row.score:.2f} | {summary} |")
-    lines += ["", _describe_provenance(results, rows), "", "## On the emulator", ""]
+    lines += ["", _describe_provenance(results, rows), "", *_NOT_IMPLEMENTED, ""]
+    lines += ["## On the emulator", ""]
     lines += [
         "The paper's bench figures through CAN, frame by frame, in lockstep: position errors in"
         " degrees as the bench measures them (rms 1–5 s, peak after the cable's 2 N·m at 5 s, rms"
@@ -225,7 +256,7 @@ def publish(root: Path, results: Results, bench: BenchRuns) -> None:
     pictures = root / FOLDER / "pictures"
     pictures.mkdir(parents=True, exist_ok=True)
     for row in results.rows:
-        page = build_law_page(results, bench, row.law)
+        page = build_law_page(results, bench, row.law, build_margins(row.law))
         (root / FOLDER / f"{row.law}.md").write_text(page, encoding="utf-8")
         save_law(results, row.law, pictures / f"{row.law}.png")
     (root / FOLDER / "README.md").write_text(build_index(results, bench), encoding="utf-8")

@@ -1,20 +1,36 @@
 """The laws' pages and the README's table say what was measured: `make ranking` writes them."""
 
+import re
 from pathlib import Path
 
 import pytest
 
 from svsa.control.installed import get_law, list_law_names
 from svsa.evaluation.ranking.bench_runs import load_published_bench_runs
-from svsa.evaluation.ranking.publish import FOLDER, LOSSES, build_index, build_law_page, fill_readme
+from svsa.evaluation.ranking.publish import (
+    FOLDER,
+    LOSSES,
+    build_index,
+    build_law_page,
+    build_margins,
+    fill_readme,
+)
 from svsa.evaluation.ranking.results import load_published
 
 ROOT = Path(__file__).parents[3]
+_MARGINS = re.compile(r"\n## Margins about rest\n.*?`svsa margins \w+`\.", re.DOTALL)
+
+
+def read_margins(law: str) -> str:
+    """The section as it is published: to compute all of them takes a minute."""
+    found = _MARGINS.search((ROOT / FOLDER / f"{law}.md").read_text(encoding="utf-8"))
+    assert found, law
+    return found[0]
 
 
 @pytest.mark.parametrize("law", list_law_names())
 def test_a_laws_page_is_what_its_file_and_the_results_say(law):
-    page = build_law_page(load_published(), load_published_bench_runs(), law)
+    page = build_law_page(load_published(), load_published_bench_runs(), law, read_margins(law))
     assert (ROOT / FOLDER / f"{law}.md").read_text(encoding="utf-8") == page
     assert (ROOT / FOLDER / "pictures" / f"{law}.png").is_file()
     assert get_law(law).equation in page
@@ -23,8 +39,13 @@ def test_a_laws_page_is_what_its_file_and_the_results_say(law):
     assert not doi or f"[doi:{doi}](https://doi.org/{doi})" in page
 
 
+@pytest.mark.parametrize("law", ["fl", "eso_saturated"])
+def test_the_margins_of_a_page_are_those_that_are_computed(law):
+    assert build_margins(law) == read_margins(law)
+
+
 def test_a_number_of_a_page_is_that_of_its_row():
-    page = build_law_page(load_published(), load_published_bench_runs(), "ndobc_w")
+    page = build_law_page(load_published(), load_published_bench_runs(), "ndobc_w", "")
     row = load_published().get_row("ndobc_w")
     assert f"| 3 kg on the arm: rms | {row.mass_rms_deg:.3g}° | 0.314° | 2 |" in page
     assert "Faults of 48 load removals | 0 | 32 |" in page

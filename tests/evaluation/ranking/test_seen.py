@@ -15,7 +15,6 @@ from svsa.runs.result.simulate import simulate
         ("fl", "rig_4a", ["fl", "ndobc"]),
         ("fl", "load_removal", ["fl"]),
         ("ndobc", "load_removal", ["ndobc", "fl"]),
-        ("prescribed_performance", "load_removal", ["prescribed_performance", "ndobc"]),
     ],
 )
 def test_a_run_is_shown_to_its_own_end_with_its_own_samples(law, scenario, laws):

@@ -41,7 +41,7 @@ LAWS = {
     "pd": "182c33b62fb8b763",
     "pi_observer": "0517c5cd0831312a",
     "pid": "e0c7dec16057bd22",
-    "prescribed_performance": "67554add9d83c92e",
+    "prescribed_performance": "adc6b748d4822f8a",
     "rbf_network": "04cd54a8441e951e",
     "super_twisting": "e64071427e91b6da",
 }
