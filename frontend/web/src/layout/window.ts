@@ -1,6 +1,5 @@
 /** Since when numbers are measured, in words, and what became of the load. */
 import type { LaneRow, Metrics, SessionState, WindowState } from "../core/api/types";
-import { RECOVERY_SHARE } from "../core/plots/statistics";
 import { text } from "../core/text/en";
 import { measuredText } from "../core/text/measured";
 import { formatNumber } from "../core/units";
@@ -39,6 +38,9 @@ export interface Recovery {
   words: string;
   hint: string;
 }
+
+/** Within this share of the peak an error counts as recovered. */
+const RECOVERY_SHARE = 0.02;
 
 /** The steady error is beyond what counts as recovered: a load that grows slowly comes to that. */
 const isLarge = (of: Metrics): boolean =>

@@ -1,7 +1,7 @@
 /** The axes of every plot: limits, ticks and look. */
 
 import type uPlot from "uplot";
-import { text } from "../text/en";
+import { plotsText as text } from "../text/plots";
 import { formatNumber } from "../units";
 import { palette } from "./linestyles";
 import type { Span } from "./spans";
@@ -104,7 +104,9 @@ export function placeWords(x: number, words: number, width: number, step: number
 export const LEFT_PX = 50;
 export const RIGHT_PX = 10;
 export const FONT = "11px system-ui, sans-serif";
-export const plainAxis = (): uPlot.Axis => ({
+
+const plainAxis = (size: number): uPlot.Axis => ({
+  size,
   stroke: () => palette.peek().axis,
   grid: { stroke: () => palette.peek().grid, width: 1 },
   ticks: { show: false },
@@ -112,26 +114,55 @@ export const plainAxis = (): uPlot.Axis => ({
   gap: 4,
 });
 
+/** The upright axis of a plot. */
 export const valueAxis = (): uPlot.Axis => ({
-  ...plainAxis(),
-  size: LEFT_PX,
+  ...plainAxis(LEFT_PX),
   space: 18,
   values: (_, splits) => formatTicks(splits),
 });
 
 /** Grid lines only: the numbers stand once below all plots. */
 export const timeGrid = (): uPlot.Axis => ({
-  ...plainAxis(),
-  size: 0,
+  ...plainAxis(0),
   space: 1,
   incrs: (_plot, _axis, from, to, width) => [timeStep({ from, to }, width)],
   values: (_, splits) => splits.map(() => ""),
 });
 
-/** An axis with numbers that is not time. */
-export const otherAxis = (size: number): uPlot.Axis => ({
-  ...plainAxis(),
-  size,
-  space: 60,
-  values: (_, splits) => formatTicks(splits),
+/** Numbers of a time, with their unit; none where there is no room for them. */
+export const timeAxis = (size: number, tick: (timeS: number) => string): uPlot.Axis => ({
+  ...plainAxis(size),
+  space: 70,
+  values: (_, splits) => splits.map((value) => (size > 0 ? tick(value) : "")),
 });
+
+interface Scale {
+  label?: string;
+  isLog?: boolean;
+  /** In place of numbers: of 0, 1, 2, … */
+  labels?: readonly string[] | null;
+}
+
+const writeDecade = (value: number | null): string =>
+  value === null ? "" : String(Number(value.toPrecision(3)));
+
+/** An axis of any quantity, below a plot or left of it. */
+export function otherAxis(way: "x" | "y", { label, isLog, labels }: Scale = {}): uPlot.Axis {
+  return {
+    ...plainAxis(way === "x" ? 26 : LEFT_PX),
+    space: way === "x" ? 60 : 26,
+    values: (_, splits) =>
+      labels
+        ? splits.map((at) => (labels[at] ?? "").slice(0, 12))
+        : isLog
+          ? splits.map(writeDecade)
+          : formatTicks(splits),
+    ...(labels && { splits: () => labels.map((_, index) => index) }),
+    ...(label !== undefined && {
+      label,
+      labelSize: 16,
+      labelGap: 0,
+      labelFont: "12px system-ui, sans-serif",
+    }),
+  };
+}

@@ -1,7 +1,7 @@
 /** The server's channels as plots show them: unit, scale, line style, and which belong together. */
 import type { SessionState, StreamedName } from "../api/types";
 import type { DerivedName } from "../stream/ring";
-import { text } from "../text/en";
+import { plotsText as text } from "../text/plots";
 import { DEGREES_PER_RADIAN } from "../units";
 import type { Bound, PlotColour, Trace } from "./definitions";
 
@@ -101,6 +101,29 @@ export const unitOf = (channels: readonly ChannelName[]): string =>
 export const spanOf = (channels: readonly ChannelName[]): number =>
   Math.max(...channels.map((name) => CHANNELS[name].span));
 
+// The plots that the lab knows.
+
+const EVERY_PRESET = {
+  position: ["position_rad", "position_reference_rad"],
+  error: ["position_error_rad"],
+  stiffness: ["stiffness_nm_per_rad", "stiffness_reference_nm_per_rad"],
+  stiffnessError: ["stiffness_error_nm_per_rad"],
+  torque: ["torque1_nm", "torque2_nm"],
+  disturbance: [
+    "estimate_link_nm",
+    "estimate_motor1_nm",
+    "estimate_motor2_nm",
+    "disturbance_link_nm",
+    "disturbance_motor1_nm",
+    "disturbance_motor2_nm",
+  ],
+  deflection: ["deflection_rad", "deflection_limit_rad"],
+  /** Across and up; at first ė over e. */
+  phase: ["position_error_rad", "velocity_error_rad_per_s"],
+} as const satisfies Record<string, readonly ChannelName[]>;
+
+export type PresetName = keyof typeof EVERY_PRESET;
+export const PRESETS: Readonly<Record<PresetName, readonly ChannelName[]>> = EVERY_PRESET;
 // Fixed limits of what a plot shows, as the session has them now.
 
 /** One for each channel with a limit; in its curve's colour where there is one lane. */

@@ -1,7 +1,7 @@
 /** One plot over time: uPlot has the scales, the axes and the grid; the strokes are a layer on it. */
 import uPlot from "uplot";
 import { session } from "../state/session";
-import { includeBounds, LEFT_PX, niceRange, RIGHT_PX, timeGrid, valueAxis } from "./axes";
+import { includeBounds, niceRange, RIGHT_PX, timeGrid, valueAxis } from "./axes";
 import { boundsOf } from "./channels";
 import { Curve } from "./curves";
 import { extentOf } from "./decimation";
@@ -10,11 +10,12 @@ import { drawEventLines } from "./eventlines";
 import { type Frame, StrokeLayer } from "./layer";
 import { drawBeginning, drawBounds, drawCursorSamples } from "./marks";
 import type { ChartView } from "./span";
+import { plotIn } from "./staticchart";
 
 const MARGIN_PX = 6;
 
 export class Chart {
-  readonly #plot: uPlot;
+  readonly plot: uPlot;
   readonly #curves: readonly Curve[];
   readonly #layer = new StrokeLayer();
   #shown: readonly Curve[];
@@ -31,15 +32,12 @@ export class Chart {
   ) {
     this.#curves = traces.map((trace) => new Curve(trace));
     this.#shown = this.#curves;
-    this.#plot = new uPlot(
+    this.plot = plotIn(
+      host,
       {
-        width: Math.max(1, host.clientWidth),
-        height: Math.max(1, host.clientHeight),
         padding: [MARGIN_PX, RIGHT_PX, MARGIN_PX, 0],
-        legend: { show: false },
-        cursor: { show: false },
         scales: { x: { time: false, auto: false }, y: { auto: false } },
-        axes: [timeGrid(), { ...valueAxis(), size: LEFT_PX }],
+        axes: [timeGrid(), valueAxis()],
         series: [{}],
         hooks: {
           drawClear: [(plot) => drawEventLines(plot, session.peek()?.events ?? [])],
@@ -47,14 +45,13 @@ export class Chart {
         },
       },
       [[0, 1]],
-      host,
     );
   }
 
   draw(): void {
     const ring = this.view.ring();
     const span = this.view.span();
-    const pixels = this.#plot.bbox.width / uPlot.pxRatio;
+    const pixels = this.plot.bbox.width / uPlot.pxRatio;
     this.#taken = { ring, span, newest: ring.newestTime };
     for (const curve of this.#curves) {
       const perBucket = curve.fill(ring, span, pixels);
@@ -65,10 +62,10 @@ export class Chart {
       session.peek(),
     );
     const [min, max] = this.#range();
-    this.#plot.batch(() => {
-      this.#plot.setData([[span.from, span.to]], false);
-      this.#plot.setScale("x", { min: span.from, max: span.to });
-      this.#plot.setScale("y", { min, max });
+    this.plot.batch(() => {
+      this.plot.setData([[span.from, span.to]], false);
+      this.plot.setScale("x", { min: span.from, max: span.to });
+      this.plot.setScale("y", { min, max });
     });
   }
 
@@ -77,16 +74,8 @@ export class Chart {
     this.#shown = this.#curves.filter(({ trace: { key, follows } }) => !hidden.has(follows ?? key));
   }
 
-  resize(width: number, height: number): void {
-    if (width > 0 && height > 0) this.#plot.setSize({ width, height });
-  }
-
-  destroy(): void {
-    this.#plot.destroy();
-  }
-
   #drawStrokes(): void {
-    const { ctx, bbox, scales } = this.#plot;
+    const { ctx, bbox, scales } = this.plot;
     const { min = 0, max = 1 } = scales.y as uPlot.Scale;
     const { width, height } = bbox;
     if (this.#taken && this.#perBucketS > 0 && width > 0 && height > 0) {
@@ -94,9 +83,9 @@ export class Chart {
       this.#layer.draw(frame, this.#perBucketS);
       this.#layer.paint(ctx, bbox.left, bbox.top);
     }
-    drawBounds(this.#plot, this.#bounds);
-    drawBeginning(this.#plot, this.#shown, this.view.ring());
-    if (this.view.hasCursors) drawCursorSamples(this.#plot, this.#shown);
+    drawBounds(this.plot, this.#bounds);
+    drawBeginning(this.plot, this.#shown, this.view.ring());
+    if (this.view.hasCursors) drawCursorSamples(this.plot, this.#shown);
   }
 
   #range(): [number, number] {

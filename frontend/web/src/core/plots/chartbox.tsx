@@ -1,13 +1,15 @@
+import { effect, type ReadonlySignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
+import type uPlot from "uplot";
 import type { Trace } from "./definitions";
 import { addDrawing } from "./frame";
 import type { PlotSetup } from "./setups";
+import { fillHost } from "./staticchart";
 
 interface DrawnChart {
+  plot: uPlot;
   draw(): void;
   hide(keys: ReadonlySet<string>): void;
-  resize(width: number, height: number): void;
-  destroy(): void;
 }
 
 interface ChartBoxProps {
@@ -15,24 +17,23 @@ interface ChartBoxProps {
   make: (host: HTMLElement, setup: PlotSetup, traces: readonly Trace[]) => DrawnChart;
   setup: PlotSetup;
   traces: readonly Trace[];
-  hidden: ReadonlySet<string>;
+  hidden: ReadonlySignal<ReadonlySet<string>>;
 }
 
 /** A chart in its host: made anew for other curves, drawn by the clock of all plots. */
 export function ChartBox({ class: look, make, setup, traces, hidden }: ChartBoxProps) {
   const host = useRef<HTMLDivElement>(null);
-  const hide = useRef<(keys: ReadonlySet<string>) => void>(() => undefined);
   useEffect(() => {
     const element = host.current;
     if (element === null) return;
     const chart = make(element, setup, traces);
     const drawing = addDrawing(() => chart.draw());
-    hide.current = (keys) => {
-      chart.hide(keys);
+    const stopHiding = effect(() => {
+      chart.hide(hidden.value);
       drawing.renew();
-    };
+    });
     const resizing = new ResizeObserver(() => {
-      chart.resize(element.clientWidth, element.clientHeight);
+      fillHost(chart.plot, element);
       drawing.renew();
     });
     const seeing = new IntersectionObserver((entries) =>
@@ -41,12 +42,12 @@ export function ChartBox({ class: look, make, setup, traces, hidden }: ChartBoxP
     resizing.observe(element);
     seeing.observe(element);
     return () => {
+      stopHiding();
       drawing.remove();
       resizing.disconnect();
       seeing.disconnect();
-      chart.destroy();
+      chart.plot.destroy();
     };
   }, [make, setup, traces]);
-  useEffect(() => hide.current(hidden), [hidden, traces]);
   return <div class={look} ref={host} />;
 }

@@ -84,13 +84,16 @@ export function decimate(stretch: Stretch, perBucket: number, factor: number, ou
   }
 }
 
-/** Smallest and largest y of all points; null where there is none. */
-export function extentOf(curves: Iterable<Points>): readonly [number | null, number | null] {
+/** Smallest and largest y, or x, of all points; null where there is none. */
+export function extentOf(
+  curves: Iterable<Points>,
+  way: "x" | "y" = "y",
+): readonly [number | null, number | null] {
   let low = Number.POSITIVE_INFINITY;
   let high = Number.NEGATIVE_INFINITY;
-  for (const { y, count } of curves) {
-    for (let index = 0; index < count; index++) {
-      const value = y[index] as number;
+  for (const points of curves) {
+    for (let index = 0; index < points.count; index++) {
+      const value = points[way][index] as number;
       if (value < low) low = value;
       if (value > high) high = value;
     }

@@ -52,6 +52,10 @@ export interface PlotContent {
   common: readonly Trace[];
 }
 
+/** The legend's entry that a piece of a curve stands under. */
+export const ownerOf = ({ key, follows, continues }: Trace): string =>
+  continues ? (follows ?? key) : key;
+
 // The piece of a lane that a curve is: while the controller that it is named by was in control.
 
 type Piece = Pick<Trace, "channel" | "lane" | "factor" | "from" | "to">;

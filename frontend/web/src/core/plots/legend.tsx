@@ -1,5 +1,5 @@
+import { useSignal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
-import { useState } from "preact/hooks";
 import { plotsText } from "../text/plots";
 import type { LineStyle, PlotSign } from "./definitions";
 
@@ -45,14 +45,14 @@ interface LegendProps {
 }
 
 /** Which curves are hidden, and what hides one or shows it again. */
-export function useHidden(): [ReadonlySet<string>, (key: string) => void] {
-  const [hidden, setHidden] = useState<ReadonlySet<string>>(new Set());
+export function useHidden() {
+  const hidden = useSignal<ReadonlySet<string>>(new Set());
   const toggle = (key: string) => {
-    const next = new Set(hidden);
+    const next = new Set(hidden.peek());
     if (!next.delete(key)) next.add(key);
-    setHidden(next);
+    hidden.value = next;
   };
-  return [hidden, toggle];
+  return [hidden, toggle] as const;
 }
 
 /** One entry a curve with its value; pressing an entry hides the curve. */

@@ -5,16 +5,16 @@ import { formatNumber } from "../units";
 import { CHANNELS, spanOf, unitOf } from "./channels";
 import { Chart } from "./chart";
 import { ChartBox } from "./chartbox";
-import { readPiece, type Trace } from "./definitions";
+import { ownerOf, readPiece, type Trace } from "./definitions";
 import { EVENT_VIEW, isZoomOn } from "./eventzoom";
 import { onFrame } from "./frame";
 import { hoverShare, sampleRead } from "./hover";
 import { Legend, useHidden } from "./legend";
 import { PlotMenu } from "./menu";
-import { PhaseChart } from "./phase";
+import { type PhaseChannels, PhaseChart } from "./phase";
 import type { PlotSetup } from "./setups";
 import { PLOTS_VIEW, shownCast, shownRing } from "./span";
-import { composeContent, hasOneValue, tracesOf } from "./traces";
+import { composeContent, hasOneValue, hasUnnamedTruth, tracesOf } from "./traces";
 
 const READING_MS = 120;
 
@@ -26,9 +26,7 @@ export function titleOf({ preset, channels }: PlotSetup): string {
 
 function makeChart(host: HTMLElement, { preset, channels }: PlotSetup, traces: readonly Trace[]) {
   if (preset !== "phase") return new Chart(host, traces, spanOf(channels), PLOTS_VIEW);
-  const [x, y] = channels.map((channel) => ({ channel, ...CHANNELS[channel] }));
-  if (x === undefined || y === undefined) throw new Error("a phase plane has two channels");
-  return new PhaseChart(host, traces, { x, y });
+  return new PhaseChart(host, traces, channels as PhaseChannels);
 }
 
 const makeZoom = (host: HTMLElement, { channels }: PlotSetup, traces: readonly Trace[]) =>
@@ -47,9 +45,6 @@ function useTraces({ preset, channels }: PlotSetup, chosen: ReadonlySet<string>)
   const traces = useMemo(() => tracesOf(content, shown, lanes.length), [content, shownKey]);
   return { content, shown, traces, isSideBySide: lanes.length > 1 };
 }
-
-/** The legend's entry that a piece of a curve stands under. */
-const ownerOf = ({ key, follows, continues }: Trace) => (continues ? follows : key);
 
 /** Writes the values under the pointer, or the newest, into the legend. */
 function keepReadings(traces: readonly Trace[], readings: ReadonlyMap<string, HTMLElement>) {
@@ -112,9 +107,6 @@ export function Plot({ setup }: { setup: PlotSetup }) {
   useEffect(() => keepReadings(traces, readings), [traces]);
   const title = titleOf(setup);
   const isPhase = setup.preset === "phase";
-  const hasTruth = content.groups.some(({ traces: [leader, ...rest] }) =>
-    rest.some((one) => one.follows === leader?.key && !one.continues && one.factor > 0),
-  );
   return (
     <section
       class={`plot ${isPhase ? "is-phase" : ""}`}
@@ -131,14 +123,14 @@ export function Plot({ setup }: { setup: PlotSetup }) {
           <Chooser title={title} groups={content.groups} shown={shown} onChoose={setChosen} />
         )}
         <Legend
-          note={noteOf(setup, hasTruth && !isSideBySide)}
+          note={noteOf(setup, hasUnnamedTruth(traces))}
           entries={traces.filter((trace) => trace.follows === undefined)}
-          hidden={hidden}
+          hidden={hidden.value}
           readings={readings}
           isRead={(key) => hasOneValue(traces, key)}
           onToggle={toggle}
         />
-        <PlotMenu setup={setup} title={title} traces={traces} hidden={hidden} />
+        <PlotMenu setup={setup} title={title} traces={traces} hidden={hidden.value} />
       </div>
       <div class="plot-row">
         <ChartBox class="plot-canvas" make={makeChart} {...{ setup, traces, hidden }} />

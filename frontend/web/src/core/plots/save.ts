@@ -5,9 +5,10 @@ import { includeBounds, niceRange } from "./axes";
 import { boundsOf, CHANNELS, type ChannelName, spanOf, unitOf } from "./channels";
 import { columnsOf, writeCsv } from "./csv";
 import { Curve } from "./curves";
-import { emptyPoints, extentOf, makeRoom } from "./decimation";
-import { samplesOf, type Trace } from "./definitions";
+import { emptyPoints, extentOf } from "./decimation";
+import type { Trace } from "./definitions";
 import { palette } from "./linestyles";
+import { type PhaseChannels, takePhase } from "./phase";
 import { type PlotSetup, setups } from "./setups";
 import { shownCast, shownRing, shownSpan } from "./span";
 import { type Drawing, drawSvg, HEIGHT, WIDTH } from "./svg";
@@ -52,33 +53,19 @@ function drawTimePlot(title: string, { channels }: PlotSetup, traces: readonly T
   };
 }
 
-function drawPhasePlane(title: string, { channels }: PlotSetup, traces: readonly Trace[]): Drawing {
-  const [across, up] = channels as readonly [ChannelName, ChannelName];
-  const ring = shownRing();
-  const { from, to } = shownSpan();
-  const first = ring.firstAt(from);
-  const end = Math.min(ring.length, ring.firstAt(to) + 1);
-  const curves = traces.map((trace) => {
-    const points = emptyPoints();
-    makeRoom(points, end - first);
-    const own = samplesOf(ring, trace, first, end);
-    for (let index = own.first; index < own.end; index++) {
-      points.x[points.count] = ring.valueAt(across, index, trace.lane) * CHANNELS[across].factor;
-      points.y[points.count++] = ring.valueAt(up, index, trace.lane) * CHANNELS[up].factor;
-    }
-    return { trace, points };
+function drawPhasePlane(title: string, setup: PlotSetup, traces: readonly Trace[]): Drawing {
+  const channels = setup.channels as PhaseChannels;
+  const curves = traces.map((trace) => ({ trace, points: emptyPoints() }));
+  const { x, y } = takePhase(curves, channels);
+  const axis = (name: ChannelName, [from, to]: [number, number]) => ({
+    label: text.save.axis(text.channelNames[name], CHANNELS[name].unit),
+    from,
+    to,
   });
-  const turned = curves.map(({ points: { x, count } }) => ({ x, y: x, count }));
-  const [left, right] = niceRange(...extentOf(turned), CHANNELS[across].span);
-  const [bottom, top] = niceRange(...extentOf(curves.map((c) => c.points)), CHANNELS[up].span);
   return {
     title,
-    x: {
-      label: text.save.axis(text.channelNames[across], CHANNELS[across].unit),
-      from: left,
-      to: right,
-    },
-    y: { label: text.save.axis(text.channelNames[up], CHANNELS[up].unit), from: bottom, to: top },
+    x: axis(channels[0], x),
+    y: axis(channels[1], y),
     curves,
     bounds: [],
     events: [],

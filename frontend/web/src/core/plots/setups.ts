@@ -2,29 +2,8 @@
 import { computed, signal } from "@preact/signals";
 import { remember, remembered } from "../state/preferences";
 import { sourcesOf } from "../stream/ring";
-import { CHANNELS, type ChannelName, isChannel } from "./channels";
+import { CHANNELS, type ChannelName, isChannel, PRESETS, type PresetName } from "./channels";
 
-const EVERY_PRESET = {
-  position: ["position_rad", "position_reference_rad"],
-  error: ["position_error_rad"],
-  stiffness: ["stiffness_nm_per_rad", "stiffness_reference_nm_per_rad"],
-  stiffnessError: ["stiffness_error_nm_per_rad"],
-  torque: ["torque1_nm", "torque2_nm"],
-  disturbance: [
-    "estimate_link_nm",
-    "estimate_motor1_nm",
-    "estimate_motor2_nm",
-    "disturbance_link_nm",
-    "disturbance_motor1_nm",
-    "disturbance_motor2_nm",
-  ],
-  deflection: ["deflection_rad", "deflection_limit_rad"],
-  /** Across and up; at first ė over e. */
-  phase: ["position_error_rad", "velocity_error_rad_per_s"],
-} as const satisfies Record<string, readonly ChannelName[]>;
-
-type PresetName = keyof typeof EVERY_PRESET;
-const PRESETS: Readonly<Record<PresetName, readonly ChannelName[]>> = EVERY_PRESET;
 export const PRESET_NAMES = Object.keys(PRESETS) as PresetName[];
 const AT_FIRST: readonly PresetName[] = ["position", "error", "stiffness", "torque", "disturbance"];
 

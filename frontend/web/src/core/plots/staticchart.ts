@@ -1,24 +1,96 @@
-/** A plot of curves that stand still: of a recorded run, or of several over one another. */
+/** uPlot as the page uses it: in the size of its host, without a legend; and charts that stand still. */
 import { effect, type ReadonlySignal, signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import uPlot from "uplot";
-import { niceRange, plainAxis, valueAxis } from "./axes";
+import { niceRange, timeAxis, valueAxis } from "./axes";
 import type { LineStyle } from "./definitions";
-import { palette } from "./linestyles";
+import { type Palette, palette } from "./linestyles";
 import type { Span } from "./spans";
 
 const SMALLEST_DRAG_PX = 4;
 
-export interface StaticCurve extends LineStyle {
+/** The options of a plot without its size. */
+type Look = Omit<uPlot.Options, "width" | "height">;
+
+/** A uPlot as large as its host is. */
+export const plotIn = (host: HTMLElement, look: Look, data: uPlot.AlignedData): uPlot =>
+  new uPlot(
+    {
+      legend: { show: false },
+      cursor: { show: false },
+      ...look,
+      width: Math.max(1, host.clientWidth),
+      height: Math.max(1, host.clientHeight),
+    },
+    data,
+    host,
+  );
+
+/** A host without room, as of what is folded, changes nothing. */
+export function fillHost(
+  plot: uPlot,
+  { clientWidth: width, clientHeight: height }: HTMLElement,
+): void {
+  if (width > 0 && height > 0) plot.setSize({ width, height });
+}
+
+/** A chart that stands still: made anew for another one, which its owner keeps. */
+export interface StillChart {
+  look: Look;
+  data: uPlot.AlignedData;
+  /** Called with the plot; returns what ends it. */
+  watch?: (plot: uPlot) => () => void;
+}
+
+/** A static chart in the host whose ref is returned. */
+export function useStillChart(chart: StillChart) {
+  const host = useRef<HTMLDivElement>(null);
+  useEffect(() => {
+    const element = host.current;
+    if (element === null) return;
+    const plot = plotIn(element, chart.look, chart.data);
+    const stopLook = effect(() => {
+      void palette.value;
+      plot.redraw(false);
+    });
+    const stopWatch = chart.watch?.(plot);
+    const observer = new ResizeObserver(() => fillHost(plot, element));
+    observer.observe(element);
+    return () => {
+      stopLook();
+      stopWatch?.();
+      observer.disconnect();
+      plot.destroy();
+    };
+  }, [chart]);
+  return host;
+}
+
+/** Not moved to whole pixels, which would turn a slow curve into steps. */
+export const drawnCurve = ({
+  colour,
+  width,
+  dash,
+}: Omit<LineStyle, "colour"> & { colour: keyof Palette }): uPlot.Series => ({
+  stroke: () => palette.peek()[colour],
+  width,
+  dash: [...dash],
+  points: { show: false },
+  pxAlign: 0,
+});
+
+// Curves over time, of a recorded run, or of several over one another.
+
+export interface StillCurve extends LineStyle {
   key: string;
   values: uPlot.AlignedData[1];
   /** Drawn and hidden together with the curve of this key. */
-  follows?: string;
+  follows?: string | undefined;
 }
 
-export interface StaticContent {
+export interface TimeChart {
   time: uPlot.AlignedData[0];
-  curves: readonly StaticCurve[];
+  curves: readonly StillCurve[];
   /** The axis never shows less than this. */
   minSpan: number;
   /** Top, right, bottom, left, CSS pixels. */
@@ -29,76 +101,62 @@ export interface StaticContent {
   group: string;
   /** What part of the time is shown. */
   span: ReadonlySignal<Span>;
+  hidden?: ReadonlySignal<ReadonlySet<string>> | undefined;
   /** A drag over the plot has chosen a part of the time; null: a double click, all of it. */
   onSelect: (span: Span | null) => void;
   /** Below the curves, and above them. */
-  drawBelow: (plot: uPlot) => void;
+  drawBelow?: (plot: uPlot) => void;
   drawAbove?: (plot: uPlot) => void;
   /** The pointer has moved; where nobody reads the values there, they have no marks. */
-  onCursor?: () => void;
+  onCursor?: (plot: uPlot) => void;
+  watch?: (plot: uPlot) => () => void;
 }
 
-export class StaticChart {
-  readonly plot: uPlot;
-
-  constructor(
-    host: HTMLElement,
-    readonly content: StaticContent,
-  ) {
-    const { time, curves, minSpan, padding, group, span, onSelect } = content;
-    const { drawBelow, drawAbove, onCursor } = content;
-    const { from, to } = span.peek();
-    this.plot = new uPlot(
-      {
-        width: Math.max(1, host.clientWidth),
-        height: Math.max(1, host.clientHeight),
-        padding,
-        legend: { show: false },
-        cursor: {
-          y: false,
-          drag: { x: true, y: false, setScale: false },
-          points: onCursor ? { size: 6 } : { show: false },
-          sync: { key: group, scales: ["x", null] },
-          bind: {
-            dblclick: () => () => {
-              onSelect(null);
-              return null;
-            },
-          },
-        },
-        scales: {
-          x: { time: false, min: from, max: to },
-          y: { range: (_, low, high) => niceRange(low, high, minSpan) },
-        },
-        axes: [timeAxis(content.timeAxis), valueAxis()],
-        series: [{}, ...curves.map(drawnCurve)],
-        hooks: {
-          drawClear: [drawBelow],
-          draw: drawAbove ? [drawAbove] : [],
-          setCursor: onCursor ? [onCursor] : [],
-          setSelect: [(plot) => select(plot, onSelect)],
+export function describeTimeChart(chart: TimeChart): StillChart {
+  const { curves, minSpan, padding, group, span, hidden, onSelect, onCursor } = chart;
+  const { from: min, to: max } = span.peek();
+  const look: Look = {
+    padding,
+    cursor: {
+      y: false,
+      drag: { x: true, y: false, setScale: false },
+      points: onCursor ? { size: 6 } : { show: false },
+      sync: { key: group, scales: ["x", null] },
+      bind: {
+        dblclick: () => () => {
+          onSelect(null);
+          return null;
         },
       },
-      [time, ...curves.map(({ values }) => withGaps(values))],
-      host,
-    );
-    this.showSpan();
-  }
-
-  showSpan(): void {
-    const { from: min, to: max } = this.content.span.peek();
-    this.plot.setScale("x", { min, max });
-  }
-
-  hide(hidden: ReadonlySet<string>): void {
-    this.content.curves.forEach(({ key, follows }, index) => {
-      this.plot.setSeries(index + 1, { show: !hidden.has(follows ?? key) });
-    });
-  }
-
-  resize(width: number, height: number): void {
-    if (width > 0 && height > 0) this.plot.setSize({ width, height });
-  }
+    },
+    scales: {
+      x: { time: false, min, max },
+      y: { range: (_, low, high) => niceRange(low, high, minSpan) },
+    },
+    axes: [timeAxis(chart.timeAxis.size, chart.timeAxis.tick), valueAxis()],
+    series: [{}, ...curves.map(drawnCurve)],
+    hooks: {
+      drawClear: chart.drawBelow ? [chart.drawBelow] : [],
+      draw: chart.drawAbove ? [chart.drawAbove] : [],
+      setCursor: onCursor ? [onCursor] : [],
+      setSelect: [(plot) => select(plot, onSelect)],
+    },
+  };
+  const watch = (plot: uPlot) => {
+    const ends = [
+      effect(() => plot.setScale("x", { min: span.value.from, max: span.value.to })),
+      effect(() => {
+        curves.forEach(({ key, follows }, index) => {
+          plot.setSeries(index + 1, { show: !hidden?.value.has(follows ?? key) });
+        });
+      }),
+      chart.watch?.(plot),
+    ];
+    return () => {
+      for (const end of ends) end?.();
+    };
+  };
+  return { look, data: [chart.time, ...curves.map(({ values }) => withGaps(values))], watch };
 }
 
 /** From the earliest to the latest of times that are in order each. */
@@ -117,75 +175,15 @@ export const spanWithin = (whole: Span) => {
 };
 
 /** Values with null, which uPlot leaves out, for NaN; the same array where there is none. */
-function withGaps(values: StaticCurve["values"]): uPlot.AlignedData[1] {
+function withGaps(values: StillCurve["values"]): uPlot.AlignedData[1] {
   if (!(values instanceof Float32Array) || !values.some(Number.isNaN)) return values;
   return Array.from(values, (value) => (Number.isNaN(value) ? null : value));
 }
 
-function select(plot: uPlot, onSelect: StaticContent["onSelect"]): void {
+function select(plot: uPlot, onSelect: TimeChart["onSelect"]): void {
   const { left, width } = plot.select;
   if (width === 0) return;
   plot.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
   if (width < SMALLEST_DRAG_PX) return;
   onSelect({ from: plot.posToVal(left, "x"), to: plot.posToVal(left + width, "x") });
-}
-
-const timeAxis = ({ size, tick }: StaticContent["timeAxis"]): uPlot.Axis => ({
-  ...plainAxis(),
-  size,
-  space: 70,
-  values: (_, splits) => splits.map((value) => (size > 0 ? tick(value) : "")),
-});
-
-/** Not moved to whole pixels, which would turn a slow curve into steps. */
-function drawnCurve(curve: StaticCurve): uPlot.Series {
-  return {
-    stroke: () => palette.peek()[curve.colour],
-    width: curve.width,
-    dash: [...curve.dash],
-    points: { show: false },
-    pxAlign: 0,
-  };
-}
-
-/**
- * A static chart in the host whose ref is returned: made anew for another content, which its owner
- * keeps; `watch` is called with each and returns what ends it.
- */
-export function useStaticChart(
-  content: StaticContent,
-  hidden: ReadonlySet<string>,
-  watch?: (chart: StaticChart) => () => void,
-) {
-  const host = useRef<HTMLDivElement>(null);
-  const chart = useRef<StaticChart | null>(null);
-  useEffect(() => {
-    const element = host.current;
-    if (element === null) return;
-    const made = new StaticChart(element, content);
-    chart.current = made;
-    const ends = [
-      effect(() => {
-        void content.span.value;
-        made.showSpan();
-      }),
-      effect(() => {
-        void palette.value;
-        made.plot.redraw(false);
-      }),
-      ...(watch ? [watch(made)] : []),
-    ];
-    const observer = new ResizeObserver(() => {
-      made.resize(element.clientWidth, element.clientHeight);
-    });
-    observer.observe(element);
-    return () => {
-      for (const end of ends) end();
-      observer.disconnect();
-      made.plot.destroy();
-      chart.current = null;
-    };
-  }, [content]);
-  useEffect(() => chart.current?.hide(hidden), [content, hidden]);
-  return host;
 }

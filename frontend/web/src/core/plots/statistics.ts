@@ -1,4 +1,4 @@
-/** What lies between two samples of one curve, and what a step did to the position. */
+/** What lies between two samples of one curve. */
 import type { SampleRing } from "../stream/ring";
 
 export interface Measures {
@@ -54,61 +54,4 @@ function measureMissing(
     missing += ring.timeAt(index + 1) - ring.timeAt(index);
   }
   return missing;
-}
-
-export interface StepMetrics {
-  peak: number;
-  rms: number;
-  /**
-   * From the step until the error stays small, s; null while it has not for long enough, NaN where
-   * samples are missing, for the error may have been large in between.
-   */
-  recoveryS: number | null;
-  /** For so long of it there is no number, s: the true peak may be higher. */
-  missingS: number;
-}
-
-/** As the server has it: within 2 % of the peak so far for half a second; it stays what it was. */
-export const RECOVERY_SHARE = 0.02;
-const STEADY_STATE_S = 0.5;
-
-/**
- * The error from a time on up to before another, of the samples held; null where none is held of
- * its beginning.
- */
-export function measureStep(
-  ring: SampleRing,
-  channel: string,
-  lane: number,
-  fromS: number,
-  toS: number,
-): StepMetrics | null {
-  const first = ring.firstAt(fromS);
-  const end = Math.min(ring.length, ring.firstAt(toS));
-  const beginsBefore = first === 0 && ring.oldestTime > fromS + 0.1;
-  if (first >= end || beginsBefore) return null;
-  let peak = 0;
-  let squares = 0;
-  let count = 0;
-  let lastOutside = fromS;
-  let recoveryS: number | null = null;
-  for (let index = first; index < end; index++) {
-    const size = Math.abs(ring.valueAt(channel, index, lane));
-    if (Number.isNaN(size)) continue;
-    peak = Math.max(peak, size);
-    squares += size * size;
-    count++;
-    if (size > RECOVERY_SHARE * peak) lastOutside = ring.timeAt(Math.min(index + 1, end - 1));
-    if (recoveryS === null && ring.timeAt(index) - lastOutside >= STEADY_STATE_S) {
-      recoveryS = lastOutside - fromS;
-    }
-  }
-  if (count === 0) return null;
-  const missingS = measureMissing(ring, channel, lane, first, end - 1);
-  return {
-    peak,
-    rms: Math.sqrt(squares / count),
-    recoveryS: missingS > 0 ? Number.NaN : recoveryS,
-    missingS,
-  };
 }

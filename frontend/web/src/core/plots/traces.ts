@@ -1,6 +1,6 @@
 /** From the channels of a plot and the lanes of the session to the curves that are drawn. */
 import type { Cast, Stretch } from "../state/lanes";
-import { text } from "../text/en";
+import { plotsText as text } from "../text/plots";
 import { CHANNELS, type ChannelName } from "./channels";
 import type { LineStyle, PlotContent, PlotSign, Trace, TraceGroup } from "./definitions";
 import { DASHED, DOTTED, lineStyleOf, shareColours } from "./linestyles";
@@ -198,6 +198,13 @@ export function tracesOf(
   );
   return [...named, ...common];
 }
+
+/** Whether the truth of a curve stands in the legend under the curve. */
+export const hasUnnamedTruth = (traces: readonly Trace[]): boolean =>
+  traces.some(({ channel, follows }) => {
+    const { truthOf } = CHANNELS[channel as ChannelName];
+    return traces.some((one) => one.key === follows && one.channel === truthOf);
+  });
 
 /** Whether an entry of the legend has one value: several lanes share one for their truths, which differ. */
 export function hasOneValue(traces: readonly Trace[], key: string): boolean {

@@ -3,7 +3,7 @@ import { computed, signal } from "@preact/signals";
 import { readLaws } from "../api/client";
 import type { Law, LawParameter, LawRow } from "../api/types";
 import type { Quantity } from "../quantities";
-import { text } from "../text/en";
+import { lawsText as text } from "../text/controls";
 
 const RETRY_MS = 2000;
 

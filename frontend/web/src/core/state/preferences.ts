@@ -1,6 +1,6 @@
 /** What this browser remembers: theme, span of the plots, keys, and who sits before it. */
 import { effect, signal } from "@preact/signals";
-import { text } from "../text/en";
+import { controlText as text } from "../text/control";
 
 export function remembered(key: string): string | null {
   try {

@@ -193,7 +193,13 @@ export class SampleRing extends TimeRing {
    * Copies a channel of lane 1, 2, … times `factor` from sample `first` on into `out`; NaN for a
    * channel or a lane that there is not.
    */
-  copyChannel(channel: string, first: number, out: Float32Array, factor = 1, lane = 1): number {
+  copyChannel(
+    channel: string,
+    first: number,
+    out: Float32Array | Float64Array,
+    factor = 1,
+    lane = 1,
+  ): number {
     const column = this.#column(channel, lane);
     if (column !== undefined) return this.copyOut(column, first, out, factor);
     const count = Math.min(this.length - first, out.length);

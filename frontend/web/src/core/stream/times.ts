@@ -123,10 +123,10 @@ export class TimeRing {
     return (this.#next - this.#length + index + this.capacity) % this.capacity;
   }
 
-  protected copyOut<T extends Float32Array | Float64Array>(
-    column: T,
+  protected copyOut(
+    column: Float32Array | Float64Array,
     first: number,
-    out: T,
+    out: Float32Array | Float64Array,
     factor: number,
   ): number {
     const count = Math.min(this.#length - first, out.length);

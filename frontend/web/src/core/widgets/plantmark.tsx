@@ -1,6 +1,6 @@
 /** EMULATED or REAL BENCH, in words, beside what came from there. */
 import type { Mark } from "../state/plant";
-import { text } from "../text/en";
+import { benchText as text } from "../text/bench";
 
 export function PlantMark({ kind }: { kind: Mark | null }) {
   if (kind === null) return null;

@@ -2,12 +2,13 @@ import { useMemo } from "preact/hooks";
 import type uPlot from "uplot";
 import type { LawTrace, Scenario, Trace } from "../../core/api/falsifications";
 import type { LineStyle } from "../../core/plots/definitions";
+import { Swatch } from "../../core/plots/legend";
 import { DASHED, DOTTED, PLAIN, palette } from "../../core/plots/linestyles";
 import {
-  type StaticContent,
-  type StaticCurve,
+  describeTimeChart,
+  type StillCurve,
   spanWithin,
-  useStaticChart,
+  useStillChart,
 } from "../../core/plots/staticchart";
 import { text } from "../../core/text/en";
 import { DEGREES_PER_RADIAN } from "../../core/units";
@@ -16,7 +17,6 @@ import { BODIES, spanOf } from "./definition";
 const words = text.falsifier;
 const TIME_AXIS_PX = 26;
 const CROSS_PX = 5;
-const NONE: ReadonlySet<string> = new Set();
 const TORQUE_LINE_STYLES: readonly LineStyle[] = (
   [
     ["reference", PLAIN],
@@ -32,7 +32,7 @@ export interface DrawnLaw extends LawTrace {
 
 type Chart = keyof typeof MIN_SPANS;
 
-function curvesOf(chart: Chart, trace: Trace, drawn: readonly DrawnLaw[]): StaticCurve[] {
+function curvesOf(chart: Chart, trace: Trace, drawn: readonly DrawnLaw[]): StillCurve[] {
   if (chart === "torque") {
     return BODIES.map((body, at) => ({
       key: body,
@@ -81,35 +81,34 @@ interface ChartProps {
   view: ReturnType<typeof spanWithin>;
 }
 
-function describeChart({ chart, trace, drawn, view }: ChartProps): StaticContent {
+function describeChart(curves: readonly StillCurve[], { chart, trace, drawn, view }: ChartProps) {
   const hasTimes = chart === "stiffness";
-  return {
+  return describeTimeChart({
     time: trace.time_s,
-    curves: curvesOf(chart, trace, drawn),
+    curves,
     minSpan: MIN_SPANS[chart],
     padding: [8, 14, hasTimes ? 0 : 8, 0],
     timeAxis: { size: hasTimes ? TIME_AXIS_PX : 0, tick: words.secondTick },
     group: "falsifier",
     ...view,
-    drawBelow: () => undefined,
     ...(chart !== "torque" && { drawAbove: (plot: uPlot) => drawCrosses(plot, trace, drawn) }),
-  };
+  });
 }
 
 function ErrorChart(props: ChartProps) {
   const { chart, trace, drawn, view } = props;
-  const content = useMemo(() => describeChart(props), [chart, trace, drawn, view]);
-  const host = useStaticChart(content, NONE);
+  const curves = useMemo(() => curvesOf(chart, trace, drawn), [chart, trace, drawn]);
+  const host = useStillChart(useMemo(() => describeChart(curves, props), [curves, view]));
   const { title, unit } = words.charts[chart];
-  const bodies = content.curves.filter(({ key }) => BODIES.some((body) => body === key));
+  const bodies = curves.filter(({ key }) => BODIES.some((body) => body === key));
   return (
     <section class="falsifier-plot" aria-label={title}>
       <h4>
         {title} <span class="unit">{unit}</span>
         {bodies.length > 1 &&
-          bodies.map(({ key, colour }) => (
-            <span key={key} class={`falsifier-body line-${colour}`}>
-              {words.bodies[key as (typeof BODIES)[number]]}
+          bodies.map((body) => (
+            <span key={body.key} class="falsifier-body">
+              <Swatch look={body} /> {words.bodies[body.key as (typeof BODIES)[number]]}
             </span>
           ))}
       </h4>

@@ -1,8 +1,6 @@
-import { useSignalEffect } from "@preact/signals";
-import { useEffect, useRef } from "preact/hooks";
-import uPlot from "uplot";
-import { otherAxis, plainAxis } from "../../core/plots/axes";
-import { palette } from "../../core/plots/linestyles";
+import { useMemo } from "preact/hooks";
+import { otherAxis } from "../../core/plots/axes";
+import { drawnCurve, type StillChart, useStillChart } from "../../core/plots/staticchart";
 import { text } from "../../core/text/en";
 import { nameColumn } from "./look";
 import { distribute, extentOf, scaleOf, spreadsByRatios } from "./points";
@@ -30,8 +28,6 @@ function placeLimits(values: Float64Array): { at: number[]; isLog: boolean } {
 
 /** Of each law, which share of its brushed runs lies below a value. */
 export function Distribution() {
-  const host = useRef<HTMLDivElement>(null);
-  const plot = useRef<uPlot | null>(null);
   const metric = axes.value.metric ?? "";
   const values = show(rows.value, metric);
   const laws = study.value?.laws ?? [];
@@ -40,63 +36,19 @@ export function Distribution() {
   const { at, isLog } = placeLimits(values);
   const curves = laws.map((_, place) => distribute(values, ended.value, marksOf(place), at));
   const column = columnOf(metric);
-  useEffect(() => {
-    const element = host.current;
-    if (element === null) return;
-    const x = plainAxis();
-    const made = new uPlot(
-      {
-        width: Math.max(1, element.clientWidth),
-        height: Math.max(1, element.clientHeight),
+  const chart = useMemo(
+    (): StillChart => ({
+      look: {
         padding: [8, 12, 0, 0],
-        legend: { show: false },
-        cursor: { show: false },
         scales: { x: { time: false, distr: isLog ? 3 : 1 }, y: { range: () => [0, 102] } },
-        axes: [
-          isLog
-            ? {
-                ...x,
-                size: 26,
-                values: (_, splits) =>
-                  splits.map((one) => (one === null ? "" : String(Number(one.toPrecision(3))))),
-              }
-            : otherAxis(26),
-          {
-            ...otherAxis(44),
-            space: 26,
-            label: words.below,
-            labelSize: 16,
-            labelFont: "12px system-ui, sans-serif",
-          },
-        ],
-        series: [
-          {},
-          ...lineStyles.map(({ colour, dash }) => ({
-            stroke: () => palette.peek()[colour],
-            dash: [...dash],
-            width: 2,
-            points: { show: false },
-          })),
-        ],
+        axes: [otherAxis("x", { isLog }), otherAxis("y", { label: words.below })],
+        series: [{}, ...lineStyles.map((one) => drawnCurve({ ...one, width: 2 }))],
       },
-      [at, ...curves],
-      element,
-    );
-    plot.current = made;
-    const observer = new ResizeObserver(() =>
-      made.setSize({ width: element.clientWidth, height: element.clientHeight }),
-    );
-    observer.observe(element);
-    return () => {
-      observer.disconnect();
-      made.destroy();
-      plot.current = null;
-    };
-  }, [rows.value, metric, held, lineStyles]);
-  useSignalEffect(() => {
-    void palette.value;
-    plot.current?.redraw(false);
-  });
+      data: [at, ...curves],
+    }),
+    [rows.value, metric, held, lineStyles],
+  );
+  const host = useStillChart(chart);
   return (
     <section class="surface card" aria-label={words.distribution}>
       <h3>{words.distribution}</h3>

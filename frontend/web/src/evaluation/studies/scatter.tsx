@@ -1,10 +1,11 @@
-import { useSignalEffect } from "@preact/signals";
-import { useEffect, useRef } from "preact/hooks";
+import { effect } from "@preact/signals";
+import { useMemo } from "preact/hooks";
 import type uPlot from "uplot";
 import { palette } from "../../core/plots/linestyles";
+import { useStillChart } from "../../core/plots/staticchart";
 import { text } from "../../core/text/en";
 import { paintDots } from "./dots";
-import { PlotFrame } from "./frame";
+import { describePlane, showBrush } from "./frame";
 import { axesOf, nameColumn, type Plane } from "./look";
 import { findNearest } from "./points";
 import { valuesOf } from "./rows";
@@ -116,54 +117,43 @@ function onKey(event: KeyboardEvent): void {
 
 /** Any two columns over each other, a dot a run; what is brushed here is followed everywhere. */
 export function Scatter({ plane }: { plane: Plane }) {
-  const host = useRef<HTMLDivElement>(null);
-  const frame = useRef<PlotFrame | null>(null);
   const { x, y, across, up } = planes[plane].value;
-  useEffect(() => {
-    const element = host.current;
-    if (element === null) return;
-    const made = new PlotFrame(element, {
-      x: across,
-      y: up,
-      paint: (plot) => {
-        const colours = lawLineStyles.peek().map(({ colour }) => palette.peek()[colour]);
-        paintDots(plot, {
-          x,
-          y,
-          lineStyles: lawPlaces.peek(),
-          good: good.peek(),
-          ended: ended.peek(),
-          marks: shownMarks.peek(),
-          colours,
-          faint: palette.peek().axis,
-        });
-        circlePicked(plot, x, y);
-      },
-      onBrush: (drawn) => setBrush(drawn && { ...drawn, plane }),
-      onPick: (plot, left, top) => {
-        const place = (at: number, height: number) =>
-          [plot.valToPos(at, "x"), plot.valToPos(height, "y")] as const;
-        const found = findNearest(x, y, shownMarks.peek(), place, [left, top], REACH_PX);
-        if (found !== null) void pick(valuesOf(rows.peek(), "row")[found] as number);
-        else if (brush.peek() !== null) setBrush(null);
-      },
-    });
-    frame.current = made;
-    made.show(brush.peek()?.plane === plane ? brush.peek() : null);
-    const observer = new ResizeObserver(() =>
-      made.resize(element.clientWidth, element.clientHeight),
-    );
-    observer.observe(element);
-    return () => {
-      observer.disconnect();
-      made.destroy();
-      frame.current = null;
-    };
-  }, [x, y, plane]);
-  useSignalEffect(() => {
-    void [palette.value, lawLineStyles.value, shownMarks.value, picked.value, good.value];
-    frame.current?.show(brush.value?.plane === plane ? brush.value : null);
-  });
+  const chart = useMemo(
+    () =>
+      describePlane({
+        x: across,
+        y: up,
+        paint: (plot) => {
+          const colours = lawLineStyles.peek().map(({ colour }) => palette.peek()[colour]);
+          paintDots(plot, {
+            x,
+            y,
+            lineStyles: lawPlaces.peek(),
+            good: good.peek(),
+            ended: ended.peek(),
+            marks: shownMarks.peek(),
+            colours,
+            faint: palette.peek().axis,
+          });
+          circlePicked(plot, x, y);
+        },
+        onBrush: (drawn) => setBrush({ ...drawn, plane }),
+        onPick: (plot, left, top) => {
+          const place = (at: number, height: number) =>
+            [plot.valToPos(at, "x"), plot.valToPos(height, "y")] as const;
+          const found = findNearest(x, y, shownMarks.peek(), place, [left, top], REACH_PX);
+          if (found !== null) void pick(valuesOf(rows.peek(), "row")[found] as number);
+          else if (brush.peek() !== null) setBrush(null);
+        },
+        watch: (plot) =>
+          effect(() => {
+            void [lawLineStyles.value, shownMarks.value, picked.value, good.value];
+            showBrush(plot, brush.value?.plane === plane ? brush.value : null);
+          }),
+      }),
+    [x, y, plane],
+  );
+  const host = useStillChart(chart);
   const missing = x.reduce(
     (sum, value, at) => sum + (Number.isNaN(value + (y[at] ?? 0)) ? 1 : 0),
     0,

@@ -1,46 +1,59 @@
 /** A small chart: a few curves on two axes, each even or logarithmic. */
-import { useId } from "preact/hooks";
-import { text } from "../../core/text/en";
+import { useMemo } from "preact/hooks";
+import uPlot from "uplot";
+import { niceRange, otherAxis } from "../../core/plots/axes";
+import type { Palette } from "../../core/plots/linestyles";
+import { drawnCurve, type StillChart, useStillChart } from "../../core/plots/staticchart";
 
 export interface Axis {
-  from: number;
-  to: number;
-  ticks: readonly number[];
   label: string;
-  isLogarithmic?: boolean;
+  /** From and to; left out, the curves and zero have room. */
+  limits?: readonly [number, number];
+  isLog?: boolean;
 }
 
 export interface Curve {
-  look: "tried" | "present";
+  look: "tried" | "present" | "each";
   points: readonly (readonly [number, number])[];
   /** Not what would happen: drawn fainter. */
   isDoubtful?: boolean;
 }
 
-const WIDTH = 340;
-const HEIGHT = 160;
-const LEFT = 44;
-const RIGHT = 8;
-/** The name of the upright axis stands above it, where no curve comes. */
-const TOP = 18;
-const BOTTOM = 30;
+const LOOKS = {
+  tried: { colour: "blue", width: 2, dash: [], alpha: 1 },
+  present: { colour: "mark", width: 1.5, dash: [5, 3], alpha: 1 },
+  each: { colour: "mark", width: 1, dash: [], alpha: 0.65 },
+} as const satisfies Record<Curve["look"], { colour: keyof Palette } & uPlot.Series>;
+const DOUBTFUL = 0.45;
+const LEAST_SPAN = 1e-3;
 
-/** Where a value stands between the ends of an axis, 0 to 1. */
-export function shareOf(value: number, { from, to, isLogarithmic }: Axis): number {
-  return isLogarithmic
-    ? Math.log(value / from) / Math.log(to / from)
-    : (value - from) / (to - from);
-}
+const rangeOf =
+  ({ limits }: Axis): uPlot.Range.Function =>
+  (_, low, high) =>
+    limits ? [...limits] : niceRange(Math.min(0, low ?? 0), Math.max(0, high ?? 0), LEAST_SPAN);
 
-const xOf = (value: number, axis: Axis) => LEFT + shareOf(value, axis) * (WIDTH - LEFT - RIGHT);
-const yOf = (value: number, axis: Axis) =>
-  HEIGHT - BOTTOM - shareOf(value, axis) * (HEIGHT - TOP - BOTTOM);
-
-export function pathOf(points: Curve["points"], x: Axis, y: Axis): string {
-  const places = points.map(
-    ([at, value]) => `${xOf(at, x).toFixed(1)} ${yOf(value, y).toFixed(1)}`,
+function describeCurves(x: Axis, y: Axis, curves: readonly Curve[]): StillChart {
+  const tables = curves.map(
+    ({ points }): uPlot.AlignedData => [points.map(([at]) => at), points.map(([, value]) => value)],
   );
-  return places.length === 0 ? "" : `M${places.join("L")}`;
+  return {
+    look: {
+      padding: [6, 10, 0, 0],
+      scales: {
+        x: { time: false, distr: x.isLog ? 3 : 1, range: rangeOf(x) },
+        y: { distr: y.isLog ? 3 : 1, range: rangeOf(y) },
+      },
+      axes: [otherAxis("x", x), otherAxis("y", y)],
+      series: [
+        {},
+        ...curves.map(({ look, isDoubtful }) => ({
+          ...drawnCurve(LOOKS[look]),
+          alpha: isDoubtful ? DOUBTFUL : LOOKS[look].alpha,
+        })),
+      ],
+    },
+    data: tables.length > 0 ? uPlot.join(tables) : [[]],
+  };
 }
 
 interface CurvesProps {
@@ -57,98 +70,15 @@ interface CurvesProps {
 }
 
 export function Curves({ title, summary, x, y, curves, note, caveat }: CurvesProps) {
-  const clip = useId();
-  const hatch = useId();
-  const right = WIDTH - RIGHT;
-  const bottom = HEIGHT - BOTTOM;
+  const content = JSON.stringify([x, y, curves]);
+  const host = useStillChart(useMemo(() => describeCurves(x, y, curves), [content]));
   return (
-    <figure class="curves">
-      <figcaption>{title}</figcaption>
-      <svg viewBox={`0 0 ${WIDTH} ${HEIGHT}`} role="img" aria-label={summary}>
-        <clipPath id={clip}>
-          <rect x={LEFT} y={TOP} width={right - LEFT} height={bottom - TOP} />
-        </clipPath>
-        {caveat && (
-          <>
-            <pattern id={hatch} width="8" height="8" patternUnits="userSpaceOnUse">
-              <path d="M-2 10L10-2M-2 2L2-2M6 10L10 6" class="curves-hatch" />
-            </pattern>
-            <rect
-              x={LEFT}
-              y={TOP}
-              width={right - LEFT}
-              height={bottom - TOP}
-              fill={`url(#${hatch})`}
-            />
-          </>
-        )}
-        {x.ticks.map((tick) => (
-          <g key={tick}>
-            <path class="curves-grid" d={`M${xOf(tick, x)} ${TOP}V${bottom}`} />
-            <text x={xOf(tick, x)} y={bottom + 13} text-anchor="middle">
-              {Number(tick.toPrecision(3))}
-            </text>
-          </g>
-        ))}
-        {y.ticks.map((tick) => (
-          <g key={tick}>
-            <path class="curves-grid" d={`M${LEFT} ${yOf(tick, y)}H${right}`} />
-            <text x={LEFT - 5} y={yOf(tick, y) + 4} text-anchor="end">
-              {String(Number(tick.toPrecision(3))).replace("-", "\u2212")}
-            </text>
-          </g>
-        ))}
-        <text class="curves-axis" x={right} y={HEIGHT - 3} text-anchor="end">
-          {x.label}
-        </text>
-        <text class="curves-axis" x={LEFT} y={TOP - 7}>
-          {y.label}
-        </text>
-        <g clip-path={`url(#${clip})`}>
-          {curves.map((curve) => (
-            <path
-              key={curve.look}
-              class={`curve is-${curve.look} ${curve.isDoubtful ? "is-doubtful" : ""}`}
-              d={pathOf(curve.points, x, y)}
-            />
-          ))}
-        </g>
-        {caveat && (
-          <text class="curves-note" x={right} y={TOP - 6} text-anchor="end">
-            {caveat}
-          </text>
-        )}
-        {note && (
-          <text
-            class="curves-note"
-            x={(LEFT + right) / 2}
-            y={(TOP + bottom) / 2}
-            text-anchor="middle"
-          >
-            {note}
-          </text>
-        )}
-      </svg>
+    <figure class={`curves ${caveat ? "is-hatched" : ""}`}>
+      <figcaption>
+        {title} {caveat && <span class="is-fault">{caveat}</span>}
+      </figcaption>
+      <div class="curves-canvas" ref={host} role="img" aria-label={summary} />
+      {note && <p class="curves-note is-fault">{note}</p>}
     </figure>
   );
-}
-
-const HEIGHTS = [2, 3, 4, 5, 6, 8, 10, 15, 20, 40];
-
-/** The error, high enough for both curves, with the side on which they are. */
-export function errorAxis(curves: readonly Curve["points"][]): Axis {
-  const values = curves.flatMap((points) => points.map(([, value]) => value));
-  const least = Math.min(0, ...values);
-  const most = Math.max(0, ...values);
-  const height = (size: number) =>
-    size < 0.05 * Math.max(-least, most)
-      ? 0
-      : (HEIGHTS.find((one) => one >= 1.05 * size) ?? (HEIGHTS.at(-1) as number));
-  const from = -height(-least);
-  const to = height(most) || (from === 0 ? 2 : 0.15 * -from);
-  const reach = Math.max(-from, to);
-  const ticks = [-reach, -reach / 2, 0, reach / 2, reach].filter(
-    (tick) => tick >= from && tick <= to,
-  );
-  return { from, to, ticks, label: text.stability.error };
 }

@@ -1,27 +1,16 @@
 import type { DesignResponse } from "../../core/api/design";
 import { text } from "../../core/text/en";
 import { formatNumber, toDegrees } from "../../core/units";
-import { type Axis, type Curve, Curves, errorAxis } from "./curves";
+import { type Axis, type Curve, Curves } from "./curves";
 import { isChanged } from "./draft";
 import { present, tried } from "./stability";
 import { caveatOf } from "./words";
 
 const words = text.stability;
-const TIME: Axis = { from: -0.1, to: 0.9, ticks: [0, 0.2, 0.4, 0.6, 0.8], label: words.time };
-const FREQUENCY: Axis = {
-  from: 0.1,
-  to: 100,
-  ticks: [0.1, 1, 10, 100],
-  label: words.frequency,
-  isLogarithmic: true,
-};
-const MAGNITUDE: Axis = {
-  from: 0.01,
-  to: 30,
-  ticks: [0.01, 0.1, 1, 10],
-  label: words.magnitude,
-  isLogarithmic: true,
-};
+const TIME: Axis = { limits: [-0.1, 0.9], label: words.time };
+const ERROR: Axis = { label: words.error };
+const FREQUENCY: Axis = { limits: [0.1, 100], label: words.frequency, isLog: true };
+const MAGNITUDE: Axis = { limits: [0.01, 30], label: words.magnitude, isLog: true };
 
 type Points = Curve["points"];
 
@@ -67,7 +56,7 @@ export function Responses() {
           title={words.loadTitle}
           summary={addCaveat(words.loadSummary(peak, found.load.fault))}
           x={TIME}
-          y={errorAxis(errors.map(({ points }) => points))}
+          y={ERROR}
           curves={errors}
           caveat={doubt}
         />

@@ -1,12 +1,13 @@
+import type { ReadonlySignal } from "@preact/signals";
 import { useEffect, useMemo, useState } from "preact/hooks";
 import uPlot from "uplot";
 import { readDifference } from "../../core/api/runs";
 import type { RunDifference } from "../../core/api/types";
 import { Legend, useHidden } from "../../core/plots/legend";
 import {
-  type StaticContent,
+  describeTimeChart,
   spanWithin,
-  useStaticChart,
+  useStillChart,
   wholeOf,
 } from "../../core/plots/staticchart";
 import { text } from "../../core/text/en";
@@ -38,11 +39,10 @@ interface PlotProps {
   curves: readonly Overlaid[];
   judged: readonly Judged[];
   view: ReturnType<typeof spanWithin>;
-  hidden: ReadonlySet<string>;
+  hidden: ReadonlySignal<ReadonlySet<string>>;
 }
 
-function describeChart(props: Omit<PlotProps, "hidden">): StaticContent {
-  const { channel, curves, judged, view } = props;
+function describeChart({ channel, curves, judged, view, hidden }: PlotProps) {
   const bands = listBands(curves, judged, channel);
   const listShown = (plot: uPlot) =>
     listJudged(curves, judged).filter(
@@ -52,7 +52,7 @@ function describeChart(props: Omit<PlotProps, "hidden">): StaticContent {
     (curve): uPlot.AlignedData => [Array.from(curve.time), curve.values[channel]],
   );
   const [time, ...values] = uPlot.join(tables);
-  return {
+  return describeTimeChart({
     time,
     curves: curves.map(({ key, lineStyle }, index) => ({
       key,
@@ -63,6 +63,7 @@ function describeChart(props: Omit<PlotProps, "hidden">): StaticContent {
     padding: [8, 14, 0, 0],
     timeAxis: { size: TIME_AXIS_PX, tick: words.timeTick },
     group: "overlay",
+    hidden,
     ...view,
     drawBelow: (plot) => {
       drawBands(plot, bands);
@@ -70,16 +71,13 @@ function describeChart(props: Omit<PlotProps, "hidden">): StaticContent {
       drawEdges(plot, curves);
     },
     drawAbove: (plot) => drawWorst(plot, listShown(plot)),
-  };
+  });
 }
 
-function OverlayPlot({ channel, curves, judged, view, hidden }: PlotProps) {
+function OverlayPlot(props: PlotProps) {
+  const { channel, curves, judged, view } = props;
   const { title, unit } = TITLES[channel];
-  const content = useMemo(
-    () => describeChart({ channel, curves, judged, view }),
-    [channel, curves, judged, view],
-  );
-  const host = useStaticChart(content, hidden);
+  const host = useStillChart(useMemo(() => describeChart(props), [channel, curves, judged, view]));
   return (
     <section class="overlay-plot" aria-label={title}>
       <h3>
@@ -122,7 +120,7 @@ function OverlayCurves({ curves, judged }: Pick<PlotProps, "curves" | "judged">)
           label: nameCurve(curve),
           remark: <Remark curve={curve} />,
         }))}
-        hidden={hidden}
+        hidden={hidden.value}
         onToggle={toggle}
       />
       {CHANNELS.map((channel) => (

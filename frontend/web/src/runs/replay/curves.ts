@@ -1,20 +1,14 @@
-/** Which channels are drawn where, for the lanes of a run. A new plot is a new entry here. */
+/** Which channels of a run are drawn where: the live page's plots, a choice a quantity. */
 import type { StreamedName } from "../../core/api/types";
-import type { PlotColour } from "../../core/plots/definitions";
-import { lineStyleOf } from "../../core/plots/linestyles";
+import { CHANNELS, type ChannelName, PRESETS, spanOf, unitOf } from "../../core/plots/channels";
+import { ownerOf, type Trace } from "../../core/plots/definitions";
+import { composeContent } from "../../core/plots/traces";
 import { text } from "../../core/text/replay";
-import { DEGREES_PER_RADIAN } from "../../core/units";
-import type { LaneStretch, Recording } from "./data";
+import type { Recording } from "./data";
 
-export interface Curve {
-  key: string;
-  label: string;
-  colour: PlotColour;
-  dash: readonly number[];
-  width: number;
+/** The pieces of a curve are one, with no number where its controller was not in control. */
+export interface Curve extends Trace {
   values: Float32Array;
-  /** Drawn and hidden together with this curve, and covered by its entry in the legend. */
-  follows?: string;
 }
 
 /** One set of curves of a plot; where there are several, the reader chooses. */
@@ -32,136 +26,58 @@ export interface ReplayPlot {
   choices: Choice[];
 }
 
-const REFERENCE = { colour: "reference", width: 1.5 } as const;
-const REFERENCE_DASHES = [
-  [2, 4],
-  [7, 4],
-  [1, 2],
-  [10, 3, 2, 3],
-] as const;
+const SHOWN = ["position", "error", "stiffness", "torque", "disturbance"] as const;
 
-const { channelLabels: labels, plots } = text;
+/** Takes the piece of a curve out of its lane's samples. */
+function copyPiece(into: Float32Array, { arrays, run }: Recording, trace: Trace): void {
+  const numbers = run.curves.channels[trace.channel as StreamedName] ?? [];
+  const values = arrays[numbers[trace.lane - 1] ?? -1];
+  const sampleAt = (timeS: number) =>
+    Math.min(into.length, Math.max(0, Math.ceil(timeS / run.curves.step_s - 1e-6)));
+  for (let index = sampleAt(trace.from); index < sampleAt(trace.to); index++) {
+    into[index] = (values?.[index] ?? Number.NaN) * trace.factor;
+  }
+}
 
-/** Copies what a controller did; where it was not in control there is no number. */
-function copyStretch(
-  values: Float32Array,
-  { start_s: from, end_s: to }: LaneStretch,
-  stepS: number,
-  into: Float32Array,
-): Float32Array {
-  const first = Math.ceil(from / stepS - 1e-6);
-  const end = Math.ceil(to / stepS - 1e-6);
-  into.set(values.subarray(first, end), first);
-  return into;
+function joinPieces(recording: Recording, traces: readonly Trace[]): Curve[] {
+  const { length } = makeTimeAxis(recording);
+  const curves = new Map<string, Curve>();
+  for (const trace of traces) {
+    const key = ownerOf(trace);
+    const known = curves.get(key) ?? {
+      ...trace,
+      values: new Float32Array(length).fill(Number.NaN),
+    };
+    copyPiece(known.values, recording, trace);
+    curves.set(key, known);
+  }
+  return [...curves.values()];
 }
 
 export function definePlots(recording: Recording): ReplayPlot[] {
-  const { run, arrays } = recording;
-
-  const read = (channel: StreamedName, factor: number): Float32Array[] => {
-    const numbers = run.curves.channels[channel] ?? [];
-    const scaled = new Map<number, Float32Array>();
-    for (const number of numbers) {
-      const values = arrays[number] as Float32Array;
-      scaled.set(number, factor === 1 ? values : values.map((value) => value * factor));
-    }
-    return numbers.map((number) => scaled.get(number) as Float32Array);
-  };
-  const lanes = (channel: StreamedName, factor: number): Curve[] => {
-    const curves = new Map<number, Curve>();
-    for (const [lane, values] of read(channel, factor).entries()) {
-      const stretches = run.stretches[lane] ?? [];
-      for (const stretch of stretches) {
-        const { number, name, line_style: lineStyle } = stretch;
-        const known = curves.get(number);
-        const isWhole = stretches.length === 1 && known === undefined;
-        const into = known?.values ?? new Float32Array(values.length).fill(Number.NaN);
-        const own = isWhole ? values : copyStretch(values, stretch, run.curves.step_s, into);
-        curves.set(number, {
-          key: `${channel}.${number}`,
-          label: name,
-          ...lineStyleOf(lineStyle),
-          values: own,
-        });
-      }
-    }
-    return [...curves.values()];
-  };
-  const reference = (channel: StreamedName, factor: number): Curve[] =>
-    read(channel, factor)
-      .slice(0, 1)
-      .map((values) => ({
-        key: channel,
-        label: plots.reference,
-        ...REFERENCE,
-        dash: REFERENCE_DASHES[0],
-        values,
-      }));
-  /** The load on a lane may depend on where the lane is: one curve for all that are equal. */
-  const truth = (channel: StreamedName): Curve[] =>
-    [...new Set(read(channel, 1))].map((values, index) => ({
-      key: `${channel}.${index}`,
-      label: plots.true,
-      ...(index > 0 ? { follows: `${channel}.0` } : {}),
-      ...REFERENCE,
-      dash: REFERENCE_DASHES[index % REFERENCE_DASHES.length] as readonly number[],
-      values,
-    }));
-  const one = (...curves: Curve[][]): Choice[] => [{ label: "", curves: curves.flat() }];
-  const load = (name: "link" | "motor1" | "motor2"): Choice => ({
-    label: labels[`estimate_${name}_nm`],
-    curves: [...lanes(`estimate_${name}_nm`, 1), ...truth(`disturbance_${name}_nm`)],
-  });
-
-  const all: ReplayPlot[] = [
-    {
-      key: "position",
-      title: plots.presets.position,
-      unit: "deg",
-      span: 2,
-      choices: one(
-        lanes("position_rad", DEGREES_PER_RADIAN),
-        reference("position_reference_rad", DEGREES_PER_RADIAN),
-      ),
-    },
-    {
-      key: "error",
-      title: plots.presets.error,
-      unit: "deg",
-      span: 0.004,
-      choices: one(lanes("position_error_rad", DEGREES_PER_RADIAN)),
-    },
-    {
-      key: "stiffness",
-      title: plots.presets.stiffness,
-      unit: "N·m/rad",
-      span: 2,
-      choices: one(
-        lanes("stiffness_nm_per_rad", 1),
-        reference("stiffness_reference_nm_per_rad", 1),
-      ),
-    },
-    {
-      key: "torque",
-      title: plots.presets.torque,
-      unit: "N·m",
-      span: 1,
-      choices: [
-        { label: labels.torque1_nm, curves: lanes("torque1_nm", 1) },
-        { label: labels.torque2_nm, curves: lanes("torque2_nm", 1) },
-      ],
-    },
-    {
-      key: "disturbance",
-      title: plots.presets.disturbance,
-      unit: "N·m",
-      span: 1,
-      choices: [load("link"), load("motor1"), load("motor2")],
-    },
-  ];
-  return all
-    .map((plot) => ({ ...plot, choices: plot.choices.filter((choice) => choice.curves.length) }))
-    .filter((plot) => plot.choices.length > 0);
+  const { stretches, curves } = recording.run;
+  const cast = stretches.map((lane) =>
+    lane.map(({ number, name, line_style: lineStyle, start_s: from, end_s: to }) => {
+      return { number, name, lineStyle, from, to };
+    }),
+  );
+  const isRecorded = (name: ChannelName) => Object.hasOwn(curves.channels, name);
+  return SHOWN.map((preset) => {
+    const channels = PRESETS[preset].filter(isRecorded);
+    const belongs = (leader: string) => (name: ChannelName) =>
+      name === leader || CHANNELS[name].truthOf === leader || CHANNELS[name].isReference;
+    return {
+      key: preset,
+      title: text.plots.presets[preset],
+      unit: unitOf(channels),
+      span: spanOf(channels),
+      choices: composeContent(channels, cast).groups.map(({ key, label }) => {
+        const { groups, common } = composeContent(channels.filter(belongs(key)), cast);
+        const traces = groups.flatMap((group) => group.traces);
+        return { label, curves: joinPieces(recording, [...traces, ...common]) };
+      }),
+    };
+  }).filter(({ choices }) => choices.length > 0);
 }
 
 /** The time axis of every curve: equal steps, the last point at the end of the run. */

@@ -1,10 +1,11 @@
 import { effect } from "@preact/signals";
-import { useCallback, useMemo, useRef, useState } from "preact/hooks";
+import { useMemo, useRef, useState } from "preact/hooks";
 import type uPlot from "uplot";
 import { drawEventLines, eventsInView, type RunEvent } from "../../core/plots/eventlines";
 import { Legend, useHidden } from "../../core/plots/legend";
 import { palette } from "../../core/plots/linestyles";
-import { type StaticChart, type StaticContent, useStaticChart } from "../../core/plots/staticchart";
+import { describeTimeChart, type TimeChart, useStillChart } from "../../core/plots/staticchart";
+import { hasOneValue, hasUnnamedTruth } from "../../core/plots/traces";
 import { text } from "../../core/text/replay";
 import { formatNumber } from "../../core/units";
 import { range, seek, showAll, showRange, timeS } from "./clock";
@@ -21,58 +22,45 @@ interface PlotProps {
   isLast: boolean;
 }
 
-function describeChart(
-  { plot, time, events, isFirst, isLast }: PlotProps,
-  curves: readonly Curve[],
-  onCursor: () => void,
-): StaticContent {
-  return {
-    time,
-    curves,
-    minSpan: plot.span,
-    padding: [isFirst ? LABELS_PX : 8, 12, isLast ? 0 : 7, 0],
-    timeAxis: { size: isLast ? X_AXIS_PX : 0, tick: text.plots.timeTick },
-    group: "replay",
-    span: range,
-    onSelect: (chosen) => (chosen ? showRange(chosen.from, chosen.to) : showAll()),
-    drawBelow: (drawn) => drawEventLines(drawn, events),
-    drawAbove: (drawn) => {
-      if (isFirst) drawEventLabels(drawn, events);
-      placeTimeLine(drawn);
-    },
-    onCursor,
-  };
-}
-
 /** The chart in its host, and the elements of the legend that have its values. */
-function useChart(props: PlotProps, curves: readonly Curve[], hidden: ReadonlySet<string>) {
+function useChart(props: PlotProps, curves: readonly Curve[], hidden: TimeChart["hidden"]) {
   const { plot, time, events, isFirst, isLast } = props;
   const readings = useRef(new Map<string, HTMLElement>()).current;
-  const shown = useRef<StaticChart | null>(null);
-  const read = useCallback(() => {
-    const chart = shown.current;
-    for (const { key, values } of curves) {
-      const output = readings.get(key);
-      if (output && chart) output.textContent = formatNumber(readCurve(chart, values), 3, 3);
-    }
-  }, [curves]);
-  const content = useMemo(
-    () => describeChart(props, curves, read),
-    [plot, curves, time, events, isFirst, isLast],
-  );
-  const host = useStaticChart(content, hidden, (chart) => {
-    shown.current = chart;
-    addTimeLine(chart);
-    chart.plot.over.addEventListener("click", (event) => {
-      seek(chart.plot.posToVal(event.offsetX, "x"));
+  const chart = useMemo(() => {
+    const read = (drawn: uPlot) => {
+      for (const { key, values } of curves) {
+        const output = readings.get(key);
+        if (output) output.textContent = formatNumber(readCurve(drawn, values), 3, 3);
+      }
+    };
+    return describeTimeChart({
+      time,
+      curves,
+      hidden,
+      minSpan: plot.span,
+      padding: [isFirst ? LABELS_PX : 8, 12, isLast ? 0 : 7, 0],
+      timeAxis: { size: isLast ? X_AXIS_PX : 0, tick: text.plots.timeTick },
+      group: "replay",
+      span: range,
+      onSelect: (chosen) => (chosen ? showRange(chosen.from, chosen.to) : showAll()),
+      drawBelow: (drawn) => drawEventLines(drawn, events),
+      drawAbove: (drawn) => {
+        if (isFirst) drawEventLabels(drawn, events);
+        placeTimeLine(drawn);
+      },
+      onCursor: read,
+      watch: (drawn) => {
+        addTimeLine(drawn);
+        drawn.over.addEventListener("click", ({ offsetX }) => seek(drawn.posToVal(offsetX, "x")));
+        return effect(() => {
+          void timeS.value;
+          placeTimeLine(drawn);
+          read(drawn);
+        });
+      },
     });
-    return effect(() => {
-      void timeS.value;
-      placeTimeLine(chart.plot);
-      read();
-    });
-  });
-  return { host, readings };
+  }, [plot, curves, time, events, isFirst, isLast]);
+  return { host: useStillChart(chart), readings };
 }
 
 export function Plot(props: PlotProps) {
@@ -81,8 +69,6 @@ export function Plot(props: PlotProps) {
   const [hidden, toggle] = useHidden();
   const { curves } = plot.choices[chosen] as ReplayPlot["choices"][number];
   const { host, readings } = useChart(props, curves, hidden);
-  const leaders = new Set(curves.map((curve) => curve.follows));
-
   return (
     <section class="plot" aria-label={plot.title} data-plot={plot.key}>
       <div class="plot-head">
@@ -105,11 +91,12 @@ export function Plot(props: PlotProps) {
           </fieldset>
         )}
         <Legend
+          note={hasUnnamedTruth(curves) ? text.plots.disturbanceNote : undefined}
           entries={curves.filter((curve) => curve.follows === undefined)}
-          hidden={hidden}
+          hidden={hidden.value}
           onToggle={toggle}
           readings={readings}
-          isRead={(key) => !leaders.has(key)}
+          isRead={(key) => hasOneValue(curves, key)}
         />
       </div>
       <div class="plot-canvas" ref={host} title={props.isFirst ? text.plots.hint : undefined} />
@@ -121,7 +108,7 @@ export function Plot(props: PlotProps) {
 
 const LINE = "now";
 
-function addTimeLine({ plot }: StaticChart): void {
+function addTimeLine(plot: uPlot): void {
   const line = document.createElement("div");
   line.className = LINE;
   plot.over.append(line);
@@ -138,11 +125,10 @@ function placeTimeLine(plot: uPlot): void {
 }
 
 /** Value of a curve at the pointer, or else at the present time. */
-function readCurve({ plot, content }: StaticChart, values: Float32Array): number {
-  const { time } = content;
+function readCurve({ data: [time], cursor }: uPlot, values: Float32Array): number {
   const step = (time[1] ?? 1) - (time[0] ?? 0);
   const now = Math.min(Math.round(timeS.peek() / step), time.length - 1);
-  return values[plot.cursor.idx ?? now] ?? Number.NaN;
+  return values[cursor.idx ?? now] ?? Number.NaN;
 }
 
 // The names of the run's events, above the first plot.

@@ -76,7 +76,7 @@ it("a plot that is drawn again by itself takes no samples for drawn that its cur
   chart.draw();
   append(ring, 1000, 180);
   span = { from: 1.8, to: 2.8 };
-  chart.resize(100, 40);
+  for (const hook of redraw) hook();
   chart.draw();
   expect(drawn.map(({ newest, span: { to } }) => [newest, to])).toEqual([
     [0.99, 1],

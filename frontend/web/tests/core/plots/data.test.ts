@@ -6,7 +6,7 @@ import {
   extentOf,
   samplesPerBucket,
 } from "../../../src/core/plots/decimation";
-import { measureBetween, measureStep } from "../../../src/core/plots/statistics";
+import { measureBetween } from "../../../src/core/plots/statistics";
 import { SampleRing, type Stretch } from "../../../src/core/stream/ring";
 
 const ALONE = [[{ number: 1, name: "NDOBC", lineStyle: 0, from: 0, to: Number.POSITIVE_INFINITY }]];
@@ -132,9 +132,6 @@ describe("a gap of 2 s", () => {
     expect(across).toMatchObject({ a: 1, b: 2, delta: 1, min: 1, max: 2 });
     expect(across.missingS).toBeCloseTo(2, 9);
     expect(measureBetween(ring, "position_error_rad", 1, [0, 5]).missingS).toBe(0);
-    const step = measureStep(ring, "position_error_rad", 1, 0, 3);
-    expect(step).toMatchObject({ peak: 2, recoveryS: Number.NaN });
-    expect(step?.missingS).toBeCloseTo(2, 9);
   });
 
   it("is rows without values in CSV, at its first and its last sample", () => {
@@ -144,35 +141,6 @@ describe("a gap of 2 s", () => {
       columnsOf(["position_error_rad"], ALONE, { from: 0, to: 3 }),
     );
     expect(csv.split("\r\n").slice(1, -1)).toEqual(["0.05,1", "0.06,", "2.05,", "2.06,2"]);
-  });
-});
-
-describe("a step", () => {
-  // 100 Hz: quiet, 4 at 1.00 s, gone 0.20 s later, quiet until 3 s.
-  const values = Array.from({ length: 300 }, (_, i) => (i >= 100 && i < 120 ? -4 : 0.01));
-  const step = (from: number, to: number) =>
-    measureStep(ringOf(values), "position_error_rad", 1, from, to);
-
-  it("has its peak, its rms and when the error was small again", () => {
-    const metrics = step(1, 2);
-    expect(metrics?.peak).toBe(4);
-    expect(metrics?.rms).toBeCloseTo(Math.sqrt((20 * 16 + 80 * 1e-4) / 100), 6);
-    expect(metrics?.recoveryS).toBeCloseTo(0.2, 6);
-  });
-
-  it("keeps the time at which the error was small, whatever comes later", () => {
-    const again = [...values, ...values];
-    const metrics = measureStep(ringOf(again), "position_error_rad", 1, 1, 6);
-    expect(metrics?.recoveryS).toBeCloseTo(0.2, 6);
-  });
-
-  it("has not recovered before it was small for half a second", () => {
-    expect(step(1, 1.5)?.recoveryS).toBeNull();
-  });
-
-  it("is nothing where its beginning is not held", () => {
-    expect(step(-5, 2)).toBeNull();
-    expect(step(9, 10)).toBeNull();
   });
 });
 

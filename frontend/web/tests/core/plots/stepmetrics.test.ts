@@ -78,6 +78,13 @@ describe("the numbers of an event", () => {
   it("are measured on the samples held where the event began no window", () => {
     const { untilS, read } = findStep(state, event(5005), 6, of);
     expect(untilS).toBe(6);
+    expect(read(0)).toMatchObject({ recoveryS: Number.NaN, missingS: 0 });
     expect(read(0)?.peak).toBeCloseTo(0.0719, 6);
+    expect(read(0)?.rms).toBeCloseTo(0.0719, 6);
+  });
+
+  it("are none where the beginning is held no more", () => {
+    expect(findStep(state, event(4005), 6, of).read(0)).toBeNull();
+    expect(findStep(state, event(5105), 6, of).read(0)).toBeNull();
   });
 });

@@ -1,48 +1,7 @@
 import { describe, expect, test } from "vitest";
-import { errorAxis, pathOf, shareOf } from "../../../src/lab/design/curves";
 import { caveatOf, rangeOf } from "../../../src/lab/design/words";
 
 const RANGE = { parameter: "link_inertia_kg_m2", symbol: "M", present: 0.67 };
-
-describe("charts of a design", () => {
-  test("a logarithmic axis has equal ways for equal ratios", () => {
-    const axis = { from: 0.1, to: 100, ticks: [], label: "Hz", isLogarithmic: true };
-    expect(shareOf(0.1, axis)).toBeCloseTo(0);
-    expect(shareOf(1, axis)).toBeCloseTo(1 / 3);
-    expect(shareOf(100, axis)).toBeCloseTo(1);
-  });
-
-  test("no points are no path", () => {
-    const axis = { from: 0, to: 1, ticks: [], label: "" };
-    expect(pathOf([], axis, axis)).toBe("");
-    expect(
-      pathOf(
-        [
-          [0, 0],
-          [1, 1],
-        ],
-        axis,
-        axis,
-      ),
-    ).toMatch(/^M.*L/);
-  });
-
-  test("the axis of the error holds both curves and the zero", () => {
-    const axis = errorAxis([
-      [
-        [0, 0],
-        [0.1, -4.1],
-      ],
-      [
-        [0, 0],
-        [0.1, -5.9],
-      ],
-    ]);
-    expect(axis.from).toBeLessThan(-5.9);
-    expect(axis.to).toBeGreaterThan(0);
-    expect(axis.ticks).toContain(0);
-  });
-});
 
 describe("curves of a loop that is unstable", () => {
   test("a loop that settles on the rig needs no words", () => {

@@ -2,7 +2,6 @@ import "../../browserless";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import type { Trial, Tuning } from "../../../src/core/api/jobs";
 
-const { ticksUpTo } = await import("../../../src/lab/tuning/costcurve");
 const { applyBest, bestSoFar, isUnderWay, problem, start, trials, tuning } = await import(
   "../../../src/lab/tuning/tuning"
 );
@@ -122,19 +121,5 @@ describe("what a tuning has found", () => {
       ["PUT", `${session}/gains`, gains],
       ["PUT", `${session}/observer`, observer],
     ]);
-  });
-});
-
-describe("the ticks of its curve", () => {
-  it("are even and at most six, and whole where candidates are counted", () => {
-    expect(ticksUpTo(124, 1)).toEqual([0, 50, 100]);
-    expect(ticksUpTo(2, 1)).toEqual([0, 1, 2]);
-    expect(ticksUpTo(3.1, 0)).toEqual([0, 1, 2, 3]);
-    for (const most of [0.7, 1, 4.2, 9.9, 15, 2000]) {
-      const ticks = ticksUpTo(most, 0);
-      expect(ticks.length).toBeGreaterThan(1);
-      expect(ticks.length).toBeLessThan(7);
-      expect(ticks.at(-1)).toBeLessThanOrEqual(most + 1e-9);
-    }
   });
 });
