@@ -101,7 +101,7 @@ export function placeWords(x: number, words: number, width: number, step: number
 // The axes of every plot look the same, and stand at the same place.
 
 /** Room left and right of the curves, CSS pixels; also the place of everything laid over the plots. */
-export const LEFT_PX = 50;
+const LEFT_PX = 50;
 export const RIGHT_PX = 10;
 export const FONT = "11px system-ui, sans-serif";
 

@@ -13,7 +13,12 @@ const SIGN_PATHS: Readonly<Record<PlotSign, string>> = {
 /** A piece of a curve, as it is drawn. */
 export function Swatch({ look, sign = "none" }: { look: LineStyle; sign?: PlotSign | undefined }) {
   return (
-    <svg class={`swatch line-${look.colour}`} viewBox="0 0 22 6" aria-hidden="true">
+    <svg
+      class="swatch"
+      style={{ "--line-color": `var(--plot-${look.colour})` }}
+      viewBox="0 0 22 6"
+      aria-hidden="true"
+    >
       <path
         d="M0 3h22"
         stroke-width={Math.min(3, look.width + 0.5)}

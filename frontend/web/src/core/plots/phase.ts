@@ -20,7 +20,7 @@ const SIGN_PX = 4;
 /** Across and up. */
 export type PhaseChannels = readonly [ChannelName, ChannelName];
 
-export interface PhaseCurve {
+interface PhaseCurve {
   /** Of the channel of the upright axis. */
   trace: Trace;
   points: Points;

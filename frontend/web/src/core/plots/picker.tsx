@@ -48,7 +48,7 @@ export function PlotPicker() {
   const shown = setups.value;
   const isFull = shown.length >= MAX_PLOTS;
   return (
-    <Popup class="tool" title={text.picker.openHint} button={text.picker.open}>
+    <Popup class="button tool" title={text.picker.openHint} button={text.picker.open}>
       {() => (
         <>
           <fieldset class="popup-presets">

@@ -49,7 +49,12 @@ function Behind() {
 function HoldButton() {
   if (isHeld.value) {
     return (
-      <button type="button" class="tool is-live" title={text.plots.liveHint} onClick={goLive}>
+      <button
+        type="button"
+        class="button tool is-primary"
+        title={text.plots.liveHint}
+        onClick={goLive}
+      >
         <svg viewBox="0 0 12 12" aria-hidden="true">
           <path d="M2 1l8 5-8 5zM10.4 1H12v10h-1.6z" />
         </svg>
@@ -59,7 +64,7 @@ function HoldButton() {
     );
   }
   return (
-    <button type="button" class="tool" title={text.plots.holdHint} onClick={hold}>
+    <button type="button" class="button tool" title={text.plots.holdHint} onClick={hold}>
       <svg viewBox="0 0 12 12" aria-hidden="true">
         <path d="M2 1h3v10H2zM7 1h3v10H7z" />
       </svg>
@@ -78,7 +83,7 @@ function ZoomButton({ name, factor, path }: ZoomButtonProps) {
   return (
     <button
       type="button"
-      class="tool is-icon"
+      class="button tool is-icon"
       aria-label={name}
       title={`${name}. ${text.plots.gestures}`}
       onClick={() => zoom(factor)}
@@ -100,7 +105,7 @@ export function Toolbar() {
       </span>
       <button
         type="button"
-        class="tool"
+        class="button tool"
         aria-pressed={areCursorsOn.value}
         title={text.cursors.switchHint}
         onClick={toggleCursors}
@@ -112,7 +117,7 @@ export function Toolbar() {
       </button>
       <button
         type="button"
-        class="tool"
+        class="button tool"
         aria-pressed={isZoomOn.value}
         aria-keyshortcuts="Z"
         title={text.zoom.switchHint}
@@ -129,7 +134,7 @@ export function Toolbar() {
       />
       <span class="plot-tools-end">
         <PlotPicker />
-        <button type="button" class="tool" title={text.save.allHint} onClick={saveWindowCsv}>
+        <button type="button" class="button tool" title={text.save.allHint} onClick={saveWindowCsv}>
           {text.save.csv}
         </button>
       </span>

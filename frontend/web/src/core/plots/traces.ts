@@ -2,7 +2,14 @@
 import type { Cast, Stretch } from "../state/lanes";
 import { plotsText as text } from "../text/plots";
 import { CHANNELS, type ChannelName } from "./channels";
-import type { LineStyle, PlotContent, PlotSign, Trace, TraceGroup } from "./definitions";
+import {
+  type LineStyle,
+  ownerOf,
+  type PlotContent,
+  type PlotSign,
+  type Trace,
+  type TraceGroup,
+} from "./definitions";
 import { DASHED, DOTTED, lineStyleOf, shareColours } from "./linestyles";
 
 const SIGNS: readonly PlotSign[] = ["none", "circle", "square", "triangle"];
@@ -99,88 +106,62 @@ function sort(channels: readonly ChannelName[]): Sorted {
 const withMirror = (one: Trace): Trace[] =>
   CHANNELS[one.channel as ChannelName].limitOf === undefined ? [one] : [one, mirror(one)];
 
-/**
- * One lane: the line style of who controls it where there is one channel, a colour a channel where there are
- * several; truths and limits beside what they belong to.
- */
-function contentAlone({ references, leaders }: Sorted, cast: Cast): PlotContent {
-  const looks = shareColours(leaders.map(({ channel }) => CHANNELS[channel].colour));
-  const isOne = leaders.length === 1;
-  const isOneController = countControllers(cast) === 1;
-  const groups = leaders.map(({ channel, companions }, index): TraceGroup => {
-    const width = WIDTHS[Math.min(leaders.length > 2 ? index : 0, WIDTHS.length - 1)] as number;
-    const look = looks[index] as (typeof looks)[number];
-    const own = isOne
-      ? pieces(
-          channel,
-          cast,
-          (one) => keyOf(channel, one),
-          (one) => ({
-            lineStyle: lineStyleOf(one.lineStyle),
-            label: isOneController ? label(channel) : one.name,
-          }),
-        )
-      : pieces(
-          channel,
-          cast,
-          () => channel,
-          () => ({ lineStyle: { ...look, width }, label: label(channel) }),
-        );
-    const [leader] = own;
-    const beside = companions.map((name): Trace => {
-      const isTruth = CHANNELS[name].truthOf !== undefined;
-      const lineStyle: LineStyle = isTruth
-        ? { colour: leader?.colour ?? look.colour, dash: DASHED, width: 1.5 }
-        : { colour: "reference", dash: DOTTED, width: 1.5 };
-      const one = trace(name, 1, lineStyle, label(name));
-      return isTruth && leader ? { ...one, follows: leader.key } : one;
+/** A truth or a limit beside the pieces of what it belongs to. */
+function compose(companion: ChannelName, own: readonly Trace[], cast: Cast): Trace[] {
+  const isAlone = cast.length <= 1;
+  const [leader] = own;
+  if (leader === undefined) return [];
+  if (CHANNELS[companion].truthOf !== undefined) {
+    if (isAlone) {
+      const lineStyle: LineStyle = { colour: leader.colour, dash: DASHED, width: 1.5 };
+      return [{ ...trace(companion, 1, lineStyle, label(companion)), follows: leader.key }];
+    }
+    return cast.map((_, lane) => {
+      const truth = trace(companion, lane + 1, REFERENCE, text.plots.true);
+      return lane === 0 ? truth : { ...truth, follows: `${companion}.1` };
     });
-    return { key: channel, label: label(channel), traces: [...own, ...beside.flatMap(withMirror)] };
-  });
-  const common = references.map((name) => trace(name, 1, REFERENCE, label(name)));
-  return { groups, common };
+  }
+  if (isAlone) return [trace(companion, 1, REFERENCE, label(companion))];
+  const limits = pieces(
+    companion,
+    cast,
+    (one) => keyOf(companion, one),
+    (one) => ({
+      lineStyle: { ...lineStyleOf(one.lineStyle), dash: DOTTED, width: 1.25 },
+      label: label(companion),
+    }),
+  );
+  return limits.map((limit, at) => ({ ...limit, follows: ownerOf(own[at] as Trace) }));
 }
 
-/** Several lanes: the line style of who controls each, a sign a channel where there are several. */
-function contentSideBySide({ references, leaders }: Sorted, cast: Cast): PlotContent {
+/**
+ * The line style of who controls each lane. One lane with several channels has a colour a channel;
+ * several lanes with several channels have a sign a channel.
+ */
+export function composeContent(channels: readonly ChannelName[], cast: Cast): PlotContent {
+  const { references, leaders } = sort(channels);
+  const isAlone = cast.length <= 1;
+  const isOneName = isAlone && countControllers(cast) === 1;
+  const colours = shareColours(leaders.map(({ channel }) => CHANNELS[channel].colour));
   const groups = leaders.map(({ channel, companions }, index): TraceGroup => {
-    const sign = SIGNS[index % SIGNS.length] as PlotSign;
+    const width = WIDTHS[Math.min(leaders.length > 2 ? index : 0, WIDTHS.length - 1)] as number;
+    const ofChannel = { ...(colours[index] as (typeof colours)[number]), width };
+    const isByChannel = isAlone && leaders.length > 1;
+    const sign = isAlone ? "none" : (SIGNS[index % SIGNS.length] as PlotSign);
     const own = pieces(
       channel,
       cast,
-      (one) => keyOf(channel, one),
-      (one) => ({ lineStyle: lineStyleOf(one.lineStyle), label: one.name }),
+      (one) => (isByChannel ? channel : keyOf(channel, one)),
+      (one) => ({
+        lineStyle: isByChannel ? ofChannel : lineStyleOf(one.lineStyle),
+        label: isByChannel || isOneName ? label(channel) : one.name,
+      }),
     ).map((one): Trace => ({ ...one, sign }));
-    const beside = companions.flatMap((name): Trace[] => {
-      if (CHANNELS[name].truthOf !== undefined) {
-        return cast.map((_, lane) => {
-          const truth = trace(name, lane + 1, REFERENCE, text.plots.true);
-          return lane === 0 ? truth : { ...truth, follows: `${name}.1` };
-        });
-      }
-      const limits = pieces(
-        name,
-        cast,
-        (one) => keyOf(name, one),
-        (one) => ({
-          lineStyle: { ...lineStyleOf(one.lineStyle), dash: DOTTED, width: 1.25 },
-          label: label(name),
-        }),
-      );
-      return limits.flatMap((limit, at) => {
-        const leader = own[at] as Trace;
-        return withMirror({ ...limit, follows: leader.follows ?? leader.key });
-      });
-    });
+    const beside = companions.flatMap((name) => compose(name, own, cast).flatMap(withMirror));
     return { key: channel, label: label(channel), traces: [...own, ...beside] };
   });
   const common = references.map((name) => trace(name, 1, REFERENCE, label(name)));
   return { groups, common };
-}
-
-export function composeContent(channels: readonly ChannelName[], cast: Cast): PlotContent {
-  const sorted = sort(channels);
-  return cast.length > 1 ? contentSideBySide(sorted, cast) : contentAlone(sorted, cast);
 }
 
 /** The curves of the groups chosen; where several lanes show several groups, with both names. */

@@ -11,7 +11,7 @@ function PushButton() {
   return (
     <button
       type="button"
-      class="tool"
+      class="button tool"
       aria-pressed={isPushing.value}
       title={words.pushHint}
       onClick={() => {
@@ -36,7 +36,7 @@ export function SceneTools() {
           <button
             key={name}
             type="button"
-            class="tool"
+            class="button tool"
             aria-label={words.cameraHint(words.cameras[name])}
             onClick={() => setCamera(name)}
           >
@@ -47,7 +47,7 @@ export function SceneTools() {
           <PushButton />
           <button
             type="button"
-            class="tool is-icon"
+            class="button tool is-icon"
             aria-pressed={areNamesOn.value}
             aria-label={words.names}
             aria-keyshortcuts="N"
@@ -61,7 +61,7 @@ export function SceneTools() {
           </button>
           <button
             type="button"
-            class="tool is-icon"
+            class="button tool is-icon"
             aria-pressed={isLow.value}
             aria-label={words.low}
             title={`${words.low}: ${words.lowHint}`}

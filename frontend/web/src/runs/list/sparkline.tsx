@@ -110,7 +110,7 @@ export function Sparkline({ glance }: { glance: Glance | null }) {
           return (
             <path
               key={index}
-              class={`line-${lineStyle.colour}`}
+              style={{ stroke: `var(--plot-${lineStyle.colour})` }}
               d={path}
               stroke-dasharray={lineStyle.dash.join(" ") || undefined}
             />
