@@ -57,6 +57,9 @@ def test_a_study_is_brushed_picked_from_and_left_for_a_run(
 
     page.goto(address)
     expect(page.get_by_text(re.compile(r"^\d+ of 80 runs in the brush"))).to_be_visible()
+    brush = plane.locator(".u-select")
+    expect(brush).to_be_visible()
+    assert (brush.bounding_box() or {"width": 0})["width"] > 100
 
 
 def test_a_wrong_text_is_told_with_its_line_and_nothing_is_begun(page: Page, studied: Lab) -> None:

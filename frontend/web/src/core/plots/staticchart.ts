@@ -49,6 +49,8 @@ export function useStillChart(chart: StillChart) {
     const element = host.current;
     if (element === null) return;
     const plot = plotIn(element, chart.look, chart.data);
+    // Draws it now: before, its scales have no limits, and no value a place.
+    plot.batch(() => undefined);
     const stopLook = effect(() => {
       void palette.value;
       plot.redraw(false);
