@@ -122,6 +122,7 @@ def run_laws(scenario: LoadScenario, laws: tuple[str, ...]) -> dict[str, Any]:
     return make_plain(
         {
             "description": list_attack(scenario.attack),
+            "neighborhood": scenario.found and scenario.found.neighborhood,
             "time_s": trace.time_s[thinned.rows].tolist(),
             "torque_nm": thinned.values[:, :_TORQUES].tolist(),
             "laws": reported,

@@ -99,6 +99,7 @@ def run_command(
 ) -> None:
     """Put laws through a scenario that was kept."""
     from svsa.evaluation.falsifier.kept import open_scenario
+    from svsa.evaluation.falsifier.wording import describe_neighborhood
 
     if picture is not None:
         require_extra("plot")
@@ -108,7 +109,8 @@ def run_command(
     else:
         names = list_law_names() if laws == "all" else tuple(map(str.strip, laws.split(",")))
     if not as_json:
-        Console().print(scenario.title)
+        neighborhood = describe_neighborhood(scenario.found)
+        Console(highlight=False).print(f"{scenario.title}\n{neighborhood}".strip())
     _compare_laws(scenario, names, {"scenario": scenario.title} if as_json else None, picture)
 
 
@@ -207,13 +209,18 @@ def _describe(found: "Falsified", path: Path) -> dict[str, object]:
         "fault": found.is_fault,
         "outcome": found.outcome,
         "shrinking": None if simple is None else {"runs": simple.runs, "steps": simple.steps},
+        "neighborhood": found.neighborhood and found.neighborhood._asdict(),
         "scenario": found.scenario.model_dump(mode="json", exclude_none=True),
         "file": str(path),
     }
 
 
 def _print_found(found: "Falsified") -> None:
-    from svsa.evaluation.falsifier.wording import describe_attack, format_severity
+    from svsa.evaluation.falsifier.wording import (
+        describe_attack,
+        describe_neighborhood,
+        format_severity,
+    )
 
     console, a = Console(highlight=False), found.adversary
     nothing = format_severity(a.harm, found.nothing)
@@ -224,6 +231,7 @@ def _print_found(found: "Falsified") -> None:
         simple = found.shrunk
         console.print(f"Made simple by {simple.runs} runs: {simple.outcome}")
         console.print(f"  {describe_attack(simple.attack)}")
+        console.print(describe_neighborhood(found.scenario.found))
 
 
 def _build_table(compared: "list[LawOutcome]") -> Table:

@@ -9,6 +9,7 @@ import numpy as np
 from svsa.errors import SvsaError
 from svsa.evaluation.falsifier.adversary import Adversary
 from svsa.evaluation.falsifier.measure import Measured, measure_attacks
+from svsa.evaluation.falsifier.neighborhood import Neighborhood, measure_neighborhood
 from svsa.evaluation.falsifier.scenario import Attack, Finding, LoadScenario
 from svsa.evaluation.falsifier.search import Method, search
 from svsa.evaluation.falsifier.shrink import Shrunk, shrink
@@ -31,7 +32,7 @@ class Falsified:
     a search that was broken off goes on. run: number of the worst, from 1 on; the first fault.
     nothing: how much the law is hurt without any load of the adversary. attack: the worst as it was
     found; shrunk: made simple, None where the search was
-    broken off or that was not asked for.
+    broken off or that was not asked for; neighborhood: of the simple one, None as that.
     """
 
     adversary: Adversary
@@ -44,6 +45,7 @@ class Falsified:
     attack: Attack
     outcome: str
     shrunk: Shrunk | None
+    neighborhood: Neighborhood | None
     is_complete: bool
 
     @property
@@ -66,12 +68,13 @@ class Falsified:
             simple.duration_s if simple else self.adversary.duration_s,
             (self.outcome, simple.outcome if simple else self.outcome),
             (self.method, self.seed, self.run, len(self.severities)),
+            self.neighborhood,
         )
 
     @property
     def as_found(self) -> LoadScenario:
         """The worst as it was found, before it was made simple."""
-        return replace(self, shrunk=None).scenario
+        return replace(self, shrunk=None, neighborhood=None).scenario
 
 
 def _describe(
@@ -80,6 +83,7 @@ def _describe(
     duration_s: float,
     outcomes: tuple[str, str],
     search: tuple[Method, int, int, int],
+    neighborhood: Neighborhood | None = None,
 ) -> LoadScenario:
     """outcomes: what came of the law as it was found, and as it is. search: method, seed, number of
     the run that showed it, runs.
@@ -102,6 +106,8 @@ def _describe(
             at_run=run,
             runs=runs,
             version=__version__,
+            neighbors=neighborhood and neighborhood.runs,
+            neighbors_hurt=neighborhood and neighborhood.hurt,
         ),
     )
 
@@ -167,13 +173,13 @@ def falsify(
 ) -> Falsified:
     """Search for what hurts the adversary's law most, and shrink it to the simplest that does.
 
-    runs: at most, those of shrinking besides. The search ends at the first fault, than which
-    nothing is worse. The same arguments give the same result. method: "random" is there to be
-    compared with. known: `Falsified.severities` of the same search broken off. on_generation: told
-    after each how many runs there were, and the greatest severity. on_worse: told of each attack
-    that is worse than all before it, as a scenario. is_cancelled: asked before each generation;
-    where it says so, and at Ctrl-C, the worst so far is returned as it is. is_shrunk: whether it is
-    made simple.
+    runs: at most, without those of shrinking and of the neighborhood. The search ends at the first
+    fault, than which nothing is worse. The same arguments give the same result. method: "random" is
+    there to be compared with. known: `Falsified.severities` of the same search broken off.
+    on_generation: told after each how many runs there were, and the greatest severity. on_worse:
+    told of each attack that is worse than all before it, as a scenario. is_cancelled: asked before
+    each generation; where it says so, and at Ctrl-C, the worst so far is returned as it is.
+    is_shrunk: whether it is made simple, and its neighborhood is run.
 
     Raises `ParameterError` for numbers out of range, `FalsifierError` where the law ends in a fault
     by itself, `KeyboardInterrupt` before the first generation.
@@ -210,7 +216,10 @@ def falsify(
     assert one.worst is not None  # noqa: S101  a generation was judged
     number, attack = one.worst
     found = one.measure([attack])
-    simple = shrink(adversary, one.base, attack, found) if is_complete and is_shrunk else None
+    simple = neighborhood = None
+    if is_complete and is_shrunk:
+        simple = shrink(adversary, one.base, attack, found)
+        neighborhood = measure_neighborhood(adversary, one.base, simple.attack, found, seed)
     return Falsified(
         adversary=adversary,
         method=method,
@@ -222,5 +231,6 @@ def falsify(
         attack=attack,
         outcome=describe_outcome(found, 0, adversary.harm),
         shrunk=simple,
+        neighborhood=neighborhood,
         is_complete=is_complete,
     )

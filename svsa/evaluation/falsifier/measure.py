@@ -17,6 +17,8 @@ from svsa.runs.configuration import Configuration
 
 METRIC: dict[Harm, str] = {"peak": "peak_position_error_rad", "recovery": RECOVERY}
 """What each harm is measured by as long as no run ends in a fault; for a fault see `_strain`."""
+KEPT_SHARE = 0.95
+"""Of what was found, where it is no fault."""
 REFUSAL = -np.inf
 """How much settings hurt that do not go together."""
 
@@ -53,6 +55,15 @@ def judge(outcome: dict[str, Any], harm: Harm, duration_s: float, limits: Limits
     severity[[fault is not None for fault in faults]] = np.inf
     severity[[fault == REFUSED for fault in faults]] = REFUSAL
     return severity
+
+
+def keeps_harm(measured: Measured, found: Measured) -> np.ndarray:
+    """Which runs hurt as much as one that was found: a fault, or 95 % of its harm.
+
+    Returns:
+        Shape (n,), bool.
+    """
+    return measured.severity >= KEPT_SHARE * found.severity[0]
 
 
 def _strain(outcome: dict[str, Any], limits: Limits) -> np.ndarray:

@@ -7,6 +7,7 @@ from pydantic import Field, model_validator
 
 from svsa.control.installed import PAPERS_LAW, LawName
 from svsa.errors import ParameterError, Violation
+from svsa.evaluation.statistics import Interval, estimate_share
 from svsa.evaluation.studies.setting import change_settings
 from svsa.evaluation.studies.study import FIGURE, build_base, check_measured
 from svsa.inputs.checked import Checked, Number, Whole, quantity
@@ -39,6 +40,17 @@ class Finding(Checked):
     at_run: Whole = quantity("", "Which run of the search showed it", ge=1)
     runs: Whole = quantity("", "Runs of the search", ge=1)
     version: str = quantity("", "Version that found it", max_length=40)
+    neighbors: Whole | None = quantity(
+        "", "Random loads near it that were run, each number within 5 % of its range", default=None
+    )
+    neighbors_hurt: Whole | None = quantity("", "Those that hurt as much", ge=0, default=None)
+
+    @property
+    def neighborhood(self) -> Interval | None:
+        """The share of random loads near it that hurt as much; None where none were run."""
+        if not self.neighbors or self.neighbors_hurt is None:
+            return None
+        return estimate_share(self.neighbors_hurt, self.neighbors)
 
 
 class LoadScenario(Checked):

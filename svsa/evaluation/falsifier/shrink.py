@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from svsa.evaluation.falsifier.adversary import Adversary
-from svsa.evaluation.falsifier.measure import Measured, measure_attacks
+from svsa.evaluation.falsifier.measure import Measured, keeps_harm, measure_attacks
 from svsa.evaluation.falsifier.scenario import Attack
 from svsa.evaluation.falsifier.simpler import (
     Step,
@@ -22,8 +22,6 @@ from svsa.evaluation.falsifier.simpler import (
 from svsa.evaluation.falsifier.wording import describe_outcome
 from svsa.runs.configuration import Configuration
 
-KEPT_SHARE = 0.95
-"""Of what was found, where it is no fault."""
 PASSES = 4
 AFTER_S, GRID_S = 0.5, 0.5
 """How long a run goes on after its fault, to a multiple of this."""
@@ -109,4 +107,4 @@ class _Shrinking:
         fault = self._found.outcome["fault"][0]
         if fault is not None:
             return np.array([one == fault for one in measured.outcome["fault"]])
-        return measured.severity >= KEPT_SHARE * self._found.severity[0]
+        return keeps_harm(measured, self._found)

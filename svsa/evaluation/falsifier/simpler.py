@@ -101,21 +101,30 @@ def _get_nominal(place: Place, base: Configuration) -> float:
     return float(read_setting(base, place.name)) if place.load is None else 0.0
 
 
-def _set(attack: Attack, place: Place, value: float) -> Step:
-    """With another number at a place."""
+def replace_number(attack: Attack, place: Place, value: float) -> Attack:
+    """The attack with another number at a place."""
     if place.load is None:
-        settings = {**attack.settings, place.name: value}
-        return Step(attack._replace(settings=settings), f"{place.name} = {value:g}")
+        return attack._replace(settings={**attack.settings, place.name: value})
     load, new = attack.loads[place.load], value
-    reported = format_run_number(NUMBERS.get(place.name, "from {:g} s"), value)
     if place.body is not None:
         torque = list(getattr(load, place.name))
         torque[place.body] = value
         new: Any = tuple(torque)
-        reported = format_run_number("{:g} N·m on ", value) + BODIES[place.body]
     loads = list(attack.loads)
     loads[place.load] = load.changed(**{place.name: new})
-    return Step(attack._replace(loads=tuple(loads)), f"{load.kind}: {reported}")
+    return attack._replace(loads=tuple(loads))
+
+
+def _set(attack: Attack, place: Place, value: float) -> Step:
+    """With another number at a place, and in words which one."""
+    changed = replace_number(attack, place, value)
+    if place.load is None:
+        return Step(changed, f"{place.name} = {value:g}")
+    if place.body is not None:
+        reported = format_run_number("{:g} N·m on ", value) + BODIES[place.body]
+    else:
+        reported = format_run_number(NUMBERS.get(place.name, "from {:g} s"), value)
+    return Step(changed, f"{attack.loads[place.load].kind}: {reported}")
 
 
 def _count_bodies(load: Load) -> int:

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from typing import Annotated, Literal, NamedTuple, Self
+from typing import Annotated, Any, Literal, NamedTuple, Self, get_args
 
 from pydantic import Field, model_validator
 
@@ -13,6 +13,8 @@ from svsa.simulation.plant.loads import ConstantLoad, Load, PulseLoad, SineLoad
 DIGITS = 6
 """To which a searched number is settled, so that a file holds it whole."""
 Body = Literal["link", "motor1", "motor2"]
+BODIES: tuple[Body, ...] = get_args(Body)
+PHASE = "phase_rad"
 Ends = tuple[Number, Number]
 """Least and greatest."""
 
@@ -32,9 +34,21 @@ class Axis(NamedTuple):
             value = self.low + share * (self.high - self.low)
         return min(max(settle_number(value, DIGITS), self.low), self.high)
 
+    def compute_share(self, value: float) -> float:
+        """The share of the range at a value, 0 to 1."""
+        if self.is_log:
+            share = math.log(value / self.low) / math.log(self.high / self.low)
+        else:
+            share = (value - self.low) / (self.high - self.low)
+        return min(max(share, 0.0), 1.0)
+
+    def contains(self, value: float) -> bool:
+        """Whether a value is in the range."""
+        return self.low <= value <= self.high
+
 
 class _Term(Checked):
-    """A load whose size, on each body by itself, and onset are searched."""
+    """A load whose size, on each body separately, and onset are searched."""
 
     bodies: Annotated[tuple[Body, ...], Field(min_length=1, max_length=3)] = quantity(
         "", "On what: link, motor1, motor2", default=("link",)
@@ -55,13 +69,19 @@ class _Term(Checked):
             raise ParameterError(Violation(name, list(ends), unit, bound))
 
     @property
-    def axes(self) -> tuple[Axis, ...]:
-        """The numbers that are searched: the size on each body, the onset, then its own."""
-        size = Axis(-self.torque_nm, self.torque_nm)
-        return (*(size for _ in self.bodies), Axis(*self.start_s), *self._list_own_axes())
+    def size(self) -> Axis:
+        """The range of the size on each body, N·m."""
+        return Axis(-self.torque_nm, self.torque_nm)
 
-    def _list_own_axes(self) -> tuple[Axis, ...]:
-        return ()
+    @property
+    def ranges(self) -> dict[str, Axis]:
+        """The range of every other number, by its name in the load."""
+        return {"start_s": Axis(*self.start_s)}
+
+    @property
+    def axes(self) -> tuple[Axis, ...]:
+        """The numbers that are searched: the size on each body, then those of `ranges`."""
+        return (*(self.size for _ in self.bodies), *self.ranges.values())
 
 
 class StepTerm(_Term):
@@ -81,8 +101,10 @@ class PulseTerm(_Term):
         self._check_range("duration_s", self.duration_s, "s", 1e-4)
         return self
 
-    def _list_own_axes(self) -> tuple[Axis, ...]:
-        return (Axis(*self.duration_s, is_log=True),)
+    @property
+    def ranges(self) -> dict[str, Axis]:
+        """The range of every number but the size, by its name in the load."""
+        return super().ranges | {"duration_s": Axis(*self.duration_s, is_log=True)}
 
 
 class SineTerm(_Term):
@@ -99,50 +121,40 @@ class SineTerm(_Term):
             raise ParameterError(Violation("frequency_hz", list(self.frequency_hz), "Hz", bound))
         return self
 
-    def _list_own_axes(self) -> tuple[Axis, ...]:
-        return Axis(*self.frequency_hz, is_log=True), Axis(0.0, math.pi)
+    @property
+    def ranges(self) -> dict[str, Axis]:
+        """The range of every number but the size, by its name in the load."""
+        own = {"frequency_hz": Axis(*self.frequency_hz, is_log=True), PHASE: Axis(0.0, math.pi)}
+        return super().ranges | own
 
 
 Term = Annotated[StepTerm | PulseTerm | SineTerm, BY_KIND]
 Terms = Annotated[tuple[Term, ...], Field(min_length=1, max_length=8)]
+_LOADS: dict[str, type[ConstantLoad | PulseLoad | SineLoad]] = {
+    "step": ConstantLoad,
+    "pulse": PulseLoad,
+    "sine": SineLoad,
+}
 
 
 def build_load(term: Term, values: Sequence[float]) -> Load:
     """The load of a term at these values, in the order of its axes."""
     sizes = dict(zip(term.bodies, values, strict=False))
-    torque = sizes.get("link", 0.0), sizes.get("motor1", 0.0), sizes.get("motor2", 0.0)
-    start, *own = values[len(term.bodies) :]
-    match term:
-        case StepTerm():
-            return ConstantLoad(torque_nm=torque, start_s=start)
-        case PulseTerm():
-            return PulseLoad(torque_nm=torque, start_s=start, duration_s=own[0])
-        case SineTerm():
-            frequency, phase = own
-            return SineLoad(
-                torque_nm=torque, start_s=start, frequency_hz=frequency, phase_rad=phase
-            )
+    numbers: dict[str, Any] = dict(zip(term.ranges, values[len(term.bodies) :], strict=True))
+    torque: Any = tuple(sizes.get(body, 0.0) for body in BODIES)
+    return _LOADS[term.kind](torque_nm=torque, **numbers)
 
 
 def admits(term: Term, load: Load) -> bool:
-    """Whether a load is within the bounds of a term."""
-    match load, term:
-        case ConstantLoad(), StepTerm():
-            ends = {}
-        case PulseLoad(), PulseTerm():
-            ends = {"duration_s": term.duration_s}
-        case SineLoad(), SineTerm():
-            ends = {"frequency_hz": term.frequency_hz}
-        case _:
-            return False
-    link, motor1, motor2 = load.torque_nm
-    sizes = {"link": link, "motor1": motor1, "motor2": motor2}
-    return (
-        load.start_s is not None
-        and term.start_s[0] <= load.start_s <= term.start_s[1]
-        and all(low <= getattr(load, name) <= high for name, (low, high) in ends.items())
-        and all(
-            abs(size) <= (term.torque_nm if body in term.bodies else 0.0)
-            for body, size in sizes.items()
-        )
+    """Whether a load is within the bounds of a term; every phase is."""
+    if not isinstance(load, ConstantLoad | PulseLoad | SineLoad):
+        return False
+    if type(load) is not _LOADS[term.kind]:
+        return False
+    values = {name: getattr(load, name) for name in term.ranges if name != PHASE}
+    return all(
+        value is not None and term.ranges[name].contains(value) for name, value in values.items()
+    ) and all(
+        term.size.contains(size) if body in term.bodies else size == 0.0
+        for body, size in zip(BODIES, load.torque_nm, strict=True)
     )

@@ -6,10 +6,10 @@ from typing import Any
 from svsa.actuators.faults import label_fault
 from svsa.evaluation.falsifier.adversary import Harm
 from svsa.evaluation.falsifier.measure import METRIC, Measured
-from svsa.evaluation.falsifier.scenario import Attack
+from svsa.evaluation.falsifier.scenario import Attack, Finding
 from svsa.evaluation.falsifier.simpler import BODIES, NUMBERS, format_run_number
 from svsa.evaluation.studies.outcome import REFUSED
-from svsa.evaluation.studies.tables import format_metric, format_unit, format_value
+from svsa.evaluation.studies.tables import format_metric, format_share, format_unit, format_value
 from svsa.simulation.plant.loads import Load
 
 
@@ -34,6 +34,17 @@ def format_severity(harm: Harm, severity: float) -> str:
         return f"no fault, strain {severity:.3g}"
     metric = METRIC[harm]
     return f"{format_metric(metric)} {format_value(metric, severity)} {format_unit(metric)}"
+
+
+def describe_neighborhood(finding: Finding | None) -> str:
+    """The share of random loads near a counterexample that hurt as much; empty of none."""
+    share = finding and finding.neighborhood
+    if finding is None or share is None:
+        return ""
+    return (
+        f"Near it (each number within 5 % of its range) {finding.neighbors_hurt} of"
+        f" {finding.neighbors} random loads hurt as much: {format_share(share)}"
+    )
 
 
 def describe_attack(attack: Attack) -> str:

@@ -5,12 +5,16 @@ import pytest
 
 import svsa
 from svsa.evaluation.falsifier import find as finding
+from svsa.evaluation.falsifier import neighborhood
 from svsa.evaluation.falsifier.adversary import Adversary
-from svsa.evaluation.falsifier.file import read_adversary
+from svsa.evaluation.falsifier.file import read_adversary, read_scenario, write_scenario
 from svsa.evaluation.falsifier.find import FalsifierError, falsify
 from svsa.evaluation.falsifier.measure import judge, measure_attacks, run_scenario
+from svsa.evaluation.falsifier.neighborhood import measure_neighborhood
 from svsa.evaluation.falsifier.scenario import Attack
 from svsa.evaluation.falsifier.terms import Axis
+from svsa.evaluation.falsifier.wording import describe_neighborhood
+from svsa.evaluation.statistics import estimate_share
 from svsa.simulation.plant.loads import PulseLoad
 from tests.evaluation.falsifier.weak_law import LOADED_NM, LONGEST_S, SHORTEST_S, install
 
@@ -190,3 +194,32 @@ def test_ndobc_on_the_rig_faults_by_a_blow_that_random_draws_do_not_find_so_soon
     assert found.is_fault
     random = falsify(adversary, seed=0, method="random", runs=found.run, is_shrunk=False)
     assert not random.is_fault
+
+
+def test_a_counterexample_reports_the_share_of_its_neighborhood():
+    """The weakness is a window of lengths: pulses near its middle hurt, those near its end less."""
+    adversary = build_adversary(vary=())
+    base = adversary.build_base()
+
+    def measure(duration_s):
+        attack = Attack((PulseLoad(torque_nm=(1.0, 0, 0), start_s=0.5, duration_s=duration_s),), {})
+        found = measure_attacks(adversary, base, [attack], adversary.duration_s)
+        assert np.isposinf(found.severity[0])
+        return measure_neighborhood(adversary, base, attack, found, 0)
+
+    middle, end = measure(0.23), measure(LONGEST_S - 0.004)
+    assert middle.runs == end.runs == neighborhood.RUNS
+    assert 0 < end.hurt < middle.hurt < middle.runs
+    assert middle == measure(0.23)
+
+
+def test_a_scenario_keeps_its_neighborhood_and_one_from_before_has_none(tmp_path):
+    found = falsify(build_adversary(), runs=4000)
+    write_scenario(tmp_path / "found.toml", found.scenario)
+    finding = read_scenario(tmp_path / "found.toml").found
+    assert (finding.neighbors, finding.neighbors_hurt) == found.neighborhood
+    assert finding.neighborhood == estimate_share(found.neighborhood.hurt, found.neighborhood.runs)
+    assert f"{finding.neighbors_hurt} of 256 random loads" in describe_neighborhood(finding)
+    before = finding.changed(neighbors=None, neighbors_hurt=None)
+    assert before.neighborhood is None
+    assert describe_neighborhood(before) == ""

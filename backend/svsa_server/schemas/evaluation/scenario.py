@@ -9,6 +9,7 @@ from svsa.errors import ParameterError, Violation
 from svsa.evaluation.falsifier.scenario import LoadScenario
 from svsa.inputs.checked import Checked, quantity
 from svsa.runs.configuration import MAX_LANES, Configuration, Lane
+from svsa_server.schemas.evaluation.study import Estimate
 
 MAX_LAWS, MAX_DURATION_S = 32, 60.0
 
@@ -65,6 +66,10 @@ class ScenarioTraceState(BaseModel):
     """A scenario over time, thinned out with every peak kept."""
 
     description: list[str] = Field(description="Its loads and settings, each in words")
+    neighborhood: Estimate | None = Field(
+        description="Of a scenario that was found the share of random loads near it that hurt the"
+        " law as much, with Wilson's interval"
+    )
     time_s: list[float]
     torque_nm: list[tuple[float, float, float]] = Field(
         description="Of the loads on link, motor 1 and motor 2; a hung mass is none of them"

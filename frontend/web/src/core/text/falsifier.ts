@@ -58,6 +58,10 @@ export const falsifierText = {
     found: (law: string, outcome: string) => `${law}: ${outcome}`,
     foundAt: (run: number, runs: number, seed: number) =>
       `found at run ${run.toLocaleString("en")} of ${runs.toLocaleString("en")}, seed ${seed}`,
+    neighborhood: (hurt: number, runs: number, share: string) =>
+      `${hurt} of ${runs} random loads near it hurt as much: ${share}`,
+    neighborhoodHint:
+      "Each number of the load is drawn within 5 % of its range. A small share means an isolated case: a slightly different load does not hurt. As much: a fault, or without one 95 % of the harm; the interval is at 95 %",
     lasts: (duration: string) => `a run of ${duration} s`,
     perturbed: "With",
     steps: (count: number) => `How it was made simple: ${count} steps`,

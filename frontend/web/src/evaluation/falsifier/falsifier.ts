@@ -59,6 +59,8 @@ interface Finding {
   at_run: number;
   runs: number;
   seed: number;
+  neighbors?: number;
+  neighbors_hurt?: number;
 }
 export const findingOf = (one: Scenario): Finding | null => (one.found as Finding) ?? null;
 

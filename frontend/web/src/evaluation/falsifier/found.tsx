@@ -5,6 +5,7 @@ import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
 import { copyText } from "../../lab/script/copybutton";
+import { formatShare } from "../studies/tables";
 import { cancel, chosen, findingOf, isBusy, keep, search, shown } from "./falsifier";
 
 const words = text.falsifier;
@@ -66,6 +67,15 @@ function Facts({ scenario }: { scenario: Scenario }) {
             {words.foundAt(finding.at_run, finding.runs, finding.seed)},{" "}
             {words.lasts(formatNumber(Number(scenario.duration_s), 3))}
           </span>
+        </p>
+      )}
+      {finding?.neighbors && shown.value?.neighborhood && (
+        <p title={words.neighborhoodHint}>
+          {words.neighborhood(
+            finding.neighbors_hurt ?? 0,
+            finding.neighbors,
+            formatShare(shown.value.neighborhood),
+          )}
         </p>
       )}
       <ul class="falsifier-summary">

@@ -1,0 +1,78 @@
+"""How isolated a counterexample is: how many random loads in its neighborhood hurt as much."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from svsa.evaluation.falsifier.adversary import Adversary
+from svsa.evaluation.falsifier.measure import REFUSAL, Measured, keeps_harm, measure_attacks
+from svsa.evaluation.falsifier.scenario import Attack
+from svsa.evaluation.falsifier.simpler import Place, list_places, replace_number
+from svsa.evaluation.falsifier.terms import Axis, admits
+from svsa.evaluation.studies.setting import read_setting
+from svsa.evaluation.studies.variation import LogUniform, Normal, Uniform
+from svsa.runs.configuration import Configuration
+
+RUNS = 256
+WIDTH = 0.05
+"""Share of its range by which each number differs at most, either way."""
+
+
+class Neighborhood(NamedTuple):
+    """Random loads around a counterexample. hurt: those that hurt the law as much."""
+
+    runs: int
+    hurt: int
+
+
+def measure_neighborhood(
+    adversary: Adversary, base: Configuration, attack: Attack, found: Measured, seed: int
+) -> Neighborhood:
+    """Run random neighbors of an attack, within the adversary's bounds.
+
+    Each number of the attack is uniform within ±5 % of its range, in equal ratios where it is
+    searched by them. What the attack does without stays without.
+
+    Args:
+        adversary: Whose ranges count.
+        base: The run without the attack.
+        attack: The counterexample.
+        found: What it did, one row.
+        seed: Of the random numbers.
+
+    Returns:
+        How many were run, without those whose settings do not go together, and how many of them
+        end in a fault; of an attack without a fault, in at least 95 % of its harm.
+    """
+    random = np.random.Generator(np.random.Philox(seed))
+    places = [
+        (place, axis, axis.compute_share(value))
+        for place, value in list_places(attack)
+        if (axis := _find_axis(adversary, base, attack, place)) is not None
+    ]
+    neighbors = []
+    for _ in range(RUNS):
+        neighbor = attack
+        for place, axis, share in places:
+            drawn = random.uniform(max(share - WIDTH, 0.0), min(share + WIDTH, 1.0))
+            neighbor = replace_number(neighbor, place, axis.compute_value(drawn))
+        neighbors.append(neighbor)
+    measured = measure_attacks(adversary, base, neighbors, adversary.duration_s)
+    runs = int(np.sum(measured.severity != REFUSAL))
+    return Neighborhood(runs, int(np.sum(keeps_harm(measured, found))))
+
+
+def _find_axis(
+    adversary: Adversary, base: Configuration, attack: Attack, place: Place
+) -> Axis | None:
+    """The range in which the adversary searches a number of an attack; None: one of a list."""
+    if place.load is not None:
+        load = attack.loads[place.load]
+        term = next(term for term in adversary.terms if admits(term, load))
+        return term.size if place.body is not None else term.ranges[place.name]
+    variation = next(one for one in adversary.vary if one.path == place.name)
+    if not isinstance(variation, Uniform | LogUniform | Normal):
+        return None
+    present = read_setting(base, place.name) if variation.relative else 1.0
+    low, high = sorted((present * variation.low, present * variation.high))
+    return Axis(low, high)
