@@ -28,9 +28,12 @@ def parse_toml(text: str, kind: str, name: Path | str) -> dict[str, Any]:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise _refuse(kind, name, error) from None
+    except RecursionError:
+        # tomllib parses nested arrays and tables by recursion.
+        raise _refuse(kind, name, "its values are nested too deeply") from None
 
 
-def _refuse(kind: str, name: Path | str, error: Exception) -> ParameterError:
+def _refuse(kind: str, name: Path | str, error: Exception | str) -> ParameterError:
     return ParameterError(Violation(kind, name, "", f"a readable TOML file ({error})"))
 
 

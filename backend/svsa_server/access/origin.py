@@ -23,7 +23,13 @@ def is_same_origin(scope: Scope) -> bool:
     """Whether a request comes from the lab's own page, or not from a page at all."""
     headers = Headers(scope=scope)
     origin = headers.get("origin")
-    return origin is None or urlsplit(origin).netloc.lower() == headers.get("host", "").lower()
+    if origin is None:
+        return True
+    try:
+        return urlsplit(origin).netloc.lower() == headers.get("host", "").lower()
+    except ValueError:
+        # urlsplit rejects an unclosed bracket, as in http://[::1: no browser sends that.
+        return False
 
 
 def read_host(scope: Scope) -> str:

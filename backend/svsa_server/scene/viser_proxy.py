@@ -10,6 +10,7 @@ import contextlib
 import gzip
 import hashlib
 import math
+import re
 import ssl
 from collections.abc import Awaitable, Callable
 from typing import NamedTuple
@@ -28,6 +29,7 @@ from svsa.errors import SvsaError
 from svsa_server.access.origin import is_same_origin
 from svsa_server.access.owned import check_owned
 from svsa_server.access.permissions import OBSERVER, allow
+from svsa_server.problems import UnknownError
 
 MAX_BROWSER_MESSAGE_BYTES = 4096
 MAX_SCENE_MESSAGE_BYTES = 16 * 1024 * 1024
@@ -37,6 +39,8 @@ _NOBODY = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
 """Whom a connection to a port of this machine, which is not encrypted, has to trust."""
 _SUBPROTOCOL_PREFIX = "viser-v"
 _KEPT_HEADERS = ("content-type",)
+_FILE = re.compile(r"[\w./ -]{1,200}", re.ASCII)
+"""Paths of viser's files. Others are no file of viser's, and its server fails on some of them."""
 _INJECTED = (
     # viser reconnects only with the focus, which a frame rarely has.
     b"<script>document.hasFocus=()=>true</script>"
@@ -168,8 +172,11 @@ class ViserProxy:
 
     @allow(OBSERVER)
     async def _serve_file(self, request: Request) -> Response:
+        path = request.path_params["path"]
+        if not _FILE.fullmatch(path):
+            raise UnknownError(f"The 3D view has no file {path[:80]!r}.")
         try:
-            answer = await self._fetch(request, "/" + request.path_params["path"])
+            answer = await self._fetch(request, "/" + path)
         except httpx.HTTPError:
             return Response("The 3D view is not running.", 503, media_type="text/plain")
         headers = {k: answer.headers[k] for k in _KEPT_HEADERS if k in answer.headers}

@@ -101,3 +101,23 @@ def test_a_route_that_is_none_is_refused_in_the_labs_own_form(
 def test_a_huge_body_is_refused(lab: Lab) -> None:
     answer = lab.client.put(lab.session + "/position", content=b" " * (5 * 1024 * 1024))
     assert answer.status_code == 413
+
+
+@pytest.mark.parametrize("path", ["%00", "a" * 5000, "%ff%fe"])
+def test_a_path_that_the_3d_view_cannot_have_is_not_found(lab: Lab, path: str) -> None:
+    answer = lab.client.get(f"/viser/lab/{path}")
+    assert answer.status_code == 404
+    assert answer.json()["type"] == TYPE_PREFIX + "not_found"
+
+
+def test_an_origin_that_is_no_address_is_another_site(lab: Lab) -> None:
+    answer = lab.client.get(lab.session, headers={"Origin": "http://[::1"})
+    assert answer.status_code == 403
+    assert answer.json()["type"] == TYPE_PREFIX + "other_origin"
+
+
+@pytest.mark.parametrize("opening", ["[", "{a="])
+def test_a_parameter_file_that_is_nested_too_deeply_is_rejected(lab: Lab, opening: str) -> None:
+    answer = lab.client.put(lab.session + "/nominal", json={"toml": "a=" + opening * 5000})
+    assert answer.status_code == 422
+    assert "nested too deeply" in answer.json()["detail"]
