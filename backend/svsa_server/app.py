@@ -93,6 +93,7 @@ def build_app(
     install_openapi(app, build_routes, needs_secret=authentication.kind != "open")
     app.state.viser = ViserProxy(lambda session: app.state.scenes.open(session))
     app.router.routes.extend((*build_routes(), *build_page_routes(), *app.state.viser.routes))
+    app.state.rates = build_rates(config) if config.classroom else None
     app.state.permissions = PermissionTable(app.router.routes)
     # The last one that is added is the first to see a request: the audit log also sees what the
     # guard rejects, and outcomes are kept for the person whom the guard has found.
@@ -107,7 +108,7 @@ def build_app(
         permissions=app.state.permissions,
         hosts=config.host_names,
         find_owner=find_owner,
-        rates=build_rates(config) if config.classroom else None,
+        rates=app.state.rates,
     )
     if config.classroom:
         app.state.audit = AuditLog(find_data_folder())
@@ -145,6 +146,8 @@ def build_rates(config: Settings) -> Rates:
     return Rates(
         {
             "joins": config.joins,
+            "codes": config.codes,
+            "logins": config.logins,
             "commands": config.commands,
             "sessions": config.sessions,
             "runs": config.runs,

@@ -46,8 +46,11 @@ class Settings(BaseSettings):
     SVSA_IDLE_OPERATOR_S: how long whoever is in control in a class may give no command before it
     goes on to who waits, s.
     SVSA_QUOTA_MB: disk that runs and studies of one person of a class may take, MB.
-    SVSA_JOINS, SVSA_COMMANDS, SVSA_SESSIONS, SVSA_RUNS: how often in a class, as "50/second": joins
-    and logins of an address, and of a person commands, new sessions, new recordings.
+    SVSA_JOINS, SVSA_CODES, SVSA_LOGINS: rate limits of a class, as "50/second": joins of an
+    address (a class behind one router has one), wrong class codes of an address and name, wrong
+    instructor tokens of an address. The right token is always accepted.
+    SVSA_COMMANDS, SVSA_SESSIONS, SVSA_RUNS: likewise, commands, new sessions and new recordings of
+    a person.
     SVSA_ROOT_PATH: the path under which a proxy has the lab, such as /svsa; it takes it off before
     it asks the lab.
     SVSA_HOSTS: names with commas between, under which others reach the lab, besides addresses and
@@ -76,7 +79,9 @@ class Settings(BaseSettings):
     hosts: str = ""
     root_path: str = ""
     quota_mb: float = Field(default=500.0, ge=0)
-    joins: Rate = "60/minute"
+    joins: Rate = "300/minute"
+    codes: Rate = "10/minute"
+    logins: Rate = "20/minute"
     commands: Rate = "50/second"
     sessions: Rate = "20/minute"
     runs: Rate = "30/minute"

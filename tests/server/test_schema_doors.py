@@ -20,7 +20,9 @@ from tests.server.test_schema_fuzz import SETTINGS, probe
 SECRET = "correct horse battery"
 ONE_EACH = settings(SETTINGS, max_examples=1)
 """Of each operation: how wide a request may be is tried where nobody is asked who comes."""
-ENDLESS = dict.fromkeys(("joins", "commands", "sessions", "runs"), "1000000/second")
+ENDLESS = dict.fromkeys(
+    ("joins", "codes", "logins", "commands", "sessions", "runs"), "1000000/second"
+)
 """Of a class: that somebody does too much at once has tests of its own."""
 PEOPLE = {
     Role.OBSERVER: Person("p-1", "Ola", Role.OBSERVER),

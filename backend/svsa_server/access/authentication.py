@@ -7,6 +7,7 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from http.cookies import CookieError, SimpleCookie
 from typing import Literal, Protocol, TypeVar
+from weakref import WeakValueDictionary
 
 from starlette.datastructures import Headers
 
@@ -46,14 +47,23 @@ class Authentication(Protocol):
 
 
 class Patience:
-    """Wrong answers come one by one, half a second each."""
+    """Delays answers to wrong secrets: those of one address come one by one, half a second each.
+
+    Each address has a lock of its own, so that guesses from one do not delay answers to another.
+    """
 
     def __init__(self) -> None:
-        self._failures = asyncio.Lock()
+        # A lock without waiting answers is collected, so that addresses do not accumulate.
+        self._failures: WeakValueDictionary[str, asyncio.Lock] = WeakValueDictionary()
 
-    async def wait(self) -> None:
-        """Until it is the turn of this wrong answer."""
-        async with self._failures:
+    async def wait(self, address: str) -> None:
+        """Wait until it is the turn of this wrong answer.
+
+        Args:
+            address: Network address of the client.
+        """
+        lock = self._failures.setdefault(address, asyncio.Lock())
+        async with lock:
             await asyncio.sleep(REFUSAL_DELAY_S)
 
 

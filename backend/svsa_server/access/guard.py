@@ -144,9 +144,9 @@ class AccessGuard:
             return person
         if person is None:
             if read_bearer(headers):
-                # A wrong token is a guess: guesses are answered one after another, half a second
-                # each.
-                await self._authentication.patience.wait()
+                # A wrong token is a guess: those of an address are answered one after another,
+                # half a second each.
+                await self._authentication.patience.wait(read_address(scope))
             raise Refusal(401, *self._authentication.describe_needed(headers))
         if person.role < permission.role:
             message = f"This needs the role {permission.role.word}; yours is {person.role.word}."
@@ -157,19 +157,21 @@ class AccessGuard:
         kind = find_kind(scope.get("method", ""), find_path(scope)) if self._rates else None
         if self._rates is None or kind is None:
             return
-        address = scope["client"][0] if scope.get("client") else ""
+        address = read_address(scope)
         wait_s = self._rates.count(kind, address if kind == "joins" or not person else person.id)
         if wait_s is not None:
-            message = (
-                f"That is too much at once, {self._rates.describe(kind)} are allowed: try again in"
-                f" {wait_s} s."
-            )
+            message = self._rates.describe(kind, wait_s)
             raise Refusal(429, "too_many", message, {"Retry-After": str(wait_s)})
 
 
 def read_person(scope: Scope) -> Person:
     """The caller, as the guard has proved it."""
     return scope.get(PERSON) or EVERYBODY
+
+
+def read_address(scope: Scope) -> str:
+    """The network address that a request comes from; empty if the transport has none."""
+    return scope["client"][0] if scope.get("client") else ""
 
 
 def find_path(scope: Scope) -> str:

@@ -1,4 +1,4 @@
-"""How often one may: joins of an address, commands, sessions and runs of a person."""
+"""Rate limits: joins and wrong codes of an address, commands, sessions and runs of a person."""
 
 import math
 import time
@@ -10,11 +10,10 @@ from limits.strategies import MovingWindowRateLimiter
 
 from svsa_server.leases.lease import CHANGING, STOPS
 
-Kind = Literal["joins", "sessions", "runs", "commands"]
+Kind = Literal["joins", "codes", "logins", "sessions", "runs", "commands"]
 _KINDS: dict[str, Kind] = {
     "POST /api/v1/join": "joins",
     "POST /api/v1/return": "joins",
-    "POST /api/v1/login": "joins",
     "POST /lti/login": "joins",
     "POST /lti/launch": "joins",
     "POST /sessions": "sessions",
@@ -24,14 +23,18 @@ _KINDS: dict[str, Kind] = {
     "POST /excitation": "runs",
 }
 _STOPS = {f"{method} {path}" for method, path in STOPS}
+_COUNTED_WHEN_WRONG = frozenset({"POST /api/v1/login"})
+"""Only wrong instructor tokens count, so that nobody's guesses lock the instructor out."""
+
+_WORDS: dict[Kind, str] = {"codes": "wrong class codes of a name", "logins": "wrong logins"}
 
 
 def find_kind(method: str, path: str) -> Kind | None:
     """What a request counts as; reading counts as nothing, and nor does stopping."""
-    last = f"{method} /{path.rpartition('/')[2]}"
-    if method not in CHANGING or last in _STOPS:
+    whole, last = f"{method} {path}", f"{method} /{path.rpartition('/')[2]}"
+    if method not in CHANGING or last in _STOPS or whole in _COUNTED_WHEN_WRONG:
         return None
-    return _KINDS.get(f"{method} {path}") or _KINDS.get(last, "commands")
+    return _KINDS.get(whole) or _KINDS.get(last, "commands")
 
 
 class Rates:
@@ -43,13 +46,22 @@ class Rates:
 
     def count(self, kind: Kind, who: str) -> int | None:
         """Count one more; where it is one too many, in how many seconds it is not, at least 1."""
-        rate = self._rates[kind]
-        if self._limiter.hit(rate, kind, who):
+        if self._limiter.hit(self._rates[kind], kind, who):
             return None
-        free_at = self._limiter.get_window_stats(rate, kind, who).reset_time
+        return self._find_wait(kind, who)
+
+    def check(self, kind: Kind, who: str) -> int | None:
+        """Count nothing; return in how many seconds one more is allowed, None if it is now."""
+        if self._limiter.test(self._rates[kind], kind, who):
+            return None
+        return self._find_wait(kind, who)
+
+    def _find_wait(self, kind: Kind, who: str) -> int:
+        free_at = self._limiter.get_window_stats(self._rates[kind], kind, who).reset_time
         return max(1, math.ceil(free_at - time.time()))
 
-    def describe(self, kind: Kind) -> str:
-        """The rate in words, such as 50 commands per 1 second."""
+    def describe(self, kind: Kind, wait_s: int) -> str:
+        """Why a request was rejected: the limit, and when to try again."""
         rate = self._rates[kind]
-        return f"{rate.amount} {kind} per {rate.multiples} {rate.GRANULARITY.name}"
+        limit = f"{rate.amount} {_WORDS.get(kind, kind)} per {rate.multiples}"
+        return f"The limit of {limit} {rate.GRANULARITY.name} is reached: try again in {wait_s} s."

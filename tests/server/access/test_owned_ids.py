@@ -40,7 +40,9 @@ MISSING = {
 """Ids of nothing, of the form of those there are."""
 SECRET = "adas-own"
 PLACES = [one for one in list_places(SCHEMA) if one.owned]
-ENDLESS = dict.fromkeys(("joins", "commands", "sessions", "runs"), "1000000/second")
+ENDLESS = dict.fromkeys(
+    ("joins", "codes", "logins", "commands", "sessions", "runs"), "1000000/second"
+)
 ROLES = [None, Role.OBSERVER, Role.OPERATOR]
 
 

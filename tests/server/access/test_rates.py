@@ -1,11 +1,13 @@
 """How often one may: counted by address or person, told when again, and never a stop."""
 
+import asyncio
 import time
 from pathlib import Path
 
 import pytest
 from pydantic import ValidationError
 
+from svsa_server.access import authentication
 from svsa_server.access.rates import Rates, find_kind
 from svsa_server.config import Settings
 from tests.server.access.classroom import SHARED, read_kind, run_class
@@ -16,23 +18,22 @@ SESSION = "/api/v1/sessions/private-1"
 def test_one_too_many_is_told_when_it_is_not(monkeypatch: pytest.MonkeyPatch) -> None:
     now = [1000.0]
     monkeypatch.setattr(time, "time", lambda: now[0])
-    rates = Rates(
-        {"joins": "2/minute", "commands": "1/second", "sessions": "1/day", "runs": "1/day"}
-    )
+    others = dict.fromkeys(("codes", "logins", "sessions", "runs"), "1/day")
+    rates = Rates({"joins": "2/minute", "commands": "1/second", **others})
     assert [rates.count("joins", "a") for _ in range(2)] == [None, None]
     now[0] += 45.0
-    assert rates.count("joins", "a") == 15
+    assert rates.check("joins", "a") == rates.count("joins", "a") == 15
     assert rates.count("joins", "b") is None, "each is counted by themselves"
     assert rates.count("commands", "a") is None, "and each kind"
     now[0] += 15.1
-    assert rates.count("joins", "a") is None
+    assert rates.check("joins", "a") is rates.count("joins", "a") is None
 
 
 @pytest.mark.parametrize(
     ("method", "path", "kind"),
     [
         ("POST", "/api/v1/join", "joins"),
-        ("POST", "/api/v1/login", "joins"),
+        ("POST", "/api/v1/login", None),
         ("POST", "/api/v1/sessions", "sessions"),
         ("POST", "/api/v1/runs/1/branch", "sessions"),
         ("POST", "/api/v1/ranking/sessions", "sessions"),
@@ -64,7 +65,7 @@ def test_over_rest_it_is_429_with_retry_after_and_everybody_still_stops(tmp_path
         answers = [ada.post(SHARED + "/start") for _ in range(3)]
         assert [one.status_code for one in answers] == [200, 200, 429]
         assert read_kind(answers[-1]) == "too_many"
-        assert "3 commands per 1 hour" in answers[-1].json()["detail"]
+        assert "limit of 3 commands per 1 hour" in answers[-1].json()["detail"]
         assert 0 < int(answers[-1].headers["Retry-After"]) <= 3600
         assert bob.put(SHARED + "/control", json={"by": "Bob"}).status_code == 200
         assert [ada.post(SHARED + "/pause").status_code for _ in range(9)] == [200] * 9
@@ -73,3 +74,40 @@ def test_over_rest_it_is_429_with_retry_after_and_everybody_still_stops(tmp_path
         wrong = {"name": "Eve", "code": "no"}
         tried = [room.lab.client.post("/api/v1/join", json=wrong).status_code for _ in range(5)]
         assert tried == [401, 401, 401, 429, 429]
+
+
+def test_wrong_codes_and_tokens_of_an_address_lock_out_neither_instructor_nor_class(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A class behind one router shares an address with whoever mistypes or guesses."""
+    monkeypatch.setattr(authentication, "REFUSAL_DELAY_S", 0.0)
+    with run_class(tmp_path) as room:
+        stranger = room.lab.client
+        wrong = {"name": "Eve", "code": "no"}
+        codes = [stranger.post("/api/v1/join", json=wrong).status_code for _ in range(70)]
+        assert codes == [401] * 10 + [429] * 60
+        guess = {"secret": "svsa-instructor-no"}
+        logins = [stranger.post("/api/v1/login", json=guess) for _ in range(30)]
+        assert [one.status_code for one in logins] == [401] * 20 + [429] * 10
+        assert "limit of 20 wrong logins per 1 minute" in logins[-1].json()["detail"]
+        assert room.log_in().get("/api/v1/class").status_code == 200
+        assert room.join("Ada").get("/api/v1/class").status_code == 200
+
+
+def test_wrong_answers_of_one_address_do_not_delay_those_of_another(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(authentication, "REFUSAL_DELAY_S", 0.01)
+    answered: list[str] = []
+
+    async def guess(patience: authentication.Patience, address: str) -> None:
+        await patience.wait(address)
+        answered.append(address)
+
+    async def guess_from_two() -> None:
+        patience = authentication.Patience()
+        await asyncio.gather(*(guess(patience, one) for one in ("a", "a", "a", "a", "b")))
+        assert not patience._failures, "addresses do not accumulate"
+
+    asyncio.run(guess_from_two())
+    assert answered.index("b") == 1

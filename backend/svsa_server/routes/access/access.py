@@ -7,8 +7,9 @@ from fastapi.responses import JSONResponse
 
 from svsa.errors import StateError
 from svsa_server.access.authentication import COOKIE, REMOVED, Authentication, ClassAuthentication
-from svsa_server.access.guard import PERSON
+from svsa_server.access.guard import PERSON, read_address
 from svsa_server.access.permissions import ANYBODY, OBSERVER, allow
+from svsa_server.access.rates import Kind
 from svsa_server.access.roles import Person, Role
 from svsa_server.problems import Problem, answer_problem
 from svsa_server.routes.access.classroom import find_class
@@ -54,8 +55,10 @@ async def log_in(
     authentication = _find_authentication(request)
     cookie = authentication.log_in(credentials.secret)
     if cookie is None:
-        await authentication.patience.wait()
-        return answer_problem(
+        address = read_address(request.scope)
+        rejected = _count(request, "logins", address)
+        await authentication.patience.wait(address)
+        return rejected or answer_problem(
             401, "wrong_secret", f"That is not the {_name_secret(authentication)} of this lab."
         )
     response = Response(status_code=204)
@@ -81,8 +84,13 @@ async def join(
     back as the same person from any browser.
     """
     authentication = find_class(request)
+    address = read_address(request.scope)
+    account = f"{address} {wanted.name.casefold()}"
+    if (wait_s := request.app.state.rates.check("codes", account)) is not None:
+        return _answer_too_many(request, "codes", wait_s)
     if not await authentication.check_code(wanted.code):
-        await authentication.patience.wait()
+        _count(request, "codes", account)
+        await authentication.patience.wait(address)
         return answer_problem(401, "wrong_code", "That is not the code of this class.")
     person = await authentication.join(wanted.name, Role[wanted.role.upper()])
     code = await authentication.renew_return_code(person)
@@ -107,7 +115,7 @@ async def come_back(
     authentication = find_class(request)
     membership = await authentication.come_back(wanted.code)
     if membership is None:
-        await authentication.patience.wait()
+        await authentication.patience.wait(read_address(request.scope))
         return answer_problem(401, "wrong_code", "That is nobody's return code in this class.")
     if membership.is_ended:
         return answer_problem(401, "removed", REMOVED)
@@ -157,6 +165,18 @@ async def create_token(
     if person.role is Role.INSTRUCTOR:
         script = await authentication.join(f"{person.name}'s script", role)
     return TokenState(token=authentication.keys.sign(script), name=script.name, role=role.word)
+
+
+def _count(request: Request, kind: Kind, who: str) -> JSONResponse | None:
+    """Count a wrong secret; return the rejection if it is one too many."""
+    rates = request.app.state.rates
+    wait_s = rates and rates.count(kind, who)
+    return None if wait_s is None else _answer_too_many(request, kind, wait_s)
+
+
+def _answer_too_many(request: Request, kind: Kind, wait_s: int) -> JSONResponse:
+    text = request.app.state.rates.describe(kind, wait_s)
+    return answer_problem(429, "too_many", text, {"Retry-After": str(wait_s)})
 
 
 def _find_authentication(request: Request) -> Authentication:
