@@ -90,14 +90,16 @@ def test_scripts_come_in_with_a_bearer_token(guarded_lab: Lab) -> None:
     assert wrong.status_code == 401
 
 
-def test_stopping_needs_no_secret_but_starting_does(guarded_lab: Lab) -> None:
-    """Whoever sees something go wrong may stop it; a page of another site may not."""
+def test_a_simulation_is_stopped_only_for_callers_with_the_secret(guarded_lab: Lab) -> None:
+    """`test_everybody_may_stop_a_bench` shows the bench."""
     stranger = httpx.Client(base_url=guarded_lab.url, trust_env=False)
     elsewhere = {"Origin": "http://elsewhere.example"}
     stop = "/api/v1/quick-stop"
     assert stranger.post(stop, headers=elsewhere).status_code == 403
     assert guarded_lab.read()["status"] == "running"
-    assert stranger.post(stop).status_code == 204
+    assert stranger.post(stop).status_code == 401
+    assert guarded_lab.read()["status"] == "running"
+    assert guarded_lab.client.post(stop).status_code == 204
     assert guarded_lab.read()["status"] == "paused"
     assert stranger.post("/api/v1/sessions/lab/start").status_code == 401
 

@@ -8,6 +8,7 @@ from starlette.requests import HTTPConnection
 from starlette.types import Scope
 
 from svsa.errors import ParameterError
+from svsa.hardware.session.session import BenchSession
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa_server.access.guard import read_person
 from svsa_server.access.owned import Owned, settle_claims
@@ -23,6 +24,7 @@ from svsa_server.leases.lease import (
 )
 from svsa_server.problems import ChangedError, Problem
 from svsa_server.sessions.hosted import HostedSession
+from svsa_server.sessions.laboratory import SHARED_SESSION
 
 
 def find_asked(scope: Scope) -> tuple[str | None, str]:
@@ -33,6 +35,11 @@ def find_asked(scope: Scope) -> tuple[str | None, str]:
 async def find_person(connection: HTTPConnection) -> Person:
     """Who calls, as the guard has proved it."""
     return read_person(connection.scope)
+
+
+def needs_no_login_to_stop(connection: HTTPConnection) -> bool:
+    """Whether every caller may stop the shared session: it drives a bench."""
+    return isinstance(connection.app.state.laboratory.get(SHARED_SESSION).session, BenchSession)
 
 
 NamedPerson = Annotated[Person, Depends(find_person)]

@@ -100,7 +100,7 @@ def test_who_is_here_was_heard_within_a_minute_and_names_are_told_apart() -> Non
     assert people.find(other.id) is None
 
 
-def test_a_stranger_is_told_to_join_and_may_only_stop(classroom: Classroom) -> None:
+def test_a_stranger_is_told_to_join_and_cannot_stop_a_simulation(classroom: Classroom) -> None:
     stranger = classroom.lab.client
     assert read_person(stranger) == {
         "authentication": "class",
@@ -109,11 +109,13 @@ def test_a_stranger_is_told_to_join_and_may_only_stop(classroom: Classroom) -> N
         "name": "",
         "role": None,
         "removed": False,
+        "stops_without_login": False,
     }
-    refused = stranger.get(SHARED)
-    assert (refused.status_code, read_kind(refused)) == (401, "join_needed")
-    assert "class code" in refused.json()["detail"]
-    assert stranger.post("/api/v1/quick-stop").status_code == 204
+    for refused in (stranger.get(SHARED), stranger.post("/api/v1/quick-stop")):
+        assert (refused.status_code, read_kind(refused)) == (401, "join_needed")
+        assert "class code" in refused.json()["detail"]
+    observer = classroom.join("Grace", "observer")
+    assert observer.post("/api/v1/quick-stop").status_code == 204
 
 
 def test_a_student_joins_with_a_name_and_the_code_and_is_known_by_a_cookie(

@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import NamedTuple
 
+import httpx
 import numpy as np
 import pytest
 
@@ -148,6 +149,17 @@ def test_who_gets_it_starts_it_again_once_it_is_at_rest(room: Room) -> None:
             ada.session.pause()
             room.bench.wait_for("ready")
         bob.session.give_control_back()
+
+
+def test_everybody_may_stop_a_bench(room: Room) -> None:
+    """No login is needed to stop a machine; `test_access` shows that a simulation needs one."""
+    room.bench.make_ready()
+    with httpx.Client(base_url=room.bench.lab.url, trust_env=False) as stranger:
+        assert stranger.get("/api/v1/access").json()["stops_without_login"]
+        assert stranger.post("/api/v1/quick-stop").status_code == 204
+    room.bench.wait_for("fault")
+    assert room.bench.read()["fault"]["code"] == "quick_stop"
+    room.bench.make_ready()
 
 
 def test_the_script_of_a_simulation_runs_on_the_bench(room: Room, tmp_path: Path) -> None:

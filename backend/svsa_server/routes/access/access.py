@@ -13,7 +13,7 @@ from svsa_server.access.rates import Kind
 from svsa_server.access.roles import Person, Role
 from svsa_server.problems import Problem, answer_problem
 from svsa_server.routes.access.classroom import find_class
-from svsa_server.routes.depends import REFUSALS, NamedPerson
+from svsa_server.routes.depends import REFUSALS, NamedPerson, needs_no_login_to_stop
 from svsa_server.routing import build_router
 from svsa_server.schemas.access.access import (
     AccessState,
@@ -39,7 +39,7 @@ async def read_access(request: Request) -> AccessState:
     is_removed = isinstance(authentication, ClassAuthentication) and authentication.is_removed(
         request.headers
     )
-    return _tell(authentication, request.scope.get(PERSON), is_removed)
+    return _describe(request, request.scope.get(PERSON), is_removed)
 
 
 @router.post("/login", status_code=204, responses={**_WRONG, 422: REFUSALS[422]})
@@ -96,7 +96,7 @@ async def join(
     code = await authentication.renew_return_code(person)
     assert code is not None  # noqa: S101  who has just joined has a membership
     set_cookie(request, response, authentication.keys.sign(person))
-    return JoinState(**_tell(authentication, person).model_dump(), return_code=code)
+    return JoinState(**_describe(request, person).model_dump(), return_code=code)
 
 
 @router.post(
@@ -120,7 +120,7 @@ async def come_back(
     if membership.is_ended:
         return answer_problem(401, "removed", REMOVED)
     set_cookie(request, response, authentication.keys.sign(membership.person))
-    return _tell(authentication, membership.person)
+    return _describe(request, membership.person)
 
 
 @router.post("/return-code", status_code=201, responses={409: REFUSALS[409]})
@@ -183,16 +183,15 @@ def _find_authentication(request: Request) -> Authentication:
     return request.app.state.authentication
 
 
-def _tell(
-    authentication: Authentication, person: Person | None, is_removed: bool = False
-) -> AccessState:
+def _describe(request: Request, person: Person | None, is_removed: bool = False) -> AccessState:
     return AccessState(
-        authentication=authentication.kind,
+        authentication=_find_authentication(request).kind,
         inside=person is not None,
         id=person.id if person else "",
         name=person.name if person else "",
         role=person.role.word if person else None,
         removed=is_removed,
+        stops_without_login=needs_no_login_to_stop(request),
     )
 
 

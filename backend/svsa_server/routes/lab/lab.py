@@ -1,11 +1,14 @@
 """The lab itself: health, the laws, the faults, the paper's figures."""
 
-from fastapi import Request
+from fastapi import Request, Response
 
 import svsa
 from svsa.runs.paper import FIGURES
 from svsa.simulation.plant.effects import PRESETS
+from svsa_server.access.guard import PERSON
 from svsa_server.access.permissions import ANYBODY, OBSERVER, allow
+from svsa_server.problems import Problem, answer_problem
+from svsa_server.routes.depends import needs_no_login_to_stop
 from svsa_server.routing import build_router
 from svsa_server.schemas.lab.lab import EffectsPreset, FigureState, Health
 from svsa_server.schemas.lab.law import LawState, list_laws
@@ -23,12 +26,24 @@ async def read_health() -> Health:
     return Health(version=svsa.__version__)
 
 
-@router.post("/quick-stop", status_code=204)
+@router.post(
+    "/quick-stop",
+    status_code=204,
+    responses={401: {"model": Problem, "description": "A simulation, and the caller is unknown"}},
+)
 @allow(ANYBODY)
-def quick_stop_lab(request: Request) -> None:
-    """Stop the shared session at once, whoever asks: no secret is needed to stop a machine."""
-    laboratory = request.app.state.laboratory
-    laboratory.get(SHARED_SESSION).session.quick_stop()
+def quick_stop_lab(request: Request) -> Response:
+    """Stop the shared session at once.
+
+    A bench is stopped for every caller, without login. A simulation harms nobody: it is stopped
+    only for callers whom the lab has admitted.
+    """
+    if request.scope.get(PERSON) is None and not needs_no_login_to_stop(request):
+        return answer_problem(
+            401, *request.app.state.authentication.describe_needed(request.headers)
+        )
+    request.app.state.laboratory.get(SHARED_SESSION).session.quick_stop()
+    return Response(status_code=204)
 
 
 @router.get("/laws")

@@ -70,6 +70,9 @@ class AccessState(BaseModel):
     removed: bool = Field(
         default=False, description="The instructor has removed whoever this is from the class"
     )
+    stops_without_login: bool = Field(
+        description="Whether the quick stop needs no login: the shared session drives a bench"
+    )
 
 
 class ReturnCode(BaseModel):

@@ -46,8 +46,12 @@ export function Login() {
         <SecretForm label={text.login.secret} enter={(way) => void enter(way)} send={login} />
       )}
       <ErrorLine>{problem}</ErrorLine>
-      <StopBanners />
-      <StopButton />
+      {access.value?.stops_without_login && (
+        <>
+          <StopBanners />
+          <StopButton />
+        </>
+      )}
     </dialog>
   );
 }
