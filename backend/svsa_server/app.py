@@ -33,7 +33,7 @@ from svsa_server.access.roles import INSTRUCTOR
 from svsa_server.config import Settings
 from svsa_server.errors import install_error_handlers
 from svsa_server.jobs.heavy_work import HeavyWork
-from svsa_server.jobs.queue import Jobs
+from svsa_server.jobs.queue import Jobs, Share
 from svsa_server.leases.outcomes import OutcomeKeeper, Outcomes
 from svsa_server.leases.queue import ControlQueue
 from svsa_server.openapi import install_openapi
@@ -189,7 +189,8 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
             "falsification": config.max_falsifications,
             "submission": config.max_submissions,
             "grading": MAX_GRADINGS,
-        }
+        },
+        Share(config.max_jobs_each, config.job_s) if config.classroom else None,
     )
     app.state.scenes = scenes = Scenes(laboratory)
     tasks = [

@@ -36,6 +36,8 @@ class Settings(BaseSettings):
     SVSA_MAX_STUDIES: studies that are worked at, one at a time, or wait.
     SVSA_MAX_FALSIFICATIONS: searches for what hurts a law that are worked at, or wait, likewise.
     SVSA_MAX_SUBMISSIONS: laws for the leaderboard that are measured, one at a time, or wait.
+    SVSA_MAX_JOBS_EACH: jobs of one kind of one person of a class that run or wait; the instructor
+    has a place of their own. SVSA_JOB_S: how long one of theirs may run, s.
     SVSA_MAX_EXPORTS: exports, replays, comparisons, maps and laws in the ranking that are worked at
     or wait.
     SVSA_PARAMETERS: the parameter file that figures and sessions start from; none is the paper's.
@@ -70,6 +72,8 @@ class Settings(BaseSettings):
     max_studies: int = Field(default=3, ge=0, le=100)
     max_falsifications: int = Field(default=3, ge=0, le=100)
     max_submissions: int = Field(default=10, ge=0, le=100)
+    max_jobs_each: int = Field(default=2, ge=1, le=100)
+    job_s: float = Field(default=900.0, ge=1)
     bench: Path | None = None
     parameters: Path | None = None
     course: Path | None = None

@@ -82,8 +82,14 @@ class HeavyWork:
         """End these workers, and no other's, also in the middle of a job."""
         with self._handing_over:
             self._is_closed = True
-            if self._pool is not None:
-                workers = [*(self._pool._processes or {}).values()]  # Python 3.14 has a name for it
-                self._pool.shutdown(wait=False, cancel_futures=True)
+        self.end_workers()
+
+    def end_workers(self) -> None:
+        """End the workers in the middle of their jobs; the next job begins another one."""
+        with self._handing_over:
+            pool, self._pool = self._pool, None
+            if pool is not None:
+                workers = [*(pool._processes or {}).values()]  # Python 3.14 has a name for it
+                pool.shutdown(wait=False, cancel_futures=True)
                 for worker in workers:
                     worker.terminate()

@@ -2,26 +2,32 @@
 
 A job's worker writes its progress into a folder, and reads there whether it has to stop. The
 server only reads, so that a job does not depend on who follows it. It has a low priority, and ends
-with the server.
+with the server. In a class each person has a fair share: a few jobs at once, a limited time, and
+turns by person; the instructor has a place of their own.
 """
 
 import asyncio
+import contextlib
+import itertools
 import logging
 import shutil
 import tempfile
 from collections import OrderedDict
-from collections.abc import Callable, Mapping
+from collections.abc import AsyncIterator, Callable, Mapping
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
 from uuid import uuid4
 
 from svsa.errors import SvsaError
+from svsa_server.access.roles import INSTRUCTOR
 from svsa_server.jobs.heavy_work import BusyError, HeavyWork
 from svsa_server.jobs.progress import JobFolder, Progress, ask_to_stop, read_progress
-from svsa_server.problems import UnknownError
+from svsa_server.problems import TooManyError, UnknownError
 
 MAX_KEPT = 50
+GRACE_S = 10.0
+"""How long a job beyond its time may take to stop and keep what is done, before it is ended."""
 
 Kind = Literal["tuning", "study", "falsification", "submission", "grading"]
 Status = Literal["waiting", "running", "done", "cancelled", "failed"]
@@ -39,12 +45,63 @@ Work = Callable[..., bool]
 """Called in the worker with the `JobFolder` and what is asked; whether it went to its end."""
 
 
-class _Queue(NamedTuple):
-    """The jobs of one kind, one at a time. most: how many are worked at or wait."""
+class Share(NamedTuple):
+    """What each person of a class may use of the jobs of one kind; the instructor is exempt.
+
+    Args:
+        most: Jobs that run or wait at once.
+        longest_s: Time that one job may run, s.
+    """
 
     most: int
-    worker: HeavyWork
-    turn: asyncio.Lock
+    longest_s: float
+
+
+class _Queue:
+    """The jobs of one kind, of which one runs at a time.
+
+    most: how many run or wait. share: of each person; None where the lab knows no persons.
+    """
+
+    def __init__(self, most: int, share: Share | None) -> None:
+        self.most, self.share = most, share
+        self.worker = HeavyWork(1, workers=1)
+        self._turn = asyncio.Condition()
+        self._waiting: list[Job] = []
+        self._is_free = True
+        self._served: dict[str, int] = {}
+        self._count = itertools.count(1)
+
+    def find_share(self, owner: str) -> Share | None:
+        """The share of this person; None: unlimited."""
+        return None if owner in ("", INSTRUCTOR.id) else self.share
+
+    @contextlib.asynccontextmanager
+    async def turn(self, job: "Job") -> AsyncIterator[None]:
+        """Wait until it is this job's turn: the instructor first, then who was served longest ago.
+
+        Jobs of one person run in the order in which they were started.
+        """
+        self._waiting.append(job)
+        try:
+            async with self._turn:
+                await self._turn.wait_for(lambda: self._is_free and self._find_next() is job)
+                self._is_free = False
+        finally:
+            self._waiting.remove(job)
+        self._served[job.owner] = next(self._count)
+        try:
+            yield
+        finally:
+            self._is_free = True
+            async with self._turn:
+                self._turn.notify_all()
+
+    def _find_next(self) -> "Job":
+        return min(
+            self._waiting,
+            key=lambda job: (job.owner != INSTRUCTOR.id, self._served.get(job.owner, 0)),
+        )
 
 
 class Job:
@@ -77,15 +134,39 @@ class Job:
         self._task = asyncio.create_task(self._run(queue, work))
 
     async def _run(self, queue: _Queue, work: Work) -> None:
+        share = queue.find_share(self.owner)
         try:
-            async with queue.turn:
+            async with queue.turn(self):
                 self.status = "running"
-                is_whole = await queue.worker.run(_work, work, self.folder, self.asked)
-                self.status = "done" if is_whole else "cancelled"
+                worked = asyncio.ensure_future(
+                    queue.worker.run(_work, work, self.folder, self.asked)
+                )
+                try:
+                    is_late = share is not None and await self._stop_late(queue, worked, share)
+                    is_whole = await worked
+                finally:
+                    worked.cancel()
+            self.status = "done" if is_whole else "cancelled"
+            if is_late and not is_whole and share is not None:
+                self.status, self.problem = "failed", _describe_late(share)
         except Exception as error:
             if not isinstance(error, SvsaError):
                 _log.exception("The %s %s was ended by an error of the program", self.kind, self.id)
             self.status, self.problem = "failed", str(error) or type(error).__name__
+
+    async def _stop_late(self, queue: _Queue, worked: "asyncio.Future[bool]", share: Share) -> bool:
+        """Stop a job that takes longer than its person's share; return whether it did.
+
+        It may stop by itself and keep what is done; a worker that does not is ended.
+        """
+        if (await asyncio.wait({worked}, timeout=share.longest_s))[0]:
+            return False
+        ask_to_stop(self.folder)
+        if not (await asyncio.wait({worked}, timeout=GRACE_S))[0]:
+            queue.worker.end_workers()
+            await asyncio.wait({worked})
+            raise BusyError(_describe_late(share))
+        return True
 
     def cancel(self) -> None:
         """Let it end as soon as it can, with what is done kept; at once where it waits."""
@@ -111,20 +192,18 @@ class Job:
 class Jobs:
     """The jobs of one server, the last ones kept; of each kind one at a time is worked at.
 
-    most: of each kind how many are worked at or wait; one more is refused.
+    most: of each kind how many run or wait; one more is rejected, but for the instructor, who has
+    a place of their own. share: of each person of a class; None where the lab knows no persons.
     """
 
-    def __init__(self, most: Mapping[Kind, int]) -> None:
-        self._queues = {
-            kind: _Queue(limit, HeavyWork(1, workers=1), asyncio.Lock())
-            for kind, limit in most.items()
-        }
+    def __init__(self, most: Mapping[Kind, int], share: Share | None = None) -> None:
+        self._queues = {kind: _Queue(limit, share) for kind, limit in most.items()}
         self._kept: OrderedDict[str, Job] = OrderedDict()
         self._place = tempfile.TemporaryDirectory(prefix="svsa-", ignore_cleanup_errors=True)
 
     def start(self, kind: Kind, title: str, work: Work, asked: Any, owner: str = "") -> Job:
-        """Begin a job, or queue it; raises `BusyError`."""
-        self.check_room(kind)
+        """Begin a job, or queue it; raises `BusyError` and `TooManyError`."""
+        self.check_room(kind, owner)
         folder = Path(self._place.name) / uuid4().hex[:12]
         folder.mkdir()
         job = self._kept[folder.name] = Job(kind, title, asked, folder, owner)
@@ -134,13 +213,29 @@ class Jobs:
             shutil.rmtree(self._kept.pop(old.id).folder, ignore_errors=True)
         return job
 
-    def check_room(self, kind: Kind) -> None:
-        """Raise `BusyError` where one more of a kind would be refused."""
-        under_way = sum(job.is_under_way for job in self.list_all(kind))
-        if under_way >= self._queues[kind].most:
+    def check_room(self, kind: Kind, owner: str = "") -> None:
+        """Check that one more job of this kind and person is allowed.
+
+        Raises:
+            TooManyError: This person has as many under way as each person may have.
+            BusyError: As many are under way as this lab takes; the instructor has one place more.
+        """
+        queue = self._queues[kind]
+        under_way = [job for job in self.list_all(kind) if job.is_under_way]
+        own = sum(job.owner == owner for job in under_way)
+        share = queue.find_share(owner)
+        if share is not None and own >= share.most:
+            raise TooManyError(
+                f"{own} {PLURALS[kind]} of yours run or wait, and each person may have"
+                f" {share.most}: wait until one has ended, or cancel one."
+            )
+        most = queue.most
+        if queue.share is not None and owner == INSTRUCTOR.id and most and not own:
+            most += 1
+        if len(under_way) >= most:
             raise BusyError(
-                f"{under_way} {PLURALS[kind]} are worked at or wait, which is all this lab takes"
-                " at once: stop one, or try again later."
+                f"{len(under_way)} {PLURALS[kind]} run or wait, and this lab takes {queue.most} at"
+                " once: cancel one, or try again later."
             )
 
     def get(self, name: str, kind: Kind | None = None) -> Job:
@@ -163,6 +258,13 @@ class Jobs:
         for queue in self._queues.values():
             queue.worker.close()
         self._place.cleanup()
+
+
+def _describe_late(share: Share) -> str:
+    return (
+        f"Stopped after {share.longest_s:g} s, the time that a job of one person may run here"
+        " (SVSA_JOB_S): what was finished by then is kept. Ask for less, or ask the instructor."
+    )
 
 
 def _work(work: Work, folder: Path, asked: Any) -> bool:

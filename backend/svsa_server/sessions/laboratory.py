@@ -107,7 +107,10 @@ class Laboratory:
                 f"{own} private sessions of yours are open, and each person may have {most}: end"
                 " one first."
             )
-        if len(self.sessions) > self._max_sessions:
+        # One code lets any number of people join, who could fill the lab: the instructor has a
+        # place of their own.
+        reserved = 1 if owner == INSTRUCTOR.id and not own else 0
+        if len(self.sessions) > self._max_sessions + reserved:
             raise StateError(
                 f"{self._max_sessions} private sessions are open, which is all this lab allows:"
                 " end one, or wait for an idle one to end."

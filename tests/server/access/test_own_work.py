@@ -46,6 +46,16 @@ def test_each_person_has_so_many_private_sessions_and_no_more(classroom: Classro
     assert second["session"] in {one["session"] for one in ada.get(SESSIONS).json()}
 
 
+def test_a_full_lab_has_a_place_for_the_instructor(tmp_path: Path) -> None:
+    """One class code lets any number of people join, and each of them opens sessions."""
+    with run_class(tmp_path, max_sessions="2", max_sessions_each="1") as room:
+        names = ("Ada", "Bob", "Eve")
+        opened = [room.join(name).post(SESSIONS, json={}).status_code for name in names]
+        assert opened == [201, 201, 409]
+        instructor = room.log_in()
+        assert [instructor.post(SESSIONS, json={}).status_code for _ in range(2)] == [201, 409]
+
+
 def test_an_observer_makes_no_session(classroom: Classroom) -> None:
     watching = classroom.join("Ola", role="observer")
     assert watching.post(SHARED + "/design/simulation", json={}).status_code == 403

@@ -11,10 +11,12 @@ import time
 import pytest
 
 from svsa.errors import ParameterError, Violation
+from svsa_server.access.roles import INSTRUCTOR
+from svsa_server.jobs import queue
 from svsa_server.jobs.heavy_work import BusyError
 from svsa_server.jobs.progress import PERIOD_S, JobFolder, read_progress
-from svsa_server.jobs.queue import Jobs
-from svsa_server.problems import UnknownError
+from svsa_server.jobs.queue import Jobs, Share
+from svsa_server.problems import TooManyError, UnknownError
 from svsa_server.schemas.evaluation.job import describe_job
 
 LONGEST_S = 60.0
@@ -98,7 +100,7 @@ def test_a_job_is_followed_to_its_end_at_a_low_priority():
 def test_one_at_a_time_of_a_kind_and_a_full_queue_is_refused():
     async def crowd(jobs):
         first, second = (jobs.start("study", "long", count, 10**6) for _ in range(2))
-        with pytest.raises(BusyError, match="2 studies are worked at or wait"):
+        with pytest.raises(BusyError, match="2 studies run or wait"):
             jobs.start("study", "one too many", count, 1)
         other = jobs.start("tuning", "short", count, 1)
         await wait_until(lambda: other.status == "done" and first.progress.done)
@@ -119,6 +121,60 @@ def test_one_at_a_time_of_a_kind_and_a_full_queue_is_refused():
 
     with open_jobs(2, 1) as jobs:
         asyncio.run(crowd(jobs))
+
+
+def crawl(folder: JobFolder, seconds: float) -> bool:
+    """Take this long without asking whether to stop."""
+    folder.report(1, 2)
+    time.sleep(seconds)
+    return True
+
+
+def test_the_jobs_of_a_class_take_turns_by_person_and_the_instructor_is_next():
+    async def share(jobs):
+        first = jobs.start("study", "a1", count, 10**6, "a")
+        second = jobs.start("study", "a2", count, 3, "a")
+        with pytest.raises(TooManyError, match="2 studies of yours run or wait"):
+            jobs.start("study", "a3", count, 3, "a")
+        other = jobs.start("study", "b1", count, 3, "b")
+        with pytest.raises(BusyError, match="this lab takes 3 at once"):
+            jobs.start("study", "c1", count, 3, "c")
+        own = jobs.start("study", "instructor's", count, 3, INSTRUCTOR.id)
+        await wait_until(lambda: first.progress.done)
+        ended = []
+        first.cancel()
+        while len(ended) < 4:
+            await asyncio.sleep(0.01)
+            ended += [job for job in jobs.list_all() if not job.is_under_way and job not in ended]
+        assert ended == [first, own, other, second]
+
+    jobs = Jobs({"study": 3}, Share(2, 600.0))
+    try:
+        asyncio.run(share(jobs))
+    finally:
+        jobs.close()
+
+
+@pytest.mark.parametrize(("work", "kept"), [(count, "many"), (crawl, "one")])
+def test_a_job_of_a_person_ends_after_its_time_and_the_next_one_runs(
+    monkeypatch: pytest.MonkeyPatch, work, kept: str
+):
+    monkeypatch.setattr(queue, "GRACE_S", 0.5)
+
+    async def outstay(jobs):
+        job = jobs.start("study", "long", work, 10**6, "a")
+        after = jobs.start("study", "next", count, 2, "b")
+        await wait_until(lambda: not job.is_under_way)
+        assert job.status == "failed"
+        assert "Stopped after 3 s" in job.problem
+        assert (job.progress.done > 1) is (kept == "many")
+        await wait_until(lambda: after.status == "done")
+
+    jobs = Jobs({"study": 3}, Share(2, 3.0))
+    try:
+        asyncio.run(outstay(jobs))
+    finally:
+        jobs.close()
 
 
 def test_a_job_that_fails_says_why_and_the_next_one_runs():

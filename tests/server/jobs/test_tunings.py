@@ -91,7 +91,7 @@ def test_what_cannot_be_tuned_and_one_too_many_are_refused(lab):
     names = [lab.post(TUNINGS, json={"law": "pd"}).json()["id"] for _ in range(2)]
     full = lab.post(TUNINGS, json={"law": "pd"})
     assert full.status_code == 503
-    assert "2 tunings are worked at or wait" in full.json()["detail"]
+    assert "2 tunings run or wait" in full.json()["detail"]
     assert full.headers["Retry-After"] == str(RETRY_AFTER_S)
     jobs = lab.get("/api/v1/jobs").json()
     assert {job["id"]: job["kind"] for job in jobs[:2]} == dict.fromkeys(names, "tuning")

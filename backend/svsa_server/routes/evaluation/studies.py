@@ -101,7 +101,7 @@ async def start_study(request: Request, person: NamedPerson, wanted: Wanted) -> 
         raise StudyError(f"The name {name} is taken by another study: give yours another name.")
     await request.app.state.quota.check(person.id)
     jobs = find_jobs(request)
-    jobs.check_room("study")
+    jobs.check_room("study", person.id)
     job = _find_job(request, name)
     if job is not None and job.is_under_way:
         raise StateError(f"Study {name} is {job.status} already: cancel it first.")
