@@ -14,6 +14,7 @@ import tomli_w
 
 from svsa.errors import ParameterError, Violation
 from svsa.hardware.file import BenchFile
+from svsa.hardware.settings import DEFAULT_DRIVE
 from svsa.inputs.checked import Checked, Flag, Whole, quantity
 from svsa.inputs.toml_file import read_toml
 
@@ -33,6 +34,10 @@ class Calibration(Checked):
 def compute_fingerprint(bench: BenchFile) -> str:
     """Of what a calibration depends on: motors, deflection encoder and home marks."""
     parts = bench.model_dump(mode="json", include={"motor1", "motor2", "deflection", "home"})
+    for motor in (parts["motor1"], parts["motor2"]):
+        # A bench from before there was a choice of drives keeps its calibration.
+        if motor["drive"] == DEFAULT_DRIVE:
+            del motor["drive"]
     return hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()[:16]
 
 

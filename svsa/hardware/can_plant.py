@@ -11,9 +11,10 @@ from svsa.hardware.calibration import Calibration, list_problems
 from svsa.hardware.clock import BenchClock
 from svsa.hardware.drives.bus import BUS_TROUBLE, DELIVERY_S, open_bus
 from svsa.hardware.drives.conversion import build_motor_scale, compute_current_ma
-from svsa.hardware.drives.drive import Drive, build_broadcast_resets
+from svsa.hardware.drives.drive import Drive, merge_stops
+from svsa.hardware.drives.installed import build_drive, build_stop
 from svsa.hardware.drives.phase import Phase
-from svsa.hardware.file import AXIS_WORDS, BenchFile
+from svsa.hardware.file import BenchFile
 from svsa.hardware.homing import Axis
 from svsa.hardware.reading import Reading
 from svsa.hardware.safety.faults import Alarm
@@ -21,10 +22,11 @@ from svsa.hardware.safety.guard import Guard, MotorGuard
 from svsa.hardware.safety.heartbeat import Heartbeats, Slot
 from svsa.hardware.safety.machine import NO_TORQUE, BenchStatus, Conditions, Machine
 from svsa.hardware.sensing import Sensing
+from svsa.hardware.settings import AXIS_WORDS
 
 HOME_TOLERANCE_RAD = 0.05
-# A drive needs at least 1 ms between two commands (CAN manual of 2018-07).
-PAUSE_S = 0.0011
+PAUSE_S = 0.0001
+"""Beyond the time that the drives need between two commands."""
 _ORDER = (Phase.SILENT, Phase.OFF, Phase.RESET, Phase.CONFIG, Phase.MODE, Phase.READY)
 
 
@@ -47,7 +49,7 @@ class CanPlant:
         motors, period = (bench.motor1, bench.motor2), bench.timing.period_s
         self._scales = (build_motor_scale(bench.motor1), build_motor_scale(bench.motor2))
         one, two = (
-            Drive(motor, period, motor.speed_max_rad_per_s / abs(scale.angle_per_count))
+            build_drive(motor, period, motor.speed_max_rad_per_s / abs(scale.angle_per_count))
             for motor, scale in zip(motors, self._scales, strict=True)
         )
         self._drives = (one, two)
@@ -55,7 +57,9 @@ class CanPlant:
         self._sensing = Sensing(bench, self._drives, self._scales, zero, clock)
         self._machine = Machine(bench, guard, list_problems(bench, calibration))
         self._bus: can.BusABC | None = None
-        self._resets = build_broadcast_resets(bench)
+        stops = [build_stop(motor) for motor in motors]
+        self._resets = merge_stops(*(stop._replace(zero=()) for stop in stops))
+        self._gap_s = max(one.gap_s, two.gap_s)
         self._reset_sent = self._zero_sent = False
         self._stops_known, self._late_s = 0, 0.0
         self.skipped_commands = 0
@@ -188,8 +192,8 @@ class CanPlant:
         torque = self._machine.update(self._find_conditions(missed), limited, known, estimate)
         status, sent = self._machine.status, NO_TORQUE
         try:
-            # In every tick again, since a drive holds its last current for ever and has no
-            # watchdog.
+            # In every tick again, since a drive may hold its last current for ever: not every
+            # family has a watchdog.
             if status is BenchStatus.FAULT:
                 self._silence(now)
             elif status is not BenchStatus.OFF:
@@ -227,7 +231,7 @@ class CanPlant:
     def _try_zero(self, bus: can.BusABC, drive: Drive, now: float) -> bool:
         """Send zero current; whether it was sent. A failure does not affect the other drive."""
         try:
-            return drive.send_current(bus, 0, now)
+            return drive.send_zero(bus, now)
         except BUS_TROUBLE:
             self._sensing.lost = True
             return False
@@ -275,17 +279,16 @@ class CanPlant:
             return
         bus, self._bus = self._bus, None
         with contextlib.suppress(SvsaError, *BUS_TROUBLE):
-            self._pause()
+            self._pause(self._gap_s + PAUSE_S)
             for drive in self._drives:
-                # An infinite time is later than any command: the gate of 1 ms is always open.
+                # An infinite time is later than any command: no gap holds it back.
                 self._try_zero(bus, drive, math.inf)
-            self._pause()
+            self._pause(self._gap_s + PAUSE_S)
             self._send_resets(bus)
             self._pause(DELIVERY_S)
         bus.shutdown()
 
-    def _pause(self, seconds: float = PAUSE_S) -> None:
-        """As long as a drive needs between two commands, or longer."""
+    def _pause(self, seconds: float) -> None:
         self._clock.wait_until(self._clock.now() + seconds)
 
     def _get_bus(self) -> can.BusABC:

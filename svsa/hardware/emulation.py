@@ -1,15 +1,16 @@
-"""What an emulated bench says on the wire that no real one does.
+"""A frame on the emulated bus, and what an emulated bench sends that no real one does.
 
-Both frames have extended identifiers (29 bits), which the protocol of the drives never uses, so
-that they can stand beside its frames and no drive would take them for a command.
+Both identifiers are extended (29 bits), from the end of the range, which no known drive uses: no
+drive takes them for a command.
 
 Lockstep: a client sends `ADVANCE_ID` with a time; the emulator simulates up to it, sends every
 frame that is due until then and answers that client with the same identifier and the time that it
-is
-then: the time asked for, or, at once, a later one that it has reached already. `EMULATED_ID` is
+is then: the time asked for, or, at once, a later one that it has reached already. `EMULATED_ID` is
 sent to each client when it begins to listen and then every 100 ms: whoever sees it knows that
 there is no machine behind the wire.
 """
+
+from typing import NamedTuple
 
 ADVANCE_ID = 0x1FFF0001
 EMULATED_ID = 0x1FFF0002
@@ -25,3 +26,16 @@ def encode_time(time_us: int) -> bytes:
 def decode_time(data: bytes | bytearray) -> int:
     """Virtual time, µs, out of the bytes of `ADVANCE_ID`."""
     return int.from_bytes(data, "big")
+
+
+class Frame(NamedTuple):
+    """A frame on the emulated bus: identifier (11 bits, or 29 if extended) and up to 8 bytes.
+
+    fd: CAN FD, up to 64 bytes. error: marks bus trouble.
+    """
+
+    can_id: int
+    data: bytes
+    extended: bool = False
+    error: bool = False
+    fd: bool = False

@@ -5,72 +5,17 @@ gearbox, efficiency, sign or counts are not given can be checked, but does not a
 """
 
 from pathlib import Path
-from typing import Any, Literal
+from typing import Annotated
+
+from pydantic import BeforeValidator, SerializeAsAny
 
 from svsa.errors import ParameterError, Violation
+from svsa.hardware.drives.installed import get_family, read_motor
+from svsa.hardware.settings import AXIS_WORDS, BusSettings, DeflectionSettings, MotorSettings
 from svsa.inputs.checked import Checked, Flag, Number, Whole, quantity
 from svsa.inputs.toml_file import read_toml
 
-AXIS_WORDS = {
-    "link": "the link",
-    "motor1": "motor 1",
-    "motor2": "motor 2",
-    "deflection": "the deflection",
-}
-"""What an axis is called in a message."""
-
-
 PERIODS_S = (0.001, 0.002)
-Sign = Literal[-1, 1]
-_ADDRESS = "of the drive's CAN address"
-
-
-class BusSettings(Checked):
-    """What python-can is given; `options` goes to `can.Bus` as it is."""
-
-    interface: str = quantity("", "Interface of python-can: socketcan, slcan, pcan, socketcand …")
-    channel: str = quantity("", "Channel of that interface, as can0 or /dev/ttyACM0")
-    bitrate: Whole = quantity("bit/s", "Bit rate", ge=10_000, le=1_000_000, default=1_000_000)
-    options: dict[str, Any] = quantity("", "More arguments of can.Bus", default={})
-    timestamps: Literal["bus", "arrival"] = quantity(
-        "", "bus: the adapter's time of a frame; arrival: when it was read", default="bus"
-    )
-
-
-class MotorSettings(Checked):
-    """A drive and its motor. Torque is at the gearbox output; None is not known yet."""
-
-    drive_group: Whole = quantity("", f"Group {_ADDRESS}", ge=0, le=7, default=0)
-    drive_number: Whole = quantity("", f"Number {_ADDRESS}", ge=1, le=15)
-    counts_per_rev: Whole | None = quantity(
-        "1", "Counts a motor turn, after quadrature", ge=4, le=10**7, default=None
-    )
-    gear_ratio: Number | None = quantity("1", "Gearbox N : 1", gt=0, le=10_000, default=None)
-    torque_constant_nm_per_a: Number | None = quantity(
-        "N·m/A", "K_t of the winding", gt=0, le=10, default=None
-    )
-    efficiency: Number | None = quantity("1", "η of the gearbox", gt=0, le=1, default=None)
-    sign: Sign | None = quantity(
-        "", "1 where positive current grows the angle of the model", default=None
-    )
-    nominal_current_a: Number = quantity("A", "Continuous current", gt=0, le=32)
-    peak_current_a: Number = quantity("A", "Current never passed", gt=0, le=32)
-    thermal_time_s: Number = quantity("s", "Thermal time constant of the winding", gt=0, le=3600)
-    pwm_limit: Whole = quantity("1", "Limit of the drive's PWM", ge=0, le=5000, default=5000)
-    speed_max_rad_per_s: Number = quantity("rad/s", "Fastest at the output", gt=0, le=1000)
-    position_min_rad: Number = quantity("rad", "Lowest angle at the output", ge=-100, le=100)
-    position_max_rad: Number = quantity("rad", "Highest angle at the output", ge=-100, le=100)
-
-
-class DeflectionSettings(Checked):
-    """The deflection encoder; `options` is what its source needs."""
-
-    source: Literal["can", "serial", "nidaqmx", "replay"] = quantity("", "Where counts come from")
-    counts_per_rev: Whole | None = quantity(
-        "1", "Counts a turn, after quadrature", ge=4, le=10**8, default=None
-    )
-    sign: Sign | None = quantity("", "1 where counts grow with φ = q − θ1", default=None)
-    options: dict[str, Any] = quantity("", "Settings of the source", default={})
 
 
 class HomeSettings(Checked):
@@ -149,6 +94,10 @@ class EmulatorSettings(Checked):
     )
 
 
+Motor = Annotated[SerializeAsAny[MotorSettings], BeforeValidator(read_motor)]
+"""A motor's section, checked as its family of drives describes it."""
+
+
 class BenchFile(Checked):
     """A bench; `path` is where the file lies."""
 
@@ -157,8 +106,8 @@ class BenchFile(Checked):
     supervisor_bus: BusSettings | None = quantity(
         "", "The supervisor's own way to the bus, where an adapter serves one program", default=None
     )
-    motor1: MotorSettings
-    motor2: MotorSettings
+    motor1: Motor
+    motor2: Motor
     deflection: DeflectionSettings
     home: HomeSettings
     timing: TimingSettings = TimingSettings()
@@ -206,8 +155,15 @@ def read_bench(path: Path | str) -> BenchFile:
     if bench.timing.period_s not in PERIODS_S:
         bound = "0.001 or 0.002 s: a drive takes a command each ms at most"
         raise ParameterError(Violation("timing.period_s", bench.timing.period_s, "s", bound))
-    numbers = [(motor.drive_group, motor.drive_number) for motor in (bench.motor1, bench.motor2)]
-    if numbers[0] == numbers[1]:
-        number = bench.motor2.drive_number
-        raise ParameterError(Violation("motor2.drive_number", number, "", "another than motor1's"))
+    one, two = bench.motor1, bench.motor2
+    if (one.drive, one.place) == (two.drive, two.place):
+        field = two.address_field
+        violation = Violation(f"motor2.{field}", getattr(two, field), "", "another than motor1's")
+        raise ParameterError(violation)
+    for name, motor in (("motor1", one), ("motor2", two)):
+        for section in ("bus", "supervisor_bus"):
+            bus: BusSettings | None = getattr(bench, section)
+            if get_family(motor.drive).needs_fd and bus is not None and not bus.fd:
+                bound = f"true: the drive of {AXIS_WORDS[name]} ({motor.drive}) needs CAN FD"
+                raise ParameterError(Violation(f"{section}.fd", False, "", bound))
     return bench

@@ -9,16 +9,16 @@ from svsa.actuators.signals import Measurement, State
 from svsa.hardware.clock import BenchClock
 from svsa.hardware.drives.bus import BUS_TROUBLE, take_waiting
 from svsa.hardware.drives.conversion import MotorScale, Unwrapped, build_deflection_scale
-from svsa.hardware.drives.drive import Drive, list_command_ids
+from svsa.hardware.drives.drive import EXTENDED, Drive, compute_key
 from svsa.hardware.drives.phase import Phase
-from svsa.hardware.drives.robomodule import LENGTH
 from svsa.hardware.emulation import EMULATED_ID
 from svsa.hardware.encoders import read_source
 from svsa.hardware.encoders.source import EncoderError
-from svsa.hardware.file import AXIS_WORDS, BenchFile
+from svsa.hardware.file import BenchFile
 from svsa.hardware.reading import Reading
 from svsa.hardware.safety.faults import Alarm
 from svsa.hardware.safety.standstill import NewCounts
+from svsa.hardware.settings import AXIS_WORDS
 
 MAX_FRAMES_A_TICK = 200
 MAX_FRAMES_UNHEARD = 100_000
@@ -47,10 +47,8 @@ class Sensing:
     ) -> None:
         self._drives, self._clock, self._zero = drives, clock, zero
         self._angles = tuple(scale.angle_per_count for scale in scales)
-        self._takers = {drive.feedback_id: drive for drive in drives}
-        self._echoers = {drive.online_id: drive for drive in drives}
-        self._complainers = {drive.error_id: drive for drive in drives}
-        self._commands = list_command_ids(bench)
+        self._takers = {key: drive for drive in drives for key in drive.heard_ids}
+        self._commands = drives[0].obeyed_ids | drives[1].obeyed_ids
         self.source = read_source(bench.deflection)
         self._deflection = Unwrapped(self.source.bits, zero)
         self._deflection_scale = build_deflection_scale(bench.deflection)
@@ -161,25 +159,20 @@ class Sensing:
             return
         if message.is_remote_frame or not message.is_rx:
             return
-        identifier, extended = message.arbitration_id, message.is_extended_id
+        key = compute_key(message)
         stamp = self._clock.convert(message.timestamp, now) if self._stamped else now - self._wait
         time_s = min(stamp, now) - self._age
-        drive = None if extended else self._takers.get(identifier)
+        drive = self._takers.get(key)
         if drive is not None:
-            if len(message.data) == LENGTH:
-                drive.take(message, time_s)
+            drive.take(message, time_s)
         elif self.source.feed(message, time_s):
             return
-        elif extended:
-            self.emulated = self.emulated or identifier == EMULATED_ID
-        elif identifier in self._echoers:
-            self._echoers[identifier].online = True
-        elif identifier in self._complainers:
-            self._complainers[identifier].errors += 1
-        elif identifier in self._commands and self._drives[0].phase is Phase.READY:
+        elif key == EXTENDED | EMULATED_ID:
+            self.emulated = True
+        elif key in self._commands and self._drives[0].phase is Phase.READY:
             words = (
-                f"Somebody else gave the drives a command (identifier {identifier:03X}): another"
-                " program on this bus."
+                "Another program on this bus gave the drives a command (identifier"
+                f" {message.arbitration_id:03X})."
             )
             self._sound("foreign_command", words)
 
@@ -205,9 +198,7 @@ class Sensing:
             return self._alarm
         for name, drive in zip(("motor1", "motor2"), self._drives, strict=True):
             if drive.errors:
-                words = (
-                    f"The drive of {AXIS_WORDS[name]} sent an error frame: stall protection is on."
-                )
+                words = f"The drive of {AXIS_WORDS[name]} {drive.describe_error()}."
                 return Alarm("drive_error", words, {f"{name}_error_frames": drive.errors})
             if drive.zeroed and drive.phase is Phase.READY:
                 words = (

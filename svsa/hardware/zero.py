@@ -16,8 +16,9 @@ from svsa.hardware.calibration import (
 from svsa.hardware.commissioning.probe import BusOpener, Clock, Probe
 from svsa.hardware.drives.bus import open_bus
 from svsa.hardware.encoders.source import EncoderError
-from svsa.hardware.file import AXIS_WORDS, BenchFile
+from svsa.hardware.file import BenchFile
 from svsa.hardware.homing import Homing
+from svsa.hardware.settings import AXIS_WORDS
 
 LISTEN_S = 0.5
 STILL_COUNTS = 2

@@ -10,7 +10,7 @@ import pytest
 from svsa.actuators.faults import BENCH_FAULTS
 from svsa.errors import StateError
 from svsa.hardware import can_plant
-from svsa.hardware.drives.drive import build_broadcast_resets
+from svsa.hardware.drives.installed import build_stop
 from svsa.hardware.emulation import ADVANCE_ID, encode_time
 from svsa.hardware.emulator.faults import (
     BrownOut,
@@ -66,7 +66,7 @@ def quick_stop(b: Bench) -> None:
 def intrude(b: Bench) -> None:
     """Another program on the bus resets the drives, and waits until the emulator has heard it."""
     bus = can_plant.open_bus(b.bench.bus)
-    for frame in build_broadcast_resets(b.bench):
+    for frame in build_stop(b.bench.motor1).reset:
         bus.send(frame)
     bus.send(can.Message(arbitration_id=ADVANCE_ID, is_extended_id=True, data=encode_time(0)))
     while (heard := bus.recv(10.0)) is not None and heard.arbitration_id != ADVANCE_ID:

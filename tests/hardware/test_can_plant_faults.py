@@ -9,8 +9,10 @@ import pytest
 from svsa.actuators.faults import BENCH_FAULTS
 from svsa.actuators.signals import Disturbance, Torque
 from svsa.errors import StateError
-from svsa.hardware.drives.drive import build_broadcast_resets, build_zero_currents
+from svsa.hardware.drives.drive import merge_stops
+from svsa.hardware.drives.installed import build_stop
 from svsa.hardware.drives.robomodule import Current, Feedback, encode
+from svsa.hardware.emulation import Frame
 from svsa.hardware.emulator.faults import (
     BrownOut,
     BusErrors,
@@ -20,7 +22,6 @@ from svsa.hardware.emulator.faults import (
     Silence,
     Stall,
 )
-from svsa.hardware.emulator.frame import Frame
 from svsa.hardware.encoders.can_node import CanNode
 from svsa.hardware.encoders.source import EncoderError
 from svsa.hardware.safety.machine import BenchStatus
@@ -268,7 +269,7 @@ def test_a_loop_that_stood_still_names_itself_and_not_a_stranger(heard: str) -> 
         b.make_run(PUSH)
         b.skip(0.05)
         b.beats.stops += 1
-        stops = [*build_zero_currents(b.bench), *build_broadcast_resets(b.bench)]
+        stops = merge_stops(build_stop(b.bench.motor1), build_stop(b.bench.motor2))
         if heard == "in the one after it":
             b.tick(1, PUSH, missed=50)
             assert b.plant.fault is not None

@@ -14,14 +14,15 @@ from svsa.actuators.signals import Disturbance, State, Torque
 from svsa.hardware.calibration import find_calibration
 from svsa.hardware.can_plant import CanPlant
 from svsa.hardware.drives.robomodule import Command, decode, split_id
+from svsa.hardware.emulation import Frame
 from svsa.hardware.emulator.emulator import Emulator
-from svsa.hardware.emulator.frame import Frame
 from svsa.hardware.emulator.parameters import EmulatorParameters
 from svsa.hardware.file import BenchFile, read_bench
 from svsa.hardware.reading import Reading
 from svsa.hardware.realtime.configuration import build_guard
 from svsa.hardware.realtime.loop import BenchLoop
 from svsa.hardware.safety.machine import BenchStatus
+from tests.hardware.emulator.wire_frames import build_message, read_frame
 
 EMULATOR_BENCH = Path(__file__).parents[2] / "svsa" / "hardware" / "emulator" / "bench.toml"
 AT_REST = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
@@ -61,9 +62,8 @@ class VirtualClock:
     def collect(self) -> None:
         """Give the emulator what the plant has sent."""
         while (message := self._wire.recv(0)) is not None:
-            data = bytes(message.data)
-            self.sent.append(Sent(self.now(), message.arbitration_id, data))
-            self._rig.receive(Frame(message.arbitration_id, data, message.is_extended_id), self)
+            self.sent.append(Sent(self.now(), message.arbitration_id, bytes(message.data)))
+            self._rig.receive(read_frame(message), self)
 
     def wait_until(self, deadline: float) -> None:
         self.collect()
@@ -73,14 +73,7 @@ class VirtualClock:
 
     def say(self, frame: Frame, time_s: float) -> None:
         """Put a frame on the wire, as one of the bench's nodes."""
-        message = can.Message(
-            timestamp=time_s,
-            arbitration_id=frame.can_id,
-            data=frame.data,
-            is_extended_id=frame.extended or frame.error,
-            is_error_frame=frame.error,
-        )
-        self._wire.send(message)
+        self._wire.send(build_message(frame, time_s))
 
 
 class FakeBeats:

@@ -100,8 +100,8 @@ def _check_on_bus(probe: Probe, move: bool) -> Iterator[CheckStep]:
     if step.result is Result.FAIL:
         return
     silent = False
-    for name, address in probe.motors.items():
-        step = check_drive(probe, name, address)
+    for name in probe.motors:
+        step = check_drive(probe, name)
         silent = silent or step.result is Result.FAIL
         yield step
     working = not silent

@@ -3,8 +3,8 @@
 import numpy as np
 
 from svsa.hardware.commissioning.probe import CheckStep, Probe, Result, Traffic
-from svsa.hardware.drives.drive import MARGIN_S, SETTLE_S
-from svsa.hardware.drives.robomodule import Address, Config, Mode, Online, Reset, SetMode
+from svsa.hardware.drives.installed import get_family
+from svsa.hardware.drives.phase import Phase
 from svsa.hardware.file import BenchFile
 
 QUIET_S = 0.3
@@ -13,12 +13,21 @@ ATTEMPTS = 3
 ECHO_S = 0.05
 SLOW_ECHO_S = 0.002
 
-WIRING = (
-    "CAN_H to CAN_H, CAN_L to CAN_L and ground; 120 Ω at both ends of the bus and nowhere else"
-    " (60 Ω between CAN_H and CAN_L with the power off); every node at the bit rate of the bench"
-    " file (the drives leave the factory at 1 Mbit/s)"
-)
-DRIVE_POWER = "the drive's supply is on and within 7 V to 33 V"
+STEP_S = 0.001
+RESET_S = 0.02
+"""A drive that has just been reset may still have feedback on its way."""
+
+
+def describe_wiring(bench: BenchFile) -> str:
+    """What of the wiring to look at."""
+    presets = dict.fromkeys(
+        get_family(motor.drive).advice.wiring for motor in (bench.motor1, bench.motor2)
+    )
+    return (
+        "CAN_H to CAN_H, CAN_L to CAN_L and ground; 120 Ω at both ends of the bus and nowhere else"
+        " (60 Ω between CAN_H and CAN_L with the power off); every node at the bit rate of the"
+        f" bench file ({'; '.join(presets)})"
+    )
 
 
 def check_bus(probe: Probe) -> CheckStep:
@@ -30,16 +39,12 @@ def check_bus(probe: Probe) -> CheckStep:
         f"{bus.interface} {bus.channel} is open, {bus.bitrate / 1000:g} kbit/s,"
         f" {traffic.frames / QUIET_S:.0f} frames/s, {traffic.bus_errors} error frames{emulated}"
     )
-    others = traffic.commands & {
-        *probe.motors.values(),
-        *(Address(address.group, 0) for address in probe.motors.values()),
-    }
-    if others or any(traffic.feedback.get(address) for address in probe.motors.values()):
+    if traffic.commanded or traffic.engaged:
         advice = (
             "A drive is in use: another program sends it commands or has left it in a mode. End"
             " that program (the lab's server, another check), switch the drives off and on."
         )
-        if others:
+        if traffic.commanded:
             return CheckStep("bus", Result.FAIL, measured, advice)
         return CheckStep("bus", Result.WARN, measured, advice)
     if traffic.bus_errors:
@@ -53,34 +58,35 @@ def advise_on_bus(bench: BenchFile) -> str:
     return (
         f"Check that the adapter is plugged in, that its name {bus.channel} is right and that its"
         f" interface is up (for SocketCAN: `ip link set {bus.channel} up type can bitrate"
-        f" {bus.bitrate}`). Then the wiring: {WIRING}."
+        f" {bus.bitrate}`). Then the wiring: {describe_wiring(bench)}."
     )
 
 
-def check_drive(probe: Probe, name: str, address: Address) -> CheckStep:
-    """The online check, many times: does the drive answer, and how soon."""
-    title = f"{name}: drive {address.group}.{address.number}"
+def check_drive(probe: Probe, name: str) -> CheckStep:
+    """Ask many times: does the drive answer, and how soon."""
+    title = f"{name}: drive {probe.drives[name].place}"
     probe.drain()
     delays = []
     for attempt in range(ECHOES):
         traffic, sent = Traffic(), probe.now()
-        probe.send(address, Online())
+        probe.ask(name)
         for _ in probe.follow(ECHO_S, traffic):
-            if address in traffic.online:
-                delays.append(traffic.online[address][0] - sent)
+            if name in traffic.answers:
+                delays.append(traffic.answers[name][0] - sent)
                 break
         # A drive that is silent three times is not waited for seventeen times more.
         if attempt == ATTEMPTS - 1 and not delays:
             break
     if not delays:
-        return CheckStep(title, Result.FAIL, "no answer", _advise_on_silence(probe, address))
+        return CheckStep(title, Result.FAIL, "no answer", _advise_on_silence(probe, name))
     median, worst = 1e3 * float(np.median(delays)), 1e3 * max(delays)
     measured = (
-        f"{len(delays)} of {ECHOES} online checks echoed, after {median:.2f} ms (worst"
+        f"{len(delays)} of {ECHOES} questions answered, after {median:.2f} ms (worst"
         f" {worst:.2f} ms)"
     )
+    wiring = describe_wiring(probe.bench)
     if len(delays) < ECHOES:
-        return CheckStep(title, Result.FAIL, measured, f"Frames are lost. Check: {WIRING}.")
+        return CheckStep(title, Result.FAIL, measured, f"Frames are lost. Check: {wiring}.")
     if median > 1e3 * SLOW_ECHO_S:
         advice = (
             "The adapter is too slow for a loop of 1 kHz: set the latency timer of a USB serial"
@@ -90,69 +96,55 @@ def check_drive(probe: Probe, name: str, address: Address) -> CheckStep:
     return CheckStep(title, Result.OK, measured)
 
 
-def _advise_on_silence(probe: Probe, address: Address) -> str:
+def _advise_on_silence(probe: Probe, name: str) -> str:
     """Ask every address, and say where a drive does answer."""
-    everywhere = [Address(group, number) for group in range(8) for number in range(1, 16)]
-    traffic = Traffic()
-    for other in everywhere:
-        probe.send(other, Online())
-        for _ in probe.follow(0.001, traffic):
-            pass
-    for _ in probe.follow(0.1, traffic):
-        pass
-    known = set(probe.motors.values())
-    strangers = sorted(set(traffic.online) - known)
-    if strangers:
-        places = ", ".join(f"group {a.group} number {a.number}" for a in strangers)
+    traffic = probe.ask_everywhere(name)
+    place, advice = probe.drives[name].place, probe.families[name].advice
+    if traffic.places:
         return (
-            f"A drive answers at {places}: set it to group {address.group} number"
-            f" {address.number} with the maker's program, or correct the bench file."
+            f"A drive answers at {', '.join(sorted(traffic.places))}: set it to {place} with the"
+            " maker's program, or correct the bench file."
         )
-    if traffic.online:
+    if traffic.answers:
         return (
-            f"Only the other drive answers. Check that {DRIVE_POWER}, its bus connector, and"
-            " that it is not still at the factory address (group 0, number 1) together with the"
+            f"Only the other drive answers. Check that {advice.supply}, its bus connector, and"
+            f" that it is not still at the factory address ({advice.factory}) together with the"
             " other: switch the other one off and run the check again."
         )
-    return f"No drive answers at any address. Check that {DRIVE_POWER}. Then the wiring: {WIRING}."
-
-
-def bring_up(probe: Probe) -> CheckStep:
-    """Reset, configuration, current mode, zero current, with the drive's waits between."""
-    period_ms = get_period_ms(probe.bench)
-    for address in probe.motors.values():
-        probe.send(address, Reset())
-    probe.listen(MARGIN_S)
-    after_reset = probe.listen(SETTLE_S)
-    obstinate = [name for name, address in probe.motors.items() if address in after_reset.feedback]
-    if obstinate:
-        return CheckStep(
-            "mode sequence",
-            Result.FAIL,
-            f"{' and '.join(obstinate)} did not leave its mode at the reset",
-            "Switch the drives off and on, and see that no other program uses the bus.",
-        )
-    for message in (Config(period_ms, 0), SetMode(Mode.CURRENT)):
-        for address in probe.motors.values():
-            probe.send(address, message)
-        probe.listen(MARGIN_S)
-    taken = probe.listen(SETTLE_S)
-    for name in probe.motors:
-        probe.send_current(name, 0)
-    refused = [name for name, address in probe.motors.items() if address not in taken.feedback]
-    if refused:
-        return CheckStep(
-            "mode sequence",
-            Result.FAIL,
-            f"{' and '.join(refused)} sent no feedback after the current mode was set",
-            "The drive has not taken the mode: switch it off and on and try again; check that its"
-            " firmware speaks the protocol of 2018-07 and that its supply does not break down.",
-        )
-    return CheckStep(
-        "mode sequence", Result.OK, "reset, 0.5 s, current mode, 0.5 s, zero current: taken"
+    wiring = describe_wiring(probe.bench)
+    return (
+        f"No drive answers at any address. Check that {advice.supply}. Then the wiring: {wiring}."
     )
 
 
-def get_period_ms(bench: BenchFile) -> int:
-    """Of the feedback frames: the control period, in whole ms."""
-    return max(1, round(1000.0 * bench.timing.period_s))
+def bring_up(probe: Probe) -> CheckStep:
+    """The start-up of both drives, as when the bench is armed, and zero current."""
+    title, begin = "mode sequence", probe.now()
+    obstinate: set[str] = set()
+    probe.begin()
+    while probe.advance():
+        traffic = probe.listen(STEP_S)
+        if probe.now() - begin > RESET_S:
+            resetting = {n for n, drive in probe.drives.items() if drive.phase is Phase.RESET}
+            obstinate |= traffic.engaged & resetting
+    if obstinate:
+        return CheckStep(
+            title,
+            Result.FAIL,
+            f"{' and '.join(sorted(obstinate))} did not leave its mode at the reset",
+            "Switch the drives off and on, and see that no other program uses the bus.",
+        )
+    refused = [name for name, drive in probe.drives.items() if drive.phase is Phase.SILENT]
+    if refused:
+        return CheckStep(
+            title,
+            Result.FAIL,
+            f"{' and '.join(refused)} sent no feedback after the mode was set",
+            "The drive has not taken the mode: switch it off and on and try again;"
+            f" {probe.families[refused[0]].advice.mode}.",
+        )
+    for name in probe.motors:
+        probe.send_current(name, 0)
+    return CheckStep(
+        title, Result.OK, f"reset, mode, zero current: taken in {probe.now() - begin:.2f} s"
+    )

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from svsa.hardware.commissioning.drives import DRIVE_POWER, WIRING, get_period_ms
+from svsa.hardware.commissioning.drives import describe_wiring
 from svsa.hardware.commissioning.probe import CheckStep, Probe, Result, Traffic
 
 LISTEN_S = 1.0
@@ -15,22 +15,18 @@ REST_CURRENT = 0.03
 
 def check_feedback(probe: Probe, traffic: Traffic) -> Iterator[CheckStep]:
     """How regularly the feedback frames of each drive come."""
-    wanted = 1000.0 / get_period_ms(probe.bench)
-    safety = probe.bench.safety
-    for name, address in probe.motors.items():
+    wanted = 1.0 / probe.bench.timing.period_s
+    safety, wiring = probe.bench.safety, describe_wiring(probe.bench)
+    for name, drive in probe.drives.items():
         title = f"{name}: feedback"
-        if count := traffic.drive_errors.get(address):
-            yield CheckStep(
-                title,
-                Result.FAIL,
-                f"{count} error frames: stall protection",
-                "Take the load off the motor, see that it turns freely, switch the drive off and"
-                " on.",
-            )
+        advices = probe.families[name].advice
+        if count := traffic.errors.get(name):
+            measured = f"the drive {drive.describe_error()} ({count} times)"
+            yield CheckStep(title, Result.FAIL, measured, advices.error)
             continue
-        heard = traffic.feedback.get(address, [])
+        heard = traffic.feedback.get(name, [])
         if len(heard) < 3:
-            advice = f"Check that {DRIVE_POWER} under load, and: {WIRING}."
+            advice = f"Check that {advices.supply} under load, and: {wiring}."
             yield CheckStep(title, Result.FAIL, f"{len(heard)} frames in {LISTEN_S:g} s", advice)
             continue
         gaps = np.diff([frame.stamp_s for frame in heard])
@@ -40,7 +36,7 @@ def check_feedback(probe: Probe, traffic: Traffic) -> Iterator[CheckStep]:
             f" {1e3 * longest:.2f} ms"
         )
         if longest > safety.stale_fault_s:
-            advice = f"The loop would end in a fault. Frames are lost: {WIRING}."
+            advice = f"The loop would end in a fault. Frames are lost: {wiring}."
             yield CheckStep(title, Result.FAIL, measured, advice)
         elif rate < MIN_SHARE * wanted or longest > safety.stale_zero_s:
             advice = (
@@ -76,11 +72,11 @@ def check_deflection(probe: Probe, traffic: Traffic) -> CheckStep:
 def check_rest(probe: Probe, traffic: Traffic) -> CheckStep:
     """At zero current nothing moves and no current flows."""
     spreads, currents, strong = {}, {}, []
-    for name, address in probe.motors.items():
-        heard = [frame.feedback for frame in traffic.feedback[address]]
-        spreads[name] = _compute_spread([feedback.position_counts for feedback in heard])
+    for name, motor in probe.motors.items():
+        heard = traffic.feedback[name]
+        spreads[name] = _compute_spread([feedback.counts for feedback in heard])
         currents[name] = float(np.mean([feedback.current_ma for feedback in heard]))
-        nominal = 1e3 * getattr(probe.bench, name).nominal_current_a
+        nominal = 1e3 * motor.nominal_current_a
         if abs(currents[name]) > REST_CURRENT * nominal:
             strong.append(name)
     spreads["deflection"] = _compute_spread([counts for counts, _ in traffic.deflection])

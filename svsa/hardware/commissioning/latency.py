@@ -13,8 +13,7 @@ LOST_S = 0.03
 def check_latency(probe: Probe, name: str) -> CheckStep:
     """From sending a current to reading it in the feedback, over many small steps."""
     title = f"{name}: latency"
-    address = probe.motors[name]
-    nominal_ma = 1e3 * getattr(probe.bench, name).nominal_current_a
+    nominal_ma = 1e3 * probe.motors[name].nominal_current_a
     current = round(min(max(CURRENT * nominal_ma, MIN_MA), 0.15 * nominal_ma))
     delays: list[float] = []
     try:
@@ -24,8 +23,8 @@ def check_latency(probe: Probe, name: str) -> CheckStep:
             probe.send_current(name, sign * current)
             traffic = Traffic()
             for _ in probe.follow(LOST_S, traffic):
-                heard = traffic.feedback.get(address)
-                if heard and 2 * sign * heard[-1].feedback.current_ma >= current:
+                heard = traffic.feedback.get(name)
+                if heard and 2 * sign * heard[-1].current_ma >= current:
                     delays.append(heard[-1].time_s - sent)
                     break
             probe.send_current(name, 0)
@@ -40,7 +39,7 @@ def check_latency(probe: Probe, name: str) -> CheckStep:
             Result.WARN,
             f"the current followed in {len(delays)} of {STEPS} steps of {current} mA",
             "The drive's current loop is slow, or its measurement too coarse for so small steps:"
-            " look at pwm_limit and at the supply.",
+            f" check {probe.families[name].advice.current}, and the supply.",
         )
     median, p99 = (1e3 * float(np.percentile(delays, share)) for share in (50, 99))
     measured = f"{current} mA seen after {median:.2f} ms (median), {p99:.2f} ms (99 %)"

@@ -12,7 +12,9 @@ from svsa.hardware.commissioning.pulse import (
     turn_a_little,
 )
 from svsa.hardware.drives.conversion import build_deflection_scale, build_motor_scale
-from svsa.hardware.file import BenchFile, MotorSettings
+from svsa.hardware.drives.family import Advice
+from svsa.hardware.file import BenchFile
+from svsa.hardware.settings import MotorSettings
 
 
 def check_motion(probe: Probe, name: str) -> Iterator[CheckStep]:
@@ -22,13 +24,13 @@ def check_motion(probe: Probe, name: str) -> Iterator[CheckStep]:
     """
     motor: MotorSettings = getattr(probe.bench, name)
     turn = turn_a_little(probe, name)
-    judged = _judge_motor(name, motor, turn)
+    judged = _judge_motor(name, motor, turn, probe.families[name].advice)
     yield judged
     if name == "motor1" and judged.result is not Result.FAIL:
         yield _judge_deflection(probe.bench, turn.forth)
 
 
-def _judge_motor(name: str, motor: MotorSettings, turn: Turn) -> CheckStep:
+def _judge_motor(name: str, motor: MotorSettings, turn: Turn, advices: Advice) -> CheckStep:
     title = f"{name}: sign"
     pulse, back = turn
     asked = f"{pulse.current_ma:+d} mA"
@@ -37,11 +39,7 @@ def _judge_motor(name: str, motor: MotorSettings, turn: Turn) -> CheckStep:
         f" {back.current_ma:+d} mA by {back.moved:+d}"
     )
     if turn.errors:
-        advice = (
-            "The drive went into stall protection: see that the motor turns freely, its brake is"
-            " off and its leads are not shorted; switch the drive off and on."
-        )
-        return CheckStep(title, Result.FAIL, measured, advice)
+        return CheckStep(title, Result.FAIL, measured, advices.error)
     if not turn.was_followed:
         unheard_ms, pulse_ms = 1e3 * turn.unheard_s, 1e3 * pulse.duration_s
         measured += f", no feedback for {unheard_ms:.0f} of {pulse_ms:.0f} ms"
@@ -53,8 +51,8 @@ def _judge_motor(name: str, motor: MotorSettings, turn: Turn) -> CheckStep:
     if abs(pulse.moved) < MIN_COUNTS:
         if abs(pulse.measured_ma) < 0.5 * abs(pulse.current_ma):
             advice = (
-                "No current flows: check the motor's leads and the drive's supply, and that"
-                " pwm_limit is not too low."
+                "No current flows: check the motor's leads and the drive's supply, and"
+                f" {advices.current}."
             )
         else:
             advice = (

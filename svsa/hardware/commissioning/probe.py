@@ -15,24 +15,15 @@ import can
 
 from svsa.errors import SvsaError
 from svsa.hardware.drives.bus import BusError, open_bus
-from svsa.hardware.drives.conversion import Unwrapped
-from svsa.hardware.drives.robomodule import (
-    Address,
-    Command,
-    Current,
-    Feedback,
-    FrameError,
-    Message,
-    Reset,
-    build_id,
-    decode,
-    encode,
-    split_id,
-)
+from svsa.hardware.drives.conversion import Unwrapped, build_motor_scale
+from svsa.hardware.drives.drive import Drive, compute_key, merge_stops
+from svsa.hardware.drives.installed import build_drive, build_stop, get_family
+from svsa.hardware.drives.phase import Phase
 from svsa.hardware.emulation import EMULATED_ID
 from svsa.hardware.encoders import read_source
 from svsa.hardware.encoders.source import EncoderError
-from svsa.hardware.file import BenchFile, BusSettings
+from svsa.hardware.file import BenchFile
+from svsa.hardware.settings import BusSettings, MotorSettings
 
 
 class Result(StrEnum):
@@ -52,22 +43,21 @@ class CheckStep(NamedTuple):
     advice: str = ""
 
 
-COMMAND_GATE_S = 0.001
 _ENCODER_POLL_S = 0.001
 _RELEASES = 5
 _RELEASE_S = 0.02
-_NOT_COMMANDS = (Command.FEEDBACK, Command.INPUTS, Command.ERROR, Command.ONLINE)
 
 BusOpener = Callable[[BusSettings], can.BusABC]
 Clock = Callable[[], float]
 
 
 class HeardFeedback(NamedTuple):
-    """A feedback frame: when it was read, the time it is stamped with, and what it said."""
+    """A drive's feedback: when it was read, the time it is stamped with, and what it said."""
 
     time_s: float
     stamp_s: float
-    feedback: Feedback
+    counts: int
+    current_ma: int
 
 
 class Counts(NamedTuple):
@@ -79,18 +69,22 @@ class Counts(NamedTuple):
 
 @dataclass
 class Traffic:
-    """What was heard in some time.
+    """What was heard in some time, of each motor by its name.
 
-    online: when each address echoed. drive_errors: D frames of each. commands: addresses
-    that another program sends commands to. bus_errors: error frames of the adapter.
+    answers: when its drive answered. engaged: whose drive sent feedback from the mode in which it
+    makes torque. errors: how many its drive reported. commanded: whose drive another program sends
+    commands to. places: addresses of other drives that answered. bus_errors: error frames of the
+    adapter.
     """
 
     frames: int = 0
     bus_errors: int = 0
-    feedback: dict[Address, list[HeardFeedback]] = field(default_factory=dict)
-    online: dict[Address, list[float]] = field(default_factory=dict)
-    drive_errors: dict[Address, int] = field(default_factory=dict)
-    commands: set[Address] = field(default_factory=set)
+    feedback: dict[str, list[HeardFeedback]] = field(default_factory=dict)
+    answers: dict[str, list[float]] = field(default_factory=dict)
+    engaged: set[str] = field(default_factory=set)
+    errors: dict[str, int] = field(default_factory=dict)
+    commanded: set[str] = field(default_factory=set)
+    places: set[str] = field(default_factory=set)
     deflection: list[Counts] = field(default_factory=list)
 
 
@@ -105,10 +99,10 @@ class Probe:
         self, bench: BenchFile, opener: BusOpener = open_bus, now: Clock = time.monotonic
     ) -> None:
         self.bench, self.now = bench, now
-        self.motors = {
-            name: Address(motor.drive_group, motor.drive_number)
-            for name, motor in (("motor1", bench.motor1), ("motor2", bench.motor2))
-        }
+        self.motors = {"motor1": bench.motor1, "motor2": bench.motor2}
+        self.drives = {name: self._build_drive(motor) for name, motor in self.motors.items()}
+        self.families = {name: get_family(motor.drive) for name, motor in self.motors.items()}
+        self._takers = {key: name for name, drive in self.drives.items() for key in drive.heard_ids}
         self.emulated = False
         self.encoder_failure: str | None = None
         self._source = read_source(bench.deflection)
@@ -116,8 +110,12 @@ class Probe:
         self._encoder_time: float | None = None
         self._opener = opener
         self._bus: can.BusABC | None = None
-        self._sent: dict[Address, float] = {}
+        self._query_at_s = 0.0
         self._commanding = False
+
+    def _build_drive(self, motor: MotorSettings) -> Drive:
+        speed_max = motor.speed_max_rad_per_s / abs(build_motor_scale(motor).angle_per_count)
+        return build_drive(motor, self.bench.timing.period_s, speed_max)
 
     def open(self) -> None:
         """Open the bus, and the encoder as far as it works; raises `BusError`."""
@@ -138,7 +136,8 @@ class Probe:
         """The same, with a stop after each frame, to leave early."""
         end = self.now() + duration_s
         while (left := end - self.now()) > 0.0:
-            message = self._receive(min(left, _ENCODER_POLL_S))
+            wait = self._query()
+            message = self._receive(min(left, wait, _ENCODER_POLL_S))
             if message is not None:
                 self._take(message, traffic)
             self._read_encoder(traffic)
@@ -150,28 +149,62 @@ class Probe:
         while self.now() < end and (message := self._receive(0.0)) is not None:
             self._take(message, discarded)
 
-    def send(self, address: Address, message: Message) -> None:
-        """A command to a drive, at least 1 ms after the one before."""
-        ready_s = self._sent.get(address, self.now() - COMMAND_GATE_S) + COMMAND_GATE_S
-        if (wait := ready_s - self.now()) > 0.0:
-            self.listen(wait)
-        if message.command not in _NOT_COMMANDS:
-            self._commanding = True
-        self._sent[address] = self.now()
-        frame = can.Message(
-            arbitration_id=build_id(address, message.command),
-            is_extended_id=False,
-            data=encode(message),
-        )
-        try:
-            self._get_bus().send(frame, timeout=0.1)
-        except (can.CanError, OSError) as error:
-            raise BusError(f"The CAN bus takes no frames: {error}.") from None
+    def _query(self) -> float:
+        """Keep feedback coming, once in a period, of the drives that send none by themselves.
+
+        Returns:
+            The time until the next query, s.
+        """
+        now, period = self.now(), self.bench.timing.period_s
+        if now >= self._query_at_s:
+            self._query_at_s = max(self._query_at_s + period, now)
+            with self._sending():
+                for drive in self.drives.values():
+                    if drive.phase is Phase.READY:
+                        drive.query(self._get_bus(), now)
+        return max(0.0, self._query_at_s - now)
+
+    def ask(self, name: str) -> None:
+        """Send a drive what it answers in any state."""
+        with self._sending():
+            self.drives[name].ask(self._get_bus(), self.now())
+
+    def ask_everywhere(self, name: str) -> Traffic:
+        """Ask every address that a drive of this motor's family can have."""
+        traffic = Traffic()
+        for question in self.families[name].list_questions():
+            with self._sending():
+                self._get_bus().send(question)
+            for _ in self.follow(0.001, traffic):
+                pass
+        for _ in self.follow(0.1, traffic):
+            pass
+        return traffic
+
+    def begin(self) -> None:
+        """Reset both drives at the next `advance`."""
+        self._commanding = True
+        for drive in self.drives.values():
+            drive.begin()
+
+    def advance(self) -> bool:
+        """Send what is due of the start-up; whether it goes on."""
+        on = False
+        for drive in self.drives.values():
+            if drive.phase not in (Phase.READY, Phase.SILENT):
+                on = True
+                with self._sending():
+                    drive.advance(self._get_bus(), self.now())
+        return on
 
     def send_current(self, name: str, current_ma: int) -> None:
-        """Ask the drive of a motor for a current, mA, in the drive's own sense."""
-        limit = (self.bench.motor1 if name == "motor1" else self.bench.motor2).pwm_limit
-        self.send(self.motors[name], Current(limit, current_ma))
+        """Command a current, mA, in the drive's own sense, as soon as the drive takes one."""
+        self._commanding = True
+        drive = self.drives[name]
+        if (wait := drive.sent_s + drive.gap_s - self.now()) > 0.0:
+            self.listen(wait)
+        with self._sending():
+            drive.send_current(self._get_bus(), current_ma, self.now())
 
     def release(self) -> None:
         """Zero current and reset for the drives, if any was commanded, until they are silent.
@@ -181,14 +214,23 @@ class Probe:
         """
         if self._bus is None or not self._commanding:
             return
+        resets = merge_stops(
+            *(build_stop(motor)._replace(zero=()) for motor in self.motors.values())
+        )
+        for drive in self.drives.values():
+            drive.phase = Phase.OFF
         for _ in range(_RELEASES):
             with contextlib.suppress(BusError):
-                for name in self.motors:
-                    self.send_current(name, 0)
-                for group in {address.group for address in self.motors.values()}:
-                    self.send(Address(group, 0), Reset())
+                self.listen(max(drive.gap_s for drive in self.drives.values()))
+                for drive in self.drives.values():
+                    with self._sending():
+                        drive.send_zero(self._get_bus(), self.now())
+                self.listen(max(drive.gap_s for drive in self.drives.values()))
+                for reset in resets:
+                    with self._sending():
+                        self._get_bus().send(reset)
                 self.listen(_RELEASE_S)
-                if not self.listen(_RELEASE_S).feedback:
+                if not self.listen(_RELEASE_S).engaged:
                     break
         self._commanding = False
 
@@ -207,6 +249,13 @@ class Probe:
             raise BusError("The CAN bus is not open.")
         return self._bus
 
+    @contextlib.contextmanager
+    def _sending(self) -> Iterator[None]:
+        try:
+            yield
+        except (can.CanError, OSError) as error:
+            raise BusError(f"The CAN bus takes no frames: {error}.") from None
+
     def _receive(self, timeout_s: float) -> can.Message | None:
         try:
             return self._get_bus().recv(timeout_s)
@@ -220,25 +269,32 @@ class Probe:
             traffic.bus_errors += 1
         elif message.is_extended_id and message.arbitration_id == EMULATED_ID:
             self.emulated = True
-        elif not (self._feed_encoder(message, now) or message.is_extended_id):
-            with contextlib.suppress(FrameError):
-                self._take_drive(message, now, traffic)
+        elif not message.is_remote_frame and not self._source.feed(message, now):
+            self._take_drive(message, now, traffic)
 
     def _take_drive(self, message: can.Message, now: float, traffic: Traffic) -> None:
-        address, command = split_id(message.arbitration_id)
-        content = decode(command, message.data)
-        if command is Command.FEEDBACK:
+        key = compute_key(message)
+        name = self._takers.get(key)
+        if name is None:
+            for motor, drive in self.drives.items():
+                if key in drive.obeyed_ids:
+                    traffic.commanded.add(motor)
+            places = (family.find_place(message) for family in self.families.values())
+            traffic.places.update(place for place in places if place is not None)
+            return
+        drive = self.drives[name]
+        answers, errors, heard_s = drive.answers, drive.errors, drive.heard_s
+        drive.take(message, now)
+        if drive.answers != answers:
+            traffic.answers.setdefault(name, []).append(now)
+        if drive.errors != errors:
+            traffic.errors[name] = traffic.errors.get(name, 0) + 1
+        if drive.heard_s != heard_s:
             stamp = message.timestamp if self.bench.bus.timestamps == "bus" else now
-            traffic.feedback.setdefault(address, []).append(HeardFeedback(now, stamp, content))
-        elif command is Command.ONLINE:
-            traffic.online.setdefault(address, []).append(now)
-        elif command is Command.ERROR:
-            traffic.drive_errors[address] = traffic.drive_errors.get(address, 0) + 1
-        elif command is not Command.INPUTS:
-            traffic.commands.add(address)
-
-    def _feed_encoder(self, message: can.Message, now: float) -> bool:
-        return self._source.feed(message, now)
+            heard = HeardFeedback(now, stamp, drive.counts, drive.current_ma)
+            traffic.feedback.setdefault(name, []).append(heard)
+            if drive.engaged:
+                traffic.engaged.add(name)
 
     def _read_encoder(self, traffic: Traffic) -> None:
         """Note a reading that is newer than the last."""

@@ -10,8 +10,7 @@ from typing import NamedTuple
 
 from svsa.hardware.commissioning.probe import Probe, Traffic
 from svsa.hardware.drives.conversion import build_deflection_scale, build_motor_scale
-from svsa.hardware.drives.robomodule import Address
-from svsa.hardware.file import MotorSettings
+from svsa.hardware.settings import MotorSettings
 
 LEVELS = (0.01, 0.02, 0.03, 0.05, 0.08, 0.11, 0.15)
 LONGEST_PULSE_S = 0.15
@@ -33,7 +32,7 @@ class Pulse(NamedTuple):
     """What a pulse did. current_ma, duration_s: commanded.
 
     moved, deflected: largest change of counts, either way. measured_ma: largest feedback of
-    the current, with its sign. errors: D frames. unheard_s: longest time of the pulse without
+    the current, with its sign. errors: of the drive. unheard_s: longest time of the pulse without
     feedback.
     """
 
@@ -54,7 +53,7 @@ class Turn(NamedTuple):
 
     @property
     def errors(self) -> int:
-        """The D frames of both."""
+        """How many errors the drive reported in both."""
         return self.forth.errors + self.back.errors
 
     @property
@@ -111,41 +110,40 @@ def _get_most_counts(motor: MotorSettings) -> float:
 
 def _pulse(probe: Probe, name: str, current_ma: int, duration_s: float) -> Pulse:
     """A current for this long, or until the motor or the spring has gone far enough."""
-    address = probe.motors[name]
     before = probe.listen(0.02)
-    if not (before.feedback.get(address) and before.deflection):
+    if not (before.feedback.get(name) and before.deflection):
         return Pulse(current_ma, duration_s)
-    start = before.feedback[address][-1].feedback.position_counts
+    start = before.feedback[name][-1].counts
     spring = before.deflection[-1].counts
     most = _get_most_counts(getattr(probe.bench, name))
     most_spring = MAX_TRAVEL_RAD / abs(build_deflection_scale(probe.bench.deflection))
     traffic, begin = Traffic(), probe.now()
     end = begin + duration_s
     try:
-        while probe.now() < end and not traffic.drive_errors.get(address):
+        while probe.now() < end and not traffic.errors.get(name):
             probe.send_current(name, current_ma)
             for _ in probe.follow(_SEND_S, traffic):
                 pass
-            moved, deflected = _find_travel(traffic, address, start, spring)
+            moved, deflected = _find_travel(traffic, name, start, spring)
             if abs(moved) >= most or abs(deflected) >= max(most_spring, MIN_COUNTS):
                 break
     finally:
         probe.send_current(name, 0)
-    heard = traffic.feedback.get(address, [])
+    heard = traffic.feedback.get(name, [])
     times = [begin, *(frame.time_s for frame in heard), probe.now()]
     unheard = max(later - earlier for earlier, later in pairwise(times))
-    measured = max((frame.feedback.current_ma for frame in heard), key=abs, default=0)
-    _, deflected = _find_travel(traffic, address, start, spring)
+    measured = max((frame.current_ma for frame in heard), key=abs, default=0)
+    _, deflected = _find_travel(traffic, name, start, spring)
     for _ in probe.follow(COAST_S, traffic):
         pass
-    moved, _ = _find_travel(traffic, address, start, spring)
+    moved, _ = _find_travel(traffic, name, start, spring)
     after = probe.listen(SETTLE_S - COAST_S)
-    errors = traffic.drive_errors.get(address, 0) + after.drive_errors.get(address, 0)
+    errors = traffic.errors.get(name, 0) + after.errors.get(name, 0)
     return Pulse(current_ma, duration_s, moved, deflected, measured, errors, unheard)
 
 
-def _find_travel(traffic: Traffic, address: Address, start: int, spring: int) -> tuple[int, int]:
+def _find_travel(traffic: Traffic, name: str, start: int, spring: int) -> tuple[int, int]:
     """The largest change so far of the motor's counts and of the deflection's."""
-    heard = [frame.feedback.position_counts for frame in traffic.feedback.get(address, [])]
+    heard = [frame.counts for frame in traffic.feedback.get(name, [])]
     moved = max((counts - start for counts in heard), key=abs, default=0)
     return moved, max((counts - spring for counts, _ in traffic.deflection), key=abs, default=0)

@@ -1,1 +1,1 @@
-"""The RoboModule drives and their bus."""
+"""Families of drives, each in a folder of its own, and what the bench expects of each."""

@@ -10,7 +10,7 @@ from typing import Any
 import can
 
 from svsa.errors import SvsaError
-from svsa.hardware.file import BusSettings
+from svsa.hardware.settings import BusSettings
 
 _ANSWER_S = 5.0
 DELIVERY_S = 0.05
@@ -95,9 +95,10 @@ def _ask_for_server(settings: BusSettings) -> None:
 
 def _choose_options(settings: BusSettings) -> dict[str, Any]:
     """As written; an slcan adapter is not waited for: 1 ms of its own would be a whole tick."""
-    return (
-        {"timeout": 0.0, **settings.options} if settings.interface == _SLCAN else settings.options
-    )
+    options: dict[str, Any] = {"timeout": 0.0} if settings.interface == _SLCAN else {}
+    if settings.fd:
+        options |= {"fd": True, "data_bitrate": settings.data_bitrate}
+    return options | settings.options
 
 
 def take_waiting(bus: can.BusABC, settings: BusSettings, most: int) -> Iterator[can.Message]:

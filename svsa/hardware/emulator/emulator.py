@@ -1,19 +1,21 @@
 """The emulator: drives, encoder node and mechanics on one bus, in the order of their events.
 
-Time is whole microseconds since the start. A frame takes 0.13 ms (1 Mbit/s); where several
-wait, the lowest identifier goes first. The same frames in at the same times, and the same
-seed, give the same frames out.
+Time is whole microseconds since the start. A frame takes 0.13 ms: 8 bytes at 1 Mbit/s, and CAN FD
+with up to 48 bytes at 5 Mbit/s takes no longer. Where several wait, the lowest identifier goes
+first. The same frames in at the same times, and the same seed, give the same frames out.
 """
 
 import heapq
 import random
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 from svsa.actuators.dynamics import compute_deflection
 from svsa.actuators.signals import Torque
-from svsa.hardware.emulation import EMULATED_DATA, EMULATED_ID, EMULATED_PERIOD_S
-from svsa.hardware.emulator.drive import ERROR_PERIOD_US, EmulatedDrive
+from svsa.hardware.drives.emulated import EmulatedDrive, EmulatorClock, Motion
+from svsa.hardware.drives.installed import get_family
+from svsa.hardware.emulation import EMULATED_DATA, EMULATED_ID, EMULATED_PERIOD_S, Frame
 from svsa.hardware.emulator.encoder import EncoderNode
 from svsa.hardware.emulator.faults import (
     BrownOut,
@@ -30,12 +32,12 @@ from svsa.hardware.emulator.faults import (
     Unplugged,
     ZeroedCounter,
 )
-from svsa.hardware.emulator.frame import Frame
 from svsa.hardware.emulator.mechanics import Mechanics
-from svsa.hardware.emulator.parameters import EmulatorClock, EmulatorParameters
+from svsa.hardware.emulator.parameters import EmulatorParameters
 from svsa.simulation.plant.loads import Load
 
 FRAME_US = 130
+ERROR_PERIOD_US = 100_000
 MAX_WAITING = 1000
 _EMULATED_US = round(EMULATED_PERIOD_S * 1e6)
 _ERROR_FRAME_US = 1000
@@ -53,7 +55,10 @@ class Emulator:
         self.parameters = parameters or EmulatorParameters()
         p = self.parameters
         self.mechanics = Mechanics(p)
-        self.drives = {"motor1": EmulatedDrive(p.motor1), "motor2": EmulatedDrive(p.motor2)}
+        self.drives: dict[str, EmulatedDrive] = {
+            name: get_family(motor.drive).emulate(motor)
+            for name, motor in (("motor1", p.motor1), ("motor2", p.motor2))
+        }
         self.encoder = EncoderNode(p.deflection)
         self.now_us, self.frames = 0, 0
         self._random = random.Random(p.seed)  # noqa: S311
@@ -86,8 +91,7 @@ class Emulator:
 
     def receive(self, frame: Frame, sender: Any) -> None:
         """A client's frame, now; the others hear it when it has been on the bus."""
-        if not frame.extended:
-            self._request(frame, sender)
+        self._request(frame, sender)
 
     def schedule(self, at_us: int, happen: Callable[[], None]) -> None:
         """Do something at that time, or now where it is past."""
@@ -174,20 +178,25 @@ class Emulator:
         self._at(round(elapsed), beat)
 
     def _feed(self, name: str, drive: EmulatedDrive, beat: int) -> None:
-        """Frames B and C of a drive, where they are due at this ms of its clock."""
-        x, first = self.mechanics.read(self.now_us), name == "motor1"
-        drive.look(x.theta1 if first else x.theta2)
-        if drive.feeding and drive.feedback_ms and beat % drive.feedback_ms == 0:
-            torque = self.mechanics.torque.u1 if first else self.mechanics.torque.u2
-            velocity = x.dtheta1 if first else x.dtheta2
-            self._send(name, drive.build_feedback(velocity, torque))
-        if drive.feeding and drive.inputs_ms and beat % drive.inputs_ms == 0:
-            self._send(name, drive.build_inputs())
+        """What a drive sends unasked at this ms of its clock."""
+        for frame in drive.list_pushed(beat, self._observe(name, drive)):
+            self._send(name, frame)
+        if drive.expire(self.now_us):
+            self._drive()
+
+    def _observe(self, name: str, drive: EmulatedDrive) -> Motion:
+        """Count a motor's encoder now; how the motor moves."""
+        x, torque = self.mechanics.read(self.now_us), self.mechanics.torque
+        if name == "motor1":
+            drive.look(x.theta1)
+            return Motion(x.dtheta1, torque.u1)
+        drive.look(x.theta2)
+        return Motion(x.dtheta2, torque.u2)
 
     def _complain(self, drive: EmulatedDrive) -> None:
         self._at(self.now_us + ERROR_PERIOD_US, lambda: self._complain(drive))
-        if drive.heard and drive.stalled:
-            self._request(drive.build_error(), None)
+        if drive.heard and drive.stalled and (frame := drive.build_error()) is not None:
+            self._request(frame, None)
 
     def _count_deflection(self) -> None:
         x = self.mechanics.read(self.now_us)
@@ -216,7 +225,7 @@ class Emulator:
             return
         self._order += 1
         # CAN's arbitration: the lowest identifier first, equal ones in their order.
-        heapq.heappush(self._waiting, (frame.can_id, self._order, frame, sender))
+        heapq.heappush(self._waiting, (_compute_priority(frame), self._order, frame, sender))
         if not self._busy:
             self._busy = True
             self._at(self.now_us, self._transmit)
@@ -231,8 +240,19 @@ class Emulator:
         self.frames += 1
         self._said.append((self.now_us, frame, sender))
         if sender is not None:
-            for drive in self.drives.values():
-                for answer in drive.receive(frame, self.now_us):
-                    self._request(answer, None)
+            for name, drive in self.drives.items():
+                observe = partial(self._observe, name, drive)
+                for answer in drive.receive(frame, self.now_us, observe):
+                    if drive.answers_with_feedback:
+                        self._send(name, answer)
+                    else:
+                        self._request(answer, None)
             self._drive()
         self._transmit()
+
+
+def _compute_priority(frame: Frame) -> int:
+    """The order on the bus: 11 bits first, then standard before extended, then the other 18."""
+    if frame.extended:
+        return frame.can_id >> 18 << 19 | 1 << 18 | frame.can_id & 0x3FFFF
+    return frame.can_id << 19

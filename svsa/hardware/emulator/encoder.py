@@ -2,9 +2,10 @@
 
 import math
 
-from svsa.hardware.drives.robomodule import FILLER
-from svsa.hardware.emulator.frame import Frame
+from svsa.hardware.emulation import Frame
 from svsa.hardware.emulator.parameters import EmulatedDeflection
+
+_UNUSED = b"\x55" * 4
 
 
 class EncoderNode:
@@ -34,4 +35,4 @@ class EncoderNode:
         if not self._frozen:
             sign = self._sign * self._turned
             self._counts = self._offset + sign * math.floor(angle * self._counts_a_rad + 0.5)
-        return Frame(self._id, self._counts.to_bytes(4, "big", signed=True) + bytes([FILLER] * 4))
+        return Frame(self._id, self._counts.to_bytes(4, "big", signed=True) + _UNUSED)

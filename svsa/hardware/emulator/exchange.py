@@ -2,9 +2,16 @@
 
 from typing import Any
 
-from svsa.hardware.emulation import ADVANCE_ID, EMULATED_DATA, EMULATED_ID, decode_time, encode_time
+from svsa.hardware.emulation import (
+    ADVANCE_ID,
+    EMULATED_DATA,
+    EMULATED_ID,
+    Frame,
+    decode_time,
+    encode_time,
+)
 from svsa.hardware.emulator.emulator import Emulator
-from svsa.hardware.emulator.frame import Frame, FrameServer
+from svsa.hardware.emulator.frame import FrameServer
 
 LONGEST_STEP_US = 10_000_000
 

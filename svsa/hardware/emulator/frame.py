@@ -1,4 +1,4 @@
-"""A frame on the emulated bus, and what every server of frames to clients offers.
+"""What every server of frames to clients offers.
 
 A server only carries: it hears frames from its clients and says frames to them. What a frame
 that one client sends does to the others is the bus's affair: the emulator says it to all with
@@ -6,16 +6,9 @@ that one client sends does to the others is the bus's affair: the emulator says 
 """
 
 from collections.abc import Callable
-from typing import Any, NamedTuple, Protocol
+from typing import Any, Protocol
 
-
-class Frame(NamedTuple):
-    """Identifier (11 bits, or 29 if extended), up to 8 bytes; `error` marks bus trouble."""
-
-    can_id: int
-    data: bytes
-    extended: bool = False
-    error: bool = False
+from svsa.hardware.emulation import Frame
 
 
 class FrameServer(Protocol):

@@ -2,48 +2,26 @@
 
 from functools import cache
 from pathlib import Path
-from typing import Literal, Self
+from typing import Annotated, Self
 
-from pydantic import Field, model_validator
+from pydantic import BeforeValidator, Field, SerializeAsAny, model_validator
 
 from svsa.actuators.lever import compute_lever_ratio_for_stiffness
 from svsa.actuators.parameters import ActuatorParameters
 from svsa.errors import ParameterError, Violation
+from svsa.hardware.drives.emulated import EmulatedMotor, EmulatorClock
+from svsa.hardware.drives.installed import get_family, read_emulated_motor
+from svsa.hardware.settings import DEFAULT_DRIVE, Sign
 from svsa.inputs.checked import Checked, Number, Whole, quantity
 from svsa.inputs.toml_file import read_toml
 from svsa.runs.configuration import load_prototype
 from svsa.simulation.plant.effects import CurrentLag, Friction, LinkGravity
 
 HOME_STIFFNESS_NM_PER_RAD = 30.0
-
-Sign = Literal[-1, 1]
-
-
-class EmulatorClock(Checked):
-    """When a part speaks: every whole ms of its own clock, which began at `phase_s`."""
-
-    phase_s: Number = quantity("s", "First beat after the emulator's start", ge=0, le=0.001)
-    drift: Number = quantity("1", "How much longer its ms is", ge=-0.01, le=0.01, default=0.0)
-
-
-class EmulatedMotor(EmulatorClock):
-    """A drive, its motor, gearbox and encoder. Torque and angle are at the gearbox output."""
-
-    group: Whole = quantity("", "Group of the drive's address", ge=0, le=7, default=0)
-    number: Whole = quantity("", "Number of the drive's address", ge=1, le=15)
-    counts_per_rev: Whole = quantity("1", "Counts a motor turn", ge=4, le=10**7, default=2000)
-    gear_ratio: Number = quantity("1", "Gearbox N : 1", gt=0, le=10_000, default=50.0)
-    torque_constant_nm_per_a: Number = quantity("N·m/A", "K_t of the winding", gt=0, le=10)
-    efficiency: Number = quantity("1", "η of the gearbox", gt=0, le=1, default=0.9)
-    sign: Sign = quantity("", "1 where positive current grows angle and counts", default=1)
-    peak_current_a: Number = quantity(
-        "A", "Current the drive gives at most", gt=0, le=32, default=15
-    )
-
-    @property
-    def torque_nm_per_a(self) -> float:
-        """N η K_t with its sign: torque at the gearbox output for a current."""
-        return self.sign * self.gear_ratio * self.efficiency * self.torque_constant_nm_per_a
+_MOTORS = (
+    {"torque_constant_nm_per_a": 0.0396, "phase_s": 0.0003},
+    {"torque_constant_nm_per_a": 0.0234, "phase_s": 0.0005},
+)
 
 
 class EmulatedDeflection(EmulatorClock):
@@ -61,6 +39,15 @@ class EmulatedDeflection(EmulatorClock):
 def _compute_home_ratio() -> float:
     K = load_prototype().actuator.rotational_stiffness_nm_per_rad
     return float(compute_lever_ratio_for_stiffness(HOME_STIFFNESS_NM_PER_RAD, K))
+
+
+Motor = Annotated[SerializeAsAny[EmulatedMotor], BeforeValidator(read_emulated_motor)]
+
+
+def build_motor(number: int, drive: str = DEFAULT_DRIVE) -> EmulatedMotor:
+    """A motor of the prototype with a drive of this family; number: 0 or 1."""
+    address = get_family(drive).examples[number]
+    return read_emulated_motor({"drive": drive, **_MOTORS[number], **address})
 
 
 class EmulatorParameters(Checked):
@@ -81,8 +68,8 @@ class EmulatorParameters(Checked):
     lever_ratio_min: Number = quantity("1", "Lower stop of μ", gt=0, lt=1, default=0.25)
     lever_ratio_max: Number = quantity("1", "Upper stop of μ", gt=0, lt=1, default=0.83)
     deflection_max_rad: Number = quantity("rad", "Stop of |φ|", gt=0, le=1.5, default=0.75)
-    motor1: EmulatedMotor = EmulatedMotor(number=1, torque_constant_nm_per_a=0.0396, phase_s=0.0003)
-    motor2: EmulatedMotor = EmulatedMotor(number=2, torque_constant_nm_per_a=0.0234, phase_s=0.0005)
+    motor1: Motor = Field(default_factory=lambda: build_motor(0))
+    motor2: Motor = Field(default_factory=lambda: build_motor(1))
     deflection: EmulatedDeflection = EmulatedDeflection(phase_s=0.0008)
     current_lag: CurrentLag | None = quantity("", "Lag of the current loops", default=CurrentLag())
     friction: Friction | None = quantity("", "Motor friction", default=Friction())
@@ -94,10 +81,11 @@ class EmulatorParameters(Checked):
         if not self.lever_ratio_min < self.lever_ratio < self.lever_ratio_max:
             bound = f"between its stops, {self.lever_ratio_min:g} and {self.lever_ratio_max:g}"
             raise ParameterError(Violation("lever_ratio", self.lever_ratio, "1", bound))
-        addresses = [(motor.group, motor.number) for motor in (self.motor1, self.motor2)]
-        if addresses[0] == addresses[1]:
-            violation = Violation("motor2.number", self.motor2.number, "", "another than motor1's")
-            raise ParameterError(violation)
+        one, two = self.motor1, self.motor2
+        if (one.drive, one.place) == (two.drive, two.place):
+            name = two.address_field
+            bound = "another than motor1's"
+            raise ParameterError(Violation(f"motor2.{name}", getattr(two, name), "", bound))
         return self
 
 

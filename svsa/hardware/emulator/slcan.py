@@ -4,6 +4,9 @@ Source: LAWICEL CANUSB manual, its ASCII commands. Each line ends with CR and is
 or with BELL where it is not known or not to be had now. Every bit rate is taken and makes no
 difference; a remote frame is acknowledged and dropped, since no node here would answer it.
 The protocol has no error frames: bus trouble is bit 7 of the status flags.
+
+CAN FD is an extension of the CANable 2.0 firmware, as python-can's slcan interface has it: `d` and
+`D` as `t` and `T`, `b` and `B` with the data at the higher bit rate, `Y2` and `Y5` for that rate.
 """
 
 import os
@@ -12,7 +15,8 @@ import termios
 import tty
 from typing import Any
 
-from svsa.hardware.emulator.frame import Frame, Outbox
+from svsa.hardware.emulation import Frame
+from svsa.hardware.emulator.frame import Outbox
 
 OK, BELL = b"\r", b"\a"
 MAX_UNREAD_BYTES = 65_536
@@ -20,8 +24,12 @@ BUS_ERROR = 0x80
 _HEX = "[0-9A-Fa-f]"
 _STANDARD = re.compile(rf"t([0-7]{_HEX}{{2}})([0-8])((?:{_HEX}{{2}}){{0,8}})")
 _EXTENDED = re.compile(rf"T([01]{_HEX}{{7}})([0-8])((?:{_HEX}{{2}}){{0,8}})")
+_FD = re.compile(
+    rf"(?:[bd]([0-7]{_HEX}{{2}})|[BD]([01]{_HEX}{{7}}))({_HEX})((?:{_HEX}{{2}}){{0,64}})"
+)
+_FD_LENGTHS = (0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 16, 20, 24, 32, 48, 64)
 _REMOTE = re.compile(rf"r[0-7]{_HEX}{{2}}[0-8]|R[01]{_HEX}{{7}}[0-8]")
-_BIT_RATE = re.compile(rf"S[0-8]|s{_HEX}{{4}}")
+_BIT_RATE = re.compile(rf"S[0-8]|s{_HEX}{{4}}|Y[25]")
 _VERSION, _SERIAL_NUMBER = b"V1013\r", b"NSVSA\r"
 
 
@@ -88,11 +96,15 @@ class SlcanServer:
             flags, self._flags = self._flags, 0
             return b"F%02X\r" % flags, None
         if self._channel == "O":
-            acknowledged = b"z\r" if line[0] in "tr" else b"Z\r"
+            acknowledged = b"z\r" if line[0] in "trbd" else b"Z\r"
             sent = _STANDARD.fullmatch(line) or _EXTENDED.fullmatch(line)
             if sent and len(sent[3]) == 2 * int(sent[2]):
                 data = bytes.fromhex(sent[3])
                 return acknowledged, Frame(int(sent[1], 16), data, extended=line[0] == "T")
+            sent = _FD.fullmatch(line)
+            if sent and len(sent[4]) == 2 * _FD_LENGTHS[int(sent[3], 16)]:
+                identifier, data = int(sent[1] or sent[2], 16), bytes.fromhex(sent[4])
+                return acknowledged, Frame(identifier, data, extended=bool(sent[2]), fd=True)
             if _REMOTE.fullmatch(line):
                 return acknowledged, None
         return BELL, None
@@ -120,9 +132,11 @@ class SlcanServer:
         if frame.error:
             self._flags |= BUS_ERROR
             return
-        name = f"T{frame.can_id:08X}" if frame.extended else f"t{frame.can_id:03X}"
+        short, long = ("b", "B") if frame.fd else ("t", "T")
+        name = f"{long}{frame.can_id:08X}" if frame.extended else f"{short}{frame.can_id:03X}"
         stamp = f"{int(time_s * 1000) % 60_000:04X}" if self._timed else ""
-        self._write(f"{name}{len(frame.data)}{frame.data.hex().upper()}{stamp}\r".encode())
+        length = _FD_LENGTHS.index(len(frame.data))
+        self._write(f"{name}{length:X}{frame.data.hex().upper()}{stamp}\r".encode())
 
     def _write(self, text: bytes) -> None:
         """A client that has long read nothing has left: the channel is closed."""

@@ -8,6 +8,8 @@ digits is extended, of three standard; `< frame ID s.µs DATA >` has its data in
 answer with one call and takes anything more for an error. A client is therefore said frames
 only after its first frame, or a moment after rawmode.
 
+python-can has no CAN FD on socketcand: such frames are for clients of the slcan adapter only.
+
 What has come is acknowledged at once: a client without `tcp_tune` holds its next frame back until
 then, which a lazy system would put off by 40 ms.
 """
@@ -18,7 +20,8 @@ import socket
 import time
 from typing import Any
 
-from svsa.hardware.emulator.frame import Frame, Outbox
+from svsa.hardware.emulation import Frame
+from svsa.hardware.emulator.frame import Outbox
 
 QUIET_S = 0.2
 MAX_UNREAD_BYTES = 65_536
@@ -167,7 +170,7 @@ class SocketcandServer:
             chosen = [to] if to in self._clients else []
         else:
             chosen = [client for client in self._clients if client.listening]
-        if not chosen:
+        if not chosen or frame.fd:
             return
         name = f"{frame.can_id:08X}" if frame.extended else f"{frame.can_id:03X}"
         if frame.error:

@@ -2,7 +2,7 @@
 
 from svsa.errors import ParameterError
 from svsa.hardware.encoders.source import DeflectionSource
-from svsa.hardware.file import DeflectionSettings
+from svsa.hardware.settings import DeflectionSettings
 
 
 def read_source(settings: DeflectionSettings) -> DeflectionSource:

@@ -7,10 +7,11 @@ from svsa.actuators.domain import INSIDE, Bounds, Domain, check_packed_domain
 from svsa.actuators.dynamics import Actuator
 from svsa.actuators.faults import FAULT_CODES, HELD_BACK, label_fault
 from svsa.actuators.signals import Disturbance, State, Torque
-from svsa.hardware.file import AXIS_WORDS, BenchFile, MotorSettings
+from svsa.hardware.file import BenchFile
 from svsa.hardware.safety.faults import Alarm
 from svsa.hardware.safety.heat import HeldBack, HoldingBack, Winding, describe_held_back
 from svsa.hardware.safety.standstill import NewCounts, Standstill
+from svsa.hardware.settings import AXIS_WORDS, MotorSettings
 from svsa.numerics.packed import pack
 
 SWING_RAD_PER_S = 2.0

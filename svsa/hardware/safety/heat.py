@@ -4,7 +4,7 @@ import math
 from typing import NamedTuple
 
 from svsa.hardware.drives.conversion import build_motor_scale
-from svsa.hardware.file import AXIS_WORDS, MotorSettings
+from svsa.hardware.settings import AXIS_WORDS, MotorSettings
 from svsa.numerics.exponential import expm1
 
 WARM = 0.9

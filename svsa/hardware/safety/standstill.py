@@ -6,8 +6,8 @@ commanded torque; the change is detected long before ŵ exceeds any load.
 """
 
 from svsa.actuators.signals import Disturbance
-from svsa.hardware.file import AXIS_WORDS
 from svsa.hardware.safety.faults import Alarm
+from svsa.hardware.settings import AXIS_WORDS
 
 NewCounts = tuple[int | None, int | None, int | None]
 """Of motor 1, motor 2, deflection; None where nothing new was heard of one in this tick."""

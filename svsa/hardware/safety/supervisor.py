@@ -17,7 +17,8 @@ import can
 
 from svsa.errors import SvsaError
 from svsa.hardware.drives.bus import DELIVERY_S, open_bus, take_waiting
-from svsa.hardware.drives.drive import build_broadcast_resets, build_zero_currents
+from svsa.hardware.drives.drive import merge_stops
+from svsa.hardware.drives.installed import build_stop
 from svsa.hardware.file import BenchFile, read_bench
 from svsa.hardware.safety.heartbeat import Heartbeats
 from svsa.hardware.schedule import SUPERVISOR_PRIORITY, request_real_time
@@ -34,7 +35,7 @@ class Supervisor:
     def __init__(self, bench: BenchFile, bus: can.BusABC, beats: Heartbeats) -> None:
         self._bus, self._beats = bus, beats
         self._settings = bench.supervisor_bus or bench.bus
-        self._frames = [*build_zero_currents(bench), *build_broadcast_resets(bench)]
+        self._frames = merge_stops(build_stop(bench.motor1), build_stop(bench.motor2))
         self._loop_s = bench.safety.loop_s
         self._heard_s = -math.inf
         self.silenced = False

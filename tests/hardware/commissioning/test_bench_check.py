@@ -122,7 +122,7 @@ def test_pulses_that_are_slept_through_again_and_again_tell_of_the_computer(path
 
 
 FAULTS = [
-    (Silence(node="motor2"), 0.0, "motor2: drive 0.2", "7 V to 33 V"),
+    (Silence(node="motor2"), 0.0, "motor2: drive group 0 number 2", "7 V to 33 V"),
     (Stall(node="motor1"), MOVING_S, "motor1: feedback", "turns freely"),
     (BusErrors(count=100), 0.0, "bus", "120 Ω"),
     (DropFrames(node="motor1", probability=0.95), 0.0, "motor1: feedback", "Frames are lost"),
@@ -175,12 +175,12 @@ def test_a_load_that_pulls_the_motor_is_not_taken_for_a_sign(path, bus):
 def test_a_drive_at_another_address_is_found(tmp_path, bus):
     path = copy_bench(tmp_path, lambda text: text.replace("drive_number = 2", "drive_number = 3"))
     steps = check(path, bus)
-    assert "A drive answers at group 0 number 2" in steps["motor2: drive 0.3"].advice
+    assert "A drive answers at group 0 number 2" in steps["motor2: drive group 0 number 3"].advice
 
 
 def test_a_drive_that_answers_nowhere_beside_one_that_does(path, bus):
     bus.emulator.inject(Silence(node="motor1"))
-    assert "factory address" in check(path, bus)["motor1: drive 0.1"].advice
+    assert "factory address" in check(path, bus)["motor1: drive group 0 number 1"].advice
 
 
 def test_a_wrong_deflection_sign_of_the_bench_is_found(tmp_path):

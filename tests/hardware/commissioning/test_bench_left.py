@@ -16,7 +16,7 @@ from svsa.hardware.drives.robomodule import (
     encode,
     split_id,
 )
-from svsa.hardware.emulator.frame import Frame
+from svsa.hardware.emulation import Frame
 from tests.exhaustive import exhaust
 from tests.hardware.commissioning.checked_bench import assert_left_alone, check
 

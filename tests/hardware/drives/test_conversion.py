@@ -12,10 +12,9 @@ from svsa.hardware.drives.conversion import (
     build_motor_scale,
     compute_current_ma,
 )
-from svsa.hardware.file import DeflectionSettings, MotorSettings
+from svsa.hardware.settings import DeflectionSettings, MotorSettings
 
 MOTOR = MotorSettings(
-    drive_number=1,
     counts_per_rev=2000,
     gear_ratio=50.0,
     torque_constant_nm_per_a=0.0396,

@@ -1,5 +1,6 @@
 """The emulator as a python-can bus in virtual time: who waits for a frame moves time on."""
 
+import copy
 import math
 from collections import deque
 from collections.abc import Callable
@@ -8,8 +9,8 @@ from pathlib import Path
 import can
 
 from svsa.hardware.emulator.emulator import Emulator
-from svsa.hardware.emulator.frame import Frame
-from svsa.hardware.file import BusSettings
+from svsa.hardware.settings import BusSettings
+from tests.hardware.emulator.wire_frames import build_message, read_frame
 
 EMULATOR_BENCH = Path(__file__).parents[3] / "svsa" / "hardware" / "emulator" / "bench.toml"
 
@@ -42,8 +43,8 @@ class EmulatorBus:
 
     def send(self, message: can.Message, timeout: float | None = None) -> None:
         self.before_send(message)
-        self.sent.append((self.now(), message))
-        self.emulator.receive(Frame(message.arbitration_id, bytes(message.data)), self)
+        self.sent.append((self.now(), copy.deepcopy(message)))
+        self.emulator.receive(read_frame(message), self)
 
     def recv(self, timeout: float) -> can.Message | None:
         end_us = self.emulator.now_us + math.ceil(timeout * 1e6)
@@ -58,15 +59,7 @@ class EmulatorBus:
     def _advance_to(self, end_us: int) -> None:
         for time_us, frame, sender in self.emulator.advance_to(end_us):
             if sender is not self:
-                self._heard.append(
-                    can.Message(
-                        timestamp=time_us * 1e-6,
-                        arbitration_id=frame.can_id,
-                        data=frame.data,
-                        is_extended_id=frame.extended or frame.error,
-                        is_error_frame=frame.error,
-                    )
-                )
+                self._heard.append(build_message(frame, time_us * 1e-6))
 
     def shutdown(self) -> None:
         self.is_open = False

@@ -9,11 +9,12 @@ from unittest.mock import patch
 
 import can
 
+from svsa.hardware.emulation import Frame
 from svsa.hardware.emulator.control import EmulatorControl, EmulatorError, answer
 from svsa.hardware.emulator.emulator import Emulator
 from svsa.hardware.emulator.exchange import Exchange
-from svsa.hardware.emulator.frame import Frame
-from svsa.hardware.file import BusSettings
+from svsa.hardware.settings import BusSettings
+from tests.hardware.emulator.wire_frames import build_message, read_frame
 
 
 class InProcessBus:
@@ -24,8 +25,7 @@ class InProcessBus:
         self.heard: deque[can.Message] = deque()
 
     def send(self, message: can.Message, timeout: float | None = None) -> None:
-        frame = Frame(message.arbitration_id, bytes(message.data), message.is_extended_id)
-        self._rig.take(self, frame)
+        self._rig.take(self, read_frame(message))
 
     def recv(self, timeout: float | None = None) -> can.Message | None:
         return self.heard.popleft() if self.heard else None
@@ -89,13 +89,7 @@ class InProcessEmulator:
         return len(self.buses)
 
     def send(self, frame: Frame, time_s: float, to: Any = None, but: Any = None) -> None:
-        message = can.Message(
-            timestamp=round(time_s, 6),
-            arbitration_id=frame.can_id,
-            is_extended_id=frame.extended or frame.error,
-            is_error_frame=frame.error,
-            data=frame.data,
-        )
+        message = build_message(frame, round(time_s, 6))
         for bus in self.buses if to is None else [to]:
             if bus is not but:
                 bus.heard.append(message)

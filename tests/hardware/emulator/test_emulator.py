@@ -16,9 +16,8 @@ from svsa.hardware.drives.robomodule import (
     decode,
     encode,
 )
-from svsa.hardware.emulation import EMULATED_ID
+from svsa.hardware.emulation import EMULATED_ID, Frame
 from svsa.hardware.emulator.emulator import FRAME_US, Emulator
-from svsa.hardware.emulator.frame import Frame
 from svsa.simulation.plant.loads import ConstantLoad
 
 LOOP = "the loop's connection"

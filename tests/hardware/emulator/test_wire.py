@@ -8,8 +8,7 @@ import time
 import can
 import pytest
 
-from svsa.hardware.emulation import EMULATED_ID
-from svsa.hardware.emulator.frame import Frame
+from svsa.hardware.emulation import EMULATED_ID, Frame
 from svsa.hardware.emulator.slcan import SlcanServer
 from svsa.hardware.emulator.socketcand import SocketcandServer
 

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from svsa.hardware.emulation import Frame
 from svsa.hardware.emulator import socketcand
-from svsa.hardware.emulator.frame import Frame
 from svsa.hardware.emulator.socketcand import SocketcandServer
 
 from .wire_frames import FRAMES, GREETING

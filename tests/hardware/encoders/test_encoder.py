@@ -9,7 +9,7 @@ from svsa.hardware.encoders import read_source
 from svsa.hardware.encoders.nidaqmx_counter import NidaqmxCounter
 from svsa.hardware.encoders.serial_line import SerialLine
 from svsa.hardware.encoders.source import EncoderError
-from svsa.hardware.file import DeflectionSettings
+from svsa.hardware.settings import DeflectionSettings
 
 
 def build(source, **options):

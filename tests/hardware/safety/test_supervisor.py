@@ -17,8 +17,7 @@ import pytest
 import tomli_w
 
 from svsa.hardware.drives.robomodule import Current, encode
-from svsa.hardware.emulation import EMULATED_DATA, EMULATED_ID
-from svsa.hardware.emulator.frame import Frame
+from svsa.hardware.emulation import EMULATED_DATA, EMULATED_ID, Frame
 from svsa.hardware.emulator.socketcand import SocketcandServer
 from svsa.hardware.file import read_bench
 from svsa.hardware.safety.heartbeat import Heartbeats

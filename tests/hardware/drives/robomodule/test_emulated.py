@@ -4,6 +4,7 @@ import math
 
 import pytest
 
+from svsa.hardware.drives.emulated import Motion
 from svsa.hardware.drives.robomodule import (
     Command,
     Config,
@@ -19,8 +20,8 @@ from svsa.hardware.drives.robomodule import (
     decode,
     encode,
 )
-from svsa.hardware.emulator.drive import SETTLE_US, EmulatedDrive
-from svsa.hardware.emulator.frame import Frame
+from svsa.hardware.drives.robomodule.emulated import SETTLE_US, EmulatedRoboModuleDrive
+from svsa.hardware.emulation import Frame
 from svsa.hardware.emulator.parameters import EmulatorParameters
 
 START_US = 10_000_000
@@ -28,12 +29,16 @@ START_US = 10_000_000
 
 @pytest.fixture
 def drive():
-    return EmulatedDrive(EmulatorParameters().motor1)
+    return EmulatedRoboModuleDrive(EmulatorParameters().motor1)
+
+
+def receive(drive, frame, time_us):
+    return drive.receive(frame, time_us, lambda: Motion(0.0, 0.0))
 
 
 def report(drive, message, time_us, number=1, group=0):
     address = drive.address._replace(group=group, number=number)
-    return drive.receive(Frame(build_id(address, message.command), encode(message)), time_us)
+    return receive(drive, Frame(build_id(address, message.command), encode(message)), time_us)
 
 
 def bring_up(drive, mode=Mode.CURRENT):
@@ -44,7 +49,7 @@ def bring_up(drive, mode=Mode.CURRENT):
 
 
 def read(drive, velocity=0.0, torque=0.0):
-    return decode(Command.FEEDBACK, drive.build_feedback(velocity, torque).data)
+    return decode(Command.FEEDBACK, drive.build_feedback(Motion(velocity, torque)).data)
 
 
 def test_the_sequence_leads_to_a_current(drive):
@@ -100,7 +105,7 @@ def test_a_reset_ends_the_current_and_zeroes_the_position(drive):
     assert read(drive).position_counts != 0
     report(drive, Reset(), ready + 1000)
     assert (drive.mode, drive.current_ma, drive.target_nm) == (None, 0, 0.0)
-    assert not drive.feeding
+    assert drive.list_pushed(0, Motion(0.0, 0.0)) == []
     assert read(drive).position_counts == 0
     drive.look(0.3 + 2.0 * math.pi / (50 * 2000))
     assert read(drive).position_counts == 1
@@ -118,7 +123,7 @@ def test_a_broadcast_reaches_the_group_and_no_other(drive):
 def test_the_online_check_is_echoed_as_the_same_frame(drive):
     ready = bring_up(drive)
     frame = Frame(0x01F, encode(Online()))
-    assert drive.receive(frame, ready) == [frame]
+    assert receive(drive, frame, ready) == [frame]
 
 
 def test_positions_are_whole_counts_behind_the_gearbox(drive):
@@ -155,7 +160,7 @@ def test_without_pwm_there_is_no_current(drive):
 
 @pytest.mark.parametrize("sign", [-1, 1])
 def test_a_motor_mounted_the_other_way_turns_and_counts_the_other_way(sign):
-    drive = EmulatedDrive(EmulatorParameters().motor2.changed(sign=sign))
+    drive = EmulatedRoboModuleDrive(EmulatorParameters().motor2.changed(sign=sign))
     ready = START_US + 2 * SETTLE_US
     for message, time_us in (
         (Reset(), START_US),
@@ -182,5 +187,5 @@ def test_a_motor_mounted_the_other_way_turns_and_counts_the_other_way(sign):
 def test_a_malformed_frame_changes_nothing(drive, frame):
     ready = bring_up(drive)
     report(drive, Current(5000, 250), ready)
-    assert drive.receive(frame, ready + 1000) == []
+    assert receive(drive, frame, ready + 1000) == []
     assert (drive.mode, drive.current_ma) == (Mode.CURRENT, 250)

@@ -6,15 +6,8 @@ from pathlib import Path
 import can
 import pytest
 
-from svsa.hardware.drives.drive import (
-    COMMAND_GATE_S,
-    FIRST_ANSWER_S,
-    MARGIN_S,
-    SETTLE_S,
-    Drive,
-    build_broadcast_resets,
-    build_zero_currents,
-)
+from svsa.hardware.drives.drive import GATE_JITTER_S, merge_stops
+from svsa.hardware.drives.installed import build_stop
 from svsa.hardware.drives.phase import Phase
 from svsa.hardware.drives.robomodule import (
     Command,
@@ -29,9 +22,17 @@ from svsa.hardware.drives.robomodule import (
     encode,
     split_id,
 )
+from svsa.hardware.drives.robomodule.drive import (
+    FIRST_ANSWER_S,
+    GAP_S,
+    MARGIN_S,
+    SETTLE_S,
+    RoboModuleDrive,
+)
 from svsa.hardware.file import read_bench
 
-BENCH = read_bench(Path(__file__).parents[3] / "svsa" / "hardware" / "emulator" / "bench.toml")
+BENCH = read_bench(Path(__file__).parents[4] / "svsa" / "hardware" / "emulator" / "bench.toml")
+COMMAND_GATE_S = GAP_S - GATE_JITTER_S
 TICK_S = 0.001
 SPEED_MAX = 300_000.0
 
@@ -55,13 +56,13 @@ class Driven:
     """A drive that is given its ticks, with the answers of a real one if it is alive."""
 
     def __init__(self, period_s=TICK_S, echoes=True, feeds=True, obeys_config=True):
-        self.bus, self.drive = Listener(), Drive(BENCH.motor1, period_s, SPEED_MAX)
+        self.bus, self.drive = Listener(), RoboModuleDrive(BENCH.motor1, period_s, SPEED_MAX)
         self._echoes, self._feeds, self._obeys = echoes, feeds, obeys_config
         self._ticks = 0
 
     def say(self, counts, current_ma=0, at=None):
         data = encode(Feedback(current_ma, 0, counts))
-        message = can.Message(0.0, self.drive.feedback_id, False, data=data)
+        message = can.Message(0.0, 0x01B, False, data=data)
         self.drive.take(message, self.bus.now if at is None else at)
 
     def tick(self, seconds=TICK_S):
@@ -72,7 +73,7 @@ class Driven:
             self.drive.advance(self.bus, self.bus.now)
             for _, message in self.bus.sent[before:]:
                 if type(message) is Online:
-                    self.drive.online = self._echoes
+                    self.drive.answers = int(self._echoes)
             modes, configs = self.bus.list_times(SetMode), self.bus.list_times(Config)
             heeded = self._obeys or (modes and configs[-1] > modes[-1])
             if modes and heeded and self._feeds:
@@ -158,7 +159,7 @@ def test_a_current_is_the_manuals_frame():
     frames = []
     bus = Listener()
     bus.send = frames.append
-    Drive(BENCH.motor1, TICK_S, SPEED_MAX).send_current(bus, 1000, 1.0)
+    RoboModuleDrive(BENCH.motor1, TICK_S, SPEED_MAX).send_current(bus, 1000, 1.0)
     (frame,) = frames
     assert (frame.arbitration_id, frame.is_extended_id) == (0x013, False)
     assert bytes(frame.data) == bytes.fromhex("138803E855555555")
@@ -218,11 +219,13 @@ def test_a_new_reset_forgets_what_the_drive_said_before():
 
 def test_what_stops_the_drives_reaches_both_and_every_group():
     """Other groups hear nothing of group 0's broadcast."""
-    zeros = build_zero_currents(BENCH)
-    assert [frame.arbitration_id for frame in zeros] == [0x013, 0x023]
-    assert {decode(Command.CURRENT, frame.data).current_ma for frame in zeros} == {0}
     apart = BENCH.changed(motor2=BENCH.motor2.changed(drive_group=3))
-    for bench, wanted in ((BENCH, [0x000]), (apart, [0x000, 0x300])):
-        resets = build_broadcast_resets(bench)
-        assert [frame.arbitration_id for frame in resets] == wanted
+    for bench, wanted in (
+        (BENCH, [0x013, 0x023, 0x000]),
+        (apart, [0x013, 0x323, 0x000, 0x300]),
+    ):
+        frames = merge_stops(build_stop(bench.motor1), build_stop(bench.motor2))
+        assert [frame.arbitration_id for frame in frames] == wanted
+        zeros, resets = frames[:2], frames[2:]
+        assert {decode(Command.CURRENT, frame.data).current_ma for frame in zeros} == {0}
         assert {bytes(frame.data) for frame in resets} == {b"\x55" * 8}

@@ -1,0 +1,158 @@
+"""What an emulated drive is to the emulator: the interface that every family implements.
+
+The base class has what is of the motor and its encoder; a family adds its protocol, written from
+the maker's manual.
+"""
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from typing import ClassVar, NamedTuple
+
+from svsa.hardware.emulation import Frame
+from svsa.hardware.settings import DEFAULT_DRIVE, Sign
+from svsa.inputs.checked import Checked, Number, Whole, quantity
+
+
+class EmulatorClock(Checked):
+    """When a part speaks: every whole ms of its own clock, which began at `phase_s`."""
+
+    phase_s: Number = quantity("s", "First beat after the emulator's start", ge=0, le=0.001)
+    drift: Number = quantity("1", "How much longer its ms is", ge=-0.01, le=0.01, default=0.0)
+
+
+class EmulatedMotor(EmulatorClock):
+    """A motor, its drive, gearbox and encoder. Torque and angle are at the gearbox output.
+
+    The family of the drive adds its address.
+    """
+
+    address_field: ClassVar[str] = ""
+    """The field that distinguishes two drives of the family on one bus."""
+
+    drive: str = quantity("", "Family of the drive", default=DEFAULT_DRIVE)
+    counts_per_rev: Whole = quantity("1", "Counts a motor turn", ge=4, le=10**7, default=2000)
+    gear_ratio: Number = quantity("1", "Gearbox N : 1", gt=0, le=10_000, default=50.0)
+    torque_constant_nm_per_a: Number = quantity("N·m/A", "K_t of the winding", gt=0, le=10)
+    efficiency: Number = quantity("1", "η of the gearbox", gt=0, le=1, default=0.9)
+    sign: Sign = quantity("", "1 where positive current grows angle and counts", default=1)
+    peak_current_a: Number = quantity(
+        "A", "Current the drive gives at most", gt=0, le=32, default=15
+    )
+
+    @property
+    def torque_nm_per_a(self) -> float:
+        """N η K_t with its sign: torque at the gearbox output for a current."""
+        return self.sign * self.gear_ratio * self.efficiency * self.torque_constant_nm_per_a
+
+    @property
+    def place(self) -> str:
+        """The address of the drive, in words."""
+        return ""
+
+
+class Motion(NamedTuple):
+    """Of a motor at the gearbox output: velocity, rad/s, and torque, N·m."""
+
+    velocity: float
+    torque: float
+
+
+class EmulatedDrive(ABC):
+    """A drive, its motor's counter, and the commanded current.
+
+    Attributes:
+        answers_with_feedback: Whether the faults of its feedback are those of its answers.
+        current_ma: Commanded, the same since `since_us`.
+        errors: Number of commands at the wrong moment.
+        stalled, powered, plugged, frozen, offset_ma: See `svsa.hardware.emulator.faults`.
+    """
+
+    answers_with_feedback = False
+
+    def __init__(self, motor: EmulatedMotor) -> None:
+        self.motor = motor
+        self.encoder_sign, self.motor_sign = motor.sign, 1
+        self.offset_ma = 0.0
+        self.powered, self.plugged, self.stalled = True, True, False
+        self.frozen = False
+        self.errors = 0
+        self.current_ma = self.since_us = 0
+        self._raw = self._zero = 0
+
+    @property
+    @abstractmethod
+    def mode(self) -> int | None:
+        """The mode as the drive reports it; None where it has none."""
+
+    @property
+    @abstractmethod
+    def engaged(self) -> bool:
+        """Whether the drive is in the mode in which it makes the commanded current."""
+
+    @abstractmethod
+    def reset(self, time_us: int) -> None:
+        """Begin as after power is switched on: no torque, and the position is zero."""
+
+    @abstractmethod
+    def receive(self, frame: Frame, time_us: int, observe: Callable[[], Motion]) -> list[Frame]:
+        """Take a frame of the bus.
+
+        Args:
+            frame: The frame.
+            time_us: The time, µs.
+            observe: Counts the encoder now, and returns the motion.
+
+        Returns:
+            The frames with which the drive answers.
+        """
+
+    def list_pushed(self, beat: int, motion: Motion) -> list[Frame]:
+        """The frames that the drive sends unasked at this ms of its clock."""
+        return []
+
+    def build_error(self) -> Frame | None:
+        """The frame that a stalled drive sends every 100 ms, if any."""
+        return None
+
+    def expire(self, time_us: int) -> bool:
+        """Stop if commands have not come for too long; whether the torque has changed by that."""
+        return False
+
+    def zero_counter(self) -> None:
+        """Take the position as it is for zero."""
+        self._zero = self._raw
+
+    @property
+    def counts(self) -> int:
+        """The position, counts from its zero."""
+        return self._raw - self._zero
+
+    @property
+    def heard(self) -> bool:
+        """Whether what it says reaches the bus."""
+        return self.powered and self.plugged
+
+    @property
+    def target_nm(self) -> float:
+        """The torque at the gearbox output that the current loop aims at."""
+        if not self.powered or self.stalled or not self.engaged:
+            return 0.0
+        most = 1000.0 * self.motor.peak_current_a
+        current = min(max(self.current_ma + self.offset_ma, -most), most)
+        return self.motor_sign * current * self.motor.torque_nm_per_a / 1000.0
+
+    def look(self, angle: float) -> None:
+        """Count the motor's encoder at this angle of the output, rad."""
+        if not self.frozen:
+            turns = angle * self.motor.gear_ratio / (2.0 * math.pi)
+            self._raw = self.encoder_sign * math.floor(turns * self.motor.counts_per_rev + 0.5)
+
+    def compute_current_ma(self, torque: float) -> float:
+        """The current behind a torque at the output, N·m."""
+        return 1000.0 * self.motor_sign * torque / self.motor.torque_nm_per_a
+
+    def _hold(self, current_ma: int, time_us: int) -> None:
+        """Hold this current from now on."""
+        if current_ma != self.current_ma:
+            self.current_ma, self.since_us = current_ma, time_us

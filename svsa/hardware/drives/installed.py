@@ -1,0 +1,91 @@
+"""The families of drives that are installed: the entry points `svsa.drives` of packages."""
+
+from functools import cache
+from importlib.metadata import EntryPoint, entry_points
+from typing import Any
+
+from svsa.errors import ParameterError, SvsaError, Violation
+from svsa.hardware.drives.drive import Drive, StopFrames
+from svsa.hardware.drives.emulated import EmulatedMotor
+from svsa.hardware.drives.family import DriveFamily
+from svsa.hardware.settings import DEFAULT_DRIVE, MotorSettings
+
+GROUP = "svsa.drives"
+
+
+class DriveFamilyError(SvsaError):
+    """A family of drives whose package does not work."""
+
+
+@cache
+def _find_entries() -> dict[str, EntryPoint]:
+    entries = entry_points(group=GROUP)
+    return {name: next(iter(entries.select(name=name))) for name in sorted(entries.names)}
+
+
+def list_drive_names() -> tuple[str, ...]:
+    """The names of the families of drives that are installed."""
+    return tuple(_find_entries())
+
+
+@cache
+def get_family(name: str) -> DriveFamily:
+    """A family of drives by its name.
+
+    Raises:
+        ParameterError: No family of that name is installed.
+        DriveFamilyError: Its package does not load.
+    """
+    entry = _find_entries().get(name)
+    if entry is None:
+        bound = f"a family of drives that is installed here: {', '.join(list_drive_names())}"
+        raise ParameterError(Violation("drive", name, "", bound))
+    try:
+        family = entry.load()
+    except Exception as error:
+        reported = f"{type(error).__name__}: {error}"
+        raise DriveFamilyError(
+            f"The drives {name} of {entry.module} do not load: {reported}"
+        ) from None
+    if not isinstance(family, DriveFamily) or family.name != name:
+        raise DriveFamilyError(f"{entry.value} is not the family of drives {name}.")
+    return family
+
+
+def read_motor(given: Any) -> MotorSettings:
+    """A motor's section of a bench file, as the family of its drive describes it."""
+    if isinstance(given, MotorSettings):
+        return given
+    return _find_family(given).settings(**given)
+
+
+def read_emulated_motor(given: Any) -> EmulatedMotor:
+    """A motor's section of an emulator's file, as the family of its drive describes it."""
+    if isinstance(given, EmulatedMotor):
+        return given
+    return _find_family(given).emulated(**given)
+
+
+def _find_family(section: Any) -> DriveFamily:
+    if not isinstance(section, dict) or not all(isinstance(name, str) for name in section):
+        raise ParameterError(Violation("", section, "", "a section with named fields"))
+    name = section.get("drive", DEFAULT_DRIVE)
+    if not isinstance(name, str):
+        raise ParameterError(Violation("drive", name, "", "the name of a family of drives"))
+    return get_family(name)
+
+
+def build_drive(motor: MotorSettings, period_s: float, speed_max: float) -> Drive:
+    """The drive of a motor.
+
+    Args:
+        motor: Its section of the bench file.
+        period_s: The control period, s.
+        speed_max: A speed that the motor never reaches, counts/s.
+    """
+    return get_family(motor.drive).build(motor, period_s, speed_max)
+
+
+def build_stop(motor: MotorSettings) -> StopFrames:
+    """The frames that take the torque off the drive of a motor."""
+    return get_family(motor.drive).build_stop(motor)
