@@ -2,8 +2,10 @@
 
 import math
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
+import svsa
 from svsa.actuators.dynamics import compute_deflection
 from svsa.actuators.signals import Disturbance, Measurement, State, Torque
 from svsa.hardware.calibration import find_calibration
@@ -15,7 +17,7 @@ from svsa.hardware.emulator.experiment import connect_bench
 from svsa.hardware.emulator.launch import RunningEmulator
 from svsa.hardware.emulator.mechanics import Mechanics
 from svsa.hardware.emulator.parameters import EmulatorParameters
-from svsa.hardware.file import BenchFile, BusSettings, read_bench
+from svsa.hardware.file import BenchFile, read_bench
 from svsa.hardware.reading import Reading
 from svsa.hardware.realtime.configuration import (
     build_bench_configuration,
@@ -25,12 +27,14 @@ from svsa.hardware.realtime.configuration import (
 from svsa.hardware.realtime.loop import BenchLoop
 from svsa.hardware.realtime.memory import SampleArray
 from svsa.hardware.safety.machine import BenchStatus, Conditions, Machine
+from svsa.hardware.settings import BusSettings
 from svsa.runs.paper import get_figure
 from tests.hardware.wired_bench import EMULATOR_BENCH
 
 AT_REST = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 UNDISTURBED = Disturbance(0.0, 0.0, 0.0)
 NO_TORQUE = Torque(0.0, 0.0)
+MOTEUS = Path(svsa.__file__).parent / "hardware" / "drives" / "moteus"
 FIGURE = get_figure("4a").build_configuration(load=False)
 PHASE_S = 0.0007
 """Where the paper's gains bear that an adapter without timestamps knows no age of a count: the
@@ -185,12 +189,14 @@ def stand_simulated() -> Iterator[Stand]:
 
 
 def stand_emulated(emulator: RunningEmulator, interface: str) -> Iterator[Stand]:
-    bench = connect_bench(emulator)
-    if interface == "slcan":
+    """interface: socketcand or slcan; moteus: its drives, and CAN FD on slcan."""
+    bench = read_bench(MOTEUS / "bench.toml") if interface == "moteus" else connect_bench(emulator)
+    if interface != "socketcand":
         bench = bench.changed(
             bus=BusSettings(
                 interface="slcan",
                 channel=emulator.slcan,
+                fd=interface == "moteus",
                 options={"sleep_after_open": 0.0},
                 timestamps="arrival",
             ),

@@ -40,8 +40,8 @@ def emulator(
 ) -> None:
     """Emulate the bench on the wire: two drives, an encoder and the actuator, on CAN.
 
-    Clients connect as to a socketcand server (python-can's interface `socketcand`), or to the
-    printed terminal as to a slcan adapter. Reachable from this machine only.
+    Clients connect as to a socketcand server (python-can's interface `socketcand`), or to a printed
+    terminal as to a slcan adapter, which carries CAN FD too. Reachable from this machine only.
     """
     from svsa.hardware.emulator.control import ControlServer
     from svsa.hardware.emulator.emulator import Emulator
@@ -53,10 +53,10 @@ def emulator(
 
     machine = Emulator(read_emulator_parameters(file) if file else EmulatorParameters())
     host = "127.0.0.1"
-    serial, network = SlcanServer(), SocketcandServer(host, port)
+    terminals, network = (SlcanServer(), SlcanServer()), SocketcandServer(host, port)
     control = ControlServer(machine, host, control_port)
     process = EmulatorProcess(
-        machine, [network, serial], control, lockstep, idle_s, alone_s or math.inf
+        machine, [network, *terminals], control, lockstep, idle_s, alone_s or math.inf
     )
 
     def stop(*_: object) -> None:
@@ -66,7 +66,8 @@ def emulator(
         signal.signal(number, stop)
     mode = "EMULATED, lockstep" if lockstep else "EMULATED"
     print(
-        f"SVSA emulator: socketcand {host}:{network.port}, slcan {serial.path},"
+        f"SVSA emulator: socketcand {host}:{network.port}, slcan"
+        f" {terminals[0].path} {terminals[1].path},"
         f" control {host}:{control.port} ({mode})",
         flush=True,
     )
@@ -75,7 +76,7 @@ def emulator(
     try:
         process.run()
     finally:
-        for server in (serial, network, control):
+        for server in (*terminals, network, control):
             server.close()
 
 

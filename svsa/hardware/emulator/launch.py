@@ -10,14 +10,15 @@ from typing import NamedTuple
 from svsa.hardware.emulator.control import EmulatorControl, EmulatorError
 
 START_S = 60.0
-_READY = re.compile(r"socketcand 127\.0\.0\.1:(\d+), slcan (\S+), control 127\.0\.0\.1:(\d+)")
+_READY = re.compile(r"socketcand 127\.0\.0\.1:(\d+), slcan (\S+) (\S+), control 127\.0\.0\.1:(\d+)")
 
 
 class RunningEmulator(NamedTuple):
-    """Where an emulator is: the port of socketcand, the pty of slcan, the control port."""
+    """Where an emulator is: the port of socketcand, two terminals of slcan, the control port."""
 
     port: int
     slcan: str
+    second_slcan: str
     control_port: int
     control: EmulatorControl
     process: subprocess.Popen[str]
@@ -54,8 +55,9 @@ def start_emulator(
         found = _READY.search(line)
         if found is None:
             raise EmulatorError(f"The emulator did not start: {line.strip() or 'it said nothing'}")
-        with EmulatorControl(int(found[3])) as control:
-            yield RunningEmulator(int(found[1]), found[2], int(found[3]), control, process)
+        with EmulatorControl(int(found[4])) as control:
+            port, control_port = int(found[1]), int(found[4])
+            yield RunningEmulator(port, found[2], found[3], control_port, control, process)
     finally:
         process.terminate()
         process.wait(START_S)

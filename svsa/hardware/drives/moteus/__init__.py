@@ -1,0 +1,101 @@
+"""The frames of the moteus controllers: CAN FD, each command answered by one reply.
+
+Source: mjbots, moteus documentation, "CAN Protocol" and "Register Reference" (2025). An identifier
+is 16 bits, `reply << 15 | source << 8 | destination`, extended if it is above 0x7FF. A frame is a
+row of subframes that write or read registers, little-endian; unused bytes are 0x50. A controller
+answers a command whose bit 15 is set with the values of the registers that the command reads.
+
+Torque is commanded in position mode with all gains at zero, as the maker's guide says ("Control
+Modes", torque control): this is the mode with a documented watchdog.
+"""
+
+import struct
+from enum import IntEnum
+from typing import NamedTuple
+
+HOST = 0
+"""The source of this computer's commands. A controller has 1 to 127."""
+REPLY = 1 << 15
+NOP = 0x50
+FIRST_FAULT, LAST_FAULT = 32, 95
+"""Fault codes from 96 on say what limits the torque, and are no faults."""
+
+
+class Mode(IntEnum):
+    """Register 0x000, as far as it is used here."""
+
+    STOPPED = 0
+    FAULT = 1
+    PREPARING = 2
+    POSITION = 10
+    TIMEOUT = 11
+
+
+class Register(IntEnum):
+    """Registers that are used here."""
+
+    MODE = 0x000
+    POSITION = 0x001
+    Q_CURRENT = 0x004
+    FAULT = 0x00F
+    COMMAND_POSITION = 0x020
+    COMMAND_VELOCITY = 0x021
+    FEEDFORWARD_TORQUE = 0x022
+    KP_SCALE = 0x023
+    KD_SCALE = 0x024
+    TIMEOUT = 0x027
+    ILIMIT_SCALE = 0x02B
+
+
+class Reply(NamedTuple):
+    """Mode, position in 1e-5 turns, current in mA, and fault code."""
+
+    mode: int
+    position: int
+    current_ma: int
+    fault: int
+
+
+QUERY = bytes((0x11, Register.MODE, 0x19, Register.POSITION))
+QUERY += bytes((0x19, Register.Q_CURRENT, 0x11, Register.FAULT))
+"""Read mode (int8), position and current (int32) and fault code (int8)."""
+STOP = bytes((0x01, Register.MODE, Mode.STOPPED)) + QUERY + bytes((NOP,))
+"""Stop, which also clears a fault. The motor makes no torque."""
+
+# Mode; position -128, which is "where it is now", and velocity 0; torque (float); no gains; timeout
+# (int16, ms); no integral term.
+_TORQUE = struct.Struct("<3s4s2sf4s2sh3s8s")
+_TORQUE_PARTS = (
+    bytes((0x01, Register.MODE, Mode.POSITION)),
+    bytes((0x02, Register.COMMAND_POSITION, 0x80, 0)),
+    bytes((0x0D, Register.FEEDFORWARD_TORQUE)),
+    bytes((0x02, Register.KP_SCALE, 0, 0)),
+    bytes((0x05, Register.TIMEOUT)),
+    bytes((0x01, Register.ILIMIT_SCALE, 0)),
+)
+_REPLY = struct.Struct("<HbHiHiHb")
+_HEADERS = (0x0021, 0x0129, 0x0429, 0x0F21)
+
+
+def build_id(source: int, destination: int, reply: bool = False) -> int:
+    """The identifier of a frame."""
+    return (REPLY if reply else 0) | source << 8 | destination
+
+
+def encode_torque(torque_nm: float, timeout_ms: int) -> bytes:
+    """The 32 bytes that command a torque at the motor, N·m, and read its feedback.
+
+    timeout_ms: without another command for so long, the controller stops to make the torque.
+    """
+    mode, here, torque, gains, timeout, integral = _TORQUE_PARTS
+    return _TORQUE.pack(mode, here, torque, torque_nm, gains, timeout, timeout_ms, integral, QUERY)
+
+
+def decode_reply(data: bytes | bytearray) -> Reply | None:
+    """The values that `QUERY` reads; None for any other frame."""
+    if len(data) < _REPLY.size:
+        return None
+    one, mode, two, position, three, current, four, fault = _REPLY.unpack_from(data)
+    if (one, two, three, four) != _HEADERS:
+        return None
+    return Reply(mode, position, current, fault)

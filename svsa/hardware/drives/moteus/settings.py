@@ -1,0 +1,57 @@
+"""What a bench file and an emulator's file say of a moteus controller."""
+
+from typing import ClassVar
+
+from svsa.hardware.drives.emulated import EmulatedMotor
+from svsa.hardware.settings import MotorSettings
+from svsa.inputs.checked import Number, Whole, quantity
+
+COUNTS_PER_REV = 100_000
+_ID = "Identifier of the controller (id.id)"
+
+
+def describe_place(controller_id: int) -> str:
+    """An identifier in words."""
+    return f"id {controller_id}"
+
+
+class MoteusSettings(MotorSettings):
+    """A motor with a moteus controller, whose `motor_position.rotor_to_output_ratio` is 1."""
+
+    address_field: ClassVar[str] = "id"
+
+    id: Whole = quantity("", _ID, ge=1, le=127)
+    watchdog_s: Number = quantity(
+        "s", "Without a command for so long, the controller times out", ge=0.02, le=1, default=0.1
+    )
+    counts_per_rev: Whole | None = quantity(
+        "1",
+        "Counts a motor turn: the controller reports hundred-thousandths of one",
+        ge=COUNTS_PER_REV,
+        le=COUNTS_PER_REV,
+        default=COUNTS_PER_REV,
+    )
+    torque_constant_nm_per_a: Number | None = quantity(
+        "N·m/A", "K_t of the winding, as the controller has it: it takes a torque", gt=0, le=10
+    )
+
+    @property
+    def place(self) -> str:
+        """The identifier of the controller, in words."""
+        return describe_place(self.id)
+
+
+class EmulatedMoteusMotor(EmulatedMotor):
+    """A motor with an emulated moteus controller."""
+
+    address_field: ClassVar[str] = "id"
+
+    id: Whole = quantity("", _ID, ge=1, le=127)
+    counts_per_rev: Whole = quantity(
+        "1", "Counts a motor turn", ge=COUNTS_PER_REV, le=COUNTS_PER_REV, default=COUNTS_PER_REV
+    )
+
+    @property
+    def place(self) -> str:
+        """The identifier of the controller, in words."""
+        return describe_place(self.id)

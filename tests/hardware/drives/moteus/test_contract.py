@@ -1,0 +1,9 @@
+"""moteus controllers keep the contract of all families: CAN FD, and feedback by query only."""
+
+from tests.hardware.drives.contract import DriveContract
+
+
+class TestMoteus(DriveContract):
+    family = "moteus"
+    addresses = ({"id": 1}, {"id": 2})
+    fd = True
