@@ -48,14 +48,14 @@ def test_no_run_before_its_prediction_which_stays_from_then_on(student):
     assert "Predict first" in refused.json()["detail"]
 
     student.answer("predict-error", 3.0).raise_for_status()
-    student.answer("predict-error", 12.0).raise_for_status()
+    student.answer("predict-error", 7.5).raise_for_status()
     student.answer("predict-stiffness", 0.05).raise_for_status()
     student.set_up("load").raise_for_status()
 
-    late = student.answer("predict-error", 12.1)
+    late = student.answer("predict-error", 7.6)
     assert late.status_code == 409
     part = next(one for one in student.read()["parts"] if one["name"] == "predict-error")
-    assert part["answer"] == 12.0
+    assert part["answer"] == 7.5
     assert part["is_kept"]
 
 
@@ -81,19 +81,19 @@ def test_progress_is_there_for_another_browser_and_after_a_restart(tmp_path):
     with run_lab_in_process(data=str(data)) as lab:
         student = Student(lab, find_exercise(NAME))
         visited = student.client.put(f"{student.path}/place", json={"step": "predict-error"})
-        answered = student.answer("predict-error", 12.0).raise_for_status()
+        answered = student.answer("predict-error", 7.5).raise_for_status()
         assert [visited.json()["changes"], answered.json()["changes"]] == [1, 2]
     with run_lab_in_process(data=str(data)) as lab:
         again = Student(lab, find_exercise(NAME)).read()
 
     assert again["at"] == "predict-error"
     assert [part["done"] for part in again["parts"][:2]] == [True, True]
-    assert ProgressStore(data).read("").get(NAME).get("predict-error").answer == 12.0
+    assert ProgressStore(data).read("").get(NAME).get("predict-error").answer == 7.5
 
 
 def test_a_run_is_judged_and_a_worse_one_does_not_take_its_place(student):
     for step in ("predict-error", "predict-stiffness"):
-        student.answer(step, 12.0).raise_for_status()
+        student.answer(step, 7.5).raise_for_status()
     student.set_up("load").raise_for_status()
     short = student.run("load", 6.0)
     results = student.check("load", short).json()
@@ -117,9 +117,9 @@ def test_nothing_is_submitted_before_it_is_done_and_nothing_changed_after(studen
 
     judgement = student.play(
         {
-            "predict-error": 12.0,
+            "predict-error": 7.5,
             "predict-stiffness": 0.05,
-            "predict-better-model": 17.6,
+            "predict-better-model": 10.6,
             "why": "knowledge",
         },
         {},

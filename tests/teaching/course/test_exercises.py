@@ -10,6 +10,7 @@ from tests.teaching.course.student import Student
 
 pytestmark = pytest.mark.long
 BANDWIDTH = {"observer": {"bandwidth_rad_per_s": [80.0, 80.0, 80.0]}}
+SLOWER = {"gains": {"position_poles_rad_per_s": [-50.0] * 4}}
 RIGHT = {
     "mechanism": (
         {"predict-lever": 0.704, "predict-soft": 8.6, "predict-lost": 0.544, "why": "geometry"},
@@ -17,9 +18,9 @@ RIGHT = {
     ),
     "feedback-linearization": (
         {
-            "predict-error": 12.1,
+            "predict-error": 7.53,
             "predict-stiffness": 0.04,
-            "predict-better-model": 17.7,
+            "predict-better-model": 10.6,
             "why": "knowledge",
         },
         {},
@@ -32,6 +33,7 @@ RIGHT = {
         {
             "predict-seen": 0.0087,
             "why-works": "torque",
+            "guess-limit": "soft",
             "predict-place": 39.0,
             "gamma": "match",
         },
@@ -42,8 +44,8 @@ RIGHT = {
         {},
     ),
     "real-thing": (
-        {"predict-rig": 0.01, "guess": "fault", "why": "less-haste"},
-        {"rescue": {"law": {"law": "ndobc_w"}}},
+        {"predict-rig": 0.01, "guess": "fault", "why": "less-saturation"},
+        {"rescue": SLOWER},
     ),
     "own-law": ({"predict-peak": 2.8, "why": "tuned"}, {}),
 }

@@ -12,9 +12,9 @@ from tests.teaching.course.runs import find_exercise, simulate_step
 
 NAME = "feedback-linearization"
 RIGHT = {
-    "predict-error": 12.0,
+    "predict-error": 7.5,
     "predict-stiffness": 0.05,
-    "predict-better-model": 17.7,
+    "predict-better-model": 10.6,
     "why": "knowledge",
 }
 RUNS = {"load": "load", "exact-model": "exact-model"}
@@ -40,11 +40,11 @@ def test_all_right_has_all_points():
 
 
 def test_a_prediction_a_little_off_has_half_of_the_points_a_wrong_one_none():
-    assert find(judge(RIGHT | {"predict-error": 10.0}), "predict-error").points == 1.5
+    assert find(judge(RIGHT | {"predict-error": 6.0}), "predict-error").points == 1.5
     wrong = find(judge(RIGHT | {"predict-error": 1.0}), "predict-error")
 
     assert wrong.points == 0.0
-    assert "You predicted 1°; the run gave 12.1°" in wrong.feedback
+    assert "You predicted 1°; the run gave 7.56°" in wrong.feedback
     assert wrong.channel == "position_error_rad"
     assert 8.0 <= wrong.time_s <= 12.0
 
@@ -154,8 +154,8 @@ def test_a_wrong_submission_names_its_file(tmp_path, text, said):
 
 def test_the_error_that_is_foretold_is_that_of_the_formula_in_the_text():
     c0, c2, c3 = 60.0**4, 6 * 60.0**2, 240.0
-    M, D, B1, sigma = 0.0153, 0.007, 0.0284, 15.0
-    gain = (c2 / M - c3 * D / M**2 - sigma / M**2) * 2.0 + sigma / (M * B1) * 2.0
+    M, D, sigma = 0.0153, 0.007, 30.0
+    gain = (c2 / M - c3 * D / M**2 - sigma / M**2) * 1.334
 
     assert (
         find(judge(RIGHT | {"predict-error": math.degrees(gain / c0)}), "predict-error").points == 3

@@ -49,7 +49,7 @@ def give(store, again=False, **more):
 def store(tmp_path):
     store = ProgressStore(tmp_path)
     submit(store, "p-2", "Bob")
-    submit(store, "p-1", "Ada", answers={"predict-error": 12.0})
+    submit(store, "p-1", "Ada", answers={"predict-error": 7.5})
     return store
 
 
