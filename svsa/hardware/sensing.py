@@ -9,7 +9,7 @@ from svsa.actuators.signals import Measurement, State
 from svsa.hardware.clock import BenchClock
 from svsa.hardware.drives.bus import BUS_TROUBLE, take_waiting
 from svsa.hardware.drives.conversion import MotorScale, Unwrapped, build_deflection_scale
-from svsa.hardware.drives.drive import EXTENDED, Drive, compute_key
+from svsa.hardware.drives.drive import EXTENDED, Drive
 from svsa.hardware.drives.phase import Phase
 from svsa.hardware.emulation import EMULATED_ID
 from svsa.hardware.encoders import read_source
@@ -159,7 +159,10 @@ class Sensing:
             return
         if message.is_remote_frame or not message.is_rx:
             return
-        key = compute_key(message)
+        # As `compute_key`, without a call for each frame.
+        key = message.arbitration_id
+        if message.is_extended_id:
+            key |= EXTENDED
         stamp = self._clock.convert(message.timestamp, now) if self._stamped else now - self._wait
         time_s = min(stamp, now) - self._age
         drive = self._takers.get(key)

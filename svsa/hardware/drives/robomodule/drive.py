@@ -111,15 +111,14 @@ class RoboModuleDrive(Drive):
     def take(self, message: can.Message, time_s: float) -> None:
         """Read feedback, an error or the echo of the online check."""
         identifier = message.arbitration_id
-        if identifier == self._feedback_id:
-            if len(message.data) == LENGTH:
-                self._take_feedback(message, time_s)
-        elif identifier == self._online_id:
-            self.answers += 1
-        else:
-            self.errors += 1
-
-    def _take_feedback(self, message: can.Message, time_s: float) -> None:
+        if identifier != self._feedback_id:
+            if identifier == self._online_id:
+                self.answers += 1
+            else:
+                self.errors += 1
+            return
+        if len(message.data) != LENGTH:
+            return
         current, _, raw = _FEEDBACK.unpack(message.data)
         before, heard = self.counts, self.heard_s
         self.counts, self.current_ma = self._unwrapped.update(raw), current
