@@ -5,10 +5,11 @@ import tomllib
 from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from svsa.errors import ParameterError, Violation
 
+_Kind = TypeVar("_Kind")
 _TABLE = re.compile(r"\s*(\[\[?)([^\[\]]+)\]")
 _KEY = re.compile(r"\s*([\w.\-\s\"']+?)\s*=")
 
@@ -31,6 +32,37 @@ def parse_toml(text: str, kind: str, name: Path | str) -> dict[str, Any]:
     except RecursionError:
         # tomllib parses nested arrays and tables by recursion.
         raise _refuse(kind, name, "its values are nested too deeply") from None
+
+
+def build_checked(
+    kind: type[_Kind], sections: dict[str, Any], text: str, place: str, changes: dict[str, Any]
+) -> _Kind:
+    """Build a checked value from the sections of a TOML text.
+
+    Args:
+        kind: Class of the value.
+        sections: What is in the text.
+        text: In which the lines of wrong values are found.
+        place: Path of the text's file; empty without a file.
+        changes: Fields in place of the text's.
+
+    Raises:
+        ParameterError: With place and lines of the wrong values that are in the text.
+    """
+    try:
+        return kind(**sections | changes)
+    except ParameterError as error:
+        names = [violation.name for violation in error.violations if violation.name not in changes]
+        there = describe_place(place, text, names) if names else ""
+        raise ParameterError(*error.violations, file=there) from None
+
+
+def read_checked(
+    kind: type[_Kind], path: Path, called: str, changes: dict[str, Any] | None = None
+) -> _Kind:
+    """Build a checked value from a TOML file, as `build_checked`; called: as "study file"."""
+    sections = read_toml(path, called)
+    return build_checked(kind, sections, path.read_text("utf-8"), str(path), changes or {})
 
 
 def _refuse(kind: str, name: Path | str, error: Exception | str) -> ParameterError:

@@ -6,14 +6,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from svsa.control.installed import BASELINE, PAPERS_LAW
 from svsa.evaluation.falsifier.adversary import Adversary
+from svsa.evaluation.falsifier.description import list_attack
+from svsa.evaluation.falsifier.falsification import falsify
 from svsa.evaluation.falsifier.file import format_scenario, read_scenario
-from svsa.evaluation.falsifier.find import falsify
-from svsa.evaluation.falsifier.measure import run_scenario
+from svsa.evaluation.falsifier.measure import list_baselines, run_scenario
 from svsa.evaluation.falsifier.scenario import LoadScenario
 from svsa.evaluation.falsifier.trace import trace_scenario
-from svsa.evaluation.falsifier.wording import list_attack
 from svsa.evaluation.studies.tables import make_plain
 from svsa.runs.records.decimation import decimate
 from svsa.runs.records.header import replace_file
@@ -56,11 +55,6 @@ def search(folder: JobFolder, asked: Asked) -> bool:
     (folder.path / _OUTCOMES).write_text(json.dumps(outcomes), encoding="utf-8")
     (folder.path / _SCENARIO).write_text(format_scenario(found.scenario), encoding="utf-8")
     return found.is_complete
-
-
-def list_baselines(law: str) -> tuple[str, str]:
-    """A law, and NDOBC beside it; beside NDOBC what the paper compares it with."""
-    return law, BASELINE if law == PAPERS_LAW else PAPERS_LAW
 
 
 def read_worst(folder: Path) -> LoadScenario | None:

@@ -6,8 +6,8 @@ svsa.falsify.run_scenario(svsa.falsify.read_scenario("worst.toml"), ("ndobc", "e
 """
 
 from svsa.evaluation.falsifier.adversary import Adversary
+from svsa.evaluation.falsifier.falsification import Falsified, falsify
 from svsa.evaluation.falsifier.file import read_adversary, read_scenario, write_scenario
-from svsa.evaluation.falsifier.find import Falsified, falsify
 from svsa.evaluation.falsifier.measure import run_scenario
 from svsa.evaluation.falsifier.scenario import LoadScenario
 

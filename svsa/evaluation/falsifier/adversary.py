@@ -8,8 +8,8 @@ from pydantic import Field, model_validator
 
 from svsa.control.installed import PAPERS_LAW, InstalledLaw
 from svsa.errors import ParameterError, Violation, settle_number
+from svsa.evaluation.falsifier.load_terms import DIGITS, Terms, admits, build_load
 from svsa.evaluation.falsifier.scenario import Attack, check_load_count
-from svsa.evaluation.falsifier.terms import DIGITS, Terms, admits, build_load
 from svsa.evaluation.studies.setting import read_setting
 from svsa.evaluation.studies.study import FIGURE, build_base, check_measured, check_variation, scale
 from svsa.evaluation.studies.variation import DRAWN, Variation

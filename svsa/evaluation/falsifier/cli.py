@@ -1,31 +1,23 @@
 """`svsa falsify`: find the load that hurts a law most, keep it, put other laws through it."""
 
 import os
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
 from rich.markup import escape
-from rich.progress import (
-    BarColumn,
-    MofNCompleteColumn,
-    Progress,
-    TaskProgressColumn,
-    TextColumn,
-    TimeRemainingColumn,
-)
 from rich.table import Table
 
-from svsa.control.installed import BASELINE, PAPERS_LAW, get_title, list_law_names
+from svsa.control.installed import PAPERS_LAW, get_title, list_law_names
 from svsa.errors import ParameterError, Violation
+from svsa.evaluation.progress_bar import Report, show_progress
 from svsa.inputs.extras import require_extra
 
 if TYPE_CHECKING:
     from svsa.evaluation.falsifier.adversary import Adversary
-    from svsa.evaluation.falsifier.find import Falsified
+    from svsa.evaluation.falsifier.falsification import Falsified
     from svsa.evaluation.falsifier.measure import LawOutcome
     from svsa.evaluation.falsifier.scenario import LoadScenario
 
@@ -56,9 +48,15 @@ def search_command(
     as_json: _Json = False,
 ) -> None:
     """Search for what hurts most, shrink it, keep it. Ctrl-C keeps the worst so far."""
-    from svsa.evaluation.falsifier.file import read_adversary, write_scenario
-    from svsa.evaluation.falsifier.find import falsify as find
-    from svsa.evaluation.falsifier.progress import forget_search, keep_search, read_search
+    from svsa.evaluation.falsifier.falsification import falsify as find
+    from svsa.evaluation.falsifier.file import (
+        forget_search,
+        keep_search,
+        read_adversary,
+        read_search,
+        write_scenario,
+    )
+    from svsa.evaluation.falsifier.measure import list_baselines
 
     if picture is not None:
         require_extra("plot")
@@ -67,17 +65,18 @@ def search_command(
     path = output or Path(f"{Path(source).stem}-{adversary.law}.toml")
     _check_writable("output", path)
     known = read_search(path, adversary, seed, "cma")
-    with _show_progress(adversary, runs, len(known)) as report:
-        found = find(adversary, runs=runs, seed=seed, known=known, on_generation=report)
+    with show_progress(_messages, get_title(adversary.law), runs) as report:
+        on_generation = _report_worst(adversary, report)
+        found = find(adversary, runs=runs, seed=seed, known=known, on_generation=on_generation)
     scenario = found.scenario
     write_scenario(path, scenario)
     if not as_json:
         _print_found(found)
     described = _describe(found, path) if as_json else None
-    _compare_laws(scenario, _list_baselines(adversary.law), described, picture)
+    _compare_laws(scenario, list_baselines(adversary.law), described, picture)
     _messages.print(f"Kept as {path}. Other laws: svsa falsify run {path} --laws all")
     if not found.is_complete:
-        keep_search(path, found)
+        keep_search(path, adversary, seed, "cma", found.severities)
         _messages.print(
             f"Broken off after {len(found.severities)} of {runs} runs, not made simple."
             " The same command goes on from there."
@@ -98,14 +97,15 @@ def run_command(
     as_json: _Json = False,
 ) -> None:
     """Put laws through a scenario that was kept."""
-    from svsa.evaluation.falsifier.kept import open_scenario
-    from svsa.evaluation.falsifier.wording import describe_neighborhood
+    from svsa.evaluation.falsifier.description import describe_neighborhood
+    from svsa.evaluation.falsifier.file import open_scenario
+    from svsa.evaluation.falsifier.measure import list_baselines
 
     if picture is not None:
         require_extra("plot")
     scenario = open_scenario(source)
     if laws is None:
-        names = _list_baselines(scenario.found.law if scenario.found else PAPERS_LAW)
+        names = list_baselines(scenario.found.law if scenario.found else PAPERS_LAW)
     else:
         names = list_law_names() if laws == "all" else tuple(map(str.strip, laws.split(",")))
     if not as_json:
@@ -134,29 +134,29 @@ def compare_command(
     seeds: Annotated[int, typer.Option(min=1, max=1000, help="Seeds 0, 1, …")] = 10,
     as_json: _Json = False,
 ) -> None:
-    """The search against as many random draws: the run of the first fault, a row a seed."""
+    """Compare the search with random samples: the run of the first fault for each seed."""
+    from svsa.evaluation.falsifier.comparison import compare_methods
+    from svsa.evaluation.falsifier.description import format_severity
     from svsa.evaluation.falsifier.file import read_adversary
-    from svsa.evaluation.falsifier.race import race
-    from svsa.evaluation.falsifier.wording import format_severity
     from svsa.evaluation.studies.tables import write_json
 
     adversary = read_adversary(source, **({} if law is None else {"law": law}))
-    with _show_progress(adversary, 2 * runs * seeds) as report:
-        raced = race(adversary, runs, range(seeds), report)
+    with show_progress(_messages, get_title(adversary.law), 2 * runs * seeds) as report:
+        compared = compare_methods(adversary, runs, range(seeds), _report_worst(adversary, report))
     if as_json:
-        write_json(raced._asdict() | {"laps": [lap._asdict() for lap in raced.laps]})
+        write_json(compared)
         return
     table = Table("seed", "CMA-ES", "random", title=adversary.title, title_justify="left")
-    for lap in raced.laps:
+    for one in compared.results:
         cells = [
             f"fault at run {run}"
             if run
             else f"none in {runs}: {format_severity(adversary.harm, x)}"
-            for run, x in ((lap.cma_run, lap.cma_worst), (lap.random_run, lap.random_worst))
+            for run, x in ((one.cma_run, one.cma_worst), (one.random_run, one.random_worst))
         ]
-        table.add_row(str(lap.seed), *cells)
+        table.add_row(str(one.seed), *cells)
     Console().print(table)
-    Console().print(raced.message)
+    Console().print(compared.message)
 
 
 def _compare_laws(
@@ -182,11 +182,6 @@ def _compare_laws(
 
         save_picture(scenario, laws, picture)
         _messages.print(f"Picture: {picture}", highlight=False)
-
-
-def _list_baselines(law: str) -> tuple[str, ...]:
-    """A law, and NDOBC beside it; beside NDOBC what the paper compares it with."""
-    return law, BASELINE if law == PAPERS_LAW else PAPERS_LAW
 
 
 def _check_writable(name: str, path: Path) -> None:
@@ -216,7 +211,7 @@ def _describe(found: "Falsified", path: Path) -> dict[str, object]:
 
 
 def _print_found(found: "Falsified") -> None:
-    from svsa.evaluation.falsifier.wording import (
+    from svsa.evaluation.falsifier.description import (
         describe_attack,
         describe_neighborhood,
         format_severity,
@@ -256,25 +251,9 @@ def _build_table(compared: "list[LawOutcome]") -> Table:
     return table
 
 
-@contextmanager
-def _show_progress(
-    adversary: "Adversary", runs: int, known: int = 0
-) -> Iterator[Callable[[int, float], None]]:
-    """A bar with rate and time left. known: runs of before, which do not count in the rate."""
-    from svsa.evaluation.falsifier.wording import describe_worst
+def _report_worst(adversary: "Adversary", report: Report) -> "Callable[[int, float], None]":
+    """A progress function that shows the worst run so far."""
+    from svsa.evaluation.falsifier.description import describe_worst
 
-    columns = (
-        TextColumn("{task.description}"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TaskProgressColumn(show_speed=True),
-        TimeRemainingColumn(),
-    )
-    with Progress(*columns, console=_messages, transient=True) as bar:
-        task = bar.add_task(f"{get_title(adversary.law)}: compiling …", total=runs, completed=known)
-
-        def report(done: int, worst: float) -> None:
-            text = f"{get_title(adversary.law)}: {describe_worst(adversary.harm, worst)}"
-            bar.update(task, completed=max(done, known), description=text)
-
-        yield report
+    title = get_title(adversary.law)
+    return lambda done, worst: report(done, f"{title}: {describe_worst(adversary.harm, worst)}")

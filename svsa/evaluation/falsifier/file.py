@@ -1,19 +1,29 @@
-"""Adversaries and scenarios as TOML files, and the adversaries that come with the package."""
+"""Files of the falsifier: adversaries, scenarios, and searches that were interrupted.
 
+Scenarios are stored by name in the folder of the runs, so that any law can be run in them.
+"""
+
+import json
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
+import numpy as np
 import tomli_w
 
 from svsa.errors import ParameterError, Violation
 from svsa.evaluation.falsifier.adversary import Adversary
 from svsa.evaluation.falsifier.scenario import LoadScenario
-from svsa.inputs.checked import Checked
-from svsa.inputs.toml_file import describe_place, parse_toml, read_toml
+from svsa.evaluation.falsifier.search import Method
+from svsa.evaluation.studies.store import check_name
+from svsa.inputs.extras import __version__
+from svsa.inputs.toml_file import build_checked, parse_toml, read_checked, read_toml
+from svsa.runs.records.catalogue.runs import find_data_folder
+from svsa.runs.records.header import replace_file
 
 ADVERSARY_FILE, SCENARIO_FILE = "adversary file", "scenario file"
 ADVERSARY_FOLDER = Path(__file__).parent / "builtin"
-_Kind = TypeVar("_Kind", bound=Checked)
+_SUFFIX = ".toml"
+SEARCH_SUFFIX = ".search"
 
 
 def list_adversaries() -> dict[str, str]:
@@ -35,17 +45,17 @@ def read_adversary(source: str | Path, **changes: Any) -> Adversary:
         if not path.exists():
             bound = f"a file that ends in .toml, or one of {', '.join(list_adversaries())}"
             raise ParameterError(Violation("adversary", str(source), "", bound))
-    return _read(Adversary, path, ADVERSARY_FILE, changes)
+    return read_checked(Adversary, path, ADVERSARY_FILE, changes)
 
 
 def parse_adversary(text: str, **changes: Any) -> Adversary:
     """The adversary of a TOML text; changes: fields in place of its own."""
-    return _build(Adversary, parse_toml(text, ADVERSARY_FILE, ""), text, "", changes)
+    return build_checked(Adversary, parse_toml(text, ADVERSARY_FILE, ""), text, "", changes)
 
 
 def read_scenario(path: str | Path) -> LoadScenario:
     """A scenario that was kept; raises `ParameterError` with file and lines."""
-    return _read(LoadScenario, Path(path), SCENARIO_FILE, {})
+    return read_checked(LoadScenario, Path(path), SCENARIO_FILE)
 
 
 def write_scenario(path: str | Path, scenario: LoadScenario) -> None:
@@ -58,18 +68,100 @@ def format_scenario(scenario: LoadScenario) -> str:
     return tomli_w.dumps(scenario.model_dump(exclude_none=True))
 
 
-def _read(kind: type[_Kind], path: Path, called: str, changes: dict[str, Any]) -> _Kind:
-    sections = read_toml(path, called)
-    return _build(kind, sections, path.read_text(encoding="utf-8"), str(path), changes)
+def find_scenarios_folder() -> Path:
+    """Where scenarios are kept."""
+    return find_data_folder() / "scenarios"
 
 
-def _build(
-    kind: type[_Kind], sections: dict[str, Any], text: str, place: str, changes: dict[str, Any]
-) -> _Kind:
-    """place: the file that the text is of; empty for one of none."""
+def list_scenarios() -> dict[str, LoadScenario]:
+    """Those that are kept and can be read, by name."""
+    found = {}
+    for path in sorted(find_scenarios_folder().glob(f"*{_SUFFIX}")):
+        try:
+            found[path.stem] = read_scenario(path)
+        except ParameterError:
+            continue
+    return found
+
+
+def keep_scenario(name: str, scenario: LoadScenario) -> Path:
+    """Keep a scenario by a name; the file that it is in.
+
+    Raises `ParameterError` for a name that is none, and where another scenario has it.
+    """
+    path = _locate(name)
+    content = format_scenario(scenario).encode()
+    if path.exists() and path.read_bytes() != content:
+        raise ParameterError(Violation("name", name, "", "free: another scenario is kept by it"))
+    path.parent.mkdir(parents=True, exist_ok=True)
+    replace_file(path, content)
+    return path
+
+
+def is_kept(name: str) -> bool:
+    """Whether a scenario is kept by this name; raises `ParameterError` for one that is none."""
+    return _locate(name).exists()
+
+
+def open_scenario(source: str) -> LoadScenario:
+    """The scenario of a file that ends in .toml, or the one that is kept by this name.
+
+    Raises `ParameterError` where there is none, and with file and lines for what is wrong in it.
+    """
+    if source.endswith(_SUFFIX):
+        return read_scenario(source)
+    if not is_kept(source):
+        known = ", ".join(list_scenarios()) or "there is none"
+        bound = f"a file that ends in {_SUFFIX}, or kept by its name: {known}"
+        raise ParameterError(Violation("scenario", source, "", bound))
+    return read_scenario(_locate(source))
+
+
+def forget_scenario(name: str) -> bool:
+    """Delete what is kept by a name; whether there was anything."""
+    path = _locate(name)
+    is_there = path.exists()
+    path.unlink(missing_ok=True)
+    return is_there
+
+
+def _locate(name: str) -> Path:
+    check_name(name)
+    return find_scenarios_folder() / f"{name}{_SUFFIX}"
+
+
+def keep_search(
+    path: Path, adversary: Adversary, seed: int, method: Method, severities: np.ndarray
+) -> Path:
+    """Keep what a search has run that writes to `path`; the file where it is."""
+    kept_path = path.with_name(path.name + SEARCH_SUFFIX)
+    reported = _describe_search(adversary, seed, method)
+    content = reported | {"severities": [_write_severity(value) for value in severities.tolist()]}
+    replace_file(kept_path, json.dumps(content).encode())
+    return kept_path
+
+
+def read_search(path: Path, adversary: Adversary, seed: int, method: Method) -> np.ndarray:
+    """What was run of the same search; nothing where there is none, or another one."""
+    kept_path = path.with_name(path.name + SEARCH_SUFFIX)
     try:
-        return kind(**sections | changes)
-    except ParameterError as error:
-        names = [violation.name for violation in error.violations if violation.name not in changes]
-        there = describe_place(place, text, names) if names else ""
-        raise ParameterError(*error.violations, file=there) from None
+        kept = json.loads(kept_path.read_text(encoding="utf-8"))
+        severities = kept.pop("severities")
+    except (OSError, ValueError, KeyError, AttributeError):
+        return np.empty(0)
+    same = kept == json.loads(json.dumps(_describe_search(adversary, seed, method)))
+    return np.array([float(value) for value in severities]) if same else np.empty(0)
+
+
+def forget_search(path: Path) -> None:
+    """Delete what was kept of a search that is done."""
+    path.with_name(path.name + SEARCH_SUFFIX).unlink(missing_ok=True)
+
+
+def _describe_search(adversary: Adversary, seed: int, method: Method) -> dict[str, Any]:
+    reported: dict[str, Any] = {"version": __version__, "seed": seed, "method": method}
+    return reported | {"adversary": adversary.model_dump(mode="json")}
+
+
+def _write_severity(value: float) -> float | str:
+    return value if np.isfinite(value) else repr(value)

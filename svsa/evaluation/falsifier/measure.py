@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from svsa.actuators.parameters import Limits
-from svsa.control.installed import check_installed
+from svsa.control.installed import BASELINE, PAPERS_LAW, check_installed
 from svsa.errors import ParameterError
 from svsa.evaluation.falsifier.adversary import Adversary, Harm
 from svsa.evaluation.falsifier.scenario import Attack, LoadScenario
@@ -85,6 +85,11 @@ def _apply(attack: Attack, base: Configuration) -> Configuration | None:
         return attack.apply(base)
     except ParameterError:
         return None
+
+
+def list_baselines(law: str) -> tuple[str, str]:
+    """A law and the one it is compared with: NDOBC; NDOBC with the paper's own comparison."""
+    return law, BASELINE if law == PAPERS_LAW else PAPERS_LAW
 
 
 class LawOutcome(NamedTuple):

@@ -5,10 +5,10 @@ from typing import NamedTuple
 import numpy as np
 
 from svsa.evaluation.falsifier.adversary import Adversary
+from svsa.evaluation.falsifier.load_terms import Axis, admits
 from svsa.evaluation.falsifier.measure import REFUSAL, Measured, keeps_harm, measure_attacks
 from svsa.evaluation.falsifier.scenario import Attack
-from svsa.evaluation.falsifier.simpler import Place, list_places, replace_number
-from svsa.evaluation.falsifier.terms import Axis, admits
+from svsa.evaluation.falsifier.shrink import Place, list_places, replace_number
 from svsa.evaluation.studies.setting import read_setting
 from svsa.evaluation.studies.variation import LogUniform, Normal, Uniform
 from svsa.runs.configuration import Configuration

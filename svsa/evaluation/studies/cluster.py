@@ -21,7 +21,7 @@ from distributed.scheduler import KilledWorker
 from distributed.utils import LoopRunner
 
 from svsa.errors import ParameterError, Violation
-from svsa.evaluation.studies.pool import Part
+from svsa.evaluation.studies.execution import Part
 from svsa.evaluation.studies.store import Span, StoredStudy, StudyError
 from svsa.evaluation.studies.study import Study
 from svsa.evaluation.studies.work import run_part

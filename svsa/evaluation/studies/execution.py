@@ -2,20 +2,32 @@
 
 import os
 from collections.abc import Callable, Iterator
+from concurrent.futures import FIRST_COMPLETED, Future, wait
+from concurrent.futures.process import BrokenProcessPool
+from functools import partial
 
-from svsa.evaluation.studies.pool import Pool, RunParts, run_here
 from svsa.evaluation.studies.store import (
     Span,
     StoredStudy,
+    StudyError,
     claim_study,
     count_done,
     find_missing,
     join_parts,
     write_part,
 )
+from svsa.evaluation.studies.work import run_part
+from svsa.evaluation.workers import start_workers
 
 WORKERS = min(2, os.cpu_count() or 1)
 ROWS_A_PART = 1024
+
+Part = tuple[Span, bytes]
+"""Draws, and their rows as a Parquet file."""
+
+RunParts = Callable[[StoredStudy, Iterator[Span]], Iterator[Part]]
+"""Runs spans of a study and gives each back once, in any order, as it is done. A span is taken
+when somebody is free for it. A `KeyboardInterrupt` passes after the parts that are kept."""
 
 Progress = Callable[[int, int], None]
 """Told how many rows are done, and of how many."""
@@ -39,7 +51,7 @@ def run_study(
     """
     laws = len(stored.study.laws)
     if run_parts is None:
-        run_parts = Pool(workers).run_parts if workers else run_here
+        run_parts = partial(run_in_processes, workers) if workers else run_here
     with claim_study(stored):
         spans = _cut(find_missing(stored), max(1, rows_a_part // laws), is_cancelled)
         done, total = count_done(stored) * laws, stored.study.row_count
@@ -63,3 +75,40 @@ def _cut(spans: list[Span], length: int, is_cancelled: Callable[[], bool]) -> It
             if is_cancelled():
                 return
             yield begin, min(begin + length, stop)
+
+
+def run_here(stored: StoredStudy, spans: Iterator[Span]) -> Iterator[Part]:
+    """The parts of these spans, run in this process."""
+    for first, stop in spans:
+        yield (first, stop), run_part(stored.study, first, stop - first)
+
+
+def run_in_processes(workers: int, stored: StoredStudy, spans: Iterator[Span]) -> Iterator[Part]:
+    """The parts of these spans, run by processes of low priority; after an interruption those that
+    were being worked at.
+    """
+    with start_workers(workers) as pool:
+        begun: dict[Future[bytes], Span] = {}
+        interrupted: KeyboardInterrupt | None = None
+        while True:
+            while interrupted is None and len(begun) < 2 * workers:
+                span = next(spans, None)
+                if span is None:
+                    break
+                begun[pool.submit(run_part, stored.study, span[0], span[1] - span[0])] = span
+            if not begun:
+                break
+            try:
+                finished, _ = wait(begun, return_when=FIRST_COMPLETED)
+            except KeyboardInterrupt as error:
+                interrupted = error
+                begun = {one: span for one, span in begun.items() if not one.cancel()}
+                continue
+            for one in finished:
+                try:
+                    yield begun.pop(one), one.result()
+                except BrokenProcessPool:
+                    text = "A worker was ended from outside. What is done is kept: go on with"
+                    raise StudyError(f"{text} `svsa study run {stored.name}`.") from None
+        if interrupted is not None:
+            raise interrupted

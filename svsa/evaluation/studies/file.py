@@ -7,7 +7,7 @@ from typing import Any
 
 from svsa.errors import ParameterError, Violation
 from svsa.evaluation.studies.study import Study
-from svsa.inputs.toml_file import describe_place, parse_toml, read_toml
+from svsa.inputs.toml_file import build_checked, parse_toml, read_checked, read_toml
 
 STUDY_FILE = "study file"
 OBJECT = "STUDY"
@@ -46,8 +46,7 @@ def read_study(source: str | Path, runs: int | None = None) -> tuple[str, Study]
         study = _run_python(path)
         return path.stem, study if runs is None else study.changed(runs=runs)
     changes: dict[str, Any] = {} if runs is None else {"runs": runs}
-    sections = read_toml(path, STUDY_FILE)
-    return path.stem, _build(sections, path.read_text(encoding="utf-8"), str(path), changes)
+    return path.stem, read_checked(Study, path, STUDY_FILE, changes)
 
 
 def parse_study(text: str, place: str = "", **changes: Any) -> Study:
@@ -55,16 +54,7 @@ def parse_study(text: str, place: str = "", **changes: Any) -> Study:
 
     Raises `ParameterError` as `read_study`, with `place` as the file's name.
     """
-    return _build(parse_toml(text, STUDY_FILE, place), text, place, changes)
-
-
-def _build(sections: dict[str, Any], text: str, place: str, changes: dict[str, Any]) -> Study:
-    try:
-        return Study(**sections | changes)
-    except ParameterError as error:
-        names = [violation.name for violation in error.violations if violation.name not in changes]
-        there = describe_place(place, text, names) if names else ""
-        raise ParameterError(*error.violations, file=there) from None
+    return build_checked(Study, parse_toml(text, STUDY_FILE, place), text, place, changes)
 
 
 def _run_python(path: Path) -> Study:

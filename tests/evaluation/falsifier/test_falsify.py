@@ -4,16 +4,16 @@ import numpy as np
 import pytest
 
 import svsa
-from svsa.evaluation.falsifier import find as finding
+from svsa.evaluation.falsifier import falsification as finding
 from svsa.evaluation.falsifier import neighborhood
 from svsa.evaluation.falsifier.adversary import Adversary
+from svsa.evaluation.falsifier.description import describe_neighborhood
+from svsa.evaluation.falsifier.falsification import FalsifierError, falsify
 from svsa.evaluation.falsifier.file import read_adversary, read_scenario, write_scenario
-from svsa.evaluation.falsifier.find import FalsifierError, falsify
+from svsa.evaluation.falsifier.load_terms import Axis
 from svsa.evaluation.falsifier.measure import judge, measure_attacks, run_scenario
 from svsa.evaluation.falsifier.neighborhood import measure_neighborhood
 from svsa.evaluation.falsifier.scenario import Attack
-from svsa.evaluation.falsifier.terms import Axis
-from svsa.evaluation.falsifier.wording import describe_neighborhood
 from svsa.evaluation.statistics import estimate_share
 from svsa.simulation.plant.loads import PulseLoad
 from tests.evaluation.falsifier.weak_law import LOADED_NM, LONGEST_S, SHORTEST_S, install

@@ -8,18 +8,16 @@ from typer.testing import CliRunner
 
 from svsa.cli import app
 from svsa.errors import ParameterError
-from svsa.evaluation.falsifier import find as finding
+from svsa.evaluation.falsifier import falsification as finding
 from svsa.evaluation.falsifier.file import (
+    forget_scenario,
+    keep_scenario,
     list_adversaries,
+    list_scenarios,
+    open_scenario,
     read_adversary,
     read_scenario,
     write_scenario,
-)
-from svsa.evaluation.falsifier.kept import (
-    forget_scenario,
-    keep_scenario,
-    list_scenarios,
-    open_scenario,
 )
 from svsa.evaluation.falsifier.measure import measure_attacks, run_scenario
 from svsa.evaluation.falsifier.scenario import LoadScenario
@@ -153,13 +151,13 @@ def test_what_was_kept_of_another_search_is_left_alone(tmp_path):
     assert (tmp_path / "two.toml").read_bytes() == (tmp_path / "one.toml").read_bytes()
 
 
-def test_random_draws_are_raced_seed_by_seed(tmp_path):
+def test_the_search_is_compared_with_random_samples_seed_by_seed(tmp_path):
     (tmp_path / "pulse.toml").write_text(GOOD)
     reported = json.loads(
         run("compare", "pulse.toml", "--seeds", "2", "--runs", "640", "--json").stdout
     )
-    assert [lap["seed"] for lap in reported["laps"]] == [0, 1]
-    faults = sum(lap["cma_run"] is not None for lap in reported["laps"])
+    assert [lap["seed"] for lap in reported["results"]] == [0, 1]
+    faults = sum(lap["cma_run"] is not None for lap in reported["results"])
     assert f"CMA-ES found a fault with {faults}" in reported["message"]
     assert "seed" in run("compare", "pulse.toml", "--seeds", "1", "--runs", "64").stdout
 

@@ -6,8 +6,8 @@ import tomllib
 import pytest
 
 from svsa.evaluation.falsifier.adversary import Adversary
+from svsa.evaluation.falsifier.falsification import falsify
 from svsa.evaluation.falsifier.file import read_adversary
-from svsa.evaluation.falsifier.find import falsify
 from tests.lab_in_process import run_lab_in_process
 
 LONGEST_S = 240.0

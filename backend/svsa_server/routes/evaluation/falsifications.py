@@ -9,6 +9,7 @@ from fastapi.responses import Response
 from svsa.control.installed import get_title
 from svsa.errors import StateError
 from svsa.evaluation.falsifier.file import ADVERSARY_FOLDER, list_adversaries, read_adversary
+from svsa.evaluation.falsifier.measure import list_baselines
 from svsa.evaluation.falsifier.scenario import LoadScenario
 from svsa.runs.configuration import Lane
 from svsa_server.access.owned import Owned
@@ -16,7 +17,6 @@ from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
 from svsa_server.jobs.falsifications import (
     Asked,
     find_file,
-    list_baselines,
     read_found,
     read_worst,
     search,

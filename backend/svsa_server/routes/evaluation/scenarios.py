@@ -6,9 +6,9 @@ from typing import Annotated
 from fastapi import Body, Path, Request
 from fastapi.responses import Response
 
-from svsa.evaluation.falsifier.file import format_scenario
-from svsa.evaluation.falsifier.kept import (
+from svsa.evaluation.falsifier.file import (
     forget_scenario,
+    format_scenario,
     is_kept,
     keep_scenario,
     list_scenarios,

@@ -1,4 +1,4 @@
-"""What came of a run, in a few words."""
+"""Descriptions of outcomes, loads and counterexamples in a few words."""
 
 import math
 from typing import Any
@@ -7,10 +7,21 @@ from svsa.actuators.faults import label_fault
 from svsa.evaluation.falsifier.adversary import Harm
 from svsa.evaluation.falsifier.measure import METRIC, Measured
 from svsa.evaluation.falsifier.scenario import Attack, Finding
-from svsa.evaluation.falsifier.simpler import BODIES, NUMBERS, format_run_number
 from svsa.evaluation.studies.outcome import REFUSED
 from svsa.evaluation.studies.tables import format_metric, format_share, format_unit, format_value
 from svsa.simulation.plant.loads import Load
+
+BODIES = ("the link", "motor 1", "motor 2")
+NUMBERS = {
+    "duration_s": "{:g} s long",
+    "frequency_hz": "{:g} Hz",
+    "phase_rad": "phase {:g} rad",
+}
+
+
+def format_run_number(template: str, value: float) -> str:
+    """The number in its words, with a minus sign and no hyphen."""
+    return template.format(value).replace("-", "−")
 
 
 def describe_outcome(measured: Measured, row: int, harm: Harm) -> str:

@@ -1,7 +1,7 @@
 """What is said of an attack."""
 
+from svsa.evaluation.falsifier.description import describe_attack
 from svsa.evaluation.falsifier.scenario import Attack
-from svsa.evaluation.falsifier.wording import describe_attack
 from svsa.simulation.plant.loads import SineLoad
 
 

@@ -1,0 +1,63 @@
+"""Comparison of CMA-ES with random samples: the run of the first fault, seed by seed."""
+
+from collections.abc import Callable, Iterable
+from math import inf
+from typing import NamedTuple
+
+from svsa.evaluation.falsifier.adversary import Adversary
+from svsa.evaluation.falsifier.falsification import falsify
+
+
+class SeedResult(NamedTuple):
+    """For a seed the run of the first fault, None without one, and the greatest severity."""
+
+    seed: int
+    cma_run: int | None
+    cma_worst: float
+    random_run: int | None
+    random_worst: float
+
+
+class MethodComparison(NamedTuple):
+    """The results of all seeds, each of at most `runs` runs. message: which method was first."""
+
+    adversary: str
+    law: str
+    runs: int
+    results: tuple[SeedResult, ...]
+    message: str
+
+
+def compare_methods(
+    adversary: Adversary,
+    runs: int,
+    seeds: Iterable[int],
+    progress: Callable[[int, float], None] = lambda done, worst: None,
+) -> MethodComparison:
+    """Search with every seed by both methods; raises `FalsifierError` as `falsify`."""
+    results, done = list[SeedResult](), 0
+    for seed in seeds:
+        found: list[tuple[int | None, float]] = []
+        for method in ("cma", "random"):
+
+            def report(count: int, worst: float, before: int = done) -> None:
+                progress(before + count, worst)
+
+            options = {"seed": seed, "method": method, "is_shrunk": False}
+            one = falsify(adversary, runs=runs, on_generation=report, **options)
+            found.append((one.run if one.is_fault else None, one.severity))
+            done += runs
+        results.append(SeedResult(seed, *found[0], *found[1]))
+    return MethodComparison(
+        adversary.title, adversary.law, runs, tuple(results), _summarize(results)
+    )
+
+
+def _summarize(results: list[SeedResult]) -> str:
+    cma = sum(one.cma_run is not None for one in results)
+    random = sum(one.random_run is not None for one in results)
+    first = sum((one.cma_run or inf) < (one.random_run or inf) for one in results)
+    return (
+        f"Of {len(results)} seeds: CMA-ES found a fault with {cma}, random samples with {random};"
+        f" CMA-ES alone or earlier with {first}."
+    )
