@@ -13,6 +13,7 @@ from rich.table import Table
 from svsa.inputs.extras import require_extra
 
 if TYPE_CHECKING:
+    from svsa.analysis.design.attraction import Cell, Fate
     from svsa.analysis.design.report import Report
     from svsa.analysis.design.robustness import StableRange
 
@@ -116,8 +117,8 @@ def _build_loop_table(reports: "list[Report]") -> Table:
         ("fastest β on the rig, rad/s", [_format_fastest(one, 1) for one in reports]),
         ("  with two samples of delay", [_format_fastest(one, 2) for one in reports]),
         ("  ideal", [_format_fastest(one, 0) for one in reports]),
-        ("sampled starts that come to rest", [_format_share(one.share) for one in reports]),
-        ("  with φ ±0.3 rad, φ̇ ±5 rad/s", [_format_share(one.bent_share) for one in reports]),
+        ("sampled starts that come to rest", [_format_share(one.rigid) for one in reports]),
+        ("  with φ ±0.3 rad, φ̇ ±5 rad/s", [_format_share(one.deflected) for one in reports]),
     ]
     for one in reports:
         table.add_column(f"{one.sigma:g}", justify="right")
@@ -175,5 +176,7 @@ def _format_fastest(report: "Report", delay: int) -> str:
     return "over 1000" if beta is None else f"{beta:.0f}"
 
 
-def _format_share(share: float | None) -> str:
-    return "–" if share is None else f"{share:.2f}"
+def _format_share(fates: "dict[Cell, Fate]") -> str:
+    from svsa.analysis.design.attraction import compute_share
+
+    return f"{compute_share(list(fates.values())):.2f}" if fates else "–"

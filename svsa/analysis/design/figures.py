@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure as Picture
 
-from svsa.analysis.design.attraction import build_map
+from svsa.analysis.design.attraction import Cell, Fate, build_map, compute_share
 from svsa.analysis.design.report import Report
 from svsa.analysis.design.sampled_loop import compute_disturbance_response, find_fastest_observer
 from svsa.control.gains import Gains
@@ -24,15 +24,19 @@ _FATE_COLORS = ("#8fc7e8", "#f0b49b", "#b9b9b9")
 
 
 def save_picture(configuration: Configuration, reports: Sequence[Report], path: Path) -> None:
-    """Poles, e over w, the fastest observer over the poles, and the first map with fates."""
-    picture = Picture(figsize=(9.6, 7.6), layout="constrained")
+    """Poles, e over w, the fastest observer over the poles, and both maps of the first report."""
+    picture = Picture(figsize=(9.6, 10.6), layout="constrained")
     title, beta = get_law(configuration.law).title, configuration.observer.bandwidth_rad_per_s[0]
     picture.suptitle(f"{title}, β = {beta:g} rad/s, plant and nominal model not the same")
-    (poles, bode), (observer, attraction) = picture.subplots(2, 2)
-    _draw_poles(poles, reports)
-    _draw_bode(bode, configuration, reports)
-    _draw_fastest(observer, configuration)
-    _draw_attraction(attraction, next((one for one in reports if one.fates), None))
+    axes = picture.subplot_mosaic(
+        [["poles", "bode"], ["observer", "observer"], ["rigid", "deflected"]]
+    )
+    _draw_poles(axes["poles"], reports)
+    _draw_bode(axes["bode"], configuration, reports)
+    _draw_fastest(axes["observer"], configuration)
+    sigma, rigid, deflected = reports[0].sigma, reports[0].rigid, reports[0].deflected
+    _draw_attraction(axes["rigid"], f"σ = {sigma:g}, φ0 = φ̇0 = 0", rigid)
+    _draw_attraction(axes["deflected"], f"σ = {sigma:g}, φ0 ±0.3 rad, φ̇0 ±5 rad/s", deflected)
     picture.savefig(path, dpi=130)
 
 
@@ -90,13 +94,13 @@ def _draw_fastest(axes: Axes, configuration: Configuration) -> None:
     _finish(axes)
 
 
-def _draw_attraction(axes: Axes, report: Report | None) -> None:
-    if report is None:
+def _draw_attraction(axes: Axes, drawn: str, fates: dict[Cell, Fate]) -> None:
+    if not fates:
         axes.set_axis_off()
         return
-    count = 1 + max(cell.row for cell in report.fates)
+    count = 1 + max(cell.row for cell in fates)
     grid = np.zeros((count, count))
-    for cell, fate in report.fates.items():
+    for cell, fate in fates.items():
         grid[cell] = _FATES[fate.outcome]
     starts = build_map(count)
     for (outcome, number), color in zip(_FATES.items(), _FATE_COLORS, strict=True):
@@ -111,9 +115,9 @@ def _draw_attraction(axes: Axes, report: Report | None) -> None:
         vmin=0,
         vmax=2,
     )
+    share = compute_share(list(fates.values()))
     axes.set(
-        title=f"Rig, σ = {report.sigma:g}, φ0 = φ̇0 = 0: {report.share:.2f} of {count} × {count}"
-        " starts come to rest\na sample of a slice, no proof",
+        title=f"Rig, {drawn}\n{share:.2f} of {count} × {count} starts come to rest; no proof",
         xlabel="q0 [°]",
         ylabel="q̇0 [rad/s]",
     )

@@ -30,8 +30,8 @@ DELAYS = {0: IDEAL, 1: RIG, 2: RIG.changed(delay_samples=2)}
 class Report(NamedTuple):
     """At σ_d = sigma, N·m/rad. fastest: β, rad/s, by samples of delay, 0 being the ideal loop.
 
-    fates: of the rigid map's starts on the paper's rig; empty without a map. share, bent_share: of
-    the starts that come to rest in the rigid and in the deflected map; None without a map.
+    rigid, deflected: what becomes of the starts of both maps on the paper's rig; empty without a
+    map.
     """
 
     sigma: float
@@ -39,9 +39,8 @@ class Report(NamedTuple):
     ramps: list[RampRun]
     fastest: dict[int, float | None]
     is_observed: bool
-    fates: dict[Cell, Fate]
-    share: float | None
-    bent_share: float | None
+    rigid: dict[Cell, Fate]
+    deflected: dict[Cell, Fate]
 
     def to_json(self) -> dict[str, Any]:
         """Numbers with their units in their names; null where there is none."""
@@ -63,8 +62,8 @@ class Report(NamedTuple):
             "fastest_observer_rad_per_s": {
                 f"{delay}_samples_of_delay": beta for delay, beta in self.fastest.items()
             },
-            "share_that_comes_to_rest": self.share,
-            "share_with_deflection": self.bent_share,
+            "share_that_comes_to_rest": _share(self.rigid),
+            "share_with_deflection": _share(self.deflected),
         }
 
 
@@ -100,14 +99,14 @@ def build_report(
     done, total = 0, max(1, 2 * len(sigmas) * starts**2)
     reports = []
 
-    def fill(sigma: float, chosen: Slice) -> tuple[dict[Cell, Fate], float | None]:
+    def fill(sigma: float, chosen: Slice) -> dict[Cell, Fate]:
         nonlocal done
         fates: dict[Cell, Fate] = {}
         on_rig, cells = configuration.changed(effects=RIG), order_cells(starts)
         for cell, fate in find_fates(on_rig, sigma, build_map(starts, chosen), cells):
             fates[cell], done = fate, done + 1
             report(done / total)
-        return fates, compute_share(list(fates.values())) if fates else None
+        return fates
 
     for sigma in sigmas:
         stability = assess(configuration, sigma)
@@ -116,10 +115,14 @@ def build_report(
             delay: find_fastest_observer(configuration.changed(effects=effects), sigma)
             for delay, effects in DELAYS.items()
         }
-        (fates, share), (_, bent) = fill(sigma, "rigid"), fill(sigma, "deflected")
+        rigid, deflected = fill(sigma, "rigid"), fill(sigma, "deflected")
         is_observed = get_law(configuration.law).estimate == "observer"
-        reports.append(Report(sigma, stability, ramps, fastest, is_observed, fates, share, bent))
+        reports.append(Report(sigma, stability, ramps, fastest, is_observed, rigid, deflected))
     return reports
+
+
+def _share(fates: dict[Cell, Fate]) -> float | None:
+    return compute_share(list(fates.values())) if fates else None
 
 
 def _finite(value: float) -> float | None:
