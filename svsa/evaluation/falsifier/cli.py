@@ -230,7 +230,7 @@ def _print_found(found: "Falsified") -> None:
 
 
 def _build_table(compared: "list[LawOutcome]") -> Table:
-    """What came of each law; the metrics of a run in a fault are those until then."""
+    """The outcome of each law; metrics of a run with a fault end at the fault."""
     from svsa.actuators.faults import label_fault
     from svsa.evaluation.studies.tables import format_unit, format_value
 

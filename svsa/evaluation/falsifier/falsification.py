@@ -85,7 +85,7 @@ def _describe(
     search: tuple[Method, int, int, int],
     neighborhood: Neighborhood | None = None,
 ) -> LoadScenario:
-    """outcomes: what came of the law as it was found, and as it is. search: method, seed, number of
+    """outcomes: of the law as it was found, and as it is. search: method, seed, number of
     the run that showed it, runs.
     """
     method, seed, run, runs = search
@@ -119,7 +119,7 @@ class _EndedError(Exception):
 class _Search:
     """The runs of a search, counted against its bound; those known from before are not run.
 
-    on_worse: told of each run that hurts more than all before it: its number, and what it did.
+    on_worse: called with each run that hurts more than all before it: its number, and what it did.
     """
 
     def __init__(
@@ -173,16 +173,27 @@ def falsify(
 ) -> Falsified:
     """Search for what hurts the adversary's law most, and shrink it to the simplest that does.
 
-    runs: at most, without those of shrinking and of the neighborhood. The search ends at the first
-    fault, than which nothing is worse. The same arguments give the same result. method: "random" is
-    there to be compared with. known: `Falsified.severities` of the same search broken off.
-    on_generation: told after each how many runs there were, and the greatest severity. on_worse:
-    told of each attack that is worse than all before it, as a scenario. is_cancelled: asked before
-    each generation; where it says so, and at Ctrl-C, the worst so far is returned as it is.
-    is_shrunk: whether it is made simple, and its neighborhood is run.
+    The search ends at the first fault, than which nothing is worse. The same arguments give the
+    same result. At Ctrl-C the worst so far is returned as it is.
 
-    Raises `ParameterError` for numbers out of range, `FalsifierError` where the law ends in a fault
-    by itself, `KeyboardInterrupt` before the first generation.
+    Args:
+        adversary: Law, harm and ranges.
+        runs: Of the search at most, without those of shrinking and of the neighborhood.
+        seed: Of the search.
+        method: "cma", or "random" for a comparison.
+        known: `Falsified.severities` of the same search that was interrupted.
+        on_generation: Called after each generation with the runs so far and the greatest severity.
+        on_worse: Called with each attack that is worse than all before it, as a scenario.
+        is_cancelled: Called before each generation; True ends the search as Ctrl-C does.
+        is_shrunk: Whether the attack is made simple and its neighborhood is run.
+
+    Returns:
+        The worst attack of the search.
+
+    Raises:
+        ParameterError: For numbers out of range.
+        FalsifierError: If the law ends in a fault without a load of the adversary.
+        KeyboardInterrupt: Before the first generation.
     """
     check_number("runs", runs, "", 1, MAX_RUNS)
     check_number("seed", seed, "", 0, 2**63 - 1)

@@ -24,7 +24,7 @@ REFUSAL = -np.inf
 
 
 class Measured(NamedTuple):
-    """What came of runs. severity: of each, see `judge`. outcome: see `measure_runs`."""
+    """Outcomes of runs. severity: of each, see `judge`. outcome: see `measure_runs`."""
 
     severity: np.ndarray
     outcome: dict[str, Any]

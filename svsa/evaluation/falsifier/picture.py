@@ -1,4 +1,4 @@
-"""A scenario as a picture: the load, and the errors of laws beside each other."""
+"""A scenario as a picture: the load, and the errors of several laws."""
 
 from collections.abc import Sequence
 from pathlib import Path

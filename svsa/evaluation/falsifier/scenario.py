@@ -33,7 +33,7 @@ class Finding(Checked):
 
     law: LawName = quantity("", "Law that it hurts")
     harm: str = quantity("", "What was looked for", max_length=40)
-    outcome: str = quantity("", "What came of the law", max_length=200)
+    outcome: str = quantity("", "Outcome of the law", max_length=200)
     adversary: str = quantity("", "Among what was searched", max_length=200)
     method: str = quantity("", "How", max_length=40)
     seed: Whole = quantity("", "Seed of the search", ge=0)

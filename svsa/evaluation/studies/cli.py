@@ -1,4 +1,4 @@
-"""`svsa study`: run studies, list them, and say what came of them."""
+"""`svsa study`: run, list, summarize, compare and replay studies."""
 
 import time
 from pathlib import Path
@@ -63,7 +63,7 @@ def run_command(
         again = _describe_repeat(source, runs=runs, name=name, workers=workers, scheduler=scheduler)
         _messages.print(f"Go on with: svsa study run {again}")
         raise typer.Exit(INTERRUPTED)
-    _messages.print(f"What came of it: svsa study show {stored.name}")
+    _messages.print(f"Results: svsa study show {stored.name}")
 
 
 def _find_study(source: str, runs: int | None) -> "tuple[str, Study]":
@@ -78,7 +78,7 @@ def _find_study(source: str, runs: int | None) -> "tuple[str, Study]":
 
 
 def _check_cluster(scheduler: str, workers: int | None) -> None:
-    """That there is Dask, and that it is not told its number of workers where they are there."""
+    """Check that Dask is installed, and that --workers is only given for a local cluster."""
     require_extra("cluster")
     from svsa.evaluation.studies.cluster import LOCAL
 
@@ -143,7 +143,7 @@ def show_command(
         Path | None, typer.Option(help="Folder for pictures; none are drawn if left out.")
     ] = None,
 ) -> None:
-    """What came of a study: success, faults and quantiles of each law, and what decided them."""
+    """Results of a study: success, faults and quantiles of each law, and Sobol indices."""
     from svsa.evaluation.studies.store import open_study, read_rows
     from svsa.evaluation.studies.summary import SUCCEEDED, estimate_sensitivity, summarize_laws
     from svsa.evaluation.studies.tables import (

@@ -1,7 +1,7 @@
 """Past one machine: the parts of a study run by the workers of a Dask cluster.
 
 A part is a function of the study and its samples alone, so that one whose worker was lost is run
-again by another. Parts come as the bytes that are kept: whoever asks for them writes, no more.
+again by another. Parts come as the bytes that are stored: the client only writes them.
 """
 
 import logging
@@ -182,7 +182,7 @@ def open_cluster(scheduler: str, workers: int) -> Iterator[Cluster]:
 
 
 class _GiveWay(WorkerPlugin):
-    """A worker of this machine is in nobody's way, and leaves Ctrl-C to its parent."""
+    """A worker of this machine has a low priority, and leaves Ctrl-C to its parent."""
 
     def setup(self, worker: Any) -> None:
         give_way()

@@ -1,4 +1,4 @@
-"""Running a study: stretches of samples to whoever runs them, rows to its folder."""
+"""Execution of a study: spans of samples run by workers, their rows written to its folder."""
 
 import os
 from collections.abc import Callable, Iterator
@@ -27,10 +27,10 @@ Part = tuple[Span, bytes]
 
 RunParts = Callable[[StoredStudy, Iterator[Span]], Iterator[Part]]
 """Runs spans of a study and gives each back once, in any order, as it is done. A span is taken
-when somebody is free for it. A `KeyboardInterrupt` passes after the parts that are kept."""
+when a worker is free. A `KeyboardInterrupt` passes after the parts that are kept."""
 
 Progress = Callable[[int, int], None]
-"""Told how many rows are done, and of how many."""
+"""Is given how many rows are done, and of how many."""
 
 
 def run_study(

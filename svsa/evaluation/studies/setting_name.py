@@ -31,8 +31,8 @@ def name_variation(base: Configuration, variation: Variation) -> SettingName:
 def name_setting(configuration: Configuration, path: str) -> SettingName:
     """The setting at a path; raises `ParameterError` where there is none.
 
-    What the controllers believe is told apart from the plant, a law's parameter by its law, and a
-    load by its number where there are several.
+    The name contains "Nominal" for the controllers' model, the law of a law's parameter, and the
+    number of a load where there are several.
     """
     words, unit, parts = path, "", []
     for owner, step, _ in walk_to_setting(configuration, path):

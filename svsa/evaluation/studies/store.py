@@ -58,7 +58,7 @@ def check_name(name: str) -> None:
 
 
 def find_studies_folder() -> Path:
-    """Where studies are kept: beside the runs."""
+    """The folder of the studies, next to that of the runs."""
     return find_data_folder() / "studies"
 
 
@@ -170,7 +170,7 @@ def measure_bytes(owner: str, root: Path | None = None) -> int:
 
 @contextmanager
 def claim_study(stored: StoredStudy) -> Iterator[None]:
-    """Be the only one who works at a study; raises `StudyError` where somebody does."""
+    """Lock a study; raises `StudyError` if another process runs it."""
     with (stored.folder / LOCK_FILE).open("wb") as file:
         if not try_lock(file.fileno()):
             raise StudyError(f"Study {stored.name} is being worked at by another process.")
@@ -178,7 +178,7 @@ def claim_study(stored: StoredStudy) -> Iterator[None]:
 
 
 def delete_study(stored: StoredStudy) -> None:
-    """Delete a study with all its rows; raises `StudyError` where somebody works at it."""
+    """Delete a study with all its rows; raises `StudyError` if a process runs it."""
     gone = stored.folder.with_name(f".{uuid4().hex}")
     try:
         with claim_study(stored):

@@ -1,6 +1,6 @@
-"""What came of a study: of each law, of laws against each other, and of what varied.
+"""Results of a study: of each law, of pairs of laws, and sensitivity to what varied.
 
-A run that ended in a fault has no error that could be set beside that of a whole run: among the
+A run that ended in a fault has no error that is comparable with that of a whole run: among the
 quantiles it stands beyond every value, and in paired differences both runs must be whole.
 """
 

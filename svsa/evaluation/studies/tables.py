@@ -1,4 +1,4 @@
-"""What came of a study as tables to read and as JSON."""
+"""Results of a study as tables and as JSON."""
 
 import json
 import math

@@ -94,7 +94,7 @@ def measure_runs(
     measure_from_s: float,
     success: Success,
 ) -> dict[str, Any]:
-    """What came of each run, see `build_outcome`; None is one that was refused."""
+    """The outcome of each run, see `build_outcome`; None: its settings were refused."""
     run = [index for index, built in enumerate(configurations) if built is not None]
     built = [one for one in configurations if one is not None]
     outcome = build_refused(len(configurations))
