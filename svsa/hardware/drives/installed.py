@@ -1,14 +1,20 @@
-"""The families of drives that are installed: the entry points `svsa.drives` of packages."""
+"""The families of drives that are installed: the entry points `svsa.drives` of packages.
+
+Families need python-can, an extra: they are imported when a motor's section is read, not before.
+"""
 
 from functools import cache
 from importlib.metadata import EntryPoint, entry_points
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from svsa.errors import ParameterError, SvsaError, Violation
-from svsa.hardware.drives.drive import Drive, StopFrames
 from svsa.hardware.drives.emulated import EmulatedMotor
-from svsa.hardware.drives.family import DriveFamily
 from svsa.hardware.settings import DEFAULT_DRIVE, MotorSettings
+from svsa.inputs.extras import require_extra
+
+if TYPE_CHECKING:
+    from svsa.hardware.drives.drive import Drive, StopFrames
+    from svsa.hardware.drives.family import DriveFamily
 
 GROUP = "svsa.drives"
 
@@ -29,7 +35,7 @@ def list_drive_names() -> tuple[str, ...]:
 
 
 @cache
-def get_family(name: str) -> DriveFamily:
+def get_family(name: str) -> "DriveFamily":
     """A family of drives by its name.
 
     Raises:
@@ -40,7 +46,10 @@ def get_family(name: str) -> DriveFamily:
     if entry is None:
         bound = f"a family of drives that is installed here: {', '.join(list_drive_names())}"
         raise ParameterError(Violation("drive", name, "", bound))
+    require_extra("bench")
     try:
+        from svsa.hardware.drives.family import DriveFamily
+
         family = entry.load()
     except Exception as error:
         reported = f"{type(error).__name__}: {error}"
@@ -66,7 +75,7 @@ def read_emulated_motor(given: Any) -> EmulatedMotor:
     return _find_family(given).emulated(**given)
 
 
-def _find_family(section: Any) -> DriveFamily:
+def _find_family(section: Any) -> "DriveFamily":
     if not isinstance(section, dict) or not all(isinstance(name, str) for name in section):
         raise ParameterError(Violation("", section, "", "a section with named fields"))
     name = section.get("drive", DEFAULT_DRIVE)
@@ -75,7 +84,7 @@ def _find_family(section: Any) -> DriveFamily:
     return get_family(name)
 
 
-def build_drive(motor: MotorSettings, period_s: float, speed_max: float) -> Drive:
+def build_drive(motor: MotorSettings, period_s: float, speed_max: float) -> "Drive":
     """The drive of a motor.
 
     Args:
@@ -86,6 +95,6 @@ def build_drive(motor: MotorSettings, period_s: float, speed_max: float) -> Driv
     return get_family(motor.drive).build(motor, period_s, speed_max)
 
 
-def build_stop(motor: MotorSettings) -> StopFrames:
+def build_stop(motor: MotorSettings) -> "StopFrames":
     """The frames that take the torque off the drive of a motor."""
     return get_family(motor.drive).build_stop(motor)
