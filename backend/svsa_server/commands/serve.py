@@ -3,17 +3,20 @@
 import gc
 import os
 import socket
+import sys
 import threading
 from pathlib import Path
+from typing import IO
 
 import uvicorn
 from rich.console import Console
 
 from svsa.cli import prepare
 from svsa.control.installed import BASELINE, PAPERS_LAW
-from svsa.errors import ParameterError, SvsaError, Violation
+from svsa.errors import ParameterError, StateError, SvsaError, Violation
+from svsa.inputs.file_lock import try_lock
 from svsa.runs.configuration import read_design
-from svsa.runs.records.catalogue.runs import find_data_folder
+from svsa.runs.records.catalogue.runs import DATA_VARIABLE, find_data_folder
 from svsa.teaching.course.file import read_course
 from svsa_server.access.class_keys import FILE, ClassKeys, ShownOnce
 from svsa_server.access.connections import BoundHttp, BoundWebSocket
@@ -28,6 +31,7 @@ KEPT_S = 15
 that is closed just then is lost."""
 
 
+LOCK_FILE = "server.lock"
 LONGEST_EXIT_S = 10.0
 """After the sessions are closed: a thread that computes may still be waited for."""
 
@@ -107,8 +111,12 @@ def run_server(
     read_course(config.course)
     chosen = config.choose_host(host)
     config.check_exposure(chosen)
-    # Before laws are compiled: a port that is in use is reported at once.
+    if config.classroom and sys.platform != "win32":
+        # Names, addresses and runs of a class are for the account of the server only.
+        os.umask(0o077)
+    # Before laws are compiled: a port or folder that is in use is reported at once.
     listener = bind(chosen, port)
+    claim = claim_data_folder(find_data_folder())
     # A bench's loop cannot wait for a compiler: it has every law before it begins.
     prepare((PAPERS_LAW, BASELINE) if bench is None else None)
     keys, reported = ClassKeys.open(find_data_folder()) if config.classroom else (None, None)
@@ -144,7 +152,42 @@ def run_server(
                 server.announcement += f"\n{HINT}"
             server.run(sockets=[listener])
     finally:
+        if claim is not None:
+            claim.close()
         _bound_exit(lab.is_stuck)
+
+
+def claim_data_folder(folder: Path) -> IO[str] | None:
+    """Keep other servers out of a data folder for as long as the returned file is open.
+
+    Two servers would finish, rename and delete each other's recordings.
+
+    Args:
+        folder: The data folder; it is created if it does not exist.
+
+    Returns:
+        The locked file; None if the folder cannot be written, because then nothing is recorded.
+
+    Raises:
+        StateError: Another server uses this folder.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        file = (folder / LOCK_FILE).open("a+", encoding="utf-8")
+    except OSError:
+        return None
+    if not try_lock(file.fileno()):
+        file.seek(0)
+        process = file.read().strip() or "unknown"
+        file.close()
+        raise StateError(
+            f"Another lab (process {process}) uses the data folder {folder}: stop it, or set"
+            f" {DATA_VARIABLE} to another folder."
+        )
+    file.truncate(0)
+    file.write(f"{os.getpid()}\n")
+    file.flush()
+    return file
 
 
 def _bound_exit(is_stuck: bool) -> None:

@@ -2,13 +2,17 @@
 
 import asyncio
 import gc
+import os
+import sys
+from pathlib import Path
 
 import pytest
 import uvicorn
 
-from svsa.errors import ParameterError
-from svsa_server.commands.serve import AnnouncedServer, bind
+from svsa.errors import ParameterError, StateError
+from svsa_server.commands.serve import AnnouncedServer, bind, claim_data_folder
 from svsa_server.config import Settings
+from tests.lab import run_lab
 
 
 @pytest.mark.parametrize("path", ["svsa", "/svsa/", "/a b", "//", "/ä"])
@@ -51,3 +55,28 @@ def test_what_is_there_at_the_start_is_not_looked_through_again_and_again():
     finally:
         gc.enable()
         gc.unfreeze()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no such locks and modes")
+def test_a_second_server_on_a_data_folder_is_rejected(tmp_path: Path) -> None:
+    first = claim_data_folder(tmp_path / "lab")
+    assert first is not None
+    with pytest.raises(StateError, match=rf"process {os.getpid()}\) uses .* SVSA_DATA"):
+        claim_data_folder(tmp_path / "lab")
+    first.close()
+    second = claim_data_folder(tmp_path / "lab")
+    assert second is not None
+    second.close()
+
+
+def test_a_data_folder_that_cannot_be_written_is_not_claimed(tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    assert claim_data_folder(tmp_path / "file" / "lab") is None
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no such locks and modes")
+def test_nobody_else_reads_the_files_of_a_class(tmp_path: Path) -> None:
+    with run_lab("--class", data=str(tmp_path)):
+        written = [path for path in tmp_path.rglob("*") if path.is_file()]
+        assert {"catalogue.sqlite", "class.json", "members.sqlite"} <= {one.name for one in written}
+        assert [one for one in written if one.stat().st_mode & 0o077] == []
