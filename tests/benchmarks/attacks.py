@@ -129,7 +129,7 @@ def stop_reading(lab: Lab, count: int) -> tuple[int, float]:
     before, most = read_memory_mb(lab), 0.0
     query = EVERYTHING + ",".join(lab.read()["sample"])
     readers = [open_stream(lab, query, 4096) for _ in range(count)]
-    end = time.monotonic() + 3.0 * SILENCE_S
+    end = time.monotonic() + 2.0 * SILENCE_S
     while time.monotonic() < end:
         most = max(most, read_memory_mb(lab) - before)
         time.sleep(0.1)

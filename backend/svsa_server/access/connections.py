@@ -12,7 +12,7 @@ from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIO
 
 
 class BoundHttp(H11Protocol):
-    """HTTP whose requests are there, body and all, within `ws_ping_timeout` s."""
+    """HTTP whose requests arrive whole within the silence that a WebSocket may keep."""
 
     _overdue: asyncio.TimerHandle | None = None
 
@@ -37,8 +37,8 @@ class BoundHttp(H11Protocol):
         if not is_awaited or is_upgraded or self.transport.is_closing():
             self._stop_watching()
         elif self._overdue is None and self.config.ws_ping_timeout is not None:
-            patience_s = self.config.ws_ping_timeout
-            self._overdue = self.loop.call_later(patience_s, self.transport.abort)
+            silence_s = (self.config.ws_ping_interval or 0.0) + self.config.ws_ping_timeout
+            self._overdue = self.loop.call_later(silence_s, self.transport.abort)
 
     def _stop_watching(self) -> None:
         if self._overdue is not None:

@@ -135,8 +135,9 @@ def run_server(
             http=BoundHttp,
             ws=BoundWebSocket,
             ws_max_size=65536,
-            ws_ping_interval=config.silence_s,
-            ws_ping_timeout=config.silence_s,
+            # A client that stops reading is noticed at the next ping, so both count.
+            ws_ping_interval=config.silence_s / 2.0,
+            ws_ping_timeout=config.silence_s / 2.0,
             ws_per_message_deflate=False,
             timeout_keep_alive=KEPT_S,
             timeout_graceful_shutdown=2,

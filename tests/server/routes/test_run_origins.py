@@ -73,6 +73,7 @@ def test_the_metrics_of_a_stretch_are_those_of_its_samples(tmp_path: Path) -> No
 def test_the_replay_is_a_page_to_look_at_in_place(lab: Lab) -> None:
     run, _ = record(lab)
     answer = lab.client.get(f"/api/v1/runs/{run}/replay?t=1.5").raise_for_status()
+    assert "frame-ancestors 'self'" in answer.headers["Content-Security-Policy"]
     assert answer.headers["content-type"].startswith("text/html")
     assert "content-disposition" not in answer.headers
     assert answer.headers["cache-control"].startswith("private")

@@ -11,6 +11,7 @@ from fastapi.responses import StreamingResponse
 
 from svsa.runs.records.export.formats import EXPORT_KINDS, build_file_name, get_kind
 from svsa.runs.records.resimulation import Comparison, check_simulated
+from svsa_scene.replay import POLICY
 from svsa_server.access.permissions import OBSERVER, allow
 from svsa_server.routes.depends import BUSY, REFUSALS, RunId, Runs, Work
 from svsa_server.routing import build_router
@@ -78,8 +79,14 @@ async def compare_run(runs: Runs, work: Work, run_id: RunId) -> Comparison:
 
 def send_page(file: IO[bytes]) -> StreamingResponse:
     """A replay's page, to be looked at in place; a browser keeps it for the person who got it."""
-    kept = {"Cache-Control": f"private, max-age={REPLAY_AGE_S}", "Vary": "Cookie, Authorization"}
-    return _send(file, "text/html", kept)
+    headers = {
+        "Cache-Control": f"private, max-age={REPLAY_AGE_S}",
+        "Vary": "Cookie, Authorization",
+        # The page states the same policy, but a page cannot state who may frame it.
+        "Content-Security-Policy": f"{POLICY}; frame-ancestors 'self'",
+        "X-Content-Type-Options": "nosniff",
+    }
+    return _send(file, "text/html", headers)
 
 
 def _send(file: IO[bytes], media_type: str, headers: Mapping[str, str]) -> StreamingResponse:
