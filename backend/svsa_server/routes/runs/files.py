@@ -11,7 +11,6 @@ from fastapi.responses import StreamingResponse
 
 from svsa.runs.records.export.formats import EXPORT_KINDS, build_file_name, get_kind
 from svsa.runs.records.resimulation import Comparison, check_simulated
-from svsa_scene.replay import POLICY
 from svsa_server.access.permissions import OBSERVER, allow
 from svsa_server.routes.depends import BUSY, REFUSALS, RunId, Runs, Work
 from svsa_server.routing import build_router
@@ -82,8 +81,8 @@ def send_page(file: IO[bytes]) -> StreamingResponse:
     headers = {
         "Cache-Control": f"private, max-age={REPLAY_AGE_S}",
         "Vary": "Cookie, Authorization",
-        # The page states the same policy, but a page cannot state who may frame it.
-        "Content-Security-Policy": f"{POLICY}; frame-ancestors 'self'",
+        # The page has its policy in itself, for offline use; only a header states who may frame it.
+        "Content-Security-Policy": "frame-ancestors 'self'",
         "X-Content-Type-Options": "nosniff",
     }
     return _send(file, "text/html", headers)
