@@ -9,13 +9,13 @@ import numpy as np
 from svsa.actuators.dynamics import compute_internal_torque
 from svsa.actuators.signals import CHANNELS, Disturbance, Measurement, Positions, State, Torque
 from svsa.analysis.design.differences import differentiate, differentiate_both
-from svsa.control.call import build_call, read_estimate
+from svsa.control.call import build_call
 from svsa.control.installed import get_law
 from svsa.control.observers.disturbance import ObserverBandwidth
 from svsa.runs.configuration import Configuration
 from svsa.runs.run import Run
 from svsa.simulation.loop.lane import Inputs, LaneState
-from svsa.simulation.loop.loop import apply_torque, decide, observe
+from svsa.simulation.loop.loop import act, decide, move, observe
 from svsa.simulation.plant.effects import MAX_DELAY_SAMPLES
 from svsa.simulation.plant.loads import ConstantLoad, build_load_table, schedule_load
 from svsa.simulation.plant.sensors import read_sensors
@@ -81,18 +81,18 @@ def linearize_tick(configuration: Configuration, sigma: float) -> SampledLoop:
         )
     )
     blocks, law = run.blocks[0], run.laws[0]
-    rest, sample = find_rest(run), np.empty(len(CHANNELS))
+    rest = find_rest(run)
 
     def tick(z: np.ndarray, inputs: Inputs = run.inputs) -> np.ndarray:
         lane, heard = _unpack(z[:-3]), z[-3:].tolist()
         call, x = build_call(law, lane.memory), lane.x
         measured = Positions(x.q + heard[0], x.theta1 + heard[1], x.theta2 + heard[2])
-        reference, torque = decide(
+        # `run_tick` in two parts, since the law is to hear what is not measured of x.
+        _, torque = decide(
             blocks, call, inputs, lane.known, lane.estimate, lane.applied, measured, 0
         )
-        estimate = read_estimate(call, lane.estimate)
         F = compute_internal_torque(blocks.nominal, lane.known)
-        lane, _ = apply_torque(blocks, inputs, lane, F, reference, torque, estimate, 0, sample)
+        lane, _ = move(blocks, inputs, lane, F, act(blocks, inputs, lane, torque, 0), 0)
         return _pack(lane)
 
     def hear(n: np.ndarray) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Many runs at once: the loop's functions on eight side by side, and of each run a summary.
+"""Many runs at once: the tick of the loop on eight side by side, and of each run a summary.
 
 What one run computes of its samples is summed up as it goes, and nothing is kept. A run has the
 bits of the same run alone, see `svsa.numerics.simd.number`. The law is compiled in, for itself once
@@ -6,7 +6,6 @@ and for which effects are on: what is off in all runs is no part of the machine 
 """
 
 import hashlib
-import math
 from collections.abc import Iterator, Sequence
 from functools import cache
 from itertools import count
@@ -14,12 +13,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from svsa.actuators.domain import INSIDE, NOT_FINITE, check_domain
+from svsa.actuators.domain import INSIDE
 from svsa.actuators.dynamics import compute_internal_torque
 from svsa.actuators.signals import Disturbance, State, Torque
 from svsa.control.call import BoundLaw, is_measuring
 from svsa.control.law import Law
-from svsa.control.limits import limit_torque
 from svsa.errors import ParameterError, Violation
 from svsa.numerics.borrowed import borrow
 from svsa.numerics.compilation import compiled, find_fingerprint, specialize
@@ -41,11 +39,24 @@ from svsa.simulation.loop.batch_inputs import (
     read_first_reference,
     slice_inputs,
 )
-from svsa.simulation.loop.batch_law import compute_one_by_one, compute_side_by_side, find_addresses
+from svsa.simulation.loop.batch_law import (
+    GroupLaw,
+    compute_one_by_one,
+    compute_side_by_side,
+    find_addresses,
+    open_group_call,
+)
 from svsa.simulation.loop.lane import Blocks, Inputs, LaneState, build_lane_state
-from svsa.simulation.loop.loop import act, move
+from svsa.simulation.loop.loop import decide, run_tick
 from svsa.simulation.loop.slices import cut
-from svsa.simulation.loop.tally import SUMMARY, Tally, build_window, measure, start_tally
+from svsa.simulation.loop.tally import (
+    SUMMARY,
+    Kept,
+    Tally,
+    build_window,
+    publish_tally,
+    start_tally,
+)
 
 _TALLY = slice(2, 2 + len(Tally._fields))
 """Where it is in `SUMMARY`."""
@@ -169,26 +180,51 @@ def run_batch(batch: Batch, ticks: int, begin: int = 0) -> np.ndarray:
 
 @cache
 def _specialize(control: Any, memory: Any, layout: Beginning) -> Any:
-    """`advance_groups` with this law and this layout."""
+    """`advance_groups` and `run_tick` with this law and this layout."""
     source = control.py_func if control else compute_one_by_one.py_func
     # The layout is part of the name in the cache, since its literals are part of the code.
-    text = repr((source.__module__, source.__qualname__, find_fingerprint(source), memory, layout))
-    name = f"advance_groups_{hashlib.sha256(text.encode()).hexdigest()[:16]}"
+    parts = map(find_fingerprint, (source, advance_groups))
+    text = repr((source.__module__, source.__qualname__, *parts, memory, layout))
+    name = hashlib.sha256(text.encode()).hexdigest()[:16]
+    # Literals of the layout: `Addresses` are the constants of a law that is called by its address.
+    addresses: Any = layout.constants
+    is_reported = is_measuring(control) if control else bool(addresses.is_measuring)
     compute, view = compute_one_by_one, borrow
     if control:
-        reported = is_measuring(control)
         compute = specialize(
-            compute_side_by_side, f"compute_{name}", law=control, is_reported=reported
+            compute_side_by_side, f"compute_{name}", law=control, is_reported=is_reported
         )
         view = build_record(memory)
-    return specialize(advance_groups, name, compute=compute, read=build_reader(layout), view=view)
+    decide_group = specialize(
+        decide.py_func,
+        f"decide_{name}",
+        compute_law=compute,
+        read_reference=read_first_reference,
+    )
+    run_group_tick = specialize(
+        run_tick.py_func,
+        f"run_tick_{name}",
+        open_call=open_group_call,
+        decide=decide_group,
+        publish=publish_tally,
+    )
+    return specialize(
+        advance_groups,
+        f"advance_groups_{name}",
+        run_group_tick=run_group_tick,
+        is_reported=is_reported,
+        read=build_reader(layout),
+        view=view,
+    )
 
 
 read_tally = build_reader(Tally._make(map(Column, range(_TALLY.start, _TALLY.stop))))
-compute: Any = None
+run_group_tick: Any = None
+is_reported: Any = None
 read: Any = None
 view: Any = None
-"""Of `advance_groups`: the law, and what reads a group's numbers and its memory."""
+"""Of `advance_groups`: the tick with its law, whether that receives the measured positions, and
+what reads a group's numbers and its memory."""
 
 
 def advance_groups(
@@ -213,47 +249,20 @@ def advance_groups(
         memory, given = view(memories[i]), pick_inputs(inputs, i)
         x, known, estimate = start.x, start.known, start.estimate
         lane = LaneState(x, known, estimate, start.actual, start.applied, start.limited, memory)
+        law = GroupLaw(blocks.nominal, constants, is_reported)
         code, ended = load(results[i], 0), load(results[i], 1)
-        runs, tally = code == 0.0, read_tally(results[i])
-        left = some(code != 0.0)
+        kept = Kept(read_tally(results[i]), build_window(begin, end, blocks.period))
         F = compute_internal_torque(blocks.nominal, lane.known)
-        window = build_window(begin, end, blocks.period)
         # A group whose eight runs have ended costs nothing: with half of the groups lost, a batch
         # took 0.51 of the processor time.
-        for tick in range(first, stop if some(runs) else first):
-            reference = read_first_reference(given, tick * blocks.period)
-            found = check_domain(blocks.domain, blocks.plant, lane.x)
-            commanded = compute(
-                runs & (found == INSIDE),
-                blocks.nominal,
-                constants,
-                memory,
-                lane.known,
-                reference,
-                lane.estimate,
-                lane.applied,
-                blocks.period,
-                blocks.effects,
-                lane.x,
-                tick,
-            )
-            torque = limit_torque(commanded, blocks.torque1_max, blocks.torque2_max)
-            # `math.isfinite` has no form for vectors.
-            is_torque = abs(torque.u1 + torque.u2) < math.inf
-            found = choose((found != INSIDE) | is_torque, found, NOT_FINITE)
-            leaves = runs & (found != INSIDE)
-            if some(leaves):
-                left, runs = True, runs & (found == INSIDE)
-                code, ended = choose(leaves, found, code), choose(leaves, tick, ended)
-                if not some(runs):
+        for tick in range(first, stop if some(code == INSIDE) else first):
+            lane, F, now, kept = run_group_tick(blocks, law, given, lane, F, code, tick, kept)
+            if some(now != code):
+                code, ended = now, choose(now != code, tick, ended)
+                if not some(code == INSIDE):
                     break
-            action = act(blocks, given, lane, torque, tick)
-            tally = measure(tally, runs, window, blocks, reference, lane.x, action.actual, tick)
-            reached, F = move(blocks, given, lane, F, action, tick)
-            # `hold` copies the whole state, which is not needed until a run of the group has ended.
-            lane = hold(runs, reached, lane) if left else reached
         row = write(results[i], 0, (code, ended))
-        row = write(results[i], row, tally)
+        row = write(results[i], row, kept.tally)
         write(results[i], row, lane.x)
         row = write(rows[i], start_row, lane.x)
         row = write(rows[i], row, lane.known)
@@ -261,20 +270,6 @@ def advance_groups(
         row = write(rows[i], row, lane.actual)
         row = write(rows[i], row, lane.applied)
         write(rows[i], row, lane.limited)
-
-
-@compiled
-def hold(runs: bool, reached: LaneState, lane: LaneState) -> LaneState:
-    """`LaneState` of those that run, and of those that have ended as they were."""
-    return LaneState(
-        choose(runs, reached.x, lane.x),
-        choose(runs, reached.known, lane.known),
-        choose(runs, reached.estimate, lane.estimate),
-        choose(runs, reached.actual, lane.actual),
-        choose(runs, reached.applied, lane.applied),
-        choose(runs, reached.limited, lane.limited),
-        lane.memory,
-    )
 
 
 @compiled

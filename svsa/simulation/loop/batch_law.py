@@ -8,11 +8,10 @@ from functools import cache
 from typing import Any, NamedTuple
 
 import numba
-import numpy as np
 from numba.core.errors import NumbaError
 
 from svsa.actuators.dynamics import Actuator
-from svsa.actuators.signals import Disturbance, Reference, State, Torque
+from svsa.actuators.signals import Disturbance, Positions, Reference, State, Torque
 from svsa.control.call import BoundLaw, Call, compute_law, is_measuring
 from svsa.numerics.compilation import compiled
 from svsa.numerics.simd.choice import choose
@@ -20,8 +19,6 @@ from svsa.numerics.simd.each import put, take
 from svsa.numerics.simd.number import WIDTH
 from svsa.numerics.simd.record import Column, VectorRecord, find_kind
 from svsa.simulation.loop.lane import AT_REST, NO_REFERENCE, NO_TORQUE, UNDISTURBED, UNMOVED
-from svsa.simulation.plant.effects import EffectConstants
-from svsa.simulation.plant.sensors import build_positions, read_positions
 
 
 def is_for_vectors(
@@ -72,42 +69,58 @@ def find_addresses(law: BoundLaw) -> Addresses:
     return Addresses(law.function, *words, int(law.is_measuring))
 
 
+class GroupLaw(NamedTuple):
+    """The law of eight runs. constants: its own, or `Addresses`. is_measuring: as of `BoundLaw`."""
+
+    nominal: Actuator
+    constants: Any
+    is_measuring: bool
+
+
+class GroupCall(NamedTuple):
+    """A `GroupLaw` with its memory, for those that run."""
+
+    nominal: Actuator
+    constants: Any
+    memory: Any
+    is_measuring: bool
+    runs: bool
+
+
+@compiled
+def open_group_call(law: GroupLaw, memory: Any, runs: bool) -> GroupCall:
+    """`GroupCall` of a law for this tick."""
+    return GroupCall(law.nominal, law.constants, memory, law.is_measuring, runs)
+
+
 @compiled
 def compute_one_by_one(
-    runs: bool,
-    nominal: Actuator,
-    constants: Addresses,
-    memories: np.ndarray,
+    group: GroupCall,
     x: State,
     reference: Reference,
     estimate: Disturbance,
     applied: Torque,
     period: float,
-    effects: EffectConstants,
-    state: State,
-    tick: int,
+    measured: Positions,
 ) -> Torque:
     """u of those that run, `Torque`, N·m; 0 of the others, whose law is not called.
 
-    constants: `Addresses` of every run's law, which has the nominal model, too. memories: (8,
-    words), written. effects, state: what is measured is read of, at `tick`. Else as `Law` says.
+    group: with the `Addresses` of every run's law, which has the nominal model, too; its memory is
+    (8, words), written. Else as `svsa.control.call.compute_law`.
     """
-    nothing = Torque(0.0, 0.0)
+    nothing, memories = Torque(0.0, 0.0), group.memory
     # Makes vectors of the two numbers, which `put` needs below.
-    torque = choose(runs, nothing, nothing)
-    measured = (
-        read_positions(effects, state, tick) if constants.is_measuring else build_positions(x)
-    )
+    torque = choose(group.runs, nothing, nothing)
     for i in range(WIDTH):
-        if take(runs, i):
-            law = take(constants, i)
+        if take(group.runs, i):
+            law = take(group.constants, i)
             call = Call(
                 law.function_address,
                 law.nominal_address,
                 law.constants_address,
                 memories[i].ctypes.data,
                 0,
-                constants.is_measuring,
+                group.is_measuring,
             )
             commanded = compute_law(
                 call,
@@ -128,21 +141,16 @@ is_reported: Any = None
 
 
 def compute_side_by_side(
-    runs: bool,
-    nominal: Actuator,
-    constants: Any,
-    memory: Any,
+    group: GroupCall,
     x: State,
     reference: Reference,
     estimate: Disturbance,
     applied: Torque,
     period: float,
-    effects: EffectConstants,
-    state: State,
-    tick: int,
+    measured: Positions,
 ) -> Torque:
     """u of all eight at once, `Torque`, N·m: `law` compiled for vectors."""
+    nominal, constants, memory = group.nominal, group.constants, group.memory
     if is_reported:
-        measured = read_positions(effects, state, tick)
         return law(nominal, constants, memory, x, reference, estimate, applied, period, measured)
     return law(nominal, constants, memory, x, reference, estimate, applied, period)

@@ -28,7 +28,7 @@ import numpy as np
 from svsa.actuators.domain import INSIDE, NOT_FINITE, check_domain
 from svsa.actuators.dynamics import InternalTorque, compute_internal_torque
 from svsa.actuators.signals import Disturbance, Measurement, Positions, Reference, State, Torque
-from svsa.control.call import BoundLaw, Call, build_call, compute_law, read_estimate
+from svsa.control.call import BoundLaw, Call, build_call, compute_law
 from svsa.control.limits import limit_torque
 from svsa.control.observers.disturbance import (
     correct_disturbance_estimate,
@@ -65,18 +65,9 @@ def read_reference(inputs: Inputs, time: float) -> Reference:
 
 
 @compiled
-def compute_control(
-    blocks: Blocks,
-    call: Call,
-    x: State,
-    reference: Reference,
-    estimate: Disturbance,
-    applied: Torque,
-    measured: Positions,
-) -> Torque:
-    """The torque that the law of this `Call` commands, after the limits, N·m."""
-    commanded = compute_law(call, x, reference, estimate, applied, blocks.period, measured)
-    return limit_torque(commanded, blocks.torque1_max, blocks.torque2_max)
+def open_call(law: BoundLaw, memory: np.ndarray, runs: bool) -> Call:
+    """`Call` of a law for this tick. runs: whether the lane runs, which it does here."""
+    return build_call(law, memory)
 
 
 @compiled
@@ -109,8 +100,8 @@ def decide(
     the limits, N·m).
     """
     reference = read_reference(inputs, tick * blocks.period)
-    torque = compute_control(blocks, call, known, reference, estimate, applied, measured)
-    return reference, torque
+    commanded = compute_law(call, known, reference, estimate, applied, blocks.period, measured)
+    return reference, limit_torque(commanded, blocks.torque1_max, blocks.torque2_max)
 
 
 @compiled
@@ -168,68 +159,75 @@ def measure(blocks: Blocks, call: Call, x: State, tick: int) -> Positions:
 def advance_tick(
     blocks: Blocks, law: BoundLaw, inputs: Inputs, lane: LaneState, tick: int, sample: np.ndarray
 ) -> tuple[LaneState, int]:
-    """One tick of the loop: reference, controller, write, plant, read, observer, publish.
+    """One tick of the loop, from Python; `advance` is many.
 
     law: `BoundLaw`. lane: `LaneState` at the start of the tick, whose memory the law writes in.
     sample: (channels,), written. Returns (lane, code): at a code other than `INSIDE` nothing else
     was done.
     """
     F = compute_internal_torque(blocks.nominal, lane.known)
-    lane, _, code = advance_from(blocks, law, inputs, lane, F, tick, sample)
+    lane, _, code, _ = run_tick(blocks, law, inputs, lane, F, INSIDE, tick, sample)
     return lane, code
 
 
 @compiled
-def advance_from(
+def run_tick(
     blocks: Blocks,
     law: BoundLaw,
     inputs: Inputs,
     lane: LaneState,
     F: InternalTorque,
+    code: int,
     tick: int,
-    sample: np.ndarray,
-) -> tuple[LaneState, InternalTorque, int]:
-    """`advance_tick` where F = F_n(x̂), `InternalTorque`, N·m, is known; returns it for the next."""
-    code = check_domain(blocks.domain, blocks.plant, lane.x)
-    if code != INSIDE:
-        return lane, F, code
-    call = build_call(law, lane.memory)
+    kept: np.ndarray,
+) -> tuple[LaneState, InternalTorque, int, np.ndarray]:
+    """The order of a tick: reference, controller, write, plant, read, observer, publish.
+
+    The only place where it is written: a batch compiles this function for eight lanes, with
+    `open_call`, `decide` and `publish` of its own (`svsa.simulation.loop.batch`).
+
+    law: `BoundLaw`. lane: `LaneState` at the start of the tick, whose memory the law writes in.
+    F: F_n(x̂) then, `InternalTorque`, N·m. code: `INSIDE`, or why the lane has ended. kept: sample,
+    (channels,), written. Returns these at the end of the tick: (lane, F, code, kept). A lane that
+    ends, or has ended, stays as it is.
+    """
+    code = choose(code != INSIDE, code, check_domain(blocks.domain, blocks.plant, lane.x))
+    runs = code == INSIDE
+    if not some(runs):
+        return lane, F, code, kept
+    call = open_call(law, lane.memory, runs)
     measured = measure(blocks, call, lane.x, tick)
     reference, torque = decide(
         blocks, call, inputs, lane.known, lane.estimate, lane.applied, measured, tick
     )
-    # The sum is finite only if both are: one test instead of two.
-    if not math.isfinite(torque.u1 + torque.u2):
-        return lane, F, NOT_FINITE
-    # Read after the law was called: a law with an observer of its own updates it in the call.
-    estimate = read_estimate(call, lane.estimate)
-    lane, F = apply_torque(blocks, inputs, lane, F, reference, torque, estimate, tick, sample)
-    return lane, F, INSIDE
+    # The sum is finite only if both are: one test instead of two. `math.isfinite` has no form for
+    # vectors.
+    is_torque = abs(torque.u1 + torque.u2) < math.inf
+    code = choose(is_torque | (code != INSIDE), code, NOT_FINITE)
+    runs = code == INSIDE
+    if not some(runs):
+        return lane, F, code, kept
+    action = act(blocks, inputs, lane, torque, tick)
+    # Before the plant moves: the sample of a tick has state, torque and rate of its beginning.
+    kept = publish(runs, blocks, reference, lane, F, call, action, tick, kept)
+    reached, F = move(blocks, inputs, lane, F, action, tick)
+    # `hold` copies the whole state, which is not needed until a lane of a batch has ended.
+    lane = hold(runs, reached, lane) if some(code != INSIDE) else reached
+    return lane, F, code, kept
 
 
 @compiled
-def apply_torque(
-    blocks: Blocks,
-    inputs: Inputs,
-    lane: LaneState,
-    F: InternalTorque,
-    reference: Reference,
-    torque: Torque,
-    estimate: Disturbance,
-    tick: int,
-    sample: np.ndarray,
-) -> tuple[LaneState, InternalTorque]:
-    """The tick from the controller's torque on: write, plant, read, observer, publish.
-
-    lane: `LaneState` at the start of the tick. F: F_n(x̂) then, `InternalTorque`, N·m. reference:
-    `Reference` then. torque: limited, N·m. estimate: the ŵ behind it,
-    `Disturbance`, N·m. sample: (channels,), written. Returns `LaneState` and F at the end.
-    """
-    action = act(blocks, inputs, lane, torque, tick)
-    time = tick * blocks.period
-    # Before the plant moves: the sample of a tick has state, torque and rate of its beginning.
-    publish(blocks, reference, lane, F, estimate, action.actual, action.rate, time, sample)
-    return move(blocks, inputs, lane, F, action, tick)
+def hold(runs: bool, reached: LaneState, lane: LaneState) -> LaneState:
+    """`LaneState` of those that run, and of those that have ended as they were."""
+    return LaneState(
+        choose(runs, reached.x, lane.x),
+        choose(runs, reached.known, lane.known),
+        choose(runs, reached.estimate, lane.estimate),
+        choose(runs, reached.actual, lane.actual),
+        choose(runs, reached.applied, lane.applied),
+        choose(runs, reached.limited, lane.limited),
+        lane.memory,
+    )
 
 
 @compiled
@@ -284,6 +282,6 @@ def advance(
     F = compute_internal_torque(blocks.nominal, lane.known)
     done, code = 0, INSIDE
     while done < rows.shape[0] and code == INSIDE:
-        lane, F, code = advance_from(blocks, law, inputs, lane, F, first + done, rows[done])
+        lane, F, code, _ = run_tick(blocks, law, inputs, lane, F, code, first + done, rows[done])
         done += code == INSIDE
     return remember(lane, memory), done, code

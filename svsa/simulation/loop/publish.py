@@ -18,10 +18,11 @@ from svsa.actuators.dynamics import (
     compute_unexplained_torque,
 )
 from svsa.actuators.lever import compute_lever_ratio
-from svsa.actuators.signals import Disturbance, Reference, Sample, State, Torque
+from svsa.actuators.signals import Reference, Sample
 from svsa.actuators.spring import compute_stiffness
+from svsa.control.call import Call, read_estimate
 from svsa.numerics.compilation import compiled
-from svsa.simulation.loop.lane import Blocks, LaneState
+from svsa.simulation.loop.lane import Action, Blocks, LaneState
 
 
 @intrinsic
@@ -63,21 +64,24 @@ def compute_nominal_torque(blocks: Blocks, lane: LaneState, F: InternalTorque) -
 
 @compiled
 def publish(
+    runs: bool,
     blocks: Blocks,
     reference: Reference,
     lane: LaneState,
     F: InternalTorque,
-    estimate: Disturbance,
-    torque: Torque,
-    rate: State,
-    time: float,
+    call: Call,
+    action: Action,
+    tick: int,
     row: np.ndarray,
-) -> None:
-    """Write one `Sample` into its row, (channels,).
+) -> np.ndarray:
+    """Write one `Sample` into its row, (channels,), and return it.
 
-    F: F_n(x̂), `InternalTorque`. estimate: the ŵ that the law acts on. torque: what the motors
-    make. rate: ẋ under it.
+    runs: whether the lane runs, which it does here. F: F_n(x̂), `InternalTorque`. call: of the law,
+    which has been called. action: what its torque begins.
     """
+    torque, rate = action.actual, action.rate
+    # Read after the law was called: a law with an observer of its own updates it in the call.
+    estimate = read_estimate(call, lane.estimate)
     x, known = lane.x, lane.known
     phi = compute_deflection(x)
     mu = compute_lever_ratio(x.theta2, blocks.plant.mu0, blocks.plant.gamma)
@@ -86,7 +90,7 @@ def publish(
     F = compute_nominal_torque(blocks, lane, F)
     w = compute_unexplained_torque(blocks.nominal, F, torque, acceleration)
     values = Sample(
-        time_s=time,
+        time_s=tick * blocks.period,
         position_reference_rad=reference.q,
         velocity_reference_rad_per_s=reference.dq,
         stiffness_reference_nm_per_rad=reference.sigma,
@@ -116,3 +120,4 @@ def publish(
         stiffness_residual_nm_per_rad=0.0,
     )
     write_sample(row, values)
+    return row

@@ -1,17 +1,17 @@
 """What is summed up of a run of a batch as it goes, in place of its samples."""
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from svsa.actuators.dynamics import compute_deflection
+from svsa.actuators.dynamics import InternalTorque, compute_deflection
 from svsa.actuators.lever import compute_lever_ratio
 from svsa.actuators.signals import CHANNEL_INDEX, Reference, State, Torque
 from svsa.actuators.spring import compute_stiffness
 from svsa.numerics.compilation import compiled
 from svsa.numerics.simd.choice import choose, greatest
-from svsa.simulation.loop.lane import Blocks
+from svsa.simulation.loop.lane import Action, Blocks, LaneState
 
 RECOVERY_SHARE = 0.02
 STEADY_STATE_S = 0.5
@@ -62,6 +62,13 @@ class Tally(NamedTuple):
     torque1_variation: float
     torque1_last: float
     power: float
+
+
+class Kept(NamedTuple):
+    """What a batch keeps of its ticks: the `Tally` of those in the `Window`."""
+
+    tally: Tally
+    window: Window
 
 
 SUMMARY = np.dtype(
@@ -197,6 +204,24 @@ def measure(
         torque.u1,
         t.power + choose(runs, u1 * abs(x.dtheta1) + u2 * abs(x.dtheta2), 0.0),
     )
+
+
+@compiled
+def publish_tally(
+    runs: bool,
+    blocks: Blocks,
+    reference: Reference,
+    lane: LaneState,
+    F: InternalTorque,
+    call: Any,
+    action: Action,
+    tick: int,
+    kept: Kept,
+) -> Kept:
+    """`Kept` with this tick, as `svsa.simulation.loop.publish.publish` writes its sample."""
+    window = kept.window
+    tally = measure(kept.tally, runs, window, blocks, reference, lane.x, action.actual, tick)
+    return Kept(tally, window)
 
 
 @compiled

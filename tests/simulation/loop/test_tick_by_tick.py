@@ -9,18 +9,18 @@ import svsa
 from svsa.actuators.domain import INSIDE, check_domain
 from svsa.actuators.dynamics import build_actuator, compute_internal_torque
 from svsa.actuators.signals import CHANNELS
-from svsa.control.call import build_call
+from svsa.control.call import build_call, compute_law
 from svsa.control.installed import get_law
 from svsa.control.laws.feedback_linearization import build_gains, compute_feedback_linearization
 from svsa.control.laws.ndobc import compute_ndobc
+from svsa.control.limits import limit_torque
 from svsa.control.observers.disturbance import update_disturbance_estimate
 from svsa.runs.blocks import bind_law, build_blocks
 from svsa.runs.run import Run
-from svsa.simulation.loop.lane import Inputs, LaneState, build_lane_state
+from svsa.simulation.loop.lane import Action, Inputs, LaneState, build_lane_state
 from svsa.simulation.loop.loop import advance as advance_lane
 from svsa.simulation.loop.loop import (
     advance_tick,
-    compute_control,
     delay,
     measure,
     read_reference,
@@ -79,19 +79,21 @@ def compose_tick(blocks, law, inputs, lane, tick, sample):
     """`advance_tick` written out in Python over the same compiled pieces."""
     assert check_domain(blocks.domain, blocks.plant, lane.x) == INSIDE
     effects, period, time = blocks.effects, blocks.period, tick * blocks.period
-    reference = read_reference(inputs, time)
     call = build_call(law, lane.memory)
     measured = measure(blocks, call, lane.x, tick)
-    torque = compute_control(
-        blocks, call, lane.known, reference, lane.estimate, lane.applied, measured
+    reference = read_reference(inputs, time)
+    commanded = compute_law(
+        call, lane.known, reference, lane.estimate, lane.applied, period, measured
     )
+    torque = limit_torque(commanded, blocks.torque1_max, blocks.torque2_max)
     assert math.isfinite(torque.u1 + torque.u2)
     limited, delayed = delay(effects, lane.limited, torque)
     load = compute_load(inputs.loads, tick, period, time)
     actual = compute_lagged_torque(lane.actual, delayed, effects.lag, 0.0)
     rate = compute_plant_rate(blocks.plant, effects, lane.x, actual, load)
+    action = Action(limited, delayed, actual, load, rate)
     F = compute_internal_torque(blocks.nominal, lane.known)
-    publish(blocks, reference, lane, F, lane.estimate, actual, rate, time, sample)
+    publish(True, blocks, reference, lane, F, call, action, tick, sample)
     x = integrate_period(
         blocks.plant,
         effects,

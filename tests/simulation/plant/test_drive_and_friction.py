@@ -13,7 +13,7 @@ from svsa.control.call import build_call
 from svsa.runs.blocks import bind_law, build_blocks
 from svsa.runs.run import Run
 from svsa.simulation.loop.lane import AT_REST, NO_TORQUE, UNDISTURBED, UNMOVED, Inputs
-from svsa.simulation.loop.loop import compute_control, read_reference
+from svsa.simulation.loop.loop import decide
 from svsa.simulation.loop.loop import delay as delay_torque
 from svsa.simulation.plant.drive import (
     compute_friction,
@@ -177,9 +177,7 @@ def test_in_the_loop_the_law_acts_d_samples_after_it_was_asked(law, samples):
     inputs, law = Inputs(*stacks, NO_LOADS), bind_law(configuration, configuration.lanes[0], blocks)
     call = build_call(law, run.lanes[0].memory)
     asked = [
-        compute_control(
-            blocks, call, AT_REST, read_reference(inputs, k * T), UNDISTURBED, NO_TORQUE, UNMOVED
-        ).u1
+        decide(blocks, call, inputs, AT_REST, UNDISTURBED, NO_TORQUE, UNMOVED, k)[1].u1
         for k in range(samples + 1)
     ]
     assert np.all(found[:samples] == 0.0)
