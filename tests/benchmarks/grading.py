@@ -18,9 +18,10 @@ from time import monotonic
 
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.teaching.course.file import read_course
-from svsa.teaching.course.submission import Submission, write_submission
+from svsa.teaching.grading.grade import Grade
 from svsa.teaching.grading.gradebook import Book
-from svsa.teaching.grading.queue import grade_side_by_side
+from svsa.teaching.grading.queue import grade_files
+from svsa.teaching.submission import Submission
 from tests.teaching.course.runs import find_exercise
 from tests.teaching.course.student import find_law
 from tests.teaching.grading.submissions import EXERCISE, record_step
@@ -42,10 +43,9 @@ def write_submissions(folder: Path, count: int) -> list[Path]:
         student = f"Student {number}"
         submission = Submission(student=student, exercise=EXERCISE, runs=runs)
         if number % 2 == 0:
-            (place / "law.py").write_text(law, encoding="utf-8")
-            submission = Submission(student=student, exercise="own-law", law_file="law.py")
+            submission = Submission(student=student, exercise="own-law", law=law.encode())
         files.append(place / "submission.json")
-        write_submission(files[-1], submission)
+        submission.write(files[-1])
     return files
 
 
@@ -58,7 +58,8 @@ def grade_until(folder: Path, files: list[Path], longest_s: float) -> tuple[int,
     def hand_out() -> Iterator[Path]:
         return itertools.takewhile(lambda _: monotonic() - begin < longest_s, waiting)
 
-    names = [take().exercise for _, take in grade_side_by_side(hand_out(), exercises, folder, book)]
+    given = [one for _, one in grade_files(hand_out(), exercises, folder, book)]
+    names = [one.exercise for one in given if isinstance(one, Grade)]
     laws = names.count("own-law")
     return laws, len(names) - laws, monotonic() - begin
 

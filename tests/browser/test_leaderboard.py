@@ -8,7 +8,8 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from svsa.teaching.leaderboard import board as boards
-from svsa.teaching.leaderboard.board import FOLDER, Board, build_entry, digest_law, measure_missing
+from svsa.teaching.leaderboard.board import FOLDER, Board, build_entry, measure_missing
+from svsa.teaching.submission import digest_law
 from tests.browser.test_accessibility import PHONE, WIDE, expect_no_violation
 from tests.browser.test_page import WORKER_MS, go_to_page, open_page
 from tests.lab import Lab

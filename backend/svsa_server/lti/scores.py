@@ -19,7 +19,7 @@ from svsa.errors import ParameterError
 from svsa.teaching.course.progress import ProgressStore
 from svsa.teaching.grading.class_grades import open_book
 from svsa.teaching.grading.grade import Grade
-from svsa.teaching.grading.submitted_work import SubmittedWork
+from svsa.teaching.submission import read_submission
 from svsa_server.access.audit import AuditLog
 from svsa_server.lti.launch import SCORE_SCOPE
 from svsa_server.lti.links import Link
@@ -73,7 +73,7 @@ class ScoreSender:
                 continue
             path = self._store.find_submission(link.exercise, link.person)
             try:
-                digest = SubmittedWork.read(path).digest if path.exists() else ""
+                digest = read_submission(path).digest if path.exists() else ""
                 grade = book.find(digest) if digest not in ("", link.sent) else None
             except ParameterError as error:
                 self._tell(link, None, str(error))

@@ -1,12 +1,13 @@
 """A criterion of a run: a measure, the range that earns its points, and the judgement by it."""
 
-from typing import Annotated, NamedTuple, Self
+from collections.abc import Sequence
+from typing import Annotated, Self
 
 from pydantic import Field, model_validator
 
 from svsa.errors import ParameterError, Violation
 from svsa.inputs.checked import Checked, Number, quantity
-from svsa.teaching.course.submission import StepName
+from svsa.teaching.submission import StepName
 
 MAX_POINTS = 100
 FeedbackText = Annotated[str, Field(max_length=1000)]
@@ -33,34 +34,36 @@ class Criterion(Checked):
         return self
 
 
-class CriterionResult(NamedTuple):
-    """One criterion of a step.
+class CriterionResult(Checked):
+    """One criterion of a step, judged.
 
-    name: what is asked. feedback: what differs, or that it is right. channel, time_s: where in
-    the step's run to look, in the run's time, s; None where it is about no sample.
+    channel, time_s: where in the step's run to look, in the run's time; None where it is about no
+    sample.
     """
 
-    step: str
-    name: str
-    points: float
-    max_points: float
-    feedback: str
-    channel: str | None = None
-    time_s: float | None = None
+    step: str = quantity("", "Step that it belongs to")
+    name: str = quantity("", "What is asked")
+    points: Number = quantity("", "Points", ge=0)
+    max_points: Number = quantity("", "Points that there are", ge=0)
+    feedback: str = quantity("", "What differs, or that it is right")
+    channel: str | None = quantity("", "Channel where to look", default=None)
+    time_s: Number | None = quantity("s", "When, in the run's time", default=None)
 
 
-class Judgement(NamedTuple):
-    """All criteria of an exercise, in the order of its steps."""
+class Judgement(Checked):
+    """A submission as it was judged: all criteria of an exercise, in the order of its steps."""
 
-    exercise: str
-    criteria: tuple[CriterionResult, ...]
+    exercise: str = quantity("", "Name of the exercise")
+    points: Number = quantity("", "Points in all", ge=0)
+    max_points: Number = quantity("", "Points that there are", ge=0)
+    criteria: tuple[CriterionResult, ...] = quantity("", "Points by criterion")
 
-    @property
-    def points(self) -> float:
-        """Points in all."""
-        return sum(one.points for one in self.criteria)
 
-    @property
-    def max_points(self) -> float:
-        """Points that there are."""
-        return sum(one.max_points for one in self.criteria)
+def build_judgement(exercise: str, criteria: Sequence[CriterionResult]) -> Judgement:
+    """`Judgement` with the sums of these criteria."""
+    return Judgement(
+        exercise=exercise,
+        points=sum(one.points for one in criteria),
+        max_points=sum(one.max_points for one in criteria),
+        criteria=tuple(criteria),
+    )

@@ -8,7 +8,7 @@ from svsa.errors import ParameterError, Violation
 from svsa.inputs.checked import Checked, Whole, quantity
 from svsa.teaching.course.measure import Measure
 from svsa.teaching.course.steps import Experiment, Explain, Predict, Step, SubmitStep
-from svsa.teaching.course.submission import MAX_STEPS, StepName
+from svsa.teaching.submission import MAX_STEPS, StepName
 
 
 class Exercise(Checked):

@@ -5,27 +5,39 @@ from collections.abc import Callable, Mapping
 
 from svsa.errors import ParameterError, SvsaError, Violation, write_number
 from svsa.runs.result.result import Result
-from svsa.teaching.course.criterion import Criterion, CriterionResult, Judgement
+from svsa.teaching.course.criterion import Criterion, CriterionResult, Judgement, build_judgement
 from svsa.teaching.course.exercise import Exercise
 from svsa.teaching.course.measure import Measure, Measured
 from svsa.teaching.course.steps import Experiment, Explain, Predict, Step
-from svsa.teaching.course.submission import Answer, Submission
+from svsa.teaching.submission import Answer, Submission
 
 OpenRun = Callable[[str], Result]
 Opened = Result | str
 """A run, or why it could not be opened."""
 
 
-def judge_submission(exercise: Exercise, submission: Submission, open_run: OpenRun) -> Judgement:
-    """All criteria of an exercise.
+JudgeLaw = Callable[[bytes | None], list[CriterionResult]]
+
+
+def judge_submission(
+    exercise: Exercise,
+    submission: Submission,
+    open_run: OpenRun,
+    judge_law: JudgeLaw | None = None,
+) -> Judgement:
+    """All criteria of an exercise: what a student sees at once, and with the law's a grade.
 
     open_run: gives the run of an id; where it raises `SvsaError`, the criteria of that step have no
-    points and say why. Raises `ParameterError` for a submission of another exercise, or with
-    steps that this one has not.
+    points and say why. judge_law: gives the criteria of a law's text, None where a law is judged
+    later. Raises `ParameterError` for a submission of another exercise, with steps that this one
+    has not, or with a law that it does not ask for.
     """
     if submission.exercise != exercise.name:
         bound = f"{exercise.name!r}, the exercise that is judged"
         raise ParameterError(Violation("exercise", submission.exercise, "", bound))
+    if submission.law is not None and not exercise.takes_law:
+        bound = f"left out: {exercise.name} asks for no law"
+        raise ParameterError(Violation("law_file", submission.law_file, "", bound))
     for name in (*submission.answers, *submission.runs):
         exercise.find_step(name)
     runs: dict[str, Opened] = {}
@@ -34,15 +46,24 @@ def judge_submission(exercise: Exercise, submission: Submission, open_run: OpenR
             runs[name] = open_run(run)
         except SvsaError as error:
             runs[name] = f"Run {run} cannot be opened: {error}"
-    return judge_exercise(exercise, submission.answers, runs)
+    steps = (judge_step(exercise, step, submission.answers, runs) for step in exercise.steps)
+    criteria = [one for step in steps for one in step]
+    if judge_law is not None and exercise.takes_law:
+        criteria += judge_law(submission.law)
+    return build_judgement(exercise.name, criteria)
 
 
-def judge_exercise(
-    exercise: Exercise, answers: Mapping[str, Answer], runs: Mapping[str, Opened]
-) -> Judgement:
-    """All criteria of an exercise from answers and runs by step."""
-    results = [judge_step(exercise, step, answers, runs) for step in exercise.steps]
-    return Judgement(exercise.name, tuple(one for step in results for one in step))
+def judge_run(
+    exercise: Exercise, step: Experiment, answers: Mapping[str, Answer], run: Result
+) -> list[CriterionResult]:
+    """The criteria of an experiment, and those of the predictions that its run judges."""
+    judged = [
+        one
+        for one in exercise.steps
+        if one is step or (isinstance(one, Predict) and exercise.find_judge(one)[0] is step)
+    ]
+    found = (judge_step(exercise, one, answers, {step.name: run}) for one in judged)
+    return [one for results in found for one in results]
 
 
 def judge_step(
@@ -97,22 +118,22 @@ def _judge_prediction(
     exercise: Exercise, step: Predict, answer: Answer | None, runs: Mapping[str, Opened]
 ) -> CriterionResult:
     judge, measure = exercise.find_judge(step)
-    none = CriterionResult(step.name, step.asks, 0.0, step.points, "", measure.channel)
+    none = _build_result(step.name, step.asks, step.points, channel=measure.channel)
     if answer is None:
-        return none._replace(feedback="Nothing was predicted.", channel=None)
+        return none.changed(feedback="Nothing was predicted.", channel=None)
     try:
         check_answer(step, answer)
     except ParameterError as error:
-        return none._replace(feedback=str(error), channel=None)
+        return none.changed(feedback=str(error), channel=None)
     problem = _find_problem(judge, runs.get(judge.name))
     run = runs.get(judge.name)
     if problem is not None or not isinstance(run, Result):
         feedback, time_s = problem or ("", None)
-        return none._replace(feedback=feedback, time_s=time_s)
+        return none.changed(feedback=feedback, time_s=time_s)
     seen = read_measures(judge, run)[measure.name]
     if seen.value is None:
         feedback = f"The run does not tell it: {seen.problem.rstrip('.')}."
-        return none._replace(feedback=feedback, time_s=seen.time_s)
+        return none.changed(feedback=feedback, time_s=seen.time_s)
     off = _measure_off(float(answer), seen.value, step.by_factor)
     points = 0.0
     if off <= step.within:
@@ -121,7 +142,7 @@ def _judge_prediction(
         points = step.points / 2.0
     reported = f"You predicted {_write(float(answer), step.unit)}; the run gave"
     feedback = f"{reported} {_write(seen.value, step.unit)}. {step.feedback}".strip()
-    return none._replace(points=points, feedback=feedback, time_s=seen.time_s)
+    return none.changed(points=points, feedback=feedback, time_s=seen.time_s)
 
 
 def _measure_off(predicted: float, seen: float, by_factor: bool) -> float:
@@ -143,7 +164,7 @@ def _judge_experiment(step: Experiment, run: Opened | None) -> list[CriterionRes
     if problem is not None or not isinstance(run, Result):
         feedback, time_s = problem or ("", None)
         return [
-            CriterionResult(step.name, one.title, 0.0, one.points, feedback, None, time_s)
+            _build_result(step.name, one.title, one.points, feedback=feedback, time_s=time_s)
             for one in criteria
         ]
     seen = read_measures(step, run)
@@ -171,17 +192,17 @@ def _judge_criterion(
     step: str, criterion: Criterion, measure: Measure, seen: Measured
 ) -> CriterionResult:
     c = criterion
-    none = CriterionResult(step, c.title, 0.0, c.points, "", measure.channel, seen.time_s)
+    none = _build_result(step, c.title, c.points, channel=measure.channel, time_s=seen.time_s)
     if seen.value is None:
-        return none._replace(feedback=f"{measure.label}: {seen.problem.rstrip('.')}.")
+        return none.changed(feedback=f"{measure.label}: {seen.problem.rstrip('.')}.")
     is_low = c.low is not None and seen.value < c.low
     is_high = c.high is not None and seen.value > c.high
     reported = f"{measure.label}: {_write(seen.value, measure.shown_unit)}"
     asked = _format_range(c, measure.shown_unit)
     if not is_low and not is_high:
-        return none._replace(points=c.points, feedback=f"{reported}. {c.right}".strip())
+        return none.changed(points=c.points, feedback=f"{reported}. {c.right}".strip())
     why = c.too_low if is_low else c.too_high
-    return none._replace(feedback=f"{reported}, asked: {asked}. {why}".strip())
+    return none.changed(feedback=f"{reported}, asked: {asked}. {why}".strip())
 
 
 def _format_range(criterion: Criterion, unit: str) -> str:
@@ -194,12 +215,33 @@ def _format_range(criterion: Criterion, unit: str) -> str:
 
 
 def _judge_choice(step: Explain, answer: Answer | None) -> CriterionResult:
-    result = CriterionResult(step.name, step.title, 0.0, step.points, "")
+    result = _build_result(step.name, step.title, step.points)
     chosen = next((option for option in step.options if option.name == answer), None)
     if chosen is None:
-        return result._replace(feedback="Nothing was chosen.")
+        return result.changed(feedback="Nothing was chosen.")
     points = step.points if chosen.right else 0.0
-    return result._replace(points=points, feedback=chosen.feedback or chosen.text)
+    return result.changed(points=points, feedback=chosen.feedback or chosen.text)
+
+
+def _build_result(
+    step: str,
+    name: str,
+    max_points: float,
+    *,
+    feedback: str = "",
+    channel: str | None = None,
+    time_s: float | None = None,
+) -> CriterionResult:
+    """A criterion without points."""
+    return CriterionResult(
+        step=step,
+        name=name,
+        points=0.0,
+        max_points=max_points,
+        feedback=feedback,
+        channel=channel,
+        time_s=time_s,
+    )
 
 
 def _write(value: float, unit: str) -> str:

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from typing import Literal, NamedTuple, Self
+from typing import Any, Literal, NamedTuple, Self
 
 import numpy as np
 from pydantic import model_validator
@@ -15,7 +15,7 @@ from svsa.runs.command import fold
 from svsa.runs.configuration import MAX_LANES, Configuration
 from svsa.runs.result.channels import ChannelName
 from svsa.runs.result.result import Result
-from svsa.teaching.course.submission import StepName
+from svsa.teaching.submission import StepName
 
 Statistic = Literal[
     "mean", "rms", "spread", "peak", "max", "min", "last", "crossing", "rise", "recovery"
@@ -148,38 +148,20 @@ def read_number(configuration: Configuration, path: str) -> float:
 
 Taken = tuple[float | None, int | None]
 _Take = Callable[[Measure, Result, np.ndarray, np.ndarray], Taken]
+_Reduce = Callable[[np.ndarray], Any]
 
 
-def _take_rms(_: Measure, __: Result, values: np.ndarray, ___: np.ndarray) -> Taken:
-    return float(np.sqrt(np.mean(values**2))), int(np.argmax(np.abs(values)))
+def _find_peak(values: np.ndarray) -> int:
+    return int(np.argmax(np.abs(values)))
 
 
-def _take_mean(_: Measure, __: Result, values: np.ndarray, ___: np.ndarray) -> Taken:
-    return float(np.mean(values)), int(np.argmax(np.abs(values)))
+def _build_take(reduce: _Reduce, find_row: _Reduce) -> _Take:
+    """A statistic of the values alone. find_row: the sample that shows it best."""
 
+    def take(_: Measure, __: Result, values: np.ndarray, ___: np.ndarray) -> Taken:
+        return float(reduce(values)), int(find_row(values))
 
-def _take_spread(_: Measure, __: Result, values: np.ndarray, ___: np.ndarray) -> Taken:
-    mean = float(np.mean(values))
-    return float(np.std(values)), int(np.argmax(np.abs(values - mean)))
-
-
-def _take_peak(_: Measure, __: Result, values: np.ndarray, ___: np.ndarray) -> Taken:
-    row = int(np.argmax(np.abs(values)))
-    return float(abs(values[row])), row
-
-
-def _take_max(_: Measure, __: Result, values: np.ndarray, ___: np.ndarray) -> Taken:
-    row = int(np.argmax(values))
-    return float(values[row]), row
-
-
-def _take_min(_: Measure, __: Result, values: np.ndarray, ___: np.ndarray) -> Taken:
-    row = int(np.argmin(values))
-    return float(values[row]), row
-
-
-def _take_last(_: Measure, __: Result, values: np.ndarray, ___: np.ndarray) -> Taken:
-    return float(values[-1]), len(values) - 1
+    return take
 
 
 def _take_crossing(measure: Measure, lane: Result, values: np.ndarray, rows: np.ndarray) -> Taken:
@@ -214,13 +196,13 @@ def _take_recovery(measure: Measure, lane: Result, values: np.ndarray, rows: np.
 
 
 _STATISTICS: dict[Statistic, _Take] = {
-    "mean": _take_mean,
-    "rms": _take_rms,
-    "spread": _take_spread,
-    "peak": _take_peak,
-    "max": _take_max,
-    "min": _take_min,
-    "last": _take_last,
+    "mean": _build_take(np.mean, _find_peak),
+    "rms": _build_take(lambda values: np.sqrt(np.mean(values**2)), _find_peak),
+    "spread": _build_take(np.std, lambda values: _find_peak(values - np.mean(values))),
+    "peak": _build_take(lambda values: np.max(np.abs(values)), _find_peak),
+    "max": _build_take(np.max, np.argmax),
+    "min": _build_take(np.min, np.argmin),
+    "last": _build_take(lambda values: values[-1], lambda values: len(values) - 1),
     "crossing": _take_crossing,
     "rise": _take_rise,
     "recovery": _take_recovery,

@@ -20,7 +20,7 @@ from svsa.teaching.course.criterion import CriterionResult
 from svsa.teaching.course.exercise import Exercise
 from svsa.teaching.course.judge import check_answer
 from svsa.teaching.course.steps import Experiment, Explain, Predict, SubmitStep
-from svsa.teaching.course.submission import MAX_STEPS, Answer, KeptLaw, StepName, Submission
+from svsa.teaching.submission import MAX_STEPS, Answer, KeptLaw, StepName, Submission
 
 COURSE_FOLDER = "course"
 HOME = "home"
@@ -59,12 +59,19 @@ class ExerciseProgress(Checked):
         """With a step changed."""
         return self.changed(steps={**self.steps, step: self.get(step).changed(**changes)})
 
+    @property
+    def answers(self) -> dict[str, Answer]:
+        """What was predicted or chosen, by step."""
+        kept = self.steps.items()
+        return {name: one.answer for name, one in kept if one.answer is not None}
+
     def build_submission(self, exercise: str, student: str) -> Submission:
         """What is submitted of it."""
-        kept = self.steps.items()
-        answers = {name: one.answer for name, one in kept if one.answer is not None}
-        runs = {name: one.run for name, one in kept if one.run is not None}
-        return Submission(student=student, exercise=exercise, answers=answers, runs=runs)
+        runs = {name: one.run for name, one in self.steps.items() if one.run is not None}
+        law = self.law and self.law.text.encode()
+        return Submission(
+            student=student, exercise=exercise, answers=self.answers, runs=runs, law=law
+        )
 
 
 class PersonProgress(Checked):
@@ -189,6 +196,14 @@ def _translate(written: Any) -> Any:
     present = translate_fields(written, former_words.PROGRESS)
     if isinstance(present, dict) and present.get("at") in former_words.STEPS:
         present["at"] = former_words.STEPS[present["at"]]
+    for step in present.get("steps", {}).values():
+        # Written as a list of values before criteria had names in files.
+        step["results"] = [
+            dict(zip(CriterionResult.model_fields, one, strict=True))
+            if isinstance(one, list)
+            else one
+            for one in step.get("results", ())
+        ]
     return present
 
 

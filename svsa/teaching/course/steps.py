@@ -10,7 +10,7 @@ from svsa.teaching.course.criterion import MAX_POINTS, Criterion, FeedbackText
 from svsa.teaching.course.measure import Measure, read_number
 from svsa.teaching.course.on_bench import check_for_bench
 from svsa.teaching.course.setup import Setup
-from svsa.teaching.course.submission import StepName
+from svsa.teaching.submission import StepName
 
 
 class _Step(Checked):

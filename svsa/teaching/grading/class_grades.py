@@ -5,13 +5,13 @@ from contextlib import closing
 from pathlib import Path
 from typing import NamedTuple
 
-from svsa.errors import ParameterError, SvsaError
+from svsa.errors import ParameterError
 from svsa.teaching.course.exercise import Exercise
 from svsa.teaching.course.progress import ProgressStore
 from svsa.teaching.grading.grade import Grade
 from svsa.teaching.grading.gradebook import Book
-from svsa.teaching.grading.queue import GraderLostError, grade_side_by_side
-from svsa.teaching.grading.submitted_work import SubmittedWork
+from svsa.teaching.grading.queue import grade_files
+from svsa.teaching.submission import read_submission
 
 BOOK_FOLDER = "book"
 
@@ -57,41 +57,27 @@ def grade_class(
     One that is refused keeps the grade that it has, and the book says why. Raises
     `GraderLostError`.
     """
-    workers = min(workers, len(files)) or 1
-    graded = grade_side_by_side(files, exercises, runs, book, workers, again)
     report(0, len(files))
-    with closing(graded):
-        for done, (path, take) in enumerate(graded, 1):
-            if is_cancelled():
-                return False
-            try:
-                given = take()
-            except GraderLostError:
-                raise
-            except SvsaError as error:
-                _refuse(path, book, str(error))
-            else:
-                book.refuse(given.submission, "")
+    if is_cancelled():
+        return False
+    workers = min(workers, len(files)) or 1
+    with closing(grade_files(files, exercises, runs, book, workers, again)) as graded:
+        for done, _ in enumerate(graded, 1):
             report(done, len(files))
+            if done < len(files) and is_cancelled():
+                return False
     return True
-
-
-def _refuse(path: Path, book: Book, problem: str) -> None:
-    try:
-        book.refuse(SubmittedWork.read(path).digest, problem)
-    except ParameterError:
-        return  # what cannot be read is told where it is listed
 
 
 def _describe(path: Path, book: Book) -> GradedSubmission:
     person, exercise = path.stem, path.parent.name
     try:
-        work = SubmittedWork.read(path)
-        given = book.find(work.digest)
+        submission = read_submission(path)
+        digest = submission.digest
+        given = book.find(digest)
     except ParameterError as error:
         return GradedSubmission(person, exercise, person, None, str(error))
-    student = work.submission.student
-    return GradedSubmission(person, exercise, student, given, book.find_refusal(work.digest))
+    return GradedSubmission(person, exercise, submission.student, given, book.find_refusal(digest))
 
 
 def list_grades(submitted: Sequence[GradedSubmission]) -> Iterator[Grade]:

@@ -11,12 +11,12 @@ from rich.markup import escape
 from rich.progress import Progress
 from rich.table import Table
 
-from svsa.errors import ParameterError, SvsaError, Violation
+from svsa.errors import ParameterError, Violation
 from svsa.teaching.course.exercise import Exercise
 from svsa.teaching.course.file import find_course_folder, read_course
 from svsa.teaching.grading.grade import Grade
 from svsa.teaching.grading.gradebook import Book
-from svsa.teaching.grading.queue import grade_side_by_side
+from svsa.teaching.grading.queue import grade_files
 from svsa.teaching.grading.report import write_csv, write_page
 
 _messages = Console(stderr=True)
@@ -68,11 +68,11 @@ def _grade_all(
     found, refused = dict[Path, Grade](), list[str]()
     with Progress(console=_messages, transient=True) as bar:
         task = bar.add_task("Grading", total=len(files))
-        for path, take in grade_side_by_side(files, exercises, runs, book, workers):
-            try:
-                found[path] = take()
-            except SvsaError as error:
-                refused.append(f"{path.name}: {error}")
+        for path, given in grade_files(files, exercises, runs, book, workers):
+            if isinstance(given, Grade):
+                found[path] = given
+            else:
+                refused.append(f"{path.name}: {given}")
             bar.advance(task)
     return [found[path] for path in files if path in found], sorted(refused)
 

@@ -2,7 +2,6 @@
 
 from pathlib import Path
 
-from svsa.errors import ParameterError, Violation
 from svsa.evaluation.ranking.trials import SUITE_VERSION, derive_seed
 from svsa.hardware.session.replay import verify_bench_record
 from svsa.inputs.checked import Checked, Flag, Number, quantity
@@ -12,24 +11,12 @@ from svsa.runs.records.header import RecordError
 from svsa.runs.records.resimulation import compare_with_simulation
 from svsa.runs.result.recorded import open_run
 from svsa.runs.result.result import Result
-from svsa.teaching.course.criterion import CriterionResult
+from svsa.teaching.course.criterion import CriterionResult, Judgement
 from svsa.teaching.course.exercise import Exercise
 from svsa.teaching.course.judge import judge_submission
-from svsa.teaching.course.steps import SubmitStep
 from svsa.teaching.grading.law_runs import judge_law, run_trials
-from svsa.teaching.grading.submitted_work import SubmittedWork
 from svsa.teaching.isolation.confinement import confine, leave_open
-from svsa.teaching.isolation.probe import check_isolation
-
-
-class Criterion(Checked):
-    """One criterion of a grade, as `CriterionResult`."""
-
-    step: str = quantity("", "Step that it belongs to")
-    name: str = quantity("", "What is asked")
-    points: Number = quantity("", "Points", ge=0)
-    max_points: Number = quantity("", "Points that there are", ge=0)
-    feedback: str = quantity("", "What differs, or that it is right")
+from svsa.teaching.submission import Submission, digest_law
 
 
 class VerifiedRun(Checked):
@@ -39,7 +26,7 @@ class VerifiedRun(Checked):
     description: str = quantity("", "What was verified of it")
 
 
-class Grade(Checked):
+class Grade(Judgement):
     """What a submission is worth, and what it was graded with.
 
     submission: digest of everything that was submitted. seed: of the trials that its law went
@@ -48,11 +35,8 @@ class Grade(Checked):
     """
 
     student: str = quantity("", "Who submitted it")
-    exercise: str = quantity("", "Name of the exercise")
     submission: str = quantity("", "SHA-256 of what was submitted")
-    points: Number = quantity("", "Points in all", ge=0)
     max_points: Number = quantity("", "Points that there are", gt=0)
-    criteria: tuple[Criterion, ...] = quantity("", "Points by criterion")
     runs: tuple[VerifiedRun, ...] = quantity("", "Runs, and what was verified", default=())
     seed: str | None = quantity("", "Seed of the trials", default=None)
     is_isolated: Flag = quantity("", "Whether its law had nothing but its task", default=True)
@@ -79,7 +63,7 @@ def verify_run(catalogue: Catalogue, run_id: str) -> VerifiedRun:
 
 
 def grade(
-    work: SubmittedWork, exercise: Exercise, runs: Path | None, secret: bytes | None
+    submission: Submission, exercise: Exercise, runs: Path | None, secret: bytes | None
 ) -> Grade:
     """The grade of a submission. runs: folder of the runs, None for this machine's.
 
@@ -88,41 +72,23 @@ def grade(
     walls, as one's own. Raises `ParameterError` for a submission that does not fit the exercise,
     `NotIsolatedError` for a law where the machine cannot hold one.
     """
-    submission, law = work
-    catalogue, verified = Catalogue(runs), list[VerifiedRun]()
+    catalogue, verified, law = Catalogue(runs), list[VerifiedRun](), submission.law
+    seed = derive_seed(secret or b"practice", f"{SUITE_VERSION} {digest_law(law)}")
 
     def open_verified(run_id: str) -> Result:
         verified.append(verify_run(catalogue, run_id))
         return open_run(catalogue.find_folder(run_id))
 
-    judged = judge_submission(exercise, submission, open_verified)
-    criteria, seed = list[CriterionResult](judged.criteria), None
-    end = exercise.steps[-1]
-    wants_law = isinstance(end, SubmitStep) and end.law
-    if law is not None and not wants_law:
-        bound = f"left out: {exercise.name} asks for no law"
-        raise ParameterError(Violation("law_file", submission.law_file, "", bound))
-    if wants_law and law is None:
-        criteria += judge_law([])
-    if law is not None:
-        if secret is not None:
-            check_isolation()
-        seed = derive_seed(secret or b"practice", f"{SUITE_VERSION} {work.law_digest}")
-        criteria += judge_law(run_trials(law, seed, confine if secret else leave_open))
+    def judge_text(text: bytes | None) -> list[CriterionResult]:
+        place = confine if secret else leave_open
+        return judge_law([] if text is None else run_trials(text, seed, place))
+
+    judged = judge_submission(exercise, submission, open_verified, judge_text)
     return Grade(
+        **dict(judged),
         student=submission.student,
-        exercise=exercise.name,
-        submission=work.digest,
-        points=sum(one.points for one in criteria),
-        max_points=sum(one.max_points for one in criteria),
-        criteria=tuple(
-            Criterion(
-                step=one.step, name=one.name, points=one.points, max_points=one.max_points,
-                feedback=one.feedback,
-            )
-            for one in criteria
-        ),
+        submission=submission.digest,
         runs=tuple(verified),
-        seed=None if seed is None else f"{seed:016x}",
+        seed=None if law is None else f"{seed:016x}",
         is_isolated=law is None or secret is not None,
-    )  # fmt: skip
+    )

@@ -17,6 +17,7 @@ from svsa.runs.result.result import Result
 from svsa.runs.result.simulate import simulate
 from svsa.teaching.course.criterion import CriterionResult
 from svsa.teaching.isolation.confinement import BOUNDS, Bounds, confine
+from svsa.teaching.isolation.probe import check_isolation
 from svsa.teaching.isolation.process import LawProcess, Place
 from svsa.teaching.isolation.refusal import LawFaultError, describe_last_output
 
@@ -53,7 +54,13 @@ class LawRun(NamedTuple):
 def run_law(
     source: bytes, scenario: Scenario, bounds: Bounds = BOUNDS, place: Place = confine
 ) -> LawRun:
-    """One run of a law in a process of its own; raises `NotIsolatedError`."""
+    """One run of a law in a process of its own.
+
+    place: `confine`, or `leave_open` for a law that is trusted. Raises `NotIsolatedError` where
+    this machine cannot confine a law.
+    """
+    if place is confine:
+        check_isolation()
     configuration = scenario.build_configuration(PAPERS_LAW)
     model = build_actuator(configuration.nominal, compute_start_ratio(configuration))
     reported: list[tuple[float, float]] = []
@@ -124,7 +131,7 @@ def judge_law(runs: list[LawRun]) -> list[CriterionResult]:
     """
     if not runs:
         none = "No law was submitted."
-        return [CriterionResult(LAW_STEP, name, 0.0, most, none) for name, most in POINTS.items()]
+        return [_build_result(name, 0.0, none) for name in POINTS]
     whole = [run for run in runs if run.rms_deg is not None]
     held = [run for run in runs if run.held]
     accuracy = compute_accuracy(run.rms_deg for run in runs)
@@ -140,7 +147,11 @@ def judge_law(runs: list[LawRun]) -> list[CriterionResult]:
         (len(held) / count, f"{len(held)} of {count} did."),
         (accuracy, f"{rms}; the mean of 1 − tanh(rms / 1°) is {accuracy:.2f}."),
     )
-    return [
-        CriterionResult(LAW_STEP, name, most * share, most, feedback)
-        for (name, most), (share, feedback) in zip(POINTS.items(), reported, strict=True)
-    ]
+    return [_build_result(name, *given) for name, given in zip(POINTS, reported, strict=True)]
+
+
+def _build_result(name: str, share: float, feedback: str) -> CriterionResult:
+    most = POINTS[name]
+    return CriterionResult(
+        step=LAW_STEP, name=name, points=most * share, max_points=most, feedback=feedback
+    )

@@ -2,12 +2,11 @@
 
 from svsa.evaluation.ranking.measure import STEADY_STATE_DEG
 from svsa.evaluation.ranking.trials import build_trial
-from svsa.teaching.course.submission import LONGEST_OUTPUT, KeptLaw
 from svsa.teaching.grading.law_runs import LawRun, run_law
 from svsa.teaching.isolation.confinement import Bounds, confine
-from svsa.teaching.isolation.probe import check_isolation
 from svsa.teaching.isolation.process import Place
 from svsa.teaching.isolation.refusal import NotIsolatedError
+from svsa.teaching.submission import LONGEST_OUTPUT, KeptLaw
 
 BOUNDS = Bounds(cpu_s=20, start_s=10.0, whole_s=20.0)
 OPEN_TRIAL = 0
@@ -20,8 +19,6 @@ def try_law(text: str, place: Place = confine) -> KeptLaw:
     """
     scenario = build_trial(OPEN_TRIAL)
     try:
-        if place is confine:
-            check_isolation()
         run = run_law(text.encode(), scenario, BOUNDS, place)
     except NotIsolatedError as error:
         reported = f"{error} At home svsa grade --practice tries it."

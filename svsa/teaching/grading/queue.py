@@ -8,12 +8,12 @@ from functools import partial
 from itertools import islice
 from pathlib import Path
 
-from svsa.errors import ParameterError, StateError, Violation
+from svsa.errors import ParameterError, StateError, SvsaError, Violation
 from svsa.evaluation.workers import start_workers
 from svsa.teaching.course.exercise import Exercise
 from svsa.teaching.grading.grade import Grade, grade
 from svsa.teaching.grading.gradebook import Book
-from svsa.teaching.grading.submitted_work import SubmittedWork
+from svsa.teaching.submission import read_submission
 
 _WAITING_EACH = 2
 
@@ -34,40 +34,45 @@ def grade_file(
 ) -> Grade:
     """The grade of a submission's file, kept in the book; the one that it has there, if any.
 
-    again: run it again, though it has one. Same submission, same trials, same grade.
+    again: run it again, though it has one. Same submission, same trials, same grade. Where it is
+    refused, the book says why, and keeps the grade that it has.
     """
-    work = SubmittedWork.read(path)
-    before = book.find(work.digest) if book and not again else None
-    if before is not None:
-        return before
-    name = work.submission.exercise
-    if name not in exercises:
-        bound = f"one of {', '.join(exercises)}"
-        raise ParameterError(Violation("exercise", name, "", bound), file=str(path))
-    given = grade(work, exercises[name], runs, book.secret if book else None)
+    submission = read_submission(path)
+    digest, name = submission.digest, submission.exercise
+    given = book.find(digest) if book and not again else None
+    try:
+        if name not in exercises:
+            bound = f"one of {', '.join(exercises)}"
+            raise ParameterError(Violation("exercise", name, "", bound), file=str(path))
+        given = given or grade(submission, exercises[name], runs, book.secret if book else None)
+    except SvsaError as error:
+        if book is not None:
+            book.refuse(digest, str(error))
+        raise
     if book is not None:
         book.keep(given)
+        book.refuse(digest, "")
     return given
 
 
-def grade_side_by_side(
+def grade_files(
     files: Iterable[Path],
     exercises: dict[str, Exercise],
     runs: Path | None,
     book: Book | None,
     workers: int | None = None,
     again: bool = False,
-) -> Generator[tuple[Path, Callable[[], Grade]], None, None]:
-    """Each file, as it is done, with what gives its grade or raises why there is none.
+) -> Generator[tuple[Path, Grade | SvsaError], None, None]:
+    """Each file, as it is done, with its grade or why it has none.
 
     files: taken one by one, as there is room. workers: processes of low priority; one works in
-    this one, when its grade is asked for. Closed early, those that are worked at are waited for.
+    this one. Closed early, those that are worked at are waited for. Raises `GraderLostError`.
     """
     workers = workers or os.cpu_count() or 1
     waiting = iter(files)
     if workers == 1:
         for path in waiting:
-            yield path, partial(grade_file, path, exercises, runs, book, again)
+            yield path, _take(partial(grade_file, path, exercises, runs, book, again))
         return
     with start_workers(workers) as pool:
         asked = dict[Future[Grade], Path]()
@@ -79,15 +84,15 @@ def grade_side_by_side(
                 if not asked:
                     return
                 for answer in wait(asked, return_when=FIRST_COMPLETED).done:
-                    yield asked.pop(answer), partial(_take, answer)
+                    yield asked.pop(answer), _take(answer.result)
         except BrokenProcessPool:
             raise GraderLostError from None
         finally:
             pool.shutdown(cancel_futures=True)
 
 
-def _take(answer: Future[Grade]) -> Grade:
+def _take(give: Callable[[], Grade]) -> Grade | SvsaError:
     try:
-        return answer.result()
-    except BrokenProcessPool:
-        raise GraderLostError from None
+        return give()
+    except SvsaError as error:
+        return error

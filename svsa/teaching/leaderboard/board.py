@@ -1,7 +1,5 @@
 """The board: a folder with the season's secret and an entry a file."""
 
-import hashlib
-import json
 import re
 from collections.abc import Callable
 from datetime import UTC, datetime
@@ -18,14 +16,13 @@ from svsa.evaluation.ranking.trials import SUITE_VERSION, derive_seed
 from svsa.inputs.checked import Checked, Flag, quantity
 from svsa.inputs.extras import __version__
 from svsa.runs.records.catalogue.runs import find_data_folder
-from svsa.runs.records.former_words import translate_results
 from svsa.runs.records.header import replace_file
+from svsa.teaching.class_folder import ClassFolder
 from svsa.teaching.grading.law_runs import run_installed, run_law
-from svsa.teaching.grading.secret import keep_secret
 from svsa.teaching.isolation.confinement import Bounds, confine
-from svsa.teaching.isolation.probe import check_isolation
 from svsa.teaching.isolation.process import Place
 from svsa.teaching.leaderboard.standing import Go, Standing, Tell, build_season, measure_standing
+from svsa.teaching.submission import digest_law
 
 FOLDER = "leaderboard"
 MAX_NAME = 60
@@ -61,7 +58,7 @@ class Entry(Checked):
     standing: Standing = quantity("", "What it shows")
 
 
-class Board:
+class Board(ClassFolder[Entry]):
     """A season's folder: `secret`, for nobody's eyes, and `entries/`, a file each.
 
     `torques/` has what submitted laws answered in their worst runs. folder: None for the one in
@@ -70,20 +67,13 @@ class Board:
     """
 
     def __init__(self, folder: Path | None = None) -> None:
-        self.folder = find_data_folder() / FOLDER if folder is None else folder
-        self._entries, self._torques = self.folder / "entries", self.folder / "torques"
-        try:
-            self._entries.mkdir(parents=True, exist_ok=True)
-            self._torques.mkdir(exist_ok=True)
-            self.season = build_season(derive_seed(keep_secret(self.folder / "secret")))
-        except OSError as error:
-            bound = f"a folder that can be written ({error.strerror})"
-            raise ParameterError(Violation("leaderboard", self.folder, "", bound)) from None
+        folder = find_data_folder() / FOLDER if folder is None else folder
+        super().__init__(folder, Entry, ("leaderboard", "entries", "torques"))
+        self.season = build_season(derive_seed(self.secret))
 
     def find(self, key: str) -> Entry | None:
         """The entry of this key in this version of the suite; of an installed law, of the lab."""
-        path = self._entries / f"{key}.json"
-        entry = _read(path) if _KEY.fullmatch(key) and path.exists() else None
+        entry = super().find(key) if _KEY.fullmatch(key) else None
         return entry if entry is not None and _is_present(entry) else None
 
     def get(self, key: str) -> Entry:
@@ -97,18 +87,11 @@ class Board:
         """Names of installed laws that have no entry yet."""
         return [name for name in list_law_names() if self.find(name) is None]
 
-    @property
-    def began(self) -> str:
-        """When the season's secret was drawn, UTC, ISO 8601."""
-        made_s = (self.folder / "secret").stat().st_mtime
-        return datetime.fromtimestamp(made_s, UTC).isoformat(timespec="seconds")
-
     def keep(self, entry: Entry, torques: bytes = b"") -> Entry:
         """Keep an entry, with what a law in a process of its own answered in its worst run."""
         if torques:
-            replace_file(self._torques / entry.key, torques)
-        text = entry.model_dump_json(indent=1) + "\n"
-        replace_file(self._entries / f"{entry.key}.json", text.encode())
+            replace_file(self.others / entry.key, torques)
+        self.write(entry.key, entry)
         return entry
 
     def read_torques(self, entry: Entry) -> np.ndarray:
@@ -117,7 +100,7 @@ class Board:
         Raises `StateError` where none is kept: it failed before it answered, or is of an earlier
         version of the lab.
         """
-        path = self._torques / entry.key
+        path = self.others / entry.key
         kept = path.read_bytes() if path.exists() else b""
         if not kept or len(kept) % _TICK_BYTES:
             raise StateError(f"Of the worst run of {entry.name!r} nothing is kept.")
@@ -125,7 +108,7 @@ class Board:
 
     def list(self) -> list[Entry]:
         """Every entry, the best score first."""
-        entries = [one for one in map(_read, self._entries.glob("*.json")) if _is_present(one)]
+        entries = [one for one in self.read_all() if _is_present(one)]
         return sorted(entries, key=lambda one: (-one.standing.score, one.name, one.key))
 
 
@@ -168,16 +151,10 @@ def submit(
     before = board.find(key)
     if before is not None:
         return before
-    check_isolation()
     found = measure_standing(board.season, go_isolated(source), report, is_cancelled)
     if found is None:
         return None
     return board.keep(build_entry(key, name, False, found.standing, author), found.worst.torques)
-
-
-def digest_law(source: bytes) -> str:
-    """SHA-256 of a law's text, in hexadecimal: the key of its entry."""
-    return hashlib.sha256(source).hexdigest()
 
 
 def go_isolated(source: bytes, place: Place = confine) -> Go:
@@ -208,11 +185,3 @@ def _is_present(entry: Entry) -> bool:
     return not entry.is_installed or (
         entry.version == __version__ and entry.key in list_law_names()
     )
-
-
-def _read(path: Path) -> Entry:
-    try:
-        return Entry.model_validate(translate_results(json.loads(path.read_bytes())))
-    except (OSError, ValueError) as error:
-        bound = f"an entry of the leaderboard ({error})"
-        raise ParameterError(Violation("entry", path, "", bound)) from None

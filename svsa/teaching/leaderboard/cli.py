@@ -15,7 +15,6 @@ from rich.table import Table
 
 from svsa.control.installed import get_title
 from svsa.evaluation.ranking.trials import PUBLIC_SEED
-from svsa.teaching.grading.submitted_work import read_law_file
 from svsa.teaching.isolation.confinement import leave_open
 from svsa.teaching.leaderboard.board import (
     Board,
@@ -26,6 +25,7 @@ from svsa.teaching.leaderboard.board import (
     submit,
 )
 from svsa.teaching.leaderboard.standing import Tell, build_season, measure_standing
+from svsa.teaching.submission import read_law
 
 _messages = Console(stderr=True)
 _BOARD = typer.Option("--board", help="Folder of the season; else SVSA_DATA's leaderboard.")
@@ -54,7 +54,7 @@ def submit_command(
 
     The same file has one entry, which stays as it is.
     """
-    source, called = read_law_file(file), name or file.stem
+    source, called = read_law(file), name or file.stem
     if practice:
         go = go_isolated(source, leave_open)
         with _show_progress("Practice") as report:

@@ -5,7 +5,8 @@ import time
 import pytest
 
 from svsa.teaching.isolation.refusal import NotIsolatedError
-from svsa.teaching.leaderboard.board import FOLDER, Board, digest_law
+from svsa.teaching.leaderboard.board import FOLDER, Board
+from svsa.teaching.submission import digest_law
 from svsa_server.jobs.progress import JobFolder, ask_to_stop, read_progress
 from svsa_server.jobs.submissions import Asked, enter
 from tests.lab_in_process import run_lab_in_process

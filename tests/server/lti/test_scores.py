@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pytest
 
+from svsa.teaching.course.criterion import CriterionResult
 from svsa.teaching.course.progress import ProgressStore
-from svsa.teaching.course.submission import Submission, write_submission
-from svsa.teaching.grading.grade import Criterion, Grade
+from svsa.teaching.grading.grade import Grade
 from svsa.teaching.grading.gradebook import Book
-from svsa.teaching.grading.submitted_work import SubmittedWork
+from svsa.teaching.submission import Submission, read_submission
 from svsa_server.lti import scores
 from svsa_server.lti.links import Link, Links
 from svsa_server.lti.platforms import read_lti_file
@@ -62,15 +62,15 @@ class Class:
         path = self.store.find_submission("mechanism", PERSON)
         path.parent.mkdir(parents=True, exist_ok=True)
         answers = {"predict-lever": answer}
-        write_submission(path, Submission(student="Ada", exercise="mechanism", answers=answers))
+        Submission(student="Ada", exercise="mechanism", answers=answers).write(path)
         return path
 
     def grade(self, points: float, answer: float = 0.7) -> None:
         path = self.submit(answer)
-        one = Criterion(step="s", name="n", points=points, max_points=13.0, feedback="")
+        one = CriterionResult(step="s", name="n", points=points, max_points=13.0, feedback="")
         self.book.keep(
             Grade(
-                student="Ada", exercise="mechanism", submission=SubmittedWork.read(path).digest,
+                student="Ada", exercise="mechanism", submission=read_submission(path).digest,
                 points=points, max_points=13.0, criteria=(one,),
             )
         )  # fmt: skip

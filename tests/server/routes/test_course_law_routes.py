@@ -4,11 +4,10 @@ import shutil
 
 import pytest
 
-from svsa.teaching.course.submission import MAX_LAW_BYTES
 from svsa.teaching.grading import law_runs
 from svsa.teaching.grading.gradebook import Book
 from svsa.teaching.grading.queue import grade_file
-from svsa.teaching.grading.submitted_work import SubmittedWork
+from svsa.teaching.submission import MAX_LAW_BYTES, read_submission
 from tests.lab_in_process import run_lab_in_process
 from tests.teaching.course.runs import find_exercise
 from tests.teaching.course.student import Student, find_law
@@ -87,7 +86,7 @@ def test_a_law_is_submitted_and_the_same_submission_has_the_same_grade(
     assert student.try_law(LAZY.decode()).status_code == 409
 
     path = data / "course" / "submissions" / "own-law" / "home.json"
-    assert SubmittedWork.read(path).law == text.encode()
+    assert read_submission(path).law == text.encode()
     books = [Book(tmp_path / "first"), Book(tmp_path / "second")]
     books[1].secret = books[0].secret
     first, again = (grade_file(path, {"own-law": own_law}, data, book) for book in books)

@@ -6,7 +6,7 @@ import shutil
 import pytest
 
 from svsa.teaching.course.progress import ProgressStore
-from svsa.teaching.course.submission import read_submission
+from svsa.teaching.submission import read_submission
 from tests.lab_in_process import run_lab_in_process
 from tests.teaching.course.runs import find_exercise
 from tests.teaching.course.student import COURSE, Student
@@ -182,11 +182,15 @@ def test_a_lecturer_s_folder_is_served(tmp_path):
 
 
 def test_progress_with_former_words_is_kept(student, data):
-    """Of an exercise that was handed in before the words changed."""
+    """Of an exercise that was handed in before the words changed, with criteria as lists."""
     folder = data / "course"
     (folder / "people").mkdir(parents=True, exist_ok=True)
-    written = {"at": "hand-in", "handed_in": "2026-01-02T03:04:05+00:00", "points": 7.5}
+    result = ["load", "It stays", 1.0, 1.0, "Right.", "position_error_rad", 2.0]
+    steps = {"load": {"run": "x", "results": [result]}}
+    written = {"at": "hand-in", "handed_in": "2026-01-02T03:04:05+00:00", "steps": steps}
     path = folder / "people" / "home.json"
     path.write_text(json.dumps({"exercises": {NAME: written}}), encoding="utf-8")
     state = student.read()
     assert (state["at"], state["submitted_at"]) == ("submit", written["handed_in"])
+    part = next(one for one in state["parts"] if one["name"] == "load")
+    assert list(part["results"][0].values()) == result

@@ -10,7 +10,7 @@ import pytest
 from svsa.runs.records.bench_start import START_FILE
 from svsa.teaching.course.file import read_course
 from svsa.teaching.grading.grade import Grade, grade
-from svsa.teaching.grading.submitted_work import SubmittedWork
+from svsa.teaching.submission import read_submission
 from tests.hardware.live_bench import start_live_emulator, write_bench
 from tests.lab import run_lab
 from tests.server.sessions.bench_lab import BenchLab, wait_until
@@ -176,7 +176,7 @@ def grade_run(room: Room, run_id: str) -> Grade:
     path = room.folder / "submission.json"
     path.write_text(json.dumps(reported), encoding="utf-8")
     exercise = next(one for one in read_course(room.folder / "own") if one.name == "held")
-    return grade(SubmittedWork.read(path), exercise, room.folder, None)
+    return grade(read_submission(path), exercise, room.folder, None)
 
 
 def test_its_run_is_judged_and_graded_by_what_was_verified_of_it(room: Room, run_id: str) -> None:

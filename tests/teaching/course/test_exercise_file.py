@@ -9,7 +9,6 @@ from svsa.teaching.course.file import (
     list_exercise_files,
     parse_exercise,
     read_course,
-    read_exercise,
 )
 from svsa.teaching.course.text import render_text
 
@@ -159,11 +158,6 @@ def test_one_s_own_file_takes_the_place_of_the_package_s(tmp_path):
     assert titles[built_in] == titles["first"] == "A first one"
     with pytest.raises(ParameterError, match="a folder with exercises"):
         read_course(tmp_path / "nowhere")
-
-
-@pytest.mark.parametrize("path", list_exercise_files(), ids=lambda path: path.stem)
-def test_every_exercise_of_the_course_can_be_read(path: Path):
-    assert read_exercise(path).max_points > 0
 
 
 def test_a_text_brings_no_html_of_its_own():

@@ -7,7 +7,7 @@ import pytest
 import svsa
 from svsa.errors import ParameterError, StateError
 from svsa.teaching.course.judge import check_answer, judge_submission
-from svsa.teaching.course.submission import Submission, read_submission, write_submission
+from svsa.teaching.submission import Submission, read_submission
 from tests.teaching.course.runs import find_exercise, simulate_step
 
 NAME = "feedback-linearization"
@@ -125,13 +125,20 @@ def test_what_is_no_answer_is_refused(step, answer):
 
 
 def test_a_submission_is_read_as_it_was_written(tmp_path):
-    submission = Submission(
-        student="Ada", exercise=NAME, answers=RIGHT, runs=RUNS, law_file="law.py"
-    )
+    submission = Submission(student="Ada", exercise=NAME, answers=RIGHT, runs=RUNS, law=b"pass\n")
     path = tmp_path / "ada.json"
-    write_submission(path, submission)
+    submission.write(path)
 
-    assert read_submission(path) == submission
+    assert read_submission(path) == submission.changed(law_file="ada.py")
+
+
+def test_a_submission_keeps_the_digest_under_which_grades_are_stored():
+    """Another digest would give every submission of an existing class a second grade."""
+    submission = Submission(
+        student="Ada", exercise="own-law", answers={"a": 1.0, "b": "x"}, runs={"r": "id"},
+        law_file="law.py", law=b"def law(*given): return 0.0, 0.0\n",
+    )  # fmt: skip
+    assert submission.digest.startswith("e032af71df958b47aff7d3646e4c75f2696728bb485f15a1")
 
 
 @pytest.mark.parametrize(
@@ -141,6 +148,7 @@ def test_a_submission_is_read_as_it_was_written(tmp_path):
         ('{"exercise": "a"}', "student is missing"),
         ('{"student": "Ada", "exercise": "../a"}', "exercise"),
         ('{"student": "Ada", "exercise": "a", "points": 9}', "points"),
+        ('{"student": "Ada", "exercise": "a", "law": "pass"}', "law_file names its file"),
     ],
 )
 def test_a_wrong_submission_names_its_file(tmp_path, text, said):

@@ -13,15 +13,14 @@ from svsa.errors import StateError
 from svsa.evaluation.ranking.trials import PUBLIC_SEED, build_trials
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.teaching.course.file import parse_exercise
-from svsa.teaching.course.submission import MAX_LAW_BYTES, Submission, write_submission
 from svsa.teaching.grading import law_runs
 from svsa.teaching.grading.grade import grade
 from svsa.teaching.grading.gradebook import Book
 from svsa.teaching.grading.report import write_csv, write_page
-from svsa.teaching.grading.submitted_work import SubmittedWork
 from svsa.teaching.isolation import confinement
 from svsa.teaching.isolation.probe import check_isolation
 from svsa.teaching.isolation.refusal import NotIsolatedError
+from svsa.teaching.submission import MAX_LAW_BYTES, Submission, read_submission
 from tests.teaching.course.runs import find_exercise
 from tests.teaching.grading.submissions import (
     EXERCISE,
@@ -49,14 +48,14 @@ def run(*arguments):
 
 
 def submit(law=LAZY, student="Ada"):
-    return SubmittedWork(Submission(student=student, exercise="own-law", law_file="law.py"), law)
+    return Submission(student=student, exercise="own-law", law=law)
 
 
 def test_a_run_that_replays_has_its_points(tmp_path):
     catalogue = Catalogue(tmp_path)
     runs = {step: record_step(catalogue, step) for step in ("load", "exact-model")}
     given = Submission(student="Ada", exercise=EXERCISE, runs=runs)
-    found = grade(SubmittedWork(given, None), find_exercise(EXERCISE), tmp_path, SECRET)
+    found = grade(given, find_exercise(EXERCISE), tmp_path, SECRET)
     assert found.seed is None
     assert found.points > 0
     assert {one.step for one in found.criteria if one.points} >= {"load"}
@@ -67,7 +66,7 @@ def test_a_run_of_which_one_bit_was_changed_is_refused(tmp_path):
     catalogue = Catalogue(tmp_path)
     runs = {"load": record_step(catalogue, "load", flip=True)}
     given = Submission(student="Ada", exercise=EXERCISE, runs=runs)
-    found = grade(SubmittedWork(given, None), find_exercise(EXERCISE), tmp_path, SECRET)
+    found = grade(given, find_exercise(EXERCISE), tmp_path, SECRET)
     assert found.points == 0
     reported = [one.feedback for one in found.criteria if one.step == "load"]
     assert reported
@@ -112,10 +111,10 @@ def test_a_law_that_fails_is_told_why_and_not_asked_again(tmp_path):
 
 def test_no_law_has_no_points_and_a_law_that_nobody_asked_for_is_refused(tmp_path):
     given = Submission(student="Ada", exercise="own-law")
-    assert grade(SubmittedWork(given, None), OWN_LAW, tmp_path, SECRET).points == 0
-    given = Submission(student="Ada", exercise=EXERCISE, law_file="law.py")
+    assert grade(given, OWN_LAW, tmp_path, SECRET).points == 0
+    given = Submission(student="Ada", exercise=EXERCISE, law=LAZY)
     with pytest.raises(svsa.ParameterError, match="asks for no law"):
-        grade(SubmittedWork(given, LAZY), find_exercise(EXERCISE), tmp_path, SECRET)
+        grade(given, find_exercise(EXERCISE), tmp_path, SECRET)
 
 
 def test_where_nothing_isolates_a_class_gets_no_grade_and_practice_says_so(tmp_path, monkeypatch):
@@ -136,14 +135,14 @@ def test_a_law_stays_in_its_folder(tmp_path):
     (tmp_path / "other.py").write_bytes(GOOD)
     path = submit_law(tmp_path / "ada", LAZY, law_file="../other.py")
     with pytest.raises(svsa.ParameterError, match="a file beside the submission"):
-        SubmittedWork.read(path)
+        read_submission(path)
     (tmp_path / "ada" / "link.py").symlink_to(tmp_path / "other.py")
     path = submit_law(tmp_path / "ada", LAZY, law_file="link.py")
     with pytest.raises(svsa.ParameterError, match="a file beside the submission"):
-        SubmittedWork.read(path)
+        read_submission(path)
     path = submit_law(tmp_path / "ada", b"#" * (MAX_LAW_BYTES + 1))
     with pytest.raises(svsa.ParameterError, match="at most 65536 bytes"):
-        SubmittedWork.read(path)
+        read_submission(path)
 
 
 def test_a_class_is_graded_once_and_told_as_page_and_csv(tmp_path):
@@ -173,21 +172,6 @@ def test_a_class_is_graded_once_and_told_as_page_and_csv(tmp_path):
     assert "<b>Ada" not in text
     (grade_again,) = Book(book).list()
     assert write_csv([grade_again.changed(student="=Eve")]).splitlines()[1].startswith("'=Eve,")
-
-
-def test_many_are_graded_side_by_side_and_one_that_does_not_fit_stops_none(tmp_path):
-    course, book = write_course(tmp_path / "course"), tmp_path / "class"
-    files = []
-    for number, exercise in enumerate(("none-such", EXERCISE, EXERCISE)):
-        folder = tmp_path / str(number)
-        folder.mkdir()
-        files.append(folder / "submission.json")
-        submission = Submission(student=f"Student {number}", exercise=exercise)
-        write_submission(files[-1], submission)
-    answer = run(*files, "--class", book, "--course", course, "--runs", tmp_path)
-    assert answer.exit_code == 1
-    assert "none-such" in answer.output
-    assert [one.student for one in Book(book).list()] == ["Student 1", "Student 2"]
 
 
 def test_a_class_or_practice_is_said(tmp_path):

@@ -7,7 +7,6 @@ from typer.testing import CliRunner
 
 import svsa
 from svsa.cli import app
-from svsa.control.installed import list_law_names
 from svsa.errors import StateError
 from svsa.evaluation.ranking.measure import Entry as RankingEntry
 from svsa.evaluation.ranking.measure import measure_law
@@ -197,7 +196,3 @@ def test_where_nothing_isolates_nothing_is_entered_and_practice_says_so(tmp_path
 def test_a_name_is_one_line_of_letters(name):
     with pytest.raises(svsa.ParameterError, match="name"):
         boards.build_entry("key", name, False, stand(build_season(5), go_with({})))
-
-
-def test_the_labs_laws_are_all_on_the_board(tmp_path):
-    assert Board(tmp_path).list_missing() == list(list_law_names())

@@ -17,12 +17,12 @@ from svsa.teaching.leaderboard.board import (
     Board,
     Entry,
     build_entry,
-    digest_law,
     measure_missing,
     submit,
 )
 from svsa.teaching.leaderboard.standing import WorstRun
-from svsa.teaching.leaderboard.worst_run import KeptTorques, replay_worst
+from svsa.teaching.leaderboard.worst_run import replay_worst
+from svsa.teaching.submission import digest_law
 from tests.teaching.grading.submissions import GOOD
 from tests.teaching.isolation.test_attacks import isolation  # noqa: F401
 from tests.teaching.leaderboard.test_leaderboard import short_season  # noqa: F401
@@ -137,9 +137,3 @@ def test_of_what_is_not_kept_it_says_so(tmp_path):
 def test_an_entry_is_found_by_its_key_alone(tmp_path, key):
     with pytest.raises(ParameterError, match="key of an entry"):
         Board(tmp_path).get(key)
-
-
-def test_kept_torques_come_in_their_order():
-    zeros = (0.0, None, None, None)
-    law = KeptTorques(np.array([[1.0, 2.0], [3.0, 4.0]]))
-    assert [law(*zeros), law(*zeros)] == [(1.0, 2.0), (3.0, 4.0)]

@@ -15,7 +15,7 @@ from svsa.runs.result.recorded import open_run
 from svsa.runs.result.result import Result
 from svsa.teaching.course.criterion import CriterionResult, Judgement
 from svsa.teaching.course.exercise import Exercise
-from svsa.teaching.course.judge import judge_step, judge_submission
+from svsa.teaching.course.judge import judge_run, judge_step, judge_submission
 from svsa.teaching.course.progress import (
     ExerciseProgress,
     ProgressStore,
@@ -28,7 +28,6 @@ from svsa.teaching.course.progress import (
     visit_step,
 )
 from svsa.teaching.course.steps import Experiment, Predict
-from svsa.teaching.course.submission import check_law_length, write_submission
 from svsa.teaching.grading import law_trial
 from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
 from svsa_server.access.roles import Person
@@ -40,14 +39,11 @@ from svsa_server.schemas.teaching.course import (
     AnswerRequest,
     CourseLawRequest,
     CourseState,
-    CriterionState,
     ExerciseState,
-    JudgementState,
     PlaceRequest,
     RunRequest,
     SetupRequest,
     SubmissionRequest,
-    describe_criterion,
     describe_exercise,
     describe_summary,
 )
@@ -157,20 +153,21 @@ def check(
     exercise: ExerciseName,
     step: StepInPath,
     wanted: Annotated[RunRequest, Body(examples=[{"run_id": "20260102-030405-9f8e7d6c"}])],
-) -> list[CriterionState]:
+) -> list[CriterionResult]:
     """Judge a recorded run of one's own, and with it the predictions; the best one is kept."""
     found = _find_exercise(request, exercise)
-    if not isinstance(found.find_step(step), Experiment):
+    asked = found.find_step(step)
+    if not isinstance(asked, Experiment):
         raise StateError(f"Step {step!r} is no experiment: no run is judged there.")
     result = _open_own(runs, person, wanted.run_id)
     judged: list[CriterionResult] = []
 
     def keep(found: Exercise, progress: ExerciseProgress) -> ExerciseProgress:
-        judged[:] = _judge(found, progress, step, result)
+        judged[:] = judge_run(found, asked, progress.answers, result)
         return keep_run(found, progress, step, wanted.run_id, judged)
 
     _change(request, person, exercise, keep)
-    return [describe_criterion(one) for one in judged]
+    return judged
 
 
 @router.put("/course/{exercise}/law", responses=BUSY)
@@ -190,7 +187,6 @@ async def try_law(
     cannot isolate it and leaves it untried.
     """
     found = _find_exercise(request, exercise)
-    check_law_length(wanted.text.encode())
     check_takes_law(found, find_store(request).read(person.id).get(exercise))
     law = await work.run(law_trial.try_law, wanted.text)
     return await asyncio.to_thread(
@@ -206,7 +202,7 @@ def submit(
     runs: Runs,
     exercise: ExerciseName,
     wanted: Annotated[SubmissionRequest, Body(examples=[{"student": "Ada"}])],
-) -> JudgementState:
+) -> Judgement:
     """Hand in what is kept of an exercise, once; it is judged from its runs, and stands in a file.
 
     Refused while a step is not done, and while a law is missing that belongs to it.
@@ -224,37 +220,13 @@ def submit(
         given = progress.build_submission(exercise, student)
         path = store.find_submission(exercise, person.id)
         path.parent.mkdir(parents=True, exist_ok=True)
-        if progress.law is not None:
-            law = path.with_suffix(".py")
-            law.write_bytes(progress.law.text.encode())
-            given = given.changed(law_file=law.name)
         judged.append(judge_submission(found, given, lambda run: _open_own(runs, person, run)))
-        write_submission(path, given)
+        given.write(path)
         now = datetime.now(UTC).isoformat(timespec="seconds")
         return progress.changed(submitted_at=now, points=judged[0].points)
 
     _change(request, person, exercise, keep)
-    one = judged[0]
-    criteria = [describe_criterion(each) for each in one.criteria]
-    return JudgementState(
-        exercise=exercise, points=one.points, max_points=one.max_points, criteria=criteria
-    )
-
-
-def _judge(
-    exercise: Exercise, progress: ExerciseProgress, step: str, result: Result
-) -> list[CriterionResult]:
-    """The criteria of an experiment, and those of the predictions that its run judges."""
-    answers = {name: one.answer for name, one in progress.steps.items() if one.answer is not None}
-    judged = [
-        one
-        for one in exercise.steps
-        if one.name == step
-        or (isinstance(one, Predict) and exercise.find_judge(one)[0].name == step)
-    ]
-    return [
-        result_ for one in judged for result_ in judge_step(exercise, one, answers, {step: result})
-    ]
+    return judged[0]
 
 
 def _open_own(runs: Catalogue, person: Person, run_id: str) -> Result:

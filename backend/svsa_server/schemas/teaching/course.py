@@ -9,9 +9,9 @@ from svsa.teaching.course.criterion import CriterionResult
 from svsa.teaching.course.exercise import Exercise
 from svsa.teaching.course.progress import ExerciseProgress, find_done, find_missing
 from svsa.teaching.course.steps import Experiment, Explain, Predict, Step, SubmitStep
-from svsa.teaching.course.submission import LONGEST_NAME, MAX_LAW_BYTES, Answer, KeptLaw, StepName
 from svsa.teaching.course.text import render_text
 from svsa.teaching.grading.law_runs import POINTS
+from svsa.teaching.submission import LONGEST_NAME, Answer, KeptLaw, LawText, StepName
 from svsa_server.access.owned import Owned
 
 
@@ -51,21 +51,7 @@ class SubmissionRequest(Checked):
 class CourseLawRequest(Checked):
     """A law that is to be tried and kept."""
 
-    text: Annotated[str, Field(min_length=1, max_length=MAX_LAW_BYTES)] = quantity(
-        "", "Text of a law's Python file"
-    )
-
-
-class CriterionState(BaseModel):
-    """A criterion as it was judged."""
-
-    step: str
-    name: str
-    points: float
-    max_points: float
-    feedback: str
-    channel: str | None = Field(description="Where to look; null where it is about no sample")
-    time_s: float | None = Field(description="When, in the run's time")
+    text: LawText = quantity("", "Text of a law's Python file")
 
 
 class OptionState(BaseModel):
@@ -116,7 +102,7 @@ class StepState(BaseModel):
     begun: bool
     run_id: str | None
     done: bool
-    results: list[CriterionState]
+    results: list[CriterionResult]
 
 
 class ExerciseSummary(BaseModel):
@@ -150,15 +136,6 @@ class CourseState(BaseModel):
     """The exercises, in their order."""
 
     exercises: list[ExerciseSummary]
-
-
-class JudgementState(BaseModel):
-    """A submission as it was judged."""
-
-    exercise: str
-    points: float
-    max_points: float
-    criteria: list[CriterionState]
 
 
 def describe_summary(exercise: Exercise, progress: ExerciseProgress) -> ExerciseSummary:
@@ -205,7 +182,7 @@ def _describe_step(exercise: Exercise, step: Step, progress: ExerciseProgress) -
         run_id=known.run,
         bench=None,
         done=step.name in find_done(exercise, progress),
-        results=[describe_criterion(one) for one in known.results],
+        results=list(known.results),
     )
     match step:
         case Predict():
@@ -247,8 +224,3 @@ def _describe_bench(step: Experiment) -> BenchStepState | None:
         by_hand=step.bench.by_hand,
         hands=sorted(hands, key=lambda one: one.time_s),
     )
-
-
-def describe_criterion(result: CriterionResult) -> CriterionState:
-    """A criterion on the wire."""
-    return CriterionState(**result._asdict())

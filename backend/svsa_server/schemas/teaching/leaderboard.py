@@ -3,8 +3,8 @@
 from pydantic import BaseModel, Field
 
 from svsa.inputs.checked import Checked, quantity
-from svsa.teaching.course.submission import MAX_LAW_BYTES
 from svsa.teaching.leaderboard.board import MAX_NAME, Author, Entry, EntryName
+from svsa.teaching.submission import LawText
 from svsa_server.schemas.evaluation.job import JobState
 
 
@@ -12,9 +12,7 @@ class LawSubmission(Checked):
     """A law that is to be put through the season."""
 
     name: EntryName = quantity("", "What it is called on the board", max_length=MAX_NAME)
-    law: str = quantity(
-        "", "Text of its file, Python: see docs/grading.md", min_length=1, max_length=MAX_LAW_BYTES
-    )
+    law: LawText = quantity("", "Text of its file, Python: see docs/grading.md")
     author: Author = quantity(
         "", "Who submits it; in a class it is the person who asks", max_length=MAX_NAME, default=""
     )

@@ -10,8 +10,8 @@ type Schemas = components["schemas"];
 export type ExerciseSummary = Schemas["ExerciseSummary"];
 export type Exercise = Schemas["ExerciseState"];
 export type Step = Schemas["StepState"];
-export type CriterionResult = Schemas["CriterionState"];
-type Judgement = Schemas["JudgementState"];
+export type CriterionResult = Schemas["CriterionResult"];
+type Judgement = Schemas["Judgement"];
 
 const LONG_WAIT_MS = 60_000;
 const pathOf = (exercise: string, rest = "") => `course/${encodeURIComponent(exercise)}${rest}`;

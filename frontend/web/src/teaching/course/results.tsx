@@ -46,7 +46,7 @@ export function Results({
               </small>
             </p>
             <p>{one.feedback}</p>
-            {run !== null && one.time_s !== null && (
+            {run !== null && typeof one.time_s === "number" && (
               <button
                 type="button"
                 class="button"

@@ -1,0 +1,89 @@
+"""A folder of a class or a season: a secret that trials come from, and results, a file each."""
+
+import json
+import os
+import secrets
+from collections.abc import Iterator
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Generic, TypeVar
+
+from svsa.errors import ParameterError, Violation
+from svsa.inputs.checked import Checked
+from svsa.runs.records.former_words import translate_results
+from svsa.runs.records.header import replace_file
+
+SECRET_BYTES = 32
+T = TypeVar("T", bound=Checked)
+
+
+class ClassFolder(Generic[T]):
+    """`secret`, for the grader's eyes only, a folder of results, and one of what belongs to them.
+
+    kind: type of a result. names: of the folder in an error, of the results' folder, and of that
+    of their other files. The secret is drawn when the folder is begun. Raises `ParameterError`
+    where the folder cannot be used.
+    """
+
+    def __init__(self, folder: Path, kind: type[T], names: tuple[str, str, str]) -> None:
+        name, results, others = names
+        self.folder, self._kind = folder, kind
+        self._results, self.others = folder / results, folder / others
+        try:
+            self._results.mkdir(parents=True, exist_ok=True)
+            self.others.mkdir(exist_ok=True)
+            self.secret = keep_secret(folder / "secret")
+        except OSError as error:
+            bound = f"a folder that can be written ({error.strerror})"
+            raise ParameterError(Violation(name, folder, "", bound)) from None
+
+    @property
+    def began(self) -> str:
+        """When the secret was drawn, UTC, ISO 8601."""
+        made_s = (self.folder / "secret").stat().st_mtime
+        return datetime.fromtimestamp(made_s, UTC).isoformat(timespec="seconds")
+
+    def find(self, key: str) -> T | None:
+        """The result of this key; raises `ParameterError` where its file cannot be read."""
+        path = self._results / f"{key}.json"
+        return self._read(path) if path.exists() else None
+
+    def write(self, key: str, result: T) -> None:
+        """Keep a result, whole or not at all; raises `OSError`."""
+        text = result.model_dump_json(indent=1) + "\n"
+        replace_file(self._results / f"{key}.json", text.encode())
+
+    def read_all(self) -> Iterator[T]:
+        """Every result, in no order."""
+        return map(self._read, self._results.glob("*.json"))
+
+    def _read(self, path: Path) -> T:
+        try:
+            return self._kind.model_validate(translate_results(json.loads(path.read_bytes())))
+        except (OSError, ValueError) as error:
+            name = self._kind.__name__.lower()
+            raise ParameterError(Violation(name, path, "", f"one of svsa ({error})")) from None
+
+
+def keep_secret(path: Path) -> bytes:
+    """The secret in this file, drawn if there is none yet, and readable by nobody else.
+
+    Raises `ParameterError` for a file that holds something else, `OSError` where it cannot be
+    written or read.
+    """
+    if not path.exists():
+        _write_new(path, secrets.token_bytes(SECRET_BYTES))
+    secret = path.read_bytes()
+    if len(secret) != SECRET_BYTES:
+        raise ParameterError(Violation("secret", path, "", f"of {SECRET_BYTES} bytes"))
+    return secret
+
+
+def _write_new(path: Path, text: bytes) -> None:
+    """The first of two who begin at once decides."""
+    try:
+        opened = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
+    except FileExistsError:
+        return
+    with os.fdopen(opened, "wb") as file:
+        file.write(text)
