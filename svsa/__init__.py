@@ -32,27 +32,23 @@ from svsa.runs.result.channels import ChannelName
 from svsa.runs.result.result import Result
 from svsa.runs.result.simulate import simulate
 from svsa.simulation.plant.effects import IDEAL, RIG, Effects
-from svsa.simulation.plant.loads import (
-    ConstantLoad,
-    MassLoad,
-    PaperLoad,
-    PulseLoad,
-    PushLoad,
-    SeriesLoad,
-    SineLoad,
-)
-from svsa.simulation.reference.chirp import ChirpPosition, ChirpStiffness
-from svsa.simulation.reference.minimum_jerk import MinimumJerkPosition, MinimumJerkStiffness
+from svsa.simulation.plant.loads import LOADS
+from svsa.simulation.plant.loads.constant import ConstantLoad
+from svsa.simulation.plant.loads.mass import MassLoad
+from svsa.simulation.plant.loads.paper import PaperLoad
+from svsa.simulation.plant.loads.pulse import PulseLoad
+from svsa.simulation.plant.loads.push import PushLoad
+from svsa.simulation.plant.loads.series import SeriesLoad
+from svsa.simulation.plant.loads.sine import SineLoad
+from svsa.simulation.reference.kinds import POSITIONS, STIFFNESSES
+from svsa.simulation.reference.kinds.chirp import ChirpPosition, ChirpStiffness
+from svsa.simulation.reference.kinds.constant import ConstantPosition, ConstantStiffness
+from svsa.simulation.reference.kinds.minimum_jerk import MinimumJerkPosition, MinimumJerkStiffness
+from svsa.simulation.reference.kinds.series import SeriesPosition, SeriesStiffness
+from svsa.simulation.reference.kinds.sine import SinePosition, SineStiffness
+from svsa.simulation.reference.kinds.steps import StepsPosition, StepsStiffness
 from svsa.simulation.reference.preview import sample_reference
-from svsa.simulation.reference.series import SeriesPosition, SeriesStiffness
 from svsa.simulation.reference.series_csv import read_series
-from svsa.simulation.reference.sine import (
-    ConstantPosition,
-    ConstantStiffness,
-    SinePosition,
-    SineStiffness,
-)
-from svsa.simulation.reference.steps import StepsPosition, StepsStiffness
 
 if TYPE_CHECKING:
     from svsa.analysis import design
@@ -75,11 +71,15 @@ _LATE = {
 }
 
 
+_FOUND = {kind.__name__: kind for kind in (*LOADS, *POSITIONS, *STIFFNESSES)}
+"""Loads and references of files that are not listed here."""
 _MODULES = ("design", "falsify")
 
 
 def __getattr__(name: str) -> object:
     """What a simulation does without, and what takes a while to import, when it is asked for."""
+    if name in _FOUND:
+        return _FOUND[name]
     if name not in _LATE:
         raise AttributeError(f"module 'svsa' has no attribute {name!r}")
     module = import_module(_LATE[name])

@@ -20,7 +20,7 @@ from svsa.evaluation.timing.scipy_comparison import compare_with_scipy
 from svsa.hardware.emulator.experiment import LockstepBench
 from svsa.runs.batch import run_configurations
 from svsa.runs.paper import FIGURES
-from svsa.simulation.plant.loads import ConstantLoad
+from svsa.simulation.plant.loads.constant import ConstantLoad
 from tests.analysis.identification.excited_run import build_configuration, build_run, play
 from tests.hardware.emulator.in_process_emulator import start_in_process
 from tests.runs.paper.golden import GENERIC

@@ -17,7 +17,7 @@ from svsa.control.observers.disturbance import ObserverBandwidth
 from svsa.runs.configuration import Lane
 from svsa.runs.result.channels import ChannelName
 from svsa.simulation.plant.effects import Effects
-from svsa.simulation.reference.trajectories import PositionReference, StiffnessReference
+from svsa.simulation.reference.kinds import PositionReference, StiffnessReference
 
 _POSITION: TypeAdapter[PositionReference] = TypeAdapter(PositionReference)
 _STIFFNESS: TypeAdapter[StiffnessReference] = TypeAdapter(StiffnessReference)

@@ -9,7 +9,8 @@ constants of an actuator from one to the next would cost more than the equations
 The compiled code is cached between starts. numba notices a change in the file of a
 function, but not in the files of the functions it calls. Each file with a compiled function has
 therefore a cache folder of its own, named after its text and that of all that it imports: of the
-library by what it names, of a package outside by the whole package. A change in a file compiles
+library by what it names and by what `import_modules` finds, of a package outside by the whole
+package. A change in a file compiles
 again only what depends on it: a law is not part of the loop that calls it.
 """
 
@@ -54,6 +55,7 @@ cycles whose memory the system frees anyway."""
 
 _LIBRARY = Path(__file__).parents[1]
 _IMPORT = re.compile(r"^from (svsa[\w.]*) import (\([^)]*\)|.*)$", re.MULTILINE)
+_FINDS_MODULES = re.compile(r"\b(import_modules|find_kinds)\(__name__\b")
 _OPTIONS: dict[str, Any] = {
     "nogil": True,
     "error_model": "numpy",
@@ -84,7 +86,11 @@ def _read(file: Path) -> bytes:
 def _find_imported(file: Path) -> frozenset[Path]:
     """The files of the library that a file imports, or imports from."""
     found: set[Path] = set()
-    for module, names in _IMPORT.findall(_read(file).decode()):
+    text = _read(file).decode()
+    # Such a package names none of the modules that it imports.
+    if _FINDS_MODULES.search(text):
+        found.update(file.parent.glob("*.py"))
+    for module, names in _IMPORT.findall(text):
         for name in (module, *(f"{module}.{part}" for part in re.findall(r"\w+", names))):
             if (imported := _find_module(name)) is not None:
                 found.add(imported)

@@ -16,8 +16,8 @@ from svsa.simulation.loop.batch_inputs import join_inputs
 from svsa.simulation.loop.batch_law import is_for_vectors
 from svsa.simulation.loop.lane import Blocks, Inputs
 from svsa.simulation.loop.tally import SUMMARY
-from svsa.simulation.plant.loads import LoadTable, build_load_table
-from svsa.simulation.reference.trajectories import Trajectory
+from svsa.simulation.plant.load_table import LoadTable, build_load_table
+from svsa.simulation.reference.kinds.reference import AnyReference
 from svsa.simulation.reference.transition import Stack, build_stack
 
 
@@ -124,7 +124,7 @@ def _build_inputs(configurations: Sequence[Configuration]) -> list[Inputs]:
     stacks: dict[int, Stack] = {}
     tables: dict[tuple[int, ...], LoadTable] = {}
 
-    def find_stack(trajectory: Trajectory) -> Stack:
+    def find_stack(trajectory: AnyReference) -> Stack:
         if id(trajectory) not in stacks:
             stacks[id(trajectory)] = build_stack(trajectory)
         return stacks[id(trajectory)]

@@ -15,7 +15,7 @@ from svsa.numerics.exponential import exp
 from svsa.runs.configuration import Configuration, Lane
 from svsa.simulation.loop.lane import Blocks
 from svsa.simulation.plant.effects import build_effect_constants
-from svsa.simulation.reference.trajectories import compute_start_value
+from svsa.simulation.reference.kinds import compute_start_value
 
 Bind: TypeAlias = Callable[[Configuration, Lane, Blocks], BoundLaw]
 """Binds the law of one lane among its blocks, as `bind_law` does."""

@@ -14,7 +14,7 @@ from svsa.inputs.checked import Checked, Number, check_number, quantity
 from svsa.runs.command import Command, build_command
 from svsa.simulation.plant.effects import Effects
 from svsa.simulation.plant.loads import Load
-from svsa.simulation.reference.trajectories import PositionReference, StiffnessReference
+from svsa.simulation.reference.kinds import PositionReference, StiffnessReference
 
 
 class Change(Checked):

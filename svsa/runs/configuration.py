@@ -28,7 +28,7 @@ from svsa.inputs.checked import Checked, Number, Whole, quantity
 from svsa.inputs.toml_file import parse_toml, read_toml
 from svsa.simulation.plant.effects import IDEAL, Effects
 from svsa.simulation.plant.loads import Load
-from svsa.simulation.reference.trajectories import PositionReference, StiffnessReference, get_range
+from svsa.simulation.reference.kinds import PositionReference, StiffnessReference, get_range
 
 MAX_LOADS = 16
 PARAMETER_FILE = "parameter file"

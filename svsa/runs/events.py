@@ -8,7 +8,6 @@ from svsa.control.installed import LawName, get_title
 from svsa.errors import Fault
 from svsa.runs.command import ApplyLoad, Command, RemoveLoad, Set
 from svsa.runs.configuration import Configuration
-from svsa.runs.loads import name_load
 from svsa.runs.replay import list_loads
 from svsa.simulation.plant.loads import Load
 
@@ -81,9 +80,9 @@ def describe_change(command: Command, law: LawName) -> str:
 
 def describe_onset(load: Load) -> str:
     """A load that comes on."""
-    return f"{name_load(load)} on"
+    return f"{load.name()} on"
 
 
 def describe_end(load: Load) -> str:
     """A load that ends or is taken off."""
-    return f"{name_load(load)} off"
+    return f"{load.name()} off"

@@ -1,20 +1,9 @@
-"""The loads of a run: when each was on, by one rule for the run and its record, and its words."""
+"""The loads of a run: when each was on, by one rule for the run and its record."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 
-from svsa.simulation.plant.loads import (
-    PAPER_ARM_M,
-    ConstantLoad,
-    Load,
-    MassLoad,
-    PaperLoad,
-    PulseLoad,
-    PushLoad,
-    ScheduledLoad,
-    SineLoad,
-    continue_push,
-    schedule_load,
-)
+from svsa.simulation.plant.load_table import ScheduledLoad, continue_push, schedule_load
+from svsa.simulation.plant.loads import Load
 
 Loads = tuple[ScheduledLoad, ...]
 
@@ -54,33 +43,3 @@ def follow_loads(
 
 def _end(load: ScheduledLoad, tick: int) -> ScheduledLoad:
     return load._replace(end_tick=min(load.end_tick, tick))
-
-
-def describe_load(load: Load) -> str:
-    """A load in a few words: "3 kg" (the paper's), "3 kg mass", "5 N·m", "pulse 5 N·m", "push"."""
-    match load:
-        case PaperLoad():
-            return "3 kg"
-        case MassLoad():
-            arm = "" if load.arm_m == PAPER_ARM_M else f" at {1000 * load.arm_m:g} mm"
-            return f"{load.mass_kg:g} kg mass{arm}"
-        case ConstantLoad():
-            return _format_torque(load.torque_nm)
-        case PushLoad():
-            return "push"
-        case PulseLoad():
-            return f"pulse {_format_torque(load.torque_nm)}"
-        case SineLoad():
-            return f"sine {_format_torque(load.torque_nm)} {load.frequency_hz:g} Hz"
-    return "torque series"
-
-
-def _format_torque(torque_nm: Sequence[float]) -> str:
-    link, *motors = (f"{value:.3g}" for value in torque_nm)
-    return f"{link} N·m" if not any(torque_nm[1:]) else f"{', '.join((link, *motors))} N·m"
-
-
-def name_load(load: Load) -> str:
-    """The words for a load at the beginning of a label: "3 kg load", "Push", "5 N·m"."""
-    text = describe_load(load)
-    return f"{text} load" if isinstance(load, PaperLoad) else text[:1].upper() + text[1:]

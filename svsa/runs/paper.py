@@ -4,9 +4,11 @@ from typing import NamedTuple
 
 from svsa.errors import ParameterError, Violation
 from svsa.runs.configuration import Configuration, Design, load_prototype
-from svsa.simulation.plant.loads import PAPER_TORQUE_NM, ConstantLoad, Load, PaperLoad
+from svsa.simulation.plant.loads import Load
+from svsa.simulation.plant.loads.constant import ConstantLoad
+from svsa.simulation.plant.loads.paper import PAPER_TORQUE_NM, PaperLoad
+from svsa.simulation.reference.kinds import PositionReference, StiffnessReference
 from svsa.simulation.reference.paper import FIGURE_REFERENCES, ON_BENCH
-from svsa.simulation.reference.trajectories import PositionReference, StiffnessReference
 
 LOAD_TIME_S = 5.0
 DURATION_S = 20.0

@@ -20,8 +20,9 @@ from svsa.simulation.loop.lane import AT_REST, Inputs, LaneState, build_lane_sta
 from svsa.simulation.loop.loop import advance
 from svsa.simulation.loop.slices import advance_in_slices
 from svsa.simulation.loop.stepwise import Controller, advance_stepwise
-from svsa.simulation.plant.loads import Load, ScheduledLoad, build_load_table
-from svsa.simulation.reference.sine import ConstantPosition, ConstantStiffness
+from svsa.simulation.plant.load_table import ScheduledLoad, build_load_table
+from svsa.simulation.plant.loads import Load
+from svsa.simulation.reference.kinds.constant import ConstantPosition, ConstantStiffness
 from svsa.simulation.reference.transition import Stack, build_stack, push_trajectory
 
 

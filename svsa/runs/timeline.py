@@ -20,7 +20,6 @@ from svsa.runs.controllers import (
     name_controllers,
 )
 from svsa.runs.events import describe_change, describe_end
-from svsa.runs.loads import name_load
 from svsa.runs.replay import list_loads
 from svsa.runs.run import find_origins
 from svsa.simulation.plant.loads import Load
@@ -120,7 +119,7 @@ class Timeline:
 
     def begin_load(self, load: Load, tick: int) -> None:
         """A load acts from this tick on."""
-        self._begin("load", name_load(load), tick)
+        self._begin("load", load.name(), tick)
         self.load_window = self.window
         self.load_numbers = [lane[-1].number for lane in self.lanes]
 

@@ -14,7 +14,7 @@ from svsa.control.laws.feedback_linearization import build_gains
 from svsa.runs.configuration import load_prototype
 from svsa.simulation.plant.effects import build_effect_constants
 from svsa.simulation.plant.integration import integrate_period
-from svsa.simulation.plant.loads import build_load_table
+from svsa.simulation.plant.load_table import build_load_table
 
 DESIGN = load_prototype()
 MU0 = 0.5

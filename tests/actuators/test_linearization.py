@@ -11,7 +11,7 @@ from svsa.actuators.signals import State
 from svsa.actuators.spring import compute_stiffness
 from svsa.control.laws.ndobc import compute_disturbance_gain
 from svsa.simulation.plant.integration import compute_rate
-from svsa.simulation.plant.loads import compute_load
+from svsa.simulation.plant.load_table import compute_load
 
 from .prototype import (
     GAINS,

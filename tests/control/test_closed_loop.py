@@ -19,7 +19,7 @@ from svsa.control.limits import limit_torque
 from svsa.control.observers.disturbance import compute_shares, update_disturbance_estimate
 from svsa.runs.command import Set
 from svsa.runs.run import Run
-from svsa.simulation.reference.sine import compute_sine
+from svsa.simulation.reference.kinds.sine import compute_sine
 from tests.actuators.prototype import DESIGN, NO_LOADS, K, integrate_ideal, put, record
 
 GAINS_OF_POLES = {

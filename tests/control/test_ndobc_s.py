@@ -15,7 +15,8 @@ from svsa.control.laws.ndobc_s import CAP, Memory, build, compute_poles, feel_sh
 from svsa.evaluation.ranking.cost import compute_torque_change
 from svsa.evaluation.ranking.measure import Entry, measure_rms, run_scenario
 from svsa.evaluation.ranking.scenarios import LOAD_REMOVALS
-from svsa.simulation.plant.effects import RIG, SensorNoise
+from svsa.simulation.plant.effects import RIG
+from svsa.simulation.plant.effects.noise import SensorNoise
 from tests.actuators.prototype import NOMINAL
 
 LOUD = RIG.changed(noise=SensorNoise(motor_std_rad=1e-4, deflection_std_rad=1e-3))

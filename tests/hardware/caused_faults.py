@@ -29,7 +29,7 @@ from svsa.hardware.emulator.faults import (
     ZeroedCounter,
 )
 from svsa.hardware.safety.machine import BenchStatus
-from svsa.simulation.plant.loads import ConstantLoad
+from svsa.simulation.plant.loads.constant import ConstantLoad
 
 from .watched_bench import Bench
 

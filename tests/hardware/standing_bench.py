@@ -16,7 +16,7 @@ from svsa.hardware.homing import STEPS
 from svsa.hardware.safety.machine import BenchStatus
 from svsa.hardware.session.session import BenchSession
 from svsa.runs.paper import get_figure
-from svsa.simulation.reference.trajectories import ConstantPosition
+from svsa.simulation.reference.kinds.constant import ConstantPosition
 
 WAKE_S = 1.0 / 60.0
 ATTEMPTS = 10

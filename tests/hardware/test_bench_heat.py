@@ -19,7 +19,11 @@ from svsa.hardware.realtime.prepared_laws import PreparedLaws
 from svsa.hardware.realtime.process import LoopProcess
 from svsa.hardware.safety.heartbeat import Heartbeats
 from svsa.hardware.safety.machine import BenchStatus
-from svsa.simulation.plant.loads import ConstantLoad, Load, MassLoad, PaperLoad, PulseLoad
+from svsa.simulation.plant.loads import Load
+from svsa.simulation.plant.loads.constant import ConstantLoad
+from svsa.simulation.plant.loads.mass import MassLoad
+from svsa.simulation.plant.loads.paper import PaperLoad
+from svsa.simulation.plant.loads.pulse import PulseLoad
 from tests.hardware.emulator.in_process_emulator import start_in_process
 
 from .watched_bench import FIGURE, Bench, make_ready

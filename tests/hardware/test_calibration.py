@@ -22,7 +22,7 @@ from svsa.hardware.encoders.source import EncoderError
 from svsa.hardware.file import read_bench
 from svsa.hardware.homing import STEPS, Homing
 from svsa.hardware.zero import calibrate, read_deflection_zero
-from svsa.simulation.plant.loads import ConstantLoad
+from svsa.simulation.plant.loads.constant import ConstantLoad
 from tests.hardware.emulator.bus_in_time import EMULATOR_BENCH, EmulatorBus, copy_bench
 
 MOTOR_CHANGES = [

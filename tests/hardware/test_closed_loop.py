@@ -10,8 +10,8 @@ from svsa.hardware.emulator.launch import start_emulator
 from svsa.hardware.safety.machine import BenchStatus
 from svsa.runs.command import Set
 from svsa.runs.paper import FIGURES, LOAD_TIME_S, get_figure
-from svsa.simulation.plant.loads import ConstantLoad
-from svsa.simulation.reference.sine import ConstantPosition
+from svsa.simulation.plant.loads.constant import ConstantLoad
+from svsa.simulation.reference.kinds.constant import ConstantPosition
 from tests.exhaustive import exhaust
 from tests.hardware.emulator.in_process_emulator import start_in_process
 from tests.runs.session.sessions import SHOWN_IN_BATCHES

@@ -6,9 +6,10 @@ import pytest
 from pydantic import TypeAdapter
 
 from svsa.errors import ParameterError
-from svsa.simulation.plant.effects import MAX_DELAY_SAMPLES, Effects
+from svsa.simulation.plant.effects import Effects
+from svsa.simulation.plant.effects.delay_samples import MAX_DELAY_SAMPLES
 from svsa.simulation.plant.loads import Load
-from svsa.simulation.reference.trajectories import PositionReference, StiffnessReference
+from svsa.simulation.reference.kinds import PositionReference, StiffnessReference
 
 
 @pytest.mark.parametrize("given", [3, 3.0])

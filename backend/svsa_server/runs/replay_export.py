@@ -12,7 +12,6 @@ from svsa.runs.records.reader import Record
 from svsa.runs.records.resimulation import read_origin
 from svsa.runs.records.settings import describe_settings
 from svsa.runs.replay import list_loads
-from svsa.simulation.plant.loads import get_hung_mass
 from svsa_scene.pose import LaneStretch
 from svsa_scene.replay import build_replay_html
 from svsa_server.runs.lanes import list_record_stretches, name_lanes
@@ -73,5 +72,5 @@ def trace_hung_mass(
     ticks = np.arange(first_tick, first_tick + tick_count)
     mass = np.zeros(tick_count)
     for _, load, start, end in list_loads(configuration, commands):
-        mass[(ticks >= start) & (ticks < end)] += get_hung_mass(load)
+        mass[(ticks >= start) & (ticks < end)] += load.get_hung_mass()
     return mass

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 from svsa.actuators.signals import CHANNEL_INDEX
 from svsa.runs.session.session import Session
-from svsa.simulation.plant.loads import get_hung_mass
 from svsa_scene import ActuatorPose, ComparisonPose
 from svsa_scene.pose import POSE_CHANNELS, draw_nothing_unknown
 from svsa_server.runs.lanes import list_session_stretches
@@ -43,7 +42,7 @@ def _read_comparisons(session: Session) -> tuple[ComparisonPose, ...]:
 
 def _find_hung_mass(session: Session) -> float:
     on = (held.load for held in session.run.loads if held.is_on(session.run.tick))
-    return sum(map(get_hung_mass, on))
+    return sum(load.get_hung_mass() for load in on)
 
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ from svsa.runs.records.header import BranchPoint
 from svsa.runs.records.recorder import Recorder
 from svsa.runs.session.session import Session
 from svsa.simulation.plant.effects import find_preset
-from svsa.simulation.plant.loads import ScheduledLoad
+from svsa.simulation.plant.load_table import ScheduledLoad
 from svsa_server.leases.lease import ControlLease, asking
 from svsa_server.leases.queue import ControlQueue
 from svsa_server.runs.lanes import build_window, list_ended_windows, list_session_stretches
@@ -189,6 +189,7 @@ def _build_load(scheduled: ScheduledLoad, tick: int, period_s: float) -> LoadSta
         start_s=scheduled.start_tick * period_s,
         end_s=None if math.isinf(scheduled.end_tick) else scheduled.end_tick * period_s,
         active=scheduled.is_on(tick),
+        label=scheduled.load.describe(),
         load=scheduled.load,
     )
 

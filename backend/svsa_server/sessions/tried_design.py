@@ -4,7 +4,7 @@ from svsa.actuators.signals import CHANNEL_INDEX
 from svsa.control.gains import TriedGains
 from svsa.runs.configuration import Configuration
 from svsa.runs.session.session import Session
-from svsa.simulation.reference.trajectories import compute_start_value
+from svsa.simulation.reference.kinds import compute_start_value
 from svsa_server.schemas.lab.stability import DesignRequest
 
 

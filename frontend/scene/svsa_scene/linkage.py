@@ -12,7 +12,7 @@ The lever's hinge is at (−R, 0) of the link, opposite to the arm. Lengths are 
 import math
 from typing import NamedTuple
 
-from svsa.simulation.plant.loads import PAPER_ARM_M
+from svsa.simulation.plant.loads.mass import PAPER_ARM_M
 from svsa_scene.pose import ActuatorPose
 
 UNITS_PER_METRE = 10.0

@@ -17,7 +17,7 @@ from svsa.runs.run import Run
 from svsa.simulation.loop.lane import LaneState, build_lane_state
 from svsa.simulation.loop.loop import advance
 from svsa.simulation.loop.slices import advance_in_slices
-from svsa.simulation.reference.sine import ConstantPosition, ConstantStiffness
+from svsa.simulation.reference.kinds.constant import ConstantPosition, ConstantStiffness
 
 MAX_POSITION_RAD = math.pi / 2.0
 MAX_VELOCITY_RAD_PER_S = 20.0

@@ -27,7 +27,7 @@ from svsa.runs.run import Run
 from svsa.simulation.loop.loop import decide
 from svsa.simulation.plant.effects import IDEAL
 from svsa.simulation.plant.sensors import build_positions
-from svsa.simulation.reference.sine import ConstantPosition, ConstantStiffness
+from svsa.simulation.reference.kinds.constant import ConstantPosition, ConstantStiffness
 
 _INSTANT_S = 1e-5
 _LASTING = 0.1

@@ -43,8 +43,9 @@ def compute_loop_noise(configuration: Configuration, sigma: float) -> LoopNoise:
     constants = build_effect_constants(
         sensing, 0, configuration.actuator, configuration.sampling.period_s
     )
-    motor = constants.motor_step**2 / 12.0 + constants.motor_std**2
-    deflection = constants.deflection_step**2 / 12.0 + constants.deflection_std**2
+    counts, noise = constants.encoders, constants.noise
+    motor = counts.motor_step**2 / 12.0 + noise.motor_std**2
+    deflection = counts.deflection_step**2 / 12.0 + noise.deflection_std**2
     loop = linearize_tick(configuration, sigma)
     radius = loop.radius
     if radius >= 1.0:

@@ -19,8 +19,8 @@ from svsa.runs.command import Set
 from svsa.runs.configuration import Configuration
 from svsa.runs.run import Run
 from svsa.simulation.plant.effects import Effects
-from svsa.simulation.plant.loads import PAPER_TORQUE_NM, PaperLoad
-from svsa.simulation.reference.sine import ConstantPosition
+from svsa.simulation.plant.loads.paper import PAPER_TORQUE_NM, PaperLoad
+from svsa.simulation.reference.kinds.constant import ConstantPosition
 
 LOAD = Disturbance(PAPER_TORQUE_NM, PAPER_TORQUE_NM, PAPER_TORQUE_NM)
 BEFORE_S = 1.5

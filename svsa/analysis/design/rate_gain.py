@@ -16,8 +16,8 @@ from svsa.control.laws.feedback_linearization import build_gains
 from svsa.runs.configuration import Configuration
 from svsa.runs.run import Run
 from svsa.simulation.plant.effects import IDEAL
-from svsa.simulation.plant.loads import SeriesLoad
-from svsa.simulation.reference.sine import ConstantPosition, ConstantStiffness
+from svsa.simulation.plant.loads.series import SeriesLoad
+from svsa.simulation.reference.kinds.constant import ConstantPosition, ConstantStiffness
 
 RAMPS_NM_PER_S = (0.2, 1.0)
 RAMP_S = 1.0

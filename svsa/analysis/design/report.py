@@ -22,7 +22,7 @@ from svsa.control.installed import get_law
 from svsa.control.observers.disturbance import ObserverBandwidth
 from svsa.runs.configuration import Configuration, load_prototype, read_design
 from svsa.simulation.plant.effects import IDEAL, RIG
-from svsa.simulation.reference.sine import ConstantPosition, ConstantStiffness
+from svsa.simulation.reference.kinds.constant import ConstantPosition, ConstantStiffness
 
 DELAYS = {0: IDEAL, 1: RIG, 2: RIG.changed(delay_samples=2)}
 

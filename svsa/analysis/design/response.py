@@ -7,8 +7,8 @@ import numpy as np
 from svsa.actuators.signals import CHANNEL_INDEX, CHANNELS
 from svsa.runs.configuration import Configuration
 from svsa.runs.run import Run
-from svsa.simulation.plant.loads import PaperLoad
-from svsa.simulation.reference.sine import ConstantPosition, ConstantStiffness
+from svsa.simulation.plant.loads.paper import PaperLoad
+from svsa.simulation.reference.kinds.constant import ConstantPosition, ConstantStiffness
 
 ONSET_S = 0.1
 DURATION_S = 0.9

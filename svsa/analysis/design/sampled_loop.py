@@ -16,10 +16,11 @@ from svsa.runs.configuration import Configuration
 from svsa.runs.run import Run
 from svsa.simulation.loop.lane import Inputs, LaneState
 from svsa.simulation.loop.loop import act, decide, move, observe
-from svsa.simulation.plant.effects import MAX_DELAY_SAMPLES
-from svsa.simulation.plant.loads import ConstantLoad, build_load_table, schedule_load
+from svsa.simulation.plant.effects.delay_samples import MAX_DELAY_SAMPLES
+from svsa.simulation.plant.load_table import build_load_table, schedule_load
+from svsa.simulation.plant.loads.constant import ConstantLoad
 from svsa.simulation.plant.sensors import read_sensors
-from svsa.simulation.reference.sine import ConstantPosition, ConstantStiffness
+from svsa.simulation.reference.kinds.constant import ConstantPosition, ConstantStiffness
 
 TORQUES = slice(15, 17)
 APPLIED = slice(17, 19)

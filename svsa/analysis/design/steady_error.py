@@ -18,8 +18,8 @@ from svsa.control.laws.feedback_linearization import build_gains
 from svsa.control.laws.ndobc import compute_disturbance_gain
 from svsa.runs.configuration import Configuration
 from svsa.runs.run import Run
-from svsa.simulation.plant.loads import ConstantLoad
-from svsa.simulation.reference.sine import ConstantPosition, ConstantStiffness
+from svsa.simulation.plant.loads.constant import ConstantLoad
+from svsa.simulation.reference.kinds.constant import ConstantPosition, ConstantStiffness
 
 _CLOSE = 1e-6
 LONGEST_S = 30.0

@@ -10,13 +10,9 @@ would meet the same counts of the encoders, and their error would not average ou
 from typing import Literal, NamedTuple
 
 from svsa.runs.command import Command, build_command
-from svsa.simulation.reference.sine import (
-    ConstantPosition,
-    ConstantStiffness,
-    SinePosition,
-    SineStiffness,
-)
-from svsa.simulation.reference.trajectories import PositionReference, StiffnessReference
+from svsa.simulation.reference.kinds import PositionReference, StiffnessReference
+from svsa.simulation.reference.kinds.constant import ConstantPosition, ConstantStiffness
+from svsa.simulation.reference.kinds.sine import SinePosition, SineStiffness
 
 EXCITATION_DURATION_S = 32.0
 

@@ -12,12 +12,14 @@ import numpy as np
 from svsa.actuators.dynamics import Actuator, compute_internal_torque
 from svsa.actuators.signals import State, Torque
 from svsa.numerics.compilation import compiled
+from svsa.numerics.fields import replace_field
 from svsa.simulation.plant.effects import EffectConstants
+from svsa.simulation.plant.effects.friction import FrictionConstants
 from svsa.simulation.plant.integration import integrate_period
-from svsa.simulation.plant.loads import LoadTable
+from svsa.simulation.plant.load_table import LoadTable, build_load_table
 from svsa.simulation.plant.sensors import read_sensors
 
-UNLOADED = LoadTable(np.zeros((0, 12)), np.zeros((0, 4)), False)
+UNLOADED = build_load_table(())
 STATES = 6
 OUTPUTS = 3
 
@@ -25,14 +27,15 @@ OUTPUTS = 3
 class Setting(NamedTuple):
     """What is known beforehand. gamma, mu0, reaction: see `Actuator`.
 
-    period: T, s. lag: of the current loop, s (see `plant.drive`).
+    period: T, s. effects: of the plant, with the lag of the current loop; friction and weight of
+    the link are estimated.
     """
 
     gamma: float
     mu0: float
     reaction: int
     period: float
-    lag: float
+    effects: EffectConstants
     loads: LoadTable
 
 
@@ -119,11 +122,12 @@ def simulate(
     actuator = Actuator(
         c.M, c.B1, c.B2, c.D, c.D1, c.D2, c.K, setting.gamma, setting.mu0, setting.reaction
     )
-    effects = EffectConstants(
-        0.0, 0.0, 0.0, 0.0, 0, 0, setting.lag, c.coulomb1, c.coulomb2,
-        c.coulomb1 * c.static_ratio, c.coulomb2 * c.static_ratio, c.stribeck, c.creep1, c.creep2,
-        c.gravity_moment,
+    friction = FrictionConstants(
+        c.coulomb1, c.coulomb2, c.coulomb1 * c.static_ratio, c.coulomb2 * c.static_ratio,
+        c.stribeck, c.creep1, c.creep2,
     )  # fmt: skip
+    effects = replace_field(setting.effects, "friction", friction)
+    effects = replace_field(effects, "gravity", c.gravity_moment)
     x = State(start[0], start[1], start[2], start[3], start[4], start[5])
     shift1, shift2 = c.delay1 / setting.period, c.delay2 / setting.period
     for k in range(outputs.shape[0]):

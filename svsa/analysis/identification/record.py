@@ -19,7 +19,7 @@ from svsa.runs.configuration import Configuration
 from svsa.runs.records.reader import Record
 from svsa.runs.records.resimulation import read_origin
 from svsa.runs.replay import list_loads
-from svsa.simulation.plant.effects import build_effect_constants
+from svsa.simulation.plant.effects import NO_EFFECTS, build_effect_constants
 
 SEGMENT_S = 0.25
 MIN_SEGMENTS = 24
@@ -88,7 +88,14 @@ def read_evidence(record: Record) -> Evidence:
     known = build_actuator(a, mu0)
     effects = configuration.effects
     lag = effects.current_lag.time_constant_s if effects.current_lag else 0.0
-    setting = Setting(known.gamma, known.mu0, known.reaction, period, lag, UNLOADED)
+    setting = Setting(
+        known.gamma,
+        known.mu0,
+        known.reaction,
+        period,
+        NO_EFFECTS._replace(current_lag=lag),
+        UNLOADED,
+    )
     angles, torques = np.ascontiguousarray(rows[:, :3]), np.ascontiguousarray(rows[:, 3:5])
     if not is_measured:
         true = angles.copy()

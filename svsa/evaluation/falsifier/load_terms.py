@@ -8,7 +8,10 @@ from pydantic import Field, model_validator
 
 from svsa.errors import ParameterError, Violation, settle_number
 from svsa.inputs.checked import BY_KIND, Checked, Number, quantity
-from svsa.simulation.plant.loads import ConstantLoad, Load, PulseLoad, SineLoad
+from svsa.simulation.plant.loads import Load
+from svsa.simulation.plant.loads.constant import ConstantLoad
+from svsa.simulation.plant.loads.pulse import PulseLoad
+from svsa.simulation.plant.loads.sine import SineLoad
 
 DIGITS = 6
 """To which a searched number is settled, so that a file holds it whole."""

@@ -10,7 +10,7 @@ from svsa.evaluation.falsifier.scenario import LoadScenario
 from svsa.runs.configuration import Configuration
 from svsa.runs.loads import follow_loads
 from svsa.runs.result.simulate import simulate
-from svsa.simulation.plant.loads import build_load_table, compute_load
+from svsa.simulation.plant.load_table import build_load_table, compute_load
 
 
 class LawTrace(NamedTuple):

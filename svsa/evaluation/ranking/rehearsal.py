@@ -14,16 +14,17 @@ import numpy as np
 from svsa.evaluation.ranking.scenarios import INERTIAS, Scenario
 from svsa.evaluation.ranking.sweeps import MODELLED
 from svsa.evaluation.ranking.trials import build_trial
-from svsa.simulation.plant.effects import IDEAL, RIG, CurrentLag, Effects, Friction, SensorNoise
-from svsa.simulation.plant.loads import (
-    ConstantLoad,
-    Load,
-    MassLoad,
-    PulseLoad,
-    SeriesLoad,
-    SineLoad,
-)
-from svsa.simulation.reference.sine import SinePosition
+from svsa.simulation.plant.effects import IDEAL, RIG, Effects
+from svsa.simulation.plant.effects.current_lag import CurrentLag
+from svsa.simulation.plant.effects.friction import Friction
+from svsa.simulation.plant.effects.noise import SensorNoise
+from svsa.simulation.plant.loads import Load
+from svsa.simulation.plant.loads.constant import ConstantLoad
+from svsa.simulation.plant.loads.mass import MassLoad
+from svsa.simulation.plant.loads.pulse import PulseLoad
+from svsa.simulation.plant.loads.series import SeriesLoad
+from svsa.simulation.plant.loads.sine import SineLoad
+from svsa.simulation.reference.kinds.sine import SinePosition
 
 SEED, TRIALS_SEED, TRIALS = 20240611, 777001, 48
 BEGIN_S = 2.0

@@ -11,27 +11,20 @@ from typing import NamedTuple
 from svsa.control.installed import BASELINE, PAPERS_LAW
 from svsa.runs.configuration import Configuration, Lane
 from svsa.runs.paper import FIGURES, LOAD_TIME_S
-from svsa.simulation.plant.effects import (
-    IDEAL,
-    RIG,
-    CurrentLag,
-    Effects,
-    Friction,
-    LinkGravity,
-    SensorNoise,
-)
-from svsa.simulation.plant.loads import (
-    PAPER_TORQUE_NM,
-    ConstantLoad,
-    Load,
-    MassLoad,
-    PaperLoad,
-    PulseLoad,
-    SineLoad,
-)
-from svsa.simulation.reference.sine import ConstantStiffness
-from svsa.simulation.reference.steps import StepsPosition
-from svsa.simulation.reference.trajectories import PositionReference
+from svsa.simulation.plant.effects import IDEAL, RIG, Effects
+from svsa.simulation.plant.effects.current_lag import CurrentLag
+from svsa.simulation.plant.effects.friction import Friction
+from svsa.simulation.plant.effects.gravity import LinkGravity
+from svsa.simulation.plant.effects.noise import SensorNoise
+from svsa.simulation.plant.loads import Load
+from svsa.simulation.plant.loads.constant import ConstantLoad
+from svsa.simulation.plant.loads.mass import MassLoad
+from svsa.simulation.plant.loads.paper import PAPER_TORQUE_NM, PaperLoad
+from svsa.simulation.plant.loads.pulse import PulseLoad
+from svsa.simulation.plant.loads.sine import SineLoad
+from svsa.simulation.reference.kinds import PositionReference
+from svsa.simulation.reference.kinds.constant import ConstantStiffness
+from svsa.simulation.reference.kinds.steps import StepsPosition
 
 LOADED_S = 3.0
 PEAK_S, REST_S = 2.0, 5.0

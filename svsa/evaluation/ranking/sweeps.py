@@ -15,8 +15,14 @@ import numpy as np
 
 from svsa.evaluation.ranking.scenarios import INERTIAS, Scenario
 from svsa.evaluation.ranking.trials import start_generator
-from svsa.simulation.plant.effects import MAX_DELAY_SAMPLES, RIG, CurrentLag, SensorNoise
-from svsa.simulation.plant.loads import Load, PaperLoad, PulseLoad, SeriesLoad
+from svsa.simulation.plant.effects import RIG
+from svsa.simulation.plant.effects.current_lag import CurrentLag
+from svsa.simulation.plant.effects.delay_samples import MAX_DELAY_SAMPLES
+from svsa.simulation.plant.effects.noise import SensorNoise
+from svsa.simulation.plant.loads import Load
+from svsa.simulation.plant.loads.paper import PaperLoad
+from svsa.simulation.plant.loads.pulse import PulseLoad
+from svsa.simulation.plant.loads.series import SeriesLoad
 
 LOAD_S, DURATION_S = 2.0, 6.0
 SEED = 0

@@ -6,8 +6,14 @@ import hmac
 import numpy as np
 
 from svsa.evaluation.ranking.scenarios import INERTIAS, Scenario
-from svsa.simulation.plant.effects import RIG, Friction, SensorNoise
-from svsa.simulation.plant.loads import ConstantLoad, Load, MassLoad, PulseLoad, SineLoad
+from svsa.simulation.plant.effects import RIG
+from svsa.simulation.plant.effects.friction import Friction
+from svsa.simulation.plant.effects.noise import SensorNoise
+from svsa.simulation.plant.loads import Load
+from svsa.simulation.plant.loads.constant import ConstantLoad
+from svsa.simulation.plant.loads.mass import MassLoad
+from svsa.simulation.plant.loads.pulse import PulseLoad
+from svsa.simulation.plant.loads.sine import SineLoad
 
 SUITE_VERSION = "1"
 """Changes with all that the score counts, trials, sweeps, scenarios, weights: scores compare within

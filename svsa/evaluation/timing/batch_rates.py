@@ -11,28 +11,12 @@ from svsa.evaluation.timing.turns import measure_in_turns
 from svsa.runs.batch import build_run_batch
 from svsa.runs.configuration import Configuration
 from svsa.simulation.loop.batch import Batch, run_batch
-from svsa.simulation.plant.effects import (
-    EVERY,
-    IDEAL,
-    RIG,
-    CurrentLag,
-    Effects,
-    Encoders,
-    Friction,
-    LinkGravity,
-    SensorNoise,
-    StateEstimation,
-)
+from svsa.simulation.plant.effects import EFFECTS, EVERY, IDEAL, RIG, Effects
 
-EFFECTS: Mapping[str, Effects] = {
+SWITCHED: Mapping[str, Effects] = {
     "ideal": IDEAL,
-    "encoders": Effects(encoders=Encoders()),
-    "estimation": Effects(encoders=Encoders(), estimation=StateEstimation()),
-    "delay": Effects(delay_samples=1),
-    "friction": Effects(friction=Friction()),
-    "current_lag": Effects(current_lag=CurrentLag()),
-    "noise": Effects(noise=SensorNoise()),
-    "gravity": Effects(gravity=LinkGravity()),
+    **{one.name: Effects(**{one.name: one.on}) for one in EFFECTS if one.preset},
+    "estimation": Effects(encoders=RIG.encoders, estimation=RIG.estimation),
     "rig": RIG,
     "every": EVERY,
 }
@@ -42,14 +26,14 @@ EFFECTS: Mapping[str, Effects] = {
 def measure_effects(
     configuration: Configuration, lanes: int, duration_s: float, repeats: int
 ) -> dict[str, float]:
-    """Runs a second and core, by CPU time, under each of `EFFECTS`.
+    """Runs a second and core, by CPU time, under each of `SWITCHED`.
 
     Counted are ticks: a run that ends in a fault counts as the part that was run.
     """
     ticks = round(duration_s / configuration.sampling.period_s)
     batches = {
         name: build_run_batch([configuration.changed(effects=effects)] * lanes)
-        for name, effects in EFFECTS.items()
+        for name, effects in SWITCHED.items()
     }
     runs = {name: run_batch(batch, ticks)["ticks"].sum() / ticks for name, batch in batches.items()}
     works = {name: partial(run_batch, batch, ticks) for name, batch in batches.items()}

@@ -31,7 +31,7 @@ from svsa.runs.result.simulate import simulate
 from svsa.runs.run import Run
 from svsa.simulation.loop.batch import run_batch
 from svsa.simulation.loop.loop import advance
-from svsa.simulation.plant.loads import PAPER_TORQUE_NM
+from svsa.simulation.plant.loads.paper import PAPER_TORQUE_NM
 
 C_LOOP = Path(__file__).parents[3] / "tests" / "benchmarks" / "loop.c"
 LANES = 32

@@ -20,7 +20,7 @@ from svsa.runs.result.simulate import simulate
 from svsa.runs.run import Run
 from svsa.simulation.plant.effects import EffectConstants
 from svsa.simulation.plant.integration import integrate_period
-from svsa.simulation.plant.loads import LoadTable, compute_load
+from svsa.simulation.plant.load_table import LoadTable, compute_load
 
 FIGURE, LAW = "4a", "ndobc"
 COLUMNS = [CHANNEL_INDEX[name] for name in STATES]

@@ -8,10 +8,18 @@ from typing import NamedTuple
 
 from svsa.runs.configuration import Configuration
 from svsa.runs.paper import FIGURES
-from svsa.simulation.plant.effects import RIG, Effects, Friction, SensorNoise
-from svsa.simulation.plant.loads import ConstantLoad, Load, MassLoad, PaperLoad, PulseLoad, SineLoad
-from svsa.simulation.reference.sine import ConstantStiffness, SineStiffness
-from svsa.simulation.reference.trajectories import StiffnessReference
+from svsa.simulation.plant.effects import RIG, Effects
+from svsa.simulation.plant.effects.friction import Friction
+from svsa.simulation.plant.effects.noise import SensorNoise
+from svsa.simulation.plant.loads import Load
+from svsa.simulation.plant.loads.constant import ConstantLoad
+from svsa.simulation.plant.loads.mass import MassLoad
+from svsa.simulation.plant.loads.paper import PaperLoad
+from svsa.simulation.plant.loads.pulse import PulseLoad
+from svsa.simulation.plant.loads.sine import SineLoad
+from svsa.simulation.reference.kinds import StiffnessReference
+from svsa.simulation.reference.kinds.constant import ConstantStiffness
+from svsa.simulation.reference.kinds.sine import SineStiffness
 
 DURATION_S = 8.0
 

@@ -20,13 +20,13 @@ from svsa.simulation.loop.lane import AT_REST, NO_TORQUE
 from svsa.simulation.loop.measured import read_state, store_state, store_torque
 from svsa.simulation.plant.effects import EffectConstants, Effects, build_effect_constants
 from svsa.simulation.plant.integration import Stops, coast
-from svsa.simulation.plant.loads import (
-    Load,
+from svsa.simulation.plant.load_table import (
     LoadTable,
     ScheduledLoad,
     build_load_table,
     schedule_load,
 )
+from svsa.simulation.plant.loads import Load
 
 GRID_US = 100
 MAX_LOADS = 100

@@ -15,7 +15,9 @@ from svsa.hardware.settings import DEFAULT_DRIVE, Sign
 from svsa.inputs.checked import Checked, Number, Whole, quantity
 from svsa.inputs.toml_file import read_toml
 from svsa.runs.configuration import load_prototype
-from svsa.simulation.plant.effects import CurrentLag, Friction, LinkGravity
+from svsa.simulation.plant.effects.current_lag import CurrentLag
+from svsa.simulation.plant.effects.friction import Friction
+from svsa.simulation.plant.effects.gravity import LinkGravity
 
 HOME_STIFFNESS_NM_PER_RAD = 30.0
 _MOTORS = (

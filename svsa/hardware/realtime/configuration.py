@@ -9,9 +9,13 @@ from svsa.hardware.file import BenchFile
 from svsa.hardware.safety.guard import Guard
 from svsa.runs.configuration import Configuration, Design, Lane, load_prototype, read_design
 from svsa.simulation.loop.measured import Actuation
-from svsa.simulation.plant.effects import CurrentLag, Effects, Encoders, StateEstimation
-from svsa.simulation.plant.loads import Load, SeriesLoad
-from svsa.simulation.reference.trajectories import Trajectory
+from svsa.simulation.plant.effects import Effects
+from svsa.simulation.plant.effects.current_lag import CurrentLag
+from svsa.simulation.plant.effects.encoders import Encoders
+from svsa.simulation.plant.effects.estimation import StateEstimation
+from svsa.simulation.plant.loads import Load
+from svsa.simulation.plant.loads.series import SeriesLoad
+from svsa.simulation.reference.kinds.reference import AnyReference
 
 MAX_POINTS_IN_MOTION = 200
 MAX_LOAD_POINTS = 1000
@@ -63,7 +67,7 @@ def read_actuation(bench: BenchFile) -> Actuation:
     return Actuation(bench.timing.latency_s, bench.timing.current_lag_s)
 
 
-def check_takes_no_time(reference: Trajectory) -> None:
+def check_takes_no_time(reference: AnyReference) -> None:
     """Raise `StateError` for a curve that the loop could not take in between two ticks.
 
     One of 200 points takes it 2 ms, one of 2000 points 7 ms: long enough to lose the bench.

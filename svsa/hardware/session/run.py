@@ -13,7 +13,7 @@ from svsa.runs.command import Command
 from svsa.runs.configuration import Configuration
 from svsa.runs.records.bench_start import BenchStart
 from svsa.runs.run import Run, Start, find_origins
-from svsa.simulation.plant.loads import ScheduledLoad
+from svsa.simulation.plant.load_table import ScheduledLoad
 
 if TYPE_CHECKING:
     from svsa.errors import Fault

@@ -8,7 +8,6 @@ from pydantic import BaseModel
 
 from svsa.control.gains import Gains
 from svsa.control.parameters import LawParameters
-from svsa.runs.loads import describe_load
 from svsa.runs.records.acting import SETTINGS, Acting, read_acting
 from svsa.runs.records.reader import Record
 from svsa.runs.records.settings import NO_LOAD
@@ -17,8 +16,7 @@ from svsa.runs.records.wording import (
     describe_effects,
     describe_lanes,
     describe_law,
-    describe_motion,
-    describe_stiffness,
+    describe_reference,
 )
 
 Value = str | float | bool | None
@@ -171,7 +169,7 @@ def _describe_loads(acting: Acting, record: Record) -> str:
     if acting.loads is None:
         return UNKNOWN
     reported = [
-        f"{describe_load(on.load)} {_format_time(on.start_tick, record)}" for on in acting.loads
+        f"{on.load.describe()} {_format_time(on.start_tick, record)}" for on in acting.loads
     ]
     return "; ".join(reported) or NO_LOAD
 
@@ -205,8 +203,8 @@ _TITLES = {
     "sampling": "Sampling",
 }
 _TELL: dict[str, Callable[[Any], str]] = {
-    "position": describe_motion,
-    "stiffness": describe_stiffness,
+    "position": describe_reference,
+    "stiffness": describe_reference,
     "law": describe_law,
     "comparisons": describe_lanes,
     "gains": lambda gains: ", ".join(str(reported) for _, reported in _flatten_gains(gains, "")),

@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from svsa.runs.configuration import load_prototype
-from svsa.runs.loads import describe_load
 from svsa.runs.records.acting import Acting, read_acting
 from svsa.runs.records.header import RecordHeader
 from svsa.runs.records.parquet import Commands
@@ -16,12 +15,10 @@ from svsa.runs.records.wording import (
     MAX_STEPS,
     UNKNOWN,
     VERSUS,
-    compute_mean,
     describe_effects,
     describe_lanes,
     describe_law,
-    describe_motion,
-    describe_stiffness,
+    describe_reference,
     follow,
 )
 from svsa.simulation.reference.paper import References, find_figure
@@ -82,11 +79,11 @@ def describe_settings(
         name="",
         figure=figure,
         figure_held=is_held,
-        motion=follow(map(describe_motion, acting.get_values("position"))),
+        motion=follow(map(describe_reference, acting.get_values("position"))),
         laws=_describe_laws(acting, header),
         law_kinds=_list_laws(acting),
-        stiffness=follow(map(describe_stiffness, acting.get_values("stiffness"))),
-        stiffness_nm_per_rad=compute_mean(first),
+        stiffness=follow(map(describe_reference, acting.get_values("stiffness"))),
+        stiffness_nm_per_rad=None if first is None else first.get_mean(),
         load=_describe_loads(acting),
         load_kinds=_list_load_kinds(acting),
         effects=_PLANTS.get(header.plant, "")
@@ -154,7 +151,7 @@ def _list_laws(acting: Acting) -> tuple[str, ...]:
 def _describe_loads(acting: Acting) -> str:
     if acting.loads is None:
         return ""
-    texts = [describe_load(scheduled.load) for scheduled in acting.loads]
+    texts = [scheduled.load.describe() for scheduled in acting.loads]
     kinds = list(dict.fromkeys(texts))
     counted = [_count(text, texts) for text in kinds]
     if len(counted) > MAX_STEPS:

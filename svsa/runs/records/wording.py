@@ -1,32 +1,16 @@
 """References, loads and effects of a run in a few words, as they stand in a list of runs."""
 
-import math
 from collections.abc import Iterable, Sequence
 
 from svsa.control.installed import get_law, is_usable
 from svsa.runs.configuration import Lane
-from svsa.simulation.plant.effects import PRESETS, Effects, find_preset
-from svsa.simulation.reference.trajectories import (
-    ConstantPosition,
-    ConstantStiffness,
-    PositionReference,
-    SinePosition,
-    SineStiffness,
-    StiffnessReference,
-)
+from svsa.simulation.plant.effects import EFFECTS, PRESETS, Effects, find_preset
+from svsa.simulation.reference.kinds.reference import AnyReference
 
 UNKNOWN = "?"
 MAX_STEPS = 3
 VERSUS = " vs "
 _ARROW = " → "
-_EFFECTS = {
-    "encoders": "encoders",
-    "estimation": "estimated velocities",
-    "friction": "friction",
-    "current_lag": "current lag",
-    "noise": "noise",
-    "gravity": "link weight",
-}
 
 
 def follow(texts: Iterable[str]) -> str:
@@ -40,29 +24,9 @@ def follow(texts: Iterable[str]) -> str:
     return "" if steps == [UNKNOWN] else _ARROW.join(steps)
 
 
-def describe_motion(reference: PositionReference | None) -> str:
-    """q_d: "60° 0.2 Hz", "held at 20°"."""
-    match reference:
-        case None:
-            return UNKNOWN
-        case ConstantPosition():
-            return f"held at {_format_degrees(reference.position_rad)}"
-        case SinePosition():
-            mean = f"{_format_degrees(reference.offset_rad)} ± " if reference.offset_rad else ""
-            return f"{mean}{_format_degrees(reference.amplitude_rad)} {reference.frequency_hz:g} Hz"
-    return str(reference.kind).replace("_", " ")
-
-
-def describe_stiffness(reference: StiffnessReference | None) -> str:
-    """σ_d in N·m/rad: "60", "35 ± 1"."""
-    match reference:
-        case None:
-            return UNKNOWN
-        case ConstantStiffness():
-            return f"{reference.stiffness_nm_per_rad:g}"
-        case SineStiffness():
-            return f"{reference.offset_nm_per_rad:g} ± {reference.amplitude_nm_per_rad:g}"
-    return str(reference.kind).replace("_", " ")
+def describe_reference(reference: AnyReference | None) -> str:
+    """q_d: "60° 0.2 Hz", "held at 20°"; σ_d in N·m/rad: "60", "35 ± 1"."""
+    return UNKNOWN if reference is None else reference.describe()
 
 
 def describe_lanes(lanes: Sequence[Lane]) -> str:
@@ -79,20 +43,6 @@ def _describe_own(lane: Lane) -> str:
     return " (own gains)" if lane.gains or lane.observer or lane.parameters else ""
 
 
-def compute_mean(reference: StiffnessReference | None) -> float | None:
-    """The mean of σ_d, N·m/rad; None where it has none of its own."""
-    match reference:
-        case ConstantStiffness():
-            return reference.stiffness_nm_per_rad
-        case SineStiffness():
-            return reference.offset_nm_per_rad
-    return None
-
-
-def _format_degrees(angle_rad: float) -> str:
-    return f"{math.degrees(angle_rad):.4g}°"
-
-
 def describe_effects(effects: Effects | None) -> str:
     """ideal, rig or full as on the page; else what is switched on."""
     if effects is None:
@@ -100,10 +50,5 @@ def describe_effects(effects: Effects | None) -> str:
     preset = find_preset(effects)
     if preset is not None:
         return preset if effects == PRESETS[preset] else f"{preset}, own values"
-    on = {name for name in _EFFECTS if getattr(effects, name) is not None}
-    parts = [_EFFECTS[name] for name in _EFFECTS if name in on]
-    if effects.delay_samples:
-        parts.append(f"delay {effects.delay_samples}")
-    if not effects.torque_limits:
-        parts.append("no torque limits")
-    return ", ".join(parts)
+    described = (effect.describe(getattr(effects, effect.name)) for effect in EFFECTS)
+    return ", ".join(filter(None, described))

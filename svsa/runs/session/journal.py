@@ -15,7 +15,8 @@ from svsa.runs.run import Run
 from svsa.runs.session.history import History
 from svsa.runs.timeline import Timeline
 from svsa.runs.window_metrics import WindowMetrics
-from svsa.simulation.plant.loads import Load, ScheduledLoad
+from svsa.simulation.plant.load_table import ScheduledLoad
+from svsa.simulation.plant.loads import Load
 
 HISTORY_TICKS = 32_768
 KEPT_S = 60.0

@@ -9,7 +9,8 @@ from svsa.numerics.borrowed import borrow
 from svsa.numerics.compilation import compiled
 from svsa.numerics.simd.number import WIDTH
 from svsa.simulation.loop.lane import Inputs
-from svsa.simulation.plant.loads import FIRST, SERIES, LoadTable
+from svsa.simulation.plant.load_table import LoadTable
+from svsa.simulation.plant.loads import load
 from svsa.simulation.reference.shape import CURVE
 from svsa.simulation.reference.transition import A, Stack, compute_row
 
@@ -29,7 +30,7 @@ def join_inputs(runs: Sequence[Inputs]) -> Inputs:
     """
     position, *position_curves = _join([run.position for run in runs], CURVE, A)
     stiffness, *stiffness_curves = _join([run.stiffness for run in runs], CURVE, A)
-    loads, points = _join([run.loads for run in runs], SERIES, FIRST)
+    loads, points = _join([run.loads for run in runs], load.SERIES, load.A)
     changing = any(run.loads.changing for run in runs)
     return Inputs(
         Stack(position, *position_curves),

@@ -10,8 +10,9 @@ from svsa.actuators.signals import Disturbance, Positions, Reference, State, Tor
 from svsa.control.call import BoundLaw
 from svsa.numerics.borrowed import borrow
 from svsa.numerics.compilation import compiled
-from svsa.simulation.plant.effects import MAX_DELAY_SAMPLES, EffectConstants
-from svsa.simulation.plant.loads import LoadTable
+from svsa.simulation.plant.effects import EffectConstants
+from svsa.simulation.plant.effects.delay_samples import MAX_DELAY_SAMPLES
+from svsa.simulation.plant.load_table import LoadTable
 from svsa.simulation.reference.transition import Stack
 
 AT_REST = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)

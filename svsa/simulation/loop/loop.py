@@ -48,10 +48,10 @@ from svsa.simulation.loop.lane import (
     remember,
 )
 from svsa.simulation.loop.publish import publish
-from svsa.simulation.plant.drive import compute_lagged_torque, compute_mean_torque
 from svsa.simulation.plant.effects import EffectConstants
+from svsa.simulation.plant.effects.current_lag import compute_lagged_torque, compute_mean_torque
 from svsa.simulation.plant.integration import compute_plant_rate, integrate_from
-from svsa.simulation.plant.loads import compute_load
+from svsa.simulation.plant.load_table import compute_load
 from svsa.simulation.plant.sensors import are_inexact, build_positions, read_positions, read_sensors
 from svsa.simulation.reference.transition import compute_trajectory
 
@@ -77,9 +77,11 @@ def delay(
     """The queue of limited torques with this one in front, and the torque that is due now."""
     limited = (torque.u1, torque.u2) + limited[:-2]  # noqa: RUF005  numba knows no unpacking here
     # Without a delay the queue is not read: part of what brought a run from 3.8 to 1.2 times C.
-    if effects.delay == 0:
+    if effects.delay_samples == 0:
         return limited, torque
-    return limited, Torque(limited[2 * effects.delay], limited[2 * effects.delay + 1])
+    return limited, Torque(
+        limited[2 * effects.delay_samples], limited[2 * effects.delay_samples + 1]
+    )
 
 
 @compiled
@@ -236,7 +238,7 @@ def act(blocks: Blocks, inputs: Inputs, lane: LaneState, torque: Torque, tick: i
     effects, time = blocks.effects, tick * blocks.period
     limited, delayed = delay(effects, lane.limited, torque)
     load = compute_load(inputs.loads, tick, blocks.period, time)
-    actual = compute_lagged_torque(lane.actual, delayed, effects.lag, 0.0)
+    actual = compute_lagged_torque(lane.actual, delayed, effects.current_lag, 0.0)
     # Computed once for two uses: the sample, and the first Runge–Kutta stage in `move`.
     rate = compute_plant_rate(blocks.plant, effects, lane.x, actual, load)
     return Action(limited, delayed, actual, load, rate)
@@ -253,8 +255,8 @@ def move(
     x = integrate_from(
         plant, effects, lane.x, action.rate, start, delayed, table, load, tick, period, steps
     )
-    actual = compute_lagged_torque(start, delayed, effects.lag, period)
-    applied = compute_mean_torque(start, delayed, effects.lag, period)
+    actual = compute_lagged_torque(start, delayed, effects.current_lag, period)
+    applied = compute_mean_torque(start, delayed, effects.current_lag, period)
     known = sense(blocks, lane, x, applied, tick + 1)
     # Returned for the next tick, which needs it at its beginning; not to compute it twice is part
     # of what made a run faster.

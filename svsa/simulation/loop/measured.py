@@ -28,11 +28,11 @@ from svsa.numerics.compilation import compiled
 from svsa.simulation.loop.lane import AT_REST, NO_REFERENCE, NO_TORQUE, UNDISTURBED, Blocks
 from svsa.simulation.loop.loop import decide, observe
 from svsa.simulation.loop.publish import write_sample
-from svsa.simulation.plant.drive import compute_late_torque
+from svsa.simulation.plant.effects.current_lag import compute_late_torque
 
 
 class Actuation(NamedTuple):
-    """From a torque that is decided to one that acts. latency, lag: s (see `plant.drive`)."""
+    """From a torque that is decided to one that acts. latency, lag: s (see `CurrentLag`)."""
 
     latency: float
     lag: float

@@ -5,10 +5,10 @@ from typing import NamedTuple
 from svsa.actuators.dynamics import Actuator, ExternalLoad, compute_rate, shift
 from svsa.actuators.signals import State, Torque
 from svsa.numerics.compilation import compiled
-from svsa.numerics.simd.choice import choose, some
-from svsa.simulation.plant.drive import compute_friction, compute_lagged_torque
 from svsa.simulation.plant.effects import EffectConstants
-from svsa.simulation.plant.loads import LoadTable, compute_load
+from svsa.simulation.plant.effects.current_lag import compute_lagged_torque
+from svsa.simulation.plant.load_table import LoadTable, compute_load
+from svsa.simulation.plant.resistance import add_resistance
 
 
 class Stops(NamedTuple):
@@ -52,25 +52,11 @@ def hit_stops(stops: Stops, x: State, inertia: float, inertia1: float) -> State:
 def compute_plant_load(
     effects: EffectConstants, table: LoadTable, x: State, tick: int, period: float, time: float
 ) -> ExternalLoad:
-    """All that acts on the plant besides the motors: loads, weight of the link, friction.
+    """All that acts on the plant besides the motors: loads and effects such as friction.
 
     effects: `EffectConstants`. table: `LoadTable`. x: `State`. Returns `ExternalLoad`.
     """
-    return add_resistance(effects, compute_load(table, tick, period, time), x)
-
-
-@compiled
-def add_resistance(effects: EffectConstants, load: ExternalLoad, x: State) -> ExternalLoad:
-    """The load of the table and what the plant has of its own: weight of the link, friction."""
-    b, w4, w6 = effects, load.w4, load.w6
-    has_friction1, has_friction2 = b.static1 > 0.0, b.static2 > 0.0
-    if some(has_friction1):
-        friction = compute_friction(x.dtheta1, b.coulomb1, b.static1, b.stribeck, b.creep1)
-        w4 = choose(has_friction1, w4 - friction, w4)
-    if some(has_friction2):
-        friction = compute_friction(x.dtheta2, b.coulomb2, b.static2, b.stribeck, b.creep2)
-        w6 = choose(has_friction2, w6 - friction, w6)
-    return ExternalLoad(load.w2, w4, w6, load.inertia, load.gravity_moment + effects.gravity_moment)
+    return add_resistance(effects, x, compute_load(table, tick, period, time))
 
 
 @compiled
@@ -78,7 +64,7 @@ def compute_plant_rate(
     actuator: Actuator, effects: EffectConstants, x: State, torque: Torque, load: ExternalLoad
 ) -> State:
     """ẋ of the plant under the motors' torque, the loads and everything else that acts (Eq 1)."""
-    return compute_rate(actuator, x, torque, add_resistance(effects, load, x))
+    return compute_rate(actuator, x, torque, add_resistance(effects, x, load))
 
 
 @compiled
@@ -100,7 +86,7 @@ def integrate_period(
     `LoadTable`. period: T, s. steps: Runge–Kutta steps in the period, ≥ 1.
     """
     load = compute_load(table, tick, period, tick * period)
-    torque = compute_lagged_torque(start, delayed, effects.lag, 0.0)
+    torque = compute_lagged_torque(start, delayed, effects.current_lag, 0.0)
     rate = compute_plant_rate(actuator, effects, x, torque, load)
     return integrate_from(
         actuator, effects, x, rate, start, delayed, table, load, tick, period, steps
@@ -127,9 +113,9 @@ def integrate_from(
     for i in range(steps):
         since = i * h
         time = tick * period + since
-        u0 = compute_lagged_torque(start, delayed, effects.lag, since)
-        u1 = compute_lagged_torque(start, delayed, effects.lag, since + 0.5 * h)
-        u2 = compute_lagged_torque(start, delayed, effects.lag, since + h)
+        u0 = compute_lagged_torque(start, delayed, effects.current_lag, since)
+        u1 = compute_lagged_torque(start, delayed, effects.current_lag, since + 0.5 * h)
+        u2 = compute_lagged_torque(start, delayed, effects.current_lag, since + h)
         middle = follow_load(table, early, tick, period, time + 0.5 * h)
         late = follow_load(table, early, tick, period, time + h)
         # The caller has computed it at the beginning of the period, for the sample.
@@ -172,7 +158,7 @@ def coast(
     """
     for i in range(tick, tick + count):
         x = integrate_period(actuator, effects, x, torque, delayed, table, i, period, 1)
-        torque = compute_lagged_torque(torque, delayed, effects.lag, period)
+        torque = compute_lagged_torque(torque, delayed, effects.current_lag, period)
         inertia = actuator.M + compute_load(table, i, period, i * period).inertia
         x = hit_stops(stops, x, inertia, actuator.B1)
     return x, torque

@@ -6,13 +6,9 @@ Figures 4A, 4B and 5 are simulated; 6A, 6B and 7 have the same references on a b
 import math
 from typing import Any, NamedTuple
 
-from svsa.simulation.reference.trajectories import (
-    ConstantStiffness,
-    PositionReference,
-    SinePosition,
-    SineStiffness,
-    StiffnessReference,
-)
+from svsa.simulation.reference.kinds import PositionReference, StiffnessReference
+from svsa.simulation.reference.kinds.constant import ConstantStiffness
+from svsa.simulation.reference.kinds.sine import SinePosition, SineStiffness
 
 
 class References(NamedTuple):

@@ -13,7 +13,12 @@ from typing import NamedTuple
 
 from svsa.errors import ParameterError, Violation
 from svsa.simulation.reference.curve import Points, check_curve
-from svsa.simulation.reference.series import MAX_ROWS, SeriesPosition, SeriesStiffness, build_spline
+from svsa.simulation.reference.kinds.series import (
+    MAX_ROWS,
+    SeriesPosition,
+    SeriesStiffness,
+    build_spline,
+)
 from svsa.simulation.reference.shape import FASTEST_POSITION, FASTEST_STIFFNESS, FULL_TURN_RAD
 
 TIME = "time_s"

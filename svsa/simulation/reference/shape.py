@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 from svsa.simulation.reference.curve import Curve
 
-SINE, CHIRP, CURVE = range(3)
+SINE, CURVE = range(2)
 MAX_NUMBERS = 6
 
 FULL_TURN_RAD = 2.0 * math.pi
@@ -30,18 +30,21 @@ class Derivatives(NamedTuple):
 class Shape(NamedTuple):
     """A reference in its own unit.
 
-    kind: SINE, which runs on the session's time, or CHIRP or CURVE, which begin at their own
-    t = 0 when they have faded in. numbers: up to `MAX_NUMBERS`, as the kind's function takes
-    them. range: least and greatest value. start: the value at t = 0.
+    numbers: up to `MAX_NUMBERS`, as the kind's function takes them. range: least and greatest
+    value. start: the value at t = 0. duration: how long it moves, s; of a sine two periods, of
+    what stands still 0.
+
+    A sine runs on the session's time. What has a curve, or a `compute` of its own, begins at its
+    own t = 0 when it has faded in.
     """
 
-    kind: int
     numbers: tuple[float, ...]
     range: tuple[float, float]
     start: float
+    duration: float
     curve: Curve | None = None
 
 
 def build_curve_shape(curve: Curve) -> Shape:
     """The shape of a curve: it holds its first value before, and its last one after."""
-    return Shape(CURVE, (), curve.range, curve.start, curve)
+    return Shape((), curve.range, curve.start, float(curve.breaks[-1]), curve)

@@ -10,21 +10,21 @@ A sine runs on the time of the session. What has a beginning holds its first val
 fades in, and begins when it has.
 """
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from svsa.errors import StateError
-from svsa.numerics.compilation import compiled
+from svsa.numerics.compilation import compiled, specialize
 from svsa.numerics.simd.choice import choose, some
 from svsa.numerics.simd.each import call_where
 from svsa.numerics.simd.memory import read
-from svsa.simulation.reference.chirp import compute_chirp
 from svsa.simulation.reference.curve import DEGREE
+from svsa.simulation.reference.kinds import POSITIONS, STIFFNESSES
+from svsa.simulation.reference.kinds.reference import AnyReference
+from svsa.simulation.reference.kinds.sine import compute_sine
 from svsa.simulation.reference.polynomials import blend, compute_fade, compute_polynomial
-from svsa.simulation.reference.shape import CHIRP, CURVE, MAX_NUMBERS, SINE, Derivatives
-from svsa.simulation.reference.sine import compute_sine
-from svsa.simulation.reference.trajectories import Trajectory
+from svsa.simulation.reference.shape import CURVE, MAX_NUMBERS, SINE, Derivatives
 
 MAX_FADES = 32
 
@@ -47,12 +47,12 @@ class Stack(NamedTuple):
 _EMPTY = Stack(np.empty((0, 3 + MAX_NUMBERS)), np.empty(0), np.empty((0, DEGREE + 1)))
 
 
-def build_stack(trajectory: Trajectory) -> Stack:
+def build_stack(trajectory: AnyReference) -> Stack:
     """A reference that runs from t = 0."""
     return _append(_EMPTY, trajectory, 0.0, 0.0)
 
 
-def push_trajectory(stack: Stack, trajectory: Trajectory, time: float) -> Stack:
+def push_trajectory(stack: Stack, trajectory: AnyReference, time: float) -> Stack:
     """The stack with `trajectory` fading in from `time` (s) on, finished fades dropped.
 
     Raises `StateError` while `MAX_FADES` changes are still fading.
@@ -67,12 +67,13 @@ def push_trajectory(stack: Stack, trajectory: Trajectory, time: float) -> Stack:
     return _append(kept, trajectory, time, trajectory.transition_s)
 
 
-def _append(stack: Stack, trajectory: Trajectory, start: float, fade: float) -> Stack:
+def _append(stack: Stack, trajectory: AnyReference, start: float, fade: float) -> Stack:
     shape, row = trajectory.get_shape(), np.zeros(3 + MAX_NUMBERS)
-    row[KIND], row[START], row[FADE] = shape.kind, start, fade
+    row[KIND], row[START], row[FADE] = _CODES.get(trajectory.compute, SINE), start, fade
     row[A : A + len(shape.numbers)] = shape.numbers
     breaks, coefficients = stack.breaks, stack.coefficients
     if shape.curve is not None:
+        row[KIND] = CURVE
         row[A], row[B] = len(breaks), len(shape.curve.breaks)
         breaks = np.concatenate([breaks, shape.curve.breaks])
         coefficients = np.concatenate([coefficients, shape.curve.coefficients])
@@ -87,6 +88,37 @@ def _drop(stack: Stack, count: int) -> Stack:
     return Stack(rows, stack.breaks[length:].copy(), stack.coefficients[length:].copy())
 
 
+_COMPUTED = dict.fromkeys(one.compute for one in (*POSITIONS, *STIFFNESSES) if one.compute)
+_CODES = {compute: code for code, compute in enumerate(_COMPUTED, CURVE + 1)}
+"""The number by which a row says which function computes it, besides SINE and CURVE."""
+before: Any = None
+compute: Any = None
+code: float = 0.0
+"""Of `_compute_next`: what computes the kinds before this one, and this one with its number."""
+
+
+@compiled
+def _compute_none(kind: float, numbers: tuple[float, ...], value: Derivatives) -> Derivatives:
+    return value
+
+
+def _compute_next(kind: float, numbers: tuple[float, ...], value: Derivatives) -> Derivatives:
+    return call_where(kind == code, compute, numbers, before(kind, numbers, value))
+
+
+def _chain() -> Any:
+    """One compiled function of all kinds: no function pointer is called in a tick."""
+    chained = _compute_none
+    for function, number in _CODES.items():
+        given = {"before": chained, "compute": function, "code": float(number)}
+        chained = specialize(_compute_next, f"{function.__name__}_next", **given)
+    return chained
+
+
+compute_own = _chain()
+"""(kind, numbers, value) -> `Derivatives` of the function of this kind, or `value`."""
+
+
 @compiled
 def compute_row(stack: Stack, i: int, time: float) -> Derivatives:
     """The i-th trajectory of the stack and its four derivatives at `time` (s)."""
@@ -99,7 +131,7 @@ def compute_row(stack: Stack, i: int, time: float) -> Derivatives:
         value = compute_sine(a, b, c, d, time)
     own = time - read(r, i, START) - read(r, i, FADE)
     sweep = a, b, c, d, read(r, i, E), read(r, i, F), own
-    value = call_where(kind == CHIRP, compute_chirp, sweep, value)
+    value = compute_own(kind, sweep, value)
     piece = stack.breaks, stack.coefficients, a, b, own
     return call_where(kind == CURVE, compute_polynomial, piece, value)
 

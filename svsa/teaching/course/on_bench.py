@@ -6,7 +6,10 @@ from typing import Any
 from svsa.actuators.signals import CHANNEL_NAMES
 from svsa.errors import ParameterError, Violation
 from svsa.inputs.checked import Checked, quantity
-from svsa.simulation.plant.loads import ConstantLoad, Load, MassLoad, PulseLoad
+from svsa.simulation.plant.loads import Load
+from svsa.simulation.plant.loads.constant import ConstantLoad
+from svsa.simulation.plant.loads.mass import MassLoad
+from svsa.simulation.plant.loads.pulse import PulseLoad
 from svsa.teaching.course.criterion import Criterion
 from svsa.teaching.course.measure import Measure
 

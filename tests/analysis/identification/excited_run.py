@@ -8,7 +8,10 @@ from svsa.analysis.identification.excitation import EXCITATION_DURATION_S, build
 from svsa.runs.configuration import Configuration
 from svsa.runs.records.reader import build_record
 from svsa.runs.replay import replay
-from svsa.simulation.plant.effects import CurrentLag, Encoders, Friction, StateEstimation
+from svsa.simulation.plant.effects.current_lag import CurrentLag
+from svsa.simulation.plant.effects.encoders import Encoders
+from svsa.simulation.plant.effects.estimation import StateEstimation
+from svsa.simulation.plant.effects.friction import Friction
 from tests.runs.records.records import build_header
 
 DESIGN = svsa.load_prototype()

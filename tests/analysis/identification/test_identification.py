@@ -21,7 +21,10 @@ from svsa.runs.command import build_command
 from svsa.runs.configuration import read_design
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.runs.replay import list_loads
-from svsa.simulation.plant.effects import CurrentLag, Encoders, Friction, SensorNoise
+from svsa.simulation.plant.effects.current_lag import CurrentLag
+from svsa.simulation.plant.effects.encoders import Encoders
+from svsa.simulation.plant.effects.friction import Friction
+from svsa.simulation.plant.effects.noise import SensorNoise
 
 from .excited_run import BENCH, DESIGN, build_configuration, build_run, get, play
 

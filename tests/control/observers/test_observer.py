@@ -11,7 +11,7 @@ from svsa.control.laws.feedback_linearization import build_gains
 from svsa.control.laws.ndobc import compute_ndobc
 from svsa.control.observers.disturbance import compute_shares, update_disturbance_estimate
 from svsa.runs.run import Run
-from svsa.simulation.plant.loads import build_load_table, schedule_load
+from svsa.simulation.plant.load_table import build_load_table, schedule_load
 from tests.actuators.prototype import DESIGN, NOMINAL, PLANT, build_state, integrate_ideal, record
 
 BANDWIDTH = (40.0, 60.0, 90.0)

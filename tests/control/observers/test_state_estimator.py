@@ -13,7 +13,7 @@ from svsa.control.observers.state import (
     correct,
     update_state_estimate,
 )
-from svsa.simulation.plant.loads import build_load_table, schedule_load
+from svsa.simulation.plant.load_table import build_load_table, schedule_load
 from tests.actuators.prototype import (
     DESIGN,
     MU0,

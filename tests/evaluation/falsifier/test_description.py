@@ -2,7 +2,7 @@
 
 from svsa.evaluation.falsifier.description import describe_attack
 from svsa.evaluation.falsifier.scenario import Attack
-from svsa.simulation.plant.loads import SineLoad
+from svsa.simulation.plant.loads.sine import SineLoad
 
 
 def test_a_negative_number_has_a_minus_sign_and_no_hyphen():

@@ -15,7 +15,7 @@ from svsa.evaluation.falsifier.measure import judge, measure_attacks, run_scenar
 from svsa.evaluation.falsifier.neighborhood import measure_neighborhood
 from svsa.evaluation.falsifier.scenario import Attack
 from svsa.evaluation.statistics import estimate_share
-from svsa.simulation.plant.loads import PulseLoad
+from svsa.simulation.plant.loads.pulse import PulseLoad
 from tests.evaluation.falsifier.weak_law import LOADED_NM, LONGEST_S, SHORTEST_S, install
 
 PULSE = {"kind": "pulse", "torque_nm": 1.5, "start_s": [0.2, 0.8], "duration_s": [0.02, 1.0]}

@@ -22,7 +22,9 @@ from svsa.evaluation.falsifier.file import (
 from svsa.evaluation.falsifier.measure import measure_attacks, run_scenario
 from svsa.evaluation.falsifier.scenario import LoadScenario
 from svsa.evaluation.falsifier.trace import sample_torque, trace_scenario
-from svsa.simulation.plant.loads import ConstantLoad, PulseLoad, SineLoad
+from svsa.simulation.plant.loads.constant import ConstantLoad
+from svsa.simulation.plant.loads.pulse import PulseLoad
+from svsa.simulation.plant.loads.sine import SineLoad
 from tests.evaluation.falsifier.weak_law import install
 
 GOOD = """\

@@ -17,7 +17,7 @@ from svsa.evaluation.ranking.trials import (
     derive_seed,
     start_generator,
 )
-from svsa.simulation.plant.effects import MAX_DELAY_SAMPLES
+from svsa.simulation.plant.effects.delay_samples import MAX_DELAY_SAMPLES
 
 
 def test_every_run_of_the_suite_has_a_name_of_its_own():

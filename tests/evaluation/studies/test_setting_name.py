@@ -22,7 +22,7 @@ TWO_LOADS = {
         ("actuator.link_inertia_kg_m2", "Output link inertia M", "kg·m²"),
         ("nominal.link_inertia_kg_m2", "Nominal: Output link inertia M", "kg·m²"),
         ("actuator.spiral_reduction", "Reduction γ of the spiral", ""),
-        ("effects.friction.coulomb1_nm", "Coulomb friction of motor 1", "N·m"),
+        ("effects.friction.coulomb1_nm", "Coulomb, motor 1", "N·m"),
         ("effects", "Effects", ""),
         ("gains.position_bandwidth_rad_per_s", "Bandwidth of the position error", "rad/s"),
         ("observer.bandwidth_rad_per_s", "Observer bandwidth β", "rad/s"),

@@ -68,7 +68,7 @@ def test_the_command_tells_costs_and_their_ratio_to_c(c_loop: benchmark.CLoop) -
     assert costs["solvers"]["svsa"]["ratio"] == 1.0
     assert costs["solvers"]["scipy"]["ratio"] > 1.0
     rates = costs["runs_per_second_1_core_by_effects"]
-    assert list(rates) == list(batch_rates.EFFECTS)
+    assert list(rates) == list(batch_rates.SWITCHED)
     assert rates["ideal"] > rates["every"] > 0.0
 
 
@@ -77,7 +77,7 @@ def test_a_run_that_ends_in_a_fault_counts_as_the_part_that_was_run(monkeypatch)
     monkeypatch.setattr(
         batch_rates, "measure_in_turns", lambda works, repeats: dict.fromkeys(works, 1.0)
     )
-    monkeypatch.setattr(batch_rates, "EFFECTS", {"ideal": svsa.IDEAL})
+    monkeypatch.setattr(batch_rates, "SWITCHED", {"ideal": svsa.IDEAL})
     figure = benchmark.get_figure("4a").build_configuration("ndobc")
     load = svsa.ConstantLoad(torque_nm=(40.0, 0.0, 0.0), start_s=0.5)
     rates = batch_rates.measure_effects(figure.changed(loads=(load,)), 8, 2.0, 1)
@@ -92,7 +92,7 @@ def test_without_the_c_loop_the_ratios_are_unknown_and_it_says_why(
     """As in an installed package, which has no tests."""
     monkeypatch.setattr(benchmark, "C_LOOP", tmp_path / "loop.c")
     one = {"ideal": svsa.IDEAL}
-    monkeypatch.setattr(batch_rates, "EFFECTS", one)  # each is compiled, and not the subject
+    monkeypatch.setattr(batch_rates, "SWITCHED", one)  # each is compiled, and not the subject
     monkeypatch.setattr(scipy_comparison, "METHODS", ())
     answer = RUNNER.invoke(app, ["benchmark", "--json", "--repeats", "1", "--no-start"])
     costs = json.loads(answer.stdout)

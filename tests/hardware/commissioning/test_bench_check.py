@@ -22,7 +22,7 @@ from svsa.hardware.emulator.parameters import EmulatedDeflection, EmulatorParame
 from svsa.hardware.file import read_bench
 from svsa.hardware.homing import STEPS, Homing
 from svsa.hardware.zero import calibrate
-from svsa.simulation.plant.loads import ConstantLoad
+from svsa.simulation.plant.loads.constant import ConstantLoad
 from tests.exhaustive import exhaust
 from tests.hardware.commissioning.checked_bench import check, find_current, list_currents
 from tests.hardware.emulator.bus_in_time import EmulatorBus, copy_bench

@@ -18,7 +18,7 @@ from svsa.hardware.drives.robomodule import (
 )
 from svsa.hardware.emulation import EMULATED_ID, Frame
 from svsa.hardware.emulator.emulator import FRAME_US, Emulator
-from svsa.simulation.plant.loads import ConstantLoad
+from svsa.simulation.plant.loads.constant import ConstantLoad
 
 LOOP = "the loop's connection"
 READY_US = 1_200_000

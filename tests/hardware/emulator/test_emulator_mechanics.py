@@ -11,15 +11,14 @@ from svsa.errors import ParameterError
 from svsa.hardware.emulator.mechanics import GRID_US, Mechanics
 from svsa.hardware.emulator.parameters import EmulatorParameters, read_emulator_parameters
 from svsa.runs.configuration import load_prototype
-from svsa.simulation.plant.effects import CurrentLag, Effects, Friction, build_effect_constants
+from svsa.simulation.plant.effects import Effects, build_effect_constants
+from svsa.simulation.plant.effects.current_lag import CurrentLag
+from svsa.simulation.plant.effects.friction import Friction
 from svsa.simulation.plant.integration import Stops, coast, hit_stops, integrate_period
-from svsa.simulation.plant.loads import (
-    ConstantLoad,
-    MassLoad,
-    PulseLoad,
-    build_load_table,
-    schedule_load,
-)
+from svsa.simulation.plant.load_table import build_load_table, schedule_load
+from svsa.simulation.plant.loads.constant import ConstantLoad
+from svsa.simulation.plant.loads.mass import MassLoad
+from svsa.simulation.plant.loads.pulse import PulseLoad
 from tests.actuators.prototype import PLANT
 
 PERIOD = GRID_US * 1e-6

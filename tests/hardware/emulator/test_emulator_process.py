@@ -10,7 +10,8 @@ from svsa.hardware.emulation import ADVANCE_ID, EMULATED_ID, encode_time
 from svsa.hardware.emulator.control import EmulatorError
 from svsa.hardware.emulator.faults import Silence
 from svsa.hardware.emulator.launch import start_emulator
-from svsa.simulation.plant.loads import ConstantLoad, MassLoad
+from svsa.simulation.plant.loads.constant import ConstantLoad
+from svsa.simulation.plant.loads.mass import MassLoad
 
 HANG_S = 60.0
 

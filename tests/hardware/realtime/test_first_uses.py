@@ -28,7 +28,7 @@ from svsa.runs.command import COMMANDS
 from svsa.runs.configuration import Lane
 from svsa.runs.paper import get_figure
 from svsa.simulation.plant.loads import Load
-from svsa.simulation.reference.trajectories import AnyPosition, AnyStiffness
+from svsa.simulation.reference.kinds import AnyPosition, AnyStiffness
 from tests.hardware.realtime.first_uses import Rehearsal, list_other_parameters
 from tests.hardware.wired_bench import WiredBench
 

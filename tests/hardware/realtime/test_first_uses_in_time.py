@@ -15,7 +15,7 @@ from svsa.hardware.session.session import BenchSession
 from svsa.runs.command import Set
 from svsa.runs.paper import get_figure
 from svsa.runs.run import Run
-from svsa.simulation.reference.trajectories import ConstantPosition
+from svsa.simulation.reference.kinds.constant import ConstantPosition
 from tests.hardware.live_bench import IDLE_S, write_bench
 
 MISSED = 60

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from svsa.hardware.emulator.launch import RunningEmulator
-from svsa.simulation.plant.loads import ConstantLoad
+from svsa.simulation.plant.loads.constant import ConstantLoad
 from tests.processes import find_child
 
 LOOP, SUPERVISOR = "svsa.hardware.realtime.process", "svsa.hardware.safety.supervisor"

@@ -12,7 +12,8 @@ from svsa.runs.paper import get_figure
 from svsa.runs.records.catalogue.recovery import measure
 from svsa.runs.records.measured_window import MeasuredWindow, find_measured_window
 from svsa.runs.records.reader import Record, build_record
-from svsa.simulation.plant.loads import MassLoad, PulseLoad
+from svsa.simulation.plant.loads.mass import MassLoad
+from svsa.simulation.plant.loads.pulse import PulseLoad
 
 from .records import PERIOD_S, build_header, build_samples
 

@@ -8,9 +8,10 @@ from svsa.runs.paper import get_figure
 from svsa.runs.records.difference import compare_settings, format_poles
 from svsa.runs.records.reader import Record, build_record
 from svsa.runs.session.simulated import SimulatedSession
-from svsa.simulation.plant.effects import IDEAL, RIG, SensorNoise
-from svsa.simulation.plant.loads import PaperLoad
-from svsa.simulation.reference.trajectories import ConstantPosition, ConstantStiffness
+from svsa.simulation.plant.effects import IDEAL, RIG
+from svsa.simulation.plant.effects.noise import SensorNoise
+from svsa.simulation.plant.loads.paper import PaperLoad
+from svsa.simulation.reference.kinds.constant import ConstantPosition, ConstantStiffness
 
 from .records import build_samples
 from .test_run_settings import build_header

@@ -10,9 +10,13 @@ from svsa.runs.configuration import Configuration, Lane, LaneSetting, load_proto
 from svsa.runs.paper import get_figure
 from svsa.runs.records.header import RecordHeader
 from svsa.runs.records.settings import RunSettings, describe_settings, name_figure
-from svsa.simulation.plant.effects import RIG, Friction
-from svsa.simulation.plant.loads import MassLoad, PaperLoad, PulseLoad, PushLoad
-from svsa.simulation.reference.trajectories import ConstantPosition, ConstantStiffness
+from svsa.simulation.plant.effects import RIG
+from svsa.simulation.plant.effects.friction import Friction
+from svsa.simulation.plant.loads.mass import MassLoad
+from svsa.simulation.plant.loads.paper import PaperLoad
+from svsa.simulation.plant.loads.pulse import PulseLoad
+from svsa.simulation.plant.loads.push import PushLoad
+from svsa.simulation.reference.kinds.constant import ConstantPosition, ConstantStiffness
 
 TICKS = 8000
 

@@ -10,7 +10,10 @@ import svsa
 from svsa.runs.command import COMMANDS, build_command, read_command
 from svsa.runs.configuration import Configuration, LaneSetting
 from svsa.runs.replay import simulate_again
-from svsa.simulation.plant.effects import CurrentLag, Friction, LinkGravity, SensorNoise
+from svsa.simulation.plant.effects.current_lag import CurrentLag
+from svsa.simulation.plant.effects.friction import Friction
+from svsa.simulation.plant.effects.gravity import LinkGravity
+from svsa.simulation.plant.effects.noise import SensorNoise
 
 from .sessions import EVERY_EFFECT, PULSE, build_session
 

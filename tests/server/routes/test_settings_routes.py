@@ -59,7 +59,7 @@ REFUSED = [
     ("PUT", "position", SINE | {"amplitude_rad": "60"}, "amplitude_rad", "rad", "a number"),
     ("PUT", "position", SINE | {"amplitude_rad": True}, "amplitude_rad", "rad", "a number"),
     ("PUT", "position", SINE | {"speed": 1}, "speed", "", "no such field"),
-    ("PUT", "position", {"kind": "square"}, "kind", "", "'sine', 'constant'"),
+    ("PUT", "position", {"kind": "square"}, "kind", "", "'chirp', 'constant'"),
     ("PUT", "position", {"kind": "sine", "frequency_hz": 1}, "amplitude_rad", "rad", "given"),
     (
         "PUT",

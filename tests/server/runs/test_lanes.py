@@ -11,7 +11,7 @@ from svsa.runs.paper import get_figure
 from svsa.runs.records.measured_window import trace_record
 from svsa.runs.records.reader import Record, build_record
 from svsa.runs.session.simulated import SimulatedSession
-from svsa.simulation.plant.loads import PaperLoad
+from svsa.simulation.plant.loads.paper import PaperLoad
 from svsa_server.runs.lanes import list_record_stretches, name_lanes
 from svsa_server.sessions.hosted import HostedSession
 from svsa_server.sessions.state import build_state

@@ -17,7 +17,7 @@ from svsa.hardware.session import commands
 from svsa.hardware.session.session import BenchSession
 from svsa.runs.command import ApplyLoad, Set, Stop
 from svsa.runs.configuration import Lane
-from svsa.simulation.plant.loads import SeriesLoad
+from svsa.simulation.plant.loads.series import SeriesLoad
 from svsa_server.routes.lab import settings
 from svsa_server.schemas.lab.gain import GainsRequest
 from svsa_server.sessions.hosted import HostedSession

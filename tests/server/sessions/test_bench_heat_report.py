@@ -8,7 +8,8 @@ import pytest
 from svsa.errors import StateError
 from svsa.hardware.safety.machine import BenchStatus
 from svsa.hardware.session.session import BenchSession
-from svsa.simulation.plant.loads import MassLoad, PaperLoad
+from svsa.simulation.plant.loads.mass import MassLoad
+from svsa.simulation.plant.loads.paper import PaperLoad
 from svsa_server.routes.hardware.bench import predict_heat
 from svsa_server.sessions.hosted import HostedSession
 from svsa_server.sessions.state import build_state

@@ -10,7 +10,7 @@ from svsa.runs.command import ApplyLoad, Command, Set
 from svsa.runs.configuration import Lane
 from svsa.runs.paper import get_figure
 from svsa.runs.session.simulated import SimulatedSession
-from svsa.simulation.plant.loads import PaperLoad
+from svsa.simulation.plant.loads.paper import PaperLoad
 from svsa_server.leases.lease import Holder, asking
 from svsa_server.sessions import broadcast
 from svsa_server.sessions.broadcast import Broadcast, Reported

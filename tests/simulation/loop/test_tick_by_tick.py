@@ -27,9 +27,9 @@ from svsa.simulation.loop.loop import (
     sense,
 )
 from svsa.simulation.loop.publish import publish
-from svsa.simulation.plant.drive import compute_lagged_torque, compute_mean_torque
+from svsa.simulation.plant.effects.current_lag import compute_lagged_torque, compute_mean_torque
 from svsa.simulation.plant.integration import compute_plant_rate, integrate_period
-from svsa.simulation.plant.loads import build_load_table, compute_load, schedule_load
+from svsa.simulation.plant.load_table import build_load_table, compute_load, schedule_load
 from svsa.simulation.reference.transition import build_stack
 from tests.runs.session.sessions import EVERY_EFFECT, PULSE, advance, build_configuration
 
@@ -89,7 +89,7 @@ def compose_tick(blocks, law, inputs, lane, tick, sample):
     assert math.isfinite(torque.u1 + torque.u2)
     limited, delayed = delay(effects, lane.limited, torque)
     load = compute_load(inputs.loads, tick, period, time)
-    actual = compute_lagged_torque(lane.actual, delayed, effects.lag, 0.0)
+    actual = compute_lagged_torque(lane.actual, delayed, effects.current_lag, 0.0)
     rate = compute_plant_rate(blocks.plant, effects, lane.x, actual, load)
     action = Action(limited, delayed, actual, load, rate)
     F = compute_internal_torque(blocks.nominal, lane.known)
@@ -105,8 +105,8 @@ def compose_tick(blocks, law, inputs, lane, tick, sample):
         period,
         blocks.steps,
     )
-    actual = compute_lagged_torque(lane.actual, delayed, effects.lag, period)
-    applied = compute_mean_torque(lane.actual, delayed, effects.lag, period)
+    actual = compute_lagged_torque(lane.actual, delayed, effects.current_lag, period)
+    applied = compute_mean_torque(lane.actual, delayed, effects.current_lag, period)
     known = sense(blocks, lane, x, applied, tick + 1)
     estimate = update_disturbance_estimate(
         blocks.nominal, blocks.shares, lane.estimate, lane.known, known, applied, period

@@ -8,9 +8,9 @@ from svsa.simulation.plant.effects import (
     PRESETS,
     RIG,
     Effects,
-    SensorNoise,
     find_preset,
 )
+from svsa.simulation.plant.effects.noise import SensorNoise
 
 
 @pytest.mark.parametrize("name", PRESETS)

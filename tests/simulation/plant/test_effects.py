@@ -9,27 +9,16 @@ import svsa
 from svsa.actuators.dynamics import build_actuator
 from svsa.runs.command import Set
 from svsa.runs.run import Run
-from svsa.simulation.plant.effects import (
-    CurrentLag,
-    Encoders,
-    Friction,
-    LinkGravity,
-    SensorNoise,
-    StateEstimation,
-)
+from svsa.simulation.plant.effects import EFFECTS
+from svsa.simulation.plant.effects.effect import Surroundings
+from svsa.simulation.plant.effects.encoders import Encoders
+from svsa.simulation.plant.effects.friction import Friction
+from svsa.simulation.plant.effects.gravity import LinkGravity
+from svsa.simulation.plant.effects.noise import SensorNoise
 from tests.runs.session.sessions import EVERY_EFFECT, advance, build_configuration
 
 FIGURES = ("4a", "4b", "5")
-ALONE = {
-    "encoders": Encoders(),
-    "estimation": StateEstimation(),
-    "delay_samples": 1,
-    "torque_limits": False,
-    "friction": Friction(),
-    "current_lag": CurrentLag(),
-    "noise": SensorNoise(),
-    "gravity": LinkGravity(),
-}
+ALONE = {one.name: one.on if one.preset else not one.field.default for one in EFFECTS}
 WITHOUT_SIZE = {
     "friction": Friction(coulomb1_nm=0.0, coulomb2_nm=0.0),
     "noise": SensorNoise(motor_std_rad=0.0, deflection_std_rad=0.0),
@@ -49,8 +38,16 @@ def rig():
     return {figure: svsa.simulate(figure, effects=svsa.RIG) for figure in FIGURES}
 
 
-def test_every_effect_is_tried():
-    assert set(ALONE) == set(svsa.Effects.model_fields)
+@pytest.mark.parametrize("effect", EFFECTS, ids=lambda effect: effect.name)
+def test_each_effect_describes_itself(effect):
+    """Off it has no words; on it has some, and constants like those where it is off."""
+    assert effect.describe(getattr(svsa.IDEAL, effect.name)) == ""
+    assert effect.describe(ALONE[effect.name])
+    assert effect.field.description
+    if effect.build is not None:
+        surroundings = Surroundings(7, svsa.load_prototype().actuator, 0.001)
+        constants = effect.build(ALONE[effect.name], surroundings)
+        assert type(constants) is type(effect.off)
 
 
 @pytest.mark.parametrize("name", ALONE)

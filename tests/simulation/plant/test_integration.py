@@ -6,7 +6,8 @@ import pytest
 import svsa
 from svsa.actuators.dynamics import shift
 from svsa.actuators.signals import State, Torque
-from svsa.simulation.plant.loads import ConstantLoad, build_load_table, schedule_load
+from svsa.simulation.plant.load_table import build_load_table, schedule_load
+from svsa.simulation.plant.loads.constant import ConstantLoad
 from tests.actuators.prototype import NO_LOADS, PLANT, build_state, integrate_ideal
 
 START = build_state(mu=0.7, phi=0.15, dq=1.0, dtheta1=-2.0, dtheta2=0.5)

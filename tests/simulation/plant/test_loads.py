@@ -10,7 +10,8 @@ from svsa.actuators.dynamics import ExternalLoad, compute_acceleration, compute_
 from svsa.actuators.signals import CHANNEL_INDEX, Torque
 from svsa.runs.configuration import MAX_LOADS
 from svsa.runs.run import Run
-from svsa.simulation.plant.loads import build_load_table, compute_load, schedule_load
+from svsa.simulation.plant.load_table import build_load_table, compute_load, schedule_load
+from svsa.simulation.plant.loads import LOADS
 from tests.actuators.prototype import PLANT, build_state, record
 
 T = 0.001
@@ -234,3 +235,15 @@ def test_a_series_from_a_function_of_time():
     assert (w2, w4, w6) == pytest.approx((math.sin(0.75), 0.0, 0.25), abs=1e-6)
     with pytest.raises(svsa.ParameterError, match="20000"):
         svsa.SeriesLoad.from_function(lambda t: (t, t, t), 1e6)
+
+
+@pytest.mark.parametrize("kind", LOADS, ids=lambda kind: kind.__name__)
+def test_each_kind_of_load_describes_itself_and_acts_as_its_form_begins(kind):
+    assert getattr(svsa, kind.__name__) is kind
+    assert kind.__name__.removesuffix("Load").lower() == kind.model_fields["kind"].default
+    if kind.first is not None:
+        load = kind(torque_nm=TRIPLE, **kind.first)
+        assert load.describe()
+        assert read_load([load], 0.013)[:3] != (0.0, 0.0, 0.0)
+        factor = 1.0 if kind.factor is None else read_load([load], 0.013).w2 / TRIPLE[0]
+        assert read_load([load], 0.013)[:3] == pytest.approx([factor * torque for torque in TRIPLE])

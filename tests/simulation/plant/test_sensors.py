@@ -10,14 +10,10 @@ from numba import njit
 
 import svsa
 from svsa.actuators.signals import State
-from svsa.simulation.plant.effects import Encoders, SensorNoise, build_effect_constants
-from svsa.simulation.plant.sensors import (
-    add_noise,
-    draw_normal,
-    draw_uniform,
-    quantize,
-    read_sensors,
-)
+from svsa.simulation.plant.effects import build_effect_constants
+from svsa.simulation.plant.effects.encoders import Encoders, quantize
+from svsa.simulation.plant.effects.noise import SensorNoise, add_noise, draw_normal, draw_uniform
+from svsa.simulation.plant.sensors import read_sensors
 from tests.actuators.prototype import DESIGN, IDEAL_BENCH, drawn
 
 COUNT = 100_000
@@ -94,7 +90,7 @@ def test_noise_is_added_before_the_encoder_counts_it():
         assert y.theta1 == 1e-3 * draw_normal(0, tick, 0) != 0.0
         assert y.theta2 == 1e-3 * draw_normal(0, tick, 1) != 0.0
         assert y.phi == 0.0
-        assert counts.theta1 == quantize(y.theta1, counted.motor_step)
+        assert counts.theta1 == quantize(y.theta1, counted.encoders.motor_step)
 
 
 def test_the_same_seed_tick_and_channel_give_the_same_number_in_any_order():

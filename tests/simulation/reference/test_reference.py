@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 import svsa
 from svsa.runs.command import Set
 from svsa.runs.run import Run
+from svsa.simulation.reference.kinds import compute_start_value, get_range
+from svsa.simulation.reference.kinds.sine import compute_sine
 from svsa.simulation.reference.polynomials import compute_fade
-from svsa.simulation.reference.sine import compute_sine
-from svsa.simulation.reference.trajectories import compute_start_value, get_range
 from svsa.simulation.reference.transition import (
     MAX_FADES,
     build_stack,

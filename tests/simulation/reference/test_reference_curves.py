@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 import svsa
+from svsa.simulation.reference.kinds import POSITIONS, STIFFNESSES, compute_start_value, get_range
+from svsa.simulation.reference.kinds.reference import AnyPosition
+from svsa.simulation.reference.kinds.series import MAX_ROWS
 from svsa.simulation.reference.preview import sample_reference
-from svsa.simulation.reference.series import MAX_ROWS
 from svsa.simulation.reference.series_csv import parse_series
-from svsa.simulation.reference.trajectories import compute_start_value, get_range
 from svsa.simulation.reference.transition import (
     Stack,
     build_stack,
@@ -239,3 +240,20 @@ def test_steps_of_one_level_are_that_level():
     assert get_range(svsa.StepsStiffness(time_s=(0.0,), stiffness_nm_per_rad=(20.0,))) == (20, 20)
     stack = build_stack(svsa.StepsPosition(time_s=(1.0,), position_rad=(0.3,)))
     assert follow(stack, (0.0, 2.0))[:, 0].tolist() == [0.3, 0.3]
+
+
+@pytest.mark.parametrize("kind", (*POSITIONS, *STIFFNESSES), ids=lambda kind: kind.__name__)
+def test_each_kind_of_reference_describes_itself_and_runs_as_its_form_begins(kind):
+    assert getattr(svsa, kind.__name__) is kind
+    words = kind.model_fields["kind"].default.split("_")
+    suffix = "Position" if issubclass(kind, AnyPosition) else "Stiffness"
+    assert kind.__name__ == "".join(word.capitalize() for word in words) + suffix
+    if kind.first is not None:
+        reference = kind(**kind.first)
+        assert reference.describe()
+        assert kind.hint
+        times, values = sample_reference(reference)
+        assert times[-1] == reference.get_shape().duration
+        low, high = reference.get_shape().range
+        assert low < high
+        assert np.all((values[:, 0] >= low - 1e-9) & (values[:, 0] <= high + 1e-9))

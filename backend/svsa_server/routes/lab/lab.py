@@ -1,16 +1,16 @@
-"""The lab itself: health, the laws, the faults, the paper's figures."""
+"""The lab itself: health, the laws, what else varies, the faults, the paper's figures."""
 
 from fastapi import Request, Response
 
 import svsa
 from svsa.runs.paper import FIGURES
-from svsa.simulation.plant.effects import PRESETS
 from svsa_server.access.guard import PERSON
 from svsa_server.access.permissions import ANYBODY, OBSERVER, allow
 from svsa_server.problems import Problem, answer_problem
 from svsa_server.routes.depends import needs_no_login_to_stop
 from svsa_server.routing import build_router
-from svsa_server.schemas.lab.lab import EffectsPreset, FigureState, Health
+from svsa_server.schemas.lab.kind import Kinds, list_kinds
+from svsa_server.schemas.lab.lab import FigureState, Health
 from svsa_server.schemas.lab.law import LawState, list_laws
 from svsa_server.schemas.runs.fault import FaultKindState, list_faults
 from svsa_server.sessions.laboratory import SHARED_SESSION
@@ -60,11 +60,11 @@ async def read_faults() -> list[FaultKindState]:
     return list_faults()
 
 
-@router.get("/effects")
+@router.get("/kinds")
 @allow(OBSERVER)
-async def list_effects() -> list[EffectsPreset]:
-    """The presets of non-ideal effects, as `PUT /sessions/{session}/effects` takes them."""
-    return [EffectsPreset(name=name, effects=effects) for name, effects in PRESETS.items()]
+async def read_kinds() -> Kinds:
+    """The effects, loads and references that are found here, each as it describes itself."""
+    return list_kinds()
 
 
 @router.get("/figures")

@@ -6,7 +6,8 @@ from fastapi import Body
 
 from svsa.runs.command import ApplyLoad, RemoveLoad
 from svsa.runs.session.session import take_loads_off
-from svsa.simulation.plant.loads import PAPER_ARM_M, PAPER_MASS_KG, Load
+from svsa.simulation.plant.loads import Load
+from svsa.simulation.plant.loads.mass import PAPER_ARM_M, PAPER_MASS_KG
 from svsa_server.access.permissions import OPERATOR, allow
 from svsa_server.problems import UnknownError
 from svsa_server.routes.depends import REFUSALS, NamedSession

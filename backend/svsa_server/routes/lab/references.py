@@ -7,15 +7,11 @@ import numpy as np
 from fastapi import Body
 from pydantic import BaseModel, Field
 
+from svsa.simulation.reference.kinds import PositionReference, StiffnessReference, get_range
+from svsa.simulation.reference.kinds.reference import AnyReference
+from svsa.simulation.reference.kinds.series import MAX_ROWS, SeriesPosition, SeriesStiffness
 from svsa.simulation.reference.preview import sample_reference
-from svsa.simulation.reference.series import MAX_ROWS, SeriesPosition, SeriesStiffness
 from svsa.simulation.reference.series_csv import parse_series
-from svsa.simulation.reference.trajectories import (
-    PositionReference,
-    StiffnessReference,
-    Trajectory,
-    get_range,
-)
 from svsa_server.access.permissions import OBSERVER, allow
 from svsa_server.routes.depends import REFUSALS
 from svsa_server.routing import build_router
@@ -96,7 +92,7 @@ async def preview_stiffness(
     return await asyncio.to_thread(_preview, reference)
 
 
-def _preview(reference: Trajectory) -> ReferencePreview:
+def _preview(reference: AnyReference) -> ReferencePreview:
     times, values = sample_reference(reference)
     low, high = get_range(reference)
     return ReferencePreview(

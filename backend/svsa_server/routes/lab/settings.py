@@ -16,7 +16,7 @@ from svsa.inputs.checked import Checked
 from svsa.runs.command import Set
 from svsa.runs.configuration import LaneSetting
 from svsa.simulation.plant.effects import Effects
-from svsa.simulation.reference.trajectories import PositionReference, StiffnessReference
+from svsa.simulation.reference.kinds import PositionReference, StiffnessReference
 from svsa_server.access.permissions import OPERATOR, allow
 from svsa_server.routes.depends import CHANGED, REFUSALS, NamedSession, check_unchanged
 from svsa_server.routing import build_router

@@ -21,7 +21,7 @@ from svsa.analysis.design.sampled_loop import (
 from svsa.analysis.design.stability import Stability, assess
 from svsa.control.installed import get_law
 from svsa.runs.configuration import Configuration
-from svsa.simulation.plant.loads import PaperLoad
+from svsa.simulation.plant.loads.paper import PaperLoad
 from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
 from svsa_server.routes.depends import BUSY, REFUSALS, NamedPerson, NamedSession, Work
 from svsa_server.routing import build_router

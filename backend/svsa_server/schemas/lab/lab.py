@@ -1,11 +1,10 @@
-"""What goes over the wire about the lab: its figures, its presets, its health."""
+"""What goes over the wire about the lab: its figures, its health."""
 
 from typing import Literal
 
 from pydantic import BaseModel, Field
 
-from svsa.simulation.plant.effects import Effects, PresetName
-from svsa.simulation.reference.trajectories import PositionReference, StiffnessReference
+from svsa.simulation.reference.kinds import PositionReference, StiffnessReference
 
 
 class FigureState(BaseModel):
@@ -16,13 +15,6 @@ class FigureState(BaseModel):
     position: PositionReference
     stiffness: StiffnessReference
     claim: str
-
-
-class EffectsPreset(BaseModel):
-    """A choice among the non-ideal effects."""
-
-    name: PresetName
-    effects: Effects
 
 
 class Health(BaseModel):

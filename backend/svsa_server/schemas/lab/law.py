@@ -1,6 +1,6 @@
 """What goes over the wire about laws: what each says of itself, as a form and a legend need it."""
 
-from typing import Annotated, Literal
+from typing import Annotated
 
 from pydantic import AfterValidator, BaseModel, Field
 
@@ -13,10 +13,9 @@ from svsa.control.installed import (
     list_law_line_styles,
 )
 from svsa.control.law import EstimateSource
-from svsa.control.parameters import LawParameters
 from svsa.errors import ParameterError
-from svsa.inputs.checked import read_quantity
 from svsa.runs.configuration import Lane
+from svsa_server.schemas.lab.parameter import ParameterState, list_parameters
 
 
 def _check_lane(lane: Lane) -> Lane:
@@ -29,20 +28,6 @@ def _check_lane(lane: Lane) -> Lane:
 
 InstalledLane = Annotated[Lane, AfterValidator(_check_lane)]
 """A lane whose law is installed: one that can be run."""
-Value = float | bool | str | list[float]
-
-
-class ParameterState(BaseModel):
-    """A parameter of a law."""
-
-    name: str
-    symbol: str = Field(description="What it is called in short")
-    meaning: str
-    unit: str = Field(description='"1" or empty where it has none')
-    kind: Literal["number", "numbers", "flag", "text"]
-    default: Value
-    low: float | None = Field(description="Null where nothing bounds it from below")
-    high: float | None = Field(description="Null where nothing bounds it from above")
 
 
 class LawState(BaseModel):
@@ -95,40 +80,6 @@ def _describe(name: str, line_style: int) -> LawState:
         notes=get_notes(name),
         estimate=law.estimate,
         takes_gains=not is_own,
-        parameters=_list_parameters(law.parameters) if is_own else [],
+        parameters=list_parameters(law.parameters) if is_own else [],
         problem=None,
     )
-
-
-def _list_parameters(model: type[LawParameters]) -> list[ParameterState]:
-    defaults = model().model_dump(mode="json")
-    listed = []
-    for name, field in model.model_fields.items():
-        declared = read_quantity(model, name)
-        bounds = {
-            side: next((getattr(m, side) for m in field.metadata if hasattr(m, side)), None)
-            for side in ("ge", "gt", "le", "lt")
-        }
-        low = bounds["ge"] if bounds["ge"] is not None else bounds["gt"]
-        high = bounds["le"] if bounds["le"] is not None else bounds["lt"]
-        listed.append(
-            ParameterState(
-                name=name,
-                symbol=declared.symbol,
-                meaning=declared.meaning,
-                unit=declared.unit,
-                kind=_find_kind(defaults[name]),
-                default=defaults[name],
-                low=low,
-                high=high,
-            )
-        )
-    return listed
-
-
-def _find_kind(value: Value) -> Literal["number", "numbers", "flag", "text"]:
-    if isinstance(value, bool):
-        return "flag"
-    if isinstance(value, list):
-        return "numbers"
-    return "text" if isinstance(value, str) else "number"

@@ -83,6 +83,7 @@ class LoadState(BaseModel):
     start_s: float
     end_s: float | None
     active: bool
+    label: str = Field(description="The load in a few words")
     load: Load
 
 

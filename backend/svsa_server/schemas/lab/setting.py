@@ -10,8 +10,9 @@ from svsa.control.observers.disturbance import ObserverBandwidth
 from svsa.errors import ParameterError
 from svsa.inputs.checked import Checked, quantity
 from svsa.runs.configuration import MAX_LANES, Lane
-from svsa.simulation.plant.effects import Effects, PresetName
-from svsa.simulation.reference.trajectories import PositionReference, StiffnessReference
+from svsa.simulation.plant.effects import Effects
+from svsa.simulation.plant.effects.effect import PresetName
+from svsa.simulation.reference.kinds import PositionReference, StiffnessReference
 from svsa_server.schemas.lab.gain import GainsState
 from svsa_server.schemas.lab.law import InstalledLane
 

@@ -13,8 +13,6 @@ const STIFFNESS = "N·m/rad";
 const { motion, stiffness, observer, load, realism, design, transport } = text;
 const degrees = (label: string): Quantity => ({ label, unit: "deg", factor: DEGREES_PER_RADIAN });
 const plain = (label: string, unit = ""): Quantity => ({ label, unit });
-const milli = (label: string, unit: string): Quantity => ({ label, unit, factor: 1e3 });
-const { values } = realism;
 
 export const QUANTITIES = {
   amplitude_rad: degrees(motion.amplitude),
@@ -34,19 +32,6 @@ export const QUANTITIES = {
   duration_s: plain(load.duration, "s"),
   factor: plain(transport.speed),
   by: plain(text.control.name),
-  motor_counts_per_rev: plain(values.motor_counts_per_rev),
-  gear_ratio: plain(values.gear_ratio),
-  deflection_counts_per_rev: plain(values.deflection_counts_per_rev),
-  corner_rad_per_s: plain(values.corner_rad_per_s, "rad/s"),
-  coulomb1_nm: plain(values.coulomb1_nm, "N·m"),
-  coulomb2_nm: plain(values.coulomb2_nm, "N·m"),
-  static_ratio: plain(values.static_ratio),
-  stribeck_rad_per_s: plain(values.stribeck_rad_per_s, "rad/s"),
-  time_constant_s: milli(values.time_constant_s, "ms"),
-  motor_std_rad: milli(values.motor_std_rad, "mrad"),
-  deflection_std_rad: milli(values.deflection_std_rad, "mrad"),
-  moment_nm: plain(values.moment_nm, "N·m"),
-  delay_samples: plain(realism.delay, realism.samples),
 } satisfies Record<string, Quantity>;
 
 /** What a control spreads into its field. */

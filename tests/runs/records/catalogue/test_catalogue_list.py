@@ -13,7 +13,7 @@ from svsa.runs.records.catalogue.database import build_order
 from svsa.runs.records.catalogue.entry import SORTS
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.runs.records.header import BranchPoint, read_header, write_header
-from svsa.simulation.plant.loads import PaperLoad
+from svsa.simulation.plant.loads.paper import PaperLoad
 from svsa_server.sessions.recording import open_catalogue
 from tests.runs.records.records import Command, add, list_ids, wait_until
 

@@ -10,7 +10,7 @@ from svsa.runs.configuration import Lane
 from svsa.runs.paper import get_figure
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.runs.records.writer import write_record
-from svsa.simulation.plant.loads import MassLoad
+from svsa.simulation.plant.loads.mass import MassLoad
 from tests.runs.records.records import build_header, build_samples
 from tests.server.routes.runs.conftest import FIRST_TICK, POSITION, TICKS
 

@@ -6,10 +6,10 @@ import type {
   Axis,
   Body,
   Configuration,
-  EffectsPreset,
   EffectsRequest,
   FaultKind,
   Figure,
+  Kinds,
   Lane,
   Law,
   LawRow,
@@ -109,7 +109,7 @@ export const putLanes = (comparisons: readonly Lane[]) =>
 /** lane: its number, from 2 on; its plant stays where it is. */
 export const putLane = (lane: number, controller: Lane) =>
   send("put", `/lanes/${lane}`, controller);
-export const readPresets = () => request("get", "effects") as Promise<EffectsPreset[]>;
+export const readKinds = () => request("get", "kinds") as Promise<Kinds>;
 export const putEffects = (effects: EffectsRequest) => send("put", "/effects", effects);
 export const patchActuator = (patch: ActuatorPatch) => call("patch", "/actuator", patch);
 export const patchNominal = (patch: ActuatorPatch) => call("patch", "/nominal", patch);

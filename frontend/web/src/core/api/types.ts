@@ -20,6 +20,12 @@ export type Lane = Schemas["Lane"];
 export type Gains = Schemas["Gains"];
 export type SessionFault = NonNullable<SessionState["fault"]>;
 export type EffectsPreset = Schemas["EffectsPreset"];
+/** What varies, except for laws. */
+export type Kinds = Schemas["Kinds"];
+export type EffectRow = Schemas["EffectState"];
+export type FormField = Schemas["FormField"];
+/** A number that a kind of something has. */
+export type ParameterRow = Schemas["ParameterState"];
 /** A figure's run compared with the paper's claim. */
 export type Claim = Schemas["ClaimState"];
 export type ClaimNumbers = Claim["numbers"][number];
@@ -28,7 +34,10 @@ export type FaultKind = Schemas["FaultKindState"];
 /** The name of a law. */
 export type Law = Configuration["law"];
 export type LawRow = Omit<Schemas["LawState"], "parameters"> & { parameters: LawParameter[] };
-export type LawParameter = Omit<Schemas["ParameterState"], "least" | "most">;
+/** A law's parameters have a default. */
+export type LawParameter = Omit<ParameterRow, "default"> & {
+  default: NonNullable<ParameterRow["default"]>;
+};
 export type Speed = SessionState["speed"];
 export type LoadRow = Schemas["LoadState"];
 export type LaneRow = SessionState["lanes"][number];

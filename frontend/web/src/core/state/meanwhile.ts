@@ -2,6 +2,7 @@
 import type { Configuration, SessionState } from "../api/types";
 import { quantityOf } from "../quantities";
 import { text } from "../text/en";
+import { effectQuantityOf } from "./kinds";
 import { titleOf } from "./laws";
 import { show } from "./refusal";
 import { session } from "./session";
@@ -56,7 +57,7 @@ function nameOf(path: string): string {
 
 function describe([path, value]: [path: string, value: unknown]): string | null {
   if (path === "law") return text.meanwhile.law(titleOf(String(value)));
-  const quantity = quantityOf(nameOf(path));
+  const quantity = quantityOf(nameOf(path)) ?? effectQuantityOf(path);
   if (quantity === null || typeof value !== "number" || path.includes("coefficients")) return null;
   return text.meanwhile.value(quantity.label, show(value, quantity));
 }

@@ -1,4 +1,4 @@
-/** The plant of a session or a run: simulated or a bench, its non-ideal effects and the loads on it. */
+/** The plant of a session or a run: simulated or a bench and the loads on it. */
 
 import { signal } from "@preact/signals";
 import type { BenchState, Load, LoadRow, RunDetails, SessionState } from "../api/types";
@@ -16,18 +16,6 @@ export function markOf(plant: RunDetails["plant"]): Mark | null {
   if (plant === "simulated") return null;
   return plant === "emulated" ? "emulated" : "real";
 }
-
-// What separates the simulation from a bench: the effects.
-
-export const EFFECTS = [
-  "encoders",
-  "estimation",
-  "friction",
-  "current_lag",
-  "noise",
-  "gravity",
-] as const;
-export type Effect = (typeof EFFECTS)[number];
 
 // The 3 kg load: which of the session's loads it is, and the form in which it is hung next.
 

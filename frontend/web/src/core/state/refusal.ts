@@ -3,6 +3,7 @@ import type { RefusedError, Violation } from "../api/errors";
 import { type Quantity, quantityOf } from "../quantities";
 import { text } from "../text/en";
 import { formatInput } from "../units";
+import { effectQuantityOf } from "./kinds";
 import { parameterOf } from "./laws";
 
 const words = text.refusal;
@@ -14,7 +15,8 @@ export function explainRefusal({ message, violations }: RefusedError): string {
 }
 
 export function explainViolation(violation: Violation): string {
-  const quantity = quantityOf(violation.name) ?? parameterOf(violation.name);
+  const quantity =
+    quantityOf(violation.name) ?? effectQuantityOf(violation.name) ?? parameterOf(violation.name);
   if (quantity === null) return violation.message;
   const { label } = quantity;
   if (violation.finding) return words.finding(label, violation.finding);

@@ -1,6 +1,6 @@
 import { useState } from "preact/hooks";
 import { removeAllLoads, removeLoad } from "../../core/api/client";
-import type { LoadRow, SessionState } from "../../core/api/types";
+import type { SessionState } from "../../core/api/types";
 import { perform } from "../../core/state/actions";
 import {
   isRealBench,
@@ -10,7 +10,6 @@ import {
   weightForm,
 } from "../../core/state/plant";
 import { text } from "../../core/text/en";
-import { formatNumber } from "../../core/units";
 import { Choice, Problem } from "../../core/widgets/form";
 import { CustomLoad } from "./customload";
 import { Group } from "./group";
@@ -20,14 +19,6 @@ const FORMS: readonly { value: WeightForm; label: string }[] = [
   { value: "mass", label: text.load.mass },
 ];
 
-function describe({ load }: LoadRow): string {
-  if (load.kind === "paper") return text.load.paperRow;
-  if (load.kind === "mass") return text.load.massRow(formatNumber(load.mass_kg ?? 3));
-  if (load.kind === "series") return text.load.seriesRow;
-  const torques = load.torque_nm.map((torque) => formatNumber(torque)).join(", ");
-  return text.load.torqueRow(text.load.kinds[load.kind], torques);
-}
-
 function LoadRows({ state }: { state: SessionState }) {
   const rows = presentLoads(state);
   if (rows.length === 0 || rows.every((row) => row.active && isWeight(row))) return null;
@@ -36,13 +27,13 @@ function LoadRows({ state }: { state: SessionState }) {
       {rows.map((row) => (
         <li key={row.id}>
           <span>
-            {describe(row)}
+            {row.label}
             {!row.active && ` · ${text.load.comesAt(row.start_s)}`}
           </span>
           <button
             type="button"
             class="quiet"
-            aria-label={text.load.removeThis(describe(row))}
+            aria-label={text.load.removeThis(row.label)}
             onClick={() => void perform("load.rows", () => removeLoad(row.id))}
           >
             ✕

@@ -1,11 +1,9 @@
 import { useRef } from "preact/hooks";
 import { putEffects } from "../../core/api/client";
-import type { Effects, SessionState } from "../../core/api/types";
-import { shownAs } from "../../core/quantities";
+import type { EffectRow, Effects, SessionState } from "../../core/api/types";
 import { perform } from "../../core/state/actions";
+import { choosePreset, kinds, type Preset, shownAsDescribed } from "../../core/state/kinds";
 import { standing } from "../../core/state/meanwhile";
-import { EFFECTS, type Effect } from "../../core/state/plant";
-import { choosePreset, type Preset } from "../../core/state/presets";
 import { text } from "../../core/text/en";
 import { Choice, Problem } from "../../core/widgets/form";
 import { Field } from "./field";
@@ -33,7 +31,11 @@ export function Realism({ state }: { state: SessionState }) {
         />
       }
     >
-      <p class="hint">{preset === null ? words.mixture : words.does[preset]}</p>
+      <p class="hint">
+        {preset === null
+          ? words.mixture
+          : kinds.value?.presets.find(({ name }) => name === preset)?.summary}
+      </p>
       <Problem control="realism.preset" />
       <details class="more">
         <summary>{words.each}</summary>
@@ -47,25 +49,14 @@ export function Realism({ state }: { state: SessionState }) {
   );
 }
 
-type ValueKey = keyof typeof words.values;
-
-const VALUES: Record<Effect, readonly ValueKey[]> = {
-  encoders: ["motor_counts_per_rev", "gear_ratio", "deflection_counts_per_rev"],
-  estimation: ["corner_rad_per_s"],
-  friction: ["coulomb1_nm", "coulomb2_nm", "static_ratio", "stribeck_rad_per_s"],
-  current_lag: ["time_constant_s"],
-  noise: ["motor_std_rad", "deflection_std_rad"],
-  gravity: ["moment_nm"],
-};
-
-interface EffectRowProps {
+interface SwitchProps {
   name: string;
   label: string;
   isOn: boolean;
   onToggle: (isOn: boolean) => unknown;
 }
 
-function EffectRow({ name, label, isOn, onToggle }: EffectRowProps) {
+function Switch({ name, label, isOn, onToggle }: SwitchProps) {
   return (
     <>
       <label class="check">
@@ -81,64 +72,73 @@ function EffectRow({ name, label, isOn, onToggle }: EffectRowProps) {
   );
 }
 
-/** Every effect with its switch, and with its values while it is on. */
-function EffectList({ effects }: { effects: Effects }) {
-  const last = useRef<Partial<Effects>>({});
-  for (const effect of EFFECTS) {
-    if (effects[effect]) last.current = { ...last.current, [effect]: effects[effect] };
+type Values = Record<string, unknown>;
+
+interface EffectControlProps {
+  effect: EffectRow;
+  effects: Effects;
+  /** What it was set to when it was last on. */
+  last: Values | undefined;
+}
+
+/** An effect as its description has it: a switch, with its values while it is on, or one value. */
+function EffectControl({ effect, effects, last }: EffectControlProps) {
+  const name = `realism.${effect.name}`;
+  const find = (held: Effects) => (held as Values)[effect.name];
+  const send = (value: unknown) =>
+    putEffects({ ...standing("effects", effects), [effect.name]: value } as Effects);
+  const toggle = (value: unknown) => perform(name, () => send(value));
+  const held = find(effects);
+  if (effect.value?.kind === "number") {
+    return (
+      <Field name={name} {...shownAsDescribed(effect.value)} value={held as number} send={send} />
+    );
   }
-  const change = (changes: Partial<Record<keyof Effects, unknown>>) =>
-    putEffects({ ...standing("effects", effects), ...changes } as Effects);
+  const isOn = Boolean(held);
+  const onToggle = (next: boolean) => toggle(effect.value ? next : next ? (last ?? {}) : null);
+  return (
+    <div>
+      <Switch name={name} label={effect.meaning} isOn={isOn} onToggle={onToggle} />
+      {isOn &&
+        effect.parameters.map((row) => (
+          <Field
+            key={row.name}
+            name={`${name}.${row.name}`}
+            {...shownAsDescribed(row)}
+            value={(held as Values)[row.name] as number}
+            send={(value) =>
+              send({
+                ...((find(standing("effects", effects)) ?? held) as Values),
+                [row.name]: value,
+              })
+            }
+          />
+        ))}
+    </div>
+  );
+}
+
+/** Every effect that the server describes: those with parameters first. */
+function EffectList({ effects }: { effects: Effects }) {
+  const last = useRef<Record<string, Values>>({});
+  const rows = kinds.value?.effects ?? [];
+  for (const { name, value } of rows) {
+    const held = (effects as Values)[name];
+    if (value === null && held) last.current = { ...last.current, [name]: held as Values };
+  }
+  const order = (row: EffectRow) => ["flag", "number"].indexOf(row.value?.kind ?? "");
   return (
     <div class="effects">
-      {EFFECTS.map((effect) => {
-        const held = effects[effect] as Record<string, number> | null | undefined;
-        const name = `realism.${effect}`;
-        return (
-          <div key={effect}>
-            <EffectRow
-              name={name}
-              label={words.effects[effect]}
-              isOn={Boolean(held)}
-              onToggle={(isOn) =>
-                perform(name, () =>
-                  change({ [effect]: isOn ? (last.current[effect] ?? {}) : null }),
-                )
-              }
-            />
-            {held &&
-              VALUES[effect].map((key) => (
-                <Field
-                  key={key}
-                  name={`${name}.${key}`}
-                  {...shownAs(key)}
-                  value={held[key] as number}
-                  send={(value) =>
-                    change({
-                      [effect]: { ...(standing("effects", effects)[effect] ?? held), [key]: value },
-                    })
-                  }
-                />
-              ))}
-          </div>
-        );
-      })}
-      <div>
-        <EffectRow
-          name="realism.torque_limits"
-          label={words.torqueLimits}
-          isOn={effects.torque_limits}
-          onToggle={(isOn) =>
-            perform("realism.torque_limits", () => change({ torque_limits: isOn }))
-          }
-        />
-      </div>
-      <Field
-        name="realism.delay"
-        {...shownAs("delay_samples")}
-        value={effects.delay_samples}
-        send={(samples) => change({ delay_samples: samples })}
-      />
+      {[...rows]
+        .sort((one, other) => order(one) - order(other))
+        .map((effect) => (
+          <EffectControl
+            key={effect.name}
+            effect={effect}
+            effects={effects}
+            last={last.current[effect.name]}
+          />
+        ))}
     </div>
   );
 }

@@ -9,25 +9,24 @@ import {
 } from "../../core/api/design";
 import type { PositionReference, Sent, StiffnessReference } from "../../core/api/types";
 import { explain, perform } from "../../core/state/actions";
+import { firstOf, kinds, readForm, shownAsDescribed } from "../../core/state/kinds";
 import { session } from "../../core/state/session";
 import { text } from "../../core/text/en";
 import { DEGREES_PER_RADIAN, formatNumber } from "../../core/units";
 import { Choice, ErrorLine, NumberBox, Problem } from "../../core/widgets/form";
 import { Levels, Series } from "./listed";
 import {
-  buildReference,
   drawCourse,
   FIRST,
   INPUTS,
   type Input,
+  type Listed,
   readLevels,
-  SHAPES,
-  type Shape,
   writeLevels,
 } from "./shapes";
 
 const words = text.references;
-const OPTIONS = SHAPES.map((value) => ({ value, label: words.kinds[value] }));
+const isListed = (shape: string): shape is Listed => shape === "steps" || shape === "series";
 const PAUSE_MS = 300;
 const repeat = (follows: Follows) =>
   follows === "position" ? repeatPosition() : repeatStiffness();
@@ -66,29 +65,34 @@ function listLevels({ low, high, hold, count }: Record<Input, string>): string |
 
 /** A reference with a beginning and an end: typed or from a CSV, looked at, then applied. */
 export function Shaped({ follows, held }: { follows: Follows; held: string }) {
-  const [shape, setShape] = useState<Shape>(SHAPES.find((known) => known === held) ?? "steps");
-  const [typed, setTyped] = useState(FIRST[follows]);
+  const described = kinds.value?.[follows].filter(({ form }) => form !== null) ?? [];
+  const shapes = [
+    { value: "steps", label: words.kinds.steps },
+    ...described.map((one) => ({ value: one.kind, label: one.title })),
+    { value: "series", label: words.kinds.series },
+  ];
+  const isKnown = shapes.some(({ value }) => value === held);
+  const [shape, setShape] = useState(isKnown ? held : "steps");
+  const [steps, setSteps] = useState(FIRST[follows]);
+  const [typed, setTyped] = useState<Record<string, string>>({});
   const [csv, setCsv] = useState<string>(words.example[follows]);
   const [levels, setLevels] = useState(listLevels(FIRST[follows]) ?? "");
   const [wanted, setWanted] = useState<Wanted | null>(null);
   const [refusal, setRefusal] = useState("");
   const unit = follows === "position" ? "deg" : "N·m/rad";
-  const units: Partial<Record<Input, string>> = {
-    hold: "s",
-    count: "",
-    duration: "s",
-    startHz: "Hz",
-    endHz: "Hz",
-  };
+  const units: Partial<Record<Input, string>> = { hold: "s", count: "" };
+  const kind = described.find((one) => one.kind === shape);
+  const form = kind?.form ?? [];
+  const values = { ...firstOf(form), ...typed };
 
   useEffect(() => {
     let isLatest = true;
     setWanted(null);
     const read = () => {
       if (shape === "series") return readCsv(follows, csv);
-      return shape === "steps"
-        ? readLevels(follows, levels)
-        : buildReference(follows, shape, typed);
+      if (shape === "steps") return readLevels(follows, levels);
+      const numbers = readForm(form, values);
+      return numbers && ({ kind: shape, ...numbers } as Reference);
     };
     const look = async () => {
       try {
@@ -106,12 +110,12 @@ export function Shaped({ follows, held }: { follows: Follows; held: string }) {
       isLatest = false;
       clearTimeout(timer);
     };
-  }, [follows, shape, typed, csv, levels]);
+  }, [follows, shape, typed, csv, levels, kind]);
 
   const type = (name: Input, value: string) => {
-    const next = { ...typed, [name]: value };
-    setTyped(next);
-    if (shape === "steps") setLevels(listLevels(next) ?? levels);
+    const next = { ...steps, [name]: value };
+    setSteps(next);
+    setLevels(listLevels(next) ?? levels);
   };
 
   const submit = (event: Event) => {
@@ -121,21 +125,27 @@ export function Shaped({ follows, held }: { follows: Follows; held: string }) {
 
   return (
     <form class="shaped" onSubmit={submit}>
-      <Choice label={words.kind} options={OPTIONS} value={shape} onChoose={setShape} />
-      {shape === "series" ? (
-        <Series list={csv} onList={setCsv} />
-      ) : (
-        INPUTS[shape].map((name) => (
+      <Choice label={words.kind} options={shapes} value={shape} onChoose={setShape} />
+      {shape === "series" && <Series list={csv} onList={setCsv} />}
+      {shape === "steps" &&
+        INPUTS.map((name) => (
           <NumberBox
             key={name}
             label={words.inputs[name]}
             unit={units[name] ?? unit}
-            value={typed[name]}
+            value={steps[name]}
             onInput={(value) => type(name, value)}
           />
-        ))
-      )}
+        ))}
       {shape === "steps" && <Levels unit={unit} list={levels} onList={setLevels} />}
+      {form.map(({ parameter }) => (
+        <NumberBox
+          key={`${shape}.${parameter.name}`}
+          {...shownAsDescribed(parameter)}
+          value={values[parameter.name] ?? ""}
+          onInput={(value) => setTyped({ ...typed, [parameter.name]: value })}
+        />
+      ))}
       {wanted && (
         <Course
           preview={wanted.preview}
@@ -148,7 +158,7 @@ export function Shaped({ follows, held }: { follows: Follows; held: string }) {
         <button type="submit" class="button" disabled={wanted === null}>
           {words.apply}
         </button>
-        {SHAPES.some((known) => known === held) && (
+        {isKnown && (
           <button
             type="button"
             class="button"
@@ -159,7 +169,7 @@ export function Shaped({ follows, held }: { follows: Follows; held: string }) {
           </button>
         )}
       </div>
-      <p class="hint">{words.does[shape]}</p>
+      <p class="hint">{isListed(shape) ? words.does[shape] : kind?.hint}</p>
       <Problem control={`${follows}.shaped`} />
     </form>
   );

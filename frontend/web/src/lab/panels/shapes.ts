@@ -1,91 +1,18 @@
-/** References with a beginning and an end, from the numbers that people type. */
+/** Steps and time series, from what people type. */
 import type { Follows, Reference } from "../../core/api/design";
 import { text } from "../../core/text/en";
 import { DEGREES_PER_RADIAN } from "../../core/units";
 
-export const SHAPES = ["steps", "minimum_jerk", "chirp", "series"] as const;
-export type Shape = (typeof SHAPES)[number];
-type Typed = Exclude<Shape, "series">;
-export type Input =
-  | "low"
-  | "high"
-  | "hold"
-  | "count"
-  | "from"
-  | "to"
-  | "duration"
-  | "mean"
-  | "amplitude"
-  | "startHz"
-  | "endHz";
+/** Those that have a form of their own; any other is described by the server. */
+export type Listed = "steps" | "series";
+export type Input = "low" | "high" | "hold" | "count";
 
-export const INPUTS: Record<Typed, readonly Input[]> = {
-  steps: ["low", "high", "hold", "count"],
-  minimum_jerk: ["from", "to", "duration"],
-  chirp: ["mean", "amplitude", "startHz", "endHz", "duration"],
-};
-
-/** In the units on screen: degrees or N·m/rad, s, Hz. */
+/** Of steps, in the units on screen: degrees or N·m/rad, s. */
 export const FIRST: Record<Follows, Record<Input, string>> = {
-  position: {
-    low: "-20",
-    high: "20",
-    hold: "2",
-    count: "4",
-    from: "0",
-    to: "40",
-    duration: "5",
-    mean: "0",
-    amplitude: "10",
-    startHz: "0.1",
-    endHz: "1",
-  },
-  stiffness: {
-    low: "15",
-    high: "30",
-    hold: "2",
-    count: "4",
-    from: "15",
-    to: "60",
-    duration: "5",
-    mean: "30",
-    amplitude: "3",
-    startHz: "0.1",
-    endHz: "1",
-  },
+  position: { low: "-20", high: "20", hold: "2", count: "4" },
+  stiffness: { low: "15", high: "30", hold: "2", count: "4" },
 };
-
-/** Of a shape that its numbers alone make; null while a number is missing or is none. */
-export function buildReference(
-  follows: Follows,
-  shape: Exclude<Typed, "steps">,
-  typed: Record<Input, string>,
-): Reference | null {
-  const read = (name: Input) => (typed[name].trim() === "" ? Number.NaN : Number(typed[name]));
-  if (!INPUTS[shape].every((name) => Number.isFinite(read(name)))) return null;
-  const isPosition = follows === "position";
-  const unit = isPosition ? "rad" : "nm_per_rad";
-  const level = (name: Input) => read(name) / (isPosition ? DEGREES_PER_RADIAN : 1);
-  const write = (): Record<string, unknown> => {
-    switch (shape) {
-      case "minimum_jerk":
-        return {
-          [`start_${unit}`]: level("from"),
-          [`end_${unit}`]: level("to"),
-          duration_s: read("duration"),
-        };
-      case "chirp":
-        return {
-          [`offset_${unit}`]: level("mean"),
-          [`amplitude_${unit}`]: level("amplitude"),
-          start_hz: read("startHz"),
-          end_hz: read("endHz"),
-          duration_s: read("duration"),
-        };
-    }
-  };
-  return { kind: shape, ...write() } as Reference;
-}
+export const INPUTS = Object.keys(FIRST.position) as Input[];
 
 /** The points of a polyline in a box of this size, greatest on top. */
 export function drawCourse(

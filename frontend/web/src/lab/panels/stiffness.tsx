@@ -48,19 +48,13 @@ function SineFields({ reference }: { reference: Sine }) {
   );
 }
 
-/** What to hold, or to swing about, after this reference. */
+/** What to hold, or to swing about, after this reference: its mean, or else its last level. */
 function meanOf(reference: StiffnessReference): number {
-  switch (reference.kind) {
-    case "sine":
-    case "chirp":
-      return reference.offset_nm_per_rad;
-    case "constant":
-      return reference.stiffness_nm_per_rad;
-    case "minimum_jerk":
-      return reference.end_nm_per_rad;
-    default:
-      return reference.stiffness_nm_per_rad.at(-1) as number;
-  }
+  const fields: Record<string, unknown> = reference;
+  const { offset_nm_per_rad, end_nm_per_rad, stiffness_nm_per_rad } = fields;
+  const found = offset_nm_per_rad ?? end_nm_per_rad ?? stiffness_nm_per_rad;
+  const last = Array.isArray(found) ? found.at(-1) : found;
+  return typeof last === "number" ? last : REACH.min;
 }
 
 export function Stiffness({ state }: { state: SessionState }) {

@@ -1,7 +1,9 @@
 import "../../browserless";
 import { describe, expect, it } from "vitest";
 import type { Violation } from "../../../src/core/api/errors";
+import type { Kinds } from "../../../src/core/api/types";
 import { QUANTITIES, quantityOf } from "../../../src/core/quantities";
+import { effectQuantityOf, kinds } from "../../../src/core/state/kinds";
 import { explainViolation } from "../../../src/core/state/refusal";
 
 const violation = (change: Partial<Violation>): Violation => ({
@@ -15,6 +17,30 @@ const violation = (change: Partial<Violation>): Violation => ({
   ...change,
 });
 
+const row = { symbol: "", kind: "number", default: 0, low: 0 } as const;
+const LAG: Kinds = {
+  presets: [],
+  loads: [],
+  position: [],
+  stiffness: [],
+  effects: [
+    {
+      name: "current_lag",
+      meaning: "Lag of the current loop",
+      value: null,
+      parameters: [
+        { ...row, name: "time_constant_s", meaning: "Time constant", unit: "s", high: 0.05 },
+      ],
+    },
+    {
+      name: "delay_samples",
+      meaning: "Delay of the torque",
+      value: { ...row, name: "delay_samples", meaning: "Delay", unit: "samples", high: 5 },
+      parameters: [],
+    },
+  ],
+};
+
 describe("a refusal on the page", () => {
   it("has the name and the unit that the user typed", () => {
     const amplitude = violation({
@@ -26,6 +52,7 @@ describe("a refusal on the page", () => {
     expect(explainViolation(amplitude)).toBe(
       "Amplitude: 9999 deg is out of range, at most 360 deg. It stays as it was.",
     );
+    kinds.value = LAG;
     const lag = violation({
       name: "current_lag.time_constant_s",
       value: 0.2,
@@ -43,7 +70,10 @@ describe("a refusal on the page", () => {
     expect(names("bandwidth_rad_per_s[2]")).toContain("Motor 2");
     expect(names("actuator.link_inertia_kg_m2")).toBe("M link inertia, True");
     expect(names("nominal.link_inertia_kg_m2")).toBe("M link inertia, Model");
-    expect(names("noise.motor_std_rad")).toBe("Motors, std. dev.");
+    kinds.value = LAG;
+    expect(effectQuantityOf("current_lag.time_constant_s")?.label).toBe("Time constant");
+    expect(effectQuantityOf("delay_samples")?.unit).toBe("samples");
+    expect(effectQuantityOf("noise.time_constant_s")).toBeNull();
   });
 
   it("tells poles, not coefficients", () => {

@@ -1,37 +1,5 @@
 import { describe, expect, it } from "vitest";
-import {
-  buildReference,
-  drawCourse,
-  FIRST,
-  INPUTS,
-  readLevels,
-  writeLevels,
-} from "../../../src/lab/panels/shapes";
-
-describe("references from what is typed", () => {
-  it("stiffness stays in its own unit", () => {
-    expect(buildReference("stiffness", "minimum_jerk", FIRST.stiffness)).toEqual({
-      kind: "minimum_jerk",
-      start_nm_per_rad: 15,
-      end_nm_per_rad: 60,
-      duration_s: 5,
-    });
-  });
-
-  it("a chirp has its frequencies and its angle", () => {
-    const chirp = buildReference("position", "chirp", { ...FIRST.position, amplitude: "90" });
-    expect(chirp).toMatchObject({ amplitude_rad: Math.PI / 2, start_hz: 0.1, end_hz: 1 });
-  });
-
-  it("is nothing while a number that it needs is missing, and needs no other", () => {
-    for (const shape of ["minimum_jerk", "chirp"] as const) {
-      for (const name of INPUTS[shape]) {
-        expect(buildReference("position", shape, { ...FIRST.position, [name]: " " })).toBeNull();
-      }
-    }
-    expect(buildReference("position", "chirp", { ...FIRST.position, low: "" })).not.toBeNull();
-  });
-});
+import { drawCourse, readLevels, writeLevels } from "../../../src/lab/panels/shapes";
 
 describe("steps", () => {
   it("between two levels are a list", () => {

@@ -1,9 +1,21 @@
-"""The motors: from the commanded torque to their actual torque, and their friction."""
+"""The current loop of the drives: from the delayed torque to the actual one."""
 
 from svsa.actuators.signals import Torque
+from svsa.inputs.checked import Checked, Number, quantity
 from svsa.numerics.compilation import compiled
-from svsa.numerics.exponential import exp, expm1, tanh
+from svsa.numerics.exponential import exp, expm1
 from svsa.numerics.simd.choice import choose, some
+from svsa.simulation.plant.effects.effect import Effect, Surroundings
+
+
+class CurrentLag(Checked):
+    """The current loop of the drives as a first-order lag."""
+
+    time_constant_s: Number = quantity("s", "Time constant", ge=1e-5, le=0.05, default=0.0005)
+
+
+def _build(lag: CurrentLag, _: Surroundings) -> float:
+    return lag.time_constant_s
 
 
 @compiled
@@ -59,16 +71,15 @@ def compute_late_torque(
     return compute_lagged_torque(met, delayed, lag, rest), mean
 
 
-@compiled
-def compute_friction(
-    velocity: float, coulomb: float, static: float, stribeck: float, creep: float
-) -> float:
-    """τ_f = [τ_c + (τ_s − τ_c) e^(−(v/v_s)²)] tanh(v/v_c), N·m, against the motion.
-
-    velocity v: rad/s. coulomb τ_c, static τ_s: N·m. stribeck v_s: rad/s, > 0. creep v_c:
-    rad/s, > 0, the velocity at which a motor that should stick creeps; the tanh stands for
-    the sign, so that the equations stay differentiable.
-    """
-    ratio = velocity / stribeck
-    level = coulomb + (static - coulomb) * exp(-ratio * ratio)
-    return level * tanh(velocity / creep)
+EFFECT = Effect(
+    name="current_lag",
+    place=40,
+    kind=CurrentLag | None,
+    field=quantity("", "Lag of the current loop", default=None),
+    words="current lag",
+    preset="full",
+    on=CurrentLag(),
+    phrase="the lag of the current loop",
+    off=0.0,
+    build=_build,
+)

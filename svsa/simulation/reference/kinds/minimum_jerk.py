@@ -1,11 +1,14 @@
 """From rest to rest with the least jerk, as a hand moves (Flash and Hogan 1985)."""
 
-from typing import Literal, Self
+import math
+from collections.abc import Mapping
+from typing import ClassVar, Literal, Self
 
 from pydantic import model_validator
 
-from svsa.inputs.checked import Checked, Number, quantity
+from svsa.inputs.checked import Number, quantity
 from svsa.simulation.reference.curve import Curve, build_curve, check_curve
+from svsa.simulation.reference.kinds.reference import AnyPosition, AnyReference, AnyStiffness
 from svsa.simulation.reference.shape import (
     FASTEST_POSITION,
     FULL_TURN_RAD,
@@ -16,7 +19,7 @@ from svsa.simulation.reference.shape import (
 )
 
 
-class _MinimumJerk(Checked):
+class _MinimumJerk(AnyReference):
     """What the movements of position and stiffness share.
 
     r = a + (b − a)(10 s³ − 15 s⁴ + 6 s⁵), s = t/T from 0 to 1: the least ∫ r⃛² dt that comes
@@ -24,8 +27,12 @@ class _MinimumJerk(Checked):
     follows at once: a short error there is the reference's, not the law's.
     """
 
+    hint: ClassVar[str] = "The least jerk from rest to rest; the jerk itself jumps at both ends."
+
     kind: Literal["minimum_jerk"] = "minimum_jerk"
-    duration_s: Number = quantity("s", "Duration T of the movement", ge=0.05, le=3600)
+    duration_s: Number = quantity(
+        "s", "Duration T of the movement", symbol="Duration", ge=0.05, le=3600
+    )
     transition_s: Number = quantity("s", "Time to fade over from the old reference", **TRANSITION)
 
     def _build_curve(self, start: float, end: float) -> Curve:
@@ -34,13 +41,21 @@ class _MinimumJerk(Checked):
         return build_curve([(0.0, powers), (self.duration_s, (end,))])
 
 
-class MinimumJerkPosition(_MinimumJerk):
+class MinimumJerkPosition(_MinimumJerk, AnyPosition):
     """A movement of q_d: see `_MinimumJerk`."""
 
+    first: ClassVar[Mapping[str, float] | None] = {
+        "start_rad": 0.0,
+        "end_rad": math.radians(40.0),
+        "duration_s": 5.0,
+    }
+
     start_rad: Number = quantity(
-        "rad", "Where it begins", ge=-FULL_TURN_RAD, le=FULL_TURN_RAD, default=0.0
+        "rad", "Where it begins", symbol="From", ge=-FULL_TURN_RAD, le=FULL_TURN_RAD, default=0.0
     )
-    end_rad: Number = quantity("rad", "Where it ends", ge=-FULL_TURN_RAD, le=FULL_TURN_RAD)
+    end_rad: Number = quantity(
+        "rad", "Where it ends", symbol="To", ge=-FULL_TURN_RAD, le=FULL_TURN_RAD
+    )
 
     @model_validator(mode="after")
     def _check_speed(self) -> Self:
@@ -53,11 +68,21 @@ class MinimumJerkPosition(_MinimumJerk):
         return build_curve_shape(self._build_curve(self.start_rad, self.end_rad))
 
 
-class MinimumJerkStiffness(_MinimumJerk):
+class MinimumJerkStiffness(_MinimumJerk, AnyStiffness):
     """A movement of σ_d, inside the range of the limits: see `_MinimumJerk`."""
 
-    start_nm_per_rad: Number = quantity("N·m/rad", "Where it begins", gt=0, le=MAX_NM_PER_RAD)
-    end_nm_per_rad: Number = quantity("N·m/rad", "Where it ends", gt=0, le=MAX_NM_PER_RAD)
+    first: ClassVar[Mapping[str, float] | None] = {
+        "start_nm_per_rad": 15.0,
+        "end_nm_per_rad": 60.0,
+        "duration_s": 5.0,
+    }
+
+    start_nm_per_rad: Number = quantity(
+        "N·m/rad", "Where it begins", symbol="From", gt=0, le=MAX_NM_PER_RAD
+    )
+    end_nm_per_rad: Number = quantity(
+        "N·m/rad", "Where it ends", symbol="To", gt=0, le=MAX_NM_PER_RAD
+    )
 
     def get_shape(self) -> Shape:
         """Its row of the stack."""

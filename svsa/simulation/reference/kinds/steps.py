@@ -5,8 +5,9 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from svsa.inputs.checked import Checked, Number, quantity
+from svsa.inputs.checked import Number, quantity
 from svsa.simulation.reference.curve import Curve, Points, build_curve, check_curve, check_points
+from svsa.simulation.reference.kinds.reference import AnyPosition, AnyReference, AnyStiffness
 from svsa.simulation.reference.shape import (
     FASTEST_POSITION,
     FULL_TURN_RAD,
@@ -25,7 +26,7 @@ _Position = Annotated[Number, Field(ge=-FULL_TURN_RAD, le=FULL_TURN_RAD)]
 _Stiffness = Annotated[Number, Field(gt=0, le=MAX_NM_PER_RAD)]
 
 
-class _Steps(Checked):
+class _Steps(AnyReference):
     """What the steps of position and stiffness share.
 
     The first level holds from the beginning; at each later time the level goes to the next one
@@ -49,7 +50,7 @@ class _Steps(Checked):
         return build_curve(pieces)
 
 
-class StepsPosition(_Steps):
+class StepsPosition(_Steps, AnyPosition):
     """Steps of q_d: see `_Steps`."""
 
     position_rad: Annotated[tuple[_Position, ...], Field(min_length=1, max_length=MAX_STEPS)] = (
@@ -70,7 +71,7 @@ class StepsPosition(_Steps):
         return build_curve_shape(self._curve)
 
 
-class StepsStiffness(_Steps):
+class StepsStiffness(_Steps, AnyStiffness):
     """Steps of σ_d, inside the range of the limits: see `_Steps`."""
 
     stiffness_nm_per_rad: Annotated[

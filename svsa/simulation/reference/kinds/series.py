@@ -7,8 +7,9 @@ import numpy as np
 from pydantic import Field, model_validator
 
 from svsa.errors import ParameterError, Violation
-from svsa.inputs.checked import Checked, Number, quantity
+from svsa.inputs.checked import Number, quantity
 from svsa.simulation.reference.curve import DEGREE, Curve, Points, check_curve, check_points
+from svsa.simulation.reference.kinds.reference import AnyPosition, AnyReference, AnyStiffness
 from svsa.simulation.reference.shape import (
     FASTEST_POSITION,
     FASTEST_STIFFNESS,
@@ -30,7 +31,7 @@ _Stiffness = Annotated[Number, Field(gt=0, le=MAX_NM_PER_RAD)]
 _Rows = Field(min_length=2, max_length=MAX_ROWS)
 
 
-class _Series(Checked):
+class _Series(AnyReference):
     """What the series of position and stiffness share.
 
     The spline of degree 7 goes through every point and is at rest (first three derivatives
@@ -45,7 +46,7 @@ class _Series(Checked):
     transition_s: Number = quantity("s", "Time to fade over from the old reference", **TRANSITION)
 
 
-class SeriesPosition(_Series):
+class SeriesPosition(_Series, AnyPosition):
     """q_d through points of one's own: see `_Series`."""
 
     position_rad: Annotated[tuple[_Position, ...], _Rows] = quantity("rad", "q_d at each time")
@@ -64,7 +65,7 @@ class SeriesPosition(_Series):
         return build_curve_shape(self._curve)
 
 
-class SeriesStiffness(_Series):
+class SeriesStiffness(_Series, AnyStiffness):
     """σ_d through points of one's own, inside the range of the limits: see `_Series`."""
 
     stiffness_nm_per_rad: Annotated[tuple[_Stiffness, ...], _Rows] = quantity(

@@ -15,18 +15,15 @@ from svsa.runs.run import Run
 from svsa.simulation.loop.lane import AT_REST, NO_TORQUE, UNDISTURBED, UNMOVED, Inputs
 from svsa.simulation.loop.loop import decide
 from svsa.simulation.loop.loop import delay as delay_torque
-from svsa.simulation.plant.drive import (
-    compute_friction,
+from svsa.simulation.plant.effects import build_effect_constants
+from svsa.simulation.plant.effects.current_lag import (
+    CurrentLag,
     compute_lagged_torque,
     compute_late_torque,
     compute_mean_torque,
 )
-from svsa.simulation.plant.effects import (
-    MAX_DELAY_SAMPLES,
-    CurrentLag,
-    Friction,
-    build_effect_constants,
-)
+from svsa.simulation.plant.effects.delay_samples import MAX_DELAY_SAMPLES
+from svsa.simulation.plant.effects.friction import Friction, compute_friction
 from svsa.simulation.plant.integration import integrate_period
 from svsa.simulation.reference.transition import build_stack
 from tests.actuators.prototype import DESIGN, IDEAL_BENCH, NO_LOADS, PLANT, drawn, record
@@ -93,7 +90,7 @@ def test_the_plant_feels_the_lag_inside_the_period():
     """A free motor gains (T/B) times the mean torque, not the target's; RK4 sees the curve."""
     effects = svsa.Effects(current_lag=CurrentLag(time_constant_s=5e-4))
     bench = build_effect_constants(effects, 0, DESIGN.actuator, T)
-    mean = compute_mean_torque(START, TARGET, bench.lag, T)
+    mean = compute_mean_torque(START, TARGET, bench.current_lag, T)
     end = integrate_period(FREE, bench, AT_REST, START, TARGET, NO_LOADS, 0, T, 16)
     assert end.dtheta1 == pytest.approx(T * mean.u1 / FREE.B1, rel=1e-6)
     assert end.dtheta2 == pytest.approx(T * mean.u2 / FREE.B2, rel=1e-6)
@@ -133,7 +130,7 @@ def test_a_motor_under_less_torque_than_its_friction_creeps_and_settles(period, 
         speed.append((x.dtheta1, -x.dtheta2))
     speed = np.array(speed)
     assert np.all(speed > 0.0)
-    assert np.all(speed < (bench.creep1, bench.creep2))
+    assert np.all(speed < (bench.friction.creep1, bench.friction.creep2))
     np.testing.assert_allclose(speed[-1], speed[-2], rtol=1e-3)
 
 
@@ -156,7 +153,7 @@ def test_friction_of_one_motor_leaves_the_other_free():
 @pytest.mark.parametrize("samples", range(MAX_DELAY_SAMPLES + 1))
 def test_a_delay_of_d_samples_is_exactly_d_samples(samples):
     """A queue of zeros first; then each torque once, in order, d samples late."""
-    bench = IDEAL_BENCH._replace(delay=samples)
+    bench = IDEAL_BENCH._replace(delay_samples=samples)
     asked, due = (0.0,) * (2 * MAX_DELAY_SAMPLES + 2), []
     for k in range(1, 21):
         asked, torque = delay_torque(bench, asked, Torque(float(k), -float(k)))

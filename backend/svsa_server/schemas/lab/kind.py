@@ -1,0 +1,99 @@
+"""What goes over the wire about what varies: each kind in the words of its own file."""
+
+from collections.abc import Mapping
+
+from pydantic import BaseModel, Field
+
+from svsa.inputs.checked import Checked
+from svsa.simulation.plant.effects import EFFECTS, PRESETS, Effects, describe_preset
+from svsa.simulation.plant.effects.effect import Effect, PresetName
+from svsa.simulation.plant.loads import LOADS
+from svsa.simulation.reference.kinds import POSITIONS, STIFFNESSES
+from svsa_server.schemas.lab.parameter import ParameterState, describe_parameter, list_parameters
+
+
+class EffectState(BaseModel):
+    """A non-ideal effect."""
+
+    name: str
+    meaning: str
+    value: ParameterState | None = Field(
+        description="What it is set to; null of an effect with parameters, which is off as null"
+    )
+    parameters: list[ParameterState] = Field(description="What it has while it is on")
+
+
+class EffectsPreset(BaseModel):
+    """A choice among the non-ideal effects."""
+
+    name: PresetName
+    summary: str
+    effects: Effects
+
+
+class FormField(BaseModel):
+    """A number for which a form asks."""
+
+    parameter: ParameterState
+    first: float = Field(description="What stands there first")
+
+
+class KindState(BaseModel):
+    """A kind of load or reference."""
+
+    kind: str
+    title: str
+    hint: str = Field(description="What a form says of it, or empty")
+    form: list[FormField] | None = Field(
+        description="Of a load besides its torque; null where no form offers it"
+    )
+
+
+class Kinds(BaseModel):
+    """What is found here of all that varies, except for laws."""
+
+    effects: list[EffectState]
+    presets: list[EffectsPreset]
+    loads: list[KindState]
+    position: list[KindState] = Field(description="References of q_d")
+    stiffness: list[KindState] = Field(description="References of σ_d")
+
+
+def list_kinds() -> Kinds:
+    """Every kind that is found here."""
+    return Kinds(
+        effects=[_describe_effect(effect) for effect in EFFECTS],
+        presets=[
+            EffectsPreset(name=name, summary=describe_preset(name), effects=effects)
+            for name, effects in PRESETS.items()
+        ],
+        loads=[_describe_kind(load, load.first) for load in LOADS],
+        position=[_describe_kind(one, one.first, one.hint) for one in POSITIONS],
+        stiffness=[_describe_kind(one, one.first, one.hint) for one in STIFFNESSES],
+    )
+
+
+def _describe_effect(effect: Effect) -> EffectState:
+    value = describe_parameter(Effects, effect.name, Effects.model_fields[effect.name])
+    parameters = type(effect.on)
+    has_own = issubclass(parameters, Checked)
+    return EffectState(
+        name=effect.name,
+        meaning=value.meaning,
+        value=None if has_own else value,
+        parameters=list_parameters(parameters) if has_own else [],
+    )
+
+
+def _describe_kind(
+    model: type[Checked], first: Mapping[str, float] | None, hint: str = ""
+) -> KindState:
+    kind = str(model.model_fields["kind"].default)
+    title = kind.replace("_", " ").capitalize()
+    if first is None:
+        return KindState(kind=kind, title=title, hint=hint, form=None)
+    fields = [
+        FormField(parameter=describe_parameter(model, name, model.model_fields[name]), first=number)
+        for name, number in first.items()
+    ]
+    return KindState(kind=kind, title=title, hint=hint, form=fields)

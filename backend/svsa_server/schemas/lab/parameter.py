@@ -1,0 +1,60 @@
+"""What goes over the wire about the numbers that a kind of something has: of a law, an effect."""
+
+import types
+from typing import Any, Literal, Union, get_args, get_origin
+
+from pydantic import BaseModel, Field
+from pydantic.fields import FieldInfo
+from pydantic_core import to_jsonable_python
+
+from svsa.inputs.checked import read_quantity
+
+ParameterKind = Literal["number", "numbers", "flag", "text", "rows"]
+_KINDS: dict[Any, ParameterKind] = {float: "number", int: "number", bool: "flag", tuple: "numbers"}
+
+
+class ParameterState(BaseModel):
+    """A number, or another value, that can be set."""
+
+    name: str
+    symbol: str = Field(description="What it is called in short")
+    meaning: str
+    unit: str = Field(description='"1" or empty where it has none')
+    kind: ParameterKind
+    default: float | bool | str | list[float] | None = Field(description="Null: it must be given")
+    low: float | None = Field(description="Null where nothing bounds it from below")
+    high: float | None = Field(description="Null where nothing bounds it from above")
+
+
+def list_parameters(model: type[BaseModel]) -> list[ParameterState]:
+    """The fields of a model but for its `kind`, in the words of their declarations."""
+    fields = model.model_fields.items()
+    return [describe_parameter(model, name, field) for name, field in fields if name != "kind"]
+
+
+def describe_parameter(model: type[BaseModel], name: str, field: FieldInfo) -> ParameterState:
+    """A field of a model."""
+    declared = read_quantity(model, name)
+    bounds = {
+        side: next((getattr(m, side) for m in field.metadata if hasattr(m, side)), None)
+        for side in ("ge", "gt", "le", "lt")
+    }
+    return ParameterState(
+        name=name,
+        symbol=declared.symbol,
+        meaning=declared.meaning,
+        unit=declared.unit,
+        kind=_find_kind(field.annotation),
+        default=None if field.is_required() else to_jsonable_python(field.get_default()),
+        low=bounds["ge"] if bounds["ge"] is not None else bounds["gt"],
+        high=bounds["le"] if bounds["le"] is not None else bounds["lt"],
+    )
+
+
+def _find_kind(annotation: Any) -> ParameterKind:
+    origin, inner = get_origin(annotation), get_args(annotation)
+    if origin in (Union, types.UnionType):
+        return _find_kind(inner[0])
+    if origin is not tuple:
+        return _KINDS.get(annotation, "text")
+    return "rows" if get_origin(inner[0]) is tuple else "numbers"

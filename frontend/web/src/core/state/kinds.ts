@@ -1,0 +1,82 @@
+/** What varies, except for laws, as the server describes each kind. */
+import { signal } from "@preact/signals";
+import { putEffects, readKinds } from "../api/client";
+import type {
+  EffectRow,
+  EffectsPreset,
+  FormField,
+  Kinds,
+  ParameterRow,
+  SessionState,
+} from "../api/types";
+import type { Quantity } from "../quantities";
+import { DEGREES_PER_RADIAN, formatInput } from "../units";
+
+const RETRY_MS = 2000;
+const MILLI_BELOW = 0.1;
+
+export type Preset = EffectsPreset["name"];
+
+/** null until the server has answered. */
+export const kinds = signal<Kinds | null>(null);
+
+/** Read them when the page opens, once. */
+export async function openKinds(): Promise<void> {
+  try {
+    kinds.value = await readKinds();
+  } catch {
+    setTimeout(() => void openKinds(), RETRY_MS);
+  }
+}
+
+/** Switch on the effects of a preset, with their default values. */
+export async function choosePreset(name: Preset): Promise<SessionState> {
+  kinds.value ??= await readKinds();
+  const preset = kinds.value.presets.find((one) => one.name === name);
+  return putEffects(preset?.effects ?? {});
+}
+
+/** Label, unit and factor on screen: angles in degrees, what is always small in thousandths. */
+export function shownAsDescribed({ symbol, meaning, unit, high }: ParameterRow): Quantity {
+  const label = symbol || meaning;
+  if (unit === "1" || unit === "") return { label, unit: "" };
+  const isSmall = (unit === "s" || unit === "rad") && high !== null && high <= MILLI_BELOW;
+  if (isSmall) return { label, unit: `m${unit}`, factor: 1e3 };
+  if (unit === "rad") return { label, unit: "deg", factor: DEGREES_PER_RADIAN };
+  return { label, unit };
+}
+
+const listNumbers = ({ value, parameters }: EffectRow): ParameterRow[] =>
+  value === null ? parameters : [value];
+
+/** The quantity of a path such as `noise.motor_std_rad`; null where no effect has one. */
+export function effectQuantityOf(path: string): Quantity | null {
+  const [name, effect] = path.split(".").reverse();
+  const found = kinds.value?.effects
+    .filter((one) => effect === undefined || effect === "effects" || one.name === effect)
+    .flatMap(listNumbers)
+    .find((row) => row.name === name);
+  return found === undefined ? null : shownAsDescribed(found);
+}
+
+/** What stands first in the fields of a form, by their names. */
+export const firstOf = (form: readonly FormField[]): Record<string, string> =>
+  Object.fromEntries(
+    form.map(({ parameter, first }) => {
+      const { factor = 1 } = shownAsDescribed(parameter);
+      return [parameter.name, formatInput(first * factor)];
+    }),
+  );
+
+/** In SI what is typed into a form; null while a number is missing or is none. */
+export function readForm(
+  form: readonly FormField[],
+  typed: Readonly<Record<string, string>>,
+): Record<string, number> | null {
+  const entries = form.map(({ parameter }) => {
+    const written = typed[parameter.name]?.trim() ?? "";
+    const { factor = 1 } = shownAsDescribed(parameter);
+    return [parameter.name, written === "" ? Number.NaN : Number(written) / factor] as const;
+  });
+  return entries.every(([, value]) => Number.isFinite(value)) ? Object.fromEntries(entries) : null;
+}

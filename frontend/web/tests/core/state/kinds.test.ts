@@ -1,0 +1,37 @@
+import "../../browserless";
+import { describe, expect, it } from "vitest";
+import type { FormField } from "../../../src/core/api/types";
+import { firstOf, readForm, shownAsDescribed } from "../../../src/core/state/kinds";
+
+const row = { symbol: "", kind: "number", default: null, low: null } as const;
+const angle = { ...row, name: "amplitude_rad", meaning: "Amplitude", unit: "rad", high: 6.3 };
+const lag = { ...row, name: "time_constant_s", meaning: "Time constant", unit: "s", high: 0.05 };
+const ratio = { ...row, name: "static_ratio", meaning: "Breakaway", unit: "1", high: 5 };
+const FORM: FormField[] = [
+  { parameter: angle, first: Math.PI / 18 },
+  { parameter: { ...lag, name: "duration_s", high: 3600 }, first: 5 },
+];
+
+describe("a form from a description", () => {
+  it("has angles in degrees, small numbers in thousandths, and nothing where there is no unit", () => {
+    expect(shownAsDescribed(angle)).toMatchObject({ label: "Amplitude", unit: "deg" });
+    expect(shownAsDescribed(lag)).toMatchObject({ unit: "ms", factor: 1000 });
+    expect(shownAsDescribed(ratio)).toEqual({ label: "Breakaway", unit: "" });
+  });
+
+  it("begins with the first values, on screen, and reads them in SI", () => {
+    const first = firstOf(FORM);
+    expect(first).toEqual({ amplitude_rad: "10", duration_s: "5" });
+    expect(readForm(FORM, { ...first, amplitude_rad: "90" })).toEqual({
+      amplitude_rad: Math.PI / 2,
+      duration_s: 5,
+    });
+  });
+
+  it("is nothing while a number is missing or is none", () => {
+    for (const wrong of [" ", "x"]) {
+      expect(readForm(FORM, { amplitude_rad: wrong, duration_s: "5" })).toBeNull();
+    }
+    expect(readForm(FORM, { amplitude_rad: "1" })).toBeNull();
+  });
+});

@@ -1,0 +1,56 @@
+"""What a non-ideal effect is: its file describes it, the lab reads the rest from there."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Literal, NamedTuple
+
+from svsa.actuators.parameters import ActuatorParameters
+
+PresetName = Literal["ideal", "rig", "full"]
+
+
+class Surroundings(NamedTuple):
+    """What the constants of an effect may depend on: seed of the run, plant, period (s)."""
+
+    seed: int
+    actuator: ActuatorParameters
+    period_s: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Effect:
+    """A non-ideal effect, as `EFFECT` of a file in this folder.
+
+    Attributes:
+        name: Of the field of `Effects`, and of its constants in `EffectConstants`.
+        place: Where it stands in lists, from the least number on.
+        kind: Type of the field: `Parameters | None` of an effect with parameters, which is off as
+            None, or `Whole`, `Number` or `Flag`.
+        field: A `quantity` with its meaning; of a number also unit and bounds. Its default is off.
+        words: What a list of runs says where it is on; {} is its value.
+        preset: The first preset in which it is on; None for none.
+        on: Its value there.
+        phrase: What the description of that preset says of it.
+        off: Its constants in the compiled loop where it is off: a number or a named tuple of
+            numbers; None for an effect that needs none there.
+        build: Makes the constants of a value that is on.
+        resist: Compiled, (effects, x, load) -> load: an effect that acts as a force on link and
+            motors adds it to the `ExternalLoad`, and finds its constants as a field, of its name,
+            of `effects`. The plant calls it in each Runge–Kutta stage.
+    """
+
+    name: str
+    place: int
+    kind: Any
+    field: Any
+    words: str
+    preset: PresetName | None = None
+    on: Any = None
+    phrase: str = ""
+    off: Any = None
+    build: Callable[[Any, Surroundings], Any] | None = None
+    resist: Any = None
+
+    def describe(self, value: Any) -> str:
+        """Words for its value; empty where it is off."""
+        return "" if value == self.field.default else self.words.format(value)

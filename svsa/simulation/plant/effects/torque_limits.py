@@ -1,0 +1,12 @@
+"""Torques between the limits of the configuration: on unless switched off."""
+
+from svsa.inputs.checked import Flag, quantity
+from svsa.simulation.plant.effects.effect import Effect
+
+EFFECT = Effect(
+    name="torque_limits",
+    place=80,
+    kind=Flag,
+    field=quantity("", "Torques limited", default=True),
+    words="no torque limits",
+)

@@ -1,0 +1,18 @@
+"""A step of torque."""
+
+from collections.abc import Mapping
+from typing import ClassVar, Literal
+
+from svsa.simulation.plant.loads.load import TorqueLoad, format_torque
+
+
+class ConstantLoad(TorqueLoad):
+    """A torque that stays from its onset on: a step."""
+
+    first: ClassVar[Mapping[str, float] | None] = {}
+
+    kind: Literal["constant"] = "constant"
+
+    def describe(self) -> str:
+        """A few words, as in the name of a run."""
+        return format_torque(self.torque_nm)

@@ -1,0 +1,32 @@
+"""The load of the paper's experiment."""
+
+from typing import Literal
+
+import numpy as np
+
+from svsa.simulation.plant.loads.load import W2, W6, AnyLoad
+from svsa.simulation.plant.loads.mass import PAPER_MASS_KG
+
+PAPER_TORQUE_NM = 2.0
+
+
+class PaperLoad(AnyLoad):
+    """The paper's 3 kg: w2 = w4 = w6 = 2 N·m, as printed."""
+
+    kind: Literal["paper"] = "paper"
+
+    def get_hung_mass(self) -> float:
+        """The mass that the paper hangs on the link, kg."""
+        return PAPER_MASS_KG
+
+    def describe(self) -> str:
+        """A few words, as in the name of a run."""
+        return "3 kg"
+
+    def name(self) -> str:
+        """Words for the beginning of a label."""
+        return "3 kg load"
+
+    def fill(self, row: np.ndarray) -> None:
+        """Write its torque into its row."""
+        row[W2 : W6 + 1] = PAPER_TORQUE_NM

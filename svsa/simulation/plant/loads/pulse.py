@@ -1,0 +1,24 @@
+"""A torque that ends."""
+
+from collections.abc import Mapping
+from typing import ClassVar, Literal
+
+from svsa.inputs.checked import Number, quantity
+from svsa.simulation.plant.loads.load import TorqueLoad, format_torque
+
+
+class PulseLoad(TorqueLoad):
+    """A torque for a while."""
+
+    first: ClassVar[Mapping[str, float] | None] = {"duration_s": 0.5}
+
+    kind: Literal["pulse"] = "pulse"
+    duration_s: Number = quantity("s", "Duration", gt=0, le=3600)
+
+    def get_duration(self) -> float:
+        """How long it lasts, s."""
+        return self.duration_s
+
+    def describe(self) -> str:
+        """A few words, as in the name of a run."""
+        return f"pulse {format_torque(self.torque_nm)}"

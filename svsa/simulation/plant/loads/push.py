@@ -1,0 +1,20 @@
+"""A torque that an operator holds."""
+
+from typing import Literal
+
+from svsa.inputs.checked import Number, quantity
+from svsa.simulation.plant.loads.load import TorqueLoad
+
+
+class PushLoad(TorqueLoad):
+    """A torque that an operator holds: sent again, it is changed and lasts on; else it ends.
+
+    One is on at a time: the next one sent while it is on takes its place, see `continue_push`.
+    """
+
+    kind: Literal["push"] = "push"
+    hold_s: Number = quantity("s", "How long it lasts after it was told", gt=0, le=60, default=0.5)
+
+    def get_duration(self) -> float:
+        """How long it lasts, s, unless it is sent again."""
+        return self.hold_s

@@ -1,0 +1,34 @@
+"""What the plant has of its own besides the motors: every effect that acts as a force on it."""
+
+from typing import Any
+
+from svsa.actuators.dynamics import ExternalLoad
+from svsa.actuators.signals import State
+from svsa.numerics.compilation import compiled, specialize
+from svsa.simulation.plant.effects import EFFECTS, EffectConstants
+
+before: Any = None
+resist: Any = None
+"""Of `_add_next`: what adds the effects before this one, and this one's `resist`."""
+
+
+@compiled
+def _add_nothing(effects: EffectConstants, x: State, load: ExternalLoad) -> ExternalLoad:
+    return load
+
+
+def _add_next(effects: EffectConstants, x: State, load: ExternalLoad) -> ExternalLoad:
+    return resist(effects, x, before(effects, x, load))
+
+
+def _chain() -> Any:
+    """One compiled function of all: no list is read and no function pointer called in a tick."""
+    add = _add_nothing
+    for effect in EFFECTS:
+        if effect.resist is not None:
+            add = specialize(_add_next, f"add_{effect.name}", before=add, resist=effect.resist)
+    return add
+
+
+add_resistance = _chain()
+"""(effects, x, load) -> `ExternalLoad`: the load of the table and what every effect adds to it."""

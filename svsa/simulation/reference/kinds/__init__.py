@@ -1,0 +1,27 @@
+"""Every reference that q_d and σ_d may follow, a kind in each file."""
+
+from typing import TYPE_CHECKING, Annotated, TypeAlias, Union
+
+from svsa.inputs.checked import BY_KIND
+from svsa.inputs.registration import find_kinds
+from svsa.simulation.reference.kinds.reference import AnyPosition, AnyReference, AnyStiffness
+
+POSITIONS: tuple[type[AnyPosition], ...] = find_kinds(__name__, AnyPosition)
+STIFFNESSES: tuple[type[AnyStiffness], ...] = find_kinds(__name__, AnyStiffness)
+
+if TYPE_CHECKING:
+    PositionReference: TypeAlias = AnyPosition
+    StiffnessReference: TypeAlias = AnyStiffness
+else:
+    PositionReference = Annotated[Union[POSITIONS], BY_KIND]  # noqa: UP007
+    StiffnessReference = Annotated[Union[STIFFNESSES], BY_KIND]  # noqa: UP007
+
+
+def get_range(reference: AnyReference) -> tuple[float, float]:
+    """The least and the greatest value that a reference takes, in its own unit."""
+    return reference.get_shape().range
+
+
+def compute_start_value(reference: AnyReference) -> float:
+    """The value at t = 0, in the reference's own unit."""
+    return reference.get_shape().start
