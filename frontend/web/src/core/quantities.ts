@@ -54,3 +54,27 @@ export function quantityOf(path: string): Quantity | null {
   const isByChannel = name === "bandwidth_rad_per_s" || name === "torque_nm";
   return isByChannel && channel ? { ...found, label: `${found.label}, ${channel}` } : found;
 }
+
+const DECIMALS = 1;
+const MAX_DECIMALS = 12;
+type Shares = readonly [number, number, number];
+type Interval = Record<"value" | "low" | "high", number | null>;
+
+/**
+ * Shares in percent, to so many digits that what differs, from each other or from none and all,
+ * reads so: of a million runs that all succeeded the lower end is no 100 %.
+ */
+export function formatPercents(shares: Shares): [string, string, string] {
+  const exact = (share: number) => Number(share.toFixed(MAX_DECIMALS));
+  const ends = [...new Set([0, 1, ...shares.map(exact)])];
+  let decimals = DECIMALS;
+  const format = (share: number) => (100 * share).toFixed(decimals);
+  while (decimals < MAX_DECIMALS && new Set(ends.map(format)).size < ends.length) decimals++;
+  return [format(shares[0]), format(shares[1]), format(shares[2])];
+}
+
+/** A share with its interval in percent, as "80.0 % (49.0 to 94.3)"; "–" where there is none. */
+export const formatShare = (share: Interval): string =>
+  share.value === null
+    ? "–"
+    : text.studies.interval(...formatPercents([share.value, share.low ?? 0, share.high ?? 1]));

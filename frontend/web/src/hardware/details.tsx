@@ -17,11 +17,11 @@ const QUIET: readonly BenchState["status"][] = ["off", "reset", "config", "mode"
 
 function Problems({ problems }: { problems: readonly string[] }) {
   return (
-    <section class="bench-card is-problems" aria-label={text.bench.problems}>
+    <section class="surface bench-card is-problems" aria-label={text.bench.problems}>
       <h2>
         <span aria-hidden="true">▲</span> {text.bench.problems}
       </h2>
-      <ul>
+      <ul class="bullets">
         {problems.map((problem) => (
           <li key={problem}>{problem}</li>
         ))}
@@ -35,7 +35,7 @@ function Age({ seconds, level }: { seconds: number; level: Freshness }) {
   if (!isLive.value) return <td class="is-words">{drives.notKnown}</td>;
   if (level === "silent" || level === "unheard") return <td class="is-words">{drives[level]}</td>;
   return (
-    <td class={level === "fresh" ? "is-good" : "is-bad"}>
+    <td class={level === "fresh" ? "good" : "bad"}>
       <span aria-hidden="true">{SIGNS[level]}</span> {drives.ago(formatLapse(seconds))}
       {level === "fresh" ? (
         <span class="visually-hidden"> {drives.levels.fresh}</span>
@@ -50,7 +50,7 @@ function Drives({ bench }: { bench: BenchState }) {
   const { drives } = text.bench;
   const { ages_s: ages, current_a: currents, supervised } = bench;
   return (
-    <section class="bench-card is-drives" aria-label={drives.heading}>
+    <section class="surface bench-card is-drives" aria-label={drives.heading}>
       <h2>{drives.heading}</h2>
       <table>
         <thead>
@@ -83,7 +83,7 @@ function Drives({ bench }: { bench: BenchState }) {
         </tbody>
       </table>
       {isLive.value && !isStarting(bench) && (
-        <p class={supervised ? "is-good" : "is-bad"}>
+        <p class={supervised ? "good" : "bad"}>
           <span aria-hidden="true">{supervised ? "✓" : "▲"}</span>{" "}
           {supervised ? drives.supervised : drives.unsupervised}
         </p>
@@ -95,10 +95,10 @@ function Drives({ bench }: { bench: BenchState }) {
 function Calibration({ bench }: { bench: BenchState }) {
   const { calibrated_by: by, calibrated_on: on } = bench;
   return (
-    <section class="bench-card is-calibration" aria-label={text.bench.calibration}>
+    <section class="surface bench-card is-calibration" aria-label={text.bench.calibration}>
       <h2>{text.bench.calibration}</h2>
       {on === null ? (
-        <p class="is-bad">
+        <p class="bad">
           <span aria-hidden="true">▲</span> {text.bench.uncalibrated}
         </p>
       ) : (

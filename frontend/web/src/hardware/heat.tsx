@@ -18,10 +18,10 @@ export function Heat({ motor }: { motor: Motor | undefined }) {
   if (motor === undefined || !isLive.value) return <td>{text.bench.drives.none}</td>;
   const [share, allowed] = sharesOf(motor);
   return (
-    <td class={motor.held_back ? "is-bad" : ""} title={words.hint}>
+    <td class={motor.held_back ? "bad" : ""} title={words.hint}>
       {words.share(share)}
       {motor.held_back && (
-        <strong class="held-to">
+        <strong class="block breaks">
           {" "}
           <span aria-hidden="true">▲</span> {words.heldTo(allowed)}
         </strong>

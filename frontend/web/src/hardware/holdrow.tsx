@@ -32,7 +32,7 @@ export function HoldRow({ bench: { status } }: { bench: BenchState }) {
   const label =
     other === null ? words.words[wordsFor(status, held, ended.value)] : words.other(other);
   return (
-    <section class={`hold is-${held ? "held" : "free"}`} aria-label={words.heading}>
+    <section class="hold" aria-label={words.heading}>
       <button
         type="button"
         class="hold-button"
@@ -55,7 +55,7 @@ export function HoldRow({ bench: { status } }: { bench: BenchState }) {
         {words.button} <kbd>{words.key}</kbd>
       </button>
       <p id={id} role="status">
-        <strong>
+        <strong class={held ? "good" : "bad"}>
           <span aria-hidden="true">{held ? "●" : "○"}</span> {held ? words.held : words.notHeld}
         </strong>{" "}
         {isLive.value ? label : words.unheard}

@@ -13,12 +13,12 @@ const AXES: readonly Axis[] = ["link", "motor1", "motor2"];
 
 function Axes({ bench: { homing } }: { bench: BenchState }) {
   return (
-    <ol class="axes">
+    <ol class="row axes">
       {AXES.map((axis) => {
         const isDone = homing.done.includes(axis);
         const isNext = homing.next_step === axis;
         return (
-          <li key={axis} class={isDone ? "is-done" : ""} aria-current={isNext ? "step" : undefined}>
+          <li key={axis} class={isDone ? "good" : ""} aria-current={isNext ? "step" : undefined}>
             <span aria-hidden="true">{isDone ? "✓" : isNext ? "▸" : "○"}</span> {words.axis[axis]}
             {isDone && <span class="visually-hidden"> {text.bench.done}</span>}
             {isNext && <small> {words.here}</small>}
@@ -49,12 +49,12 @@ function Confirmation({ axis, isAllowed }: { axis: Axis; isAllowed: boolean }) {
       />
       <button
         type="submit"
-        class={`button ${isAllowed ? "is-primary" : ""}`}
+        class={`button wide ${isAllowed ? "is-primary" : ""}`}
         disabled={!isAllowed || personName.value.trim() === ""}
       >
         {words.confirm[axis]}
       </button>
-      {!isAllowed && <p class="hint">{words.notNow}</p>}
+      {!isAllowed && <p class="hint wide">{words.notNow}</p>}
     </form>
   );
 }
@@ -63,7 +63,7 @@ function Confirmation({ axis, isAllowed }: { axis: Axis; isAllowed: boolean }) {
 export function Homing({ bench }: { bench: BenchState }) {
   const { next_step: next, instruction } = bench.homing;
   return (
-    <section class="bench-card" aria-label={words.heading}>
+    <section class="surface bench-card" aria-label={words.heading}>
       <h2>{words.heading}</h2>
       <Axes bench={bench} />
       <p class="instruction" role="status">

@@ -9,11 +9,11 @@ const WIDTH = 240;
 const HEIGHT = 64;
 const SIGNS = { ticking: "✓", starting: "◌", silent: "▲", gone: "▲", not_opened: "▲" } as const;
 const LEVELS = {
-  ticking: "is-good",
+  ticking: "good",
   starting: "",
-  silent: "is-bad",
-  gone: "is-bad",
-  not_opened: "is-bad",
+  silent: "bad",
+  gone: "bad",
+  not_opened: "bad",
 } as const;
 const count = (value: number) => value.toLocaleString("en");
 
@@ -31,10 +31,10 @@ function Lateness({ loop }: { loop: LoopState }) {
   );
   const shownEvery = Math.ceil(edges.length / 5);
   return (
-    <figure class="lateness">
+    <figure class="drawing lateness">
       <svg viewBox={`0 0 ${WIDTH} ${HEIGHT + 14}`} role="img" aria-label={label}>
         {lines.map((line) => (
-          <path key={line} class="lateness-line" d={`M0 ${HEIGHT * (1 - line)}h${WIDTH}`} />
+          <path key={line} class="grid" d={`M0 ${HEIGHT * (1 - line)}h${WIDTH}`} />
         ))}
         {bars.map(({ edgeS, count: ticks, height }, index) => (
           <rect
@@ -75,7 +75,7 @@ function Lateness({ loop }: { loop: LoopState }) {
 function Rescue({ loop: { state, stopped_by: by, unreachable } }: { loop: LoopState }) {
   if (state !== "silent" && state !== "gone") return null;
   return (
-    <p class={by === null ? "is-bad" : ""}>
+    <p class={by === null ? "bad" : ""}>
       {by === null ? words.notStopped : words.stoppedBy[by]}
       {unreachable !== null && ` ${unreachable}`}
     </p>
@@ -95,7 +95,7 @@ export function Loop({ loop }: { loop: LoopState }) {
     [words.skipped, words.of(count(loop.skipped_ticks), count(loop.ticks))],
   ] as const;
   return (
-    <section class="bench-card is-loop" aria-label={words.heading}>
+    <section class="surface bench-card is-loop" aria-label={words.heading}>
       <h2>
         {words.heading}{" "}
         {isLive.value ? (
@@ -111,7 +111,7 @@ export function Loop({ loop }: { loop: LoopState }) {
       {isLive.value && <Rescue loop={loop} />}
       <div class="loop-columns">
         <Lateness loop={loop} />
-        <dl aria-label={words.lateness}>
+        <dl class="facts" aria-label={words.lateness}>
           {rows.map(([name, value]) => (
             <div key={name}>
               <dt>{name}</dt>
@@ -121,7 +121,7 @@ export function Loop({ loop }: { loop: LoopState }) {
         </dl>
       </div>
       {loop.notes.length > 0 && (
-        <ul class="notes" aria-label={words.notes}>
+        <ul class="bullets hint bench-notes" aria-label={words.notes}>
           {loop.notes.map((note) => (
             <li key={note}>{note}</li>
           ))}

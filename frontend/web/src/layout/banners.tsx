@@ -66,7 +66,7 @@ export function Banners() {
           <span class="banner-sign" aria-hidden="true">
             ▲
           </span>
-          <div class="banner-words">
+          <div class="grow">
             <strong>{text.fault.title(fault.time_s)}</strong> {fault.message}
             <FaultAdvice fault={fault} />
           </div>

@@ -74,7 +74,7 @@ export function Comparison({ state }: { state: SessionState }) {
   const isBench = state.bench !== null;
   return (
     <MetricsTable
-      class="surface comparison"
+      class="surface metrics comparison"
       label={isBench ? compare.benchHeading : compare.heading}
       caption={sinceOf(window)}
       {...(isBench ? { captionHint: compare.benchHint } : {})}

@@ -63,7 +63,7 @@ export function PagesMenu() {
       title={words.openHint}
       name={words.open}
       class="button"
-      popupClass="pages"
+      popupClass="pages menu"
     >
       {(close) => (
         <nav aria-label={words.open}>

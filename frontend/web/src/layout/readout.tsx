@@ -15,7 +15,7 @@ function CurrentError() {
 }
 
 function Recovered({ recovery: { seconds, words } }: { recovery: Recovery }) {
-  if (seconds === null) return <span class="waiting">{words}</span>;
+  if (seconds === null) return <span class="muted">{words}</span>;
   return (
     <>
       {words} <span class="unit">s</span>

@@ -77,7 +77,7 @@ function BenchLoop({ bench: { loop } }: { bench: BenchState }) {
   if (!loop.alive) {
     const isBad = loop.state !== "starting";
     return (
-      <Cell name={text.status.loop} class={`is-loop ${isBad ? "is-bad" : ""}`}>
+      <Cell name={text.status.loop} class={`is-loop ${isBad ? "bad" : ""}`}>
         <span aria-hidden="true">{isBad ? "▲" : "◌"}</span> {text.bench.loop.states[loop.state]}
       </Cell>
     );
@@ -117,7 +117,7 @@ function RecordingCell({ state: { recording, rate_hz: rateHz } }: { state: Sessi
 function Connection() {
   const missed = missedSamples.value;
   return (
-    <Cell name={text.status.connection} class={isLive.value ? "is-good" : "is-bad"}>
+    <Cell name={text.status.connection} class={isLive.value ? "good" : "bad"}>
       <span role="status">
         <span aria-hidden="true">{PHASE_SIGNS[phase.value]}</span> {text.connection[phase.value]}
       </span>
@@ -156,7 +156,7 @@ export function StatusBar() {
         {state && <SessionPill state={state} />}
         {state && <Clock />}
       </div>
-      <dl class="status-cells">
+      <dl class="grow status-cells">
         {state &&
           (state.bench ? <BenchLoop bench={state.bench} /> : <SimulatedLoop state={state} />)}
         {state && <RecordingCell state={state} />}

@@ -38,7 +38,7 @@ export function TopBar() {
   return (
     <header class="topbar">
       <h1>
-        {text.name} <span>{text.subtitle}</span>
+        {text.name} <small>{text.subtitle}</small>
       </h1>
       {place.value.kind !== "lab" && (
         <PlaceLink to={{ kind: "lab" }} class="button">
@@ -46,7 +46,7 @@ export function TopBar() {
         </PlaceLink>
       )}
       {isLab && state && (
-        <fieldset class="topbar-controls" disabled={!isLive.value} aria-label={text.session}>
+        <fieldset class="row topbar-controls" disabled={!isLive.value} aria-label={text.session}>
           {!isLesson && <FigurePicker state={state} />}
           {state.bench === null && <Transport state={state} />}
           {(!isLesson || state.recording !== null) && <RecordButton state={state} />}

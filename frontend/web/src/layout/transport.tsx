@@ -38,7 +38,7 @@ function FigureName({ figure }: { figure: Figure }) {
 export function FigurePicker({ state }: { state: SessionState }) {
   return (
     <fieldset class="figures" disabled={!takesCommands.value}>
-      <legend>{text.figures.heading}</legend>
+      <legend class="hint">{text.figures.heading}</legend>
       {FIGURES.map((figure) => (
         <button
           key={figure}
@@ -59,7 +59,7 @@ function SpeedPicker({ speed }: { speed: Speed }) {
   const speeds = isListed ? SPEEDS : [...SPEEDS, speed].sort((a, b) => a - b);
   return (
     <label class="select" title={text.transport.speedHint}>
-      <span class="select-label">{text.transport.speed}</span>
+      <span class="hint select-label">{text.transport.speed}</span>
       <select
         disabled={!mayCommand.value}
         value={String(speed)}

@@ -25,11 +25,11 @@ function EquationRow({ equation }: { equation: Equation }) {
   const { number, tex, printed, note } = equation;
   return (
     <div class="equation">
-      {number && <span class="equation-number">{words.number(number)}</span>}
+      {number && <span class="tag muted">{words.number(number)}</span>}
       <Formula tex={tex} />
       {printed && (
-        <div class="equation-printed">
-          <span class="equation-label">{words.printed}</span>
+        <div class="note is-warn equation-printed">
+          <span class="tag strong">{words.printed}</span>
           <Formula tex={printed} />
           <p>{words.corrected}</p>
         </div>

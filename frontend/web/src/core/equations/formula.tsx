@@ -52,5 +52,5 @@ export function Prose({ html }: { html: string }) {
       isWanted = false;
     };
   }, [html]);
-  return <div class="prose" ref={host} />;
+  return <div class="stack prose" ref={host} />;
 }

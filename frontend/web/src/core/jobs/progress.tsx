@@ -35,7 +35,7 @@ interface JobProgressProps {
 export function JobProgress({ job, done, total, label, onCancel, children }: JobProgressProps) {
   const isUnderWay = isGoing(job);
   return (
-    <div class="desk-progress">
+    <div class="row grow">
       <span role="status">{[done, ...describeJob(job)].join(" · ")}</span>
       {isUnderWay && <progress value={job?.done ?? 0} max={total} aria-label={label} />}
       {isUnderWay ? (

@@ -1,6 +1,7 @@
 /** Points by criterion, with what was told of each. */
 import type { Grade } from "../api/course";
 import { text } from "../text/en";
+import { Table } from "./tables";
 
 const words = text.grades;
 
@@ -8,27 +9,18 @@ export const formatPoints = (points: number): string => String(Number(points.toF
 
 export function Criteria({ grade }: { grade: Grade }) {
   return (
-    <table class="desk-table criteria">
-      <caption class="visually-hidden">{words.criteria}</caption>
-      <thead>
-        <tr>
-          <th scope="col">{words.asked}</th>
-          <th scope="col">{words.points}</th>
-          <th scope="col">{words.feedback}</th>
+    <Table
+      caption={<span class="visually-hidden">{words.criteria}</span>}
+      heads={[words.asked, words.points, words.feedback]}
+    >
+      {grade.criteria.map((one) => (
+        <tr key={`${one.step} ${one.name}`}>
+          <th scope="row">{one.name}</th>
+          <td class="nowrap">{words.of(formatPoints(one.points), formatPoints(one.max_points))}</td>
+          <td>{one.feedback}</td>
         </tr>
-      </thead>
-      <tbody>
-        {grade.criteria.map((one) => (
-          <tr key={`${one.step} ${one.name}`}>
-            <th scope="row">{one.name}</th>
-            <td class="criteria-points">
-              {words.of(formatPoints(one.points), formatPoints(one.max_points))}
-            </td>
-            <td>{one.feedback}</td>
-          </tr>
-        ))}
-      </tbody>
-    </table>
+      ))}
+    </Table>
   );
 }
 
@@ -37,7 +29,7 @@ export function VerifiedRuns({ grade }: { grade: Grade }) {
   return (
     <>
       {(grade.runs ?? []).map((one) => (
-        <p key={one.run_id} class="hint criteria-run">
+        <p key={one.run_id} class="hint">
           {words.run(one.run_id)} {one.description}
         </p>
       ))}

@@ -21,10 +21,10 @@ interface PageProps {
 export function Page({ title, lead, problem, aside, children, class: look = "" }: PageProps) {
   return (
     <main class={`page ${look}`} aria-label={title}>
-      <div class="page-head">
+      <div class="spread page-head">
         <div>
           <h2>{title}</h2>
-          <p>{lead}</p>
+          <p class="muted">{lead}</p>
         </div>
         {aside}
       </div>
@@ -38,8 +38,8 @@ export function Page({ title, lead, problem, aside, children, class: look = "" }
 export function Desk({ side, children, ...page }: PageProps & { side: ComponentChildren }) {
   return (
     <Page {...page}>
-      <div class="desk-body">
-        <aside class="desk-side">{side}</aside>
+      <div class="desk">
+        <aside class="stack">{side}</aside>
         {children}
       </div>
     </Page>
@@ -55,7 +55,7 @@ interface BoxesProps {
 /** Any of some things, each a box. */
 export function Boxes({ offered, chosen, onChange }: BoxesProps) {
   return (
-    <div class="desk-boxes">
+    <div class="boxes">
       {offered.map(({ name, title }) => (
         <label key={name}>
           <input

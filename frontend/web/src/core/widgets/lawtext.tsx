@@ -44,7 +44,7 @@ export function LawText({ law, onLaw, onFile, start, startWord }: LawTextProps) 
   };
   return (
     <>
-      <label class="law-text">
+      <label>
         <span>{words.file}</span>
         <input
           type="file"
@@ -52,7 +52,7 @@ export function LawText({ law, onLaw, onFile, start, startWord }: LawTextProps) 
           onChange={({ currentTarget }) => void take(currentTarget.files?.[0])}
         />
       </label>
-      <label class="law-text">
+      <label>
         <span>{words.text}</span>
         <textarea
           rows={14}

@@ -56,7 +56,7 @@ export function Panel({ title, class: look, beside, onClose, children }: PanelPr
       <div class="panel-head">
         <h2 id={id}>{title}</h2>
         {beside}
-        <button type="button" class="button panel-close" onClick={onClose}>
+        <button type="button" class="button end" onClick={onClose}>
           {text.panel.close}
         </button>
       </div>

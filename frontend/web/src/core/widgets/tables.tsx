@@ -1,6 +1,76 @@
 /** Parts of tables that several pages show: the best value, sortable heads, bars of scores. */
 import type { ComponentChildren } from "preact";
 
+interface TableProps {
+  /** Names the part that scrolls; left out where it stands in one with that name. */
+  label?: string;
+  caption?: ComponentChildren;
+  heads: readonly ComponentChildren[];
+  /** `metrics` for numbers whose names are in the first column. */
+  look?: string;
+  /** Of the part that scrolls. */
+  class?: string;
+  /** Its rows. */
+  children: ComponentChildren;
+}
+
+/** A table that scrolls where it is wider than its page, also by keyboard. */
+export function Table({ label, caption, heads, look = "table", children, ...rest }: TableProps) {
+  return (
+    // biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls is reached by keyboard
+    <section class={`scroll ${rest.class ?? ""}`} tabIndex={0} aria-label={label}>
+      <table class={look}>
+        {caption && <caption>{caption}</caption>}
+        <thead>
+          <tr>
+            {heads.map((head, at) => (
+              <th key={at} scope="col">
+                {head}
+              </th>
+            ))}
+          </tr>
+        </thead>
+        <tbody>{children}</tbody>
+      </table>
+    </section>
+  );
+}
+
+interface PagerProps {
+  label: string;
+  page: number;
+  pages: number;
+  /** Which part is shown, in words. */
+  children: string;
+  back: string;
+  on: string;
+  onTurn: (page: number) => void;
+}
+
+/** Turns the pages of a list; nothing where there is one. */
+export function Pager({ label, page, pages, children, back, on, onTurn }: PagerProps) {
+  if (pages < 2) return null;
+  const turn = (to: number, name: string, sign: string) => (
+    <button
+      type="button"
+      class="button is-icon"
+      aria-label={name}
+      title={name}
+      disabled={to < 1 || to > pages}
+      onClick={() => onTurn(to)}
+    >
+      {sign}
+    </button>
+  );
+  return (
+    <nav class="row" aria-label={label}>
+      {turn(page - 1, back, "‹")}
+      <span role="status">{children}</span>
+      {turn(page + 1, on, "›")}
+    </nav>
+  );
+}
+
 const CLEARLY = 0.95;
 const NOTHING = 1e-6;
 
@@ -71,7 +141,7 @@ const percent = (share: number) => `${(100 * share).toFixed(2)}%`;
 /** A score from 0 to 1 as a bar of its parts, its interval over it. */
 export function ScoreBar({ parts, interval }: ScoreBarProps) {
   return (
-    <span class="score-bar" aria-hidden="true">
+    <span class="bar" aria-hidden="true">
       {SCORE_PARTS.map((part) => (
         <i
           key={part}

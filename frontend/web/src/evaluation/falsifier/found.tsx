@@ -1,11 +1,11 @@
 import { useState } from "preact/hooks";
 import { type Scenario, scenarioFileOf, searchFileOf } from "../../core/api/falsifications";
 import { isGoing, JobProgress } from "../../core/jobs/progress";
+import { formatShare } from "../../core/quantities";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
 import { copyText } from "../../lab/script/copybutton";
-import { formatShare } from "../studies/tables";
 import { cancel, chosen, findingOf, isBusy, keep, search, shown } from "./falsifier";
 
 const words = text.falsifier;
@@ -30,13 +30,13 @@ function Keep({ offered }: { offered: string }) {
   const [name, setName] = useState(offered);
   return (
     <form
-      class="desk-buttons falsifier-keep"
+      class="row falsifier-acts"
       onSubmit={(event) => {
         event.preventDefault();
         void keep(name);
       }}
     >
-      <label class="desk-label" title={words.nameHint}>
+      <label class="form" title={words.nameHint}>
         <span>{words.name}</span>
         <input
           type="text"
@@ -61,7 +61,7 @@ function Facts({ scenario }: { scenario: Scenario }) {
   return (
     <>
       {finding && (
-        <p class="falsifier-outcome">
+        <p>
           <b>{words.found(titleOf(finding.law), finding.outcome)}</b>{" "}
           <span class="hint">
             {words.foundAt(finding.at_run, finding.runs, finding.seed)},{" "}
@@ -78,7 +78,7 @@ function Facts({ scenario }: { scenario: Scenario }) {
           )}
         </p>
       )}
-      <ul class="falsifier-summary">
+      <ul class="bullets">
         {parts.map((one) => (
           <li key={one}>{one}</li>
         ))}
@@ -95,7 +95,7 @@ export function Found({ scenario }: { scenario: Scenario | null }) {
   if (scenario === null && at === null) return null;
   const title = (scenario && findingOf(scenario)?.adversary) ?? scenario?.title ?? "";
   return (
-    <section class="surface card desk-wide" aria-label={name || at?.title}>
+    <section class="surface card wide" aria-label={name || at?.title}>
       <h3>{name !== "" ? `${name}: ${title}` : at?.title}</h3>
       {at && (
         <JobProgress
@@ -115,7 +115,7 @@ export function Found({ scenario }: { scenario: Scenario | null }) {
           {at && at.steps.length > 0 && (
             <details>
               <summary>{words.steps(at.steps.length)}</summary>
-              <ol class="falsifier-steps">
+              <ol class="bullets small falsifier-steps">
                 {at.steps.map((step, number) => (
                   <li key={`${number} ${step}`}>{step}</li>
                 ))}
@@ -123,7 +123,7 @@ export function Found({ scenario }: { scenario: Scenario | null }) {
             </details>
           )}
           {!isUnderWay && (
-            <div class="desk-buttons">
+            <div class="row falsifier-acts">
               {at && <Keep key={at.id} offered={`${at.law}-${at.id.slice(0, 4)}`} />}
               <a
                 class="button"

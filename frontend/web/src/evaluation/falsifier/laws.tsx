@@ -7,6 +7,7 @@ import { titleOf, usableLaws } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { DEGREES_PER_RADIAN, formatNumber } from "../../core/units";
 import { LawBoxes } from "../../core/widgets/desk";
+import { Table } from "../../core/widgets/tables";
 import { keepLaws } from "../../runs/list/place";
 import { baselinesOf, findingOf, isBusy, laws, scenario, see } from "./falsifier";
 import type { DrawnLaw } from "./picture";
@@ -48,20 +49,20 @@ interface RowProps {
 function Row({ one, lineStyle, onDraw }: RowProps) {
   const title = titleOf(one.law);
   return (
-    <tr class={one.fault === null ? undefined : "is-ended"}>
+    <tr>
       <th scope="row">
         <button
           type="button"
-          class="falsifier-law"
+          class="nowrap falsifier-law"
           aria-pressed={lineStyle !== undefined}
           title={words.draw(title)}
           onClick={() => onDraw(one.law)}
         >
-          <i aria-hidden="true" style={dotOf(lineStyle)} />
+          <i class="dot" aria-hidden="true" style={dotOf(lineStyle)} />
           {title}
         </button>
       </th>
-      <td>{endOf(one)}</td>
+      <td class={`nowrap ${one.fault === null ? "" : "bad strong"}`}>{endOf(one)}</td>
       <td>{metricOf(one, "peak_position_error_rad", DEGREES_PER_RADIAN)}</td>
       <td>{metricOf(one, "steady_state_position_error_rad", DEGREES_PER_RADIAN)}</td>
       <td>{recoveryOf(one)}</td>
@@ -89,7 +90,7 @@ function Choice() {
     <details class="falsifier-choice">
       <summary>{words.choice}</summary>
       <LawBoxes laws={laws.value} onChange={keepLaws} />
-      <div class="desk-buttons">
+      <div class="row">
         <button
           type="button"
           class="button"
@@ -118,33 +119,20 @@ interface LawsProps {
 export function Laws({ traces, drawn, isRunning, onDraw }: LawsProps) {
   const held = traces.filter(({ fault }) => fault === null).length;
   return (
-    <section class="surface card desk-wide" aria-label={words.laws}>
+    <section class="surface card wide" aria-label={words.laws}>
       <h3>{words.laws}</h3>
       <p role="status">{isRunning ? words.running : words.held(held, traces.length)}</p>
       <Choice />
-      <div class="desk-scroll">
-        <table class="desk-table falsifier-table">
-          <thead>
-            <tr>
-              {Object.entries(words.columns).map(([key, name]) => (
-                <th key={key} scope="col">
-                  {name}
-                </th>
-              ))}
-            </tr>
-          </thead>
-          <tbody>
-            {rankLaws(traces).map((one) => (
-              <Row
-                key={one.law}
-                one={one}
-                lineStyle={drawn.find(({ law }) => law === one.law)?.lineStyle}
-                onDraw={onDraw}
-              />
-            ))}
-          </tbody>
-        </table>
-      </div>
+      <Table heads={Object.values(words.columns)}>
+        {rankLaws(traces).map((one) => (
+          <Row
+            key={one.law}
+            one={one}
+            lineStyle={drawn.find(({ law }) => law === one.law)?.lineStyle}
+            onDraw={onDraw}
+          />
+        ))}
+      </Table>
       <p class="hint">{words.lawsHint}</p>
     </section>
   );

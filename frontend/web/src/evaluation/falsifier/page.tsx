@@ -36,7 +36,7 @@ function Kept() {
   const { search: shown, scenario: name } = chosen.value;
   return (
     <>
-      <nav class="surface card desk-kept" aria-label={words.kept}>
+      <nav class="surface card menu" aria-label={words.kept}>
         <h3>{words.kept}</h3>
         {kept.value === null && problem.value === "" && <p class="hint">{words.loading}</p>}
         {kept.value?.length === 0 && <p class="hint">{words.noneKept}</p>}
@@ -55,7 +55,7 @@ function Kept() {
         </ul>
       </nav>
       {searches.value !== null && searches.value.length > 0 && (
-        <nav class="surface card desk-kept" aria-label={words.searches}>
+        <nav class="surface card menu" aria-label={words.searches}>
           <h3>{words.searches}</h3>
           <ul>
             {searches.value.map((one) => (
@@ -98,7 +98,7 @@ function Under() {
     );
   }, [trace, names.join(), installed]);
   if (one === null) return null;
-  if (trace === null) return <p class="hint desk-wide">{problem.value === "" && words.running}</p>;
+  if (trace === null) return <p class="hint wide">{problem.value === "" && words.running}</p>;
   const draw = (law: Law) =>
     setPicked(names.includes(law) ? names.filter((name) => name !== law) : [...names, law]);
   return (
@@ -129,7 +129,6 @@ export function FalsifierPage() {
       title={words.title}
       lead={words.lead}
       problem={problem.value}
-      class="falsifier"
       side={
         <>
           <Kept />
@@ -140,7 +139,7 @@ export function FalsifierPage() {
       {id === "" && name === "" ? (
         <p class="hint">{words.choose}</p>
       ) : (
-        <div class="desk-main">
+        <div class="halves">
           <Found scenario={scenario.value} />
           <Under key={`${id} ${name}`} />
         </div>

@@ -102,7 +102,7 @@ function ErrorChart(props: ChartProps) {
   const { title, unit } = words.charts[chart];
   const bodies = curves.filter(({ key }) => BODIES.some((body) => body === key));
   return (
-    <section class="falsifier-plot" aria-label={title}>
+    <section aria-label={title}>
       <h4>
         {title} <span class="unit">{unit}</span>
         {bodies.length > 1 &&
@@ -133,7 +133,7 @@ interface PictureProps {
 export function Picture({ scenario, trace, drawn }: PictureProps) {
   const view = useMemo(() => spanWithin(spanOf(scenario, trace.time_s)), [trace]);
   return (
-    <section class="surface card desk-wide" aria-label={words.picture}>
+    <section class="surface card wide" aria-label={words.picture}>
       <h3>{words.picture}</h3>
       {(["torque", "position", "stiffness"] as const).map((chart) => (
         <ErrorChart key={chart} {...{ chart, trace, drawn, view }} />

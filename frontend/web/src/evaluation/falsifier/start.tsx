@@ -25,7 +25,7 @@ function Base({ form, onChange }: FieldsProps) {
   const { base } = form;
   const effects = EFFECTS.find((one) => one === (base.effects ?? "ideal"));
   return (
-    <div class="desk-fields">
+    <div class="pair">
       <SelectField
         label={words.effects}
         value={effects ?? "given"}
@@ -54,8 +54,8 @@ function Loads({ form, onChange }: FieldsProps) {
   const set = (next: readonly TermForm[]) =>
     onChange({ terms: next, title: describeTerms(next, words) });
   return (
-    <fieldset class="falsifier-loads">
-      <legend>{words.loads}</legend>
+    <fieldset class="stack">
+      <legend class="hint">{words.loads}</legend>
       {terms.map((term, at) => (
         <TermFields
           key={at}
@@ -101,7 +101,7 @@ export function Start() {
   };
   return (
     <form
-      class="surface card desk-form"
+      class="surface card stack form"
       onSubmit={(event) => {
         event.preventDefault();
         const asked = form ? { definition: writeForm({ ...form, law: hurt }) } : { text: own };
@@ -136,7 +136,7 @@ export function Start() {
           />
           <Base form={form} onChange={change} />
           <Loads form={form} onChange={change} />
-          <div class="desk-fields">
+          <div class="pair">
             <NumberField
               label={words.off}
               title={words.offHint}
@@ -165,7 +165,7 @@ export function Start() {
           />
         </label>
       )}
-      <div class="desk-fields">
+      <div class="pair">
         <NumberField
           label={words.runs}
           title={words.runsHint}
@@ -176,7 +176,7 @@ export function Start() {
         />
         <NumberField label={words.seed} min={0} value={seed} onChange={setSeed} />
       </div>
-      <div class="desk-buttons">
+      <div class="row">
         <button type="submit" class="button is-primary" disabled={isBusy.value !== ""}>
           {words.search}
         </button>

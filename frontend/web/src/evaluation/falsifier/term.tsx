@@ -12,7 +12,7 @@ interface RangeProps {
 
 function Range({ label, ends, onChange }: RangeProps) {
   return (
-    <div class="desk-fields">
+    <div class="pair">
       <NumberField
         label={label}
         min={0}
@@ -40,9 +40,9 @@ interface TermFieldsProps {
 /** One load of the family: its kind, on what, how large, when, and how long or how fast. */
 export function TermFields({ number, term, canBeRemoved, onChange, onRemove }: TermFieldsProps) {
   return (
-    <fieldset class="falsifier-term">
+    <fieldset class="stack falsifier-term">
       <legend>{words.load(number)}</legend>
-      <div class="desk-fields">
+      <div class="pair">
         <SelectField
           label={words.kind}
           value={term.kind}
@@ -58,7 +58,7 @@ export function TermFields({ number, term, canBeRemoved, onChange, onRemove }: T
           onChange={(torqueNm) => onChange({ ...term, torqueNm })}
         />
       </div>
-      <p class="falsifier-bodies">
+      <p class="row">
         <span class="hint">{words.onBodies}</span>
         {BODIES.map((body) => {
           const others = term.bodies.filter((one) => one !== body);

@@ -25,16 +25,16 @@ function Source({ source }: { source: string }) {
 
 function Outcomes({ row }: { row: Row }) {
   return (
-    <ul class="ranking-outcomes">
+    <ul class="menu">
       {row.outcomes.map((one) => (
-        <li key={one.scenario} class={one.fault === null ? "" : "is-fault"}>
+        <li key={one.scenario}>
           <button
             type="button"
             title={words.seeRun}
             onClick={() => void see(row.law, one.scenario)}
           >
             <span>{one.title}</span>
-            <b>
+            <b class={`end ${one.fault === null ? "" : "bad"}`}>
               {one.fault === null
                 ? words.outcome(
                     formatError(one.rms_deg),

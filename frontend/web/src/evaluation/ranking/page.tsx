@@ -26,7 +26,7 @@ function Measure() {
     );
   }
   return (
-    <div class="ranking-measuring">
+    <div class="row">
       <span role="status">{words.measuring(titleOf(now.law), now.done, now.of)}</span>
       <progress value={now.done} max={now.of} aria-label={words.measure} />
       <button type="button" class="button" onClick={stopMeasuring}>
@@ -39,7 +39,7 @@ function Measure() {
 /** Which colour of the score's bar is which of its parts. */
 function ScoreParts() {
   return (
-    <span class="ranking-parts">
+    <span class="row ranking-parts">
       {words.columns.score.name}:
       <ScoreKey names={words.parts} />
     </span>
@@ -55,7 +55,7 @@ function Legend() {
         {COLUMNS.map(({ key }) => (
           <div key={key}>
             <dt>{words.columns[key].name}</dt>
-            <dd>{words.columns[key].hint}</dd>
+            <dd class="muted">{words.columns[key].hint}</dd>
           </div>
         ))}
       </dl>
@@ -82,12 +82,12 @@ export function RankingPage() {
       ) : (
         <>
           <RankingTable />
-          <p class="hint ranking-note">
+          <p class="hint">
             <ScoreParts />
             {words.bars} {words.provenance(versionsOf(found.rows), found.suite)}
           </p>
           <Legend />
-          <div class="ranking-cards">
+          <div class="halves">
             <Radar />
             <LawCard />
           </div>

@@ -61,9 +61,14 @@ const runOf = (sweep: SweepOutcome): string => {
 function Web({ found }: { found: readonly Row[] }) {
   const sweeps = found[0]?.sweeps ?? [];
   return (
-    <svg class="ranking-radar" viewBox="-190 -128 380 256" role="img" aria-label={words.radarLabel}>
+    <svg
+      class="drawing ranking-radar"
+      viewBox="-190 -128 380 256"
+      role="img"
+      aria-label={words.radarLabel}
+    >
       {RINGS.map((ring) => (
-        <polygon key={ring} class="ranking-ring" points={outline(sweeps.map(() => ring))} />
+        <polygon key={ring} class="grid" points={outline(sweeps.map(() => ring))} />
       ))}
       {sweeps.map(({ sweep }, axis) => {
         const [x, y] = pointOf(axis, sweeps.length, 1);
@@ -71,7 +76,7 @@ function Web({ found }: { found: readonly Row[] }) {
         const anchor = Math.abs(atX) < 1 ? "middle" : atX > 0 ? "start" : "end";
         return (
           <g key={sweep}>
-            <line class="ranking-ring" x1="0" y1="0" x2={x} y2={y} />
+            <line class="grid" x1="0" y1="0" x2={x} y2={y} />
             <text x={atX} y={atY + 4} text-anchor={anchor}>
               {words.sweeps[sweep] ?? sweep}
             </text>
@@ -97,18 +102,14 @@ function Web({ found }: { found: readonly Row[] }) {
 /** What the web shows in numbers; a press shows where a law no longer holds. */
 function Shares({ found }: { found: readonly Row[] }) {
   return (
-    <table class="ranking-shares">
+    <table class="table menu ranking-shares">
       <caption>{words.sharesCaption}</caption>
       <thead>
         <tr>
           <td />
           {found.map((row) => (
             <th key={row.law} scope="col">
-              <i
-                class="ranking-dot"
-                aria-hidden="true"
-                style={dotOf(lineStyles.value.get(row.law))}
-              />
+              <i class="dot" aria-hidden="true" style={dotOf(lineStyles.value.get(row.law))} />
               {titleOf(row.law)}
             </th>
           ))}

@@ -31,7 +31,7 @@ function Score({ row }: { row: Row }) {
   const { robustness, trials, accuracy } = row.parts;
   return (
     <td class="ranking-score" title={words.scoreOf(robustness, trials, accuracy)}>
-      <span class="ranking-value">{row.score.toFixed(2)}</span>
+      {row.score.toFixed(2)}
       <ScoreBar parts={row.parts} />
     </td>
   );
@@ -61,11 +61,11 @@ function Cell({ column, row }: { column: Column; row: Row }) {
         disabled={opening.value !== ""}
         onClick={() => void see(row.law, scenario)}
       >
-        <span class="ranking-value">{shown}</span>
+        {shown}
         {value !== null && (
-          <span class="ranking-bar" aria-hidden="true">
+          <span class="bar is-thin" aria-hidden="true">
             <i
-              class={column.isHighBetter ? "is-good" : "is-bad"}
+              class={column.isHighBetter ? "is-high" : "is-low"}
               style={{ width: `${100 * barOf(column, value, rows.value)}%` }}
             />
           </span>
@@ -97,12 +97,12 @@ function Confirmed({ row }: { row: Row }) {
 /** A law a row; a press on a name brings it into the radar, a press on a number its run. */
 export function RankingTable() {
   return (
-    <section class="surface ranking-scroll" aria-label={words.table}>
-      <table class="ranking-table">
+    <section class="surface scroll" aria-label={words.table}>
+      <table class="table wide-table ranking-table">
         <caption class="visually-hidden">{words.tableHint}</caption>
         <thead>
           <tr>
-            <th scope="col" class="ranking-law">
+            <th scope="col" class="is-name">
               {words.law}
             </th>
             {COLUMNS.map((column) => (
@@ -115,14 +115,14 @@ export function RankingTable() {
             const lineStyle = lineStyles.value.get(row.law);
             return (
               <tr key={row.law}>
-                <th scope="row" class="ranking-law">
+                <th scope="row" class="is-name ranking-law">
                   <button
                     type="button"
                     aria-pressed={lineStyle !== undefined}
                     title={words.chooseHint}
                     onClick={() => choose(row.law)}
                   >
-                    <i class="ranking-dot" aria-hidden="true" style={dotOf(lineStyle)} />
+                    <i class="dot" aria-hidden="true" style={dotOf(lineStyle)} />
                     {titleOf(row.law)}
                   </button>
                   <Confirmed row={row} />

@@ -59,7 +59,7 @@ export function Distribution() {
         role="img"
         aria-label={`${words.distribution}: ${column ? nameColumn(column) : metric}`}
       />
-      <p class="studies-laws">
+      <p class="row small">
         {laws.map((law, place) => (
           <LawName key={law} law={law} place={place} />
         ))}

@@ -1,3 +1,4 @@
+import { formatShare } from "../../core/quantities";
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
 import { countCells, cutBins } from "./points";
@@ -5,7 +6,6 @@ import { valuesOf } from "./rows";
 import { shareOf } from "./shares";
 import { good, planes, shownMarks } from "./shown";
 import { axes, brush, rows, setBrush } from "./studies";
-import { formatShare } from "./tables";
 
 const words = text.studies;
 const WIDTH = 320;
@@ -31,7 +31,7 @@ export function SuccessMap() {
     <section class="surface card" aria-label={words.map}>
       <h3>{words.map}</h3>
       <svg
-        class="studies-map"
+        class="drawing studies-map"
         viewBox={`0 0 ${WIDTH} ${HEIGHT}`}
         preserveAspectRatio="none"
         role="img"
@@ -61,11 +61,11 @@ export function SuccessMap() {
           );
         })}
       </svg>
-      <p class="studies-spans">
+      <p class="spread hint">
         <span>↑ {formatSpan(up.label, edges[1])}</span>
         <span>→ {formatSpan(across.label, edges[0])}</span>
       </p>
-      <p class="studies-scale" aria-hidden="true">
+      <p class="row hint studies-scale" aria-hidden="true">
         {words.mapScale(0)} <i /> {words.mapScale(100)}
       </p>
       <p class="hint">

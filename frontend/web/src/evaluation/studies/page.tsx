@@ -39,7 +39,7 @@ const words = text.studies;
 function Kept() {
   const kept = list.value?.kept ?? [];
   return (
-    <nav class="surface card desk-kept" aria-label={words.kept}>
+    <nav class="surface card menu" aria-label={words.kept}>
       <h3>{words.kept}</h3>
       {list.value === null && problem.value === "" && <p class="hint">{words.loading}</p>}
       {list.value !== null && kept.length === 0 && <p class="hint">{words.none}</p>}
@@ -96,7 +96,7 @@ function Deletion({ found }: { found: Study }) {
   const isGone = isBusy.value === "delete";
   return (
     <Popup
-      class="button studies-delete"
+      class="button"
       title={words.deleteHint}
       button={isGone ? words.deleting : words.delete}
       isDisabled={isBusy.value !== ""}
@@ -123,18 +123,19 @@ function Deletion({ found }: { found: Study }) {
 function Looked({ found }: { found: Study }) {
   const { count, total } = rows.value;
   return (
-    <div class="desk-main">
-      <div class="surface card desk-wide">
-        <div class="studies-head">
+    <div class="halves">
+      <div class="surface card wide">
+        <div class="spread">
           <h3>{found.title}</h3>
           {!isObserver.value && <Deletion found={found} />}
         </div>
         <Progress found={found} />
         {count > 0 && (
-          <p class="desk-buttons studies-brushed">
-            <span>{words.marks}</span> <b>{words.brushed(brushedCount.value, count)}</b>
+          <p class="row studies-brushed">
+            <span class="muted">{words.marks}</span>{" "}
+            <b>{words.brushed(brushedCount.value, count)}</b>
             <label>
-              <span>{words.shown}</span>
+              <span class="muted">{words.shown}</span>
               <select
                 value={shownLaw.value || EVERY_LAW}
                 onChange={(event) => setLook({ law: event.currentTarget.value })}
@@ -157,7 +158,7 @@ function Looked({ found }: { found: Study }) {
         {total > count && <p class="hint">{words.thinned(count, total)}</p>}
       </div>
       {count === 0 ? (
-        <p class="hint desk-wide">{words.empty}</p>
+        <p class="hint wide">{words.empty}</p>
       ) : (
         <>
           <LawTable />

@@ -31,7 +31,7 @@ export function Picked() {
   const numbers = found.map((row) => Number(row.row));
   return (
     <section
-      class="surface card studies-picked"
+      class="surface card wide"
       aria-label={words.row(numbers.at(-1) ?? 0)}
       aria-live="polite"
     >
@@ -39,14 +39,14 @@ export function Picked() {
         <p class="hint">{words.pickHint}</p>
       ) : (
         <>
-          <table class="desk-table">
+          <table class="table">
             <thead>
               <tr>
                 <td />
                 {found.map((row) => (
                   <th key={Number(row.row)} scope="col">
                     {words.row(Number(row.row))}
-                    <small>
+                    <small class="block">
                       {titleOf(String(row.law))}, {outcomeOf(row)}
                     </small>
                     <button

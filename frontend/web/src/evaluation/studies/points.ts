@@ -183,20 +183,3 @@ export function distribute(
     return (100 * reached) / Math.max(1, count);
   });
 }
-
-const DECIMALS = 1;
-const MAX_DECIMALS = 12;
-type Shares = readonly [number, number, number];
-
-/**
- * Shares in percent, to so many digits that what differs, from each other or from none and all,
- * reads so: of a million runs that all succeeded the lower end is no 100 %.
- */
-export function formatPercents(shares: Shares): [string, string, string] {
-  const exact = (share: number) => Number(share.toFixed(MAX_DECIMALS));
-  const ends = [...new Set([0, 1, ...shares.map(exact)])];
-  let decimals = DECIMALS;
-  const format = (share: number) => (100 * share).toFixed(decimals);
-  while (decimals < MAX_DECIMALS && new Set(ends.map(format)).size < ends.length) decimals++;
-  return [format(shares[0]), format(shares[1]), format(shares[2])];
-}

@@ -38,7 +38,7 @@ export function ColumnChoice({
   const columns = study.value?.columns ?? [];
   const offered = isMetric ? columns.filter(({ role }) => role === "metric") : axesOf(columns);
   return (
-    <label class="desk-label">
+    <label class="form">
       <span>{label}</span>
       <select
         value={axes.value[part]}
@@ -74,11 +74,11 @@ function Ends({ plane }: { plane: Plane }) {
     setBrush({ ...now, plane, [way]: span });
   };
   return (
-    <div class="studies-ends">
+    <div class="form studies-ends">
       {(["x", "y"] as const).map((way) => {
         const axis = way === "x" ? words.x : words.y;
         return ([0, 1] as const).map((end) => (
-          <label class="desk-label" key={`${way}${end}`}>
+          <label key={`${way}${end}`}>
             <span>{end === 0 ? words.from(axis) : words.to(axis)}</span>
             <input
               type="number"
@@ -160,7 +160,7 @@ export function Scatter({ plane }: { plane: Plane }) {
   );
   return (
     <section class="surface card" aria-label={words.plane[plane]}>
-      <div class="studies-choices">
+      <div class="pair form">
         <ColumnChoice part={`${plane}y`} label={words.y} />
         <ColumnChoice part={`${plane}x`} label={words.x} />
       </div>

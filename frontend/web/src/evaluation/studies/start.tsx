@@ -50,7 +50,7 @@ export function Start() {
   };
   return (
     <form
-      class="surface card desk-form"
+      class="surface card stack form"
       onSubmit={(event) => {
         event.preventDefault();
         void begin(build());
@@ -133,7 +133,7 @@ export function Start() {
           onInput={(event) => change(() => setBound(event.currentTarget.value))}
         />
       </label>
-      <div class="desk-buttons">
+      <div class="row">
         <button type="button" class="button" onClick={() => void check()}>
           {words.check}
         </button>

@@ -1,12 +1,13 @@
 import type { Estimate } from "../../core/api/studies";
 import { isGoing } from "../../core/jobs/progress";
 import { dotOf } from "../../core/plots/linestyles";
+import { formatShare } from "../../core/quantities";
 import { writeFault } from "../../core/state/faults";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
+import { Table } from "../../core/widgets/tables";
 import { factorOf, nameColumn, shownUnit } from "./look";
-import { formatPercents } from "./points";
 import { shareOf } from "./shares";
 import { columnOf, ended, good, lawLineStyles, marksOf } from "./shown";
 import { axes, brush, indices, study, summary } from "./studies";
@@ -24,9 +25,6 @@ const NONE: Estimate = { value: null, low: null, high: null };
 const formatP = (value: number | null | undefined): string =>
   value != null && value < 1e-4 ? words.pSmall : formatNumber(value, 2);
 
-export const formatShare = ({ value, low, high }: Estimate): string =>
-  value === null ? "–" : words.interval(...formatPercents([value, low ?? 0, high ?? 1]));
-
 /** How a law did in the brush, with its interval once the server has sent it. */
 function inBrush(place: number): string {
   const [marks, isGood, isEnded] = [marksOf(place), good.value, ended.value];
@@ -43,8 +41,8 @@ function inBrush(place: number): string {
 
 /** A law with the colour of its runs. place: among the laws of the study. */
 export const LawName = ({ law, place }: { law: string; place: number }) => (
-  <span class="studies-law">
-    <i style={dotOf(lawLineStyles.value[place])} aria-hidden="true" />
+  <span class="nowrap">
+    <i class="dot" style={dotOf(lawLineStyles.value[place])} aria-hidden="true" />
     {titleOf(law)}
   </span>
 );
@@ -57,65 +55,51 @@ export function LawTable() {
       ? words.fault
       : formatNumber((value ?? Number.NaN) * factorOf(metric?.unit ?? ""), 3);
   return (
-    <section class="surface card desk-wide" aria-label={words.byLaw}>
+    <section class="surface card wide" aria-label={words.byLaw}>
       <h3>{words.byLaw}</h3>
       {found === null && (
         <p class="hint" role="status">
           {isGoing(study.value?.job ?? null) ? words.later : words.summing}
         </p>
       )}
-      {/* biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls is reached by keyboard */}
-      <div class="desk-scroll" tabIndex={0}>
-        <table class="desk-table studies-by-law">
-          <thead>
-            <tr>
-              {[
-                words.law,
-                words.all,
-                words.succeeded,
-                brush.value ? words.inBrush : null,
-                words.faults,
-              ]
-                .filter((head) => head !== null)
-                .map((head) => (
-                  <th key={head} scope="col">
-                    {head}
-                  </th>
-                ))}
-              {metric && <th scope="col">{words.median(nameColumn(metric))}</th>}
+      <Table
+        heads={[
+          words.law,
+          words.all,
+          words.succeeded,
+          ...(brush.value ? [words.inBrush] : []),
+          words.faults,
+          ...(metric ? [words.median(nameColumn(metric))] : []),
+        ]}
+      >
+        {(study.value?.laws ?? []).map((law, place) => {
+          const one = found?.laws.find((row) => row.law === law);
+          const faults = Object.entries(one?.faults ?? {}).map(
+            ([code, count]) => `${count} ${writeFault(code)}`,
+          );
+          return (
+            <tr key={law}>
+              <th scope="row">
+                <LawName law={law} place={place} />
+              </th>
+              <td>{one?.runs.toLocaleString("en") ?? "–"}</td>
+              <td>{one ? formatShare(one.success) : "–"}</td>
+              {brush.value && <td>{inBrush(place)}</td>}
+              <td>
+                {one ? faults.join(", ") || words.noFaults : "–"}
+                {one && one.refused > 0 && `; ${words.refused(one.refused)}`}
+              </td>
+              {metric && (
+                <td>{one ? one.quantiles[metric.name]?.map(formatMetric).join(" / ") : "–"}</td>
+              )}
             </tr>
-          </thead>
-          <tbody>
-            {(study.value?.laws ?? []).map((law, place) => {
-              const one = found?.laws.find((row) => row.law === law);
-              const faults = Object.entries(one?.faults ?? {}).map(
-                ([code, count]) => `${count} ${writeFault(code)}`,
-              );
-              return (
-                <tr key={law}>
-                  <th scope="row">
-                    <LawName law={law} place={place} />
-                  </th>
-                  <td>{one?.runs.toLocaleString("en") ?? "–"}</td>
-                  <td>{one ? formatShare(one.success) : "–"}</td>
-                  {brush.value && <td>{inBrush(place)}</td>}
-                  <td>
-                    {one ? faults.join(", ") || words.noFaults : "–"}
-                    {one && one.refused > 0 && `; ${words.refused(one.refused)}`}
-                  </td>
-                  {metric && (
-                    <td>{one ? one.quantiles[metric.name]?.map(formatMetric).join(" / ") : "–"}</td>
-                  )}
-                </tr>
-              );
-            })}
-          </tbody>
-        </table>
-      </div>
+          );
+        })}
+      </Table>
       {(found?.pairings ?? []).map((pair) => {
         const difference = metric && pair.differences[metric.name];
         return (
-          <p key={pair.other} class="studies-pair">
+          <p key={pair.other}>
             <b>{words.pair(titleOf(pair.one), titleOf(pair.other))}</b>{" "}
             {words.points(formatEstimate(pair.success, 100))};{" "}
             {words.pSuccess(formatP(pair.success_p))}; {words.only(pair.only_one, pair.only_other)}.
@@ -138,7 +122,7 @@ export function LawTable() {
 export function Sensitivity() {
   if (indices.value.length === 0) return null;
   return (
-    <section class="surface card desk-wide" aria-label={words.sensitivity}>
+    <section class="surface card wide" aria-label={words.sensitivity}>
       <h3>{words.sensitivity}</h3>
       <p class="hint">{words.sensitivityHint}</p>
       {indices.value.map(({ law, first_order: own, total_order: total }) => (
@@ -159,7 +143,7 @@ export function Sensitivity() {
                         class={at === 0 ? "is-own" : "is-total"}
                         style={{ width: `${100 * Math.min(1, Math.max(0, one?.value ?? 0))}%` }}
                       />
-                      <span>{formatEstimate(one ?? NONE, 1, 2)}</span>
+                      <small>{formatEstimate(one ?? NONE, 1, 2)}</small>
                     </dd>
                   ))}
                 </div>

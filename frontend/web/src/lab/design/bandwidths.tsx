@@ -63,11 +63,11 @@ function Row({ look, label, name, note, value, range, onTry }: RowProps) {
         onInput={(event) => take(event.currentTarget.value)}
         onBlur={() => setTyped(null)}
       />
-      <span class="unit" id={`${id}-note`}>
+      <span class="unit clip" id={`${id}-note`}>
         {note}
       </span>
       {isRefused && (
-        <p class="problem" role="alert">
+        <p class="problem wide" role="alert">
           {typed.trim() === ""
             ? text.refusal.noNumber
             : text.refusal.outOfRange(name, `${typed} ${words.unit}`, BOUNDS)}

@@ -2,6 +2,7 @@ import { useState } from "preact/hooks";
 import { simulateDesign } from "../../core/api/design";
 import { explain } from "../../core/state/actions";
 import { text } from "../../core/text/en";
+import { ErrorLine } from "../../core/widgets/form";
 import { expected } from "./draft";
 import { designRequest, stability, tried } from "./stability";
 
@@ -17,11 +18,11 @@ const wouldFail = () =>
 /** What must not be applied may be seen to fail: in a private simulation, never on a bench. */
 export function FailButton() {
   const [isBusy, setBusy] = useState(false);
-  const [problem, setProblem] = useState<string | null>(null);
+  const [problem, setProblem] = useState("");
   if (!wouldFail()) return null;
   const fail = async () => {
     setBusy(true);
-    setProblem(null);
+    setProblem("");
     try {
       const { session } = await simulateDesign(designRequest());
       location.assign(`${location.pathname}?session=${encodeURIComponent(session)}`);
@@ -31,7 +32,7 @@ export function FailButton() {
     }
   };
   return (
-    <div class="design-fail">
+    <div class="row design-fail">
       <button
         type="button"
         class="button"
@@ -42,11 +43,7 @@ export function FailButton() {
         {words.fail}
       </button>
       <span class="hint">{words.failNote}</span>
-      {problem && (
-        <p class="problem" role="alert">
-          {problem}
-        </p>
-      )}
+      <ErrorLine>{problem}</ErrorLine>
     </div>
   );
 }

@@ -80,19 +80,21 @@ function Row({ line, found, now }: { line: Line; found: Prediction; now: Predict
       </th>
       <td>
         {line.read(found)}
-        {share !== null && share > 1 && <small class="beyond"> {words.beyond}</small>}
+        {share !== null && share > 1 && <small class="block bad strong"> {words.beyond}</small>}
       </td>
       <td class="present">{now && line.read(now)}</td>
     </tr>
   );
 }
 
+const TONES = { ok: "is-good", note: "", warn: "is-warn", refuse: "is-bad" } as const;
+
 function Judgement({ found }: { found: Prediction }) {
   const { reasons } = found;
   const verdict = verdictOf(found);
   return (
     <section
-      class={`judgement is-${verdict}`}
+      class={`note judgement ${TONES[verdict]}`}
       role="status"
       aria-label={words.verdictIs(words.verdict[verdict])}
     >
@@ -114,10 +116,10 @@ function Judgement({ found }: { found: Prediction }) {
 export function Outcome() {
   const found = expected.value;
   const now = present.value;
-  if (found === null) return <p class="outcome hint">{words.asking}</p>;
+  if (found === null) return <p class="hint">{words.asking}</p>;
   return (
-    <div class={`outcome ${isAsking.value ? "is-asking" : ""}`}>
-      <table>
+    <div class={`stack ${isAsking.value ? "is-stale" : ""}`}>
+      <table class="metrics strong">
         <caption>
           {words.expected}{" "}
           <span class="unit">{words.at(formatNumber(found.stiffness_nm_per_rad, 3, 1))}</span>

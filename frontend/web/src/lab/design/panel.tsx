@@ -37,7 +37,7 @@ function Buttons() {
   const verdict = expected.value?.verdict;
   const isReady = isChanged.value && isLive.value && !isApplying.value && !isAsking.value;
   return (
-    <div class="design-buttons">
+    <div class="row design-buttons">
       <button
         type="button"
         class={`button is-primary ${verdict === "warn" ? "is-warned" : ""}`}
@@ -63,7 +63,7 @@ function Buttons() {
 function Roots() {
   const tried = draft.value;
   return (
-    <p class="design-roots">
+    <p class="row small">
       <strong>{words.roots}</strong>
       <span class="is-position">{tried && describePoles(tried.position)}</span>
       <span class="is-stiffness">{tried && describePoles(tried.stiffness)}</span>
@@ -88,28 +88,28 @@ function Design() {
       class="design"
       onClose={close}
       beside={
-        <p class="design-legend" aria-hidden="true">
+        <p class="row hint" aria-hidden="true">
           <span class="is-position">✕ {words.legend.position}</span>
           <span class="is-stiffness">◇ {words.legend.stiffness}</span>
         </p>
       }
     >
       <div class="design-body">
-        <div class="design-place">
+        <div class="stack">
           <Plane />
           <p class="hint" id="plane-hint">
             {words.planeHint}
           </p>
           <Bandwidths />
         </div>
-        <div class="design-outcome">
+        <div class="grow design-outcome">
           <Roots />
           <Outcome />
           <Problem id="design-problem" control="design.apply" />
           <FailButton />
           <Buttons />
         </div>
-        <div class="design-more">
+        <div class="halves wide design-more">
           <Responses />
           <StabilityTable />
           <RegionMap />

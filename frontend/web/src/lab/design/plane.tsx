@@ -42,7 +42,7 @@ function Ground() {
     <svg aria-hidden="true">
       <defs>
         <pattern id="unstable-half" width="8" height="8" patternUnits="userSpaceOnUse">
-          <path d="M-2 10L10-2M-2 2L2-2M6 10L10 6" class="plane-hatch" />
+          <path d="M-2 10L10-2M-2 2L2-2M6 10L10 6" class="hatch" />
         </pattern>
         <clipPath id="stable-half">
           <rect x="0" y="0" width={x0} height={HEIGHT} />
@@ -52,19 +52,19 @@ function Ground() {
       <rect x={x0} y="0" width={WIDTH - x0} height={HEIGHT} fill="url(#unstable-half)" />
       <g clip-path="url(#stable-half)">
         {CIRCLES.map((speed) => (
-          <circle key={speed} class="plane-grid" cx={x0} cy={y0} r={speed * SCALE} />
+          <circle key={speed} class="grid" cx={x0} cy={y0} r={speed * SCALE} />
         ))}
       </g>
       <path class="plane-axis" d={`M0 ${y0}H${WIDTH}M${x0} 0V${HEIGHT}`} />
       {CIRCLES.map((speed) => (
-        <text key={speed} class="plane-tick" x={xOf(-speed)} y={HEIGHT - 6} text-anchor="middle">
+        <text key={speed} x={xOf(-speed)} y={HEIGHT - 6} text-anchor="middle">
           {`\u2212${speed}`}
         </text>
       ))}
-      <text class="plane-name" x={WIDTH - 4} y={y0 - 6} text-anchor="end">
+      <text x={WIDTH - 4} y={y0 - 6} text-anchor="end">
         {text.design.real}
       </text>
-      <text class="plane-name" x={x0 + 5} y="13">
+      <text x={x0 + 5} y="13">
         {text.design.imaginary}
       </text>
       <text class="plane-side" x="8" y="15">
@@ -213,7 +213,7 @@ export function Plane() {
     // biome-ignore lint/a11y/useSemanticElements: a group of sliders in a drawing
     <svg
       ref={picture}
-      class="plane"
+      class="drawing plane"
       viewBox={`0 0 ${WIDTH} ${HEIGHT}`}
       role="group"
       aria-label={text.design.plane}

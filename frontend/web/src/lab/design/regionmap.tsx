@@ -4,7 +4,7 @@ import { titleOf, usableLaws } from "../../core/state/laws";
 import { session } from "../../core/state/session";
 import { text } from "../../core/text/en";
 import { formatInput, formatNumber } from "../../core/units";
-import { SelectField } from "../../core/widgets/form";
+import { ErrorLine, SelectField } from "../../core/widgets/form";
 import {
   fates,
   fillRegion,
@@ -61,9 +61,14 @@ function Picture() {
       ? words.regionEmpty
       : words.regionSummary(percent(part), formatNumber(found.stiffness_nm_per_rad, 3, 1));
   return (
-    <svg class="region-map" viewBox={`0 0 ${WIDTH} ${HEIGHT}`} role="img" aria-label={summary}>
+    <svg
+      class="drawing region-map"
+      viewBox={`0 0 ${WIDTH} ${HEIGHT}`}
+      role="img"
+      aria-label={summary}
+    >
       <rect
-        class="region-ground"
+        class="grid region-ground"
         x={LEFT}
         y={TOP}
         width={WIDTH - LEFT - RIGHT}
@@ -112,13 +117,13 @@ export function RegionMap() {
   const found = shown.value;
   return (
     <section
-      class={`region ${isOutdated.value ? "is-outdated" : ""}`}
+      class={`stack region ${isOutdated.value ? "is-outdated" : ""}`}
       aria-labelledby={`${id}-title`}
     >
       <h3 id={`${id}-title`} title={words.regionHint}>
         {words.region}
       </h3>
-      <div class="region-choice">
+      <div class="row small region-choice">
         <SelectField
           label={words.law}
           value={law ?? own}
@@ -148,13 +153,13 @@ export function RegionMap() {
           />
         </label>
         {isFilling.value ? (
-          <button type="button" class="button" onClick={stopFilling}>
+          <button type="button" class="button end" onClick={stopFilling}>
             {words.stop}
           </button>
         ) : (
           <button
             type="button"
-            class="button"
+            class="button end"
             disabled={!isTaken}
             onClick={() => void fillRegion(law ?? own, chosen, value)}
           >
@@ -174,13 +179,9 @@ export function RegionMap() {
           )}
         </p>
       )}
-      {problem.value !== null && (
-        <p class="problem" role="alert">
-          {explain(problem.value)}
-        </p>
-      )}
+      <ErrorLine>{problem.value === null ? "" : explain(problem.value)}</ErrorLine>
       <Picture />
-      <p class="region-legend">
+      <p class="row small region-legend">
         {LOOKS.map((look) => (
           <span key={look} class={`is-${look}`}>
             {words.looks[look]}

@@ -50,8 +50,8 @@ export function Responses() {
   const addCaveat = (summary: string) => (caveat ? words.caveat(summary, caveat.short) : summary);
   const peak = formatNumber(toDegrees(found.load.peak_error_rad), 3, 2);
   return (
-    <div class="responses">
-      <div class="response">
+    <div class="halves wide">
+      <div>
         <Curves
           title={words.loadTitle}
           summary={addCaveat(words.loadSummary(peak, found.load.fault))}
@@ -60,7 +60,7 @@ export function Responses() {
           curves={errors}
           caveat={doubt}
         />
-        {found.load.fault && <p class="hint is-fault">{words.loadFault(found.load.fault)}</p>}
+        {found.load.fault && <p class="hint bad">{words.loadFault(found.load.fault)}</p>}
       </div>
       <Curves
         title={words.bodeTitle}
@@ -76,8 +76,8 @@ export function Responses() {
         note={found.disturbance === null ? words.bodeUnstable : null}
         caveat={found.disturbance === null ? null : doubt}
       />
-      {caveat && <p class="hint is-fault responses-caveat">{caveat.summary}</p>}
-      <p class="responses-legend" aria-hidden="true">
+      {caveat && <p class="hint bad wide">{caveat.summary}</p>}
+      <p class="row small wide responses-legend" aria-hidden="true">
         <span class="is-tried">{isChanged.value ? words.tried : words.inUse}</span>
         {isChanged.value && (
           <span class="is-present">

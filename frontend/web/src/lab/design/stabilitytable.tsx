@@ -14,10 +14,10 @@ const gainOf = (gain: number | null) =>
 function Lines({ found }: { found: Stability }) {
   const { floor_rad_s_per_nm: floor } = found;
   return (
-    <dl class="stability-lines">
+    <dl class="facts small">
       <div title={words.slowestHint}>
         <dt>{words.slowest}</dt>
-        <dd class={found.slowest_rad_per_s < 0 ? "" : "is-unstable"}>
+        <dd class={found.slowest_rad_per_s < 0 ? "" : "bad"}>
           {words.rate(formatNumber(found.slowest_rad_per_s, 3, 1))}
         </dd>
       </div>
@@ -93,7 +93,7 @@ function Ranges({ found }: { found: Stability }) {
     ({ symbol, low, high }) => !FAINT.includes(symbol) || low !== null || high !== null,
   );
   return (
-    <table>
+    <table class="metrics strong">
       <caption title={words.rangesHint}>{words.ranges}</caption>
       <thead>
         <tr>
@@ -119,7 +119,7 @@ function Ranges({ found }: { found: Stability }) {
 export function StabilityTable() {
   const found = stability.value;
   return (
-    <section class={`stability ${isStale.value ? "is-stale" : ""}`} aria-label={words.title}>
+    <section class={`stack ${isStale.value ? "is-stale" : ""}`} aria-label={words.title}>
       <h3>{words.title}</h3>
       {found === null ? (
         <p class="hint">{text.design.asking}</p>

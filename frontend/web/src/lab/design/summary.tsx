@@ -34,7 +34,7 @@ export function UndoButton() {
 /** The button by itself, with why a step back was refused. */
 export function Undo() {
   return (
-    <div class="design-open">
+    <div class="row">
       <UndoButton />
       <Problem control="design.undo" />
     </div>
@@ -47,7 +47,7 @@ export function DesignSummary() {
   if (now === null) return null;
   return (
     <>
-      <dl class="design-summary">
+      <dl class="facts">
         {(["position", "stiffness"] as const).map((group) => (
           <div key={group}>
             <dt>{words.summary(words[group])}</dt>
@@ -57,7 +57,7 @@ export function DesignSummary() {
           </div>
         ))}
       </dl>
-      <div class="design-open">
+      <div class="row design-open">
         <PanelButton isOpen={isOpen} hint={words.openHint}>
           <svg viewBox="0 0 16 16" aria-hidden="true">
             <path d="M11 0h1.6v16H11zM0 7.2h16v1.6H0zM3 1.8l1.4 1.4L5.8 1.8l1 1-1.4 1.4 1.4 1.4-1 1-1.4-1.4L3 6.6l-1-1 1.4-1.4L2 2.8zM3 9.8l1.4 1.4 1.4-1.4 1 1-1.4 1.4 1.4 1.4-1 1-1.4-1.4L3 14.6l-1-1 1.4-1.4L2 10.8z" />

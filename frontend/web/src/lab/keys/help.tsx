@@ -17,7 +17,7 @@ interface RowProps {
 function Row({ press, children }: RowProps) {
   return (
     <div>
-      <dt>
+      <dt class="row">
         {press.map((name) => (
           <kbd key={name}>{name}</kbd>
         ))}
@@ -52,7 +52,7 @@ function Sheet() {
         <Row press={["?"]}>{keys.does.help}</Row>
         <Row press={[names.escape]}>{keys.does.close}</Row>
       </dl>
-      <label class="help-switch">
+      <label class="row help-switch">
         <input
           type="checkbox"
           checked={areKeysOn.value}

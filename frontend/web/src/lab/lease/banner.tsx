@@ -25,7 +25,7 @@ function Question({ other }: { other: string | null }) {
     void confirmControl(name);
   };
   return (
-    <form class="banner is-calm" aria-label={words.heading} onSubmit={submit}>
+    <form class="banner is-news is-calm" aria-label={words.heading} onSubmit={submit}>
       <p>
         <strong>{other === null ? words.askTitle : words.askOverTitle(other)}</strong>{" "}
         {other !== null && words.askOverText}
@@ -62,7 +62,7 @@ function Question({ other }: { other: string | null }) {
 
 function Held({ other }: { other: string }) {
   return (
-    <div class="banner is-calm" role="status">
+    <div class="banner is-news is-calm" role="status">
       <span class="banner-sign" aria-hidden="true">
         ▪
       </span>

@@ -58,7 +58,7 @@ export function ControlCell() {
       <dt>{words.heading}</dt>
       <dd>
         <span role="status">
-          <span aria-hidden="true">{sign}</span> <span class="control-name">{who}</span>
+          <span aria-hidden="true">{sign}</span> <span class="clip control-name">{who}</span>
         </span>{" "}
         {isLive.value && (
           <small>

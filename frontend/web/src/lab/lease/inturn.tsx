@@ -70,7 +70,7 @@ export function InTurn({ queue }: { queue: Queue }) {
   const turn = access.value === null ? null : describeTurn(queue);
   if (turn === null) return null;
   return (
-    <div class="banner is-calm" role="status">
+    <div class="banner is-news is-calm" role="status">
       <span class="banner-sign" aria-hidden="true">
         ▪
       </span>

@@ -28,7 +28,7 @@ function StopNotice({ title, words, isSimulation = false, children }: StopNotice
       <span class="banner-sign" aria-hidden="true">
         ■
       </span>
-      <div class="stop-words">
+      <div class="grow">
         <p>
           <strong>{title}</strong> {words}
         </p>
@@ -50,14 +50,14 @@ function LatchedBench({ state, bench }: { state: SessionState; bench: BenchState
       <span class="banner-sign" aria-hidden="true">
         ■
       </span>
-      <div class="stop-words">
+      <div class="grow">
         <p role="alert">
           {!isLive.value && `${text.stop.lastKnown} `}
           <strong>{isLost ? lostTitle : stopTitle}</strong> {state.fault?.message}{" "}
           {!isLost && isLive.value && text.stop.latched}
         </p>
         {!isLost && state.fault !== null && <FaultAdvice fault={state.fault} />}
-        <ol aria-label={text.stop.goOn}>
+        <ol class="bullets" aria-label={text.stop.goOn}>
           {(isLost ? lostSteps : text.stop.steps).map((step) => (
             <li key={step}>{step}</li>
           ))}

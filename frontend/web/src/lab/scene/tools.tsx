@@ -43,7 +43,7 @@ export function SceneTools() {
             {words.cameras[name]}
           </button>
         ))}
-        <span class="scene-tools-end">
+        <span class="end scene-tools-end">
           <PushButton />
           <button
             type="button"

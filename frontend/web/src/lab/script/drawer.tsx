@@ -4,7 +4,7 @@ import { type Call, calls, clearCalls } from "../../core/api/calls";
 import { API } from "../../core/api/request";
 import { text } from "../../core/text/en";
 import { formatTime } from "../../core/units";
-import { Choice } from "../../core/widgets/form";
+import { Choice, ErrorLine } from "../../core/widgets/form";
 import { CopyButton, saveText } from "./copybutton";
 import { makeExperimentScript, scriptProblem } from "./repeat";
 import { LANGUAGES, type Language, toSnippet, toSnippets } from "./snippets";
@@ -28,8 +28,8 @@ function CallRow({ call, language }: { call: Call; language: Language }) {
   const snippet = toSnippet(call, language, API);
   const isBad = call.status === null || call.status >= 400;
   return (
-    <li class={isBad ? "is-refused" : ""}>
-      <span class="call-outcome">
+    <li>
+      <span class={`hint ${isBad ? "bad strong" : ""}`}>
         {isBad && <span aria-hidden="true">▲ </span>}
         {outcome(call)}
       </span>
@@ -53,7 +53,7 @@ function CallList({ language }: { language: Language }) {
   useEffect(() => {
     if (list.current && isAtEnd.current) list.current.scrollTop = list.current.scrollHeight;
   });
-  if (all.length === 0) return <p class="hint drawer-empty">{words.empty}</p>;
+  if (all.length === 0) return <p class="hint">{words.empty}</p>;
   return (
     <ol
       ref={list}
@@ -84,7 +84,7 @@ export function CallsDrawer() {
   const isEmpty = calls.value.length === 0;
   return (
     <section class="drawer" aria-label={words.title}>
-      <div class="drawer-head">
+      <div class="row drawer-head">
         <h2>{words.title}</h2>
         <Choice
           label={words.language}
@@ -102,7 +102,7 @@ export function CallsDrawer() {
         <button type="button" class="quiet" disabled={isEmpty} onClick={clearCalls}>
           {words.clear}
         </button>
-        <span class="drawer-space" />
+        <span class="grow" />
         <CopyButton
           class="button is-primary"
           hint={words.experimentHint}
@@ -127,11 +127,7 @@ export function CallsDrawer() {
           <span aria-hidden="true">✕</span>
         </button>
       </div>
-      {scriptProblem.value !== "" && (
-        <p class="problem" role="alert">
-          {scriptProblem.value}
-        </p>
-      )}
+      <ErrorLine>{scriptProblem.value}</ErrorLine>
       <CallList language={language} />
     </section>
   );

@@ -29,7 +29,7 @@ export function CostCurve({ trials, budget }: { trials: readonly Trial[]; budget
           { look: "tried", points: best },
         ]}
       />
-      <p class="responses-legend">
+      <p class="row small responses-legend">
         <span>{words.best}</span>
         <span class="is-each">{words.each}</span>
       </p>

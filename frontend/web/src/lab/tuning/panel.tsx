@@ -4,7 +4,7 @@ import { explain } from "../../core/state/actions";
 import { titleOf, usableLaws } from "../../core/state/laws";
 import { isLive, session } from "../../core/state/session";
 import { text } from "../../core/text/en";
-import { Problem, SelectField } from "../../core/widgets/form";
+import { ErrorLine, Problem, SelectField } from "../../core/widgets/form";
 import { Panel } from "../../core/widgets/panel";
 import { CostCurve } from "./costcurve";
 import { RunTable, ValueTable } from "./tables";
@@ -37,7 +37,7 @@ function Choice() {
   const budget = Number(typed);
   const isTaken = Number.isInteger(budget) && budget >= 1 && budget <= MAX_BUDGET;
   return (
-    <div class="tuning-choice">
+    <div class="row small tuning-choice">
       <SelectField
         label={words.law}
         value={law}
@@ -72,11 +72,7 @@ function Choice() {
           {words.start}
         </button>
       )}
-      {!isTaken && (
-        <p class="problem" role="alert">
-          {words.budgetHint}
-        </p>
-      )}
+      <ErrorLine>{isTaken ? "" : words.budgetHint}</ErrorLine>
     </div>
   );
 }
@@ -107,13 +103,13 @@ function Found() {
       {present === null || best === null ? (
         isUnderWay.value && <p class="hint">{words.first}</p>
       ) : (
-        <div class="tuning-found">
+        <div class="halves">
           <CostCurve trials={trials.value} budget={state.budget} />
           <ValueTable tuning={state} present={present} best={best} />
           <RunTable tuning={state} present={present} best={best} />
         </div>
       )}
-      <div class="tuning-buttons">
+      <div class="row">
         <button
           type="button"
           class="button is-primary"
@@ -150,14 +146,10 @@ function Tune() {
   useEffect(() => void findNewest(), []);
   return (
     <Panel title={words.title} class="tuning" onClose={close}>
-      <div class="tuning-body">
+      <div class="stack">
         <p class="hint">{words.about}</p>
         <Choice />
-        {problem.value !== null && (
-          <p class="problem" role="alert">
-            {explain(problem.value)}
-          </p>
-        )}
+        <ErrorLine>{problem.value === null ? "" : explain(problem.value)}</ErrorLine>
         <Found />
         <p class="hint">{words.cost}</p>
       </div>

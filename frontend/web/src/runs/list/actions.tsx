@@ -3,6 +3,7 @@ import { noteDownload } from "../../core/api/calls";
 import { addressOf, branchRun, exportPath } from "../../core/api/runs";
 import type { ExportName, RunDetails } from "../../core/api/types";
 import { text } from "../../core/text/en";
+import { ErrorLine } from "../../core/widgets/form";
 import { Popup } from "../../core/widgets/popup";
 import { CopyButton } from "../../lab/script/copybutton";
 import { makeRunScript, scriptProblem } from "../../lab/script/repeat";
@@ -54,7 +55,7 @@ function MakingNote({ run }: { run: RunDetails }) {
   }, [stage]);
   return (
     <span
-      class={`run-making ${stage === "failed" ? "problem" : ""}`}
+      class={`hint run-making ${stage === "failed" ? "problem" : ""}`}
       aria-busy={stage === "making"}
     >
       <span role="status">
@@ -72,7 +73,7 @@ function Exports({ run }: { run: RunDetails }) {
   return (
     <Popup class="button run-exports" title={words.downloadHint} button={words.download}>
       {(close) => (
-        <ul class="exports">
+        <ul class="menu exports">
           {KINDS.map((kind) => {
             const path = exportPath(run.id, kind);
             if (kind === "html") {
@@ -122,7 +123,7 @@ export function RunActions({ run, moment }: { run: RunDetails; moment: number })
     if (await putIntoTrash(run.id)) goTo({ kind: "list" });
   };
   return (
-    <div class="run-actions">
+    <div class="row run-actions">
       <Branch run={run} moment={moment} />
       <CopyButton read={link} hint={words.linkHint}>
         {words.link}
@@ -135,11 +136,7 @@ export function RunActions({ run, moment }: { run: RunDetails; moment: number })
         {text.runs.remove}
       </button>
       <MakingNote run={run} />
-      {scriptProblem.value !== "" && (
-        <span class="problem" role="alert">
-          {scriptProblem.value}
-        </span>
-      )}
+      <ErrorLine>{scriptProblem.value}</ErrorLine>
     </div>
   );
 }

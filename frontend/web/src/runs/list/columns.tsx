@@ -174,7 +174,11 @@ export const COLUMNS: readonly Column[] = [
     sort: "created",
     isDownFirst: true,
     isNumber: true,
-    show: (run) => <time dateTime={run.created}>{formatMomentShort(run.created)}</time>,
+    show: (run) => (
+      <time class="muted" dateTime={run.created}>
+        {formatMomentShort(run.created)}
+      </time>
+    ),
     hintOf: (run) => formatMoment(run.created),
   },
 ];

@@ -33,12 +33,12 @@ function Group({ name, rows }: { name: string; rows: readonly Row[] }) {
 /** What was set otherwise in one of these runs than in another, and nothing else. */
 export function DifferenceTable({ difference }: { difference: RunDifference }) {
   const { differences, titles } = difference;
-  if (differences.length === 0) return <p class="difference-none">{words.none}</p>;
+  if (differences.length === 0) return <p class="muted">{words.none}</p>;
   const groups = [...new Set(differences.map(({ group }) => group))];
   return (
     // biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls is reached by keyboard
-    <section class="overlay-table difference" tabIndex={0} aria-label={words.title}>
-      <table>
+    <section class="scroll overlay-table" tabIndex={0} aria-label={words.title}>
+      <table class="metrics difference">
         <caption>
           <span>
             {words.title} <small class="unit">{words.hint}</small>

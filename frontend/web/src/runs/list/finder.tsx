@@ -61,7 +61,7 @@ function SortChoice() {
 
 export function Finder() {
   return (
-    <search class="runs-finder">
+    <search class="grow runs-finder">
       <label class="runs-search">
         <span class="visually-hidden">{words.search}</span>
         <input

@@ -1,5 +1,6 @@
 import { useEffect } from "preact/hooks";
 import { text } from "../../core/text/en";
+import { Pager } from "../../core/widgets/tables";
 import { Finder } from "./finder";
 import {
   chosen,
@@ -21,7 +22,7 @@ const RECORDING_MS = 3000;
 function Overlayer() {
   const count = chosen.value.length;
   return (
-    <div class="runs-overlayer">
+    <div class="row end runs-overlayer">
       {count > 0 && (
         <button
           type="button"
@@ -47,10 +48,10 @@ function Overlayer() {
 }
 
 function Empty() {
-  if (isTrash.value && !isNarrowed.value) return <p class="runs-empty">{words.emptyTrash}</p>;
+  if (isTrash.value && !isNarrowed.value) return <p class="empty">{words.emptyTrash}</p>;
   if (isNarrowed.value) {
     return (
-      <div class="runs-empty">
+      <div class="empty">
         <p>{words.nothing}</p>
         <button type="button" class="button" onClick={showAll}>
           {words.showAll}
@@ -59,7 +60,7 @@ function Empty() {
     );
   }
   return (
-    <div class="runs-empty">
+    <div class="empty">
       <svg viewBox="0 0 200 44" aria-hidden="true">
         <path d="M0 30h70c6 0 6-26 12-26s5 30 12 30 5-6 12-4h94" />
       </svg>
@@ -72,40 +73,22 @@ function Empty() {
   );
 }
 
-function Pager({ total }: { total: number }) {
-  const pages = Math.ceil(total / PAGE_SIZE);
-  if (pages < 2) return null;
-  const now = pageNumber.value;
-  const go = (page: number) => {
-    pageNumber.value = page;
-  };
-  const first = (now - 1) * PAGE_SIZE + 1;
+function Pages({ total }: { total: number }) {
+  const page = pageNumber.value;
+  const first = (page - 1) * PAGE_SIZE + 1;
   return (
-    <nav class="pager" aria-label={words.pages}>
-      <button
-        type="button"
-        class="button is-icon"
-        aria-label={words.pageBefore}
-        title={words.pageBefore}
-        disabled={now <= 1}
-        onClick={() => go(now - 1)}
-      >
-        ‹
-      </button>
-      <span aria-live="polite">
-        {words.shown(first, Math.min(first + PAGE_SIZE - 1, total), total)}
-      </span>
-      <button
-        type="button"
-        class="button is-icon"
-        aria-label={words.pageAfter}
-        title={words.pageAfter}
-        disabled={now >= pages}
-        onClick={() => go(now + 1)}
-      >
-        ›
-      </button>
-    </nav>
+    <Pager
+      label={words.pages}
+      page={page}
+      pages={Math.ceil(total / PAGE_SIZE)}
+      back={words.pageBefore}
+      on={words.pageAfter}
+      onTurn={(to) => {
+        pageNumber.value = to;
+      }}
+    >
+      {words.shown(first, Math.min(first + PAGE_SIZE - 1, total), total)}
+    </Pager>
   );
 }
 
@@ -121,15 +104,15 @@ export function ListPage() {
   }, [isGrowing]);
   return (
     <>
-      <div class="runs-head">
+      <div class="row runs-head">
         <h2>
           {words.title} {list && <small class="unit">{words.count(list.total)}</small>}
         </h2>
         <Finder />
-        {list && <Pager total={list.total} />}
+        {list && <Pages total={list.total} />}
         <Overlayer />
       </div>
-      {list === null && <p class="runs-empty">{words.loading}</p>}
+      {list === null && <p class="empty">{words.loading}</p>}
       {list?.runs.length === 0 && <Empty />}
       {list && list.runs.length > 0 && <RunTable runs={list.runs} />}
     </>

@@ -20,7 +20,7 @@ export function OriginLink({ origin }: { origin: Origin }) {
   const at = timeS === null ? "" : words.at(words.seconds(Number(timeS.toFixed(3))));
   const message = words.branchOf(name, at);
   return (
-    <span class="run-origin" title={message}>
+    <span class="hint run-origin" title={message}>
       <svg viewBox="0 0 12 12" aria-hidden="true">
         <path d="M3 1v10M3 8c0-3 6-2 6-6" />
       </svg>
@@ -68,7 +68,7 @@ export function PrivateBanner() {
   const note = session.value?.note;
   const isEnded = phase.value === "ended";
   return (
-    <aside class="private-banner" aria-label={text.private.label}>
+    <aside class="row private-banner" aria-label={text.private.label}>
       <p role="status">
         <strong>{isEnded ? text.private.endedTitle : text.private.title}</strong>{" "}
         {isEnded ? text.private.endedText : text.private.text}{" "}

@@ -83,7 +83,7 @@ function OverlayPlot(props: PlotProps) {
       <h3>
         {title} <span class="unit">{unit}</span>
       </h3>
-      <div class="overlay-canvas" ref={host} title={words.hint} />
+      <div class="grow overlay-canvas" ref={host} title={words.hint} />
     </section>
   );
 }
@@ -113,7 +113,7 @@ function OverlayCurves({ curves, judged }: Pick<PlotProps, "curves" | "judged">)
   return (
     <>
       <Legend
-        class="overlay-legend"
+        class="row small"
         entries={curves.map((curve) => ({
           key: curve.key,
           ...curve.lineStyle,
@@ -155,7 +155,7 @@ export function OverlayPage({ runs }: { runs: readonly string[] }) {
   }, [key]);
   return (
     <>
-      <div class="runs-head">
+      <div class="row runs-head">
         <PlaceLink to={{ kind: "list" }} class="button">
           ← {text.run.toList}
         </PlaceLink>
@@ -164,8 +164,8 @@ export function OverlayPage({ runs }: { runs: readonly string[] }) {
           <small class="unit">{words.aligned[curves?.[0]?.alignment ?? "window"]}</small>
         </h2>
       </div>
-      {curves === null && <p class="runs-empty">{text.runs.loading}</p>}
-      {curves?.length === 0 && <p class="runs-empty">{words.nothing}</p>}
+      {curves === null && <p class="empty">{text.runs.loading}</p>}
+      {curves?.length === 0 && <p class="empty">{words.nothing}</p>}
       {curves && curves.length > 0 && (
         <div class="surface overlay">
           <OverlayCurves curves={curves} judged={judged} />

@@ -109,8 +109,9 @@ export function OverlayTable({ curves, difference }: OverlayTableProps) {
   };
   return (
     // biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls is reached by keyboard
-    <section class="overlay-table" tabIndex={0} aria-label={words.table}>
+    <section class="scroll overlay-table" tabIndex={0} aria-label={words.table}>
       <MetricsTable
+        class="metrics"
         caption={
           <span>
             {words.table}

@@ -58,12 +58,12 @@ export function ReplayFrame({ source, name, startS, onMoment }: ReplayFrameProps
   return (
     <div class="replay-place">
       {answer === null && (
-        <p class="replay-waiting" role="status">
+        <p class="muted replay-waiting" role="status">
           {text.run.waiting}
         </p>
       )}
       {answer?.refusal && (
-        <div class="replay-waiting" role="alert">
+        <div class="muted replay-waiting" role="alert">
           <p class="problem">{answer.refusal}</p>
           <button type="button" class="button" onClick={() => setTries(tries + 1)}>
             {text.run.again}

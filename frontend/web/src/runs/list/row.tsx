@@ -100,7 +100,7 @@ function Name({ run }: { run: RunSummary }) {
         {run.tags.length > 0 && (
           <span class="run-tags" title={run.tags.join(", ")}>
             {run.tags.map((tag) => (
-              <span key={tag} class="run-tag">
+              <span key={tag} class="tag">
                 <Marked>{tag}</Marked>
               </span>
             ))}
@@ -108,7 +108,7 @@ function Name({ run }: { run: RunSummary }) {
         )}
         {run.branch_of && <OriginLink origin={run.branch_of} />}
         {notes !== "" && (
-          <span class="run-notes" title={notes}>
+          <span class="hint run-notes" title={notes}>
             <Marked>{excerpt(notes, searchedWords.value)}</Marked>
           </span>
         )}
@@ -131,15 +131,15 @@ export function RunRow({ run }: { run: RunSummary }) {
       {COLUMNS.map(({ key, label, isNumber, isInName, show, hintOf }) => {
         const value = show(run);
         const isEmpty = value === null || value === "";
-        const look = `${isNumber ? "is-number" : ""} ${isInName ? "is-in-name" : ""}`;
+        const look = `${isNumber ? "number" : ""} ${isInName ? "is-in-name" : ""}`;
         return (
           <td
             key={key}
-            class={`run-${key} ${look} ${isEmpty ? "is-empty" : ""}`}
+            class={`run-${key} ${look} ${isEmpty ? "is-empty muted" : ""}`}
             title={hintOf?.(run)}
           >
             {label && (
-              <span class="run-label" aria-hidden="true">
+              <span class="muted run-label" aria-hidden="true">
                 {label}{" "}
               </span>
             )}

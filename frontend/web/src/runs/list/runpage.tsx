@@ -64,9 +64,9 @@ function About({ run, onChanged }: AboutProps) {
     return answer !== null;
   };
   return (
-    <div class="run-about">
+    <div class="grow run-about">
       <h2 class="visually-hidden">{run.title}</h2>
-      <div class="run-line">
+      <div class="row">
         <Written
           label={words.name}
           hint={run.settings?.name || run.id}
@@ -75,10 +75,10 @@ function About({ run, onChanged }: AboutProps) {
           value={run.name}
           onWrite={(name) => write({ name })}
         />
-        <span class="run-when">
+        <span class="hint clip">
           {formatMoment(run.created)} · <span title={words.lengthHint}>{formatLength(run)}</span>
         </span>
-        {run.name !== "" && run.settings && <span class="run-when">{run.settings.name}</span>}
+        {run.name !== "" && run.settings && <span class="hint clip">{run.settings.name}</span>}
         {run.branch_of && <OriginLink origin={run.branch_of} />}
         {run.fault && (
           <strong class="run-state is-fault" title={run.fault.message}>
@@ -90,7 +90,7 @@ function About({ run, onChanged }: AboutProps) {
       <Written
         label={words.notes}
         hint={words.notesHint}
-        class="run-note"
+        class="muted run-note"
         longest={10_000}
         value={run.notes}
         onWrite={(notes) => write({ notes })}
@@ -102,7 +102,7 @@ function About({ run, onChanged }: AboutProps) {
 /** In place of a run that cannot be read; why, says the line above. */
 function Missing() {
   return (
-    <div class="runs-empty">
+    <div class="empty">
       <h2>{words.missing}</h2>
       <p>{words.missingText}</p>
       <PlaceLink to={{ kind: "list" }} class="button is-primary">
@@ -169,7 +169,7 @@ export function RunPage({ run: id, timeS }: { run: string; timeS: number }) {
       {run.ticks > 0 ? (
         <ReplayFrame source={replayAddress(id)} name={run.title} startS={timeS} onMoment={follow} />
       ) : (
-        <p class="runs-empty">{words.noSamples}</p>
+        <p class="empty">{words.noSamples}</p>
       )}
     </>
   );

@@ -47,7 +47,7 @@ export function Runs({ at }: { at: RunsPlace }) {
     runsProblem.value = "";
   }, [at.kind]);
   return (
-    <main class={`runs is-${at.kind}`} aria-label={text.runs.title}>
+    <main class={`page ${at.kind === "run" ? "is-run" : "runs"}`} aria-label={text.runs.title}>
       <ErrorLine>{runsProblem.value}</ErrorLine>
       <Inside at={at} />
       <Undo />

@@ -12,7 +12,7 @@ interface HeadProps extends Pick<Column, "name" | "hint" | "sort" | "isDownFirst
 }
 
 function Head({ name, hint, sort: column, isDownFirst, isNumber, ...rest }: HeadProps) {
-  const look = `${rest.class} ${isNumber ? "is-number" : ""}`;
+  const look = `${rest.class} ${isNumber ? "number" : ""}`;
   if (column === undefined) {
     return (
       <th scope="col" class={`${look} is-plain`} title={hint}>

@@ -25,7 +25,7 @@ export function Tags({ run, onChanged, onRefused }: TagsProps) {
     if (tag !== "" && !run.tags.includes(tag)) void put([...run.tags, tag]);
   };
   return (
-    <ul class="tags" aria-label={text.runs.tagsOf(run.title)}>
+    <ul class="row" aria-label={text.runs.tagsOf(run.title)}>
       {run.tags.map((tag) => (
         <li key={tag} class="tag">
           {tag}

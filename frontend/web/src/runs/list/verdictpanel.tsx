@@ -1,6 +1,6 @@
-import { useId, useState } from "preact/hooks";
+import { useState } from "preact/hooks";
 import { text } from "../../core/text/en";
-import { NumberBox } from "../../core/widgets/form";
+import { NumberBox, SelectField } from "../../core/widgets/form";
 import { CHANNELS, type Overlaid, type OverlayChannel, TITLES } from "./overlaid";
 import { attempt } from "./problem";
 import { type Bounds, type Judged, judgeRuns, type Tolerances } from "./verdict";
@@ -33,8 +33,8 @@ function Fields({ channel, typed, onType }: FieldsProps) {
     ["timeS", words.time, words.secondsUnit],
   ];
   return (
-    <fieldset class="verdict-fields">
-      <legend>{title}</legend>
+    <fieldset>
+      <legend class="hint">{title}</legend>
       {units.map(([field, label, fieldUnit]) => (
         <NumberBox
           key={field}
@@ -60,7 +60,6 @@ export function VerdictPanel({ curves, judged, onJudged }: VerdictPanelProps) {
   const [reference, setReference] = useState(runs[0]?.[0] ?? "");
   const [typed, setTyped] = useState(AT_FIRST);
   const [isJudging, setIsJudging] = useState(false);
-  const id = useId();
   const judge = async () => {
     const tolerances = Object.fromEntries(
       CHANNELS.map((channel) => [channel, readBounds(typed[channel])]),
@@ -76,34 +75,27 @@ export function VerdictPanel({ curves, judged, onJudged }: VerdictPanelProps) {
     setTyped({ ...typed, [channel]: { ...typed[channel], [field]: value } });
   };
   return (
-    <section class="verdict" aria-label={words.title}>
+    <section aria-label={words.title}>
       <h3>
         {words.title} <small class="unit">{words.hint}</small>
       </h3>
       <form
-        class="verdict-form"
+        class="form verdict-form"
         onSubmit={(event) => {
           event.preventDefault();
           void judge();
         }}
       >
-        <label class="verdict-reference" for={id}>
-          <span>{words.reference}</span>
-          <select
-            id={id}
-            value={reference}
-            onChange={(event) => {
-              onJudged([]);
-              setReference(event.currentTarget.value);
-            }}
-          >
-            {runs.map(([run, name]) => (
-              <option key={run} value={run}>
-                {name}
-              </option>
-            ))}
-          </select>
-        </label>
+        <SelectField
+          label={words.reference}
+          value={reference}
+          options={runs.map(([run]) => run)}
+          name={(run) => curves.find((one) => one.run === run)?.runName ?? run}
+          onChoose={(run) => {
+            onJudged([]);
+            setReference(run);
+          }}
+        />
         {CHANNELS.map((channel) => (
           <Fields
             key={channel}
@@ -112,7 +104,7 @@ export function VerdictPanel({ curves, judged, onJudged }: VerdictPanelProps) {
             onType={(field, value) => type(channel, field, value)}
           />
         ))}
-        <div class="verdict-buttons">
+        <div class="row">
           <button type="submit" class="button" disabled={isJudging}>
             {isJudging ? words.judging : words.judge}
           </button>

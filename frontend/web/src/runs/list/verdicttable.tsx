@@ -1,6 +1,7 @@
 import { Swatch } from "../../core/plots/legend";
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
+import { Table } from "../../core/widgets/tables";
 import { nameCurve, type Overlaid, TITLES } from "./overlaid";
 import { type Judged, type JudgedCurve, listJudged } from "./verdict";
 
@@ -25,10 +26,10 @@ function Row({ one }: { one: JudgedCurve }) {
           {nameCurve(one.curve)}
         </span>
       </th>
-      <td class="verdict-channel">
+      <td>
         {title} <span class="unit">{unit}</span>
       </td>
-      <td class={one.isHeld ? "verdict-held" : "verdict-left"}>
+      <td class={one.isHeld ? "good" : "bad strong"}>
         <span aria-hidden="true">{one.isHeld ? "✓" : "✗"}</span>{" "}
         {one.isHeld ? words.held : words.left}
       </td>
@@ -52,31 +53,28 @@ export function VerdictTable({ curves, judged }: VerdictTableProps) {
   const message = failed === 0 ? words.allHeld(rows.length) : words.notHeld(failed, rows.length);
   return (
     <>
-      <p class="verdict-summary" role="status">
-        <strong class={failed === 0 ? "verdict-held" : "verdict-left"}>{message}</strong>{" "}
+      <p class="small" role="status">
+        <strong class={failed === 0 ? "good" : "bad"}>{message}</strong>{" "}
         {judged.map((one) => describeCompared(one, curves)).join(" ")} {words.marks}
       </p>
-      {/* biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls is reached by keyboard */}
-      <section class="overlay-table" tabIndex={0} aria-label={words.table}>
-        <table>
-          <thead>
-            <tr>
-              <th scope="col">{words.curve}</th>
-              <th scope="col">{words.channel}</th>
-              <th scope="col">{words.isHeld}</th>
-              <th scope="col">{words.worst}</th>
-              <th scope="col">{words.value}</th>
-              <th scope="col">{words.band}</th>
-              <th scope="col">{words.outside}</th>
-            </tr>
-          </thead>
-          <tbody>
-            {rows.map((one) => (
-              <Row key={`${one.curve.key}.${one.channel}`} one={one} />
-            ))}
-          </tbody>
-        </table>
-      </section>
+      <Table
+        label={words.table}
+        class="overlay-table"
+        look="metrics"
+        heads={[
+          words.curve,
+          words.channel,
+          words.isHeld,
+          words.worst,
+          words.value,
+          words.band,
+          words.outside,
+        ]}
+      >
+        {rows.map((one) => (
+          <Row key={`${one.curve.key}.${one.channel}`} one={one} />
+        ))}
+      </Table>
     </>
   );
 }

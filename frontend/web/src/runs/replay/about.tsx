@@ -36,16 +36,18 @@ export function Header({ run }: { run: Run }) {
   return (
     <header>
       <div class="name">
-        <h1>{run.title}</h1>
-        <p>
+        <h1 class="clip">{run.title}</h1>
+        <p class="hint">
           {text.name}, {text.recorded}
         </p>
       </div>
-      <dl class="facts">
+      <dl class="run-facts">
         {facts.slice(0, 4).map(([key, value]) => (
           <div key={key}>
             <dt>{words(key)}</dt>
-            <dd title={String(value)}>{String(value)}</dd>
+            <dd class="clip" title={String(value)}>
+              {String(value)}
+            </dd>
           </div>
         ))}
       </dl>
@@ -53,7 +55,7 @@ export function Header({ run }: { run: Run }) {
         {about.open}
       </button>
       <dialog ref={dialog} class="about" aria-label={about.open}>
-        <div class="about-head">
+        <div class="spread about-head">
           <h2>{about.open}</h2>
           <button type="button" class="button" onClick={() => dialog.current?.close()}>
             {about.close}

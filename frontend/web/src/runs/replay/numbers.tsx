@@ -54,7 +54,7 @@ function Metrics({ run }: { run: Run }) {
   });
   return (
     <MetricsTable
-      class="metrics"
+      class="metrics strong"
       caption={numbers.heading(describeMeasured(window))}
       captionHint={numbers.hint}
       corner={<span class="visually-hidden">{numbers.lane}</span>}
@@ -74,7 +74,7 @@ function Metrics({ run }: { run: Run }) {
 
 function Events({ run }: { run: Run }) {
   return (
-    <div class="events">
+    <div class="menu events">
       <h2>{text.events.heading}</h2>
       {run.events.length === 0 && <p class="hint">{text.events.none}</p>}
       <ul>
@@ -88,7 +88,7 @@ function Events({ run }: { run: Run }) {
                 seek(event.time_s);
               }}
             >
-              <span>{text.transport.seconds(event.time_s)}</span> {event.label}
+              <span class="number hint">{text.transport.seconds(event.time_s)}</span> {event.label}
             </button>
           </li>
         ))}
@@ -99,7 +99,7 @@ function Events({ run }: { run: Run }) {
 
 export function Numbers({ recording: { run } }: { recording: Recording }) {
   return (
-    <section class="surface numbers">
+    <section class="surface replay-numbers">
       <Metrics run={run} />
       <Events run={run} />
     </section>

@@ -31,7 +31,7 @@ function Scrubber({ recording: { run, endS } }: { recording: Recording }) {
   });
   return (
     <>
-      <div class="time">
+      <div class="number time">
         <output ref={output} aria-label={transport.time} />
         <span>{transport.of(transport.seconds(endS))}</span>
       </div>
@@ -75,8 +75,8 @@ export function Transport({ recording }: { recording: Recording }) {
         {isPlaying.value ? transport.pause : transport.play}
       </button>
       <Scrubber recording={recording} />
-      <label class="speed">
-        <span>{transport.speed}</span>
+      <label class="row">
+        <span class="hint">{transport.speed}</span>
         <select
           value={String(speed.value)}
           onChange={(event) => {
@@ -90,7 +90,7 @@ export function Transport({ recording }: { recording: Recording }) {
           ))}
         </select>
       </label>
-      <div class="zoom">
+      <div class="row">
         <button
           type="button"
           class="button is-icon"

@@ -64,8 +64,8 @@ export function View({ recording: { run, arrays } }: { recording: Recording }) {
       <iframe ref={frame} title={text.view} />
       {state === "shown" && <SceneLabels frame={present} />}
       <PlantMark kind={findMark(run)} />
-      {state === "failed" && <p class="view-problem">{text.noView}</p>}
-      <ul class="view-legend">
+      {state === "failed" && <p class="muted view-problem">{text.noView}</p>}
+      <ul class="row view-legend">
         {run.lanes.map((lane, index) => (
           <li key={`${index}.${lane}`}>
             {index === 0 ? (

@@ -1,7 +1,8 @@
 import { useEffect } from "preact/hooks";
 import type { AuditLine } from "../../core/api/access";
 import { text } from "../../core/text/en";
-import { ErrorLine } from "../../core/widgets/form";
+import { ErrorLine, SelectField } from "../../core/widgets/form";
+import { Pager, Table } from "../../core/widgets/tables";
 import {
   askFor,
   auditPage,
@@ -31,20 +32,22 @@ function Place({ line }: { line: AuditLine }) {
 
 function Line({ line, now }: { line: AuditLine; now: Date }) {
   return (
-    <tr class={line.refused ? "is-refused" : undefined}>
-      <td class="audit-time">
+    <tr>
+      <td class="muted nowrap">
         <time dateTime={line.time} title={line.time}>
           {formatTime(line.time, now)}
         </time>
       </td>
-      <th scope="row">{line.name ?? words.stranger}</th>
+      <th scope="row" class="strong">
+        {line.name ?? words.stranger}
+      </th>
       <td class="audit-what" title={line.path ?? undefined}>
         {line.did} <small>{nameKind(line.kind)}</small>
       </td>
-      <td class="audit-place">
+      <td class="breaks audit-place">
         <Place line={line} />
       </td>
-      <td class="audit-end">{describeEnd(line)}</td>
+      <td class={`audit-end ${line.refused ? "bad" : "muted"}`}>{describeEnd(line)}</td>
     </tr>
   );
 }
@@ -53,33 +56,22 @@ function Filters() {
   const { people = [], kinds = [] } = auditPage.value ?? {};
   const { person, kind, onlyRefused } = wish.value;
   return (
-    <div class="audit-filters">
-      <label>
-        <span>{words.person}</span>
-        <select
-          value={person}
-          onChange={(event) => void askFor({ person: event.currentTarget.value })}
-        >
-          <option value="">{words.everybody}</option>
-          {people.map((one) => (
-            <option key={one.id} value={one.id}>
-              {one.name}
-            </option>
-          ))}
-        </select>
-      </label>
-      <label>
-        <span>{words.kind}</span>
-        <select value={kind} onChange={(event) => void askFor({ kind: event.currentTarget.value })}>
-          <option value="">{words.everyKind}</option>
-          {kinds.map((one) => (
-            <option key={one} value={one}>
-              {nameKind(one)}
-            </option>
-          ))}
-        </select>
-      </label>
-      <label class="audit-refused">
+    <div class="row form audit-filters">
+      <SelectField
+        label={words.person}
+        value={person}
+        options={["", ...people.map(({ id }) => id)]}
+        name={(one) => people.find(({ id }) => id === one)?.name ?? words.everybody}
+        onChoose={(chosen) => void askFor({ person: chosen })}
+      />
+      <SelectField
+        label={words.kind}
+        value={kind}
+        options={["", ...kinds]}
+        name={(one) => (one === "" ? words.everyKind : nameKind(one))}
+        onChoose={(chosen) => void askFor({ kind: chosen })}
+      />
+      <label class="row">
         <input
           type="checkbox"
           checked={onlyRefused}
@@ -89,7 +81,7 @@ function Filters() {
       </label>
       <button
         type="button"
-        class="button is-small"
+        class="button is-small end"
         aria-disabled={isReading.value}
         onClick={() => void askFor()}
       >
@@ -101,28 +93,18 @@ function Filters() {
 
 function Pages({ total }: { total: number }) {
   const { page } = wish.value;
-  const count = countPages(total);
-  if (count === 1) return null;
+  const pages = countPages(total);
   return (
-    <nav class="audit-pages" aria-label={words.pages}>
-      <button
-        type="button"
-        class="button is-small"
-        disabled={page <= 1}
-        onClick={() => void turnTo(page - 1)}
-      >
-        {words.newer}
-      </button>
-      <span role="status">{words.page(page, count, total)}</span>
-      <button
-        type="button"
-        class="button is-small"
-        disabled={page >= count}
-        onClick={() => void turnTo(page + 1)}
-      >
-        {words.older}
-      </button>
-    </nav>
+    <Pager
+      label={words.pages}
+      page={page}
+      pages={pages}
+      back={words.newer}
+      on={words.older}
+      onTurn={(to) => void turnTo(to)}
+    >
+      {words.page(page, pages, total)}
+    </Pager>
   );
 }
 
@@ -141,22 +123,14 @@ function Lines() {
       ) : page.lines.length === 0 ? (
         <p class="hint">{words.none}</p>
       ) : (
-        <table class="class-table audit-table">
-          <thead>
-            <tr>
-              <th scope="col">{words.time}</th>
-              <th scope="col">{words.who}</th>
-              <th scope="col">{words.what}</th>
-              <th scope="col">{words.where}</th>
-              <th scope="col">{words.end}</th>
-            </tr>
-          </thead>
-          <tbody>
-            {page.lines.map((line, row) => (
-              <Line key={`${line.time} ${row}`} line={line} now={now} />
-            ))}
-          </tbody>
-        </table>
+        <Table
+          look="table audit-table"
+          heads={[words.time, words.who, words.what, words.where, words.end]}
+        >
+          {page.lines.map((line, row) => (
+            <Line key={`${line.time} ${row}`} line={line} now={now} />
+          ))}
+        </Table>
       )}
       {page !== null && <Pages total={page.total} />}
     </>
@@ -166,9 +140,9 @@ function Lines() {
 /** Who did what, where and at which tick, for the instructor; read when it is opened. */
 export function AuditLog({ isOpen, onToggle }: { isOpen: boolean; onToggle: () => void }) {
   return (
-    <section class="audit">
+    <section class="stack">
       <h3>
-        <button type="button" class="quiet" aria-expanded={isOpen} onClick={onToggle}>
+        <button type="button" class="quiet audit-title" aria-expanded={isOpen} onClick={onToggle}>
           {words.title}
         </button>
       </h3>

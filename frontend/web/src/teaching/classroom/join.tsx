@@ -21,7 +21,7 @@ function StudentForm({ enter }: EnterProps) {
     });
   };
   return (
-    <form onSubmit={submit}>
+    <form class="stack" onSubmit={submit}>
       <label for={`${id}-name`}>{text.control.name}</label>
       <input
         id={`${id}-name`}
@@ -66,7 +66,7 @@ export function Join({ enter }: EnterProps) {
       {chosen === "student" && <StudentForm enter={enter} />}
       {chosen === "back" && <SecretForm label={words.returnCode} enter={enter} send={comeIn} />}
       {chosen === "instructor" && <SecretForm label={words.token} enter={enter} send={login} />}
-      <p class="login-ways">
+      <p class="row">
         {WAYS.filter((way) => way !== chosen).map((way) => (
           <button key={way} type="button" class="quiet" onClick={() => choose(way)}>
             {words.ways[way]}
@@ -95,6 +95,7 @@ export function SecretForm({ label, enter, send }: SecretProps) {
   const [secret, setSecret] = useState("");
   return (
     <form
+      class="stack"
       onSubmit={(event) => {
         event.preventDefault();
         enter(() => send(secret));

@@ -59,10 +59,10 @@ function Inside() {
     return () => clearInterval(timer);
   }, []);
   return (
-    <div class="class-body">
+    <div class="stack class-body">
       <ErrorLine>{note.value}</ErrorLine>
       {isInstructor.value && (
-        <div class="class-acts">
+        <div class="row">
           <button
             type="button"
             class="button"
@@ -124,7 +124,7 @@ function Inside() {
           }}
         />
       )}
-      <div class="class-acts">
+      <div class="row">
         <button
           type="button"
           class="button"
@@ -167,9 +167,9 @@ function Inside() {
         </button>
       </div>
       {token.value !== "" && (
-        <p class="class-token">
-          {words.scriptOnce} <code>{token.value}</code>
-        </p>
+        <div>
+          {words.scriptOnce} <pre class="class-token">{token.value}</pre>
+        </div>
       )}
     </div>
   );
@@ -208,7 +208,7 @@ function Code({ code }: { code: ClassCode }) {
         {words.codeOnce} <strong class="class-code">{code.code}</strong>
       </figcaption>
       <img src={code.qr} alt={words.qr(code.code)} />
-      <span class="class-address">{code.address}</span>
+      <span class="block breaks">{code.address}</span>
       {code.is_local && <strong>{words.onlyHere}</strong>}
     </figure>
   );

@@ -2,6 +2,7 @@
 import type { ClassState } from "../../core/api/access";
 import { access, handOver, isInstructor, lock, queue } from "../../core/state/control";
 import { text } from "../../core/text/en";
+import { Table } from "../../core/widgets/tables";
 
 const words = text.classroom;
 const SHARED = "lab";
@@ -16,50 +17,42 @@ export function People({
 }) {
   const ordered = [...people].sort((one, other) => one.name.localeCompare(other.name));
   return (
-    // biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls is scrolled by key, too
-    <section class="class-people" aria-label={words.here(people.length)} tabIndex={0}>
-      <table class="class-table">
-        <caption>{words.here(people.length)}</caption>
-        <thead>
-          <tr>
-            <th scope="col">{words.name}</th>
-            <th scope="col">{words.role}</th>
-            <th scope="col">{words.sees}</th>
-            {isInstructor.value && (
-              <th scope="col">
-                <span class="visually-hidden">{words.act}</span>
-              </th>
-            )}
-          </tr>
-        </thead>
-        <tbody>
-          {ordered.map((one) => (
-            <tr key={one.id}>
-              <th scope="row">
-                {one.name} {one.id === access.value?.id && <small>({words.you})</small>}
-              </th>
-              <td>{words.roles[one.role]}</td>
-              <td>{one.sees.map((name) => (name === SHARED ? words.shared : name)).join(", ")}</td>
-              {isInstructor.value && (
-                <td class="class-act">
-                  {one.role !== "instructor" && (
-                    <button
-                      type="button"
-                      class="button is-small"
-                      aria-label={words.remove(one.name)}
-                      title={words.removeHint}
-                      onClick={() => remove(one.id)}
-                    >
-                      {words.removeShort}
-                    </button>
-                  )}
-                </td>
+    <Table
+      label={words.here(people.length)}
+      class="class-people"
+      caption={words.here(people.length)}
+      heads={[
+        words.name,
+        words.role,
+        words.sees,
+        ...(isInstructor.value ? [<span class="visually-hidden">{words.act}</span>] : []),
+      ]}
+    >
+      {ordered.map((one) => (
+        <tr key={one.id}>
+          <th scope="row">
+            {one.name} {one.id === access.value?.id && <small>({words.you})</small>}
+          </th>
+          <td>{words.roles[one.role]}</td>
+          <td>{one.sees.map((name) => (name === SHARED ? words.shared : name)).join(", ")}</td>
+          {isInstructor.value && (
+            <td class="number">
+              {one.role !== "instructor" && (
+                <button
+                  type="button"
+                  class="button is-small"
+                  aria-label={words.remove(one.name)}
+                  title={words.removeHint}
+                  onClick={() => remove(one.id)}
+                >
+                  {words.removeShort}
+                </button>
               )}
-            </tr>
-          ))}
-        </tbody>
-      </table>
-    </section>
+            </td>
+          )}
+        </tr>
+      ))}
+    </Table>
   );
 }
 
@@ -76,10 +69,10 @@ export function Removed({
     <section>
       <h3>{words.removed}</h3>
       <p class="hint">{words.removedHint}</p>
-      <ul class="class-list">
+      <ul class="stack">
         {removed.map((one) => (
-          <li key={one.id}>
-            <span>{one.name}</span>
+          <li key={one.id} class="row">
+            <span class="grow">{one.name}</span>
             <button
               type="button"
               class="button is-small"
@@ -102,11 +95,11 @@ export function Waiting() {
     <section>
       <h3>{words.queue}</h3>
       {waiting.length === 0 && <p class="hint">{words.nobodyWaits}</p>}
-      <ol class="class-queue">
+      <ol class="bullets">
         {waiting.map((one) => (
           <li key={one.id}>
-            <div class="class-waits">
-              <span>{one.name}</span>
+            <div class="row">
+              <span class="grow">{one.name}</span>
               {isInstructor.value && (
                 <button
                   type="button"
@@ -147,10 +140,10 @@ export function Sessions({
     <section>
       <h3>{words.sessions}</h3>
       {sessions.length === 0 && <p class="hint">{words.noSessions}</p>}
-      <ul class="class-list">
+      <ul class="stack">
         {sessions.map((one) => (
-          <li key={one.session}>
-            <span>
+          <li key={one.session} class="row">
+            <span class="grow">
               {one.owner} · {text.status[one.status as "running" | "paused" | "fault"]}
               {one.recording && ` · ${words.recording}`}
             </span>

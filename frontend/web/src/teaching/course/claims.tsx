@@ -4,6 +4,7 @@ import type { components } from "../../core/api/schema";
 import type { Claim, ClaimNumbers, Figure } from "../../core/api/types";
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
+import { ErrorLine } from "../../core/widgets/form";
 import { ErrorCourse } from "./course";
 import { runFigureApart, type Tried } from "./trial";
 
@@ -38,7 +39,7 @@ function NumbersTable({ numbers }: Pick<Claim, "numbers">) {
     [words.rows.stiffness, words.stiffnessUnit, "stiffness_steady_nm_per_rad"],
   ] as const satisfies readonly (readonly [string, string, keyof ClaimNumbers])[];
   return (
-    <table class="claim-numbers">
+    <table class="metrics strong">
       <caption class="visually-hidden">{words.numbers}</caption>
       <thead>
         <tr>
@@ -69,27 +70,28 @@ function Result({ figure, tried }: { figure: Figure; tried: Tried }) {
   const { course, claim } = tried;
   const areAll = claim.parts.every(({ holds }) => holds);
   return (
-    <section
-      class="claim-result"
-      role="status"
-      aria-label={words.result(text.figures.name[figure])}
-    >
-      <blockquote>
+    <section class="stack" role="status" aria-label={words.result(text.figures.name[figure])}>
+      <blockquote class="note small">
         <strong>{words.claim}</strong> {figureClaims.value.get(figure)}
       </blockquote>
       <ErrorCourse course={course} />
       <NumbersTable numbers={claim.numbers} />
-      <ul class="findings">
+      <ul class="small findings">
         {claim.parts.map(({ part, holds }) => (
-          <li key={part} class={holds ? "is-held" : "is-failed"}>
-            <span aria-hidden="true">{holds ? words.holdsSign : words.holdsNotSign}</span>
+          <li key={part}>
+            <span class={holds ? "good" : "bad"} aria-hidden="true">
+              {holds ? words.holdsSign : words.holdsNotSign}
+            </span>
             {words.parts[part]}
-            <strong>{holds ? words.holds : words.holdsNot}</strong>
+            <strong class={holds ? "good" : "bad"}>{holds ? words.holds : words.holdsNot}</strong>
           </li>
         ))}
       </ul>
-      <p class={`claim-verdict ${areAll ? "is-held" : "is-failed"}`}>
-        <strong>{areAll ? words.overall.holds : words.overall.fails}</strong> {words.sizes}
+      <p class="small">
+        <strong class={areAll ? "good" : "bad"}>
+          {areAll ? words.overall.holds : words.overall.fails}
+        </strong>{" "}
+        {words.sizes}
       </p>
     </section>
   );
@@ -100,10 +102,10 @@ export function Claims() {
   const now = trial.value;
   const isRunning = now !== null && now.tried === null && now.problem === "";
   return (
-    <div class="claims">
+    <div class="stack">
       <h3>{words.heading}</h3>
       <p class="hint">{words.explanation}</p>
-      <div class="claim-buttons">
+      <div class="row">
         {FIGURES.map((figure) => (
           <button
             key={figure}
@@ -118,11 +120,7 @@ export function Claims() {
         ))}
       </div>
       {isRunning && <p role="status">{words.running(text.figures.name[now.figure])}</p>}
-      {now?.problem && (
-        <p class="problem" role="alert">
-          {words.failed(now.problem)}
-        </p>
-      )}
+      <ErrorLine>{now?.problem ? words.failed(now.problem) : ""}</ErrorLine>
       {now?.tried && <Result figure={now.figure} tried={now.tried} />}
     </div>
   );

@@ -40,14 +40,14 @@ export function ErrorCourse({ course }: { course: Course }) {
   const [fl, ndobc] = course.positionRad;
   return (
     <svg
-      class="course"
+      class="drawing course"
       viewBox={`0 0 ${WIDTH} ${HEIGHT}`}
       role="img"
       aria-label={text.claims.curve}
     >
       {[-4, -2, 0, 2].map((decade) => (
         <g key={decade}>
-          <path class="course-grid" d={`M${LEFT} ${yOf(10 ** decade)}H${WIDTH - RIGHT}`} />
+          <path class="grid" d={`M${LEFT} ${yOf(10 ** decade)}H${WIDTH - RIGHT}`} />
           <text x={LEFT - 5} y={yOf(10 ** decade) + 4} text-anchor="end">
             {`${10 ** decade}°`.replace("0.0001", "10⁻⁴")}
           </text>

@@ -17,7 +17,7 @@ export function Ending({ of, exercise, onDone }: Task) {
   if (exercise.submitted_at !== null) {
     return (
       <>
-        <p class="lesson-submission" role="status">
+        <p class="note" role="status">
           <strong>{words.submitted(exercise.points ?? 0, exercise.max_points)}</strong>
           {of.law && <span>{words.law.later(exercise.law_points)}</span>}
         </p>
@@ -30,7 +30,7 @@ export function Ending({ of, exercise, onDone }: Task) {
     <>
       {of.law && <OwnLaw kept={exercise.law} html={of.html} />}
       <form
-        class="lesson-form"
+        class="stack lesson-form"
         onSubmit={async (event) => {
           event.preventDefault();
           await submit(name);
@@ -38,9 +38,9 @@ export function Ending({ of, exercise, onDone }: Task) {
         }}
       >
         {missing.length > 0 && (
-          <div class="lesson-missing">
+          <div class="note">
             <p>{words.missing}</p>
-            <ul>
+            <ul class="bullets">
               {missing.map((one) => (
                 <li key={one.name}>
                   {one.name === of.name ? (
@@ -106,7 +106,7 @@ function OwnGrade({ exercise }: { exercise: string }) {
   if (submission === null) return null;
   const { grade } = submission;
   return (
-    <section class="lesson-grade" aria-labelledby="lesson-grade">
+    <section class="stack" aria-labelledby="lesson-grade">
       <h4 id="lesson-grade">
         {grade === null
           ? gradeWords.noOwn

@@ -40,7 +40,7 @@ function Hands({ of }: { of: Step }) {
   if (due === null) return null;
   const isDue = timeS >= due.time_s;
   return (
-    <p class={`lesson-hand ${isDue ? "is-due" : ""}`} aria-live="assertive">
+    <p class={`note is-accent ${isDue ? "strong" : ""}`} aria-live="assertive">
       {isDue ? words.handNow(what, due.is_on) : words.handAt(what, due.is_on, due.time_s)}
     </p>
   );
@@ -52,7 +52,7 @@ function Running({ of }: { of: Step }) {
   if (now === null || now.step !== of.name) return null;
   const state = session.value;
   return (
-    <p class="lesson-running" role="status">
+    <p class="note is-accent" role="status">
       {now.isJudged ? words.judging : words.seconds(state?.time_s ?? 0, now.endS)}
     </p>
   );
@@ -90,7 +90,7 @@ export function Trial({ of, exercise, onDone }: Task) {
       {asked.length > 0 && (
         <>
           <h4>{words.asked}</h4>
-          <ul class="lesson-asked">
+          <ul class="bullets small">
             {asked.map((one) => (
               <li key={one}>{one}</li>
             ))}
@@ -103,7 +103,7 @@ export function Trial({ of, exercise, onDone }: Task) {
         </p>
       )}
       {missing !== undefined && (
-        <p class="lesson-missing">
+        <p class="note">
           <PlaceLink to={{ kind: "learn", exercise: exercise.name, step: missing.name }}>
             {words.predictFirst(missing.title)}
           </PlaceLink>
@@ -112,7 +112,7 @@ export function Trial({ of, exercise, onDone }: Task) {
       <CutOff of={of} />
       <Obstacle of={of} />
       <Hands of={of} />
-      <p class="lesson-buttons">
+      <p class="row">
         <button
           type="button"
           class={isFree && of.begun ? "button" : "button is-primary"}

@@ -61,7 +61,7 @@ export function CutOff({ of }: { of: Step }) {
   const last = cut.value;
   if (last?.step !== of.name) return null;
   return (
-    <p class="lesson-cut" role="alert">
+    <p class="note is-bad" role="alert">
       {words.cut[last.why](last.timeS.toFixed(1))} {words.cutAgain}
     </p>
   );
@@ -72,7 +72,7 @@ export function Obstacle({ of }: { of: Step }) {
   const now = bench.value;
   if (!isDoneHere(of, now)) {
     return (
-      <div class="lesson-obstacle">
+      <div class="note row">
         <p>{words.simulatedOnly}</p>
         <Apart />
       </div>
@@ -80,7 +80,7 @@ export function Obstacle({ of }: { of: Step }) {
   }
   if (!hasControl.value) {
     return (
-      <div class="lesson-obstacle">
+      <div class="note row">
         <Turn />
       </div>
     );
@@ -88,7 +88,7 @@ export function Obstacle({ of }: { of: Step }) {
   const { before } = readinessOf(now, isHeld.value);
   if (before === null) return null;
   return (
-    <div class="lesson-obstacle">
+    <div class="note row">
       <p role="status">
         <strong>{words.before}</strong> {text.bench.advice[before]} {words.above}
       </p>

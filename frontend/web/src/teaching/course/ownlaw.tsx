@@ -7,13 +7,15 @@ import { isBusy, tryLaw } from "./lesson";
 
 const words = text.lesson.law;
 
+const TONES: Readonly<Record<string, string>> = { held: "is-good", failed: "is-bad" };
+
 /** The first program in a step's text, which is one to begin with; "" where there is none. */
 const findStart = (html: string): string =>
   new DOMParser().parseFromString(html, "text/html").querySelector("pre > code")?.textContent ?? "";
 
 function Trial({ kept }: { kept: NonNullable<Exercise["law"]> }) {
   return (
-    <div class={`lesson-law-trial is-${kept.verdict}`}>
+    <div class={`note stack small ${TONES[kept.verdict] ?? "is-warn"}`}>
       <p>
         <strong>{words.verdicts[kept.verdict]}.</strong> {kept.feedback}
       </p>
@@ -33,7 +35,7 @@ export function OwnLaw({ kept, html }: { kept: Exercise["law"]; html: string }) 
   const start = useMemo(() => findStart(html), [html]);
   return (
     <form
-      class="lesson-form lesson-law"
+      class="stack lesson-form"
       aria-label={words.label}
       onSubmit={async (event) => {
         event.preventDefault();
@@ -51,8 +53,8 @@ export function OwnLaw({ kept, html }: { kept: Exercise["law"]; html: string }) 
       >
         {words.try}
       </button>
-      <div role="status">
-        {isTrying && <p class="lesson-running">{words.trying}</p>}
+      <div class="block stack" role="status">
+        {isTrying && <p class="note is-accent">{words.trying}</p>}
         {!isTrying && kept && <Trial kept={kept} />}
         {!isTrying && kept && kept.text !== law && <p class="hint">{words.changed}</p>}
       </div>

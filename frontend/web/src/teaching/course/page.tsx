@@ -3,7 +3,7 @@ import type { ExerciseSummary } from "../../core/api/course";
 import { EquationCard } from "../../core/equations/equation";
 import { TOPICS, type Topic } from "../../core/equations/equations";
 import { text } from "../../core/text/en";
-import { ErrorLine } from "../../core/widgets/form";
+import { Page } from "../../core/widgets/desk";
 import { goTo, PlaceLink } from "../../runs/list/place";
 import { Claims } from "./claims";
 import { exercises, openCourse, problem } from "./lesson";
@@ -16,8 +16,8 @@ function ExerciseCard({ of }: { of: ExerciseSummary }) {
   const isDone = of.submitted_at !== null;
   const word = isDone ? lesson.look : of.done > 0 ? lesson.goOn : lesson.begin;
   return (
-    <li class="exercise-card">
-      <p class="exercise-number">
+    <li class="surface card exercise-card">
+      <p class="hint">
         {lesson.exercise(of.number)} · {lesson.minutes(of.minutes)} ·{" "}
         {lesson.pointsAndLaw(of.max_points, of.law_points)}
       </p>
@@ -29,7 +29,7 @@ function ExerciseCard({ of }: { of: ExerciseSummary }) {
         aria-label={`${lesson.progress}: ${of.title}`}
         title={lesson.done(of.done, of.steps)}
       />
-      <p class="exercise-foot">
+      <p class="spread hint">
         <span>
           {isDone
             ? lesson.submitted(of.points ?? 0, of.max_points)
@@ -54,12 +54,12 @@ export function LearnPage() {
     void openCourse();
   }, []);
   return (
-    <main class="learn-page" aria-label={words.title}>
-      <div class="learn-head">
-        <div>
-          <h2>{words.title}</h2>
-          <p>{words.lead}</p>
-        </div>
+    <Page
+      title={words.title}
+      lead={words.lead}
+      problem={problem.value}
+      class="learn"
+      aside={
         <button
           type="button"
           class="button"
@@ -70,8 +70,8 @@ export function LearnPage() {
         >
           {text.tour.take}
         </button>
-      </div>
-      <ErrorLine>{problem.value}</ErrorLine>
+      }
+    >
       <section aria-label={lesson.exercises}>
         <h3>{lesson.exercises}</h3>
         {exercises.value === null && problem.value === "" && <p class="hint">{lesson.loading}</p>}
@@ -81,9 +81,9 @@ export function LearnPage() {
           ))}
         </ul>
       </section>
-      <div class="learn-body">
+      <div class="halves">
         <Claims />
-        <section class="learn-equations">
+        <section class="stack">
           <h3>{words.equations}</h3>
           <p class="hint">{words.equationsHint}</p>
           {TOPICS.map((topic: Topic) => (
@@ -94,7 +94,7 @@ export function LearnPage() {
           ))}
         </section>
       </div>
-    </main>
+    </Page>
   );
 }
 

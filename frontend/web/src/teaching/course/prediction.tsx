@@ -18,7 +18,7 @@ export function Prediction({ of, exercise, onDone }: Task) {
   if (given !== null && !isChanging) {
     return (
       <>
-        <p class="lesson-kept">
+        <p class="note">
           <strong>{words.kept(String(given), of.unit)}</strong>{" "}
           {of.is_kept ? words.isKept : words.keptHint}
         </p>
@@ -33,7 +33,7 @@ export function Prediction({ of, exercise, onDone }: Task) {
   }
   return (
     <form
-      class="lesson-form"
+      class="stack lesson-form"
       onSubmit={(event) => {
         event.preventDefault();
         setSent(true);
@@ -46,7 +46,7 @@ export function Prediction({ of, exercise, onDone }: Task) {
     >
       <label>
         <span>{of.asks}</span>
-        <span class="lesson-number">
+        <span class="row lesson-number">
           <input
             type="text"
             inputMode="decimal"

@@ -12,7 +12,7 @@ export function Question({ of, onDone }: Omit<Task, "exercise">) {
   const given = of.answer;
   return (
     <form
-      class="lesson-form"
+      class="stack lesson-form"
       onSubmit={(event) => {
         event.preventDefault();
         setSent(true);

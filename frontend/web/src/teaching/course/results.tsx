@@ -11,6 +11,8 @@ const MERGED_S = 0.5;
 const wordOf = ({ points, max_points: most }: CriterionResult) =>
   points >= most ? "right" : points > 0 ? "partly" : "wrong";
 
+const TONES = { right: "is-good", partly: "is-warn", wrong: "is-bad" } as const;
+
 /** The moment in the plots, where they still hold that run; else in its replay. */
 function lookThere(run: string, timeS: number): void {
   const { ring } = samples;
@@ -34,13 +36,13 @@ export function Results({
 }) {
   if (results.length === 0) return null;
   return (
-    <section class="lesson-results" aria-label={`${words.results}: ${of.title}`}>
+    <section aria-label={`${words.results}: ${of.title}`}>
       <h4>{words.results}</h4>
-      <ul>
+      <ul class="stack small">
         {results.map((one) => (
-          <li key={one.name} class={`is-${wordOf(one)}`}>
+          <li key={one.name} class={`note ${TONES[wordOf(one)]}`}>
             <p>
-              <strong>{words[wordOf(one)]}</strong> <span>{one.name}</span>{" "}
+              <strong class="tone">{words[wordOf(one)]}</strong> <span>{one.name}</span>{" "}
               <small>
                 {one.points} / {one.max_points}
               </small>

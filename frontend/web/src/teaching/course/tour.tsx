@@ -115,10 +115,10 @@ function Card({ index }: { index: number }) {
         />
       )}
       <section ref={card} class="tour" aria-label={words.label} onKeyDown={turn}>
-        <p class="tour-count">{words.of(index + 1, STEPS.length)}</p>
+        <p class="hint tour-count">{words.of(index + 1, STEPS.length)}</p>
         <h2>{title}</h2>
         <p aria-live="polite">{explanation}</p>
-        <div class="tour-buttons">
+        <div class="row tour-buttons">
           <button type="button" class="quiet" onClick={endTour} title={words.keys}>
             {words.skip}
           </button>

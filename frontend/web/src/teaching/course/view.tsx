@@ -44,7 +44,7 @@ function Task({ found, at }: { found: Exercise; at: Step }) {
   };
   const given = { of: at, exercise: found, onDone };
   return (
-    <div ref={box} class="lesson-task" tabIndex={-1} key={at.name}>
+    <div ref={box} class="stack" tabIndex={-1} key={at.name}>
       {at.kind === "predict" && <Prediction {...given} />}
       {at.kind === "experiment" && <Trial {...given} />}
       {at.kind === "explain" && <Question {...given} />}
@@ -62,7 +62,7 @@ function Turn({ found, at }: { found: Exercise; at: Step }) {
       </PlaceLink>
     );
   return (
-    <p class="lesson-turn">
+    <p class="spread lesson-turn">
       {link(found.parts[index - 1], `← ${words.previous}`, "button")}
       {link(
         found.parts[index + 1],
@@ -90,8 +90,8 @@ export function Lesson({ name }: { name: string }) {
     if (place.peek() !== asLoaded) heading.current?.focus();
   }, [name, here]);
   return (
-    <section class="surface lesson" aria-label={words.label(found?.title ?? name)}>
-      <p class="lesson-top">
+    <section class="surface stack lesson" aria-label={words.label(found?.title ?? name)}>
+      <p class="spread hint">
         <PlaceLink to={{ kind: "learn", exercise: "", step: "" }}>← {words.all}</PlaceLink>
         {found && (
           <span>
@@ -111,7 +111,7 @@ export function Lesson({ name }: { name: string }) {
           />
           <Steps found={found} at={at} />
           {at === found.parts[0] && (
-            <div class="lesson-intro">
+            <div class="stack">
               <p>
                 <strong>{words.goal}:</strong> {found.goal}
               </p>
@@ -119,7 +119,7 @@ export function Lesson({ name }: { name: string }) {
             </div>
           )}
           <h3 ref={heading} tabIndex={-1}>
-            <small class={`lesson-kind is-${at.kind}`}>{words.kinds[at.kind]}</small> {at.title}
+            <small class="tag lesson-kind">{words.kinds[at.kind]}</small> {at.title}
             {at.max_points > 0 && (
               <small class="lesson-points">{words.points(at.max_points)}</small>
             )}

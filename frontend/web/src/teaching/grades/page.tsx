@@ -36,14 +36,14 @@ function describeSubmission({ grade, problem: why }: Submission): string {
 
 function Cell({ student, exercise }: { student: Student; exercise: string }) {
   const submission = submissionOf(student, exercise);
-  if (submission === undefined) return <td class="grades-none">{words.nothing}</td>;
+  if (submission === undefined) return <td class="muted">{words.nothing}</td>;
   const at = picked.value;
   const isShown = at?.person === student.person && at.exercise === exercise;
   return (
     <td>
       <button
         type="button"
-        class={submission.problem === "" ? "" : "is-refused"}
+        class={submission.problem === "" ? "nowrap" : "nowrap bad"}
         aria-pressed={isShown}
         onClick={() => {
           picked.value = isShown ? null : { person: student.person, exercise };
@@ -58,8 +58,8 @@ function Cell({ student, exercise }: { student: Student; exercise: string }) {
 /** Students down, exercises across; a press on a number shows it by criterion. */
 function Table() {
   return (
-    <section class="surface card desk-scroll" aria-label={words.table}>
-      <table class="desk-table grades-table">
+    <section class="surface card scroll" aria-label={words.table}>
+      <table class="table grades-table">
         <caption class="visually-hidden">{words.tableHint}</caption>
         <thead>
           <tr>
@@ -123,11 +123,9 @@ function Picked() {
         submission.problem === "" && <p>{words.notYet}</p>
       ) : (
         <>
-          <div class="desk-scroll">
-            <Criteria grade={grade} />
-          </div>
+          <Criteria grade={grade} />
           <VerifiedRuns grade={grade} />
-          <p class="hint grades-digest">
+          <p class="hint breaks">
             {words.made(grade.submission.slice(0, 12), grade.seed ?? null, grade.version)}
           </p>
         </>
@@ -140,7 +138,7 @@ function Acts() {
   const now = job.value;
   const isBusy = isGoing(now);
   return (
-    <div class="desk-buttons">
+    <div class="row">
       <button
         type="button"
         class="button is-primary"
@@ -186,7 +184,7 @@ export function GradesPage() {
   }, []);
   const found = grades.value;
   return (
-    <Page title={words.title} lead={words.lead} problem={problem.value} class="grades">
+    <Page title={words.title} lead={words.lead} problem={problem.value}>
       {found?.not_isolated && (
         <p class="surface card problem">
           {words.notIsolated} {found.not_isolated}

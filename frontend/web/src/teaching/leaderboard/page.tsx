@@ -28,7 +28,7 @@ export function LeaderboardPage() {
   }, []);
   if (at.kind === "leaderboard" && at.entry !== "") {
     return (
-      <main class="runs is-run" aria-label={words.title}>
+      <main class="page is-run" aria-label={words.title}>
         <ErrorLine>{problem.value}</ErrorLine>
         <Worst />
       </main>
@@ -45,13 +45,12 @@ export function LeaderboardPage() {
           : `${words.lead} ${words.season(formatMoment(found.began), found.suite)}`
       }
       problem={problem.value}
-      class="board"
       side={<Start />}
     >
       {found === null ? (
         <p class="hint">{problem.value === "" && words.loading}</p>
       ) : (
-        <div class="desk-main board-main">
+        <div class="stack">
           {!hasOwn && <Empty />}
           <BoardTable />
         </div>

@@ -31,13 +31,13 @@ function Progress() {
   if (now === null) return null;
   const failed = now.status === "failed";
   return (
-    <div ref={box} class="surface card board-job">
+    <div ref={box} class="surface card">
       <h3>
         {isGoing(now) && !isEntered.value ? words.measuring(now.title) : words.measured(now.title)}
       </h3>
       {isEntered.value && <p class="hint">{words.labFollows}</p>}
       {failed ? (
-        <p class="problem board-failed" role="alert">
+        <p class="problem breaks" role="alert">
           <strong>{words.failed}</strong> {now.problem} {words.failedHint}
         </p>
       ) : (
@@ -63,7 +63,7 @@ function Form() {
   };
   return (
     <form
-      class="surface card desk-form"
+      class="surface card stack form"
       onSubmit={(event) => {
         event.preventDefault();
         if (!isClass.peek()) rememberPerson(author.trim());
@@ -96,7 +96,7 @@ function Form() {
       )}
       <LawText law={law} onLaw={setLaw} onFile={nameBy} start={EXAMPLE} startWord={words.example} />
       <p class="hint">{words.law}</p>
-      <div class="desk-buttons">
+      <div class="row">
         <button
           type="submit"
           class="button is-primary"
@@ -151,7 +151,7 @@ export function Start() {
       <div class="surface card">
         <h3>{words.script}</h3>
         <p class="hint">{words.scriptHint}</p>
-        <pre class="board-command">{words.command}</pre>
+        <pre>{words.command}</pre>
       </div>
     </>
   );

@@ -21,7 +21,7 @@ function Head({ column }: { column: Column }) {
       onSort={(next) => {
         sort.value = next;
       }}
-      class={`is-${column.key} ${column.isNumber ? "is-number" : ""}`}
+      class={`${column.key === "law" ? "is-name" : ""} ${column.isNumber ? "number" : ""}`}
     >
       {name}
     </SortHead>
@@ -33,7 +33,7 @@ function Score({ standing }: BoardEntry) {
   const { score, low, high, parts } = standing;
   return (
     <td class="is-score">
-      <span class="board-score">
+      <span class="spread">
         <strong>{score.toFixed(3)}</strong>{" "}
         <small title={words.intervalHint}>{words.interval(low.toFixed(3), high.toFixed(3))}</small>
       </span>
@@ -53,8 +53,8 @@ function Row({ entry }: { entry: BoardEntry }) {
   ];
   return (
     <tr class={look.join(" ")}>
-      <td class="is-rank is-number">{ranks.value.get(entry.key)}</td>
-      <th scope="row" class="is-law">
+      <td class="number">{ranks.value.get(entry.key)}</td>
+      <th scope="row" class="is-name">
         {name}
         <small>
           {entry.is_installed ? (
@@ -67,23 +67,23 @@ function Row({ entry }: { entry: BoardEntry }) {
         </small>
       </th>
       <Score {...entry} />
-      <td class="is-number">{parts.robustness.toFixed(2)}</td>
-      <td class="is-number" title={words.trialsHeld(standing.trials_held, standing.trials)}>
+      <td class="number">{parts.robustness.toFixed(2)}</td>
+      <td class="number" title={words.trialsHeld(standing.trials_held, standing.trials)}>
         {parts.trials.toFixed(2)}
       </td>
-      <td class="is-number">{parts.accuracy.toFixed(2)}</td>
-      <td class="is-number">{standing.tick_us === null ? "–" : standing.tick_us.toFixed(1)}</td>
+      <td class="number">{parts.accuracy.toFixed(2)}</td>
+      <td class="number">{standing.tick_us === null ? "–" : standing.tick_us.toFixed(1)}</td>
       <td class="is-worst">
         <PlaceLink
           to={{ kind: "leaderboard", entry: entry.key }}
           title={worst.problem || words.seeHint(name)}
         >
           <span class="visually-hidden">{words.see(name)}</span>
-          <b class={worst.rms_deg === null ? "is-fault" : ""}>{error}</b>{" "}
-          <small>{worst.title}</small>
+          <b class={worst.rms_deg === null ? "bad" : ""}>{error}</b>{" "}
+          <small class="block">{worst.title}</small>
         </PlaceLink>
       </td>
-      <td class="is-entered" title={words.measuredWith(formatMoment(entry.entered), entry.version)}>
+      <td title={words.measuredWith(formatMoment(entry.entered), entry.version)}>
         {formatMomentShort(entry.entered)}
       </td>
     </tr>
@@ -92,9 +92,9 @@ function Row({ entry }: { entry: BoardEntry }) {
 
 /** A law of the lab that nobody has measured in this season yet. */
 const Missing = ({ law }: { law: string }) => (
-  <tr class="is-baseline is-missing">
-    <td class="is-rank is-number">–</td>
-    <th scope="row" class="is-law">
+  <tr class="is-baseline muted">
+    <td class="number">–</td>
+    <th scope="row" class="is-name">
       {titleOf(law)}
       <small>{words.baseline}</small>
     </th>
@@ -104,10 +104,10 @@ const Missing = ({ law }: { law: string }) => (
 
 /** Which colour of a bar is which part of the score. */
 const Key = () => (
-  <p class="hint board-key">
+  <p class="hint row">
     <ScoreKey names={words.weights} />
     <span>
-      <b aria-hidden="true" /> {words.intervalKey}
+      <i class="score-interval" aria-hidden="true" /> {words.intervalKey}
     </span>
   </p>
 );
@@ -118,8 +118,8 @@ export function BoardTable() {
     <section class="surface card" aria-labelledby="board-entries">
       <h3 id="board-entries">{words.entries}</h3>
       <Key />
-      <section class="desk-scroll board-scroll" aria-label={words.table}>
-        <table class="desk-table board-table">
+      <section class="scroll" aria-label={words.table}>
+        <table class="table wide-table board-table">
           <caption class="visually-hidden">{words.tableHint}</caption>
           <thead>
             <tr>
@@ -138,7 +138,7 @@ export function BoardTable() {
           </tbody>
         </table>
       </section>
-      <p class="hint board-note">{words.note}</p>
+      <p class="hint">{words.note}</p>
     </section>
   );
 }

@@ -33,7 +33,7 @@ export function Worst() {
     <>
       <div class="run-head">
         {back}
-        <div class="board-worst">
+        <div class="grow">
           <h2>{words.worstOf(name)}</h2>
           <p>
             {worst.title}: <strong>{error}</strong>

@@ -1,4 +1,5 @@
 import { describe, expect, it } from "vitest";
+import { formatPercents } from "../../../src/core/quantities";
 import { packColour } from "../../../src/evaluation/studies/dots";
 import {
   chooseAxes,
@@ -13,7 +14,6 @@ import {
   distribute,
   findBin,
   findNearest,
-  formatPercents,
   markBrushed,
   scaleOf,
   spreadNames,
