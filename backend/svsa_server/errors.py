@@ -1,5 +1,6 @@
 """Which refusal of the library and of the routing is which problem."""
 
+import errno
 import json
 from dataclasses import replace
 from typing import Any
@@ -27,6 +28,9 @@ from svsa_server.problems import (
     answer_problem,
     answer_violations,
 )
+
+_STORAGE_ERRORS = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EACCES, errno.EIO})
+"""Of a disk that is full, read-only or broken: not a fault of the program, which answers 500."""
 
 
 def install_error_handlers(app: FastAPI) -> None:
@@ -68,6 +72,16 @@ def install_error_handlers(app: FastAPI) -> None:
     @app.exception_handler(SecurityError)
     def refuse_storage(_: Request, error: SvsaError) -> JSONResponse:
         return answer_problem(507, "storage", str(error))
+
+    @app.exception_handler(OSError)
+    def refuse_disk(_: Request, error: OSError) -> JSONResponse:
+        if error.errno not in _STORAGE_ERRORS:
+            raise error
+        message = (
+            f"The data folder cannot be written ({error.strerror}); nothing was changed. Free some"
+            " space, or make the folder writable, and send the request again."
+        )
+        return answer_problem(507, "storage", message)
 
     @app.exception_handler(BusyError)
     def refuse_work(_: Request, error: BusyError) -> JSONResponse:

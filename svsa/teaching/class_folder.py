@@ -66,12 +66,15 @@ class ClassFolder(Generic[T]):
 
 
 def keep_secret(path: Path) -> bytes:
-    """The secret in this file, drawn if there is none yet, and readable by nobody else.
+    """Return the secret in this file; draw one if there is none yet. Nobody else can read it.
 
-    Raises `ParameterError` for a file that holds something else, `OSError` where it cannot be
-    written or read.
+    A file without content is what an earlier version left on a full disk: it is drawn again.
+
+    Raises:
+        ParameterError: The file holds something else.
+        OSError: The file cannot be written or read.
     """
-    if not path.exists():
+    if not path.exists() or not path.stat().st_size:
         _write_new(path, secrets.token_bytes(SECRET_BYTES))
     secret = path.read_bytes()
     if len(secret) != SECRET_BYTES:
@@ -79,11 +82,23 @@ def keep_secret(path: Path) -> bytes:
     return secret
 
 
-def _write_new(path: Path, text: bytes) -> None:
-    """The first of two who begin at once decides."""
+def _write_new(path: Path, content: bytes) -> None:
+    """Write a file whole or not at all; of two processes that begin at once the first decides."""
+    draft = path.with_name(f"{path.name}.{secrets.token_hex(4)}.part")
     try:
-        opened = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
-    except FileExistsError:
-        return
-    with os.fdopen(opened, "wb") as file:
-        file.write(text)
+        opened = os.open(draft, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
+        with os.fdopen(opened, "wb") as file:
+            file.write(content)
+            file.flush()
+            os.fsync(file.fileno())
+        if path.exists() and not path.stat().st_size:
+            path.unlink()
+        # A link, and not a replacement, fails if the other process was first.
+        try:
+            path.hardlink_to(draft)
+        except FileExistsError:
+            return
+        except OSError:
+            draft.replace(path)  # some network folders have no links
+    finally:
+        draft.unlink(missing_ok=True)

@@ -6,6 +6,8 @@ right.
 """
 
 import json
+import logging
+import time
 from collections.abc import Sequence
 from glob import escape
 from pathlib import Path
@@ -16,6 +18,7 @@ from svsa.errors import StateError
 from svsa.inputs.checked import Checked, Flag, Number, Whole, quantity
 from svsa.runs.records import former_words
 from svsa.runs.records.former_words import translate_fields
+from svsa.runs.records.header import replace_file
 from svsa.teaching.course.criterion import CriterionResult
 from svsa.teaching.course.exercise import Exercise
 from svsa.teaching.course.judge import check_answer
@@ -23,6 +26,7 @@ from svsa.teaching.course.steps import Experiment, Explain, Predict, SubmitStep
 from svsa.teaching.submission import MAX_STEPS, Answer, KeptLaw, StepName, Submission
 
 COURSE_FOLDER = "course"
+_log = logging.getLogger("svsa")
 HOME = "home"
 SUBMISSIONS = "submissions"
 
@@ -221,21 +225,33 @@ class ProgressStore:
             former.rename(self.folder / SUBMISSIONS)
 
     def read(self, person: str) -> PersonProgress:
-        """What is kept of a person; nothing where there is none, or it cannot be read."""
-        try:
-            written = json.loads(self._find(person).read_bytes())
-            exercises = written.get("exercises", {}).items()
-            return PersonProgress(exercises={name: _translate(one) for name, one in exercises})
-        except (OSError, ValueError, AttributeError):
-            return PersonProgress()
+        """Return what is kept of a person; nothing if there is nothing.
+
+        A damaged file is set aside and reported in the log, and the version before it is used.
+
+        Raises:
+            OSError: The file exists and cannot be read.
+        """
+        path = self._find(person)
+        for one in (path, _find_previous(path)):
+            try:
+                content = one.read_bytes()
+            except FileNotFoundError:
+                continue
+            try:
+                exercises = json.loads(content).get("exercises", {}).items()
+                return PersonProgress(exercises={name: _translate(at) for name, at in exercises})
+            except (ValueError, AttributeError, TypeError) as error:
+                _set_aside(one, error)
+        return PersonProgress()
 
     def write(self, person: str, progress: PersonProgress) -> None:
-        """Keep it; raises `OSError`."""
+        """Keep progress and the version before it; raises `OSError` with both unchanged."""
         path = self._find(person)
         path.parent.mkdir(parents=True, exist_ok=True)
-        partly = path.with_suffix(".part")
-        partly.write_text(progress.model_dump_json(exclude_defaults=True), encoding="utf-8")
-        partly.replace(path)
+        if path.exists():
+            replace_file(_find_previous(path), path.read_bytes())
+        replace_file(path, progress.model_dump_json(exclude_defaults=True).encode())
 
     def _find(self, person: str) -> Path:
         return self.folder / "people" / f"{person or HOME}.json"
@@ -248,3 +264,19 @@ class ProgressStore:
         """The files of all that was submitted, or of what this person did."""
         name = "*" if person is None else escape(person or HOME)
         return sorted((self.folder / SUBMISSIONS).glob(f"*/{name}.json"))
+
+
+def _find_previous(path: Path) -> Path:
+    return path.with_suffix(".previous")
+
+
+def _set_aside(path: Path, error: Exception) -> None:
+    kept = path.with_name(f"{path.name}.damaged-{time.time_ns()}")
+    path.rename(kept)
+    _log.warning(
+        "Course progress in %s is damaged (%s): it is kept as %s, and the version before it is"
+        " used if there is one.",
+        path,
+        error,
+        kept.name,
+    )

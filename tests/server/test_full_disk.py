@@ -1,0 +1,72 @@
+"""A data folder on a disk that is full or read-only: rejected, and nothing is lost."""
+
+import contextlib
+import subprocess
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from svsa.teaching.class_folder import SECRET_BYTES, keep_secret
+from tests.lab_in_process import run_lab_in_process
+from tests.server.access.classroom import read_kind
+from tests.server.routes.test_scenarios_routes import BLOW
+
+SCENARIO = "/api/v1/scenarios/mine"
+
+
+@pytest.fixture
+def disk(tmp_path: Path) -> Iterator[Path]:
+    """A real file system of 8 MB."""
+    folder = tmp_path / "disk"
+    folder.mkdir()
+    mount = ["mount", "-t", "tmpfs", "-o", "size=8m", "tmpfs", str(folder)]
+    if subprocess.run(mount, capture_output=True, check=False).returncode:
+        pytest.skip("this account cannot mount a file system")
+    yield folder
+    subprocess.run(["umount", "--lazy", str(folder)], check=True)
+
+
+@contextlib.contextmanager
+def filled(disk: Path) -> Iterator[None]:
+    """The disk is full."""
+    filler = disk / "filler"
+    with filler.open("wb", buffering=0) as file, contextlib.suppress(OSError):
+        while file.write(b" " * 65536):
+            pass
+    yield
+    filler.unlink()
+
+
+def test_what_a_full_disk_cannot_take_is_rejected_and_done_once_there_is_room(disk: Path) -> None:
+    with run_lab_in_process(data=str(disk)) as running:
+        lab = running.client
+        name = lab.get("/api/v1/course").raise_for_status().json()["exercises"][0]["name"]
+        exercise = lab.get(f"/api/v1/course/{name}").raise_for_status().json()
+        first, second = (step["name"] for step in exercise["parts"][:2])
+        path = f"/api/v1/course/{name}/place"
+        lab.put(path, json={"step": first}).raise_for_status()
+        with filled(disk):
+            rejected = [lab.put(SCENARIO, json=BLOW), lab.put(path, json={"step": second})]
+            for answer in rejected:
+                assert (answer.status_code, read_kind(answer)) == (507, "storage")
+                assert "No space left" in answer.json()["detail"]
+            assert lab.get(f"/api/v1/course/{name}").json()["at"] == first
+        lab.put(SCENARIO, json=BLOW).raise_for_status()
+        lab.put(path, json={"step": second}).raise_for_status()
+        assert [*disk.rglob("*.tmp"), *disk.rglob("*.part")] == []
+
+
+def test_a_full_disk_leaves_no_empty_secret(disk: Path) -> None:
+    with filled(disk), pytest.raises(OSError, match="No space left"):
+        keep_secret(disk / "secret")
+    assert not (disk / "secret").exists()
+    assert len(keep_secret(disk / "secret")) == SECRET_BYTES
+
+
+def test_a_leaderboard_on_a_read_only_disk_says_so(disk: Path) -> None:
+    with run_lab_in_process(data=str(disk)) as running:
+        subprocess.run(["mount", "-o", "remount,ro", str(disk)], check=True)
+        answer = running.client.get("/api/v1/leaderboard")
+        assert answer.status_code in (422, 507)
+        assert "Read-only file system" in answer.json()["detail"]

@@ -1,0 +1,27 @@
+"""The secret of a class or a season: drawn once, and drawn again where a full disk left none."""
+
+import stat
+from pathlib import Path
+
+import pytest
+
+from svsa.errors import ParameterError
+from svsa.teaching.class_folder import SECRET_BYTES, keep_secret
+
+
+def test_a_secret_is_drawn_once_and_read_by_its_account_only(tmp_path: Path) -> None:
+    path = tmp_path / "secret"
+    secret = keep_secret(path)
+    assert len(secret) == SECRET_BYTES
+    assert keep_secret(path) == secret
+    assert stat.S_IMODE(path.stat().st_mode) == 0o600
+    assert [one.name for one in tmp_path.iterdir()] == ["secret"]
+
+
+def test_an_empty_secret_is_drawn_again_and_another_file_is_rejected(tmp_path: Path) -> None:
+    path = tmp_path / "secret"
+    path.touch()
+    assert len(keep_secret(path)) == SECRET_BYTES
+    path.write_bytes(b"short")
+    with pytest.raises(ParameterError, match="of 32 bytes"):
+        keep_secret(path)
