@@ -88,7 +88,8 @@ schema: .venv/installed  ## docs/openapi.json, docs/permissions.txt, and the pag
 screenshots: .venv/installed $(PAGE)  ## the README's pictures
 	$(BIN)/python -m tests.browser.screenshots
 
-ranking: .venv/installed  ## every law measured, and what is written of them: after a change of one
+ranking: .venv/installed  ## tune and measure every law, write its page: after a change of one
+	$(BIN)/svsa tune --all
 	$(BIN)/svsa ranking run --save svsa/evaluation/ranking/results.json
 	$(BIN)/svsa ranking bench ndobc_s ndobc_w --save svsa/evaluation/ranking/bench_results.json
 	$(BIN)/svsa ranking publish

@@ -22,7 +22,6 @@ from svsa.analysis.identification.cli import identify
 from svsa.control.installed import get_title
 from svsa.errors import SvsaError
 from svsa.evaluation.falsifier.cli import falsify
-from svsa.evaluation.ranking.against_cli import against
 from svsa.evaluation.ranking.bench_cli import bench as ranking_bench
 from svsa.evaluation.ranking.cli import ranking
 from svsa.evaluation.studies.cli import study
@@ -100,7 +99,6 @@ def reproduce(
     Console().print("Pictures: " + ", ".join(str(path) for path in paths))
 
 
-ranking.command("against")(against)
 ranking.command("bench")(ranking_bench)
 ranking.command("submit")(submit_command)
 ranking.command("leaderboard")(leaderboard_command)

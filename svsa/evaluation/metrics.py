@@ -7,8 +7,11 @@ import numpy as np
 from pydantic import AfterValidator
 
 from svsa.actuators.domain import INSIDE
+from svsa.actuators.faults import FAULT_CODES
 from svsa.errors import ParameterError, Violation
-from svsa.simulation.loop.tally import STEADY_STATE_S
+from svsa.runs.blocks import build_blocks, compute_start_ratio
+from svsa.runs.result.result import Result
+from svsa.simulation.loop.tally import STEADY_STATE_S, SUMMARY, sum_up
 
 METRICS = {
     "rms_position_error_rad": "rad",
@@ -38,6 +41,7 @@ has none. last_position_error_rad: |q_d − q| of the last sample. peak_stiffnes
 second. limit_share: of the ticks in which a motor made its limit, to 0.1 %.
 """
 
+_CODES = {name: code for code, name in FAULT_CODES.items()} | {None: INSIDE}
 RECOVERY = "recovery_time_s"
 
 HELD_POSITION_RAD, HELD_STIFFNESS_SHARE = math.radians(1.0), 0.1
@@ -106,3 +110,23 @@ def find_held(summaries: np.ndarray) -> np.ndarray:
         & (summaries["share_last_peak"] <= HELD_STIFFNESS_SHARE)
         & (summaries["position_peak"] <= HELD_PEAK_RAD)
     )
+
+
+def summarize_result(result: Result, begin_s: float, end_s: float) -> np.ndarray:
+    """The `SUMMARY` (1,) of a run's samples from its start, to the bits that a batch comes to.
+
+    Args:
+        result: A run from t = 0 under one law.
+        begin_s: When measuring begins, s.
+        end_s: When the run was to end, s; a run in a fault has ended before.
+    """
+    configuration = result.configuration
+    period, mu0 = configuration.sampling.period_s, compute_start_ratio(configuration)
+    blocks = build_blocks(configuration, configuration.lanes[0], mu0)
+    tally = sum_up(result.samples, blocks, round(begin_s / period), round(end_s / period))
+    summary = np.zeros(1, dtype=SUMMARY)
+    summary["code"] = _CODES[result.fault.code if result.fault else None]
+    summary["ticks"] = len(result.samples)
+    for name, value in zip(tally._fields, tally, strict=True):
+        summary[name] = value
+    return summary

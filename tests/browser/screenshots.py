@@ -82,7 +82,9 @@ def show_overlay(page: Page, lab: Lab) -> None:
 def show_ranking(page: Page, lab: Lab) -> None:
     """The laws in their table."""
     page.goto(lab.url + "/?ranking=all")
-    page.get_by_role("heading", name="How much they bear").wait_for(timeout=LONGEST_MS)
+    page.get_by_role("heading", name="Position error against stiffness error").wait_for(
+        timeout=LONGEST_MS
+    )
 
 
 def take(

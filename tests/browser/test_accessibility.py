@@ -162,8 +162,10 @@ def open_trash(page: Page, lab: Lab) -> None:
 
 def open_ranking(page: Page, lab: Lab) -> None:
     page.goto(lab.url + "/?ranking=all")
-    page.get_by_text("What each column is measured on").click()
-    expect(page.get_by_role("heading", name="How much they bear")).to_be_visible()
+    page.get_by_text("What each column shows").click()
+    expect(
+        page.get_by_role("heading", name="Position error against stiffness error")
+    ).to_be_visible()
 
 
 def open_pages(page: Page, lab: Lab) -> None:

@@ -104,9 +104,8 @@ MAY_BE_REFUSED = {
     "PUT /api/v1/course/{exercise}/steps/{step}/answer": STEP,
     "POST /api/v1/course/{exercise}/steps/{step}/check": STEP,
     "POST /api/v1/sessions/{session}/exercise": STEP,
-    "POST /api/v1/ranking/laws/{law}/measurement": INSTALLED,
     "POST /api/v1/leaderboard/submissions": "a name is letters on one line",
-    "POST /api/v1/ranking/sessions": f"{INSTALLED}; the scenario is one of GET /ranking",
+    "POST /api/v1/ranking/sessions": "the row and the scenario are of GET /ranking",
     "PUT /api/v1/sessions/{session}/control": "a name must be printable characters of Unicode",
     "POST /api/v1/join": "a name must be printable characters of Unicode",
 }

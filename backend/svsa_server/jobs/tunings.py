@@ -1,16 +1,16 @@
-"""A tuning as a job: its worker writes what it tried a line a trial, and a file at the end."""
+"""A tuning as a job: its worker writes a line for each candidate, and a file at the end."""
 
 import contextlib
 import json
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from svsa.evaluation.tuning.file import describe_trial, format_tuned
-from svsa.evaluation.tuning.tuner import Trial, tune
+from svsa.evaluation.tuning.file import describe_candidate, format_tuned
+from svsa.evaluation.tuning.tuner import Candidate, tune
 from svsa.runs.configuration import Design
 from svsa_server.jobs.progress import JobFolder
 
-_TRIALS, _FILE = "trials.jsonl", "parameters.toml"
+_CANDIDATES, _FILE = "candidates.jsonl", "parameters.toml"
 
 
 class Asked(NamedTuple):
@@ -25,11 +25,11 @@ class Asked(NamedTuple):
 
 def search(folder: JobFolder, asked: Asked) -> bool:
     """Tune a law in a worker; whether the budget was used up."""
-    with (folder.path / _TRIALS).open("w", encoding="utf-8", buffering=1) as lines:
+    with (folder.path / _CANDIDATES).open("w", encoding="utf-8", buffering=1) as lines:
 
-        def note(trial: Trial) -> None:
-            lines.write(json.dumps(describe_trial(trial)) + "\n")
-            folder.report(trial.number + 1, asked.budget + 1)
+        def note(candidate: Candidate) -> None:
+            lines.write(json.dumps(describe_candidate(candidate)) + "\n")
+            folder.report(candidate.number + 1, asked.budget + 1)
 
         tuned = tune(
             asked.law,
@@ -37,17 +37,17 @@ def search(folder: JobFolder, asked: Asked) -> bool:
             seed=asked.seed,
             held=asked.held,
             present=asked.present,
-            on_trial=note,
+            on_candidate=note,
             is_cancelled=folder.is_cancelled,
         )
     (folder.path / _FILE).write_text(format_tuned(tuned), encoding="utf-8")
     return tuned.is_complete
 
 
-def read_trials(folder: Path) -> list[dict[str, Any]]:
-    """What was tried so far."""
+def read_candidates(folder: Path) -> list[dict[str, Any]]:
+    """The candidates that were tried so far, and those on the validation trials."""
     with contextlib.suppress(FileNotFoundError):
-        whole, _, _ = (folder / _TRIALS).read_text(encoding="utf-8").rpartition("\n")
+        whole, _, _ = (folder / _CANDIDATES).read_text(encoding="utf-8").rpartition("\n")
         return [json.loads(line) for line in whole.splitlines()]
     return []
 

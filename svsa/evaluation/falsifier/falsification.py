@@ -12,8 +12,8 @@ from svsa.evaluation.falsifier.description import describe_outcome, describe_wor
 from svsa.evaluation.falsifier.measure import Measured, measure_attacks
 from svsa.evaluation.falsifier.neighborhood import Neighborhood, measure_neighborhood
 from svsa.evaluation.falsifier.scenario import Attack, Finding, LoadScenario
-from svsa.evaluation.falsifier.search import Method, search
 from svsa.evaluation.falsifier.shrink import Shrunk, shrink
+from svsa.evaluation.search import Method, search
 from svsa.inputs.checked import check_number
 from svsa.inputs.extras import __version__
 

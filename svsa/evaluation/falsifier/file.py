@@ -13,7 +13,7 @@ import tomli_w
 from svsa.errors import ParameterError, Violation
 from svsa.evaluation.falsifier.adversary import Adversary
 from svsa.evaluation.falsifier.scenario import LoadScenario
-from svsa.evaluation.falsifier.search import Method
+from svsa.evaluation.search import Method
 from svsa.evaluation.studies.store import check_name
 from svsa.inputs.extras import __version__
 from svsa.inputs.toml_file import build_checked, parse_toml, read_checked, read_toml

@@ -1,4 +1,4 @@
-"""`svsa ranking`: the laws against each other."""
+"""`svsa ranking`: control laws compared on the same plant, limits and loads."""
 
 import json
 from pathlib import Path
@@ -10,82 +10,81 @@ from rich.console import Console
 from rich.progress import Progress, SpinnerColumn, TimeElapsedColumn
 from rich.table import Table
 
-from svsa.control.installed import check_installed, list_law_names
-from svsa.errors import ParameterError, Violation
 from svsa.evaluation.ranking.bench_runs import load_published_bench_runs
+from svsa.evaluation.ranking.entry import build_entry, get_entry_title, list_entry_keys
+from svsa.evaluation.ranking.measure import TRIALS
 from svsa.evaluation.ranking.results import (
     Results,
     load_published,
-    measure_laws,
+    measure_entries,
     read_results,
     write_results,
 )
-from svsa.evaluation.ranking.table import SHORT, build_short_cells, format_markdown
-from svsa.evaluation.ranking.trials import PUBLIC_SEED, derive_seed
+from svsa.evaluation.ranking.row import Row
+from svsa.evaluation.ranking.scenarios import PUBLIC_SEED
+from svsa.evaluation.ranking.table import HEADINGS, build_cells, format_markdown
+from svsa.evaluation.trials import PROTOCOL
 from svsa.inputs.extras import require_extra
 
 ranking = typer.Typer(no_args_is_help=True, help="Every law on the same plant, limits and loads.")
 _messages = Console(stderr=True)
-MIN_WIDTH = 118
-"""Columns of characters in which the table's numbers stand whole."""
+MIN_WIDTH = 150
+"""Characters in a line that the table needs."""
 
 
 @ranking.command("run")
 def run_ranking(
-    laws: Annotated[
-        list[str] | None, typer.Argument(help="Names of laws; all that are installed if left out.")
+    rows: Annotated[
+        list[str] | None,
+        typer.Argument(help="Laws, or ndobc_declared; all installed laws if left out."),
+    ] = None,
+    trials: Annotated[int, typer.Option(min=1, help="Test trials of each family.")] = TRIALS,
+    seed: Annotated[int, typer.Option(min=0, help="Seed of the test set.")] = PUBLIC_SEED,
+    save: Annotated[
+        Path | None,
+        typer.Option(help="Write results to this file, after each row; its other rows stay."),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
     markdown: Annotated[bool, typer.Option("--markdown", help="Print Markdown.")] = False,
-    picture: Annotated[Path | None, typer.Option(help="Draw it into this file.")] = None,
-    save: Annotated[
-        Path | None,
-        typer.Option(
-            help="Keep every number in this file; of laws that are named, beside the others there."
-        ),
-    ] = None,
+) -> None:
+    """Measure laws on the test set and the fixed scenarios, and print the table.
+
+    Without names, rows of the file with the same protocol, seed, trials and parameters are kept: an
+    interrupted command continues.
+    """
+    known = _read_known(save, seed, trials)
+    keys = list(rows) if rows else list_entry_keys()
+    entries = [build_entry(key) for key in keys]
+    if not rows:
+        tuned = {entry.key: entry.tuning for entry in entries}
+        done = {row.key for row in known if row.key in tuned and row.tuning == tuned[row.key]}
+        keys = [key for key in keys if key not in done]
+    found = Results.build(known, seed, trials) if known else None
+    columns = (SpinnerColumn(), *Progress.get_default_columns(), TimeElapsedColumn())
+    with Progress(*columns, console=_messages, transient=True) as bar:
+        task = bar.add_task("", total=len(keys))
+
+        def report(key: str, done: float) -> None:
+            title = get_entry_title(key)
+            bar.update(task, completed=keys.index(key) + done, description=title)
+
+        for found in measure_entries(keys, seed, trials, known, report):
+            if save is not None:
+                write_results(save, found)
+    if found is not None:
+        _print(found, as_json, markdown)
+
+
+@ranking.command("table")
+def print_table(
     results: Annotated[
-        Path | None, typer.Option(help="Show what was kept there, and measure nothing.")
+        Path | None, typer.Option(help="File of results; the published ones if left out.")
     ] = None,
-    secret: Annotated[
-        Path | None, typer.Option(help="Trials of the season whose secret is in this file.")
-    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+    markdown: Annotated[bool, typer.Option("--markdown", help="Print Markdown.")] = False,
 ) -> None:
-    """Run laws through the scenarios and print the table: position errors in degrees."""
-    if picture is not None:
-        require_extra("plot")
-    kept = read_results(save) if save is not None and laws and save.exists() else None
-    if results is None:
-        names = [check_installed(name) for name in laws or list_law_names()]
-        seed = _read_seed(secret)
-        if kept is not None:
-            kept.renew(Results.build((), seed))
-        found = _measure(names, seed)
-    else:
-        shown = read_results(results)
-        rows = [shown.get_row(law) for law in laws] if laws else shown.rows
-        found = shown.changed(rows=tuple(rows))
-    if save is not None:
-        write_results(save, kept.renew(found) if kept else found)
-    if picture is not None:
-        from svsa.evaluation.ranking.picture import save_comparison
-
-        save_comparison(found, picture)
-    if as_json:
-        print(json.dumps({"laws": [row.to_json() for row in found.rows]}, indent=2))
-    elif markdown:
-        print(format_markdown(found.rows))
-    else:
-        screen = Console()
-        Console(width=max(screen.width, MIN_WIDTH)).print(_build_table(found))
-
-
-@ranking.command("seed")
-def print_seed(
-    secret: Annotated[Path, typer.Argument(help="File with the season's secret.")],
-) -> None:
-    """Print the seed of a season's trials: HMAC-SHA256 of its secret and the suite's version."""
-    print(f"{_read_seed(secret):016x}")
+    """Print the table of results without measuring."""
+    _print(load_published() if results is None else read_results(results), as_json, markdown)
 
 
 @ranking.command("publish")
@@ -99,43 +98,37 @@ def publish_ranking(
     publish(tree, load_published(), load_published_bench_runs())
 
 
-def _read_seed(secret: Path | None) -> int:
-    if secret is None:
-        return PUBLIC_SEED
-    try:
-        found = secret.read_bytes().strip()
-    except OSError as error:
-        raise ParameterError(
-            Violation("secret", str(secret), "", f"a file to be read ({error.strerror})")
-        ) from None
-    if not found:
-        raise ParameterError(Violation("secret", str(secret), "", "a file that is not empty"))
-    return derive_seed(found)
+def _read_known(save: Path | None, seed: int, trials: int) -> tuple[Row, ...]:
+    """The rows of a file that were measured with the same protocol, seed and trials."""
+    if save is None or not save.exists():
+        return ()
+    results = read_results(save)
+    is_same = (results.protocol, results.seed, results.trials) == (PROTOCOL, seed, trials)
+    return results.rows if is_same else ()
 
 
-def _measure(names: list[str], seed: int) -> Results:
-    columns = (SpinnerColumn(), *Progress.get_default_columns(), TimeElapsedColumn())
-    with Progress(*columns, console=_messages, transient=True) as bar:
-        many = f"{len(names)} laws" if len(names) > 1 else "1 law"
-        task = bar.add_task(f"{many}, about 370 runs each", total=1.0)
-        return measure_laws(names, seed, lambda done: bar.update(task, completed=done))
+def _print(results: Results, as_json: bool, markdown: bool) -> None:
+    if as_json:
+        print(json.dumps(results.model_dump(mode="json"), indent=1))
+    elif markdown:
+        print(format_markdown(results))
+    else:
+        screen = Console()
+        Console(width=max(screen.width, MIN_WIDTH)).print(_build_table(results))
 
 
 def _build_table(results: Results) -> Table:
-    trials = "the public seed" if results.is_public else f"seed {results.seed}"
     table = Table(
         box=SIMPLE_HEAD,
         padding=(0, 1, 0, 0),
-        title=f"Position errors [°]: suite {results.suite}, trials of {trials}",
+        title=f"Share of {results.trials} trials of each family that held, %: protocol"
+        f" {results.protocol}, seed {results.seed}",
         title_justify="left",
-        caption="ideal, peak, settled, recov.: Figure 4A ideal, and on the rig (s). Score: 0.5"
-        " robustness + 0.3 trials held + 0.2 accuracy. Of 48, worst: load removals that end in a"
-        " fault, and rms 3–5 s after the worst. Fails, of 100: a fault, or above 1° in the last"
-        " second. Step: largest on the link, N·m. --markdown names the faults.",
+        caption=f"Held: {results.criterion}. Fixed scenarios at both signs and 8 phases.",
         caption_justify="left",
     )
-    for number, heading in enumerate(SHORT):
-        table.add_column(heading, justify="right" if number else "left", no_wrap=True)
+    for number, heading in enumerate(HEADINGS):
+        table.add_column(heading, justify="left" if number == 1 else "right")
     for row in results.rows:
-        table.add_row(*build_short_cells(row))
+        table.add_row(*build_cells(results, row))
     return table

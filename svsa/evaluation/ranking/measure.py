@@ -1,213 +1,185 @@
-"""What a law shows in the scenarios: one row of the ranking's table."""
+"""Measuring an entry: trials as vectorised batches, fixed scenarios run by run."""
 
 import math
-from collections.abc import Callable, Sequence
-from statistics import median
-from typing import NamedTuple
+from collections import Counter
+from collections.abc import Callable
 
 import numpy as np
 
-from svsa.control.parameters import LawParameters
+from svsa.actuators.domain import INSIDE
+from svsa.actuators.faults import FAULT_CODES
+from svsa.control.installed import PAPERS_LAW
+from svsa.evaluation.metrics import METRICS, compute_metrics, find_held, summarize_result
+from svsa.evaluation.ranking.entry import Entry
 from svsa.evaluation.ranking.row import (
-    FigureErrors,
-    Outcome,
-    RecoveryErrors,
+    DIGITS,
+    QUANTILES,
+    FamilyOutcome,
+    Noise,
     Row,
-    SweepOutcome,
-    build_parts,
-    compute_score,
+    ScenarioOutcome,
 )
 from svsa.evaluation.ranking.scenarios import (
-    CORNERS,
-    IDEAL_4A,
-    LOAD_REMOVAL,
-    LOAD_REMOVALS,
-    MASS,
     MAX_STEP_NM,
-    OFF_S,
-    RIG_4A,
-    SINE_2HZ,
-    SINGLE,
+    PUBLIC_SEED,
     STEP_NM,
-    Scenario,
-    build_link_step,
+    FixedScenario,
+    build_fixed_scenarios,
+    build_link_steps,
 )
-from svsa.evaluation.ranking.sweeps import Sweep, build_sweeps
-from svsa.evaluation.ranking.trials import PUBLIC_SEED, build_trials
-from svsa.evaluation.reproduction import compute_table_row
+from svsa.evaluation.ranking.test_set import build_test_set
+from svsa.evaluation.scenario import Scenario
+from svsa.evaluation.statistics import compute_quantiles, estimate_share
+from svsa.evaluation.trials import DURATION_S, FAMILIES, LOAD_S, REST_BEGIN_S, build_rest
 from svsa.inputs.extras import __version__
-from svsa.runs.paper import STEADY_S
-from svsa.runs.result.result import Result
+from svsa.runs.batch import RunSet
+from svsa.runs.configuration import load_prototype
 from svsa.runs.result.simulate import simulate
 
-STEADY_STATE_DEG = 1.0
-LAST_S = 1.0
-REST_LAST_S = 2.0
-_FIGURE = {
-    "before_deg": "rms_position_before_deg",
-    "peak_deg": "peak_position_deg",
-    "steady_deg": "rms_position_steady_deg",
-}
+TRIALS = 10_000
+"""Of each family."""
+AT_ONCE = 1024
+"""Trials of one batch, half of each family."""
+
+Report = Callable[[float], None]
+_SIZES = tuple(name for name in METRICS if name != "recovery_time_s")
 
 
-class Entry(NamedTuple):
-    """A law in the ranking, with parameters of its own where they are not its defaults."""
+class TestSet:
+    """The trials of a seed, built once for all laws."""
 
-    law: str
-    parameters: LawParameters | None = None
+    def __init__(self, seed: int = PUBLIC_SEED, trials: int = TRIALS) -> None:
+        self.seed, self.trials = seed, trials
+        self._parts: dict[int, RunSet] = {}
+
+    def run(self, entry: Entry, report: Report) -> np.ndarray:
+        """`SUMMARY` of all trials, of A and B in turns. report: receives the share that is done."""
+        total, parts = 2 * self.trials, []
+        for first in range(0, total, AT_ONCE):
+            count = min(AT_ONCE, total - first)
+            if first not in self._parts:
+                scenarios = build_test_set(self.seed, count, first)
+                self._parts[first] = RunSet(
+                    [one.build_configuration(PAPERS_LAW) for one in scenarios]
+                )
+            parts.append(self._parts[first].run(entry.law, DURATION_S, LOAD_S, entry.design))
+            report((first + count) / total)
+        return np.concatenate(parts)
 
 
-Tell = Callable[[float], None]
-
-
-def run_scenario(scenario: Scenario, entry: Entry) -> Result:
-    """The run of a scenario under a law."""
-    configuration = scenario.build_configuration(entry.law)
-    if entry.parameters is not None:
-        configuration = configuration.changed(parameters={entry.law: entry.parameters})
-    return simulate(configuration, duration_s=scenario.duration_s)
-
-
-def measure_law(entry: Entry, report: Tell = lambda done: None, seed: int = PUBLIC_SEED) -> Row:
-    """The row of a law. report: is given the share that is done. seed: of the trials' season."""
-    results = {scenario.name: run_scenario(scenario, entry) for scenario in SINGLE}
-    report(0.15)
-    unloaded = {one.name: measure_rest(run_scenario(one, entry)) for one in LOAD_REMOVALS}
-    worst = max(unloaded, key=lambda name: _or_infinite(unloaded[name]))
-    report(0.3)
-    largest_step = find_largest_step(entry)
-    report(0.4)
-    trials = [(one, run_scenario(one, entry)) for one in build_trials(seed)]
-    errors = [measure_rms(result, one.measured_s, one.duration_s) for one, result in trials]
-    middle = median(map(_or_infinite, errors))
-    failed = tuple(one.name for one, result in trials if not has_held(result, one))
-    report(0.65)
-    sweeps = tuple(
-        tally_sweep(
-            sweep,
-            [[has_held(run_scenario(run, entry), run) for run in runs] for runs in sweep.runs],
-        )
-        for sweep in build_sweeps()
-    )
-    report(0.95)
-    outcomes = tuple(build_outcome(scenario, results[scenario.name]) for scenario in SINGLE)
-    parts = build_parts(sweeps, len(trials), len(failed), [one.rms_deg for one in outcomes])
-    ideal, rig = results[IDEAL_4A.name], results[RIG_4A.name]
+def measure_entry(entry: Entry, test_set: TestSet, report: Report = lambda done: None) -> Row:
+    """The row of an entry. report: receives the share that is done."""
+    summaries = test_set.run(entry, lambda done: report(0.7 * done))
+    families = {
+        family: build_family_outcome(summaries[number :: len(FAMILIES)])
+        for number, family in enumerate(FAMILIES)
+    }
+    fixed = build_fixed_scenarios()
+    scenarios = []
+    for number, one in enumerate(fixed, 1):
+        scenarios.append(measure_fixed(entry, one))
+        report(0.7 + 0.25 * number / len(fixed))
     return Row(
+        key=entry.key,
         law=entry.law,
+        variant=entry.variant,
         version=__version__,
-        ideal_4a=FigureErrors(**_measure_figure(ideal)),
-        rig_4a=build_recovery_errors(rig),
-        load_removal_peak_deg=measure_peak(
-            results[LOAD_REMOVAL.name], OFF_S, LOAD_REMOVAL.duration_s
+        tuning=entry.tuning,
+        families=families,
+        scenarios=tuple(scenarios),
+        noise=measure_noise(entry),
+        largest_load_nm=find_largest_load(entry),
+    )
+
+
+def build_family_outcome(summaries: np.ndarray) -> FamilyOutcome:
+    """The outcome of trials from their `SUMMARY`."""
+    held, ended = find_held(summaries), summaries["code"] != INSIDE
+    metrics = compute_metrics(summaries, np.full(len(summaries), _get_period()), LOAD_S)
+    success = estimate_share(int(held.sum()), len(summaries))
+    return FamilyOutcome(
+        trials=len(summaries),
+        held=int(held.sum()),
+        success=success.value,
+        success_low=success.low,
+        success_high=success.high,
+        faults=dict(
+            sorted(Counter(FAULT_CODES[int(code)] for code in summaries["code"][ended]).items())
         ),
-        load_removal_faults_of_48=sum(error is None for error in unloaded.values()),
-        load_removal_steady_state_deg=unloaded[worst],
-        sine_2hz_rms_deg=measure_rms(results[SINE_2HZ.name], *STEADY_S),
-        mass_rms_deg=measure_rms(results[MASS.name], *STEADY_S),
-        trials_median_deg=middle if math.isfinite(middle) else None,
-        trials_faults=sum(result.fault is not None for _, result in trials),
-        trials_fails=len(failed),
-        largest_link_step_nm=largest_step,
-        score=compute_score(parts),
-        parts=parts,
-        sweeps=sweeps,
-        outcomes=outcomes,
-        load_removals_failed=tuple(name for name, error in unloaded.items() if error is None),
-        load_removal_worst=worst,
-        trials_failed=failed,
-        corners_fails_of_8=sum(not has_held(run_scenario(one, entry), one) for one in CORNERS),
+        held_bits=np.packbits(held).tobytes().hex(),
+        metrics={
+            # A run that ended early is worse than any that did not; one without recovery, too.
+            name: tuple(map(round_number, compute_quantiles(_mark_ended(values, ended), QUANTILES)))
+            for name, values in metrics.items()
+        },
     )
 
 
-def build_recovery_errors(result: Result) -> RecoveryErrors:
-    """The errors of a figure's run of 20 s with its load at 5 s; None where it ended early."""
-    return RecoveryErrors(**_measure_figure(result), recovery_s=_find_recovery(result))
-
-
-def measure_rest(result: Result) -> float | None:
-    """The rms position error of the last 2 s of a run, degrees; None where it ended early."""
-    end_s = len(result.samples) * result.configuration.sampling.period_s
-    return measure_rms(result, end_s - REST_LAST_S, end_s)
-
-
-def has_held(result: Result, scenario: Scenario) -> bool:
-    """No fault, and in the last second an rms error of at most 1°."""
-    end = scenario.duration_s
-    error = measure_rms(result, end - LAST_S, end)
-    return error is not None and error <= STEADY_STATE_DEG
-
-
-def tally_sweep(sweep: Sweep, held: Sequence[Sequence[bool]]) -> SweepOutcome:
-    """How far a law holds as one thing gets worse. held: whether each of `sweep.runs` has."""
-    passed = tuple(sum(one) / len(one) for one in held)
-    return SweepOutcome(
-        sweep=sweep.name,
-        title=sweep.title,
-        unit=sweep.unit,
-        values=sweep.values,
-        passed=passed,
-        share=sum(passed) / len(passed),
+def measure_fixed(entry: Entry, fixed: FixedScenario) -> ScenarioOutcome:
+    """The outcome of a fixed scenario over its variants."""
+    summaries = np.concatenate([run_scenario(entry, one) for one in fixed.variants])
+    ended = summaries["code"] != INSIDE
+    found = [
+        compute_metrics(summaries[n : n + 1], np.array([_get_period()]), one.measured_s)
+        for n, one in enumerate(fixed.variants)
+    ]
+    metrics = {
+        name: _mark_ended(np.concatenate([one[name] for one in found]), ended) for name in METRICS
+    }
+    peaks = metrics["peak_position_error_rad"]
+    return ScenarioOutcome(
+        scenario=fixed.name,
+        title=fixed.title,
+        runs=len(fixed.variants),
+        faults=int(ended.sum()),
+        held=int(find_held(summaries).sum()),
+        worst=fixed.variants[int(np.argmax(peaks))].name,
+        median={
+            name: round_number(compute_quantiles(values, (0.5,))[0])
+            for name, values in metrics.items()
+        },
+        greatest={name: round_number(float(values.max())) for name, values in metrics.items()},
     )
 
 
-def find_largest_step(entry: Entry) -> float:
-    """The largest step of torque on the link, N·m, up to which every one is held, by 0.5.
+def run_scenario(entry: Entry, scenario: Scenario) -> np.ndarray:
+    """`SUMMARY` (1,) of an entry's run of a scenario, from `measured_s` on."""
+    result = simulate(entry.build_configuration(scenario), duration_s=scenario.duration_s)
+    return summarize_result(result, scenario.measured_s, scenario.duration_s)
 
-    0 where not even the smallest is; see `has_held`.
-    """
+
+def measure_noise(entry: Entry) -> Noise:
+    """The torque at rest, mean of `build_rest`."""
+    runs = RunSet([one.build_configuration(PAPERS_LAW) for one in build_rest()])
+    summaries = runs.run(entry.law, 2.0 * REST_BEGIN_S, REST_BEGIN_S, entry.design)
+    if np.any(summaries["code"] != INSIDE):
+        return Noise(rms_nm=None, variation_nm_per_s=None)
+    metrics = compute_metrics(summaries, np.full(len(summaries), _get_period()), REST_BEGIN_S)
+    return Noise(
+        rms_nm=round_number(float(metrics["rms_torque1_nm"].mean())),
+        variation_nm_per_s=round_number(float(metrics["torque1_variation_nm_per_s"].mean())),
+    )
+
+
+def find_largest_load(entry: Entry) -> float:
+    """The largest step on the link up to which all signs and phases held, N·m; 0 for none."""
     count = 0
     while (count + 1) * STEP_NM <= MAX_STEP_NM:
-        step = build_link_step((count + 1) * STEP_NM)
-        if not has_held(run_scenario(step, entry), step):
+        fixed = build_link_steps((count + 1) * STEP_NM)
+        if not all(find_held(run_scenario(entry, one))[0] for one in fixed.variants):
             break
         count += 1
     return count * STEP_NM
 
 
-def build_outcome(scenario: Scenario, result: Result) -> Outcome:
-    """How a run of a scenario went, from `measured_s` on."""
-    window = scenario.measured_s, scenario.duration_s
-    fault = result.fault.code if result.fault else None
-    change = None if fault else _measure_torque_change(result.torque1_nm, result, window)
-    return Outcome(
-        scenario=scenario.name,
-        title=scenario.title,
-        rms_deg=measure_rms(result, *window),
-        peak_deg=measure_peak(result, *window),
-        torque_change_nm=change,
-        fault=fault,
-    )
+def round_number(value: float) -> float | None:
+    """The value to six digits; None for one that is not finite."""
+    return float(f"{value:.{DIGITS}g}") if math.isfinite(value) else None
 
 
-def measure_rms(result: Result, start_s: float, end_s: float) -> float | None:
-    """The rms position error between two times, degrees; None where the run ended early."""
-    if result.fault is not None:
-        return None
-    return math.degrees(result.measure(start_s, end_s).rms_position_error_rad)
+def _mark_ended(values: np.ndarray, ended: np.ndarray) -> np.ndarray:
+    return np.where(ended | np.isnan(values), np.inf, values)
 
 
-def measure_peak(result: Result, start_s: float, end_s: float) -> float | None:
-    """The greatest position error between two times, degrees; None as in `measure_rms`."""
-    if result.fault is not None:
-        return None
-    return math.degrees(result.measure(start_s, end_s).peak_position_error_rad)
-
-
-def _or_infinite(error: float | None) -> float:
-    return math.inf if error is None else error
-
-
-def _measure_torque_change(torque: np.ndarray, result: Result, window: Sequence[float]) -> float:
-    period = result.configuration.sampling.period_s
-    begin, end = (round(time / period) for time in window)
-    return float(np.sqrt(np.mean(np.diff(torque[begin:end]) ** 2)))
-
-
-def _measure_figure(result: Result) -> dict[str, float | None]:
-    numbers = {} if result.fault is not None else compute_table_row(result)
-    return {name: numbers.get(key) for name, key in _FIGURE.items()}
-
-
-def _find_recovery(result: Result) -> float | None:
-    return None if result.fault is not None else compute_table_row(result)["recovery_s"]
+def _get_period() -> float:
+    return load_prototype().sampling.period_s

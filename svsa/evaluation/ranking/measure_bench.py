@@ -11,11 +11,13 @@ from threading import Event
 
 from svsa.errors import FaultError
 from svsa.evaluation.ranking.bench_runs import NUMBERS, BenchRun, BenchRuns
-from svsa.evaluation.ranking.measure import Tell, build_recovery_errors
+from svsa.evaluation.ranking.measure import Report
 from svsa.evaluation.ranking.row import RecoveryErrors
+from svsa.evaluation.reproduction import compute_table_row
 from svsa.evaluation.workers import choose_start, start_workers
 from svsa.inputs.extras import __version__, require_extra
 from svsa.runs.paper import DURATION_S, get_figure
+from svsa.runs.result.result import Result
 
 POLL_S = 0.2
 Job = tuple[str, str]
@@ -23,7 +25,7 @@ ReportOf = Callable[[int, float], None]
 
 
 def measure_on_bench(
-    laws: Sequence[str], figures: Sequence[str], report: Tell = lambda done: None
+    laws: Sequence[str], figures: Sequence[str], report: Report = lambda done: None
 ) -> BenchRuns:
     """Runs of laws in figures, by as many processes as there are processors.
 
@@ -58,6 +60,17 @@ def measure_run(number: int, job: Job, report: ReportOf) -> BenchRun:
         fault = error.fault.code
     report(number, 1.0)
     return BenchRun(law=law, figure=figure, version=__version__, fault=fault, errors=errors)
+
+
+def build_recovery_errors(result: Result) -> RecoveryErrors:
+    """The errors of a figure's run of 20 s with its load at 5 s."""
+    numbers = compute_table_row(result)
+    return RecoveryErrors(
+        before_deg=numbers["rms_position_before_deg"],
+        peak_deg=numbers["peak_position_deg"],
+        steady_deg=numbers["rms_position_steady_deg"],
+        recovery_s=numbers["recovery_s"],
+    )
 
 
 def _measure_side_by_side(

@@ -1,14 +1,11 @@
 """What is written from the results: a page for each law, their index, and the README's table.
 
-Every number comes from the results, and idea, equation and source from the law's own file.
+Every number comes from the results; idea, equation and source come from the law's own file.
 """
 
 import re
-from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import NamedTuple
 
-from svsa.actuators.faults import label_fault
 from svsa.analysis.design.margin_table import HEADS, compute_law_margins, format_margins
 from svsa.control.call import is_measuring
 from svsa.control.gains import Gains
@@ -16,16 +13,28 @@ from svsa.control.installed import PAPERS_LAW, get_law, get_notes, get_title
 from svsa.control.law import Law, Nothing
 from svsa.evaluation.ranking.bench_runs import BenchRuns
 from svsa.evaluation.ranking.bench_table import build_section, format_bench
-from svsa.evaluation.ranking.results import Results
+from svsa.evaluation.ranking.entry import DECLARED, get_entry_title
+from svsa.evaluation.ranking.results import SIGNIFICANT, Results
 from svsa.evaluation.ranking.row import Row
-from svsa.evaluation.ranking.table import format_markdown
+from svsa.evaluation.ranking.table import (
+    PEAK,
+    RECOVERY,
+    RMS,
+    SHARE,
+    format_degrees,
+    format_markdown,
+    format_number,
+    format_p,
+    format_success,
+)
+from svsa.evaluation.tuning.judge import LOUD
+from svsa.evaluation.tuning.tuned_law import Costs
 
 FOLDER = Path("docs") / "laws"
 README = Path("README.md")
-LOSSES = Path("docs") / "laws" / "pictures" / "losses.png"
 _BLOCK = re.compile(r"(<!-- ranking -->\n).*?(<!-- /ranking -->)", re.DOTALL)
-_DOI = re.compile(r"doi:(10\.\d{4,}/\S+)")
 _EQUATION = re.compile(r"Eq \d+")
+_DOI = re.compile(r"doi:(10\.\d{4,}/\S+)")
 _NOT_IMPLEMENTED = (
     "## Not implemented",
     "",
@@ -42,77 +51,37 @@ _ESTIMATES = {
     "observer": "ŵ of the loop's disturbance observer.",
     "own": "An estimate of the load that it makes itself.",
 }
-
-
-class Column(NamedTuple):
-    """A number of the table. scenario: the run that it is of, "" where it is of many."""
-
-    title: str
-    unit: str
-    read: Callable[[Row], float | None]
-    scenario: str = ""
-    is_high_better: bool = False
-
-    def format_cell(self, row: Row) -> str:
-        """The number, or why there is none."""
-        value = self.read(row)
-        if value is not None:
-            return f"{value:.3g}{self.unit}"
-        fault = row.faults.get(self.scenario)
-        return label_fault(fault).lower() if fault else "never" if self.scenario else "fault"
-
-    def find_place(self, row: Row, rows: tuple[Row, ...]) -> int:
-        """Which place the row takes, from 1; shared places are the first of them."""
-        value = self._order(row)
-        return 1 + sum(self._order(other) < value for other in rows)
-
-    def _order(self, row: Row) -> float:
-        value = self.read(row)
-        if value is None:
-            return float("inf")
-        return -value if self.is_high_better else value
-
-
-def _read_rms(scenario: str) -> Callable[[Row], float | None]:
-    return lambda row: row.get_outcome(scenario).rms_deg
-
-
-COLUMNS = (
-    Column("Score", "", lambda row: row.score, is_high_better=True),
-    Column("Figure 4A, ideal: settled", "°", lambda row: row.ideal_4a.steady_deg, "ideal_4a"),
-    Column("Figure 4A on the rig: peak", "°", lambda row: row.rig_4a.peak_deg, "rig_4a"),
-    Column("Figure 4A on the rig: settled", "°", lambda row: row.rig_4a.steady_deg, "rig_4a"),
-    Column("Figure 4A on the rig: recovery", " s", lambda row: row.rig_4a.recovery_s, "rig_4a"),
-    Column("Load removal: peak", "°", lambda row: row.load_removal_peak_deg, "load_removal"),
-    Column("Faults of 48 load removals", "", lambda row: row.load_removal_faults_of_48),
-    Column(
-        "Worst of 48 load removals: settled", "°", lambda row: row.load_removal_steady_state_deg,
-    ),
-    Column("1.5 N·m at 2 Hz: rms", "°", lambda row: row.sine_2hz_rms_deg, "sine_2hz"),
-    Column("3 kg on the arm: rms", "°", lambda row: row.mass_rms_deg, "mass"),
-    Column("Impulses of 3 N·m: rms", "°", _read_rms("pulses"), "pulses"),
-    Column("Five times the noise: rms", "°", _read_rms("noise_5"), "noise_5"),
-    Column("100 trials: median rms", "°", lambda row: row.trials_median_deg),
-    Column("100 trials: how many fail", "", lambda row: row.trials_fails),
-    Column("±50 % corners: how many of 8 fail", "", lambda row: row.corners_fails_of_8),
-    Column(
-        "Largest step on the link", " N·m", lambda row: row.largest_link_step_nm,
-        is_high_better=True,
-    ),
-)  # fmt: skip
+_VARIANTS = {
+    "tuned": "tuned",
+    "declared": "gains declared for the paper, which prints none",
+    "default": "default parameters, not tuned",
+}
+_TRIAL_METRICS = (
+    (RMS, "rms position error [°]", 57.29577951308232),
+    (PEAK, "peak position error [°]", 57.29577951308232),
+    (RECOVERY, "recovery time [s]", 1.0),
+    ("steady_state_position_error_rad", "steady-state position error [°]", 57.29577951308232),
+    ("rms_stiffness_error_nm_per_rad", "rms stiffness error [N·m/rad]", 1.0),
+    (SHARE, "peak stiffness error [% of σ_d]", 100.0),
+    ("rms_torque1_nm", "rms u1 [N·m]", 1.0),
+    ("rms_torque2_nm", "rms u2 [N·m]", 1.0),
+    ("work_j", "mechanical work of the motors [J]", 1.0),
+    ("torque1_variation_nm_per_s", "total variation of u1 [N·m/s]", 1.0),
+)
 
 
 def build_law_page(results: Results, bench: BenchRuns, name: str, margins: str) -> str:
     """The page of a law, Markdown. bench: runs on the emulator. margins: see `build_margins`."""
-    law, row, papers = get_law(name), results.get_row(name), results.get_row(PAPERS_LAW)
-    count = len(results.rows)
+    law = get_law(name)
+    rows = [row for row in results.rows if row.law == name]
+    shown = rows if name == PAPERS_LAW else [*rows, results.get_row(DECLARED)]
     lines = [
         f"# {law.title}",
         "",
         law.summary,
         "",
-        f"![{law.title} beside {'FL' if name == PAPERS_LAW else 'NDOBC'}: figure 4A on the rig,"
-        f" load removal, and the six sweeps](pictures/{name}.png)",
+        f"![{law.title} compared with NDOBC, declared gains: paper's load, load removal, errors of"
+        f" the trials](pictures/{name}.png)",
         "",
         f"$${law.equation}$$",
         "",
@@ -120,23 +89,47 @@ def build_law_page(results: Results, bench: BenchRuns, name: str, margins: str) 
         f"## Idea, and what it assumes\n\n{get_notes(name)}\n",
         "## What it needs\n",
         *(f"* {need}" for need in _list_needs(law)),
-        *_build_parameters(law),
-        "\n## Where it wins, and where it fails\n",
-        *_judge(results, row),
+        *_build_parameters(law, rows),
+        "\n## Results\n",
+        *_describe_tuning(rows),
         "",
-        f"| | {law.title} | NDOBC | place of {count} |",
-        "| --- | --- | --- | --- |",
-    ]
-    for column in COLUMNS:
-        place = column.find_place(row, results.rows)
-        cells = (column.title, column.format_cell(row), column.format_cell(papers), str(place))
-        lines.append(f"| {' | '.join(cells)} |")
-    lines += ["", "| sweep | held | NDOBC |", "| --- | --- | --- |"]
-    for one, other in zip(row.sweeps, papers.sweeps, strict=True):
-        lines.append(f"| {one.title} | {one.share:.0%} | {other.share:.0%} |")
-    lines += [
+        *_build_table(
+            ("", *(get_entry_title(row.key) for row in shown)),
+            [
+                ("rank", *(str(results.get_rank(row.key).rank) for row in shown)),
+                *(
+                    (
+                        f"family {family}: held, % (95 %)",
+                        *(format_success(row.families[family]) for row in shown),
+                    )
+                    for family in rows[0].families
+                ),
+                (
+                    "p against NDOBC, declared gains",
+                    *(format_p(results.get_rank(row.key).p_value) for row in shown),
+                ),
+                ("largest load [N·m]", *(f"{row.largest_load_nm:g}" for row in shown)),
+                (
+                    "torque at rest, rms [N·m]",
+                    *(format_number(row.noise.rms_nm) for row in shown),
+                ),
+                (
+                    "torque variation at rest [N·m/s]",
+                    *(format_number(row.noise.variation_nm_per_s) for row in shown),
+                ),
+            ],
+        ),
         "",
-        _describe_provenance(results, [row]),
+        "Fixed scenarios at both signs and 8 phases: peak position error, peak stiffness error,"
+        " recovery time, each median / worst.",
+        "",
+        *_build_scenarios(rows[0]),
+        "",
+        "Trials: median and 90 % quantile.",
+        "",
+        *_build_trials(rows[0]),
+        "",
+        _describe_provenance(results),
         margins,
         *build_section(bench, name),
         "",
@@ -144,6 +137,41 @@ def build_law_page(results: Results, bench: BenchRuns, name: str, margins: str) 
         "",
     ]
     return "\n".join(lines)
+
+
+def _build_table(head: tuple[str, ...], rows: list[tuple[str, ...]]) -> list[str]:
+    lines = [head, ("---",) * len(head), *rows]
+    return [f"| {' | '.join(cells)} |" for cells in lines]
+
+
+def _build_scenarios(row: Row) -> list[str]:
+    head = ("scenario", "peak [°]", "stiffness [% of σ_d]", "recovery [s]", "held", "faults")
+    rows = []
+    for one in row.scenarios:
+        pairs = [
+            " / ".join(write(values[metric]) for values in (one.median, one.greatest))
+            for metric, write in (
+                (PEAK, format_degrees),
+                (SHARE, lambda value: format_number(None if value is None else 100.0 * value)),
+                (RECOVERY, lambda value: "–" if value is None else f"{value:.3g}"),
+            )
+        ]
+        rows.append((one.title, *pairs, f"{one.held} of {one.runs}", str(one.faults)))
+    return _build_table(head, rows)
+
+
+def _build_trials(row: Row) -> list[str]:
+    head = ("", *(f"family {family}" for family in row.families))
+    rows = []
+    for metric, title, scale in _TRIAL_METRICS:
+        cells = []
+        for family in row.families.values():
+            values = (family.metrics[metric][index] for index in (4, 6))
+            cells.append(
+                " / ".join("–" if value is None else f"{scale * value:.3g}" for value in values)
+            )
+        rows.append((title, *cells))
+    return _build_table(head, rows)
 
 
 def build_margins(name: str) -> str:
@@ -173,69 +201,88 @@ def _cite(law: Law) -> list[str]:
 def _list_needs(law: Law) -> list[str]:
     size = len(law.start_memory())
     memory = "Nothing of the past." if law.memory is Nothing else f"A memory of {size} numbers."
-    measured = ["The positions that the encoders say."] if is_measuring(law.control) else []
+    measured = ["The positions that the encoders measure."] if is_measuring(law.control) else []
     return [_ESTIMATES[law.estimate], *measured, memory]
 
 
-def _build_parameters(law: Law) -> list[str]:
+def _build_parameters(law: Law, rows: list[Row]) -> list[str]:
+    """Parameters with defaults and tuned values."""
+    tuned = next((row.tuning.values for row in rows if row.tuning), {})
     if law.parameters is Gains:
-        return ["* The gains of the run, of Eq 25."]
-    rows = []
+        values = ", ".join(f"{name} {value:.4g}" for name, value in tuned.items())
+        return ["* The gains of the run, of Eq 25.", *([f"* Tuned: {values}."] if values else [])]
+    lines = []
     for name, field in law.parameters.model_fields.items():
         extra = field.json_schema_extra if isinstance(field.json_schema_extra, dict) else {}
         unit, symbol = str(extra.get("unit", "")), str(extra.get("symbol", "") or name)
         meaning = (field.description or name).removesuffix(f", {unit}")
-        rows.append(f"| {symbol} | {meaning} | {field.default} | {unit} |")
-    if not rows:
-        return []
-    return ["", "| parameter | | default | unit |", "| --- | --- | --- | --- |", *rows]
+        found = [
+            value for label, value in tuned.items() if label == name or label.startswith(name + "[")
+        ]
+        values = ", ".join(f"{value:.4g}" for value in found)
+        lines.append((symbol, meaning, str(field.default), values, unit))
+    head = ("parameter", "", "default", "tuned", "unit")
+    return ["", *_build_table(head, lines)] if lines else []
 
 
-def _judge(results: Results, row: Row) -> list[str]:
-    """In words: where it is among the best three or the worst three, and what ended early."""
-    count = len(results.rows)
-    places = {one.title: one.find_place(row, results.rows) for one in COLUMNS}
-    wins = [f"{title} ({place})" for title, place in places.items() if place <= 3]
-    loses = [f"{title} ({place})" for title, place in places.items() if place > count - 3]
-    faults = [f"{one.title}: {label_fault(one.fault).lower()}" for one in row.outcomes if one.fault]
-    return [
-        f"* Among the best three of {count}: {', '.join(wins) or 'nowhere'}.",
-        f"* Among the last three: {', '.join(loses) or 'nowhere'}.",
-        f"* Runs that ended early: {'; '.join(faults) or 'none'}.",
-    ]
+def _describe_tuning(rows: list[Row]) -> list[str]:
+    lines = []
+    for row in rows:
+        if row.tuning is None:
+            lines.append(f"* {get_entry_title(row.key)}: {_VARIANTS[row.variant]}.")
+            continue
+        one = row.tuning
+        lines.append(
+            f"* {get_entry_title(row.key)}: {one.method}, {one.candidates} candidates on"
+            f" {one.trials} training trials, the best ten on {one.validation} validation trials,"
+            f" seed {one.seed}: {_describe_costs(one.before)} → {_describe_costs(one.after)}."
+            f" Noise limit {one.noise_limit_nm_per_s:.0f} N·m/s."
+        )
+    return lines
 
 
-def _describe_provenance(results: Results, rows: Sequence[Row]) -> str:
-    versions = " and ".join(sorted({row.version for row in rows}))
+def _describe_costs(costs: Costs) -> str:
+    if costs.cost >= LOUD:
+        return "above the noise limit"
+    return f"cost {costs.cost:.3f}, {costs.held} held"
+
+
+def _describe_provenance(results: Results) -> str:
+    versions = " and ".join(sorted({row.version for row in results.rows}))
     return (
-        f"Simulated by SVSA Lab {versions} with the law's defaults; suite {results.suite}, trials"
-        f" of the {'public seed' if results.is_public else 'seed ' + results.seed}. The same again:"
-        " `svsa ranking run`."
+        f"Simulated by SVSA Lab {versions}; protocol {results.protocol}, {results.trials} trials of"
+        f" each family, seed {results.seed}. Held: {results.criterion}. The same again:"
+        f" `svsa ranking run --trials {results.trials} --seed {results.seed}`."
     )
 
 
 def build_index(results: Results, bench: BenchRuns) -> str:
-    """The list of laws, best score first, and those that ran on the emulator."""
-    rows = sorted(results.rows, key=lambda row: -row.score)
+    """The table of laws, and those that ran on the emulator."""
     lines = [
         "# The laws",
         "",
-        "A page for each, with its idea, equation, needs, and where it wins and fails. All are run"
-        " on the same plant, limits, noise and loads; the page *Ranking* of the lab opens any of"
-        " these runs. The score is 0.5 robustness + 0.3 share of trials held + 0.2 accuracy.",
+        "A page for each, with its idea, equation, needs and results. All run on the same plant,"
+        " limits, noise and loads, and tuned with one budget, cost and noise limit"
+        " ([protocol](../decisions/26-evaluation.md)). Rows whose success rates do not differ"
+        " significantly share a rank.",
         "",
-        "| law | score | what it does |",
-        "| --- | --- | --- |",
+        "![Position error against stiffness error, effort as size](pictures/pareto.png)",
+        "",
+        format_markdown(results),
+        "",
+        "| law | what it does |",
+        "| --- | --- |",
     ]
-    for row in rows:
-        summary = get_law(row.law).summary
-        lines.append(f"| [{get_title(row.law)}]({row.law}.md) | {row.score:.2f} | {summary} |")
-    lines += ["", _describe_provenance(results, rows), "", *_NOT_IMPLEMENTED, ""]
+    lines += [
+        f"| [{get_title(law)}]({law}.md) | {get_law(law).summary} |"
+        for law in dict.fromkeys(row.law for row in results.rows)
+    ]
+    lines += ["", _describe_provenance(results), "", *_NOT_IMPLEMENTED, ""]
     lines += ["## On the emulator", ""]
     lines += [
         "The paper's bench figures through CAN, frame by frame, in lockstep: position errors in"
         " degrees as the bench measures them (rms 1–5 s, peak after the cable's 2 N·m at 5 s, rms"
-        " 8–20 s), recovery in seconds. The same again, for any law:"
+        " 8–20 s), recovery in seconds, with the laws' defaults. The same again, for any law:"
         f" `svsa ranking bench {' '.join(bench.laws)}`.",
         "",
         format_bench(bench, PAPERS_LAW),
@@ -244,22 +291,69 @@ def build_index(results: Results, bench: BenchRuns) -> str:
     return "\n".join(lines)
 
 
+def describe_results(results: Results) -> str:
+    """What follows from the results, in sentences."""
+    first = [rank.key for rank in results.ranks if rank.rank == 1]
+    compared = [rank for rank in results.ranks if rank.p_value is not None]
+    differing = [rank for rank in compared if (rank.p_value or 0.0) < SIGNIFICANT]
+    better = [rank for rank in differing if rank.only_this > rank.only_ndobc]
+    worse = [rank for rank in differing if rank.only_this < rank.only_ndobc]
+    names = ", ".join(map(get_entry_title, first))
+    lines = [
+        f"* First rank: {names}.",
+        f"* Of {len(compared)} rows {len(better)} hold significantly more trials than NDOBC with"
+        f" the declared gains, {len(worse)} significantly fewer.",
+    ]
+    papers = results.get_row(DECLARED)
+    for key in (PAPERS_LAW, "ndobc_s", "ndobc_w"):
+        row = next((one for one in results.rows if one.key == key), None)
+        if row is not None:
+            lines.append(f"* {_compare_row(row, papers)}")
+    return "\n".join(lines)
+
+
+def _compare_row(row: Row, papers: Row) -> str:
+    """A row and NDOBC with the declared gains: recovery, stiffness, effort, load removals."""
+
+    def read(one: Row) -> str:
+        rig, family = one.get_outcome("rig_4a"), one.families["A"]
+        removal = one.get_outcome("load_removal")
+        recovery = rig.median[RECOVERY]
+        stiffness = family.get_median("rms_stiffness_error_nm_per_rad")
+        variation = family.get_median("torque1_variation_nm_per_s")
+        return (
+            f"recovery from the paper's load at σ = 15 {'–' if recovery is None else recovery} s"
+            f" (median), {rig.faults} of {rig.runs} runs in a fault; {removal.faults} of"
+            f" {removal.runs} load removals in a fault; trials of family A: median rms stiffness"
+            f" error {format_number(stiffness)} N·m/rad, total variation of u1"
+            f" {format_number(variation)} N·m/s"
+        )
+
+    return (
+        f"{get_entry_title(row.key)}, {_VARIANTS[row.variant]}: {read(row)}. NDOBC, declared gains:"
+        f" {read(papers)}."
+    )
+
+
 def fill_readme(text: str, results: Results) -> str:
-    """The README with the table between its marks."""
-    return _BLOCK.sub(lambda m: f"{m[1]}{format_markdown(results.rows)}\n{m[2]}", text)
+    """The README with table and statements between its marks."""
+    block = f"{format_markdown(results)}\n\n{describe_results(results)}\n\n"
+    provenance = _describe_provenance(results)
+    return _BLOCK.sub(lambda m: f"{m[1]}{block}{provenance}\n{m[2]}", text)
 
 
 def publish(root: Path, results: Results, bench: BenchRuns) -> None:
     """Write pages, index, pictures and the README's table into a source tree."""
-    from svsa.evaluation.ranking.picture import save_law, save_losses
+    from svsa.evaluation.ranking.picture import save_law, save_losses, save_pareto
 
     pictures = root / FOLDER / "pictures"
     pictures.mkdir(parents=True, exist_ok=True)
-    for row in results.rows:
-        page = build_law_page(results, bench, row.law, build_margins(row.law))
-        (root / FOLDER / f"{row.law}.md").write_text(page, encoding="utf-8")
-        save_law(results, row.law, pictures / f"{row.law}.png")
+    for name in dict.fromkeys(row.law for row in results.rows):
+        page = build_law_page(results, bench, name, build_margins(name))
+        (root / FOLDER / f"{name}.md").write_text(page, encoding="utf-8")
+        save_law(results, name, pictures / f"{name}.png")
     (root / FOLDER / "README.md").write_text(build_index(results, bench), encoding="utf-8")
-    save_losses(root / LOSSES)
+    save_pareto(results, pictures / "pareto.png")
+    save_losses(pictures / "losses.png")
     readme = (root / README).read_text(encoding="utf-8")
     (root / README).write_text(fill_readme(readme, results), encoding="utf-8")

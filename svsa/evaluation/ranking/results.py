@@ -1,63 +1,144 @@
-"""Results of the ranking as a file: what the page, the README and the laws' pages show."""
+"""Results of the ranking as a file: protocol, rows, ranks. Page, README and laws' pages show it."""
 
-import os
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import as_completed
 from functools import cache
 from pathlib import Path
 from typing import Self
 
+import numpy as np
 from pydantic import ValidationError
 
 from svsa.errors import ParameterError, Violation
-from svsa.evaluation.ranking.measure import Entry, measure_law
+from svsa.evaluation.metrics import HELD
+from svsa.evaluation.ranking.entry import DECLARED, build_entry
+from svsa.evaluation.ranking.measure import TestSet, measure_entry
 from svsa.evaluation.ranking.row import Row
-from svsa.evaluation.ranking.trials import PUBLIC_SEED, SUITE_VERSION
-from svsa.evaluation.workers import start_workers
-from svsa.inputs.checked import Checked, quantity
+from svsa.evaluation.statistics import compute_mcnemar_p, correct_holm
+from svsa.evaluation.trials import DURATION_S, FAMILIES, PROTOCOL
+from svsa.inputs.checked import Checked, Number, Whole, quantity
 
 PUBLISHED = Path(__file__).parent / "results.json"
+SIGNIFICANT = 0.05
+
+
+class Rank(Checked):
+    """The rank of a row, and its comparison with NDOBC with the declared gains."""
+
+    key: str = quantity("", "Name of the row")
+    rank: Whole = quantity("", "From 1; rows that do not differ significantly share it", ge=1)
+    only_this: Whole = quantity("", "Trials that only this row held", ge=0)
+    only_ndobc: Whole = quantity("", "Trials that only NDOBC, declared gains, held", ge=0)
+    p_value: Number | None = quantity(
+        "1", "McNemar's exact test against NDOBC, declared gains, corrected by Holm", ge=0, le=1
+    )
 
 
 class Results(Checked):
-    """Rows, and the suite and the trials that they were measured on."""
+    """Rows, and the protocol that they were measured with."""
 
-    suite: str = quantity("", "Version of the suite")
-    is_public: bool = quantity("", "Whether the trials are those of the public seed")
-    seed: str = quantity("", "Seed of the trials, in hexadecimal")
-    rows: tuple[Row, ...] = quantity("", "A row a law")
+    protocol: str = quantity("", "Version of the protocol")
+    criterion: str = quantity("", "When a trial is held")
+    seed: Whole = quantity("", "Seed of the test set", ge=0)
+    trials: Whole = quantity("", "Trials of each family", ge=1)
+    duration_s: Number = quantity("s", "Length of a trial")
+    rows: tuple[Row, ...] = quantity("", "Rows in the order of their success rates")
+    ranks: tuple[Rank, ...] = quantity("", "The rank of each row")
 
     @classmethod
-    def build(cls, rows: Sequence[Row], seed: int) -> Self:
-        """Of rows that were measured with this suite and trials of this seed."""
+    def build(cls, rows: Sequence[Row], seed: int, trials: int) -> Self:
+        """The results of rows that were measured on the same test set."""
+        ordered = sorted(rows, key=lambda row: (-_read_held(row).mean(), row.key))
         return cls(
-            suite=SUITE_VERSION,
-            is_public=seed == PUBLIC_SEED,
-            seed=f"{seed:016x}",
-            rows=tuple(rows),
+            protocol=PROTOCOL,
+            criterion=HELD,
+            seed=seed,
+            trials=trials,
+            duration_s=DURATION_S,
+            rows=tuple(ordered),
+            ranks=compute_ranks(ordered),
         )
 
-    def get_row(self, law: str) -> Row:
-        """The row of a law; raises `ParameterError` where it has none."""
+    def get_row(self, key: str) -> Row:
+        """The row of this key; raises `ParameterError` where there is none."""
         for row in self.rows:
-            if row.law == law:
+            if row.key == key:
                 return row
-        bound = "one of " + ", ".join(row.law for row in self.rows)
-        raise ParameterError(Violation("law", law, "", bound))
+        bound = "one of " + ", ".join(row.key for row in self.rows)
+        raise ParameterError(Violation("row", key, "", bound))
 
-    def renew(self, newer: Self) -> Self:
-        """With the rows of `newer` in place of those of the same laws, others behind them.
+    def get_rank(self, key: str) -> Rank:
+        """The rank of the row of this key."""
+        return next(rank for rank in self.ranks if rank.key == key)
 
-        Raises `ParameterError` where one of them has another suite or other trials: numbers of
-        different runs do not stand in one table.
-        """
-        for name in ("suite", "seed"):
-            kept, found = getattr(self, name), getattr(newer, name)
-            if kept != found:
-                bound = f"{kept}, as the rows that stay were measured with"
-                raise ParameterError(Violation(name, found, "", bound))
-        rows = {row.law: row for row in (*self.rows, *newer.rows)}
-        return self.changed(rows=tuple(rows.values()))
+
+def compute_ranks(rows: Sequence[Row]) -> tuple[Rank, ...]:
+    """The ranks of rows in the order of their success rates over both families.
+
+    The first row without a rank and all later ones that do not differ significantly from it share
+    the next rank: McNemar's exact test on the same trials, at 5 % with Holm's correction over the
+    rows compared.
+    """
+    held = {row.key: _read_held(row) for row in rows}
+    ranks: dict[str, int] = {}
+    left = [row.key for row in rows]
+    while left:
+        first, *others = left
+        values = correct_holm([_compute_p(held[first], held[key]) for key in others])
+        shared = [key for key, p in zip(others, values, strict=True) if not p < SIGNIFICANT]
+        rank = len(ranks) + 1
+        ranks |= dict.fromkeys((first, *shared), rank)
+        left = [key for key in others if key not in shared]
+    compared = [row.key for row in rows if row.key != DECLARED] if DECLARED in held else []
+    values = correct_holm([_compute_p(held[key], held[DECLARED]) for key in compared])
+    p_values = dict(zip(compared, values, strict=True))
+    return tuple(
+        Rank(
+            key=row.key,
+            rank=ranks[row.key],
+            only_this=_count_only(held[row.key], held.get(DECLARED)),
+            only_ndobc=_count_only(held.get(DECLARED), held[row.key]),
+            p_value=p_values.get(row.key),
+        )
+        for row in rows
+    )
+
+
+def _read_held(row: Row) -> np.ndarray:
+    """Whether each trial held, (trials,), family after family."""
+    return np.concatenate(
+        [
+            np.unpackbits(np.frombuffer(bytes.fromhex(one.held_bits), np.uint8))[: one.trials]
+            for one in (row.families[family] for family in FAMILIES)
+        ]
+    ).astype(bool)
+
+
+def _count_only(one: np.ndarray | None, other: np.ndarray | None) -> int:
+    return 0 if one is None or other is None else int(np.sum(one & ~other))
+
+
+def _compute_p(one: np.ndarray, other: np.ndarray) -> float:
+    return compute_mcnemar_p(_count_only(one, other), _count_only(other, one))
+
+
+def measure_entries(
+    keys: Sequence[str],
+    seed: int,
+    trials: int,
+    known: Sequence[Row] = (),
+    report: Callable[[str, float], None] = lambda key, done: None,
+) -> Iterator[Results]:
+    """Results after each entry, those of `known` rows with the same parameters included.
+
+    report: receives the key of an entry and the share of it that is done.
+    """
+    rows = {row.key: row for row in known}
+    test_set = TestSet(seed, trials)
+    for key in keys:
+        rows[key] = measure_entry(
+            build_entry(key), test_set, lambda done, key=key: report(key, done)
+        )
+        yield Results.build(list(rows.values()), seed, trials)
 
 
 def write_results(path: Path, results: Results) -> None:
@@ -70,7 +151,8 @@ def read_results(path: Path) -> Results:
     try:
         return Results.model_validate_json(path.read_bytes())
     except (OSError, ValidationError) as error:
-        bound = f"a file that svsa ranking run --save writes ({error})"
+        reason = str(error).partition("\n")[0]
+        bound = f"a file that svsa ranking run --save writes ({reason})"
         raise ParameterError(Violation("results", path, "", bound)) from None
 
 
@@ -78,37 +160,3 @@ def read_results(path: Path) -> Results:
 def load_published() -> Results:
     """The results that this version was published with: `svsa/evaluation/ranking/results.json`."""
     return read_results(PUBLISHED)
-
-
-def measure_laws(
-    laws: Sequence[str],
-    seed: int = PUBLIC_SEED,
-    report: Callable[[float], None] = lambda done: None,
-) -> Results:
-    """The rows of laws in the order given, by as many processes as there are processors.
-
-    report: is given the share that is done.
-    """
-    rows: dict[str, Row] = {}
-    if len(laws) == 1:
-        rows[laws[0]] = measure_law(Entry(laws[0]), report, seed)
-    else:
-        for row in _measure_side_by_side(laws, seed):
-            rows[row.law] = row
-            report(len(rows) / len(laws))
-    return Results.build([rows[law] for law in laws], seed)
-
-
-def _measure_side_by_side(laws: Sequence[str], seed: int) -> Iterator[Row]:
-    workers = min(len(laws), os.cpu_count() or 1)
-    with start_workers(workers) as pool:
-        asked = [pool.submit(_measure, law, seed) for law in laws]
-        try:
-            for answer in as_completed(asked):
-                yield answer.result()
-        finally:
-            pool.shutdown(cancel_futures=True)
-
-
-def _measure(law: str, seed: int) -> Row:
-    return measure_law(Entry(law), seed=seed)

@@ -1,90 +1,78 @@
-"""The ranking's table as text: one row a law, as measured."""
+"""The ranking's table as text: one row an entry."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 
-from svsa.control.installed import get_title
-from svsa.evaluation.ranking.row import Row
+from svsa.evaluation.ranking.entry import get_entry_title
+from svsa.evaluation.ranking.results import Results
+from svsa.evaluation.ranking.row import FamilyOutcome, Row, ScenarioOutcome
 
+FAULT = "fault"
+PEAK, RMS, RECOVERY = "peak_position_error_rad", "rms_position_error_rad", "recovery_time_s"
+SHARE = "peak_stiffness_error_share"
+COLUMNS: tuple[tuple[str, str], ...] = (
+    ("rig_4a", "paper's load"),
+    ("load_removal", "load removal"),
+    ("mass", "3 kg"),
+    ("unmodelled", "friction, lag, gravity"),
+)
+"""Fixed scenarios of the table: peak position error, median / worst, and faults."""
 HEADINGS = (
+    "rank",
     "law",
-    "score",
-    "4A ideal: before / peak / steady",
-    "4A rig: peak / steady / recovery s",
-    "load removal",
-    "faults of 48",
-    "settled, worst of 48",
-    "2 Hz",
-    "3 kg",
-    "trials: median / faults / fails",
-    "largest step N·m",
+    "A: held, 95 %",
+    "B: held, 95 %",
+    "p against NDOBC",
+    *(f"{title}: peak [°] median / worst, faults" for _, title in COLUMNS),
+    "largest load [N·m]",
+    "torque variation at rest [N·m/s]",
 )
 
 
-def build_cells(row: Row) -> tuple[str, ...]:
-    """The cells of a row, errors in degrees.
+def format_success(family: FamilyOutcome) -> str:
+    """A success rate with its interval, in per cent."""
+    low, high = 100.0 * family.success_low, 100.0 * family.success_high
+    return f"{100.0 * family.success:.1f} ({low:.1f}–{high:.1f})"
 
-    Where a run ended early its fault stands; "never" where an error did not settle.
-    """
-    ideal, rig, faults = row.ideal_4a, row.rig_4a, row.faults
 
-    def format_cell(name: str, numbers: Sequence[float | None]) -> str:
-        if name in faults:
-            return faults[name]
-        return " / ".join("never" if number is None else f"{number:.3g}" for number in numbers)
+def format_number(value: float | None, digits: int = 3) -> str:
+    """A number to three digits; "fault" for None."""
+    return FAULT if value is None else f"{value:.{digits}g}"
 
+
+def format_degrees(value: float | None) -> str:
+    """An angle in degrees; "fault" for None."""
+    return format_number(None if value is None else value * 57.29577951308232)
+
+
+def format_fixed(one: ScenarioOutcome) -> str:
+    """Median and worst peak of a fixed scenario in degrees, and its faults."""
+    faults = f", {one.faults} of {one.runs}" if one.faults else ""
+    return f"{format_degrees(one.median[PEAK])} / {format_degrees(one.greatest[PEAK])}{faults}"
+
+
+def format_p(value: float | None) -> str:
+    """A p-value; empty for none."""
+    if value is None:
+        return ""
+    return "< 0.001" if value < 0.001 else f"{value:.2g}"
+
+
+def build_cells(results: Results, row: Row) -> tuple[str, ...]:
+    """The cells of a row."""
+    rank = results.get_rank(row.key)
     return (
-        get_title(row.law),
-        f"{row.score:.2f}",
-        format_cell("ideal_4a", (ideal.before_deg, ideal.peak_deg, ideal.steady_deg)),
-        format_cell("rig_4a", (rig.peak_deg, rig.steady_deg, rig.recovery_s)),
-        format_cell("load_removal", (row.load_removal_peak_deg,)),
-        str(row.load_removal_faults_of_48),
-        _format_or_fault(row.load_removal_steady_state_deg),
-        format_cell("sine_2hz", (row.sine_2hz_rms_deg,)),
-        format_cell("mass", (row.mass_rms_deg,)),
-        f"{_format_or_fault(row.trials_median_deg)} / {row.trials_faults} / {row.trials_fails}",
-        f"{row.largest_link_step_nm:g}",
+        str(rank.rank),
+        get_entry_title(row.key),
+        *map(format_success, row.families.values()),
+        format_p(rank.p_value),
+        *(format_fixed(row.get_outcome(name)) for name, _ in COLUMNS),
+        f"{row.largest_load_nm:g}",
+        format_number(row.noise.variation_nm_per_s),
     )
 
 
-def _format_or_fault(number: float | None) -> str:
-    return "fault" if number is None else f"{number:.3g}"
-
-
-SHORT = (
-    "law", "score", "ideal", "peak", "settled", "recov.", "unload", "of 48", "worst", "2 Hz",
-    "3 kg", "trials", "fails", "step",
-)  # fmt: skip
-"""Of the table on a terminal: 4A ideal settled; on the rig peak, settled, recovery in s."""
-
-
-def build_short_cells(row: Row) -> tuple[str, ...]:
-    """As `build_cells`, a number a column; "fault" where a run ended early."""
-
-    def format_cell(number: float | None, scenario: str = "") -> str:
-        if number is not None:
-            return f"{number:.2g}" if number < 1.0 else f"{number:.3g}"
-        return "fault" if scenario in row.faults or not scenario else "never"
-
-    return (
-        get_title(row.law),
-        f"{row.score:.2f}",
-        format_cell(row.ideal_4a.steady_deg, "ideal_4a"),
-        format_cell(row.rig_4a.peak_deg, "rig_4a"),
-        format_cell(row.rig_4a.steady_deg, "rig_4a"),
-        format_cell(row.rig_4a.recovery_s, "rig_4a"),
-        format_cell(row.load_removal_peak_deg, "load_removal"),
-        str(row.load_removal_faults_of_48),
-        format_cell(row.load_removal_steady_state_deg),
-        format_cell(row.sine_2hz_rms_deg, "sine_2hz"),
-        format_cell(row.mass_rms_deg, "mass"),
-        format_cell(row.trials_median_deg),
-        str(row.trials_fails),
-        f"{row.largest_link_step_nm:g}",
-    )
-
-
-def format_markdown(rows: Iterable[Row]) -> str:
+def format_markdown(results: Results, rows: Iterable[Row] | None = None) -> str:
     """The table as Markdown."""
-    lines = [HEADINGS, ("---",) * len(HEADINGS), *map(build_cells, rows)]
+    shown = results.rows if rows is None else rows
+    lines = [HEADINGS, ("---",) * len(HEADINGS), *(build_cells(results, row) for row in shown)]
     return "\n".join(f"| {' | '.join(cells)} |" for cells in lines)

@@ -7,17 +7,14 @@ from typing import Any, NamedTuple
 import numpy as np
 import pyarrow.compute as pc
 
-from svsa.actuators.domain import INSIDE
-from svsa.actuators.faults import FAULT_CODES
 from svsa.actuators.signals import CHANNELS
-from svsa.evaluation.metrics import METRICS
+from svsa.evaluation.metrics import METRICS, summarize_result
 from svsa.evaluation.studies.outcome import Success, build_outcome
 from svsa.evaluation.studies.samples import build_configurations, draw
 from svsa.evaluation.studies.store import StoredStudy, StudyError, read_rows
 from svsa.evaluation.studies.work import ROW
 from svsa.inputs.checked import check_number
 from svsa.inputs.extras import __version__
-from svsa.runs.blocks import build_blocks, compute_start_ratio
 from svsa.runs.configuration import Configuration
 from svsa.runs.records.catalogue.entry import RunEntry
 from svsa.runs.records.catalogue.runs import Catalogue, build_run_id
@@ -26,9 +23,6 @@ from svsa.runs.records.outcome import write_fault
 from svsa.runs.records.writer import write_record
 from svsa.runs.result.result import Result
 from svsa.runs.result.simulate import simulate
-from svsa.simulation.loop.tally import SUMMARY, sum_up
-
-_CODES = {name: code for code, name in FAULT_CODES.items()} | {None: INSIDE}
 
 
 class Replay(NamedTuple):
@@ -79,16 +73,8 @@ def measure_samples(result: Result, begin_s: float, end_s: float) -> dict[str, f
 
     end_s: when it was to end; a run in a fault has ended before.
     """
-    configuration = result.configuration
-    period = configuration.sampling.period_s
-    mu0 = compute_start_ratio(configuration)
-    blocks = build_blocks(configuration, configuration.lanes[0], mu0)
-    tally = sum_up(result.samples, blocks, round(begin_s / period), round(end_s / period))
-    summary = np.zeros(1, dtype=SUMMARY)
-    summary["code"] = _CODES[result.fault.code if result.fault else None]
-    summary["ticks"] = len(result.samples)
-    for name, value in zip(tally._fields, tally, strict=True):
-        summary[name] = value
+    period = result.configuration.sampling.period_s
+    summary = summarize_result(result, begin_s, end_s)
     outcome = build_outcome(summary, np.array([period]), begin_s, Success())
     return {name: float(outcome[name][0]) for name in METRICS}
 

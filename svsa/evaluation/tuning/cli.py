@@ -1,27 +1,49 @@
-"""`svsa tune`: search a law's parameters, and write them where they can be used."""
+"""`svsa tune`: search laws' parameters, and write them where they can be used."""
 
 import json
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    TaskID,
+    TextColumn,
+    TimeRemainingColumn,
+)
 from rich.table import Table
 
-from svsa.control.installed import check_installed, get_title
+from svsa.control.installed import check_installed, get_title, list_law_names
 from svsa.errors import ParameterError, Violation
 
 INTERRUPTED = 130
+RANKING_BUDGET, BUDGET = 2000, 128
 
 if TYPE_CHECKING:
-    from svsa.evaluation.tuning.tuner import Trial, Tuned
+    from svsa.evaluation.tuning.tuner import Candidate, Tuned
 
 
 def tune(
-    law: Annotated[str, typer.Argument(help="Name of a law that is installed.")],
-    budget: Annotated[int, typer.Option(min=1, help="Candidates to be tried.")] = 124,
-    seed: Annotated[int, typer.Option(min=0, help="Seed of the Sobol points.")] = 0,
+    law: Annotated[str | None, typer.Argument(help="Name of a law that is installed.")] = None,
+    every: Annotated[
+        bool, typer.Option("--all", help="Tune all installed laws for the ranking.")
+    ] = False,
+    budget: Annotated[
+        int | None,
+        typer.Option(min=1, help="Candidates to be tried: 128; with --all 2000."),
+    ] = None,
+    trials: Annotated[int, typer.Option(min=1, help="Training trials of each candidate.")] = 128,
+    validation: Annotated[
+        int, typer.Option(min=1, help="Validation trials of the best ten candidates.")
+    ] = 512,
+    seed: Annotated[
+        int, typer.Option(min=0, help="Seed of search, training and validation trials.")
+    ] = 0,
     hold: Annotated[
         list[str] | None,
         typer.Option(help="NAME=VALUE: a parameter that is set and not searched."),
@@ -30,45 +52,122 @@ def tune(
         Path | None, typer.Option(help="Parameter file to begin from (TOML).")
     ] = None,
     output: Annotated[
-        Path | None, typer.Option(help="Parameter file to write; LAW.toml if left out.")
+        Path | None,
+        typer.Option(
+            help="Parameter file to write; LAW.toml if left out. With --all the folder of the"
+            " results, the ranking's own if left out."
+        ),
     ] = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print everything that was tried as JSON, write no file.")
     ] = False,
 ) -> None:
-    """Tune a law on the five training runs. Ctrl-C ends the search and keeps the best so far."""
+    """Tune a law, or all laws for the ranking. Ctrl-C ends the search and keeps the best so far.
+
+    With --all, laws that have a result of the same budget are left as they are, and a search that
+    was interrupted continues from its checkpoint.
+    """
+    if every == (law is not None):
+        raise ParameterError(Violation("law", law, "", "one law, or --all"))
+    if every:
+        _tune_all(budget or RANKING_BUDGET, trials, validation, seed, output)
+        return
     from svsa.evaluation.tuning.file import describe_tuned
     from svsa.evaluation.tuning.tuner import tune as search
     from svsa.runs.configuration import read_design
 
-    check_installed(law)
-    with Progress(
-        TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn(),
-        console=Console(stderr=True), transient=True,
-    ) as bar:  # fmt: skip
-        task = bar.add_task(f"{get_title(law)}: compiling", total=budget)
-        best = float("inf")
-
-        def follow(trial: "Trial") -> None:
-            nonlocal best
-            best = min(best, trial.cost)
-            reported = f"{get_title(law)}: best {best:.4g}"
-            bar.update(task, completed=trial.number, description=reported)
-
+    name = check_installed(law or "")
+    count = budget or BUDGET
+    with _show_progress() as (bar, task):
         tuned = search(
-            law,
-            budget=budget,
+            name,
+            budget=count,
+            trials=trials,
+            validation=validation,
             seed=seed,
             held=dict(map(_read_held, hold or ())),
             present=None if parameters is None else read_design(parameters),
-            on_trial=follow,
+            on_candidate=_Follow(bar, task, get_title(name), count),
         )
     if as_json:
         typer.echo(json.dumps(describe_tuned(tuned), indent=2))
     else:
-        _save(tuned, output or Path(f"{law}.toml"))
+        _save(tuned, output or Path(f"{name}.toml"))
     if not tuned.is_complete:
         raise typer.Exit(INTERRUPTED)
+
+
+def _tune_all(budget: int, trials: int, validation: int, seed: int, output: Path | None) -> None:
+    """Tune every installed law, one after the other, with a checkpoint each."""
+    from svsa.evaluation.tuning.file import describe_candidate, read_checkpoint
+    from svsa.evaluation.tuning.tuned_law import (
+        FOLDER,
+        build_tuned_law,
+        list_tuned_laws,
+        write_tuned_law,
+    )
+    from svsa.evaluation.tuning.tuner import tune as search
+
+    folder = output or FOLDER
+    wanted = budget, trials, validation, seed
+    done = {
+        one.law
+        for one in list_tuned_laws(folder)
+        if (one.candidates, one.trials, one.validation, one.seed) == wanted
+    }
+    for law in list_law_names():
+        if law in done:
+            continue
+        checkpoint = folder / f"{law}.{budget}-{trials}-{seed}.jsonl"
+        checkpoint.parent.mkdir(parents=True, exist_ok=True)
+        known = read_checkpoint(checkpoint)
+        with _show_progress() as (bar, task), checkpoint.open("a", encoding="utf-8") as lines:
+            follow = _Follow(bar, task, get_title(law), budget)
+
+            def note(candidate: "Candidate", follow: "_Follow" = follow) -> None:
+                if candidate.stage != "validation" and candidate.number >= len(known):  # noqa: B023  used before the next law begins
+                    lines.write(json.dumps(describe_candidate(candidate)) + "\n")
+                    lines.flush()
+                follow(candidate)
+
+            tuned = search(
+                law, budget=budget, trials=trials, validation=validation, seed=seed, known=known,
+                on_candidate=note,
+            )  # fmt: skip
+        if not tuned.is_complete:
+            raise typer.Exit(INTERRUPTED)
+        write_tuned_law(folder, build_tuned_law(tuned))
+        checkpoint.unlink()
+        before, after = tuned.finals[0].judgment, tuned.best.judgment
+        Console(stderr=True).print(
+            f"{get_title(law)}: cost {before.cost:.3f} → {after.cost:.3f}, held {before.held} →"
+            f" {after.held} of {validation}, torque variation"
+            f" {after.torque_variation_nm_per_s:.0f} N·m/s",
+            highlight=False,
+        )
+
+
+class _Follow:
+    """Shows the candidates of one search on a bar."""
+
+    def __init__(self, bar: Progress, task: TaskID, title: str, budget: int) -> None:
+        self._bar, self._task, self._title = bar, task, title
+        self._best = float("inf")
+        bar.update(task, total=budget, description=f"{title}: compiling")
+
+    def __call__(self, candidate: "Candidate") -> None:
+        self._best = min(self._best, candidate.judgment.cost)
+        reported = f"{self._title}: best {self._best:.4g}"
+        self._bar.update(self._task, completed=candidate.number, description=reported)
+
+
+@contextmanager
+def _show_progress() -> Iterator[tuple[Progress, TaskID]]:
+    with Progress(
+        TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn(),
+        console=Console(stderr=True), transient=True,
+    ) as bar:  # fmt: skip
+        yield bar, bar.add_task("", total=None)
 
 
 def _save(tuned: "Tuned", path: Path) -> None:
@@ -79,7 +178,8 @@ def _save(tuned: "Tuned", path: Path) -> None:
     console = Console()
     console.print(_build_value_table(tuned), _build_cost_table(tuned), highlight=False)
     if not tuned.is_complete:
-        console.print(f"Broken off after {len(tuned.trials) - 1} of {tuned.budget} candidates.")
+        tried = len(tuned.candidates) - 1
+        console.print(f"Interrupted after {tried} of {tuned.budget} candidates.")
     console.print(f"Parameter file: {path}", highlight=False)
 
 
@@ -105,12 +205,15 @@ def _build_value_table(tuned: "Tuned") -> Table:
 
 
 def _build_cost_table(tuned: "Tuned") -> Table:
-    table = Table("training run", title="Cost", title_justify="left")
-    for column in ("before", "tuned", "rms e, °", "rms eσ, N·m/rad", "shake, N·m"):
+    title = "Validation trials" if tuned.finals else "Training trials"
+    table = Table("", title=title, title_justify="left")
+    for column in ("cost", "held", "rms e, °", "rms eσ, %", "torque variation at rest, N·m/s"):
         table.add_column(column, justify="right")
-    for run, old, new in zip(tuned.runs, tuned.start.runs, tuned.best.runs, strict=True):
-        numbers = (new.position_error_deg, new.stiffness_error_nm_per_rad, new.torque_change_nm)
-        reported = (f"{number:.3g}" for number in numbers)
-        table.add_row(run.name, f"{old.cost:.4f}", new.fault or f"{new.cost:.4f}", *reported)
-    table.add_row("mean", f"{tuned.start.cost:.4f}", f"{tuned.best.cost:.4f}")
+    before = tuned.finals[0] if tuned.finals else tuned.start
+    for name, candidate in (("before", before), ("tuned", tuned.best)):
+        one = candidate.judgment
+        errors = (one.position_error_deg, one.stiffness_error_percent)
+        reported = ("–" if error is None else f"{error:.3g}" for error in errors)
+        variation = f"{one.torque_variation_nm_per_s:.0f}"
+        table.add_row(name, f"{one.cost:.4f}", f"{one.held} of {one.trials}", *reported, variation)
     return table

@@ -1,12 +1,15 @@
-"""What a search found, as a parameter file that says what it was measured on, and as JSON."""
+"""A search as a parameter file, as JSON, and as a checkpoint to go on from."""
 
+import json
+from pathlib import Path
 from typing import Any
 
 import numpy
 import scipy
 
 from svsa.control.installed import has_own_parameters
-from svsa.evaluation.tuning.tuner import Trial, Tuned
+from svsa.evaluation.tuning.judge import Judgment
+from svsa.evaluation.tuning.tuner import Candidate, Tuned
 from svsa.inputs.extras import __version__
 from svsa.runs.configuration import format_design
 
@@ -14,64 +17,73 @@ _NOT_TUNED = "as before the tuning"
 
 
 def format_tuned(tuned: Tuned) -> str:
-    """The text of a parameter file (TOML): the law's numbers with their source, the rest as it was.
-
-    What they were measured on stands above, in comments.
-    """
+    """The text of a parameter file (TOML): the law's numbers with their source."""
     law = tuned.space.law
     sections = {f"parameters.{law}"} if has_own_parameters(law) else {"gains", "observer"}
     source = describe_search(tuned)
     text = format_design(tuned.design, lambda name: source if name in sections else _NOT_TUNED)
-    head = [f"# {source}", *(f"#   {line}" for line in _describe_runs(tuned))]
-    return "\n".join(head) + "\n\n" + text
+    return f"# {source}\n\n{text}"
 
 
 def describe_search(tuned: Tuned) -> str:
-    """The search in a line: law, budget, seed, cost before and after, versions."""
-    tried = len(tuned.trials) - 1
+    """The search in a line: law, budget, trials, seed, cost before and after, versions."""
+    tried = len(tuned.candidates) - 1
     share = f"{tried} candidates" if tuned.is_complete else f"{tried} of {tuned.budget} candidates"
     held = ", ".join(f"{name} = {value:g}" for name, value in tuned.space.held.items())
+    before = tuned.finals[0] if tuned.finals else tuned.start
     return (
-        f"svsa tune {tuned.space.law}{f' with {held}' if held else ''}: cost {tuned.best.cost:.4g}"
-        f" (before {tuned.start.cost:.4g}), {share}, seed {tuned.seed},"
-        f" {len(tuned.runs)} training runs of {tuned.duration_s:g} s,"
-        f" svsa {__version__}, numpy {numpy.__version__}, scipy {scipy.__version__}"
+        f"svsa tune {tuned.space.law}{f' with {held}' if held else ''}:"
+        f" cost {tuned.best.judgment.cost:.4g} (before {before.judgment.cost:.4g}), {share} on"
+        f" {tuned.trials} training trials, {tuned.validation} validation trials,"
+        f" seed {tuned.seed}, svsa {__version__}, numpy {numpy.__version__},"
+        f" scipy {scipy.__version__}"
     )
 
 
 def describe_tuned(tuned: Tuned) -> dict[str, Any]:
-    """What a search found, as JSON: axes, trials and the design's part that belongs to the law."""
+    """What a search found, as JSON."""
     return {
         "law": tuned.space.law,
         "budget": tuned.budget,
+        "trials": tuned.trials,
+        "validation": tuned.validation,
         "seed": tuned.seed,
         "is_complete": tuned.is_complete,
         "source": describe_search(tuned),
-        "runs": [{"name": run.name, "title": run.title} for run in tuned.runs],
-        "duration_s": tuned.duration_s,
         "axes": [
             {"name": axis.label, "symbol": axis.symbol, "unit": axis.unit, "low": axis.low}
             | {"high": axis.high}
             for axis in tuned.space.axes
         ],
         "held": tuned.space.held,
-        "present": describe_trial(tuned.start),
-        "best": describe_trial(tuned.best),
-        "trials": [describe_trial(trial) for trial in tuned.trials],
+        "present": describe_candidate(tuned.start),
+        "best": describe_candidate(tuned.best),
+        "candidates": [describe_candidate(one) for one in tuned.candidates],
+        "finals": [describe_candidate(one) for one in tuned.finals],
     }
 
 
-def describe_trial(trial: Trial) -> dict[str, Any]:
-    """A trial as JSON."""
-    return {
-        "number": trial.number,
-        "stage": trial.stage,
-        "values": list(trial.values),
-        "cost": trial.cost,
-        "runs": [run._asdict() | {"fault": run.fault or None} for run in trial.runs],
+def describe_candidate(candidate: Candidate) -> dict[str, Any]:
+    """A candidate as JSON; what is infinite, as after a fault, is None."""
+    judged = {
+        name: None if value is not None and abs(value) == float("inf") else value
+        for name, value in candidate.judgment._asdict().items()
     }
+    values = list(candidate.values)
+    return {"number": candidate.number, "stage": candidate.stage, "values": values} | judged
 
 
-def _describe_runs(tuned: Tuned) -> list[str]:
-    rows = zip(tuned.runs, tuned.start.runs, tuned.best.runs, strict=True)
-    return [f"{run.name}: {run.title}: {old.cost:.4g} → {new.cost:.4g}" for run, old, new in rows]
+def read_checkpoint(path: Path) -> list[Candidate]:
+    """The candidates before validation, a line each, without a last line that is not whole."""
+    if not path.exists():
+        return []
+    whole, _, _ = path.read_text(encoding="utf-8").rpartition("\n")
+    read = [_read_candidate(json.loads(line)) for line in whole.splitlines()]
+    return [one for one in read if one.stage != "validation"]
+
+
+def _read_candidate(written: dict[str, Any]) -> Candidate:
+    number, stage, values = (written.pop(name) for name in ("number", "stage", "values"))
+    if written["torque_variation_nm_per_s"] is None:
+        written["torque_variation_nm_per_s"] = float("inf")
+    return Candidate(number, stage, tuple(values), Judgment(**written))

@@ -4,6 +4,8 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from svsa.control.gains import Gains
 from svsa.control.installed import get_law, has_own_parameters
 from svsa.control.observers.disturbance import ObserverBandwidth
@@ -54,6 +56,16 @@ class Space(NamedTuple):
     law: str
     axes: tuple[Axis, ...]
     held: dict[str, Any]
+
+    def place(self, shares: Sequence[float] | np.ndarray) -> tuple[float, ...]:
+        """The values at shares of the axes, (axes,), from 0 to 1."""
+        pairs = zip(self.axes, shares, strict=True)
+        return tuple(axis.compute_value(float(share)) for axis, share in pairs)
+
+    def compute_shares(self, values: Sequence[float]) -> np.ndarray:
+        """The shares of the axes at which values lie, (axes,)."""
+        pairs = zip(self.axes, values, strict=True)
+        return np.array([axis.compute_share(value) for axis, value in pairs])
 
     def set_design(self, design: Design, values: Sequence[float]) -> Design:
         """The design with these values for this law."""

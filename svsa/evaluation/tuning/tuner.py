@@ -1,213 +1,227 @@
-"""Tuning a law: Sobol points all over its space, then Nelder–Mead from the best of them."""
+"""Tuning a law: CMA-ES from its present parameters, then the best candidates on other trials."""
 
-import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
 from svsa.control.installed import check_installed
-from svsa.errors import ParameterError, Violation
-from svsa.evaluation.ranking.cost import RunCost, measure_cost
+from svsa.evaluation.search import search
+from svsa.evaluation.trials import build_training, build_validation
+from svsa.evaluation.tuning.judge import Judgment, TrialSet, judge
 from svsa.evaluation.tuning.search_space import Space, build_space
-from svsa.evaluation.tuning.training import DURATION_S, TRAINING, TrainingRun
 from svsa.inputs.checked import check_number
-from svsa.runs.configuration import Configuration, Design, load_prototype
+from svsa.runs.configuration import Design, load_prototype
 
-BUDGET, MAX_BUDGET = 124, 100_000
-SIMPLEX_STEP = 0.12
+BUDGET, MAX_BUDGET = 128, 100_000
+TRIALS, VALIDATION = 128, 512
+GENERATION, STEP = 16, 0.2
+FINALISTS = 10
 WORKERS = 2
 
-Stage = Literal["present", "sobol", "local"]
+Stage = Literal["present", "search", "validation"]
 
 
-class Trial(NamedTuple):
-    """One candidate. values: in the order of the axes. runs: what each cost. cost: their mean."""
+class Candidate(NamedTuple):
+    """Parameters that were tried, in the order of the space's axes, and what they showed."""
 
     number: int
     stage: Stage
     values: tuple[float, ...]
-    runs: tuple[RunCost, ...]
-    cost: float
+    judgment: Judgment
 
 
 @dataclass(frozen=True)
 class Tuned:
-    """What a search found. trials: all that was tried, the design as it was first.
+    """What a search found.
 
-    is_complete: whether the budget was used up, and not broken off.
+    Attributes:
+        space: What was searched.
+        budget: Candidates to be tried after the present parameters.
+        trials: Training trials of each.
+        validation: Validation trials of the finals.
+        seed: Of search and trials.
+        present: The design that the search began from.
+        candidates: The present parameters, then those tried.
+        finals: The present parameters and the best candidates on the validation trials.
+        is_complete: Whether the budget was used up.
     """
 
     space: Space
-    runs: tuple[TrainingRun, ...]
-    duration_s: float
     budget: int
+    trials: int
+    validation: int
     seed: int
     present: Design
-    trials: tuple[Trial, ...]
+    candidates: tuple[Candidate, ...]
+    finals: tuple[Candidate, ...]
     is_complete: bool
 
     @property
-    def start(self) -> Trial:
-        """The design as it was."""
-        return self.trials[0]
+    def start(self) -> Candidate:
+        """The present parameters."""
+        return self.candidates[0]
 
     @property
-    def best(self) -> Trial:
-        """The trial of the least cost; the first of these."""
-        return min(self.trials, key=lambda trial: trial.cost)
+    def best(self) -> Candidate:
+        """The least cost on the validation trials, or on the training trials without those."""
+        return min(self.finals or self.candidates, key=lambda one: one.judgment.cost)
 
     @property
     def design(self) -> Design:
-        """The present design with the best values for the law."""
+        """The present design with the best parameters of the law."""
         return self.space.set_design(self.present, self.best.values)
 
 
-class _BrokenOffError(Exception):
+class _EndedError(Exception):
     """The search is not to go on."""
-
-
-class _Search:
-    """The trials of a search, counted against its budget."""
-
-    def __init__(
-        self,
-        evaluate: Callable[[Sequence[tuple[float, ...]]], Iterator[tuple[RunCost, ...]]],
-        budget: int,
-        on_trial: Callable[[Trial], None],
-        is_cancelled: Callable[[], bool],
-    ) -> None:
-        self.trials: list[Trial] = []
-        self._evaluate, self._budget = evaluate, budget
-        self._on_trial, self._is_cancelled = on_trial, is_cancelled
-
-    @property
-    def is_done(self) -> bool:
-        """Whether the budget is used up; the present design does not count."""
-        return len(self.trials) > self._budget
-
-    def try_all(self, stage: Stage, candidates: Sequence[tuple[float, ...]]) -> list[float]:
-        """The costs of candidates, one after another; raises `_BrokenOffError`."""
-        self._check()
-        found = []
-        for values, runs in zip(candidates, self._evaluate(candidates), strict=True):
-            cost = sum(run.cost for run in runs) / len(runs)
-            trial = Trial(len(self.trials), stage, values, runs, cost)
-            self.trials.append(trial)
-            found.append(cost)
-            self._on_trial(trial)
-            if values is not candidates[-1]:
-                self._check()
-        return found
-
-    def _check(self) -> None:
-        if self.is_done or (self.trials and self._is_cancelled()):
-            raise _BrokenOffError
 
 
 def tune(
     law: str,
     *,
     budget: int = BUDGET,
+    trials: int = TRIALS,
+    validation: int = VALIDATION,
     seed: int = 0,
     held: Mapping[str, Any] | None = None,
     present: Design | None = None,
-    runs: Sequence[TrainingRun] = TRAINING,
-    duration_s: float = DURATION_S,
-    on_trial: Callable[[Trial], None] = lambda _: None,
+    known: Iterable[Candidate] = (),
+    on_candidate: Callable[[Candidate], None] = lambda _: None,
     is_cancelled: Callable[[], bool] = lambda: False,
 ) -> Tuned:
-    """Search a law's parameters for the least mean cost of the training runs.
+    """Search a law's parameters for the least cost, see `svsa.evaluation.tuning.judge`.
 
-    The same for every law: the present design first, then scrambled Sobol points all over the
-    space, the power of two nearest to half of the budget, then Nelder–Mead from the best of all.
-    The same arguments give the same result. budget: candidates besides the present design. held:
-    parameters of the law by name that are not searched, as {"estimate_share": 0.0}. present: the
-    design that the law is in, the prototype's if left out. duration_s: of each run. on_trial: told
-    every trial. is_cancelled: asked before each but the present design, which is always tried;
-    where it says so, and at Ctrl-C, the best so far is returned.
+    Every law alike: CMA-ES from the present parameters, generations of 16, started again at random
+    parameters where it has converged. Then the ten best candidates and the present parameters are
+    tried on the validation trials. The same arguments give the same result.
 
-    Raises `ParameterError` for a law that is not installed or has nothing to tune, and for numbers
-    out of range; `KeyboardInterrupt` before the first trial.
+    Args:
+        law: Name of an installed law.
+        budget: Candidates to be tried after the present parameters.
+        trials: Training trials of each candidate, half of each family.
+        validation: Validation trials.
+        seed: Of search, training and validation trials.
+        held: Parameters of the law by name that are not searched, as {"estimate_share": 0.0}.
+        present: The design to begin from; the prototype's if left out.
+        known: Candidates of the same search that was broken off, which are not tried again.
+        on_candidate: Receives each candidate, and those on the validation trials.
+        is_cancelled: Asked before each candidate but the first; then, and at Ctrl-C, the best so
+            far is returned.
+
+    Raises:
+        ParameterError: For a law that is not installed or has nothing to tune, or a number out of
+            range.
+        KeyboardInterrupt: Before the first candidate.
     """
     check_installed(law)
     check_number("budget", budget, "", 1, MAX_BUDGET)
+    check_number("trials", trials, "", 1, MAX_BUDGET)
+    check_number("validation", validation, "", 1, MAX_BUDGET)
     check_number("seed", seed, "", 0, 2**63 - 1)
-    if not runs:
-        raise ParameterError(Violation("runs", 0, "", "at least one training run"))
     space, design = build_space(law, held), present or load_prototype()
     if held:
-        design = _hold(space, design)
-    with ThreadPoolExecutor(WORKERS) as pool:
-
-        def evaluate(candidates: Sequence[tuple[float, ...]]) -> Iterator[tuple[RunCost, ...]]:
-            jobs = [
-                pool.submit(measure_cost, configuration, duration_s)
-                for values in candidates
-                for configuration in build_runs(space.set_design(design, values), law, runs)
-            ]
-            for first in range(0, len(jobs), len(runs)):
-                yield tuple(job.result() for job in jobs[first : first + len(runs)])
-
-        search = _Search(evaluate, budget, on_trial, is_cancelled)
-        try:
-            _run(search, space, design, budget, seed)
-        except _BrokenOffError:
-            pass
-        except KeyboardInterrupt:
-            if not search.trials:
-                raise
-        finally:
-            pool.shutdown(cancel_futures=True)
-    trials = tuple(search.trials)
-    return Tuned(space, tuple(runs), duration_s, budget, seed, design, trials, len(trials) > budget)
-
-
-def build_runs(design: Design, law: str, runs: Sequence[TrainingRun]) -> list[Configuration]:
-    """The training runs of a law with the gains, observer and parameters of a design."""
-    own = {name: getattr(design, name) for name in ("gains", "observer", "parameters")}
-    return [run.build_configuration(law).changed(**own) for run in runs]
-
-
-def count_sobol(budget: int) -> int:
-    """How many Sobol points: the power of two nearest to half of the budget, at most all of it."""
-    return min(1 << max(0, round(math.log2(max(budget, 2) / 2.0))), budget)
-
-
-def _hold(space: Space, design: Design) -> Design:
-    return space.set_design(design, space.read_values(design))
-
-
-def _run(search: _Search, space: Space, design: Design, budget: int, seed: int) -> None:
-    from scipy.optimize import minimize
-    from scipy.stats import qmc
-
-    search.try_all("present", [space.read_values(design)])
-    shares = qmc.Sobol(len(space.axes), rng=seed).random(count_sobol(budget))
-    search.try_all("sobol", [_place(space, row) for row in shares])
-    while not search.is_done:
-        best = min(search.trials, key=lambda trial: trial.cost)
-        start = np.array(
-            [axis.compute_share(v) for axis, v in zip(space.axes, best.values, strict=True)]
-        )
-        minimize(
-            lambda row: search.try_all("local", [_place(space, row)])[0],
-            start,
-            method="Nelder-Mead",
-            bounds=[(0.0, 1.0)] * len(start),
-            options={"initial_simplex": _build_simplex(start), "maxfev": budget},
-        )
-
-
-def _place(space: Space, shares: np.ndarray) -> tuple[float, ...]:
-    return tuple(
-        axis.compute_value(float(share)) for axis, share in zip(space.axes, shares, strict=True)
+        design = space.set_design(design, space.read_values(design))
+    one = _Search(space, design, budget, trials, list(known), on_candidate, is_cancelled)
+    finals: list[Candidate] = []
+    try:
+        one.run(seed)
+        finals = one.validate(seed, validation)
+    except _EndedError:
+        pass
+    except KeyboardInterrupt:
+        if not one.candidates:
+            raise
+    tried = tuple(one.candidates)
+    return Tuned(
+        space, budget, trials, validation, seed, design, tried, tuple(finals), bool(finals)
     )
 
 
-def _build_simplex(start: np.ndarray) -> np.ndarray:
-    """`start`, and from it a step into the space along every axis."""
-    steps = np.where(start > 0.5, -SIMPLEX_STEP, SIMPLEX_STEP)
-    return np.vstack([start, start + np.diag(steps)])
+class _Search:
+    """The candidates of a search, counted against its budget."""
+
+    def __init__(
+        self,
+        space: Space,
+        design: Design,
+        budget: int,
+        trials: int,
+        known: list[Candidate],
+        on_candidate: Callable[[Candidate], None],
+        is_cancelled: Callable[[], bool],
+    ) -> None:
+        self.candidates: list[Candidate] = []
+        self._space, self._design, self._budget, self._trials = space, design, budget, trials
+        self._known, self._on_candidate = known, on_candidate
+        self._is_cancelled = is_cancelled
+
+    def run(self, seed: int) -> None:
+        """Try the present parameters, then search until the budget is used up."""
+        training = TrialSet(build_training(seed, self._trials))
+        present = self._space.read_values(self._design)
+        self._try(training, "present", [present])
+
+        def judge_generation(shares: np.ndarray) -> np.ndarray:
+            left = self._budget + 1 - len(self.candidates)
+            values = [self._space.place(row) for row in shares[:left]]
+            costs = self._try(training, "search", values)
+            if len(self.candidates) > self._budget:
+                raise _SpentError
+            return -np.array(costs)
+
+        start = self._space.compute_shares(present)
+        with suppress(_SpentError):
+            search("cma", len(start), seed, judge_generation, GENERATION, STEP, start)
+
+    def validate(self, seed: int, count: int) -> list[Candidate]:
+        """The present parameters and the best candidates on the validation trials."""
+        trials = TrialSet(build_validation(seed, count))
+        best = sorted(self.candidates[1:], key=lambda one: one.judgment.cost)
+        chosen = list({one.values: one for one in (self.candidates[0], *best)}.values())
+        finals = []
+        for one in chosen[: FINALISTS + 1]:
+            self._end_if_cancelled()
+            finals.append(self._judge(trials, one.number, "validation", one.values))
+            self._on_candidate(finals[-1])
+        return finals
+
+    def _try(self, trials: TrialSet, stage: Stage, values: list[tuple[float, ...]]) -> list[float]:
+        """The costs of candidates, in their order. Raises `_EndedError`."""
+        costs = []
+        with ThreadPoolExecutor(WORKERS) as pool:
+            first = len(self.candidates)
+            jobs = [
+                pool.submit(self._judge, trials, first + n, stage, one)
+                for n, one in enumerate(values)
+            ]
+            try:
+                for job in jobs:
+                    if self.candidates:
+                        self._end_if_cancelled()
+                    candidate = job.result()
+                    self.candidates.append(candidate)
+                    costs.append(candidate.judgment.cost)
+                    self._on_candidate(candidate)
+            finally:
+                pool.shutdown(cancel_futures=True)
+        return costs
+
+    def _judge(
+        self, trials: TrialSet, number: int, stage: Stage, values: tuple[float, ...]
+    ) -> Candidate:
+        if stage != "validation" and number < len(self._known):
+            return self._known[number]
+        design = self._space.set_design(self._design, values)
+        return Candidate(number, stage, values, judge(trials, self._space.law, design))
+
+    def _end_if_cancelled(self) -> None:
+        if self._is_cancelled():
+            raise _EndedError
+
+
+class _SpentError(Exception):
+    """The budget is used up."""

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from svsa.evaluation.ranking.trials import SUITE_VERSION, derive_seed
+from svsa.evaluation.trials import PROTOCOL, derive_seed
 from svsa.hardware.session.replay import verify_bench_record
 from svsa.inputs.checked import Checked, Flag, Number, quantity
 from svsa.inputs.extras import __version__
@@ -73,7 +73,7 @@ def grade(
     `NotIsolatedError` for a law where the machine cannot hold one.
     """
     catalogue, verified, law = Catalogue(runs), list[VerifiedRun](), submission.law
-    seed = derive_seed(secret or b"practice", f"{SUITE_VERSION} {digest_law(law)}")
+    seed = derive_seed(secret or b"practice", f"{PROTOCOL} {digest_law(law)}")
 
     def open_verified(run_id: str) -> Result:
         verified.append(verify_run(catalogue, run_id))

@@ -1,6 +1,8 @@
 """A law that was submitted, on scenarios that were drawn after it was."""
 
+import math
 from collections.abc import Callable
+from statistics import fmean
 from time import perf_counter
 from typing import NamedTuple
 
@@ -8,10 +10,10 @@ import numpy as np
 
 from svsa.actuators.dynamics import build_actuator
 from svsa.control.installed import PAPERS_LAW
-from svsa.evaluation.ranking.measure import has_held, measure_rms
-from svsa.evaluation.ranking.row import compute_accuracy
-from svsa.evaluation.ranking.scenarios import Scenario
-from svsa.evaluation.ranking.trials import build_trial
+from svsa.evaluation.metrics import find_held, summarize_result
+from svsa.evaluation.ranking.entry import build_entry
+from svsa.evaluation.ranking.test_set import build_test_trial
+from svsa.evaluation.scenario import Scenario
 from svsa.runs.blocks import compute_start_ratio
 from svsa.runs.result.result import Result
 from svsa.runs.result.simulate import simulate
@@ -26,7 +28,7 @@ TRIALS = 20
 LAW_STEP = "law"
 POINTS = {
     "Every drawn run goes to its end": 2.0,
-    "At most 1° in the last second": 5.0,
+    "At most 1° and 10 % of σ_d in the last second": 5.0,
     "Accuracy under the load": 3.0,
 }
 
@@ -83,8 +85,8 @@ def _pack_torques(reported: list[tuple[float, float]]) -> bytes:
 
 
 def run_installed(law: str, scenario: Scenario) -> LawRun:
-    """The same of a law that is installed, compiled, in this process."""
-    configuration = scenario.build_configuration(law)
+    """The same of an installed law, with the parameters of its row in the ranking."""
+    configuration = build_entry(law).build_configuration(scenario)
     begin = perf_counter()
     result = simulate(configuration, duration_s=scenario.duration_s)
     return describe_run(scenario, result, perf_counter() - begin)
@@ -93,10 +95,14 @@ def run_installed(law: str, scenario: Scenario) -> LawRun:
 def describe_run(scenario: Scenario, result: Result, took_s: float) -> LawRun:
     """What a run of a scenario shows. took_s: how long it took, s."""
     ticks = len(result.samples)
+    begin_s, end_s = scenario.measured_s, scenario.duration_s
+    rms_deg = None
+    if result.fault is None:
+        rms_deg = math.degrees(result.measure(begin_s, end_s).rms_position_error_rad)
     return LawRun(
         scenario.name,
-        has_held(result, scenario),
-        measure_rms(result, scenario.measured_s, scenario.duration_s),
+        bool(find_held(summarize_result(result, begin_s, end_s))[0]),
+        rms_deg,
         result.fault.message if result.fault else "",
         tick_us=1e6 * took_s / ticks if ticks else None,
     )
@@ -114,7 +120,7 @@ def run_trials(
     """
     runs: list[LawRun] = []
     for number in range(TRIALS):
-        scenario = build_trial(number, seed)
+        scenario = build_test_trial("A", seed, number)
         if runs and runs[-1].problem and runs[-1].cost_us is None:
             runs.append(runs[-1]._replace(scenario=scenario.name))
         else:
@@ -123,10 +129,14 @@ def run_trials(
     return runs
 
 
+def _rate_accuracy(run: LawRun) -> float:
+    return 0.0 if run.rms_deg is None else 1.0 - math.tanh(run.rms_deg)
+
+
 def judge_law(runs: list[LawRun]) -> list[CriterionResult]:
     """Three criteria: no run ends early, the error is gone at the end, and it is small.
 
-    accuracy: the mean of 1 − tanh(rms / 1°), as in the ranking's score; 0 for a run that ended.
+    accuracy: the mean of 1 − tanh(rms / 1°); 0 for a run that ended.
     runs: none where no law was submitted.
     """
     if not runs:
@@ -134,7 +144,7 @@ def judge_law(runs: list[LawRun]) -> list[CriterionResult]:
         return [_build_result(name, 0.0, none) for name in POINTS]
     whole = [run for run in runs if run.rms_deg is not None]
     held = [run for run in runs if run.held]
-    accuracy = compute_accuracy(run.rms_deg for run in runs)
+    accuracy = fmean(_rate_accuracy(run) for run in runs)
     count = len(runs)
     first = next((run for run in runs if run.problem), None)
     ended = f" First: {first.problem}" if first else ""

@@ -1,7 +1,8 @@
 """A law tried before it is submitted: one run, on a scenario that everybody may see."""
 
-from svsa.evaluation.ranking.measure import STEADY_STATE_DEG
-from svsa.evaluation.ranking.trials import build_trial
+from svsa.evaluation.metrics import HELD
+from svsa.evaluation.ranking.scenarios import PUBLIC_SEED
+from svsa.evaluation.ranking.test_set import build_test_trial
 from svsa.teaching.grading.law_runs import LawRun, run_law
 from svsa.teaching.isolation.confinement import Bounds, confine
 from svsa.teaching.isolation.process import Place
@@ -17,7 +18,7 @@ def try_law(text: str, place: Place = confine) -> KeptLaw:
 
     A machine that cannot hold a law leaves it untried, and says why.
     """
-    scenario = build_trial(OPEN_TRIAL)
+    scenario = build_test_trial("A", PUBLIC_SEED, OPEN_TRIAL)
     try:
         run = run_law(text.encode(), scenario, BOUNDS, place)
     except NotIsolatedError as error:
@@ -37,11 +38,7 @@ def judge_trial(text: str, run: LawRun) -> KeptLaw:
         return KeptLaw(text=text, verdict="ended", feedback=reported)
     rms = f"{run.rms_deg:.3g}° rms from the load on"
     if run.held:
-        reported = (
-            f"It went to its end: {rms}, and at most {STEADY_STATE_DEG:g}° rms in the last second."
-        )
+        reported = f"The run held: {HELD}; {rms}."
         return KeptLaw(text=text, verdict="held", feedback=f"{reported} {cost}")
-    reported = (
-        f"It went to its end with {rms}, but over {STEADY_STATE_DEG:g}° rms in the last second."
-    )
+    reported = f"The run reached its end with {rms}, but did not hold. Held: {HELD}."
     return KeptLaw(text=text, verdict="ran", feedback=f"{reported} {cost}")

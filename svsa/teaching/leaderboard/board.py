@@ -12,7 +12,7 @@ from pydantic import AfterValidator
 
 from svsa.control.installed import list_law_names
 from svsa.errors import ParameterError, StateError, Violation
-from svsa.evaluation.ranking.trials import SUITE_VERSION, derive_seed
+from svsa.evaluation.trials import PROTOCOL, derive_seed
 from svsa.inputs.checked import Checked, Flag, quantity
 from svsa.inputs.extras import __version__
 from svsa.runs.records.catalogue.runs import find_data_folder
@@ -107,9 +107,9 @@ class Board(ClassFolder[Entry]):
         return np.frombuffer(kept).reshape(-1, 2)
 
     def list(self) -> list[Entry]:
-        """Every entry, the best score first."""
+        """Every entry, the best success rate first."""
         entries = [one for one in self.read_all() if _is_present(one)]
-        return sorted(entries, key=lambda one: (-one.standing.score, one.name, one.key))
+        return sorted(entries, key=lambda one: (-one.standing.success, one.name, one.key))
 
 
 def measure_missing(
@@ -172,7 +172,7 @@ def build_entry(
         author=author,
         is_installed=is_installed,
         entered=datetime.now(UTC).isoformat(timespec="seconds"),
-        suite=SUITE_VERSION,
+        suite=PROTOCOL,
         version=__version__,
         standing=standing,
     )
@@ -180,7 +180,7 @@ def build_entry(
 
 def _is_present(entry: Entry) -> bool:
     """Whether it was measured with this suite; an installed law, also with this lab."""
-    if entry.suite != SUITE_VERSION:
+    if entry.suite != PROTOCOL:
         return False
     return not entry.is_installed or (
         entry.version == __version__ and entry.key in list_law_names()

@@ -14,7 +14,7 @@ from rich.progress import Progress
 from rich.table import Table
 
 from svsa.control.installed import get_title
-from svsa.evaluation.ranking.trials import PUBLIC_SEED
+from svsa.evaluation.ranking.scenarios import PUBLIC_SEED
 from svsa.teaching.isolation.confinement import leave_open
 from svsa.teaching.leaderboard.board import (
     Board,
@@ -31,7 +31,7 @@ _messages = Console(stderr=True)
 _BOARD = typer.Option("--board", help="Folder of the season; else SVSA_DATA's leaderboard.")
 _JSON = typer.Option("--json", help="Print JSON.")
 _HEADINGS = (
-    "", "law", "by", "score", "95 %", "robust", "trials", "accuracy", "µs/tick", "worst",
+    "", "law", "by", "held", "95 %", "trials", "ended", "rms, median", "µs/tick", "worst",
 )  # fmt: skip
 MIN_WIDTH = 110
 """Columns of characters in which the table's numbers stand whole."""
@@ -101,7 +101,7 @@ def _build_table(entries: Sequence[Entry], trials: str, marked: str | None) -> T
         padding=(0, 1, 0, 0),
         title=f"Leaderboard: {trials}",
         title_justify="left",
-        caption="Score: 0.5 robustness + 0.3 trials held + 0.2 accuracy; 95 %: by the trials alone."
+        caption="Held: no fault, in the last second at most 1° and 10 % of σ_d, peak at most 30°."
         " µs a tick: by the clock, plant and, for a law in a process of its own (*), the way to it"
         " included. Worst: of the scenarios that everybody knows.",
         caption_justify="left",
@@ -120,11 +120,11 @@ def _build_cells(entry: Entry) -> tuple[str, ...]:
     return (
         escape(name),
         "lab" if entry.is_installed else escape(entry.author),
-        f"{shown.score:.3f}",
-        f"{shown.low:.3f}–{shown.high:.3f}",
-        f"{shown.parts.robustness:.2f}",
+        f"{shown.success:.1%}",
+        f"{shown.low:.1%}–{shown.high:.1%}",
         f"{shown.trials_held}/{shown.trials}",
-        f"{shown.parts.accuracy:.2f}",
+        str(shown.trials_ended),
+        "ended early" if shown.median_rms_deg is None else f"{shown.median_rms_deg:.3g}°",
         "" if shown.tick_us is None else f"{shown.tick_us:.1f}",
         escape(f"{worst.scenario}: {error}"),
     )

@@ -10,9 +10,11 @@ from typing import NamedTuple
 import numpy as np
 
 from svsa.actuators.signals import Disturbance, Reference, State
-from svsa.control.installed import PAPERS_LAW, get_title
-from svsa.evaluation.ranking.scenarios import Scenario
-from svsa.evaluation.ranking.single_run import build_seen, explain_alone, find_scenario
+from svsa.control.installed import PAPERS_LAW
+from svsa.evaluation.ranking.entry import DECLARED, get_entry_title
+from svsa.evaluation.ranking.scenarios import find_scenario
+from svsa.evaluation.ranking.single_run import build_shown_run, explain_alone
+from svsa.evaluation.scenario import Scenario
 from svsa.runs.configuration import Lane
 from svsa.runs.result.result import Result
 from svsa.runs.result.simulate import simulate
@@ -52,16 +54,15 @@ def replay_worst(board: Board, entry: Entry) -> WorstReplay:
     """
     scenario = find_scenario(entry.standing.worst.scenario)
     if entry.is_installed:
-        configuration, alone = build_seen(scenario, entry.key)
-        lanes = tuple(get_title(lane.law) for lane in configuration.lanes)
+        configuration, lanes, alone = build_shown_run(scenario, entry.key)
         result = simulate(configuration, duration_s=scenario.duration_s)
         return WorstReplay(scenario, lanes, result, alone)
     configuration, lanes = scenario.build_configuration(PAPERS_LAW), (entry.name,)
     torque = board.read_torques(entry)
-    alone = explain_alone(scenario, entry.name, PAPERS_LAW, len(torque))
+    alone = explain_alone(scenario, entry.name, DECLARED, len(torque))
     if not alone:
         configuration = configuration.changed(comparisons=(Lane(law=PAPERS_LAW),))
-        lanes += (get_title(PAPERS_LAW),)
+        lanes += (get_entry_title(DECLARED),)
     duration_s = len(torque) * configuration.sampling.period_s
     result = simulate(configuration, KeptTorques(torque), duration_s=duration_s)
     return WorstReplay(scenario, lanes, result, alone)

@@ -32,7 +32,7 @@ def test_each_person_has_so_many_private_sessions_and_no_more(classroom: Classro
     first, second = (ada.post(SESSIONS, json={}).raise_for_status().json() for _ in range(2))
     others = (SESSIONS, "/api/v1/ranking/sessions", SHARED + "/design/simulation")
     for path in others:
-        body = {"scenario": "rig_4a", "law": "fl"} if "ranking" in path else {}
+        body = {"scenario": "rig_4a.positive.0", "row": "fl"} if "ranking" in path else {}
         refused = ada.post(path, json=body)
         assert refused.status_code == 429, path
         assert read_kind(refused) == "too_many"
@@ -191,7 +191,7 @@ def test_a_search_and_what_it_found_is_its_makers_and_the_instructors(classroom:
 
 def test_a_session_of_the_ranking_is_its_makers_and_the_instructors(classroom: Classroom) -> None:
     ada, bob, instructor = classroom.join("Ada"), classroom.join("Bob"), classroom.log_in()
-    body = {"scenario": "rig_4a", "law": "fl"}
+    body = {"scenario": "rig_4a.positive.0", "row": "fl"}
     state = ada.post("/api/v1/ranking/sessions", json=body).raise_for_status().json()
     path = f"{SESSIONS}/{state['session']}"
     assert [one.get(path).status_code for one in (ada, bob, instructor)] == [200, 404, 200]

@@ -10,7 +10,8 @@ from typer.testing import CliRunner
 import svsa
 from svsa.cli import app
 from svsa.errors import StateError
-from svsa.evaluation.ranking.trials import PUBLIC_SEED, build_trials
+from svsa.evaluation.ranking.scenarios import PUBLIC_SEED
+from svsa.evaluation.ranking.test_set import build_test_trial
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.teaching.course.file import parse_exercise
 from svsa.teaching.grading import law_runs
@@ -92,7 +93,7 @@ def test_a_law_is_graded_on_draws_of_the_secret_and_of_its_text(monkeypatch):
         grade(one, OWN_LAW, None, secret)
     assert drawn[0] == drawn[1] == drawn[4]
     assert len({*drawn, PUBLIC_SEED}) == 4
-    assert build_trials(drawn[0])[0] != build_trials(PUBLIC_SEED)[0]
+    assert build_test_trial("A", drawn[0], 0) != build_test_trial("A", PUBLIC_SEED, 0)
 
 
 def test_a_good_law_has_more_points_than_a_lazy_one(tmp_path):

@@ -8,11 +8,10 @@ from typer.testing import CliRunner
 import svsa
 from svsa.cli import app
 from svsa.errors import StateError
-from svsa.evaluation.ranking.measure import Entry as RankingEntry
-from svsa.evaluation.ranking.measure import measure_law
-from svsa.evaluation.ranking.scenarios import SINGLE
-from svsa.evaluation.ranking.sweeps import SEED, build_sweeps
-from svsa.evaluation.ranking.trials import PUBLIC_SEED
+from svsa.evaluation.metrics import find_held
+from svsa.evaluation.ranking.entry import build_entry
+from svsa.evaluation.ranking.measure import TestSet
+from svsa.evaluation.ranking.scenarios import PUBLIC_SEED
 from svsa.inputs.extras import __version__
 from svsa.teaching.grading.law_runs import LawRun, run_installed
 from svsa.teaching.isolation import confinement
@@ -27,10 +26,7 @@ from tests.teaching.isolation.test_attacks import isolation  # noqa: F401
 
 def build_short_season(seed):
     whole = build_season(seed)
-    sweeps = tuple(
-        one._replace(values=one.values[:1], runs=(one.runs[0][:1],)) for one in whole.sweeps[:2]
-    )
-    return Season(whole.singles[:1], whole.trials[:3], sweeps)
+    return Season(whole.singles[:1], whole.trials[:4])
 
 
 @pytest.fixture
@@ -60,44 +56,33 @@ def go_with(results):
     return go
 
 
-def test_a_season_is_the_ranking_suite_with_other_chance():
+def test_a_season_has_the_public_scenarios_and_trials_of_its_own():
     season, other = build_season(5), build_season(6)
-    assert season.singles == SINGLE
-    assert not set(season.trials) & set(other.trials)
-    published = {one.name: one for one in build_sweeps()}
-    for one in season.sweeps:
-        by_chance = one.name in ("velocity_noise", "torque_noise", "perturbation")
-        known = [run for runs in published[one.name].runs for run in runs]
-        hidden = [run for runs in one.runs for run in runs]
-        assert len(hidden) == len(known)
-        assert any(run in known for run in hidden) is not by_chance
-    names = [run.name for one in season.sweeps for runs in one.runs for run in runs]
-    names += [run.name for run in (*season.singles, *season.trials)]
+    assert season.singles == other.singles
+    assert not {one.seed for one in season.trials} & {one.seed for one in other.trials}
+    names = [run.name for run in (*season.singles, *season.trials)]
     assert len(set(names)) == len(names) == season.run_count
 
 
-@pytest.mark.exhaustive
-def test_on_the_public_seeds_a_law_has_the_ranking_score():
-    """One measure of a law: only the season differs."""
-    season = build_season(PUBLIC_SEED)._replace(sweeps=build_sweeps(SEED))
+def test_on_the_public_seed_a_law_holds_what_it_holds_in_the_ranking():
+    season = build_season(PUBLIC_SEED)
+    season = season._replace(singles=season.singles[:1], trials=season.trials[:16])
     standing = stand(season, lambda one: run_installed("fl", one))
-    row = measure_law(RankingEntry("fl"))
-    assert standing.score == row.score
-    assert standing.parts == row.parts
-    assert standing.sweeps == row.sweeps
-    assert standing.trials - standing.trials_held == row.trials_fails
+    trials = TestSet(PUBLIC_SEED, 8).run(build_entry("fl"), lambda done: None)
+    assert (standing.trials, standing.trials_held) == (16, int(find_held(trials).sum()))
     assert standing.tick_us is not None
     assert standing.tick_us > 0
 
 
-def test_the_interval_is_what_the_draws_leave_open():
-    """Wilson for 50 of 100: 0.404 to 0.596, of which a score has three tenths."""
+def test_the_interval_is_wilsons():
+    """Wilson for 100 of 200: 0.431 to 0.569."""
     season = build_season(5)
-    failed = {one.name: LawRun(one.name, False, 2.0, tick_us=3.0) for one in season.trials[:50]}
+    failed = {one.name: LawRun(one.name, False, 2.0, tick_us=3.0) for one in season.trials[:100]}
     standing = stand(season, go_with(failed))
-    assert standing.parts.trials == 0.5
-    assert standing.low == pytest.approx(standing.score - 0.3 * (0.5 - 0.4038), abs=1e-4)
-    assert standing.high == pytest.approx(standing.score + 0.3 * (0.5962 - 0.5), abs=1e-4)
+    assert standing.success == 0.5
+    assert (standing.low, standing.high) == pytest.approx((0.4313, 0.5687), abs=1e-4)
+    assert standing.median_rms_deg == 1.25
+    assert standing.trials_ended == 0
 
 
 def test_the_worst_run_is_one_that_ended_early_before_a_large_error():
@@ -147,9 +132,9 @@ def test_a_law_is_put_through_once_and_stands_beside_the_labs(tmp_path):
     assert first in entries, "measured again, or another name for the same law"
     assert first["name"] == "mine"
     assert {one["key"] for one in entries if one["is_installed"]} == {"fl", "ndobc"}
-    scores = [one["standing"]["score"] for one in entries]
-    assert scores == sorted(scores, reverse=True)
-    assert first["standing"]["trials_held"] > 0
+    rates = [one["standing"]["success"] for one in entries]
+    assert rates == sorted(rates, reverse=True)
+    assert first["standing"]["trials"] == 4
     assert (folder / "secret").stat().st_mode & 0o077 == 0
     table = run("leaderboard", "--board", folder).stdout
     assert "mine *" in table
@@ -171,7 +156,7 @@ def test_an_installed_law_is_measured_again_in_another_version_of_the_lab(tmp_pa
 def test_a_board_of_an_earlier_suite_shows_none_of_it(tmp_path, monkeypatch):
     board = Board(tmp_path)
     measure_missing(board)
-    monkeypatch.setattr(boards, "SUITE_VERSION", "another")
+    monkeypatch.setattr(boards, "PROTOCOL", "another")
     assert board.list() == []
 
 

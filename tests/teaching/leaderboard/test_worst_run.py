@@ -6,8 +6,9 @@ import pytest
 from svsa.actuators.dynamics import build_actuator
 from svsa.control.installed import get_title
 from svsa.errors import ParameterError, StateError
-from svsa.evaluation.ranking.scenarios import SINGLE
-from svsa.evaluation.ranking.single_run import find_scenario
+from svsa.evaluation.ranking.entry import DECLARED
+from svsa.evaluation.ranking.entry import build_entry as build_ranking_entry
+from svsa.evaluation.ranking.scenarios import build_fixed_scenarios, find_scenario
 from svsa.runs.blocks import compute_start_ratio
 from svsa.runs.result.simulate import simulate
 from svsa.teaching.grading.law_runs import run_law
@@ -27,6 +28,8 @@ from tests.teaching.grading.submissions import GOOD
 from tests.teaching.isolation.test_attacks import isolation  # noqa: F401
 from tests.teaching.leaderboard.test_leaderboard import short_season  # noqa: F401
 
+SINGLE = build_fixed_scenarios()[0].variants[0]
+REMOVAL = "load_removal.positive.0"
 STOPS = GOOD.replace(
     b"        nonlocal integral\n",
     b"""        nonlocal integral
@@ -50,30 +53,31 @@ def test_a_submitted_laws_worst_run_is_the_one_that_was_measured(tmp_path, monke
 
     monkeypatch.setattr(process.subprocess, "Popen", None)
     scenario, lanes, result, alone = replay_worst(board, entry)
-    assert lanes == ("Ada's", "NDOBC")
+    assert lanes == ("Ada's", "NDOBC, declared gains")
     assert alone == ""
     assert entry.author == "Ada"
     np.testing.assert_array_equal(result.samples, once.samples)
-    ndobc = simulate(scenario.build_configuration("ndobc"), duration_s=scenario.duration_s)
+    papers = build_ranking_entry(DECLARED).build_configuration(scenario)
+    ndobc = simulate(papers, duration_s=scenario.duration_s)
     np.testing.assert_array_equal(result.comparisons[0].samples, ndobc.samples)
     measured = result.measure(scenario.measured_s, scenario.duration_s).rms_position_error_rad
     assert entry.standing.worst.rms_deg == pytest.approx(np.degrees(measured))
 
 
 @pytest.mark.usefixtures("short_season")
-def test_a_law_of_the_lab_is_simulated_beside_ndobc_and_ndobc_beside_fl(tmp_path):
+def test_a_law_of_the_lab_is_simulated_beside_ndobc_with_the_declared_gains(tmp_path):
     board = Board(tmp_path)
     measure_missing(board)
     lanes = {one.key: replay_worst(board, one).lanes for one in board.list()}
     assert lanes == {
-        "fl": (get_title("fl"), "NDOBC"),
-        "ndobc": ("NDOBC", get_title("fl")),
+        "fl": (get_title("fl"), "NDOBC, declared gains"),
+        "ndobc": ("NDOBC", "NDOBC, declared gains"),
     }
 
 
 @pytest.mark.usefixtures("short_season")
 def test_a_law_that_stops_on_the_way_is_seen_until_then(tmp_path):
-    board, run = Board(tmp_path), run_law(STOPS, SINGLE[0])
+    board, run = Board(tmp_path), run_law(STOPS, SINGLE)
     assert "error" in run.problem
     measure_missing(board)
     worst = WorstRun(scenario=run.scenario, title="", rms_deg=None, problem=run.problem)
@@ -86,17 +90,19 @@ def test_a_law_that_stops_on_the_way_is_seen_until_then(tmp_path):
 
 @pytest.mark.usefixtures("short_season")
 def test_a_run_that_ndobc_would_end_is_seen_alone_to_its_end(tmp_path):
-    board, scenario = Board(tmp_path), find_scenario("load_removal")
+    board, scenario = Board(tmp_path), find_scenario(REMOVAL)
     measure_missing(board)
     fl, worst = (
         board.get("fl"),
-        WorstRun(scenario="load_removal", title="", rms_deg=None, problem=""),
+        WorstRun(scenario=REMOVAL, title="", rms_deg=None, problem=""),
     )
     entry = fl.changed(standing=fl.standing.changed(worst=worst))
-    own = simulate(scenario.build_configuration("fl"), duration_s=scenario.duration_s)
+    own = simulate(
+        build_ranking_entry("fl").build_configuration(scenario), duration_s=scenario.duration_s
+    )
     shown = replay_worst(board, entry)
     assert shown.lanes == (get_title("fl"),)
-    assert "At 8.187 s" in shown.alone
+    assert "declared gains: At" in shown.alone
     np.testing.assert_array_equal(shown.result.samples, own.samples)
     submitted = build_entry("good", "Good", False, entry.standing)
     run = run_law(GOOD, scenario)
@@ -117,7 +123,7 @@ def test_what_is_seen_has_nothing_of_the_seasons_chance(tmp_path):
         measure_missing(board)
         entry = board.get("fl")
         scenario, _, result, _ = replay_worst(board, entry)
-        assert scenario in SINGLE
+        assert scenario == SINGLE
         shown.append(result)
     np.testing.assert_array_equal(shown[0].samples, shown[1].samples)
     assert shown[0].configuration == shown[1].configuration

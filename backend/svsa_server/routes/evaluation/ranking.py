@@ -1,18 +1,17 @@
-"""The ranking: what was published of the laws, the same measured here, and any of its runs seen."""
+"""The ranking: the published results, and any of its runs as a session."""
 
 import asyncio
 from typing import Annotated
 
-from fastapi import Body, Path, Request
+from fastapi import Body, Request
 
-from svsa.control.installed import InstalledLaw
-from svsa.evaluation.ranking.measure import Entry, measure_law
 from svsa.evaluation.ranking.results import Results, load_published
-from svsa.evaluation.ranking.single_run import build_seen, find_scenario
+from svsa.evaluation.ranking.scenarios import find_scenario
+from svsa.evaluation.ranking.single_run import build_shown_run
 from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
-from svsa_server.routes.depends import BUSY, REFUSALS, NamedClient, NamedPerson, Work
+from svsa_server.routes.depends import REFUSALS, NamedClient, NamedPerson
 from svsa_server.routing import build_router
-from svsa_server.schemas.evaluation.ranking import MeasuredRow, ScenarioRequest
+from svsa_server.schemas.evaluation.ranking import ScenarioRequest
 from svsa_server.schemas.lab.session import SessionState
 from svsa_server.sessions.state import build_state
 
@@ -22,24 +21,8 @@ router = build_router("/ranking", tags=["ranking"])
 @router.get("", responses={422: REFUSALS[422]})
 @allow(OBSERVER)
 async def read_ranking(_: NamedClient) -> Results:
-    """The table that this version of the lab was published with, a row a law.
-
-    Errors in degrees; what each number is of stands at its field. Laws that came later have none.
-    """
+    """The results that this version was published with: protocol, rows and ranks."""
     return load_published()
-
-
-@router.post("/laws/{law}/measurement", operation_id="measure_law", responses=REFUSALS | BUSY)
-@allow(OPERATOR)
-async def measure(
-    _: NamedClient,
-    work: Work,
-    law: Annotated[InstalledLaw, Path(description="Name of a law", examples=["ndobc"])],
-) -> MeasuredRow:
-    """Put a law, as it is by default, through the whole suite: about 370 runs, some seconds."""
-    row = await work.run(measure_law, Entry(law))
-    published = {one.law: one for one in load_published().rows}
-    return MeasuredRow(row=row, is_published=law in published and row.agrees_with(published[law]))
 
 
 @router.post("/sessions", status_code=201, responses=REFUSALS)
@@ -49,13 +32,14 @@ async def see_scenario(
     _: NamedClient,
     person: NamedPerson,
     wanted: Annotated[
-        ScenarioRequest, Body(examples=[{"law": "ndobc_w", "scenario": "load_removal"}])
+        ScenarioRequest, Body(examples=[{"row": "ndobc_w", "scenario": "rig_4a.negative.0"}])
     ],
 ) -> SessionState:
-    """A private session, running, of a law in a scenario beside NDOBC, and NDOBC beside FL.
+    """A private session, running, of a row in a scenario with NDOBC, declared gains, as comparison.
 
-    Alone, and `note` says why, where the other's run would end before its own.
+    NDOBC itself is compared with FL. Without comparison if that would end earlier; `note` says why.
     """
     scenario = find_scenario(wanted.scenario)
-    shown, alone = await asyncio.to_thread(build_seen, scenario, wanted.law)
-    return build_state(request.app.state.laboratory.create(shown, person.id, alone))
+    shown = await asyncio.to_thread(build_shown_run, scenario, wanted.row)
+    hosted = request.app.state.laboratory.create(shown.configuration, person.id, shown.alone)
+    return build_state(hosted)

@@ -1,4 +1,4 @@
-"""Tune a law on the training runs: start, follow, break off, and take what was found."""
+"""Tune a law on the training trials: start, follow, break off, and take what was found."""
 
 from typing import Annotated, Any
 
@@ -7,21 +7,20 @@ from fastapi.responses import Response
 
 from svsa.control.installed import get_title, has_own_parameters
 from svsa.errors import StateError
+from svsa.evaluation.tuning.judge import find_noise_limit
 from svsa.evaluation.tuning.search_space import build_space
-from svsa.evaluation.tuning.training import DURATION_S, TRAINING
 from svsa.runs.configuration import Design, Lane
 from svsa_server.access.owned import Owned
 from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
 from svsa_server.jobs.queue import Job
-from svsa_server.jobs.tunings import Asked, read_file, read_trials, search
+from svsa_server.jobs.tunings import Asked, read_candidates, read_file, search
 from svsa_server.routes.depends import BUSY, REFUSALS, NamedPerson
 from svsa_server.routes.evaluation.jobs import find_jobs, list_visible
 from svsa_server.routing import build_router
 from svsa_server.schemas.evaluation.tuning import (
     AxisState,
-    FirstTrial,
-    TrainingRunState,
-    TrialState,
+    CandidateState,
+    FirstCandidate,
     TuningRequest,
     TuningState,
 )
@@ -47,9 +46,9 @@ async def start_tuning(
     person: NamedPerson,
     wanted: Annotated[TuningRequest, Body(examples=[{"law": "fl_integral", "budget": 30}])],
 ) -> TuningState:
-    """Begin to tune a law: Sobol points, then Nelder–Mead, on five training runs.
+    """Begin to tune a law by CMA-ES on training trials, then the best ten on validation trials.
 
-    It takes about a second a candidate, and makes no live session late.
+    The cost and the noise limit are those of the ranking. It makes no live session late.
     """
     build_space(wanted.law, wanted.held)
     present = _find_present(request, wanted)
@@ -61,7 +60,7 @@ async def start_tuning(
 @router.get("/{tuning}")
 @allow(OPERATOR)
 def read_tuning(
-    request: Request, tuning: TuningId, first: Annotated[FirstTrial, Query()] = 0
+    request: Request, tuning: TuningId, first: Annotated[FirstCandidate, Query()] = 0
 ) -> TuningState:
     """How far a tuning is, and what it tried from a number on."""
     return _build(find_jobs(request).get(tuning, "tuning"), first)
@@ -104,10 +103,15 @@ def _find_present(request: Request, wanted: TuningRequest) -> Design:
 
 
 def _build(tuning: Job, first: int | None) -> TuningState:
-    """first: from which trial on they are told; None for none of them."""
-    asked, trials = tuning.asked, read_trials(tuning.folder)
+    """first: from which candidate on they are sent; None for none of them."""
+    asked, tried = tuning.asked, read_candidates(tuning.folder)
     space = build_space(asked.law, asked.held)
-    best: dict[str, Any] | None = min(trials, key=lambda trial: trial["cost"], default=None)
+    candidates = [one for one in tried if one["stage"] != "validation"]
+    finals = [one for one in tried if one["stage"] == "validation"]
+    is_final = bool(finals) and not tuning.is_under_way
+    best: dict[str, Any] | None = min(
+        finals if is_final else candidates, key=lambda one: one["cost"], default=None
+    )
     setting = None
     if best is not None:
         design = space.set_design(asked.present, best["values"])
@@ -116,7 +120,7 @@ def _build(tuning: Job, first: int | None) -> TuningState:
             if has_own_parameters(asked.law)
             else Lane(law=asked.law, gains=design.gains, observer=design.observer)
         )
-    reported = [] if first is None else trials[first:]
+    reported = [] if first is None else candidates[first:]
     return TuningState(
         id=tuning.id,
         law=asked.law,
@@ -124,16 +128,16 @@ def _build(tuning: Job, first: int | None) -> TuningState:
         budget=asked.budget,
         seed=asked.seed,
         held=asked.held,
-        duration_s=DURATION_S,
         axes=[
             AxisState(name=one.label, symbol=one.symbol, unit=one.unit, low=one.low, high=one.high)
             for one in space.axes
         ],
-        runs=[TrainingRunState(name=run.name, title=run.title) for run in TRAINING],
-        tried=len(trials),
-        trials=[TrialState(**trial) for trial in reported],
-        present=TrialState(**trials[0]) if trials else None,
-        best=TrialState(**best) if best else None,
+        tried=len(candidates),
+        noise_limit_nm_per_s=find_noise_limit() if candidates else None,
+        candidates=[CandidateState(**one) for one in reported],
+        finals=[CandidateState(**one) for one in finals],
+        present=CandidateState(**candidates[0]) if candidates else None,
+        best=CandidateState(**best) if best else None,
         best_setting=setting,
         problem=tuning.problem,
     )

@@ -7,7 +7,7 @@ from typing import Annotated
 from fastapi import Body, Path, Request
 from fastapi.responses import StreamingResponse
 
-from svsa.evaluation.ranking.trials import SUITE_VERSION
+from svsa.evaluation.trials import PROTOCOL
 from svsa.teaching.isolation.probe import check_isolation, find_isolation_problem
 from svsa.teaching.leaderboard.board import FOLDER, Board
 from svsa.teaching.submission import digest_law
@@ -38,7 +38,7 @@ async def read_leaderboard(request: Request) -> LeaderboardState:
     board = await _open_board(request)
     entries = await asyncio.to_thread(board.list)
     return LeaderboardState(
-        suite=SUITE_VERSION,
+        suite=PROTOCOL,
         began=board.began,
         not_isolated=await asyncio.to_thread(find_isolation_problem),
         runs=board.season.run_count,

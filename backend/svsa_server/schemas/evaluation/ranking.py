@@ -1,24 +1,17 @@
-"""What goes over the wire about the ranking."""
+"""The ranking on the wire."""
 
 from typing import Annotated
 
 from pydantic import BaseModel, Field
 
-from svsa.control.installed import InstalledLaw
-from svsa.evaluation.ranking.row import Row
-
 
 class ScenarioRequest(BaseModel):
-    """A law in a scenario of the suite."""
+    """A row in a scenario of the ranking."""
 
-    law: InstalledLaw
-    scenario: Annotated[
-        str, Field(max_length=60, description="Name of the run, such as rig_4a or trial_12")
+    row: Annotated[
+        str, Field(max_length=64, description="Key of a row: a law's name, or ndobc_declared")
     ]
-
-
-class MeasuredRow(BaseModel):
-    """A row that this lab has just measured."""
-
-    row: Row
-    is_published: bool = Field(description="Whether every number agrees with the published row")
+    scenario: Annotated[
+        str,
+        Field(max_length=60, description="Name of the run: rig_4a.negative.0, or trial_A_12"),
+    ]

@@ -15,11 +15,11 @@ MAX_BUDGET = 2000
 
 
 class TuningRequest(Checked):
-    """A law to be tuned on the five training runs."""
+    """A law to be tuned on the training trials."""
 
     law: InstalledLaw = quantity("", "Name of a law that is installed")
     budget: Whole = quantity("", "Candidates to be tried", ge=1, le=MAX_BUDGET, default=BUDGET)
-    seed: Whole = quantity("", "Seed of the Sobol points", ge=0, le=2**53 - 1, default=0)
+    seed: Whole = quantity("", "Seed of search and trials", ge=0, le=2**53 - 1, default=0)
     held: dict[str, Number] = quantity(
         "", "Parameters of the law that are set and not searched", default={}
     )
@@ -38,31 +38,20 @@ class AxisState(BaseModel):
     high: float
 
 
-class TrainingRunState(BaseModel):
-    """A training run."""
-
-    name: str
-    title: str
-
-
-class RunCostState(BaseModel):
-    """What a candidate cost in a training run: errors rms, shake the torque's change a tick."""
-
-    cost: float
-    position_error_deg: float
-    stiffness_error_nm_per_rad: float
-    torque_change_nm: float
-    fault: str | None = Field(description="Why the run ended before its time")
-
-
-class TrialState(BaseModel):
-    """A candidate."""
+class CandidateState(BaseModel):
+    """A candidate, and what it showed; values are null where they were not measured or infinite."""
 
     number: int = Field(description="0 is the design as it was")
     stage: Stage
     values: list[float] = Field(description="In the order of the axes")
-    cost: float = Field(description="Mean of the runs' costs")
-    runs: list[RunCostState]
+    cost: float = Field(description="Mean over the trials; above the noise limit 5 and more")
+    torque_variation_nm_per_s: float | None = Field(description="Total variation of u1 at rest")
+    held: int = Field(description="Trials that held")
+    trials: int = Field(description="Trials that were run; none above the noise limit")
+    position_error_deg: float | None = Field(description="Median of the rms position errors")
+    stiffness_error_percent: float | None = Field(
+        description="Median of the rms stiffness errors over σ_d"
+    )
 
 
 class TuningState(BaseModel):
@@ -74,13 +63,17 @@ class TuningState(BaseModel):
     budget: int
     seed: int
     held: dict[str, float]
-    duration_s: float = Field(description="Of each training run")
     axes: list[AxisState]
-    runs: list[TrainingRunState]
+    noise_limit_nm_per_s: float | None = Field(
+        description="Limit of the torque variation at rest; null before the first candidate"
+    )
     tried: int = Field(description="How many were tried so far, the design as it was among them")
-    trials: list[TrialState] = Field(description="From the number asked for on")
-    present: TrialState | None = Field(description="Null before the first trial")
-    best: TrialState | None
+    candidates: list[CandidateState] = Field(description="From the number asked for on")
+    finals: list[CandidateState] = Field(
+        description="The design as it was and the best candidates on the validation trials"
+    )
+    present: CandidateState | None = Field(description="Null before the first candidate")
+    best: CandidateState | None
     best_setting: Lane | None = Field(
         description="The best as a lane's setting, to be sent to PUT …/lanes/{lane} or, in parts,"
         " to PUT …/parameters, …/gains and …/observer"
@@ -88,4 +81,4 @@ class TuningState(BaseModel):
     problem: str | None = Field(description="Why it failed")
 
 
-FirstTrial = Annotated[int, Field(ge=0, description="Number of the first trial to be told")]
+FirstCandidate = Annotated[int, Field(ge=0, description="Number of the first candidate sent")]

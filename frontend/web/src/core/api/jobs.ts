@@ -16,7 +16,7 @@ export const stopJob = (id: string) => request("delete", pathOf(id)) as Promise<
 type Schemas = components["schemas"];
 
 export type Tuning = Schemas["TuningState"];
-export type Trial = Schemas["TrialState"];
+export type Candidate = Schemas["CandidateState"];
 
 const tuningPathOf = (id: string) => `tunings/${encodeURIComponent(id)}`;
 

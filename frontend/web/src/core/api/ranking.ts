@@ -3,30 +3,19 @@
 import type { Job } from "./jobs";
 import { API, request } from "./request";
 import type { components } from "./schema";
-import type { Law, SessionState } from "./types";
+import type { SessionState } from "./types";
 
 type Schemas = components["schemas"];
 
 export type Results = Schemas["Results"];
 export type Row = Schemas["Row"];
-export type Outcome = Schemas["Outcome"];
-export type SweepOutcome = Schemas["SweepOutcome"];
-type MeasuredRow = Schemas["MeasuredRow"];
-
-/** A worker that has to begin first, and to compile a law, takes its time. */
-const LONGEST_MEASURING_MS = 120_000;
+export type Outcome = Schemas["ScenarioOutcome"];
+export type Family = Schemas["FamilyOutcome"];
 
 export const readRanking = () => request("get", "ranking") as Promise<Results>;
-export const measureLaw = (law: Law) =>
-  request(
-    "post",
-    `ranking/laws/${encodeURIComponent(law)}/measurement`,
-    undefined,
-    LONGEST_MEASURING_MS,
-  ) as Promise<MeasuredRow>;
-/** A private session of a law in a scenario, beside NDOBC. */
-export const seeScenario = (law: Law, scenario: string) =>
-  request("post", "ranking/sessions", { law, scenario }) as Promise<SessionState>;
+/** A private session of a row in a scenario, with NDOBC as comparison. */
+export const seeScenario = (row: string, scenario: string) =>
+  request("post", "ranking/sessions", { row, scenario }) as Promise<SessionState>;
 
 // The leaderboard: laws on a season that nobody knows, and their worst runs.
 

@@ -2,54 +2,48 @@
 export const leaderboardText = {
   leaderboard: {
     title: "Leaderboard",
-    lead: "Submit a law as a Python file and get a number that can be trusted: it goes through the ranking's scored runs, on trials that nobody knows.",
-    season: (began: string, suite: string) => `This season began on ${began}, suite ${suite}.`,
+    lead: "Submit a law as a Python file and get a number that can be trusted: it goes through hidden trials drawn as those of the ranking.",
+    season: (began: string, suite: string) => `This season began on ${began}, protocol ${suite}.`,
     loading: "The board is on its way …",
     empty: "No law has been submitted in this season yet",
     emptyHint:
       "Yours can be the first: paste it into the form or choose its file there, or use the command below it. Writing one takes a dozen lines; the form's example is a whole law to begin with.",
     entries: "Entries",
-    table: "Rank, score and its parts, cost and worst run, a law a row",
+    table: "Rank, success rate, cost and worst run, a law a row",
     tableHint:
-      "A press on a heading sorts by it, on a worst run shows it in 3D beside NDOBC. Rank is always by score.",
+      "A press on a heading sorts by it, on a worst run shows it in 3D beside NDOBC. Rank is always by the success rate.",
     columns: {
-      rank: { name: "Rank", hint: "By score; equal scores share a place" },
+      rank: { name: "Rank", hint: "By the share of trials that held; equal shares share a place" },
       law: {
         name: "Law",
         hint: "A law of the lab by its title, marked as a baseline; a submitted one as it was called, and by whom",
       },
-      score: {
-        name: "Score",
-        hint: "0.5 robustness + 0.3 trials that held + 0.2 accuracy, from 0 to 1; below it the 95 % interval",
+      success: {
+        name: "Held",
+        hint: "Share of the season's hidden trials that held, with Wilson's 95 % interval: no fault, in the last second at most 1° and 10 % of σ_d, a peak of at most 30°",
       },
-      robustness: { name: "Robust", hint: "Mean share of runs that held in the six sweeps" },
-      trials: {
-        name: "Trials",
-        hint: "Share of the season's hidden trials that held: no fault, and at most 1° rms in the last second",
+      ended: {
+        name: "Ended",
+        hint: "Hidden trials that ended in a fault or with an error of the law",
       },
-      accuracy: {
-        name: "Accuracy",
-        hint: "Mean of 1 − tanh(rms / 1°) over the 13 scenarios that everybody knows, 0 for a fault",
-      },
+      rms: { name: "rms, °", hint: "Median over the hidden trials of the rms position error" },
       cost: {
         name: "µs/tick",
         hint: "Median time of a tick by this machine's clock, with plant and sensors; of a submitted law also the way to its process and back, so compare it with other submitted ones only",
       },
       worst: {
         name: "Worst run",
-        hint: "Of the 13 scenarios that everybody knows: the greatest rms error, or the first that ended early. The hidden trials are not shown",
+        hint: "Of the public scenarios: the greatest rms error, or the first that ended early. The hidden trials are not shown",
       },
       entered: { name: "Measured", hint: "When, in your time" },
     },
-    weights: { robustness: "0.5 robustness", trials: "0.3 trials", accuracy: "0.2 accuracy" },
-    intervalKey: "95 % by the trials",
+    percent: (share: number) => `${(100 * share).toFixed(1)} %`,
     interval: (low: string, high: string) => `${low}–${high}`,
-    intervalHint:
-      "The score with the share of trials at the ends of its 95 % interval (Wilson); it says nothing of the other parts",
+    intervalHint: "95 % interval of the success rate (Wilson)",
     by: (author: string) => `by ${author}`,
     submittedLaw: "submitted",
     baseline: "baseline",
-    baselineHint: "A law of the lab, compiled, as it is by default",
+    baselineHint: "A law of the lab, compiled, with the parameters of the ranking",
     notMeasured: "not measured in this season yet",
     trialsHeld: (held: number, of: number) => `${held} of ${of} held`,
     measuredWith: (when: string, version: string) => `${when}, with SVSA Lab ${version}`,
@@ -58,7 +52,7 @@ export const leaderboardText = {
     rms: (error: string) => `${error}° rms`,
     see: (name: string) => `${name}, worst run in 3D:`,
     seeHint: (name: string) => `${name}: see this run in 3D beside NDOBC`,
-    note: "Two laws had the same trials, so the difference between them is surer than their intervals. µs/tick compares entries of one kind only. Who submits often learns something of a season from the scores.",
+    note: "Two laws had the same trials, so the difference between them is surer than their intervals. µs/tick compares entries of one kind only. Who submits often learns something of a season from the results.",
     submit: "Submit a law",
     submitHint: (runs: number) =>
       `${runs} runs in a process of its own that has nothing but its task: some minutes. The same text has one entry, which stays.`,
@@ -91,9 +85,9 @@ export const leaderboardText = {
     back: "Leaderboard",
     unknown: "There is no such entry in this season.",
     worstOf: (name: string) => `Worst run of ${name}`,
-    standing: (rank: number, score: string) => `rank ${rank}, score ${score}`,
+    standing: (rank: number, success: string) => `rank ${rank}, ${success} of the trials held`,
     beside: (law: string, isInstalled: boolean) =>
-      `Worst of the 13 scenarios that everybody knows, beside ${law} on the same; the season's hidden trials are not shown. ${
+      `Worst of the public scenarios, beside ${law} on the same; the season's hidden trials are not shown. ${
         isInstalled
           ? "Simulated again for this view."
           : "The law does not run again: its torques were kept when it was measured."

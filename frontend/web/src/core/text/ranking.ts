@@ -1,116 +1,105 @@
-/** The ranking: every law in the same scenarios. */
-const sweeps: Record<string, string> = {
-  model: "Model",
-  velocity_noise: "Noise",
-  torque_noise: "Torque noise",
-  torque_response: "Torque lag",
-  delay: "Delay",
-  perturbation: "Pushes",
-};
+/** The ranking: every law on the same trials and fixed scenarios. */
+const fixedHint = (what: string) =>
+  `${what}, at both signs and 8 phases of the motion: median / worst peak position error in degrees, and faults. Opens the worst run`;
 
 export const rankingText = {
   ranking: {
     title: "Ranking",
-    lead: "Every law on the same plant, torque limits, noise and loads. Press a number to see its run in the lab, beside NDOBC unless that ends first; press a law to lay it into the web.",
-    loading: "The table is on its way …",
+    lead: "Every law on the same plant, torque limits, noise and loads, tuned with one budget, cost and noise limit. The main number is the share of test trials that held.",
+    loading: "Loading the results …",
     law: "Law",
-    table: "Errors, faults and score, a law a row",
+    declared: (title: string) => `${title}, declared gains`,
+    table: "Success rates, rank and fixed scenarios, a law a row",
     tableHint:
-      "A press on a heading sorts by it, on a law shows it below, on a number opens its run",
-    parts: { robustness: "robustness", trials: "trials", accuracy: "accuracy" },
-    bars: "Bars of errors are logarithmic within their column, and long is bad; those of the score and of the step are linear, and long is good. Bold is the best of a column. Words in place of a number say how the run ended: at the spring's deflection limit, at the end of the spiral, or with a torque that is no number.",
-    provenance: (versions: readonly string[], suite: string) =>
-      `Every law as it is by default, simulated: nothing here was measured on a bench. Measured with SVSA Lab ${versions.join(" and ")}, suite ${suite}, trials of the public seed.`,
-    legend: "What each column is measured on",
+      "A heading sorts by its column, a law shows its details below, a fixed scenario opens its worst run",
+    provenance: (of: {
+      criterion: string;
+      duration_s: number;
+      protocol: string;
+      seed: number;
+      trials: number;
+      versions: readonly string[];
+    }) =>
+      `Held: ${of.criterion}. ${of.trials} trials of ${of.duration_s} s of each family, seed ${of.seed}, protocol ${of.protocol}, simulated with SVSA Lab ${of.versions.join(" and ")}. Rows whose success rates do not differ significantly share a rank (McNemar's exact test with Holm's correction, 5 %).`,
+    legend: "What each column shows",
     columns: {
-      score: {
-        name: "Score",
-        hint: "0.5 robustness (mean of the six sweeps) + 0.3 share of the 100 trials that held + 0.2 accuracy (mean of 1 − tanh(rms / 1°) over the runs below, 0 for a fault)",
+      rank: {
+        name: "Rank",
+        hint: "By the success rate over both families; rows that do not differ significantly from the first of their group share its rank",
       },
-      ideal: {
-        name: "Ideal 4A",
-        hint: "Figure 4A, ideal loop: rms error 8–20 s, the paper's load on since 5 s",
+      familyA: {
+        name: "Family A, %",
+        hint: "Trials that held, with Wilson's 95 % interval. The paper's motion, σ 15–70, inertias ±50 %, encoders, friction, noise, 1–2 samples of delay; on the link a step, pulse, impulse, sine to 1 Hz or hung mass",
       },
-      rigPeak: {
-        name: "Rig peak",
-        hint: "Figure 4A with the rig's encoders, estimation and one sample of delay: greatest error 5–7 s",
+      familyB: {
+        name: "Family B, %",
+        hint: "The same with σ 12–120, also varying, spring ±5 % and dampings × 0.5–2, current lag 0.2–2 ms, sines to 5 Hz, loads on the motors",
       },
-      rigSteady: { name: "Rig settled", hint: "The same: rms error 8–20 s" },
-      recovery: {
-        name: "Recovery",
-        hint: "The same: time from the load until the error stays within 2 % of its peak for 0.5 s",
+      p: {
+        name: "p",
+        hint: "McNemar's exact test against NDOBC with the declared gains, with Holm's correction",
       },
-      loadRemoval: {
-        name: "Load removal",
-        hint: "Rig, σ = 15: the paper's load taken off at 8 s, greatest error 8–10 s",
+      rig: {
+        name: "Paper's load, °",
+        hint: fixedHint("2 N·m on link and motors, rig, σ = 15"),
       },
-      loadRemovals: {
-        name: "Faults of 48",
-        hint: "Rig: the load taken off at σ 12, 15, 18 and 16 phases of the motion; how many runs ended in a fault. A press shows the first of them",
+      removal: { name: "Load removal, °", hint: fixedHint("The same load removed after 3 s") },
+      mass: { name: "3 kg, °", hint: fixedHint("3 kg on an arm of 68 mm, rig, σ = 15") },
+      unmodelled: {
+        name: "Unmodelled, °",
+        hint: fixedHint("Paper's load with friction, a lag of 2 ms and the link's weight"),
       },
-      rest: {
-        name: "Worst of 48",
-        hint: "The same runs: rms error 3–5 s after the load is off, in the run where it is greatest, whether a law comes to rest or swings on; a run that ended in a fault counts as worst. A press shows that run",
-      },
-      sine: { name: "2 Hz", hint: "Rig: 1.5 N·m at 2 Hz on the link, rms error 8–20 s" },
-      mass: { name: "3 kg", hint: "Rig: 3 kg on an arm of 68 mm, rms error 8–20 s" },
-      pulses: {
-        name: "Impulses",
-        hint: "Rig, σ = 15: four impulses of 3 N·m for 0.1 s on the link, rms error 5–11 s",
+      load: {
+        name: "Largest load, N·m",
+        hint: "Largest step on the link up to which all signs and phases held, rig, σ = 15, by 0.5 N·m",
       },
       noise: {
-        name: "5 × noise",
-        hint: "Rig with noise of 0.1 mrad on the motors and 1 mrad on the deflection: rms error 8–20 s under the paper's load",
-      },
-      trials: {
-        name: "Trials",
-        hint: "100 trials: inertias ±50 % of nominal, σ 16–70, friction, noise, one or two samples of delay, a step, pulse, sine or mass from 3 s on; median of the rms error 3–10 s, a fault counting as worst. A press shows the first draw",
-      },
-      fails: {
-        name: "Fails of 100",
-        hint: "Of the same trials: how many ended in a fault, or with more than 1° rms in the last second. A press shows the first of them",
-      },
-      step: {
-        name: "Step",
-        hint: "Rig, σ = 15: largest step of torque on the link up to which every one, by 0.5 N·m, is held. A press shows the next larger one",
+        name: "Noise, N·m/s",
+        hint: "Total variation of u1 at rest under the rig's noise, mean of eight runs",
       },
     },
-    never: "never",
-    noNumber: "fault",
-    see: (law: string, column: string) => `${law}, ${column}: open this run in the lab`,
-    seeLabel: (law: string, column: string, value: string, isBest: boolean) =>
-      `${law}, ${column}: ${value}${isBest ? ", best" : ""}; open the run`,
-    scoreOf: (robustness: number, trials: number, accuracy: number) =>
-      `0.5 × robustness ${robustness.toFixed(2)} + 0.3 × trials ${trials.toFixed(2)} + 0.2 × accuracy ${accuracy.toFixed(2)}`,
-    chooseHint: "Show it below; again takes it out",
-    chooseSome: "Press laws in the table to lay them over one another.",
-    radar: "How much they bear",
-    radarLabel: "Web of six sweeps: the share of runs that held, numbers in the table below",
-    sweeps,
-    percent: (share: number) => `${Math.round(100 * share)} %`,
-    sharesCaption:
-      "Share of each sweep's runs that held (no fault, under 1° rms in the last second, the paper's load on), and up to where every run did. Sweeps go on to where hardly a law holds, but delay ends at five samples, the most that the lab has.",
-    bears: (value: string, unit: string) =>
-      unit === "1" ? `to × ${value}` : `to ${value} ${unit}`,
-    bearsRange: (low: number, high: number) =>
-      `× ${Number(low.toPrecision(2))} – ${Number(high.toPrecision(2))}`,
-    bearsNone: "none",
-    seeSweep: "Open the first run that failed, or the last",
-    sweepLabel: (law: string, share: string, bound: string) =>
-      `${law}: ${share}, ${bound}; open the first run that failed`,
+    success: (value: number, low: number, high: number) =>
+      `${value.toFixed(1)} (${low.toFixed(1)}–${high.toFixed(1)})`,
+    p: (value: number | null) =>
+      value === null ? "–" : value < 0.001 ? "< 0.001" : value.toPrecision(2),
+    fault: "fault",
+    withFaults: (pair: string, faults: number, runs: number) => `${pair}, ${faults} of ${runs}`,
+    see: (law: string, column: string) => `${law}, ${column}: open the worst run in the lab`,
+    seeLabel: (law: string, column: string, value: string) =>
+      `${law}, ${column}: ${value}; open the worst run`,
+    chooseHint: "Show its details below",
+    pareto: "Position error against stiffness error",
+    paretoHint: "Medians over the trials of family A; the area is the median of rms u1.",
+    positionAxis: "rms position error, °",
+    stiffnessAxis: "rms stiffness error, N·m/rad",
+    point: (law: string, position: string, stiffness: string, torque: string) =>
+      `${law}: ${position}°, ${stiffness} N·m/rad, ${torque} N·m`,
     source: "Source:",
     doi: (doi: string) => `doi:${doi}`,
-    runs: "Its runs",
-    runsHint: "rms and peak error from the load on, and the rms change of u1 from tick to tick",
-    outcome: (rms: string, peak: string, change: string) => `${rms}° · ${peak}° · ${change} N·m`,
-    seeRun: "Open this run in the lab",
-    measure: "Measure again here",
-    measureHint:
-      "Put every law through the whole suite on this machine: about 370 runs each, some seconds a law",
-    measuring: (law: string, done: number, of: number) => `${law}: ${done} of ${of} done`,
-    measuringLaw: "being measured",
-    same: "Measured here: every number is the published one",
-    other: "Measured here: the row differs from the published one",
-    stop: "Stop",
+    variants: {
+      tuned: "Tuned.",
+      declared: "The gains declared for the paper, which prints none.",
+      default: "Default parameters, not tuned.",
+    },
+    tuned: (candidates: number, trials: number, validation: number, seed: number) =>
+      `Tuned by CMA-ES: ${candidates} candidates on ${trials} training trials, the best ten on ${validation} validation trials, seed ${seed}.`,
+    scenarios: "Fixed scenarios, median / worst over signs and phases; a name opens the worst run",
+    scenarioHeads: ["Scenario", "Peak, °", "Stiffness, %", "Recovery, s", "Held"],
+    seeWorst: "Open the worst run in the lab",
+    ofRuns: (held: number, runs: number) => `${held} of ${runs}`,
+    trials: "Trials, median / 90 % quantile",
+    family: (name: string) => `Family ${name}`,
+    metrics: {
+      rms_position_error_rad: "rms position error, °",
+      peak_position_error_rad: "Peak position error, °",
+      recovery_time_s: "Recovery time, s",
+      steady_state_position_error_rad: "Steady-state position error, °",
+      rms_stiffness_error_nm_per_rad: "rms stiffness error, N·m/rad",
+      peak_stiffness_error_share: "Peak stiffness error, %",
+      rms_torque1_nm: "rms u1, N·m",
+      rms_torque2_nm: "rms u2, N·m",
+      work_j: "Mechanical work, J",
+      torque1_variation_nm_per_s: "Total variation of u1, N·m/s",
+    },
   },
 };

@@ -1,4 +1,4 @@
-/** Parts of tables that several pages show: the best value, sortable heads, bars of scores. */
+/** Parts of tables that several pages show: the best value, heads that sort, pages. */
 import type { ComponentChildren } from "preact";
 
 interface TableProps {
@@ -122,49 +122,5 @@ export function SortHead({ column, sort, hint, isDownFirst, onSort, ...rest }: S
         </span>
       </button>
     </th>
-  );
-}
-
-/** What a score is made of: 0.5 robustness + 0.3 trials + 0.2 accuracy. */
-const WEIGHTS = { robustness: 0.5, trials: 0.3, accuracy: 0.2 } as const;
-type ScorePart = keyof typeof WEIGHTS;
-const SCORE_PARTS = Object.keys(WEIGHTS) as readonly ScorePart[];
-
-interface ScoreBarProps {
-  parts: Readonly<Record<ScorePart, number>>;
-  /** Ends of its interval. */
-  interval?: { low: number; high: number };
-}
-
-const percent = (share: number) => `${(100 * share).toFixed(2)}%`;
-
-/** A score from 0 to 1 as a bar of its parts, its interval over it. */
-export function ScoreBar({ parts, interval }: ScoreBarProps) {
-  return (
-    <span class="bar" aria-hidden="true">
-      {SCORE_PARTS.map((part) => (
-        <i
-          key={part}
-          class={`is-${part}`}
-          style={{ width: percent(WEIGHTS[part] * parts[part]) }}
-        />
-      ))}
-      {interval && (
-        <b style={{ left: percent(interval.low), width: percent(interval.high - interval.low) }} />
-      )}
-    </span>
-  );
-}
-
-/** Which colour of the bar is which part. */
-export function ScoreKey({ names }: { names: Readonly<Record<ScorePart, string>> }) {
-  return (
-    <>
-      {SCORE_PARTS.map((part) => (
-        <span key={part}>
-          <i class={`score-colour is-${part}`} aria-hidden="true" /> {names[part]}
-        </span>
-      ))}
-    </>
   );
 }

@@ -1,141 +1,115 @@
-/** The columns of the ranking: what each is of, which way is better, and which run shows it. */
-import type { Outcome, Row } from "../../core/api/ranking";
+/** The columns of the ranking: what each shows, and the order that it makes. */
+import type { Family, Outcome, Results, Row } from "../../core/api/ranking";
 import { text } from "../../core/text/en";
-import { formatError } from "../../core/units";
+import { formatNumber, toDegrees } from "../../core/units";
 
-const words = text.ranking.columns;
-const STEP_NM = 0.5;
-const MAX_STEP_NM = 15;
+const words = text.ranking;
+const MIDDLE = 4;
+const MOST = 6;
+export const PEAK = "peak_position_error_rad";
+export const SHARE = "peak_stiffness_error_share";
+export const RECOVERY = "recovery_time_s";
 
 export interface Column {
-  key: keyof typeof words;
-  unit: string;
-  isHighBetter?: boolean;
-  /** Errors lie decades apart; counts, the score and torques do not. */
-  isLog?: boolean;
-  /** The greatest value that there can be. */
-  most?: number;
-  read: (row: Row) => number | null;
-  /** Code of the fault that ended its run. */
-  faultOf: (row: Row) => string | null;
-  /** The run that shows it; null where it is of no single one. */
-  scenarioOf: (row: Row) => string | null;
+  key: keyof typeof words.columns;
+  isDownFirst?: boolean;
+  /** What it is ordered by; null comes last. */
+  read: (row: Row, results: Results) => number | null;
+  write: (row: Row, results: Results) => string;
+  /** The run that shows it. */
+  scenarioOf?: (row: Row) => string;
 }
 
+export const rankOf = (results: Results, key: string) =>
+  results.ranks.find((rank) => rank.key === key);
+
+const successOf = (family: Family | undefined): number =>
+  family === undefined ? 0 : family.held / family.trials;
+
+/** The success rate with Wilson's interval, as the server reports it. */
+export const writeSuccess = (family: Family | undefined): string =>
+  family === undefined
+    ? ""
+    : words.success(100 * family.success, 100 * family.success_low, 100 * family.success_high);
+
+/** The value below which half, or nine tenths, of a family's trials are. */
+export const quantileOf = (family: Family, metric: string, share: "middle" | "most") =>
+  family.metrics[metric]?.[share === "middle" ? MIDDLE : MOST] ?? null;
+
+export const writeDegrees = (value: number | null | undefined): string =>
+  value === null || value === undefined ? words.fault : formatNumber(toDegrees(value));
+
 const outcomeOf = (row: Row, scenario: string): Outcome | undefined =>
-  row.outcomes.find((one) => one.scenario === scenario);
+  row.scenarios.find((one) => one.scenario === scenario);
 
-const error = (key: Column["key"], scenario: string, read: Column["read"], unit = "°"): Column => ({
-  key,
-  unit,
-  isLog: true,
-  read,
-  faultOf: (row) => outcomeOf(row, scenario)?.fault ?? null,
-  scenarioOf: () => scenario,
-});
+/** Median and worst peak error, and faults, of a fixed scenario. */
+export const writeOutcome = (one: Outcome | undefined): string => {
+  if (one === undefined) return "";
+  const pair = `${writeDegrees(one.median[PEAK])} / ${writeDegrees(one.greatest[PEAK])}`;
+  return one.faults > 0 ? words.withFaults(pair, one.faults, one.runs) : pair;
+};
 
-const count = (
-  key: Column["key"],
-  most: number,
-  read: (row: Row) => number,
-  failed: (row: Row) => readonly string[],
-  other: string,
-): Column => ({
+const fixed = (key: Column["key"], scenario: string): Column => ({
   key,
-  unit: "",
-  most,
-  read,
-  faultOf: () => null,
-  scenarioOf: (row) => failed(row)[0] ?? other,
+  read: (row) => outcomeOf(row, scenario)?.median[PEAK] ?? null,
+  write: (row) => writeOutcome(outcomeOf(row, scenario)),
+  scenarioOf: (row) => outcomeOf(row, scenario)?.worst ?? "",
 });
 
 export const COLUMNS: readonly Column[] = [
   {
-    key: "score",
-    unit: "",
-    isHighBetter: true,
-    most: 1,
-    read: (row) => row.score,
-    faultOf: () => null,
-    scenarioOf: () => null,
+    key: "rank",
+    read: (row, results) => rankOf(results, row.key)?.rank ?? null,
+    write: (row, results) => String(rankOf(results, row.key)?.rank ?? ""),
   },
-  error("ideal", "ideal_4a", (row) => row.ideal_4a.steady_deg),
-  error("rigPeak", "rig_4a", (row) => row.rig_4a.peak_deg),
-  error("rigSteady", "rig_4a", (row) => row.rig_4a.steady_deg),
-  error("recovery", "rig_4a", (row) => row.rig_4a.recovery_s, "s"),
-  error("loadRemoval", "load_removal", (row) => row.load_removal_peak_deg),
-  count(
-    "loadRemovals",
-    48,
-    (row) => row.load_removal_faults_of_48,
-    (row) => row.load_removals_failed,
-    "load_removal_15_0",
-  ),
   {
-    ...error("rest", "", (row) => row.load_removal_steady_state_deg),
-    scenarioOf: (row) => row.load_removal_worst,
+    key: "familyA",
+    isDownFirst: true,
+    read: (row) => successOf(row.families.A),
+    write: (row) => writeSuccess(row.families.A),
   },
-  error("sine", "sine_2hz", (row) => row.sine_2hz_rms_deg),
-  error("mass", "mass", (row) => row.mass_rms_deg),
-  error("pulses", "pulses", (row) => outcomeOf(row, "pulses")?.rms_deg ?? null),
-  error("noise", "noise_5", (row) => outcomeOf(row, "noise_5")?.rms_deg ?? null),
-  { ...error("trials", "trial_0", (row) => row.trials_median_deg), faultOf: () => null },
-  count(
-    "fails",
-    100,
-    (row) => row.trials_fails,
-    (row) => row.trials_failed,
-    "trial_0",
-  ),
   {
-    key: "step",
-    unit: "N·m",
-    isHighBetter: true,
-    most: MAX_STEP_NM,
-    read: (row) => row.largest_link_step_nm,
-    faultOf: () => null,
-    scenarioOf: (row) => `link_step_${Math.min(row.largest_link_step_nm + STEP_NM, MAX_STEP_NM)}`,
+    key: "familyB",
+    isDownFirst: true,
+    read: (row) => successOf(row.families.B),
+    write: (row) => writeSuccess(row.families.B),
+  },
+  {
+    key: "p",
+    read: (row, results) => rankOf(results, row.key)?.p_value ?? null,
+    write: (row, results) => words.p(rankOf(results, row.key)?.p_value ?? null),
+  },
+  fixed("rig", "rig_4a"),
+  fixed("removal", "load_removal"),
+  fixed("mass", "mass"),
+  fixed("unmodelled", "unmodelled"),
+  {
+    key: "load",
+    isDownFirst: true,
+    read: (row) => row.largest_load_nm,
+    write: (row) => String(row.largest_load_nm),
+  },
+  {
+    key: "noise",
+    read: (row) => row.noise.variation_nm_per_s,
+    write: (row) =>
+      row.noise.variation_nm_per_s === null
+        ? words.fault
+        : formatNumber(row.noise.variation_nm_per_s),
   },
 ];
 
-/** Counts and steps as they are, errors as `formatError` has them. */
-export const formatValue = (column: Column, value: number): string =>
-  column.isLog ? formatError(value) : String(value);
-
-/** Share of a cell's width that its bar takes: of the decades in the column, or of the most. */
-export function barOf(column: Column, value: number, rows: readonly Row[]): number {
-  if (!column.isLog) return Math.min(1, value / (column.most ?? 1));
-  const values = rows.flatMap((row) => column.read(row) ?? []).filter((one) => one > 0);
-  const least = Math.log10(Math.min(...values)) - 0.3;
-  const span = Math.log10(Math.max(...values)) - least;
-  return span > 0 ? Math.max(0.02, (Math.log10(Math.max(value, 1e-9)) - least) / span) : 1;
-}
-
-/** Whether a row has the best value of its column, shared or not. */
-export function isBest(column: Column, row: Row, rows: readonly Row[]): boolean {
-  const value = column.read(row);
-  if (value === null) return false;
-  const values = rows.flatMap((one) => column.read(one) ?? []);
-  return value === (column.isHighBetter ? Math.max(...values) : Math.min(...values));
-}
-
-/** In the order asked for; a law without a number comes after those with one. */
-export function sortRows(rows: readonly Row[], key: string, isDown: boolean): Row[] {
+/** Rows in the order asked for; one without a value comes last, equal ones by rank. */
+export function sortRows(results: Results | null, key: string, isDown: boolean): readonly Row[] {
+  if (results === null) return [];
   const column = COLUMNS.find((one) => one.key === key);
-  if (column === undefined) return [...rows];
-  const worst = column.isHighBetter ? -Infinity : Infinity;
+  if (column === undefined) return results.rows;
   const way = isDown ? -1 : 1;
-  const size = (row: Row) => column.read(row) ?? worst;
-  return [...rows].sort((one, other) => {
-    const [a, b] = [size(one), size(other)];
-    if (a === b) return 0;
-    if (Math.abs(a) === Infinity) return 1;
-    if (Math.abs(b) === Infinity) return -1;
+  return [...results.rows].sort((one, other) => {
+    const [a, b] = [column.read(one, results), column.read(other, results)];
+    if (a === b) return results.rows.indexOf(one) - results.rows.indexOf(other);
+    if (a === null) return 1;
+    if (b === null) return -1;
     return way * (a - b);
   });
 }
-
-/** Which versions of the lab measured the rows: one may be renewed without the others. */
-export const versionsOf = (rows: readonly Row[]) => [
-  ...new Set(rows.map(({ version }) => version)),
-];

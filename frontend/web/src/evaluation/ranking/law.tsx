@@ -1,10 +1,10 @@
-import type { Row } from "../../core/api/ranking";
+import type { Outcome, Row } from "../../core/api/ranking";
 import { Formula } from "../../core/equations/formula";
-import { shortenFault } from "../../core/state/faults";
-import { lawOf, titleOf } from "../../core/state/laws";
+import { lawOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
-import { formatError, formatNumber } from "../../core/units";
-import { chosen, rowOf, see, splitSource } from "./ranking";
+import { formatNumber, toDegrees } from "../../core/units";
+import { quantileOf, RECOVERY, SHARE, writeOutcome } from "./columns";
+import { chosen, opening, results, see, splitSource, titleOfRow } from "./ranking";
 
 const words = text.ranking;
 
@@ -23,51 +23,125 @@ function Source({ source }: { source: string }) {
   );
 }
 
-function Outcomes({ row }: { row: Row }) {
+/** How its parameters were found. */
+function Tuning({ row: { tuning, variant } }: { row: Row }) {
+  if (!tuning) return <p class="hint">{words.variants[variant]}</p>;
+  const { candidates, trials, validation, seed } = tuning;
   return (
-    <ul class="menu">
-      {row.outcomes.map((one) => (
-        <li key={one.scenario}>
-          <button
-            type="button"
-            title={words.seeRun}
-            onClick={() => void see(row.law, one.scenario)}
-          >
-            <span>{one.title}</span>
-            <b class={`end ${one.fault === null ? "" : "bad"}`}>
-              {one.fault === null
-                ? words.outcome(
-                    formatError(one.rms_deg),
-                    formatNumber(one.peak_deg, 3, 2),
-                    formatNumber(one.torque_change_nm, 2, 3),
-                  )
-                : shortenFault(one.fault)}
-            </b>
-          </button>
-        </li>
-      ))}
-    </ul>
+    <>
+      <p class="hint">{words.tuned(candidates, trials, validation, seed)}</p>
+      <p class="hint">
+        {Object.entries(tuning.values)
+          .map(([name, value]) => `${name} ${formatNumber(value, 4)}`)
+          .join(", ")}
+      </p>
+    </>
   );
 }
 
-/** The law that was chosen last: what it is, where it fails and why, every run of it. */
+const percentOf = (value: number | null | undefined): string =>
+  value === null || value === undefined ? words.fault : formatNumber(100 * value);
+const secondsOf = (value: number | null | undefined): string =>
+  value === null || value === undefined ? "–" : formatNumber(value);
+
+function ScenarioRow({ row, one }: { row: Row; one: Outcome }) {
+  return (
+    <tr>
+      <th scope="row">
+        <button
+          type="button"
+          title={words.seeWorst}
+          disabled={opening.value !== ""}
+          onClick={() => void see(row.key, one.worst)}
+        >
+          {one.title}
+        </button>
+      </th>
+      <td class="number">{writeOutcome(one)}</td>
+      <td class="number">{`${percentOf(one.median[SHARE])} / ${percentOf(one.greatest[SHARE])}`}</td>
+      <td class="number">
+        {`${secondsOf(one.median[RECOVERY])} / ${secondsOf(one.greatest[RECOVERY])}`}
+      </td>
+      <td class="number">{words.ofRuns(one.held, one.runs)}</td>
+    </tr>
+  );
+}
+
+function Scenarios({ row }: { row: Row }) {
+  return (
+    <table class="table">
+      <caption>{words.scenarios}</caption>
+      <thead>
+        <tr>
+          {words.scenarioHeads.map((head) => (
+            <th key={head} scope="col">
+              {head}
+            </th>
+          ))}
+        </tr>
+      </thead>
+      <tbody>
+        {row.scenarios.map((one) => (
+          <ScenarioRow key={one.scenario} row={row} one={one} />
+        ))}
+      </tbody>
+    </table>
+  );
+}
+
+/** Medians and 90 % quantiles of the trials, by family. */
+function Trials({ row }: { row: Row }) {
+  const families = Object.entries(row.families);
+  return (
+    <table class="table">
+      <caption>{words.trials}</caption>
+      <thead>
+        <tr>
+          <td />
+          {families.map(([name]) => (
+            <th key={name} scope="col">
+              {words.family(name)}
+            </th>
+          ))}
+        </tr>
+      </thead>
+      <tbody>
+        {Object.entries(words.metrics).map(([metric, title]) => (
+          <tr key={metric}>
+            <th scope="row">{title}</th>
+            {families.map(([name, family]) => {
+              const write = (share: "middle" | "most") => {
+                const value = quantileOf(family, metric, share);
+                if (value === null) return "–";
+                const scaled = metric.endsWith("_rad") && !metric.endsWith("_per_rad");
+                const percent = metric.endsWith("_share");
+                return formatNumber(scaled ? toDegrees(value) : percent ? 100 * value : value);
+              };
+              return <td key={name} class="number">{`${write("middle")} / ${write("most")}`}</td>;
+            })}
+          </tr>
+        ))}
+      </tbody>
+    </table>
+  );
+}
+
+/** The chosen row: the law, its tuning, its fixed scenarios and its trials. */
 export function LawCard() {
-  const name = chosen.value.at(-1);
-  const row = name === undefined ? undefined : rowOf(name);
-  const law = name === undefined ? undefined : lawOf(name);
-  if (name === undefined || row === undefined) return null;
-  const paragraphs = (law?.notes ?? "").split(/\n\s*\n/).filter((part) => part !== "");
+  const row = results.value?.rows.find(({ key }) => key === chosen.value);
+  if (row === undefined) return null;
+  const law = lawOf(row.law);
   return (
     <section class="surface card" aria-labelledby="ranking-law-title">
-      <h3 id="ranking-law-title">{titleOf(name)}</h3>
+      <h3 id="ranking-law-title">{titleOfRow(row)}</h3>
+      {law && <p>{law.summary}</p>}
       {law && <Formula tex={law.equation} />}
-      {paragraphs.map((part) => (
-        <p key={part.slice(0, 40)}>{part}</p>
-      ))}
       {law && <Source source={law.source} />}
-      <h4>{words.runs}</h4>
-      <p class="hint">{words.runsHint}</p>
-      <Outcomes row={row} />
+      <Tuning row={row} />
+      <div class="scroll">
+        <Scenarios row={row} />
+        <Trials row={row} />
+      </div>
     </section>
   );
 }

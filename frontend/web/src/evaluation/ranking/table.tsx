@@ -1,11 +1,8 @@
 import type { Row } from "../../core/api/ranking";
-import { dotOf } from "../../core/plots/linestyles";
-import { shortenFault } from "../../core/state/faults";
-import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
-import { ScoreBar, SortHead } from "../../core/widgets/tables";
-import { barOf, COLUMNS, type Column, formatValue, isBest } from "./columns";
-import { choose, confirmed, lineStyles, measuring, opening, rows, see, sort } from "./ranking";
+import { SortHead } from "../../core/widgets/tables";
+import { COLUMNS, type Column } from "./columns";
+import { chosen, opening, results, rows, see, sort, titleOfRow } from "./ranking";
 
 const words = text.ranking;
 
@@ -16,85 +13,39 @@ function Head({ column }: { column: Column }) {
       column={column.key}
       sort={sort.value}
       hint={hint}
-      isDownFirst={column.isHighBetter}
+      isDownFirst={column.isDownFirst}
       onSort={(next) => {
         sort.value = next;
       }}
     >
       {name}
-      {column.unit && <span class="unit">{`\u00a0${column.unit}`}</span>}
     </SortHead>
   );
 }
 
-function Score({ row }: { row: Row }) {
-  const { robustness, trials, accuracy } = row.parts;
-  return (
-    <td class="ranking-score" title={words.scoreOf(robustness, trials, accuracy)}>
-      {row.score.toFixed(2)}
-      <ScoreBar parts={row.parts} />
-    </td>
-  );
-}
-
-/** What stands where there is no number: why the run ended, or that it never settled. */
-const wordsOf = (column: Column, row: Row): string => {
-  const fault = column.faultOf(row);
-  if (fault !== null) return shortenFault(fault);
-  return column.key === "recovery" ? words.never : words.noNumber;
-};
-
 function Cell({ column, row }: { column: Column; row: Row }) {
-  const value = column.read(row);
-  const scenario = column.scenarioOf(row);
-  const shown = value === null ? wordsOf(column, row) : formatValue(column, value);
-  const best = isBest(column, row, rows.value);
-  const look = value === null ? "is-fault" : best ? "is-best" : "";
-  const law = titleOf(row.law);
-  if (column.key === "score" || scenario === null) return <Score row={row} />;
+  const found = results.value;
+  if (found === null) return <td />;
+  const shown = column.write(row, found);
+  const scenario = column.scenarioOf?.(row);
+  if (scenario === undefined) return <td class="number">{shown}</td>;
+  const { name } = words.columns[column.key];
   return (
-    <td class={look}>
+    <td class="number">
       <button
         type="button"
-        title={words.see(law, words.columns[column.key].name)}
-        aria-label={words.seeLabel(law, words.columns[column.key].name, shown, best)}
+        title={words.see(titleOfRow(row), name)}
+        aria-label={words.seeLabel(titleOfRow(row), name, shown)}
         disabled={opening.value !== ""}
-        onClick={() => void see(row.law, scenario)}
+        onClick={() => void see(row.key, scenario)}
       >
         {shown}
-        {value !== null && (
-          <span class="bar is-thin" aria-hidden="true">
-            <i
-              class={column.isHighBetter ? "is-high" : "is-low"}
-              style={{ width: `${100 * barOf(column, value, rows.value)}%` }}
-            />
-          </span>
-        )}
       </button>
     </td>
   );
 }
 
-/** Whether the published row came out again here. */
-function Confirmed({ row }: { row: Row }) {
-  const same = confirmed.value[row.law];
-  if (measuring.value?.law === row.law) {
-    return <span class="ranking-confirmed is-busy" role="img" aria-label={words.measuringLaw} />;
-  }
-  if (same === undefined) return null;
-  return (
-    <span
-      class={`ranking-confirmed ${same ? "" : "is-other"}`}
-      role="img"
-      aria-label={same ? words.same : words.other}
-      title={same ? words.same : words.other}
-    >
-      {same ? "✓" : "≠"}
-    </span>
-  );
-}
-
-/** A law a row; a press on a name brings it into the radar, a press on a number its run. */
+/** An entry a row; its name describes it below, a fixed scenario opens its worst run. */
 export function RankingTable() {
   return (
     <section class="surface scroll" aria-label={words.table}>
@@ -111,28 +62,25 @@ export function RankingTable() {
           </tr>
         </thead>
         <tbody>
-          {rows.value.map((row) => {
-            const lineStyle = lineStyles.value.get(row.law);
-            return (
-              <tr key={row.law}>
-                <th scope="row" class="is-name ranking-law">
-                  <button
-                    type="button"
-                    aria-pressed={lineStyle !== undefined}
-                    title={words.chooseHint}
-                    onClick={() => choose(row.law)}
-                  >
-                    <i class="dot" aria-hidden="true" style={dotOf(lineStyle)} />
-                    {titleOf(row.law)}
-                  </button>
-                  <Confirmed row={row} />
-                </th>
-                {COLUMNS.map((column) => (
-                  <Cell key={column.key} column={column} row={row} />
-                ))}
-              </tr>
-            );
-          })}
+          {rows.value.map((row) => (
+            <tr key={row.key}>
+              <th scope="row" class="is-name">
+                <button
+                  type="button"
+                  aria-pressed={chosen.value === row.key}
+                  title={words.chooseHint}
+                  onClick={() => {
+                    chosen.value = row.key;
+                  }}
+                >
+                  {titleOfRow(row)}
+                </button>
+              </th>
+              {COLUMNS.map((column) => (
+                <Cell key={column.key} column={column} row={row} />
+              ))}
+            </tr>
+          ))}
         </tbody>
       </table>
     </section>

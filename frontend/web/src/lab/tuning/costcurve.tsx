@@ -1,4 +1,4 @@
-import type { Trial } from "../../core/api/jobs";
+import type { Candidate } from "../../core/api/jobs";
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
 import { Curves } from "../design/curves";
@@ -7,12 +7,18 @@ import { bestSoFar } from "./tuning";
 const words = text.tuning;
 
 /** How the best cost falls, over what each candidate cost. */
-export function CostCurve({ trials, budget }: { trials: readonly Trial[]; budget: number }) {
-  const first = trials[0];
+export function CostCurve({
+  candidates,
+  budget,
+}: {
+  candidates: readonly Candidate[];
+  budget: number;
+}) {
+  const first = candidates[0];
   if (first === undefined) return null;
-  const best = bestSoFar(trials);
+  const best = bestSoFar(candidates);
   const last = best.at(-1)?.[1] ?? first.cost;
-  const top = 1.25 * Math.max(first.cost, 1.6 * last);
+  const limits = [last - 0.3, Math.max(first.cost, last + 1.2) + 0.3] as const;
   return (
     <div>
       <Curves
@@ -20,12 +26,12 @@ export function CostCurve({ trials, budget }: { trials: readonly Trial[]; budget
         summary={words.curveSummary(
           formatNumber(first.cost),
           formatNumber(last),
-          trials.length - 1,
+          candidates.length - 1,
         )}
         x={{ limits: [0, budget], label: words.candidates }}
-        y={{ limits: [0, top], label: words.costAxis }}
+        y={{ limits, label: words.costAxis }}
         curves={[
-          { look: "each", points: trials.map(({ number, cost }) => [number, cost] as const) },
+          { look: "each", points: candidates.map(({ number, cost }) => [number, cost] as const) },
           { look: "tried", points: best },
         ]}
       />

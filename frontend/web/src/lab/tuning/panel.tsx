@@ -7,10 +7,11 @@ import { text } from "../../core/text/en";
 import { ErrorLine, Problem, SelectField } from "../../core/widgets/form";
 import { Panel } from "../../core/widgets/panel";
 import { CostCurve } from "./costcurve";
-import { RunTable, ValueTable } from "./tables";
+import { ResultTable, ValueTable } from "./tables";
 import {
   applyBest,
   CONTROL,
+  candidates,
   findNewest,
   isOpen,
   isStarting,
@@ -18,12 +19,11 @@ import {
   problem,
   start,
   stop,
-  trials,
   tuning,
 } from "./tuning";
 
 const words = text.tuning;
-const BUDGET = 124;
+const BUDGET = 128;
 const MAX_BUDGET = 2000;
 
 function close(): void {
@@ -104,9 +104,9 @@ function Found() {
         isUnderWay.value && <p class="hint">{words.first}</p>
       ) : (
         <div class="halves">
-          <CostCurve trials={trials.value} budget={state.budget} />
+          <CostCurve candidates={candidates.value} budget={state.budget} />
           <ValueTable tuning={state} present={present} best={best} />
-          <RunTable tuning={state} present={present} best={best} />
+          <ResultTable tuning={state} present={present} best={best} />
         </div>
       )}
       <div class="row">

@@ -1,4 +1,4 @@
-import type { Trial, Tuning } from "../../core/api/jobs";
+import type { Candidate, Tuning } from "../../core/api/jobs";
 import { text } from "../../core/text/en";
 import { formatInput, formatNumber } from "../../core/units";
 import { Table } from "../../core/widgets/tables";
@@ -7,8 +7,8 @@ const words = text.tuning;
 
 interface FoundProps {
   tuning: Tuning;
-  present: Trial;
-  best: Trial;
+  present: Candidate;
+  best: Candidate;
 }
 
 /** Every number that is searched: as it was, the best, and between which ends. */
@@ -33,50 +33,37 @@ export function ValueTable({ tuning, present, best }: FoundProps) {
   );
 }
 
-/** What each training run cost before, and costs with the best. */
-export function RunTable({ tuning, present, best }: FoundProps) {
+const write = (value: number | null): string => (value === null ? "–" : formatNumber(value));
+
+/** What the present parameters and the best showed: on validation trials once it has ended. */
+export function ResultTable({ tuning, present, best }: FoundProps) {
+  const before = tuning.finals.find(({ number }) => number === present.number) ?? present;
+  const rows = [
+    { name: words.before, one: before },
+    { name: words.tuned, one: best },
+  ];
   return (
-    <Table
-      label={words.runs}
-      class="wide"
-      look="metrics"
-      heads={[
-        words.run,
-        ...[words.runCost, words.runError, words.runStiffness, words.runTorqueChange].map(
-          (head) => (
-            <span key={head} title={words.runHint}>
-              {head}
-            </span>
-          ),
-        ),
-      ]}
-    >
-      {tuning.runs.map((run, index) => {
-        const before = present.runs[index];
-        const after = best.runs[index];
-        if (before === undefined || after === undefined) return null;
-        const formatPair = (old: number, now: number) =>
-          words.arrow(formatNumber(old), formatNumber(now));
-        return (
-          <tr key={run.name}>
-            <th scope="row">
-              {run.title}
-              {after.fault && <span class="bad"> {words.fault}</span>}
-            </th>
-            <td class="strong">{formatPair(before.cost, after.cost)}</td>
-            <td>{formatPair(before.position_error_deg, after.position_error_deg)}</td>
-            <td>
-              {formatPair(before.stiffness_error_nm_per_rad, after.stiffness_error_nm_per_rad)}
-            </td>
-            <td>{formatPair(before.torque_change_nm, after.torque_change_nm)}</td>
+    <div class="wide">
+      <Table
+        label={words.results}
+        look="metrics"
+        caption={tuning.finals.length > 0 ? words.onValidation : words.onTraining}
+        heads={["", ...words.resultHeads]}
+      >
+        {rows.map(({ name, one }) => (
+          <tr key={name}>
+            <th scope="row">{name}</th>
+            <td class="strong">{formatNumber(one.cost)}</td>
+            <td>{one.trials === 0 ? words.tooNoisy : words.held(one.held, one.trials)}</td>
+            <td>{write(one.position_error_deg)}</td>
+            <td>{write(one.stiffness_error_percent)}</td>
+            <td>{write(one.torque_variation_nm_per_s)}</td>
           </tr>
-        );
-      })}
-      <tr>
-        <th scope="row">{words.mean}</th>
-        <td class="strong">{words.arrow(formatNumber(present.cost), formatNumber(best.cost))}</td>
-        <td colSpan={3} />
-      </tr>
-    </Table>
+        ))}
+      </Table>
+      {tuning.noise_limit_nm_per_s !== null && (
+        <p class="hint">{words.noiseLimit(formatNumber(tuning.noise_limit_nm_per_s))}</p>
+      )}
+    </div>
   );
 }

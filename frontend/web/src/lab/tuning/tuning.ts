@@ -2,11 +2,11 @@
 import { computed, signal } from "@preact/signals";
 import { putGains, putObserver, putParameters } from "../../core/api/client";
 import {
+  type Candidate,
   listTunings,
   readTuning,
   startTuning,
   stopTuning,
-  type Trial,
   type Tuning,
 } from "../../core/api/jobs";
 import type { Law } from "../../core/api/types";
@@ -18,7 +18,7 @@ export const CONTROL = "tuning.use";
 
 export const isOpen = signal(false);
 export const tuning = signal<Tuning | null>(null);
-export const trials = signal<readonly Trial[]>([]);
+export const candidates = signal<readonly Candidate[]>([]);
 export const problem = signal<unknown>(null);
 export const isStarting = signal(false);
 
@@ -29,15 +29,15 @@ const poll = polling((error) => {
 });
 
 function take(state: Tuning): void {
-  const known = trials.peek();
-  const fresh = state.trials.filter(({ number }) => number >= known.length);
-  if (fresh.length > 0) trials.value = [...known, ...fresh];
+  const known = candidates.peek();
+  const fresh = state.candidates.filter(({ number }) => number >= known.length);
+  if (fresh.length > 0) candidates.value = [...known, ...fresh];
   tuning.value = state;
 }
 
 async function follow(id: string): Promise<void> {
   const ending = await poll.follow(
-    () => readTuning(id, trials.peek().length),
+    () => readTuning(id, candidates.peek().length),
     (state) => {
       take(state);
       return !isGoing(state);
@@ -51,7 +51,7 @@ export async function start(law: Law, budget: number): Promise<void> {
   isStarting.value = true;
   try {
     const begun = await startTuning(law, budget);
-    trials.value = [];
+    candidates.value = [];
     take(begun);
     void follow(begun.id);
   } catch (error) {
@@ -94,8 +94,8 @@ export async function applyBest(): Promise<boolean> {
   return isSet && (!betas || perform(CONTROL, () => putObserver(...betas)));
 }
 
-/** The best cost so far, after every trial. */
-export function bestSoFar(tried: readonly Trial[]): [number, number][] {
+/** The best cost so far, after every candidate. */
+export function bestSoFar(tried: readonly Candidate[]): [number, number][] {
   let best = Number.POSITIVE_INFINITY;
   return tried.map(({ number, cost }) => {
     best = Math.min(best, cost);

@@ -22,35 +22,19 @@ export const nameOf = (entry: BoardEntry): string =>
 export const COLUMNS: readonly Column[] = [
   { key: "rank", isNumber: true, read: (entry, ranks) => ranks.get(entry.key) ?? null },
   { key: "law", read: (entry) => nameOf(entry).toLocaleLowerCase() },
-  { key: "score", isDownFirst: true, read: ({ standing }) => standing.score },
-  {
-    key: "robustness",
-    isDownFirst: true,
-    isNumber: true,
-    read: ({ standing }) => standing.parts.robustness,
-  },
-  {
-    key: "trials",
-    isDownFirst: true,
-    isNumber: true,
-    read: ({ standing }) => standing.parts.trials,
-  },
-  {
-    key: "accuracy",
-    isDownFirst: true,
-    isNumber: true,
-    read: ({ standing }) => standing.parts.accuracy,
-  },
+  { key: "success", isDownFirst: true, read: ({ standing }) => standing.success },
+  { key: "ended", isNumber: true, read: ({ standing }) => standing.trials_ended },
+  { key: "rms", isNumber: true, read: ({ standing }) => standing.median_rms_deg },
   { key: "cost", isNumber: true, read: ({ standing }) => standing.tick_us },
   { key: "worst", read: ({ standing }) => standing.worst.rms_deg ?? Number.MAX_VALUE },
   { key: "entered", isDownFirst: true, read: (entry) => entry.entered },
 ];
 
-/** Place by score, 1 the best; equal scores share a place. */
+/** Place by success rate, 1 the best; equal rates share a place. */
 export function rankEntries(entries: readonly BoardEntry[]): Ranks {
-  const scores = entries.map(({ standing }) => standing.score);
-  const placeOf = (score: number) => 1 + scores.filter((other) => other > score).length;
-  return new Map(entries.map((one) => [one.key, placeOf(one.standing.score)]));
+  const rates = entries.map(({ standing }) => standing.success);
+  const placeOf = (rate: number) => 1 + rates.filter((other) => other > rate).length;
+  return new Map(entries.map((one) => [one.key, placeOf(one.standing.success)]));
 }
 
 /** In the order asked for; what has no value comes last, what is equal stays in order of rank. */

@@ -2,7 +2,7 @@ import type { BoardEntry } from "../../core/api/ranking";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
-import { ScoreBar, ScoreKey, SortHead } from "../../core/widgets/tables";
+import { SortHead } from "../../core/widgets/tables";
 import { PlaceLink } from "../../runs/list/place";
 import { formatMoment, formatMomentShort } from "../../runs/list/words";
 import { COLUMNS, type Column, nameOf } from "./columns";
@@ -28,23 +28,22 @@ function Head({ column }: { column: Column }) {
   );
 }
 
-/** The score as a bar of its parts, and the ends of its interval over it, from 0 to 1. */
-function Score({ standing }: BoardEntry) {
-  const { score, low, high, parts } = standing;
+/** The success rate with the ends of its interval. */
+function Success({ standing }: BoardEntry) {
+  const { success, low, high, trials, trials_held } = standing;
   return (
-    <td class="is-score">
-      <span class="spread">
-        <strong>{score.toFixed(3)}</strong>{" "}
-        <small title={words.intervalHint}>{words.interval(low.toFixed(3), high.toFixed(3))}</small>
-      </span>
-      <ScoreBar parts={parts} interval={{ low, high }} />
+    <td class="number" title={words.trialsHeld(trials_held, trials)}>
+      <strong>{words.percent(success)}</strong>{" "}
+      <small title={words.intervalHint}>
+        {words.interval(words.percent(low), words.percent(high))}
+      </small>
     </td>
   );
 }
 
 function Row({ entry }: { entry: BoardEntry }) {
   const { standing } = entry;
-  const { worst, parts } = standing;
+  const { worst } = standing;
   const name = nameOf(entry);
   const error = worst.rms_deg === null ? words.ended : words.degrees(formatNumber(worst.rms_deg));
   const look = [
@@ -66,12 +65,11 @@ function Row({ entry }: { entry: BoardEntry }) {
           )}
         </small>
       </th>
-      <Score {...entry} />
-      <td class="number">{parts.robustness.toFixed(2)}</td>
-      <td class="number" title={words.trialsHeld(standing.trials_held, standing.trials)}>
-        {parts.trials.toFixed(2)}
+      <Success {...entry} />
+      <td class="number">{standing.trials_ended}</td>
+      <td class="number">
+        {standing.median_rms_deg === null ? words.ended : formatNumber(standing.median_rms_deg)}
       </td>
-      <td class="number">{parts.accuracy.toFixed(2)}</td>
       <td class="number">{standing.tick_us === null ? "–" : standing.tick_us.toFixed(1)}</td>
       <td class="is-worst">
         <PlaceLink
@@ -102,22 +100,11 @@ const Missing = ({ law }: { law: string }) => (
   </tr>
 );
 
-/** Which colour of a bar is which part of the score. */
-const Key = () => (
-  <p class="hint row">
-    <ScoreKey names={words.weights} />
-    <span>
-      <i class="score-interval" aria-hidden="true" /> {words.intervalKey}
-    </span>
-  </p>
-);
-
 /** An entry a row: the submitted laws among those of the lab. */
 export function BoardTable() {
   return (
     <section class="surface card" aria-labelledby="board-entries">
       <h3 id="board-entries">{words.entries}</h3>
-      <Key />
       <section class="scroll" aria-label={words.table}>
         <table class="table wide-table board-table">
           <caption class="visually-hidden">{words.tableHint}</caption>

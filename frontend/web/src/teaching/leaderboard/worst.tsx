@@ -26,7 +26,7 @@ export function Worst() {
       </div>
     );
   }
-  const { worst, score } = entry.standing;
+  const { worst, success } = entry.standing;
   const name = nameOf(entry);
   const error = worst.rms_deg === null ? words.ended : words.rms(formatNumber(worst.rms_deg));
   return (
@@ -38,7 +38,7 @@ export function Worst() {
           <p>
             {worst.title}: <strong>{error}</strong>
             {worst.problem && ` · ${worst.problem}`} ·{" "}
-            {words.standing(ranks.value.get(entry.key) ?? 0, score.toFixed(3))}
+            {words.standing(ranks.value.get(entry.key) ?? 0, text.leaderboard.percent(success))}
           </p>
           <p class="hint">
             {words.beside(entry.key === PAPERS_LAW ? "FL" : "NDOBC", entry.is_installed)}

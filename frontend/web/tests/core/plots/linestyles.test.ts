@@ -60,19 +60,6 @@ describe("a law has one line style", () => {
     );
   });
 
-  it("in the radar of the Ranking, whichever is chosen last", async () => {
-    const { chosen, lineStyles } = await import("../../../src/evaluation/ranking/ranking");
-    for (const names of [
-      ["adrc", "pd", "ndobc"],
-      ["ndobc", "pd", "adrc"],
-    ]) {
-      chosen.value = names;
-      expect(lineStyles.value.get("ndobc")).toEqual(lineStyleOf(0));
-      expect(lineStyles.value.get("adrc")).toEqual(lineStyleOf(2));
-      expect(lineStyles.value.get("fl")).toBeUndefined();
-    }
-  });
-
   it("in a study, wherever it stands there", async () => {
     const { study } = await import("../../../src/evaluation/studies/studies");
     const { lawLineStyles } = await import("../../../src/evaluation/studies/shown");

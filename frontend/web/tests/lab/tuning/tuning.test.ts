@@ -1,31 +1,39 @@
 import "../../browserless";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
-import type { Trial, Tuning } from "../../../src/core/api/jobs";
+import type { Candidate, Tuning } from "../../../src/core/api/jobs";
 
-const { applyBest, bestSoFar, isUnderWay, problem, start, trials, tuning } = await import(
+const { applyBest, bestSoFar, candidates, isUnderWay, problem, start, tuning } = await import(
   "../../../src/lab/tuning/tuning"
 );
 
-const trial = (number: number, cost: number): Trial => ({
+const trial = (number: number, cost: number): Candidate => ({
   number,
-  stage: number === 0 ? "present" : "sobol",
+  stage: number === 0 ? "present" : "search",
   values: [40],
   cost,
-  runs: [],
+  torque_variation_nm_per_s: 100,
+  held: 1,
+  trials: 1,
+  position_error_deg: 1,
+  stiffness_error_percent: 1,
 });
 
-const state = (status: Tuning["status"], tried: Trial[], more: Partial<Tuning> = {}): Tuning => ({
+const state = (
+  status: Tuning["status"],
+  tried: Candidate[],
+  more: Partial<Tuning> = {},
+): Tuning => ({
   id: "abc",
   law: "fl_integral",
   status,
   budget: 3,
   seed: 0,
   held: {},
-  duration_s: 8,
   axes: [],
-  runs: [],
+  noise_limit_nm_per_s: 295,
+  finals: [],
   tried: tried.length,
-  trials: tried,
+  candidates: tried,
   present: null,
   best: null,
   best_setting: null,
@@ -42,7 +50,7 @@ beforeEach(() => {
   calls = [];
   answers = [];
   tuning.value = null;
-  trials.value = [];
+  candidates.value = [];
   problem.value = null;
   vi.stubGlobal("fetch", async (url: URL, init: RequestInit) => {
     const path = `${url.pathname.split("/api/v1/")[1]}${url.search}`;
@@ -80,7 +88,7 @@ describe("a tuning that is followed", () => {
       "tunings/abc?first=2",
       "tunings/abc?first=2",
     ]);
-    expect(trials.value.map(({ number }) => number)).toEqual([0, 1, 2, 3]);
+    expect(candidates.value.map(({ number }) => number)).toEqual([0, 1, 2, 3]);
     expect([isUnderWay.value, problem.value]).toEqual([false, null]);
   });
 

@@ -34,8 +34,9 @@ const entryOf = (
     is_installed: more.lab ?? false,
     entered: "2026-01-02T03:04:05+00:00",
     standing: {
-      score,
-      parts: { robustness: score, trials: score, accuracy: score },
+      success: score,
+      trials_ended: Math.round(10 * (1 - score)),
+      median_rms_deg: 1 - score,
       tick_us: more.tick === undefined ? 20 : more.tick,
       worst: { rms_deg: more.rms === undefined ? 1 : more.rms },
     },
@@ -55,7 +56,7 @@ describe("the order of the entries", () => {
       .map(({ key: name }) => name)
       .join("");
 
-  test("equal scores share a place, and the next one is skipped", () => {
+  test("equal rates share a place, and the next one is skipped", () => {
     expect([...ranks]).toEqual([
       ["a", 1],
       ["b", 2],
@@ -76,8 +77,8 @@ describe("the order of the entries", () => {
       expect([...orderBy(key, false)].sort().join("")).toBe("abcd");
       expect([...orderBy(key, true)].sort().join("")).toBe("abcd");
     }
-    expect(orderBy("score", true)).toBe("abcd");
-    expect(orderBy("score", false)).toBe("dbca");
+    expect(orderBy("success", true)).toBe("abcd");
+    expect(orderBy("success", false)).toBe("dbca");
   });
 });
 

@@ -1,0 +1,76 @@
+"""Entries: what has a row in the ranking, a law with parameters."""
+
+from typing import Literal, NamedTuple
+
+from svsa.control.installed import (
+    PAPERS_LAW,
+    check_installed,
+    get_title,
+    has_own_parameters,
+    list_law_names,
+)
+from svsa.evaluation.scenario import Scenario
+from svsa.evaluation.tuning.tuned_law import TunedLaw, load_tuned_laws
+from svsa.runs.configuration import Configuration, Design, Lane, load_prototype
+
+Variant = Literal["tuned", "declared", "default"]
+DECLARED = f"{PAPERS_LAW}_declared"
+"""Key of NDOBC with the gains declared for the paper, which the others are compared with."""
+
+
+class Entry(NamedTuple):
+    """A law with parameters.
+
+    Attributes:
+        law: Name of the law.
+        variant: tuned: by `svsa tune --all`. declared: NDOBC with the gains declared for the paper,
+            which prints none. default: the law's defaults, of a law that was not tuned.
+        design: Gains, observer and parameters.
+    """
+
+    law: str
+    variant: Variant
+    design: Design
+
+    @property
+    def tuning(self) -> TunedLaw | None:
+        """What it was tuned on; None for parameters that were not tuned."""
+        return load_tuned_laws().get(self.law) if self.variant == "tuned" else None
+
+    @property
+    def key(self) -> str:
+        """Its name among the rows."""
+        return DECLARED if self.variant == "declared" else self.law
+
+    def build_configuration(self, scenario: Scenario) -> Configuration:
+        """Its run of a scenario."""
+        own = {name: getattr(self.design, name) for name in ("gains", "observer", "parameters")}
+        return scenario.build_configuration(self.law).changed(**own)
+
+    def build_lane(self) -> Lane:
+        """Its controller as a lane of any run."""
+        if has_own_parameters(self.law):
+            return Lane(law=self.law, parameters=self.design.parameters.get(self.law))
+        return Lane(law=self.law, gains=self.design.gains, observer=self.design.observer)
+
+
+def get_entry_title(key: str) -> str:
+    """The title of a row: the law's, and of NDOBC which of its two."""
+    if key == DECLARED:
+        return f"{get_title(PAPERS_LAW)}, declared gains"
+    return get_title(key)
+
+
+def build_entry(key: str) -> Entry:
+    """The entry of a row's key; raises `ParameterError` for a law that is not installed."""
+    if key == DECLARED:
+        return Entry(PAPERS_LAW, "declared", load_prototype())
+    tuned = load_tuned_laws().get(check_installed(key))
+    if tuned is None:
+        return Entry(key, "default", load_prototype())
+    return Entry(key, "tuned", tuned.build_design())
+
+
+def list_entry_keys() -> list[str]:
+    """The keys of all rows: NDOBC as declared, then every installed law."""
+    return [DECLARED, *list_law_names()]

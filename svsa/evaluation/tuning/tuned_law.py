@@ -1,0 +1,105 @@
+"""Tuned laws as files: what each was tuned on, and the values that the ranking uses."""
+
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+
+from pydantic import ValidationError
+
+from svsa.errors import ParameterError, Violation
+from svsa.evaluation.tuning.judge import find_noise_limit
+from svsa.evaluation.tuning.search_space import build_space
+from svsa.evaluation.tuning.tuner import Tuned
+from svsa.inputs.checked import Checked, Number, Whole, quantity
+from svsa.inputs.extras import __version__
+from svsa.runs.configuration import Design, load_prototype
+
+FOLDER = Path(__file__).parent / "tuned"
+
+
+class Costs(Checked):
+    """What parameters show on the validation trials."""
+
+    cost: Number = quantity("1", "Mean over the trials; above the noise limit 5 and more")
+    held: Whole = quantity("", "Trials that held", ge=0)
+    torque_variation_nm_per_s: Number | None = quantity(
+        "N·m/s", "Total variation of u1 at rest; None for a fault at rest"
+    )
+
+
+class TunedLaw(Checked):
+    """The result of one tuning for the ranking."""
+
+    law: str = quantity("", "Name of the law")
+    version: str = quantity("", "Version of the lab that tuned it")
+    method: str = quantity("", "How the parameters were searched")
+    candidates: Whole = quantity("", "Candidates that were tried", ge=0)
+    trials: Whole = quantity("", "Training trials of each candidate, half of each family", ge=1)
+    validation: Whole = quantity("", "Validation trials of the best ten", ge=1)
+    seed: Whole = quantity("", "Seed of search, training and validation trials", ge=0)
+    noise_limit_nm_per_s: Number = quantity("N·m/s", "Limit of the torque variation at rest")
+    before: Costs = quantity("", "The parameters that the search began from")
+    after: Costs = quantity("", "The tuned parameters")
+    values: dict[str, Number] = quantity("", "Tuned values by name")
+
+    def build_design(self) -> Design:
+        """The prototype's design with the tuned values.
+
+        Raises `ParameterError` where the law no longer has these parameters.
+        """
+        space, design = build_space(self.law), load_prototype()
+        labels = [axis.label for axis in space.axes]
+        if labels != list(self.values):
+            raise ParameterError(Violation("values", [*self.values], "", f"those of {labels}"))
+        return space.set_design(design, tuple(self.values.values()))
+
+
+def build_tuned_law(tuned: Tuned) -> TunedLaw:
+    """The file's content of a search that is complete."""
+    before, after = (
+        Costs(
+            cost=one.judgment.cost,
+            held=one.judgment.held,
+            torque_variation_nm_per_s=(
+                variation if (variation := one.judgment.torque_variation_nm_per_s) < 1e9 else None
+            ),
+        )
+        for one in (tuned.finals[0], tuned.best)
+    )
+    labels = [axis.label for axis in tuned.space.axes]
+    return TunedLaw(
+        law=tuned.space.law,
+        version=__version__,
+        method="CMA-ES",
+        candidates=tuned.budget,
+        trials=tuned.trials,
+        validation=tuned.validation,
+        seed=tuned.seed,
+        noise_limit_nm_per_s=find_noise_limit(),
+        before=before,
+        after=after,
+        values=dict(zip(labels, tuned.best.values, strict=True)),
+    )
+
+
+def write_tuned_law(folder: Path, tuned: TunedLaw) -> None:
+    """Write LAW.json into a folder."""
+    folder.mkdir(parents=True, exist_ok=True)
+    text = tuned.model_dump_json(indent=1) + "\n"
+    (folder / f"{tuned.law}.json").write_text(text, encoding="utf-8")
+
+
+def list_tuned_laws(folder: Path = FOLDER) -> Iterator[TunedLaw]:
+    """The tuned laws of a folder; raises `ParameterError` for a file that is none."""
+    for path in sorted(folder.glob("*.json")):
+        try:
+            yield TunedLaw.model_validate_json(path.read_bytes())
+        except (OSError, ValidationError) as error:
+            bound = f"a file that svsa tune --all writes ({error})"
+            raise ParameterError(Violation("tuned law", path, "", bound)) from None
+
+
+@cache
+def load_tuned_laws() -> dict[str, TunedLaw]:
+    """The laws that were tuned for the published ranking, by name."""
+    return {one.law: one for one in list_tuned_laws()}
