@@ -75,7 +75,7 @@ function MarginLines({ found }: { found: Margins }) {
     ],
   ];
   return (
-    <dl class="stability-lines" aria-label={words.margins(sensing)}>
+    <dl class="facts small" aria-label={words.margins(sensing)}>
       {lines.map(([name, hint, value]) => (
         <div key={name} title={hint}>
           <dt>{name}</dt>
