@@ -3,20 +3,16 @@ import { useState } from "preact/hooks";
 import type { Follows } from "../../core/api/design";
 import type { PositionReference, SessionState, StiffnessReference } from "../../core/api/types";
 import { perform } from "../../core/state/actions";
-import { kinds } from "../../core/state/kinds";
 import { text } from "../../core/text/en";
 import { Choice, type Option, Problem } from "../../core/widgets/form";
 import { Group } from "./group";
-import { Shaped } from "./shaped";
+import { Shaped, titleOf } from "./shaped";
 
 type Kind = "sine" | "constant" | "other";
 
 /** A sine and a constant have fields; every other reference has a beginning and an end. */
 const kindOf = ({ kind }: PositionReference | StiffnessReference): Kind =>
   kind === "sine" || kind === "constant" ? kind : "other";
-
-const titleOf = (follows: Follows, kind: string): string =>
-  kinds.value?.[follows].find((one) => one.kind === kind)?.title ?? kind;
 
 const nameOf = (kinds: readonly Option<Kind>[], kind: Kind): string =>
   kinds.find(({ value }) => value === kind)?.label ?? "";

@@ -27,6 +27,13 @@ import {
 
 const words = text.references;
 const isListed = (shape: string): shape is Listed => shape === "steps" || shape === "series";
+
+/** What a kind of reference is called in the form. */
+export const titleOf = (follows: Follows, kind: string): string =>
+  isListed(kind)
+    ? words.kinds[kind]
+    : (kinds.value?.[follows].find((one) => one.kind === kind)?.title ?? kind);
+
 const PAUSE_MS = 300;
 const repeat = (follows: Follows) =>
   follows === "position" ? repeatPosition() : repeatStiffness();
@@ -66,11 +73,10 @@ function listLevels({ low, high, hold, count }: Record<Input, string>): string |
 /** A reference with a beginning and an end: typed or from a CSV, looked at, then applied. */
 export function Shaped({ follows, held }: { follows: Follows; held: string }) {
   const described = kinds.value?.[follows].filter(({ form }) => form !== null) ?? [];
-  const shapes = [
-    { value: "steps", label: words.kinds.steps },
-    ...described.map((one) => ({ value: one.kind, label: one.title })),
-    { value: "series", label: words.kinds.series },
-  ];
+  const shapes = ["steps", ...described.map((one) => one.kind), "series"].map((value) => ({
+    value,
+    label: titleOf(follows, value),
+  }));
   const isKnown = shapes.some(({ value }) => value === held);
   const [shape, setShape] = useState(isKnown ? held : "steps");
   const [steps, setSteps] = useState(FIRST[follows]);
