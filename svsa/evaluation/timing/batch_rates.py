@@ -15,7 +15,7 @@ from svsa.simulation.plant.effects import EFFECTS, EVERY, IDEAL, RIG, Effects
 
 SWITCHED: Mapping[str, Effects] = {
     "ideal": IDEAL,
-    **{one.name: Effects(**{one.name: one.on}) for one in EFFECTS if one.preset},
+    **{one.name: Effects(**{one.name: one.on}) for one in EFFECTS if one.on is not None},
     "estimation": Effects(encoders=RIG.encoders, estimation=RIG.estimation),
     "rig": RIG,
     "every": EVERY,

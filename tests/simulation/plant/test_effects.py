@@ -18,7 +18,7 @@ from svsa.simulation.plant.effects.noise import SensorNoise
 from tests.runs.session.sessions import EVERY_EFFECT, advance, build_configuration
 
 FIGURES = ("4a", "4b", "5")
-ALONE = {one.name: one.on if one.preset else not one.field.default for one in EFFECTS}
+ALONE = {one.name: not one.field.default if one.on is None else one.on for one in EFFECTS}
 WITHOUT_SIZE = {
     "friction": Friction(coulomb1_nm=0.0, coulomb2_nm=0.0),
     "noise": SensorNoise(motor_std_rad=0.0, deflection_std_rad=0.0),

@@ -29,7 +29,7 @@ class Effect:
         field: A `quantity` with its meaning; of a number also unit and bounds. Its default is off.
         words: What a list of runs says where it is on; {} is its value.
         preset: The first preset in which it is on; None for none.
-        on: Its value there.
+        on: Its value there, and where it is tried alone; None of one that is only switched off.
         phrase: What the description of that preset says of it.
         off: Its constants in the compiled loop where it is off: a number or a named tuple of
             numbers; None for an effect that needs none there.
