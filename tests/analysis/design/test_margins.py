@@ -59,13 +59,13 @@ def grow(
     blocks, law, inputs, period = run.blocks[0], run.laws[0], run.inputs, run.period_s
     lane = build_lane_state(run.lanes[0].memory.copy(), State(1e-5, 0.0, 0.0, 0.0, 1e-5, 0.0))
     x, known, estimate, applied = lane.x, lane.x, Disturbance(0.0, 0.0, 0.0), Torque(0.0, 0.0)
-    queue = [applied] * (1 + blocks.effects.delay + late)
+    queue = [applied] * (1 + blocks.effects.delay_samples + late)
     size = []
     for tick in range(2000):
         call, measured = build_call(law, lane.memory), Positions(x.q, x.theta1, x.theta2)
         _, torque = decide(blocks, call, inputs, known, estimate, applied, measured, tick)
         queue = [torque, *queue[:-1]]
-        applied = queue[blocks.effects.delay]
+        applied = queue[blocks.effects.delay_samples]
         acting = Torque(gains[0] * queue[-1].u1, gains[1] * queue[-1].u2)
         x = integrate_period(
             blocks.plant, blocks.effects, x, acting, acting, inputs.loads, tick, period, 1
