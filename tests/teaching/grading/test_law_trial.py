@@ -2,7 +2,7 @@
 
 import pytest
 
-from svsa.teaching.grading import law_trial
+from svsa.teaching.grading import law_runs
 from svsa.teaching.grading.law_runs import LawRun
 from svsa.teaching.grading.law_trial import judge_trial, try_law
 from svsa.teaching.isolation import confinement
@@ -52,7 +52,7 @@ def test_where_nothing_isolates_a_law_is_kept_untried(monkeypatch):
     check_isolation.cache_clear()
     with monkeypatch.context() as patched:
         patched.setattr(confinement.shutil, "which", lambda name: None)
-        patched.setattr(law_trial, "run_law", fail)
+        patched.setattr(law_runs, "LawProcess", fail)
         found = try_law(LAZY.decode())
     check_isolation.cache_clear()
     assert found.verdict == "untried"
