@@ -45,7 +45,7 @@ Report = Callable[[float], None]
 _SIZES = tuple(name for name in METRICS if name != "recovery_time_s")
 
 
-class TestSet:
+class TrialSet:
     """The trials of a seed, built once for all laws."""
 
     def __init__(self, seed: int = PUBLIC_SEED, trials: int = TRIALS) -> None:
@@ -67,7 +67,7 @@ class TestSet:
         return np.concatenate(parts)
 
 
-def measure_entry(entry: Entry, test_set: TestSet, report: Report = lambda done: None) -> Row:
+def measure_entry(entry: Entry, test_set: TrialSet, report: Report = lambda done: None) -> Row:
     """The row of an entry. report: receives the share that is done."""
     summaries = test_set.run(entry, lambda done: report(0.7 * done))
     families = {

@@ -11,7 +11,7 @@ from pydantic import ValidationError
 from svsa.errors import ParameterError, Violation
 from svsa.evaluation.metrics import HELD
 from svsa.evaluation.ranking.entry import DECLARED, build_entry
-from svsa.evaluation.ranking.measure import TestSet, measure_entry
+from svsa.evaluation.ranking.measure import TrialSet, measure_entry
 from svsa.evaluation.ranking.row import Row
 from svsa.evaluation.statistics import compute_mcnemar_p, correct_holm
 from svsa.evaluation.trials import DURATION_S, FAMILIES, PROTOCOL
@@ -133,7 +133,7 @@ def measure_entries(
     report: receives the key of an entry and the share of it that is done.
     """
     rows = {row.key: row for row in known}
-    test_set = TestSet(seed, trials)
+    test_set = TrialSet(seed, trials)
     for key in keys:
         rows[key] = measure_entry(
             build_entry(key), test_set, lambda done, key=key: report(key, done)

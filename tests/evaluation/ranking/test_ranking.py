@@ -9,7 +9,7 @@ from svsa.control.installed import PAPERS_LAW
 from svsa.evaluation.metrics import find_held
 from svsa.evaluation.ranking.entry import DECLARED, build_entry, list_entry_keys
 from svsa.evaluation.ranking.measure import (
-    TestSet,
+    TrialSet,
     build_family_outcome,
     measure_entry,
     measure_fixed,
@@ -81,7 +81,7 @@ def test_ndobc_with_the_declared_gains_faults_at_one_sign_only():
 def test_a_row_is_measured_as_its_runs_are():
     """Trials in a batch are those of each run alone; distributions and held bits fit."""
     entry = build_entry(DECLARED)
-    row = measure_entry(entry, TestSet(5, 6))
+    row = measure_entry(entry, TrialSet(5, 6))
     trials = [one for one in build_test_set(5, 12) if one.name[6] == "A"]
     runs = np.concatenate([run_scenario(entry, one) for one in trials])
     found = row.families["A"]

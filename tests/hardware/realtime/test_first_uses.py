@@ -5,7 +5,7 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from importlib.metadata import EntryPoint
-from typing import Any, NamedTuple, get_args
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
@@ -27,8 +27,8 @@ from svsa.runs.blocks import bind_law, build_blocks
 from svsa.runs.command import COMMANDS
 from svsa.runs.configuration import Lane
 from svsa.runs.paper import get_figure
-from svsa.simulation.plant.loads import Load
-from svsa.simulation.reference.kinds import AnyPosition, AnyStiffness
+from svsa.simulation.plant.loads import LOADS
+from svsa.simulation.reference.kinds import POSITIONS, STIFFNESSES
 from tests.hardware.realtime.first_uses import Rehearsal, list_other_parameters
 from tests.hardware.wired_bench import WiredBench
 
@@ -51,13 +51,8 @@ def test_first_uses_load_nothing_in_a_tick(state: str) -> None:
 def test_the_warm_up_has_every_kind_of_command_reference_and_load() -> None:
     changes = list_changes(FIGURE, list(list_law_names()))
     assert {kind for kind, _ in changes} == set(COMMANDS)
-    load_union, *_ = get_args(Load)
-    for kind, union in (
-        ("position", AnyPosition),
-        ("stiffness", AnyStiffness),
-        ("load", load_union),
-    ):
-        kinds = {one.model_fields["kind"].default for one in get_args(union)}
+    for kind, found in (("position", POSITIONS), ("stiffness", STIFFNESSES), ("load", LOADS)):
+        kinds = {one.model_fields["kind"].default for one in found}
         assert {argument["kind"] for of, argument in changes if of == kind} == kinds
 
 

@@ -10,7 +10,7 @@ from svsa.cli import app
 from svsa.errors import StateError
 from svsa.evaluation.metrics import find_held
 from svsa.evaluation.ranking.entry import build_entry
-from svsa.evaluation.ranking.measure import TestSet
+from svsa.evaluation.ranking.measure import TrialSet
 from svsa.evaluation.ranking.scenarios import PUBLIC_SEED
 from svsa.inputs.extras import __version__
 from svsa.teaching.grading.law_runs import LawRun, run_installed
@@ -68,7 +68,7 @@ def test_on_the_public_seed_a_law_holds_what_it_holds_in_the_ranking():
     season = build_season(PUBLIC_SEED)
     season = season._replace(singles=season.singles[:1], trials=season.trials[:16])
     standing = stand(season, lambda one: run_installed("fl", one))
-    trials = TestSet(PUBLIC_SEED, 8).run(build_entry("fl"), lambda done: None)
+    trials = TrialSet(PUBLIC_SEED, 8).run(build_entry("fl"), lambda done: None)
     assert (standing.trials, standing.trials_held) == (16, int(find_held(trials).sum()))
     assert standing.tick_us is not None
     assert standing.tick_us > 0
