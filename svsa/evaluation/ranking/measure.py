@@ -138,7 +138,7 @@ def measure_fixed(entry: Entry, fixed: FixedScenario) -> ScenarioOutcome:
             name: round_number(compute_quantiles(values, (0.5,))[0])
             for name, values in metrics.items()
         },
-        greatest={name: round_number(float(values.max())) for name, values in metrics.items()},
+        worst_values={name: round_number(float(values.max())) for name, values in metrics.items()},
     )
 
 

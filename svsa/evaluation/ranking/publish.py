@@ -149,7 +149,7 @@ def _build_scenarios(row: Row) -> list[str]:
     rows = []
     for one in row.scenarios:
         pairs = [
-            " / ".join(write(values[metric]) for values in (one.median, one.greatest))
+            " / ".join(write(values[metric]) for values in (one.median, one.worst_values))
             for metric, write in (
                 (PEAK, format_degrees),
                 (SHARE, lambda value: format_number(None if value is None else 100.0 * value)),

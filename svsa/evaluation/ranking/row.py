@@ -47,7 +47,7 @@ class ScenarioOutcome(Checked):
     held: Whole = quantity("", "Variants that held", ge=0)
     worst: str = quantity("", "Name of the worst variant")
     median: dict[str, Number | None] = quantity("", "Median of each metric over the variants")
-    greatest: dict[str, Number | None] = quantity("", "Worst value of each metric")
+    worst_values: dict[str, Number | None] = quantity("", "Worst value of each metric")
 
 
 class Noise(Checked):

@@ -47,7 +47,7 @@ def format_degrees(value: float | None) -> str:
 def format_fixed(one: ScenarioOutcome) -> str:
     """Median and worst peak of a fixed scenario in degrees, and its faults."""
     faults = f", {one.faults} of {one.runs}" if one.faults else ""
-    return f"{format_degrees(one.median[PEAK])} / {format_degrees(one.greatest[PEAK])}{faults}"
+    return f"{format_degrees(one.median[PEAK])} / {format_degrees(one.worst_values[PEAK])}{faults}"
 
 
 def format_p(value: float | None) -> str:

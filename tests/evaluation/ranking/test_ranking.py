@@ -73,7 +73,7 @@ def test_ndobc_with_the_declared_gains_faults_at_one_sign_only():
     (rig,) = (one for one in build_fixed_scenarios() if one.name == "rig_4a")
     found = measure_fixed(build_entry(DECLARED), rig)
     assert (found.runs, found.faults, found.held) == (16, 8, 8)
-    assert found.greatest["peak_position_error_rad"] is None
+    assert found.worst_values["peak_position_error_rad"] is None
     assert find_scenario(found.worst).title.startswith(rig.title)
 
 

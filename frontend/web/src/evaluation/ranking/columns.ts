@@ -45,7 +45,7 @@ const outcomeOf = (row: Row, scenario: string): Outcome | undefined =>
 /** Median and worst peak error, and faults, of a fixed scenario. */
 export const writeOutcome = (one: Outcome | undefined): string => {
   if (one === undefined) return "";
-  const pair = `${writeDegrees(one.median[PEAK])} / ${writeDegrees(one.greatest[PEAK])}`;
+  const pair = `${writeDegrees(one.median[PEAK])} / ${writeDegrees(one.worst_values[PEAK])}`;
   return one.faults > 0 ? words.withFaults(pair, one.faults, one.runs) : pair;
 };
 

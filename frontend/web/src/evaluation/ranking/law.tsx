@@ -58,9 +58,9 @@ function ScenarioRow({ row, one }: { row: Row; one: Outcome }) {
         </button>
       </th>
       <td class="number">{writeOutcome(one)}</td>
-      <td class="number">{`${percentOf(one.median[SHARE])} / ${percentOf(one.greatest[SHARE])}`}</td>
+      <td class="number">{`${percentOf(one.median[SHARE])} / ${percentOf(one.worst_values[SHARE])}`}</td>
       <td class="number">
-        {`${secondsOf(one.median[RECOVERY])} / ${secondsOf(one.greatest[RECOVERY])}`}
+        {`${secondsOf(one.median[RECOVERY])} / ${secondsOf(one.worst_values[RECOVERY])}`}
       </td>
       <td class="number">{words.ofRuns(one.held, one.runs)}</td>
     </tr>

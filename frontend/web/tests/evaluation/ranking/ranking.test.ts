@@ -37,7 +37,7 @@ const rowOf = (
         faults: mass === null ? 9 : 0,
         worst: "mass.negative.3",
         median: { [PEAK]: mass },
-        greatest: { [PEAK]: null },
+        worst_values: { [PEAK]: null },
       },
     ],
   }) as unknown as Row;
