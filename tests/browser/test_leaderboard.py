@@ -45,12 +45,12 @@ def test_it_is_sorted_and_left_for_a_worst_run_and_survives_a_reload(
 ) -> None:
     open_page(page, lab_with_board)
     go_to_page(page, "Leaderboard")
-    table = page.get_by_role("region", name=re.compile("^Rank, score"))
+    table = page.get_by_role("region", name=re.compile("^Rank, success rate"))
     rows = table.get_by_role("row")
     expect(rows.nth(1)).to_contain_text("NDOBC")
     expect(table.get_by_role("row", name=re.compile("Mine by Ada"))).to_be_visible()
     expect(table.get_by_text("not measured in this season yet").first).to_be_visible()
-    head = table.get_by_role("columnheader", name="Accuracy")
+    head = table.get_by_role("columnheader", name="Held")
     head.get_by_role("button").press("Enter")
     expect(head).to_have_attribute("aria-sort", "descending")
     # Else the document would be as long as the table, and the window scroll beside the page.
@@ -70,7 +70,7 @@ def test_it_is_sorted_and_left_for_a_worst_run_and_survives_a_reload(
 @pytest.mark.exhaustive
 def test_the_board_has_no_violation(page: Page, lab_with_board: Lab) -> None:
     page.goto(lab_with_board.url + "/?leaderboard=all")
-    expect(page.get_by_role("region", name=re.compile("^Rank, score"))).to_be_visible()
+    expect(page.get_by_role("region", name=re.compile("^Rank, success rate"))).to_be_visible()
     expect_no_violation(page, WIDE, PHONE)
     assert page.evaluate(ALL_WITHIN_THE_PAGE)
 

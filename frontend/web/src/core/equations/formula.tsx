@@ -20,7 +20,12 @@ async function typeset(
   const { default: katex } = await loadKatex();
   if (!isWanted()) return;
   katex.render(tex, element, { displayMode: isDisplayed, throwOnError: false });
-  if (element.scrollWidth > element.clientWidth && isDisplayed) element.tabIndex = 0;
+  if (!isDisplayed) return;
+  // What scrolls is reached by keyboard; the width changes with the window.
+  new ResizeObserver(() => {
+    if (element.scrollWidth > element.clientWidth) element.tabIndex = 0;
+    else element.removeAttribute("tabindex");
+  }).observe(element);
 }
 
 /** A formula, typeset, and as MathML for screen readers. */

@@ -53,7 +53,7 @@ export const tuningText = {
     results: "Results, before and best",
     onValidation: "On the validation trials",
     onTraining: "On the training trials",
-    resultHeads: ["cost", "held", "error, °", "σ error, %", "noise, N·m/s"],
+    resultHeads: ["values", "cost", "held", "error, °", "σ error, %", "noise, N·m/s"],
     held: (held: number, trials: number) => `${held} of ${trials}`,
     tooNoisy: "too noisy",
     noiseLimit: (limit: string) =>

@@ -48,7 +48,7 @@ export function ResultTable({ tuning, present, best }: FoundProps) {
         label={words.results}
         look="metrics"
         caption={tuning.finals.length > 0 ? words.onValidation : words.onTraining}
-        heads={["", ...words.resultHeads]}
+        heads={words.resultHeads}
       >
         {rows.map(({ name, one }) => (
           <tr key={name}>
