@@ -23,9 +23,9 @@ def test_it_shows_the_run_of_the_board_beside_ndobc(tmp_path, monkeypatch):
     assert build_worst_run_page(board, entry) == "page"
     (title, period_s, lanes, channels, samples, mass, details), named = given[0]
     assert title == f"{lanes[0]}: {entry.standing.worst.title}"
-    assert lanes[1].startswith("NDOBC")
-    assert samples.shape[1:] == (2, len(channels))
-    assert mass.shape == samples.shape[:1]
+    assert lanes[1] == "NDOBC, declared gains"
+    assert samples.shape == (11_000, 2, len(channels))
+    assert mass.shape == (11_000,)
     assert details["configuration"]["law"] == lanes[0]
     assert [one.kind for one in named["events"]] == ["load_on"]
     window = named["window"]
