@@ -14,6 +14,7 @@ from svsa.runs.loads import follow_loads
 from svsa.simulation.loop.batch import Batch, build_batch, run_batch
 from svsa.simulation.loop.batch_inputs import join_inputs
 from svsa.simulation.loop.batch_law import is_for_vectors
+from svsa.simulation.loop.batch_stepwise import GroupController, run_batch_stepwise
 from svsa.simulation.loop.lane import Blocks, Inputs
 from svsa.simulation.loop.tally import SUMMARY
 from svsa.simulation.plant.load_table import LoadTable, build_load_table
@@ -30,7 +31,7 @@ def run_configurations(
     steps a period.
     """
     summaries = np.empty(len(configurations), dtype=SUMMARY)
-    for numbers in _find_alike(configurations):
+    for numbers in find_alike(configurations):
         chosen = [configurations[number] for number in numbers]
         period = chosen[0].sampling.period_s
         ticks, begin = round(duration_s / period), round(begin_s / period)
@@ -38,8 +39,34 @@ def run_configurations(
     return summaries
 
 
-def _find_alike(configurations: Sequence[Configuration]) -> list[list[int]]:
-    """The numbers of those that go side by side."""
+def run_group(
+    configurations: Sequence[Configuration],
+    controller: GroupController,
+    duration_s: float,
+    begin_s: float = 0.0,
+) -> np.ndarray:
+    """At most eight alike configurations (see `find_alike`) under a controller in plain Python.
+
+    Args:
+        configurations: Their laws do not count.
+        controller: Asked once a tick for all of them.
+        duration_s: From t = 0, s.
+        begin_s: When measuring begins, s.
+
+    Returns:
+        An array (runs,) of `SUMMARY`, in their order.
+
+    Raises:
+        BaseException: What the controller raises.
+    """
+    part = _build_part(configurations, 1)
+    period = part.blocks[0].period
+    ticks, begin = round(duration_s / period), round(begin_s / period)
+    return run_batch_stepwise(part.blocks, part.inputs, controller, ticks, begin)
+
+
+def find_alike(configurations: Sequence[Configuration]) -> list[list[int]]:
+    """The numbers of those that can run side by side."""
     alike: dict[tuple[object, ...], list[int]] = {}
     for number, c in enumerate(configurations):
         reaction = c.actuator.reaction_torque, c.nominal.reaction_torque
@@ -58,7 +85,7 @@ class RunSet:
         self.count = len(configurations)
         self._parts = [
             (numbers, _build_part([configurations[number] for number in numbers], steps))
-            for numbers in _find_alike(configurations)
+            for numbers in find_alike(configurations)
         ]
 
     def run(

@@ -2,9 +2,9 @@
 
     python -m tests.benchmarks.grading [SUBMISSIONS] [SECONDS]
 
-Every second one is a law (twenty draws of ten seconds, isolated), the others have two recorded
-runs of twelve seconds. Graded as `svsa grade` does, side by side, the start of its processes
-included; no more is begun after the time is up. Says what an hour would hold, and how busy the
+Every second one is a law (isolated; as many trials as its grade takes), the others have two
+recorded runs of twelve seconds. Graded as `svsa grade` does, side by side, with the start of its
+processes; no more is begun after the time is up. Says what an hour would hold, and how busy the
 machine was.
 """
 

@@ -41,6 +41,8 @@ from svsa.simulation.loop.batch_inputs import (
 )
 from svsa.simulation.loop.batch_law import (
     GroupLaw,
+    PythonLaw,
+    compute_in_python,
     compute_one_by_one,
     compute_side_by_side,
     find_addresses,
@@ -86,7 +88,7 @@ class Beginning(NamedTuple):
 class Batch(NamedTuple):
     """Runs of one law, eight to a group; the last group repeats its last.
 
-    control: of the law, None where it is called for one run after the other. memory: its layout,
+    control: of the law, None where it is called by its address. memory: its layout,
     see `lay_out_record`. layout: a `Beginning` of `svsa.numerics.simd.record`, see `build_reader`.
     rows: (groups, rows, 8), the values of the layout. memories: where the law begins, (groups,
     numbers, 8), or (groups, 8, numbers) without a control. inputs: see `join_inputs`. runs: their
@@ -116,16 +118,23 @@ def build_batch(
     inputs: of all, see `join_inputs`. Raises `ParameterError` where the period or a whole number,
     but for the seed, is not the same in all of them.
     """
-    start = Start(*build_lane_state(law.start_memory())[:-1])
     given = [find_addresses(one) for one in laws] or constants
-    runs = [Beginning(*parts, start) for parts in zip(blocks, given, strict=True)]
-    numbers = pack_all(runs).view(np.float64).reshape(len(runs), -1)
-    layout = _lay_out(runs[0], "", iter(numbers.view(np.int64).T), count())
-    memories = group(np.tile(law.start_memory(), (len(runs), 1)))
+    layout, rows = pack_beginnings(blocks, given, law.start_memory())
+    memories = group(np.tile(law.start_memory(), (len(blocks), 1)))
     if laws:
         memories = np.ascontiguousarray(memories.transpose(0, 2, 1))
     control, memory = (None, None) if laws else (law.control, lay_out_record(law.memory()))
-    return Batch(control, memory, layout, group(numbers), memories, inputs, len(runs), tuple(laws))
+    return Batch(control, memory, layout, rows, memories, inputs, len(blocks), tuple(laws))
+
+
+def pack_beginnings(
+    blocks: Sequence[Blocks], constants: Sequence[tuple[Any, ...]], memory: np.ndarray
+) -> tuple[Beginning, np.ndarray]:
+    """The layout of runs, and their numbers (groups, rows, 8). memory: of the law at the start."""
+    start = Start(*build_lane_state(memory)[:-1])
+    runs = [Beginning(*parts, start) for parts in zip(blocks, constants, strict=True)]
+    numbers = pack_all(runs).view(np.float64).reshape(len(runs), -1)
+    return _lay_out(runs[0], "", iter(numbers.view(np.int64).T), count()), group(numbers)
 
 
 def _lay_out(values: Any, name: str, columns: Iterator[np.ndarray], rows: Iterator[int]) -> Any:
@@ -181,7 +190,10 @@ def run_batch(batch: Batch, ticks: int, begin: int = 0) -> np.ndarray:
 @cache
 def _specialize(control: Any, memory: Any, layout: Beginning) -> Any:
     """`advance_groups` and `run_tick` with this law and this layout."""
-    source = control.py_func if control else compute_one_by_one.py_func
+    uncompiled = (
+        compute_in_python if isinstance(layout.constants, PythonLaw) else compute_one_by_one
+    )
+    source = (control or uncompiled).py_func
     # The layout is part of the name in the cache, since its literals are part of the code.
     parts = map(find_fingerprint, (source, advance_groups))
     text = repr((source.__module__, source.__qualname__, *parts, memory, layout))
@@ -189,7 +201,7 @@ def _specialize(control: Any, memory: Any, layout: Beginning) -> Any:
     # Literals of the layout: `Addresses` are the constants of a law that is called by its address.
     addresses: Any = layout.constants
     is_reported = is_measuring(control) if control else bool(addresses.is_measuring)
-    compute, view = compute_one_by_one, borrow
+    compute, view = uncompiled, borrow
     if control:
         compute = specialize(
             compute_side_by_side, f"compute_{name}", law=control, is_reported=is_reported

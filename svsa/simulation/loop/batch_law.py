@@ -8,6 +8,7 @@ from functools import cache
 from typing import Any, NamedTuple
 
 import numba
+import numpy as np
 from numba.core.errors import NumbaError
 
 from svsa.actuators.dynamics import Actuator
@@ -19,6 +20,7 @@ from svsa.numerics.simd.each import put, take
 from svsa.numerics.simd.number import WIDTH
 from svsa.numerics.simd.record import Column, VectorRecord, find_kind
 from svsa.simulation.loop.lane import AT_REST, NO_REFERENCE, NO_TORQUE, UNDISTURBED, UNMOVED
+from svsa.simulation.loop.stepwise import ask_python
 
 
 def is_for_vectors(
@@ -133,6 +135,61 @@ def compute_one_by_one(
             )
             torque = put(torque, i, commanded)
     return torque
+
+
+class PythonLaw(NamedTuple):
+    """A law of eight runs that is one function in Python, by its address.
+
+    It is called once a tick with the address of rows (8, `WORDS`), see `compute_in_python`.
+    """
+
+    function_address: int
+    is_measuring: int = 1
+
+
+TOLD = sum(map(len, (NO_REFERENCE, AT_REST, UNDISTURBED, NO_TORQUE, UNMOVED)))
+"""How many numbers a law is told of a run: reference, x̂, ŵ, applied torque, positions."""
+WORDS = 1 + TOLD + len(NO_TORQUE)
+
+
+@compiled
+def compute_in_python(
+    group: GroupCall,
+    x: State,
+    reference: Reference,
+    estimate: Disturbance,
+    applied: Torque,
+    period: float,
+    measured: Positions,
+) -> Torque:
+    """u of those that run, `Torque`, N·m; 0 of the others: one call of Python for all eight.
+
+    group: with a `PythonLaw`. Its memory holds rows (8, `WORDS`): 1.0 where the run needs an
+    answer, what the law is told, and its answer. Else as `svsa.control.call.compute_law`.
+    """
+    nothing, rows = Torque(0.0, 0.0), group.memory
+    torque = choose(group.runs, nothing, nothing)
+    for i in range(WIDTH):
+        row = rows[i]
+        row[0] = 1.0 if take(group.runs, i) else 0.0
+        reached = fill(row, 1, take(reference, i))
+        reached = fill(row, reached, take(x, i))
+        reached = fill(row, reached, take(estimate, i))
+        reached = fill(row, reached, take(applied, i))
+        fill(row, reached, take(measured, i))
+    ask_python(take(group.constants, 0).function_address, rows.ctypes.data)
+    for i in range(WIDTH):
+        if take(group.runs, i):
+            torque = put(torque, i, Torque(rows[i][WORDS - 2], rows[i][WORDS - 1]))
+    return torque
+
+
+@compiled
+def fill(row: np.ndarray, first: int, values: tuple[float, ...]) -> int:
+    """Write a tuple of numbers into a row from `first` on; returns the place after them."""
+    for i in range(len(values)):
+        row[first + i] = values[i]
+    return first + len(values)
 
 
 law: Any = None

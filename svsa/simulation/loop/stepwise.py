@@ -62,19 +62,22 @@ class _Address(NamedTuple):
 
 
 def _build_ask(typing: Any, address: Any, reported: Any) -> Any:
-    """Call the function at an address with that of a record."""
+    """Call the function at an address with that of a record, or with an address."""
+    is_address = isinstance(reported, types.Integer)
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         record = ir.IntType(8).as_pointer()
         function = ir.FunctionType(ir.VoidType(), [record]).as_pointer()
         asked = builder.inttoptr(arguments[0], function)
-        builder.call(asked, [builder.bitcast(arguments[1], record)])
+        place = builder.inttoptr if is_address else builder.bitcast
+        builder.call(asked, [place(arguments[1], record)])
         return context.get_dummy_value()
 
     return types.void(types.int64, reported), generate
 
 
-_ask: Any = intrinsic(_build_ask)
+ask_python: Any = intrinsic(_build_ask)
+"""Call the function at an address with the address of what it is told; in compiled code only."""
 
 
 @compiled
@@ -99,7 +102,7 @@ def _compute_commanded(
     reported.applied.u1, reported.applied.u2 = applied
     y = reported.measured
     y.q, y.theta1, y.theta2 = measured
-    _ask(address.function, reported)
+    ask_python(address.function, reported)
     return Torque(reported.answer.u1, reported.answer.u2)
 
 

@@ -68,12 +68,16 @@ def _grade_all(
     found, refused = dict[Path, Grade](), list[str]()
     with Progress(console=_messages, transient=True) as bar:
         task = bar.add_task("Grading", total=len(files))
-        for path, given in grade_files(files, exercises, runs, book, workers):
+
+        def show(share: float) -> None:
+            bar.update(task, completed=len(found) + len(refused) + share)
+
+        for path, given in grade_files(files, exercises, runs, book, workers, report=show):
             if isinstance(given, Grade):
                 found[path] = given
             else:
                 refused.append(f"{path.name}: {given}")
-            bar.advance(task)
+            bar.update(task, completed=len(found) + len(refused))
     return [found[path] for path in files if path in found], sorted(refused)
 
 

@@ -1,5 +1,6 @@
 """A grade: points by criterion, from what was submitted and nothing else."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 from svsa.evaluation.trials import PROTOCOL, derive_seed
@@ -14,7 +15,7 @@ from svsa.runs.result.result import Result
 from svsa.teaching.course.criterion import CriterionResult, Judgement
 from svsa.teaching.course.exercise import Exercise
 from svsa.teaching.course.judge import judge_submission
-from svsa.teaching.grading.law_runs import judge_law, run_trials
+from svsa.teaching.grading.law_points import judge_law, run_trials
 from svsa.teaching.isolation.confinement import confine, leave_open
 from svsa.teaching.submission import Submission, digest_law
 
@@ -63,14 +64,19 @@ def verify_run(catalogue: Catalogue, run_id: str) -> VerifiedRun:
 
 
 def grade(
-    submission: Submission, exercise: Exercise, runs: Path | None, secret: bytes | None
+    submission: Submission,
+    exercise: Exercise,
+    runs: Path | None,
+    secret: bytes | None,
+    report: Callable[[float], None] = lambda share: None,
 ) -> Grade:
     """The grade of a submission. runs: folder of the runs, None for this machine's.
 
     secret: the class's, from which and from the law's text come its trials, so that one law is
     worth the same whoever submits it; None for practice: public trials, and the law runs without
-    walls, as one's own. Raises `ParameterError` for a submission that does not fit the exercise,
-    `NotIsolatedError` for a law where the machine cannot hold one.
+    walls, as one's own. report: is given the share of the law's trials that is done. Raises
+    `ParameterError` for a submission that does not fit the exercise, `NotIsolatedError` for a law
+    where the machine cannot hold one.
     """
     catalogue, verified, law = Catalogue(runs), list[VerifiedRun](), submission.law
     seed = derive_seed(secret or b"practice", f"{PROTOCOL} {digest_law(law)}")
@@ -81,7 +87,7 @@ def grade(
 
     def judge_text(text: bytes | None) -> list[CriterionResult]:
         place = confine if secret else leave_open
-        return judge_law([] if text is None else run_trials(text, seed, place))
+        return judge_law(None if text is None else run_trials(text, seed, place, report))
 
     judged = judge_submission(exercise, submission, open_verified, judge_text)
     return Grade(

@@ -31,11 +31,13 @@ def grade_file(
     runs: Path | None,
     book: Book | None,
     again: bool = False,
+    report: Callable[[float], None] = lambda share: None,
 ) -> Grade:
     """The grade of a submission's file, kept in the book; the one that it has there, if any.
 
     again: run it again, though it has one. Same submission, same trials, same grade. Where it is
-    refused, the book says why, and keeps the grade that it has.
+    refused, the book says why, and keeps the grade that it has. report: is given the share that is
+    done.
     """
     submission = read_submission(path)
     digest, name = submission.digest, submission.exercise
@@ -46,7 +48,7 @@ def grade_file(
         if name not in exercises:
             bound = f"one of {', '.join(exercises)}"
             raise ParameterError(Violation("exercise", name, "", bound), file=str(path))
-        given = grade(submission, exercises[name], runs, book.secret if book else None)
+        given = grade(submission, exercises[name], runs, book.secret if book else None, report)
     except SvsaError as error:
         if book is not None:
             book.refuse(digest, str(error))
@@ -64,17 +66,19 @@ def grade_files(
     book: Book | None,
     workers: int | None = None,
     again: bool = False,
+    report: Callable[[float], None] = lambda share: None,
 ) -> Generator[tuple[Path, Grade | SvsaError], None, None]:
     """Each file, as it is done, with its grade or why it has none.
 
     files: taken one by one, as there is room. workers: processes of low priority; one works in
-    this one. Closed early, those that are worked at are waited for. Raises `GraderLostError`.
+    this one. Closed early, those that are worked at are waited for. report: is given the share of a
+    file that is done, where one works. Raises `GraderLostError`.
     """
     workers = workers or os.cpu_count() or 1
     waiting = iter(files)
     if workers == 1:
         for path in waiting:
-            yield path, _take(partial(grade_file, path, exercises, runs, book, again))
+            yield path, _take(partial(grade_file, path, exercises, runs, book, again, report))
         return
     with start_workers(workers) as pool:
         asked = dict[Future[Grade], Path]()

@@ -128,28 +128,40 @@ def print_in_law(error: BaseException) -> None:
 
 
 def serve(path: Path, answers: int) -> None:
-    """Load the law, then answer every question with its torque, until there are no more."""
-    from frames import ANSWER, ASK, FAILED, READY, TICK, TORQUE
+    """Load the law for each run, then answer every question with torques, until there are no more.
+
+    Each run has a law of its own: the file is executed once for each.
+    """
+    from frames import ANSWER, ASK, FAILED, PAIR, READY, ROW, TICK, TORQUE
     from plain_law import find_named  # pyright: ignore[reportMissingImports]
 
     from svsa.actuators.signals import Disturbance, Positions, Reference, State, Torque
 
-    _, number, *given = ASK.unpack(read(ASK.size))
+    _, number, runs = ASK.unpack(read(ASK.size))
+    length = ASK.size + runs * ROW.size
     try:
-        law = load_law(path.read_text("utf-8"), tuple(given))
-        named = find_named(law)
-        os.write(answers, ANSWER.pack(READY, number, 0.0, 0.0))
-        while len(asked := read(ASK.size)) == ASK.size:
-            kind, number, *given = ASK.unpack(asked)
+        text, laws = path.read_text("utf-8"), []
+        for given in ROW.iter_unpack(read(runs * ROW.size)):
+            law = load_law(text, given)
+            laws.append((law, find_named(law)))
+        os.write(answers, ANSWER.pack(READY, number) + bytes(runs * PAIR.size))
+        while len(asked := read(length)) == length:
+            kind, number, _ = ASK.unpack_from(asked)
             if kind != TICK:
                 break
-            always = Reference(*given[1:9]), State(*given[9:15]), Disturbance(*given[15:18])
-            reported = {"applied": Torque(*given[18:20]), "measured": Positions(*given[20:23])}
-            answer = law(given[0], *always, **{name: reported[name] for name in named})
-            os.write(answers, ANSWER.pack(TORQUE, number, *read_torque(answer)))
+            torques = bytearray(runs * PAIR.size)
+            for run, given in enumerate(ROW.iter_unpack(memoryview(asked)[ASK.size :])):
+                if given[0] != given[0]:
+                    continue
+                law, named = laws[run]
+                always = Reference(*given[1:9]), State(*given[9:15]), Disturbance(*given[15:18])
+                reported = {"applied": Torque(*given[18:20]), "measured": Positions(*given[20:23])}
+                answer = law(given[0], *always, **{name: reported[name] for name in named})
+                PAIR.pack_into(torques, run * PAIR.size, *read_torque(answer))
+            os.write(answers, ANSWER.pack(TORQUE, number) + torques)
     except BaseException as error:
         print_in_law(error)
-        os.write(answers, ANSWER.pack(FAILED, number, 0.0, 0.0))
+        os.write(answers, ANSWER.pack(FAILED, number) + bytes(runs * PAIR.size))
         # Neither `atexit` functions nor destructors of the law run after it has failed.
         os._exit(1)
 

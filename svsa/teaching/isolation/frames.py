@@ -1,11 +1,11 @@
-"""What goes between the loop and a law in a process of its own: frames of fixed length.
+"""What goes between the loop and a law in a process of its own: frames for one run or for several.
 
-To the law `ASK`: kind, number, and 23 doubles, which are time (s), `Reference`, x̂ (`State`), ŵ
-(`Disturbance`), the `Torque` that acted and the measured `Positions`, or once, before the first,
-the constants of the nominal model. From it `ANSWER`:
-kind, the number of what is answered, and two torques, N·m. Numbers are drawn at random, so
-that a law cannot answer a request in advance. Imports nothing of the lab: the law's side reads this
-file too.
+To the law: `ASK` with kind, number and how many rows follow, then the rows. A row is 23 doubles of
+one run: time (s), `Reference`, x̂ (`State`), ŵ (`Disturbance`), the `Torque` that acted and the
+measured `Positions`; a time that is NaN asks nothing of a run that has ended. The rows of the first
+frame are the constants of each run's nominal model. From the law: `ANSWER` with kind and the number
+of what is answered, then two torques of each run, N·m. Numbers are drawn at random, so that a law
+cannot answer a request in advance. Imports nothing of the lab: the law's side reads this file too.
 """
 
 from struct import Struct
@@ -14,5 +14,5 @@ BEGIN, TICK = 1, 2
 READY, TORQUE, FAILED = 3, 4, 5
 
 DOUBLES = 23
-ASK = Struct(f"<IQ{DOUBLES}d")
-ANSWER = Struct("<IQ2d")
+ASK, ANSWER = Struct("<IQI"), Struct("<IQ")
+ROW, PAIR = Struct(f"<{DOUBLES}d"), Struct("<2d")

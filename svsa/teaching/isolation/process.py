@@ -1,20 +1,36 @@
-"""The lab's side of a law in a process of its own: one request a tick, with a time limit."""
+"""The lab's side of a law in a process of its own: one request a tick, with a time limit.
+
+One process answers for one run, or for several side by side.
+"""
 
 import os
 import select
 import signal
 import subprocess
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, ExitStack
 from time import monotonic, perf_counter
 from types import TracebackType
 from typing import Self
 
+import numpy as np
+
 from svsa.actuators.dynamics import Actuator
 from svsa.actuators.signals import Disturbance, Positions, Reference, State, Torque
 from svsa.teaching.isolation.confinement import BOUNDS, Bounds, Command, confine
-from svsa.teaching.isolation.frames import ANSWER, ASK, BEGIN, DOUBLES, FAILED, READY, TICK, TORQUE
+from svsa.teaching.isolation.frames import (
+    ANSWER,
+    ASK,
+    BEGIN,
+    DOUBLES,
+    FAILED,
+    PAIR,
+    READY,
+    ROW,
+    TICK,
+    TORQUE,
+)
 from svsa.teaching.isolation.refusal import LawFaultCode, LawFaultError
 
 SHOWN_BYTES = 2000
@@ -25,23 +41,24 @@ _SIGNAL_BASE = 128
 Place = Callable[[bytes, int, Bounds], AbstractContextManager[Command]]
 
 
-class LawProcess:
-    """A law, from its source, as a `Controller` of `svsa.simulate`; one process a run.
+class RunningLaw:
+    """A law's process: from a law's source, for so many runs as there are models.
 
-    model: nominal, `Actuator`, which `build` of the law is given. place: `confine`, or
+    models: nominal, one `Actuator` a run, which `build` of the law is given. place: `confine`, or
     `leave_open` for a law that is trusted. Raises `LawFaultError` where the law fails at its part,
     `NotIsolatedError` where it cannot be confined. `cost_s` is the time that each answer took, s,
-    the way there and back included; `torques` are the answers, (u1, u2), N·m.
+    the way there and back included.
     """
 
     def __init__(
-        self, source: bytes, model: Actuator, bounds: Bounds = BOUNDS, place: Place = confine
+        self, source: bytes, models: Sequence[Actuator], bounds: Bounds, place: Place
     ) -> None:
         self._bounds = bounds
         self._numbers = b""
         self._got = b""
+        self._runs = len(models)
+        self._length = ANSWER.size + self._runs * PAIR.size
         self.cost_s: list[float] = []
-        self.torques: list[tuple[float, float]] = []
         with ExitStack() as opened:
             # A file, bounded by `output_bytes`: a pipe that nobody empties would block a law that
             # prints.
@@ -66,27 +83,16 @@ class LawProcess:
             self._poll = select.poll()
             self._poll.register(self._answers, select.POLLIN)
             self._end_s = monotonic() + bounds.whole_s
-            constants = tuple(map(float, model))
-            self._ask(BEGIN, (*constants, *[0.0] * (DOUBLES - len(constants))), READY,
-                      bounds.start_s)  # fmt: skip
+            rows = [ROW.pack(*model, *[0.0] * (DOUBLES - len(model))) for model in models]
+            self._ask(BEGIN, b"".join(rows), READY, bounds.start_s)
             self._opened = opened.pop_all()
 
-    def __call__(
-        self,
-        time_s: float,
-        reference: Reference,
-        x: State,
-        w: Disturbance,
-        applied: Torque,
-        measured: Positions,
-    ) -> tuple[float, float]:
-        """The law's torque, N·m."""
+    def answer(self, rows: bytes) -> bytes:
+        """The torques (`PAIR`) for what each run's law is told (`ROW`), one after the other."""
         begin = perf_counter()
-        reported = (time_s, *reference, *x, *w, *applied, *measured)
-        torque = self._ask(TICK, reported, TORQUE, self._bounds.answer_s)
+        torques = self._ask(TICK, rows, TORQUE, self._bounds.answer_s)
         self.cost_s.append(perf_counter() - begin)
-        self.torques.append(torque)
-        return torque
+        return torques
 
     def __enter__(self) -> Self:
         return self
@@ -103,30 +109,32 @@ class LawProcess:
         """End the process and whatever it began."""
         self._opened.close()
 
-    def _ask(
-        self, kind: int, values: tuple[float, ...], expected: int, wait_s: float
-    ) -> tuple[float, float]:
+    def _ask(self, kind: int, rows: bytes, expected: int, wait_s: float) -> bytes:
         number = self._draw_number()
+        asked = ASK.pack(kind, int.from_bytes(number, "little"), self._runs) + rows
         try:
-            os.write(self._asking, ASK.pack(kind, int.from_bytes(number, "little"), *values))
+            written = os.write(self._asking, asked)
         except BrokenPipeError:
             raise self._describe_end() from None
         except BlockingIOError:
-            raise self._fail("late", "The law does not read what it is asked.") from None
-        answered, reported, u1, u2 = ANSWER.unpack(self._read_answer(wait_s))
+            written = 0
+        if written < len(asked):
+            raise self._fail("late", "The law does not read what it is asked.")
+        answer = self._read_answer(wait_s)
+        answered, reported = ANSWER.unpack_from(answer)
         if reported != int.from_bytes(number, "little"):
             raise self._fail("early", "The law answered what it was not asked.")
         if answered == FAILED:
             raise self._fail("error", "The law raised an error.")
         if answered != expected:
             raise self._fail("garbled", f"The law wrote a frame of kind {answered}.")
-        return u1, u2
+        return answer[ANSWER.size :]
 
     def _read_answer(self, wait_s: float) -> bytes:
         # Both bounds are needed: many answers, each just in time, could take hours.
         end_s = min(monotonic() + wait_s, self._end_s)
         got = b""
-        while len(got) < ANSWER.size:
+        while len(got) < self._length:
             left_s = end_s - monotonic()
             if left_s <= 0 or not self._poll.poll(left_s * 1000):
                 whole_s = self._bounds.whole_s
@@ -136,7 +144,7 @@ class LawProcess:
                     else f"The law did not answer within {wait_s:g} s."
                 )
                 raise self._fail("late", reported)
-            more = os.read(self._answers, ANSWER.size - len(got))
+            more = os.read(self._answers, self._length - len(got))
             if not more:
                 raise self._describe_end()
             got += more
@@ -173,3 +181,57 @@ class LawProcess:
         if self._process.poll() is None:
             self._process.kill()
             self._process.wait()
+
+
+class LawProcess(RunningLaw):
+    """A law, from its source, as a `Controller` of `svsa.simulate`; one process a run.
+
+    `torques` are its answers, (u1, u2), N·m. Else see `RunningLaw`.
+    """
+
+    def __init__(
+        self, source: bytes, model: Actuator, bounds: Bounds = BOUNDS, place: Place = confine
+    ) -> None:
+        self.torques: list[tuple[float, float]] = []
+        super().__init__(source, [model], bounds, place)
+
+    def __call__(
+        self,
+        time_s: float,
+        reference: Reference,
+        x: State,
+        w: Disturbance,
+        applied: Torque,
+        measured: Positions,
+    ) -> tuple[float, float]:
+        """The law's torque, N·m."""
+        row = ROW.pack(time_s, *reference, *x, *w, *applied, *measured)
+        u1, u2 = PAIR.unpack(self.answer(row))
+        self.torques.append((u1, u2))
+        return u1, u2
+
+
+class GroupProcess(RunningLaw):
+    """A law, from its source, as a `GroupController` of `svsa.runs.batch.run_group`.
+
+    One process for at most eight runs, each with a law of its own in it. models: one a run. Else
+    see `RunningLaw`.
+    """
+
+    def __init__(
+        self,
+        source: bytes,
+        models: Sequence[Actuator],
+        bounds: Bounds = BOUNDS,
+        place: Place = confine,
+    ) -> None:
+        super().__init__(source, models, bounds, place)
+
+    def __call__(self, time_s: float, is_asked: np.ndarray, reported: np.ndarray) -> np.ndarray:
+        """Torques (8, 2), N·m; 0 of a run that has ended."""
+        count, torques = self._runs, np.zeros((len(reported), 2))
+        rows = np.empty((count, DOUBLES))
+        rows[:, 0] = np.where(is_asked[:count], time_s, np.nan)
+        rows[:, 1:] = reported[:count]
+        torques[:count] = np.frombuffer(self.answer(rows.tobytes())).reshape(count, 2)
+        return torques

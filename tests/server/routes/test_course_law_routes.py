@@ -4,7 +4,7 @@ import shutil
 
 import pytest
 
-from svsa.teaching.grading import law_runs
+from svsa.teaching.grading import law_points
 from svsa.teaching.grading.gradebook import Book
 from svsa.teaching.grading.queue import grade_file
 from svsa.teaching.submission import MAX_LAW_BYTES, read_submission
@@ -71,7 +71,8 @@ def test_what_is_no_law_s_text_and_where_none_is_asked_for_is_refused(student, l
 def test_a_law_is_submitted_and_the_same_submission_has_the_same_grade(
     student, data, own_law, tmp_path, monkeypatch
 ):
-    monkeypatch.setattr(law_runs, "TRIALS", 2)
+    monkeypatch.setattr(law_points, "BLOCK", 8)
+    monkeypatch.setattr(law_points, "MOST_TRIALS", 8)
     text = find_law(own_law)
     student.answer("predict-peak", 2.8).raise_for_status()
     student.answer("why", "tuned").raise_for_status()
@@ -92,7 +93,7 @@ def test_a_law_is_submitted_and_the_same_submission_has_the_same_grade(
     first, again = (grade_file(path, {"own-law": own_law}, data, book) for book in books)
     assert first == again
     assert first.max_points == 15
-    law = [one for one in first.criteria if one.step == law_runs.LAW_STEP]
+    law = [one for one in first.criteria if one.step == law_points.LAW_STEP]
     assert sum(one.max_points for one in law) == 10
     given = sum(one.points for one in law)
     assert first.points == pytest.approx(judged["points"] + given), "as many as its draws allow"

@@ -7,7 +7,7 @@ import shutil
 import pytest
 
 from svsa.teaching.course.progress import ProgressStore
-from svsa.teaching.grading import law_runs
+from svsa.teaching.grading import law_points
 from svsa.teaching.grading import queue as grader_queue
 from svsa.teaching.grading.class_grades import grade_class, list_graded, open_book
 from svsa.teaching.grading.queue import GraderLostError
@@ -126,7 +126,7 @@ def test_where_nothing_isolates_a_law_gets_no_grade_until_something_does(store, 
         raise NotIsolatedError("bwrap is not installed")
 
     with monkeypatch.context() as patched:
-        patched.setattr(law_runs, "check_isolation", refuse)
+        patched.setattr(law_points, "check_isolation", refuse)
         assert give(store)
     found = {(one.person, one.exercise): one for one in list_graded(store)}
     assert "bwrap is not installed" in found["p-1", OWN].problem

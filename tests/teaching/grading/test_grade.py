@@ -14,7 +14,7 @@ from svsa.evaluation.ranking.scenarios import PUBLIC_SEED
 from svsa.evaluation.ranking.test_set import build_test_trial
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.teaching.course.file import parse_exercise
-from svsa.teaching.grading import law_runs
+from svsa.teaching.grading import law_points
 from svsa.teaching.grading.grade import grade
 from svsa.teaching.grading.gradebook import Book
 from svsa.teaching.grading.report import write_csv, write_page
@@ -40,7 +40,8 @@ SECRET = bytes(range(32))
 
 @pytest.fixture(autouse=True)
 def few_trials(monkeypatch):
-    monkeypatch.setattr(law_runs, "TRIALS", 3)
+    monkeypatch.setattr(law_points, "BLOCK", 8)
+    monkeypatch.setattr(law_points, "MOST_TRIALS", 8)
 
 
 def run(*arguments):
@@ -78,9 +79,8 @@ def test_a_law_is_graded_on_draws_of_the_secret_and_of_its_text(monkeypatch):
     """Who has the submission alone cannot tell them; the same law has the same, whose it is."""
     drawn = []
 
-    def run_trials(law, seed, place):
+    def run_trials(law, seed, place, report):
         drawn.append(seed)
-        return []
 
     monkeypatch.setattr("svsa.teaching.grading.grade.run_trials", run_trials)
     for one, secret in (
@@ -101,7 +101,7 @@ def test_a_good_law_has_more_points_than_a_lazy_one(tmp_path):
     assert good.is_isolated
     assert good.max_points == lazy.max_points == 10
     assert good.points > 5 > lazy.points
-    assert "of 3 did" in good.criteria[0].feedback
+    assert "of 8 did" in good.criteria[0].feedback
 
 
 def test_a_law_that_fails_is_told_why_and_not_asked_again(tmp_path):

@@ -10,7 +10,7 @@ from svsa.teaching.course.exercise import Exercise
 from svsa.teaching.course.progress import ExerciseProgress, find_done, find_missing
 from svsa.teaching.course.steps import Experiment, Explain, Predict, Step, SubmitStep
 from svsa.teaching.course.text import render_text
-from svsa.teaching.grading.law_runs import POINTS
+from svsa.teaching.grading.law_points import POINTS
 from svsa.teaching.submission import LONGEST_NAME, Answer, KeptLaw, LawText, StepName
 from svsa_server.access.owned import Owned
 

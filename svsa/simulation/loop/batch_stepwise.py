@@ -1,0 +1,71 @@
+"""Eight runs side by side with a controller in plain Python, which is asked once a tick for all."""
+
+import ctypes
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from svsa.numerics.simd.number import WIDTH
+from svsa.simulation.loop.batch import Batch, pack_beginnings, run_batch
+from svsa.simulation.loop.batch_law import TOLD, WORDS, PythonLaw
+from svsa.simulation.loop.held_signals import hold_signals
+from svsa.simulation.loop.lane import Blocks, Inputs
+
+GroupController = Callable[[float, np.ndarray, np.ndarray], np.ndarray]
+"""Time (s), which runs need an answer (8,), what their law is told (8, 22) → torques (8, 2).
+
+A row has `Reference`, x̂ (`State`), ŵ (`Disturbance`), the mean `Torque` that acted in the last
+period and the measured `Positions`; an answer is (u1, u2), N·m.
+"""
+
+_Call = ctypes.CFUNCTYPE(None, ctypes.c_void_p)
+
+
+def run_batch_stepwise(
+    blocks: Sequence[Blocks], inputs: Inputs, controller: GroupController, ticks: int, begin: int
+) -> np.ndarray:
+    """Run at most eight runs from the start, each with the bits of the same run alone.
+
+    Args:
+        blocks: Of each run; period, delay and steps are the same in all.
+        inputs: Of all, see `svsa.simulation.loop.batch_inputs.join_inputs`.
+        controller: Asked once a tick. A group of fewer than eight repeats its last run.
+        ticks: How many.
+        begin: The tick at which measuring begins.
+
+    Returns:
+        An array (runs,) of `svsa.simulation.loop.tally.SUMMARY`.
+
+    Raises:
+        BaseException: What the controller raises.
+    """
+    tick, raised, period = 0, list[BaseException](), blocks[0].period
+
+    def ask(address: int) -> None:
+        nonlocal tick
+        words = (ctypes.c_double * (WIDTH * WORDS)).from_address(address)
+        rows = np.ctypeslib.as_array(words).reshape(WIDTH, WORDS)
+        told, answers = rows[:, 1 : 1 + TOLD], rows[:, 1 + TOLD :]
+        try:
+            # Here, and not in ctypes' own code, an exception of a signal handler can be caught.
+            held.handle()
+            answers[:] = controller(tick * period, rows[:, 0] == 1.0, told)
+        # ctypes prints an exception of a callback and drops it: it is kept, and raised after the
+        # compiled call.
+        except BaseException as error:
+            raised.append(error)
+            # NaN ends every run at this tick.
+            answers[:] = np.nan
+        tick += 1
+
+    # ctypes frees the callback with this object: it must live as long as the batch runs.
+    called = _Call(ask)
+    law = PythonLaw(ctypes.cast(called, ctypes.c_void_p).value or 0)
+    layout, rows = pack_beginnings(blocks, [law] * len(blocks), np.empty(0))
+    memories = np.zeros((len(rows), WIDTH, WORDS))
+    batch = Batch(None, None, layout, rows, memories, inputs, len(blocks))
+    with hold_signals() as held:
+        summaries = run_batch(batch, ticks, begin)
+    if raised:
+        raise raised[0]
+    return summaries

@@ -1,0 +1,192 @@
+"""The points of a law: hidden trials, as many as it takes until chance decides little."""
+
+import math
+from collections.abc import Callable, Sequence
+from time import monotonic
+from typing import NamedTuple
+
+import numpy as np
+
+from svsa.actuators.domain import INSIDE
+from svsa.actuators.dynamics import Actuator, build_actuator
+from svsa.actuators.signals import State
+from svsa.control.installed import PAPERS_LAW
+from svsa.evaluation.metrics import compute_metrics, find_held
+from svsa.evaluation.ranking.test_set import build_test_trial
+from svsa.evaluation.scenario import Scenario
+from svsa.numerics.simd.number import WIDTH
+from svsa.runs.batch import find_alike, run_group
+from svsa.runs.blocks import build_blocks, compute_start_ratio
+from svsa.runs.configuration import Configuration
+from svsa.runs.fault import build_fault
+from svsa.teaching.course.criterion import CriterionResult
+from svsa.teaching.isolation.confinement import BOUNDS, confine
+from svsa.teaching.isolation.probe import check_isolation
+from svsa.teaching.isolation.process import GroupProcess, Place
+from svsa.teaching.isolation.refusal import LawFaultError, describe_last_output
+
+BLOCK, MOST_TRIALS = 96, 2_400
+"""How many trials are added at once, and at most."""
+POINTS_RANGE = 0.3
+"""Trials are added until the 95 % interval of the points is no wider. Twenty trials give 2.3 points
+for a law that succeeds in half of them."""
+LONGEST_S = 1800.0
+"""A law for which this is over first is graded on the trials done by then; its grade says so."""
+LAW_STEP = "law"
+POINTS = {
+    "Every drawn run goes to its end": 2.0,
+    "At most 1° and 10 % of σ_d in the last second": 5.0,
+    "Accuracy under the load": 3.0,
+}
+_NORMAL_95 = 1.96
+
+
+class Trials(NamedTuple):
+    """How a law went through trials.
+
+    held: of each, (trials,). rms_deg: position error from the load on, (trials,), °; NaN where the
+    run ended early. problem: why the first of those did, or why the law failed at its own part;
+    output: the end of what it printed then.
+    """
+
+    held: np.ndarray
+    rms_deg: np.ndarray
+    problem: str = ""
+    output: str = ""
+
+    def compute_shares(self) -> np.ndarray:
+        """The share of each criterion's points, (3, trials)."""
+        whole = np.isfinite(self.rms_deg)
+        accuracy = np.where(whole, 1.0 - np.tanh(np.where(whole, self.rms_deg, 0.0)), 0.0)
+        return np.stack([whole, self.held, accuracy]).astype(float)
+
+    def estimate_range(self) -> float:
+        """The width of the 95 % interval of the points."""
+        points = np.array(list(POINTS.values())) @ self.compute_shares()
+        return float(2.0 * _NORMAL_95 * np.std(points, ddof=1) / math.sqrt(len(points)))
+
+
+def run_trials(
+    source: bytes,
+    seed: int,
+    place: Place = confine,
+    report: Callable[[float], None] = lambda share: None,
+) -> Trials:
+    """Run a law on the trials of a seed, until its points are certain to `POINTS_RANGE`.
+
+    How many trials that takes follows from their outcome: the same law has the same grade. A law
+    that fails at its own part is not asked again, and has no points for the rest of the block.
+
+    Args:
+        source: The text of the law.
+        seed: Of the trials.
+        place: `confine`, or `leave_open` for a law that is trusted.
+        report: Is given the share that is done.
+
+    Returns:
+        The outcome of all trials.
+
+    Raises:
+        NotIsolatedError: If this machine cannot confine a law.
+    """
+    if place is confine:
+        check_isolation()
+    found, end_s = Trials(np.empty(0, dtype=bool), np.empty(0)), monotonic() + LONGEST_S
+    while len(found.held) < MOST_TRIALS:
+        first = len(found.held)
+        scenarios = [build_test_trial("A", seed, first + number) for number in range(BLOCK)]
+        block, is_over = _run_block(source, scenarios, place, end_s)
+        found = Trials(
+            np.concatenate([found.held, block.held]),
+            np.concatenate([found.rms_deg, block.rms_deg]),
+            found.problem or block.problem,
+            found.output or block.output,
+        )
+        width = found.estimate_range()
+        if is_over or width <= POINTS_RANGE:
+            break
+        report(min(1.0, (POINTS_RANGE / width) ** 2))
+    return found
+
+
+def _run_block(
+    source: bytes, scenarios: Sequence[Scenario], place: Place, end_s: float
+) -> tuple[Trials, bool]:
+    """The outcome of a block, and whether it is the last: the law has failed, or its time is over.
+
+    Trials for which there was no time are left out.
+    """
+    configurations = [one.build_configuration(PAPERS_LAW) for one in scenarios]
+    held, rms_deg = np.zeros(len(scenarios), dtype=bool), np.full(len(scenarios), np.nan)
+    problems, done = dict[int, str](), list[int]()
+    for alike in find_alike(configurations):
+        for begin in range(0, len(alike), WIDTH):
+            if done and monotonic() > end_s:
+                chosen = sorted(done)
+                problem = problems[min(problems)] if problems else ""
+                return Trials(held[chosen], rms_deg[chosen], problem), True
+            numbers = alike[begin : begin + WIDTH]
+            group = [configurations[number] for number in numbers]
+            duration_s, begin_s = scenarios[0].duration_s, scenarios[0].measured_s
+            bounds = BOUNDS._replace(
+                cpu_s=len(group) * BOUNDS.cpu_s, whole_s=len(group) * BOUNDS.whole_s
+            )
+            try:
+                with GroupProcess(source, list(map(_build_model, group)), bounds, place) as law:
+                    summaries = run_group(group, law, duration_s, begin_s)
+            except LawFaultError as error:
+                return Trials(held, rms_deg, str(error), error.output), True
+            done += numbers
+            periods = np.array([one.sampling.period_s for one in group])
+            rms = compute_metrics(summaries, periods, begin_s)["rms_position_error_rad"]
+            held[numbers] = find_held(summaries)
+            rms_deg[numbers] = np.where(summaries["code"] == INSIDE, np.degrees(rms), np.nan)
+            problems |= {
+                number: _describe_end(one, summary)
+                for number, one, summary in zip(numbers, group, summaries, strict=True)
+                if summary["code"] != INSIDE
+            }
+    return Trials(held, rms_deg, problems[min(problems)] if problems else ""), False
+
+
+def _build_model(configuration: Configuration) -> Actuator:
+    return build_actuator(configuration.nominal, compute_start_ratio(configuration))
+
+
+def _describe_end(configuration: Configuration, summary: np.void) -> str:
+    """Why a run ended early."""
+    mu0 = compute_start_ratio(configuration)
+    blocks = build_blocks(configuration, configuration.lanes[0], mu0)
+    x = State(*(float(summary[name]) for name in State._fields))
+    return build_fault(int(summary["code"]), 0, int(summary["ticks"]), blocks, x).message
+
+
+def judge_law(trials: Trials | None) -> list[CriterionResult]:
+    """Three criteria: no run ends early, the error is gone at the end, and it is small.
+
+    accuracy: the mean of 1 − tanh(rms / 1°); 0 for a run that ended. trials: None where no law was
+    submitted.
+    """
+    if trials is None or not len(trials.held):
+        none = "No law was submitted."
+        return [_build_result(name, 0.0, none) for name in POINTS]
+    count = len(trials.held)
+    whole, held, accuracy = (float(share) for share in trials.compute_shares().mean(axis=1))
+    ended = f" First: {trials.problem}" if trials.problem else ""
+    if said := describe_last_output(trials.output):
+        ended += f" It said: {said}"
+    rms = f"median rms {np.nanmedian(trials.rms_deg):.3g}°" if whole else "no run reached its end"
+    chance = f"On other trials 95 % of grades are within ±{trials.estimate_range() / 2:.2f} points."
+    reported = (
+        (whole, f"{round(whole * count)} of {count} did. {chance}{ended}"),
+        (held, f"{round(held * count)} of {count} did."),
+        (accuracy, f"{rms}; the mean of 1 − tanh(rms / 1°) is {accuracy:.2f}."),
+    )
+    return [_build_result(name, *given) for name, given in zip(POINTS, reported, strict=True)]
+
+
+def _build_result(name: str, share: float, feedback: str) -> CriterionResult:
+    most = POINTS[name]
+    return CriterionResult(
+        step=LAW_STEP, name=name, points=most * share, max_points=most, feedback=feedback
+    )
