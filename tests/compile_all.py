@@ -11,14 +11,17 @@ import subprocess
 import sys
 from collections.abc import Iterable
 
+import numpy as np
+
 import svsa
 from svsa.analysis.design.prediction import predict
 from svsa.analysis.identification.identify import identify
 from svsa.cli import prepare
 from svsa.control.installed import list_law_names
+from svsa.evaluation.ranking.test_set import build_test_trial
 from svsa.evaluation.timing.scipy_comparison import compare_with_scipy
 from svsa.hardware.emulator.experiment import LockstepBench
-from svsa.runs.batch import run_configurations
+from svsa.runs.batch import find_alike, run_configurations, run_group
 from svsa.runs.paper import FIGURES
 from svsa.simulation.plant.loads.constant import ConstantLoad
 from tests.analysis.identification.excited_run import build_configuration, build_run, play
@@ -26,7 +29,7 @@ from tests.hardware.emulator.in_process_emulator import start_in_process
 from tests.runs.paper.golden import GENERIC
 from tests.runs.session.sessions import EVERY_EFFECT, SHOWN_IN_BATCHES
 
-TICKS, STIFFNESS = 10, 15.0
+TICKS, STIFFNESS, GROUP = 10, 15.0, 8
 BATCHES, EXHAUSTIVE = "batches", "--exhaustive"
 
 
@@ -84,6 +87,19 @@ def compile_batches(laws: Iterable[str]) -> None:
         run_configurations([configuration], TICKS * configuration.sampling.period_s)
 
 
+def compile_trials() -> None:
+    """Trials of a law that is graded, with each delay."""
+    trials = [build_test_trial("A", 0, number) for number in range(GROUP)]
+    configurations = [one.build_configuration("ndobc") for one in trials]
+    for numbers in find_alike(configurations):
+        group = [configurations[number] for number in numbers]
+        run_group(group, lambda *given: np.zeros((GROUP, 2)), 0.01)
+
+
 if __name__ == "__main__":
     laws = list_law_names() if EXHAUSTIVE in sys.argv else SHOWN_IN_BATCHES
-    compile_batches(laws) if BATCHES in sys.argv else main()
+    if BATCHES in sys.argv:
+        compile_batches(laws)
+        compile_trials()
+    else:
+        main()
