@@ -19,7 +19,7 @@ _COLOURS = {"ok": "green", "warn": "yellow", "fail": "bold red"}
 _INTERRUPTED = 130
 _MOVE_WARNING = (
     "--move turns first the principal motor, then the stiffness motor, by short pulses of current"
-    " (a degree or two, forth and back). Hand on the emergency stop, everybody clear of the link,"
+    " (a few degrees, forth and back). Hand on the emergency stop, everybody clear of the link,"
     " nothing hung on it, both motors away from their ends. Watch which way each turns FIRST."
 )
 
@@ -29,17 +29,17 @@ BenchPath = Annotated[Path, typer.Argument(help="Bench file (TOML).")]
 def bench_check(
     file: BenchPath,
     move: Annotated[
-        bool, typer.Option("--move", help="Also turn both motors a little: signs and latency.")
+        bool, typer.Option("--move", help="Also turn both motors a little: signs, scales, latency.")
     ] = False,
     yes: Annotated[
         bool,
         typer.Option("--yes", help="Move without asking; nobody is then asked which way it went."),
     ] = False,
 ) -> None:
-    """Test a bench step by step: bus, drives, encoders, and with --move signs and latency."""
+    """Test a bench step by step: file, bus, drives, encoders; with --move signs and scales."""
     require_extra("bench")
     from svsa.hardware.commissioning import check_bench
-    from svsa.hardware.commissioning.probe import Result
+    from svsa.hardware.commissioning.step import Result
 
     console = Console(highlight=False)
     if move and not yes:

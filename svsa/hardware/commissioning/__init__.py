@@ -6,22 +6,28 @@ is bounded in time, and however the check ends the drives are left at zero curre
 
 import time
 from collections.abc import Callable, Generator, Iterator
+from dataclasses import dataclass, field
 from pathlib import Path
 
+from svsa.actuators.parameters import ActuatorParameters
 from svsa.errors import ParameterError
 from svsa.hardware.calibration import find_calibration, list_problems, note_signs
+from svsa.hardware.commissioning.coupling import check_coupling
 from svsa.hardware.commissioning.drives import advise_on_bus, bring_up, check_bus, check_drive
 from svsa.hardware.commissioning.flow import LISTEN_S, check_deflection, check_feedback, check_rest
 from svsa.hardware.commissioning.latency import check_latency
-from svsa.hardware.commissioning.motion import check_directions, check_motion
-from svsa.hardware.commissioning.probe import BusOpener, CheckStep, Clock, Probe, Result
+from svsa.hardware.commissioning.magnitudes import compare_magnitudes
+from svsa.hardware.commissioning.motion import check_motion
+from svsa.hardware.commissioning.plausible import list_implausible
+from svsa.hardware.commissioning.probe import BusOpener, Clock, Probe
+from svsa.hardware.commissioning.pulse import Turn
+from svsa.hardware.commissioning.signs import ask_directions, judge_signs
+from svsa.hardware.commissioning.step import CheckStep, Result
 from svsa.hardware.drives.bus import BusError, open_bus
 from svsa.hardware.file import BenchFile, read_bench
+from svsa.hardware.realtime.configuration import read_bench_design
 
-SIGN_STEPS = (
-    *("motor1: sign", "deflection: sign", "motor2: sign"),
-    *("motor1: direction", "motor2: direction"),
-)
+SIGN_STEPS = ("motor1: sign", "deflection: sign", "motor2: sign")
 
 _LOCKSTEP_ADVICE = (
     "An emulator in lockstep lets time go on only when its loop asks for it, and the check waits"
@@ -40,43 +46,65 @@ def check_bench(
     """The steps of the check, each yielded when it is done.
 
     move: also turn both motors a little, by short pulses of at most 15 % of their nominal
-    current. watch: asked afterwards which way they turned; without it nobody has seen it and
-    the signs stay unconfirmed. Close the iterator (or exhaust it) to leave the bench.
+    current, and compare signs and magnitudes of currents, motors and deflection. watch: asked
+    afterwards which way they turned; without it the signs stay unconfirmed. Close the iterator
+    (or exhaust it) to leave the bench.
     """
     try:
         bench = read_bench(path)
+        design = read_bench_design(bench)
         probe = Probe(bench, opener, now)
     except ParameterError as error:
         yield CheckStep("file", Result.FAIL, str(error), "Correct the bench file.")
         return
     yield _describe_file(bench)
+    yield from list_implausible(bench, design)
     if bench.emulator is not None and bench.emulator.lockstep:
         yield CheckStep(
             "bus", Result.FAIL, "not tried: the emulator is in lockstep", _LOCKSTEP_ADVICE
         )
         return
-    steps: list[CheckStep] = []
+    moved, judged = Moved(), list[CheckStep]()
     try:
-        for step in _check_on_bus(probe, move):
-            steps.append(step)
-            yield step
+        yield from _check_on_bus(probe, moved if move else None)
     except BusError as error:
-        steps.append(CheckStep("bus", Result.FAIL, str(error), advise_on_bus(bench)))
-        yield steps[-1]
+        yield CheckStep("bus", Result.FAIL, str(error), advise_on_bus(bench))
     finally:
         probe.close()
-    if move and all(step.result is not Result.FAIL for step in steps):
-        for step in check_directions(bench, watch):
-            steps.append(step)
+    if "motor1" in moved.turns:
+        for step in _judge(bench, design.actuator, moved, watch):
+            judged.append(step)
             yield step
-    yield _check_calibration(bench, _judge_signs(steps))
+    yield _check_calibration(bench, _conclude(judged))
 
 
-def _judge_signs(steps: list[CheckStep]) -> bool | None:
-    """Whether every sign is right, or None where that was not found out."""
-    results = {step.name: step.result for step in steps if step.name in SIGN_STEPS}
-    if Result.FAIL in results.values():
+@dataclass
+class Moved:
+    """What the pulses have shown: a turn of each motor that moved; deflection counts at rest."""
+
+    turns: dict[str, Turn] = field(default_factory=dict)
+    rest: float = 0.0
+
+
+def _judge(
+    bench: BenchFile,
+    actuator: ActuatorParameters,
+    moved: Moved,
+    watch: Callable[[str], bool] | None,
+) -> Iterator[CheckStep]:
+    """Signs and magnitudes, from the pulses and from what a user has seen of them."""
+    step, link = check_coupling(bench, actuator, moved.turns, moved.rest)
+    yield step
+    yield from judge_signs(bench, moved.turns, link, ask_directions(moved.turns, watch))
+    if link is not None:
+        yield from compare_magnitudes(bench, actuator, moved.turns, link, moved.rest)
+
+
+def _conclude(judged: list[CheckStep]) -> bool | None:
+    """Whether every sign and scale is right, or None where that was not found out."""
+    if any(step.result is Result.FAIL for step in judged):
         return False
+    results = {step.name: step.result for step in judged}
     seen = all(results.get(name) is Result.OK for name in SIGN_STEPS)
     return True if seen else None
 
@@ -92,8 +120,11 @@ def _describe_file(bench: BenchFile) -> CheckStep:
     return CheckStep("file", Result.OK, f"{bench.name}: every motor and encoder is described")
 
 
-def _check_on_bus(probe: Probe, move: bool) -> Iterator[CheckStep]:
-    """From the first frame heard to the last pulse; raises `BusError`."""
+def _check_on_bus(probe: Probe, moved: Moved | None) -> Iterator[CheckStep]:
+    """From the first frame heard to the last pulse; raises `BusError`.
+
+    moved: filled with what the motors did; None where they must not move.
+    """
     probe.open()
     step = check_bus(probe)
     yield step
@@ -120,15 +151,17 @@ def _check_on_bus(probe: Probe, move: bool) -> Iterator[CheckStep]:
         return
     rest = check_rest(probe, traffic)
     yield rest
-    if move and Result.FAIL not in (deflection.result, rest.result):
-        for name in probe.motors:
-            for step in check_motion(probe, name):
-                working = working and step.result is not Result.FAIL
-                yield step
-            if not working:
-                return
-        for name in probe.motors:
-            yield check_latency(probe, name)
+    if moved is None or Result.FAIL in (deflection.result, rest.result):
+        return
+    moved.rest = traffic.deflection[-1].counts
+    for name in probe.motors:
+        step, turn = check_motion(probe, name)
+        yield step
+        if turn is None:
+            return
+        moved.turns[name] = turn
+    for name in probe.motors:
+        yield check_latency(probe, name)
 
 
 def _check_calibration(bench: BenchFile, signs: bool | None) -> CheckStep:

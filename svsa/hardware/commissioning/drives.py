@@ -2,7 +2,9 @@
 
 import numpy as np
 
-from svsa.hardware.commissioning.probe import CheckStep, Probe, Result, Traffic
+from svsa.hardware.commissioning.probe import Probe
+from svsa.hardware.commissioning.step import CheckStep, Result
+from svsa.hardware.commissioning.traffic import Traffic
 from svsa.hardware.drives.installed import get_family
 from svsa.hardware.drives.phase import Phase
 from svsa.hardware.file import BenchFile

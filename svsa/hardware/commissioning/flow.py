@@ -5,7 +5,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from svsa.hardware.commissioning.drives import describe_wiring
-from svsa.hardware.commissioning.probe import CheckStep, Probe, Result, Traffic
+from svsa.hardware.commissioning.probe import Probe
+from svsa.hardware.commissioning.step import CheckStep, Result
+from svsa.hardware.commissioning.traffic import Traffic
 
 LISTEN_S = 1.0
 MIN_SHARE = 0.98

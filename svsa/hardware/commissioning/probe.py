@@ -7,13 +7,11 @@ the probe is closed.
 import contextlib
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
-from enum import StrEnum
-from typing import NamedTuple
 
 import can
 
 from svsa.errors import SvsaError
+from svsa.hardware.commissioning.traffic import Counts, HeardFeedback, Traffic
 from svsa.hardware.drives.bus import BusError, open_bus
 from svsa.hardware.drives.conversion import Unwrapped, build_motor_scale
 from svsa.hardware.drives.drive import Drive, compute_key, merge_stops
@@ -25,67 +23,12 @@ from svsa.hardware.encoders.source import EncoderError
 from svsa.hardware.file import BenchFile
 from svsa.hardware.settings import BusSettings, MotorSettings
 
-
-class Result(StrEnum):
-    """How a step ended: right, usable with a remark, or not usable."""
-
-    OK = "ok"
-    WARN = "warn"
-    FAIL = "fail"
-
-
-class CheckStep(NamedTuple):
-    """A step's name, its result, what was measured with its unit, and what to do about it."""
-
-    name: str
-    result: Result
-    measured: str
-    advice: str = ""
-
-
 _ENCODER_POLL_S = 0.001
 _RELEASES = 5
 _RELEASE_S = 0.02
 
 BusOpener = Callable[[BusSettings], can.BusABC]
 Clock = Callable[[], float]
-
-
-class HeardFeedback(NamedTuple):
-    """A drive's feedback: when it was read, the time it is stamped with, and what it said."""
-
-    time_s: float
-    stamp_s: float
-    counts: int
-    current_ma: int
-
-
-class Counts(NamedTuple):
-    """A reading of the deflection encoder, unwrapped, and its time."""
-
-    counts: int
-    time_s: float
-
-
-@dataclass
-class Traffic:
-    """What was heard in some time, of each motor by its name.
-
-    answers: when its drive answered. engaged: whose drive sent feedback from the mode in which it
-    makes torque. errors: how many its drive reported. commanded: whose drive another program sends
-    commands to. places: addresses of other drives that answered. bus_errors: error frames of the
-    adapter.
-    """
-
-    frames: int = 0
-    bus_errors: int = 0
-    feedback: dict[str, list[HeardFeedback]] = field(default_factory=dict)
-    answers: dict[str, list[float]] = field(default_factory=dict)
-    engaged: set[str] = field(default_factory=set)
-    errors: dict[str, int] = field(default_factory=dict)
-    commanded: set[str] = field(default_factory=set)
-    places: set[str] = field(default_factory=set)
-    deflection: list[Counts] = field(default_factory=list)
 
 
 class Probe:
@@ -264,15 +207,16 @@ class Probe:
 
     def _take(self, message: can.Message, traffic: Traffic) -> None:
         now = self.now()
+        stamp = message.timestamp if self.bench.bus.timestamps == "bus" else now
         traffic.frames += 1
         if message.is_error_frame:
             traffic.bus_errors += 1
         elif message.is_extended_id and message.arbitration_id == EMULATED_ID:
             self.emulated = True
-        elif not message.is_remote_frame and not self._source.feed(message, now):
-            self._take_drive(message, now, traffic)
+        elif not message.is_remote_frame and not self._source.feed(message, stamp):
+            self._take_drive(message, now, stamp, traffic)
 
-    def _take_drive(self, message: can.Message, now: float, traffic: Traffic) -> None:
+    def _take_drive(self, message: can.Message, now: float, stamp: float, traffic: Traffic) -> None:
         key = compute_key(message)
         name = self._takers.get(key)
         if name is None:
@@ -290,7 +234,6 @@ class Probe:
         if drive.errors != errors:
             traffic.errors[name] = traffic.errors.get(name, 0) + 1
         if drive.heard_s != heard_s:
-            stamp = message.timestamp if self.bench.bus.timestamps == "bus" else now
             heard = HeardFeedback(now, stamp, drive.counts, drive.current_ma)
             traffic.feedback.setdefault(name, []).append(heard)
             if drive.engaged:

@@ -1,14 +1,19 @@
 """Short pulses of current, and what a motor and the deflection did of each.
 
 The pulses grow from 1 % to 15 % of the motor's nominal current and get shorter as they grow, so
-that a motor whose encoder is dead gets no more impulse than one that works.
+that a motor whose encoder is dead gets no more impulse than one that works. A motor that has
+moved gets one more pulse in each direction, which is ended by its travel: its trace is long
+enough to compare magnitudes.
 """
 
 import math
 from itertools import pairwise
 from typing import NamedTuple
 
-from svsa.hardware.commissioning.probe import Probe, Traffic
+import numpy as np
+
+from svsa.hardware.commissioning.probe import Probe
+from svsa.hardware.commissioning.traffic import Traffic
 from svsa.hardware.drives.conversion import build_deflection_scale, build_motor_scale
 from svsa.hardware.settings import MotorSettings
 
@@ -21,11 +26,30 @@ MIN_DEFLECTION_COUNTS = 4
 COAST_S = 0.02
 """A motor's counts are followed for so long after a pulse: both lag behind the current."""
 SETTLE_S = 0.2
+REST_S = 0.5
+"""How long a pulse waits at most for the motor to stand still, to within `STILL_COUNTS`."""
+STILL_COUNTS = 2
 MAX_UNHEARD = 0.25
 """A pulse is valid if its longest time without feedback is at most this share of it."""
 MAX_REPEATS = 5
 """Of invalid pulses, per motor: this bounds the impulse that the motor gets."""
 _SEND_S = 0.002
+
+
+class Trace(NamedTuple):
+    """A pulse and what followed, at the times of the motor's feedback; each an array of (n,).
+
+    time_s: from the first feedback on. moved: change of the motor's counts. deflected: counts of
+    the deflection encoder. current_ma: as the drive measured it.
+    """
+
+    time_s: np.ndarray
+    moved: np.ndarray
+    deflected: np.ndarray
+    current_ma: np.ndarray
+
+
+NO_TRACE = Trace(*(np.zeros(0) for _ in Trace._fields))
 
 
 class Pulse(NamedTuple):
@@ -43,6 +67,7 @@ class Pulse(NamedTuple):
     measured_ma: int = 0
     errors: int = 0
     unheard_s: float = math.inf
+    trace: Trace = NO_TRACE
 
 
 class Turn(NamedTuple):
@@ -70,7 +95,7 @@ class Turn(NamedTuple):
 def turn_a_little(probe: Probe, name: str) -> Turn:
     """Turn a motor with growing strength until a turn is conclusive; returns the last.
 
-    One that was not followed, by a computer or a bus that stood still, is given again.
+    A turn that was not followed, because computer or bus paused, is repeated.
     """
     levels = list(reversed(LEVELS))
     repeats = MAX_REPEATS
@@ -86,11 +111,26 @@ def turn_a_little(probe: Probe, name: str) -> Turn:
             return turn
 
 
-def _turn(probe: Probe, name: str, level: float) -> Turn:
-    """level: share of the nominal current."""
+def turn_farther(probe: Probe, name: str, turn: Turn) -> Turn:
+    """Turn a motor once more with the next current, until it or the spring has gone far enough.
+
+    Only for a motor that a turn has shown to move and count: no impulse bounds these pulses.
+    """
+    nominal_ma = 1e3 * getattr(probe.bench, name).nominal_current_a
+    level = abs(turn.forth.current_ma) / nominal_ma
+    stronger = next((each for each in LEVELS if each > 1.1 * level), LEVELS[-1])
+    for _ in range(MAX_REPEATS):
+        turn = _turn(probe, name, stronger, LONGEST_PULSE_S)
+        if turn.was_followed:
+            break
+    return turn
+
+
+def _turn(probe: Probe, name: str, level: float, duration_s: float = 0.0) -> Turn:
+    """level: share of the nominal current. duration_s: at most; 0 for the usual impulse."""
     motor: MotorSettings = getattr(probe.bench, name)
     current_ma = (motor.sign or 1) * round(1e3 * level * motor.nominal_current_a)
-    duration_s = min(LONGEST_PULSE_S, IMPULSE_S / level)
+    duration_s = duration_s or min(LONGEST_PULSE_S, IMPULSE_S / level)
     forth = _pulse(probe, name, current_ma, duration_s)
     return Turn(forth, _pulse(probe, name, -current_ma, duration_s))
 
@@ -110,7 +150,7 @@ def _get_most_counts(motor: MotorSettings) -> float:
 
 def _pulse(probe: Probe, name: str, current_ma: int, duration_s: float) -> Pulse:
     """A current for this long, or until the motor or the spring has gone far enough."""
-    before = probe.listen(0.02)
+    before = _await_rest(probe, name)
     if not (before.feedback.get(name) and before.deflection):
         return Pulse(current_ma, duration_s)
     start = before.feedback[name][-1].counts
@@ -137,9 +177,36 @@ def _pulse(probe: Probe, name: str, current_ma: int, duration_s: float) -> Pulse
     for _ in probe.follow(COAST_S, traffic):
         pass
     moved, _ = _find_travel(traffic, name, start, spring)
-    after = probe.listen(SETTLE_S - COAST_S)
-    errors = traffic.errors.get(name, 0) + after.errors.get(name, 0)
-    return Pulse(current_ma, duration_s, moved, deflected, measured, errors, unheard)
+    for _ in probe.follow(SETTLE_S - COAST_S, traffic):
+        pass
+    errors = traffic.errors.get(name, 0)
+    trace = _build_trace(traffic, name, start, probe.bench.deflection.source == "can")
+    return Pulse(current_ma, duration_s, moved, deflected, measured, errors, unheard, trace)
+
+
+def _await_rest(probe: Probe, name: str) -> Traffic:
+    """The traffic of the last 20 ms before the motor stands, or of 20 ms after half a second."""
+    end = probe.now() + REST_S
+    while True:
+        traffic = probe.listen(0.02)
+        counts = [frame.counts for frame in traffic.feedback.get(name, [])]
+        if not counts or max(counts) - min(counts) <= STILL_COUNTS or probe.now() >= end:
+            return traffic
+
+
+def _build_trace(traffic: Traffic, name: str, start: int, is_stamped: bool) -> Trace:
+    """is_stamped: whether the deflection has the times of the bus, as the feedback has."""
+    heard = traffic.feedback.get(name, [])
+    if not (heard and traffic.deflection):
+        return NO_TRACE
+    times = np.array([frame.stamp_s if is_stamped else frame.time_s for frame in heard])
+    # The newest reading at that time: between two readings there are no counts.
+    later = np.searchsorted([reading.time_s for reading in traffic.deflection], times, "right")
+    counts = np.array([float(reading.counts) for reading in traffic.deflection])
+    deflected = counts[np.maximum(later - 1, 0)]
+    moved = np.array([float(frame.counts - start) for frame in heard])
+    current = np.array([float(frame.current_ma) for frame in heard])
+    return Trace(times - times[0], moved, deflected, current)
 
 
 def _find_travel(traffic: Traffic, name: str, start: int, spring: int) -> tuple[int, int]:

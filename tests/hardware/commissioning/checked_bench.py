@@ -18,6 +18,22 @@ def check(path, bus, move=False, watch=None):
     return {step.name: step for step in steps}
 
 
+class Watcher:
+    """A user who sees on the emulator which way each motor turns first."""
+
+    def __init__(self, bus):
+        self._bus, self._seen = bus, {}
+        bus.before_send = self._look
+
+    def _look(self, message):
+        for name, drive in self._bus.emulator.drives.items():
+            if current := find_current(message, name):
+                self._seen.setdefault(name, current * drive.motor_sign * drive.motor.sign > 0)
+
+    def __call__(self, question):
+        return self._seen[question.split()[1]]
+
+
 def assert_left_alone(bus):
     assert not bus.is_open
     for drive in bus.emulator.drives.values():

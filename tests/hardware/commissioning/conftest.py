@@ -1,8 +1,12 @@
-"""The bus of an emulator, and the file of its bench."""
+"""The bus of an emulator, the file of its bench, and what its motors did of the check's pulses."""
 
 import pytest
 
-from tests.hardware.emulator.bus_in_time import EmulatorBus, copy_bench
+from svsa.hardware.commissioning.drives import bring_up
+from svsa.hardware.commissioning.motion import check_motion
+from svsa.hardware.commissioning.probe import Probe
+from svsa.hardware.file import read_bench
+from tests.hardware.emulator.bus_in_time import EMULATOR_BENCH, EmulatorBus, copy_bench
 
 
 @pytest.fixture
@@ -13,3 +17,15 @@ def bus():
 @pytest.fixture
 def path(tmp_path):
     return copy_bench(tmp_path)
+
+
+@pytest.fixture(scope="package")
+def turns():
+    """A turn of each motor of the emulated bench, whose deflection rests at 0 counts."""
+    bus = EmulatorBus()
+    probe = Probe(read_bench(EMULATOR_BENCH), bus.open, bus.now)
+    probe.open()
+    bring_up(probe)
+    found = {name: check_motion(probe, name)[1] for name in probe.motors}
+    probe.close()
+    return found

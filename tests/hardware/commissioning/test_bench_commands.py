@@ -51,8 +51,13 @@ def test_the_commands_over_a_socket_in_wall_clock_time(tmp_path):
         assert homed.exit_code == 0, homed.output
         assert "run `svsa bench-check --move`" in " ".join(homed.output.split())
         checked = CliRunner().invoke(APP, ["bench-check", str(path), "--move"], input="y\ny\ny\n")
+        path.write_text(path.read_text("utf-8").replace("= 8000", "= 2000"), "utf-8")
+        wrong = CliRunner().invoke(APP, ["bench-check", str(path), "--move"], input="y\ny\ny\n")
         drives = emulator.control.read_state()["drives"]
-    assert "motor2: direction" in checked.output, checked.output
+    assert "motor2: scale" in checked.output, checked.output
+    assert checked.exit_code == 0, checked.output
+    assert wrong.exit_code == 1
+    assert "Set counts_per_rev in [deflection] to about" in " ".join(wrong.output.split())
     calibration = find_calibration(read_bench(path))
     assert calibration is not None and calibration.by == "Ada"
     for drive in drives.values():

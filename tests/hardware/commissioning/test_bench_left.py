@@ -6,7 +6,7 @@ import can
 import pytest
 
 from svsa.hardware.commissioning import check_bench
-from svsa.hardware.commissioning.probe import Result
+from svsa.hardware.commissioning.step import Result
 from svsa.hardware.drives.bus import BusError
 from svsa.hardware.drives.robomodule import (
     Address,
