@@ -199,14 +199,21 @@ class Guard:
         if not math.isfinite(limited.u1 + limited.u2 + sum(known) + sum(estimate)):
             return Alarm("not_finite", "A torque or a state was not a finite number.", {})
         alarm = (
-            self.motor1.check(known.theta1, known.dtheta1)
-            or self.motor2.check(known.theta2, known.dtheta2)
-            or self._check_link(known)
+            self.check_motion(known)
+            or self._check_domain(known)
             or self._check_estimate(estimate)
             or self._standstill.check(self.counts, estimate)
             or self._check_vibration(known)
         )
         return alarm and self.motor1.explain(self.motor2.explain(alarm))
+
+    def check_motion(self, known: State) -> Alarm | None:
+        """Which limit of position or speed is exceeded, or None; holds without torque as well."""
+        return (
+            self.motor1.check(known.theta1, known.dtheta1)
+            or self.motor2.check(known.theta2, known.dtheta2)
+            or self._check_link(known)
+        )
 
     def begin(self) -> None:
         """A new run begins."""
@@ -226,6 +233,9 @@ class Guard:
             most = safety.link_position_max_rad
             words = "The link stood at"
             return _exceeded("position_limit", words, "position_rad", known.q, most, "rad")
+        return None
+
+    def _check_domain(self, known: State) -> Alarm | None:
         code = check_packed_domain(self._bounds, known)
         if code == INSIDE:
             return None

@@ -144,6 +144,9 @@ class Machine:
         alarm = self._find_alarm(conditions)
         if alarm is None and self.status in MOVING:
             alarm = self._guard.check(limited, known, estimate)
+        elif alarm is None and self.status is not BenchStatus.OFF:
+            # A load moves the mechanism without torque as well.
+            alarm = self._guard.check_motion(known)
         if alarm is not None:
             self.fail(alarm)
         if self.status in ARMING:

@@ -1,5 +1,7 @@
 """`svsa bench-check` and `svsa bench-home` as they are typed."""
 
+import time
+
 import pytest
 from typer import Typer
 from typer.testing import CliRunner
@@ -52,6 +54,7 @@ def test_the_commands_over_a_socket_in_wall_clock_time(tmp_path):
         assert "run `svsa bench-check --move`" in " ".join(homed.output.split())
         checked = CliRunner().invoke(APP, ["bench-check", str(path), "--move"], input="y\ny\ny\n")
         path.write_text(path.read_text("utf-8").replace("= 8000", "= 2000"), "utf-8")
+        time.sleep(0.6)  # a drive that was reset answers nothing for half a second
         wrong = CliRunner().invoke(APP, ["bench-check", str(path), "--move"], input="y\ny\ny\n")
         drives = emulator.control.read_state()["drives"]
     assert "motor2: scale" in checked.output, checked.output

@@ -230,3 +230,24 @@ def test_the_ramp_takes_its_time_whatever_ticks_are_missed() -> None:
     assert machine.status is BenchStatus.RAMP
     update(machine)
     assert machine.status is BenchStatus.READY
+
+
+BEYOND = (
+    ("overspeed", AT_REST._replace(dq=26.0)),
+    ("overspeed", AT_REST._replace(dtheta2=31.0)),
+    ("position_limit", AT_REST._replace(q=2.6)),
+    ("position_limit", AT_REST._replace(theta1=-2.8)),
+)
+
+
+@pytest.mark.parametrize("known", BEYOND, ids=str)
+@pytest.mark.parametrize("status", [each for each in ALL if each is not BenchStatus.FAULT])
+def test_position_and_speed_are_limited_in_every_state_but_off(status, known) -> None:
+    """A load moves the mechanism without torque as well."""
+    machine = bring(status)
+    code, state = known
+    machine.update(FINE._replace(phase=Phase.MODE), PUSH, state, UNDISTURBED)
+    if status is BenchStatus.OFF:
+        assert machine.fault is None
+    else:
+        assert machine.fault is not None and machine.fault.code == code
