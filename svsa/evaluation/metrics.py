@@ -10,8 +10,10 @@ from svsa.actuators.domain import INSIDE
 from svsa.actuators.faults import FAULT_CODES
 from svsa.errors import ParameterError, Violation
 from svsa.runs.blocks import build_blocks, compute_start_ratio
+from svsa.runs.metrics import derive_metrics
 from svsa.runs.result.result import Result
-from svsa.simulation.loop.tally import STEADY_STATE_S, SUMMARY, sum_up
+from svsa.simulation.loop.tally import STEADY_STATE_S, SUMMARY, Tally
+from svsa.simulation.loop.tally_rows import sum_up
 
 METRICS = {
     "rms_position_error_rad": "rad",
@@ -71,8 +73,6 @@ def compute_metrics(
     """
     counts = summaries["ticks"] - np.round(begin_s / periods)
     counts = np.where(counts > 0, counts, np.nan)
-    measured = counts / counts
-    squares1, squares2 = summaries["torque1_squares"], summaries["torque2_squares"]
     settled = np.ceil(STEADY_STATE_S / periods - 1e-9)
     is_settled = (summaries["code"] == INSIDE) & (counts >= 2 * settled)
 
@@ -80,26 +80,15 @@ def compute_metrics(
         return np.sqrt(np.where(is_settled, summaries[squares] / settled, np.nan))
 
     recovered = np.where(summaries["recovered"] < 0.0, np.nan, summaries["recovered"])
-    return {
-        "rms_position_error_rad": np.sqrt(summaries["position_squares"] / counts),
-        "peak_position_error_rad": summaries["position_peak"] * measured,
-        "last_position_error_rad": np.abs(summaries["position_last"]) * measured,
+    tally = {name: summaries[name] for name in Tally._fields}
+    found = derive_metrics(tally, counts, periods) | {
+        "last_position_error_rad": np.abs(summaries["position_last"]) * (counts / counts),
         "steady_state_position_error_rad": measure_steady_state("steady_state_squares"),
         "recovery_time_s": recovered * periods,
-        "integral_position_error_rad_s": summaries["position_absolute"] * periods * measured,
-        "rms_stiffness_error_nm_per_rad": np.sqrt(summaries["stiffness_squares"] / counts),
-        "peak_stiffness_error_nm_per_rad": summaries["stiffness_peak"] * measured,
-        "peak_stiffness_error_share": summaries["share_peak"] * measured,
         "steady_state_stiffness_error_nm_per_rad": measure_steady_state("stiffness_steady_squares"),
-        "rms_torque1_nm": np.sqrt(squares1 / counts),
-        "rms_torque2_nm": np.sqrt(squares2 / counts),
-        "peak_torque1_nm": summaries["torque1_peak"] * measured,
-        "peak_torque2_nm": summaries["torque2_peak"] * measured,
-        "effort_n2m2_s": (squares1 + squares2) * periods * measured,
-        "work_j": summaries["power"] * periods * measured,
-        "torque1_variation_nm_per_s": summaries["torque1_variation"] / (counts * periods),
         "limit_share": summaries["limited"] / counts,
     }
+    return {name: found[name] for name in METRICS}
 
 
 def find_held(summaries: np.ndarray) -> np.ndarray:

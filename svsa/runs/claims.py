@@ -39,7 +39,8 @@ def measure_claim(measured: np.ndarray, period_s: float) -> ClaimNumbers:
     """The numbers of one law.
 
     Args:
-        measured: The run from t = 0 on, (ticks, 4), columns `svsa.runs.metrics.MEASURED`, SI.
+        measured: The run from t = 0 on, (ticks, channels), SI. Columns:
+            `svsa.runs.metrics.MEASURED`.
         period_s: Control period, s.
 
     Returns:

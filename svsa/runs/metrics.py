@@ -1,36 +1,62 @@
-"""How good a run is: errors, peaks, recovery and torque, whole or while it goes on."""
+"""Metrics of a run or a stretch of it: errors, disturbance and step response, control effort."""
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from svsa.actuators.signals import CHANNEL_INDEX
 from svsa.errors import StateError
-from svsa.simulation.loop.tally import STEADY_STATE_S, follow_errors
-
-MEASURED = (
-    "position_error_rad",
-    "stiffness_error_nm_per_rad",
-    "torque1_nm",
-    "torque2_nm",
+from svsa.runs.step_response import (
+    SMALLEST_POSITION_STEP_RAD,
+    SMALLEST_STIFFNESS_STEP_NM_PER_RAD,
+    StepResponse,
 )
+from svsa.simulation.loop.tally import build_window
+from svsa.simulation.loop.tally_rows import MOMENT, follow_samples, start_following
+
+MEASURED = (*MOMENT, "position_reference_rad", "time_s")
+"""Names of the channels that metrics are computed from."""
 _COLUMNS = [CHANNEL_INDEX[name] for name in MEASURED]
+_E, _ES, _SIGMA, _U1, _U2, _, _, _Q, _TIME = range(len(MEASURED))
+AT_REST_RAD = math.radians(0.1)
+UNMOVED_NM_PER_RAD = 0.01
 
 
 @dataclass(frozen=True)
 class Metrics:
     """Metrics of a stretch of samples; SI units as named, over `duration_s`.
 
-    Ticks that a bench's loop missed have a time and no numbers: nothing of them is in a sum or a
-    peak. All is NaN where the last 0.5 s, or all of the stretch, has no numbers: the lane ended.
-    integral_position_error_rad_s: ∫|q_d − q| dt. effort_n2m2_s: ∫(u1² + u2²) dt.
-    recovery_time_s: from the start of the stretch until the position error has stayed within
-    2 % of its peak for 0.5 s; None while it has not. What comes later does not change it. (Until
-    the error is last beyond 0.1°, as some compare laws, is another time: in Figure 4A on the rig
-    0.24 s instead of 0.15 s for NDOBC, 0.32 s instead of 0.31 s for FL with integral action.)
-    steady_state_position_error_rad: the steady error, rms over the last 0.5 s; None for a stretch
-    shorter than 1 s.
+    e = q_d − q and e_σ = σ_d − σ. Ticks that a bench's loop missed have a time and no numbers:
+    nothing of them is in a sum or a peak. All is NaN if the last 0.5 s, or all of the stretch, has
+    no numbers: the lane ended. A metric that is not defined for the stretch is None.
+
+    Of either output, for stiffness with the name of that output:
+        rms_…, peak_…: Of the error; the peak after a load is the peak deviation.
+        integral_…: IAE, ∫|e| dt.
+        recovery_time_s, stiffness_recovery_time_s: From the start of the stretch until the error
+            has stayed within 2 % of its peak for 0.5 s; None while it has not, and for a
+            stiffness error that never exceeded 0.01 N·m/rad. What comes later does not change
+            it. It is the recovery time of a disturbance if one began the stretch and is constant:
+            a load that grows later moves the error again. (Until the error is last beyond 0.1°,
+            as some compare laws, is another time: in Figure 4A on the rig 0.24 s instead of
+            0.15 s for NDOBC, 0.32 s instead of 0.31 s for FL with integral action.)
+        steady_state_…: rms error over the last 0.5 s; None for a stretch shorter than 1 s.
+        rise_time_s, overshoot_share, settling_time_s and the same of stiffness: Of the first step
+            of the reference, see `StepResponse`; 10 % to 90 %, share of the step, 2 %. None
+            without a step of at least 1° or 1 N·m/rad.
+    peak_stiffness_error_share: largest |e_σ|/σ_d.
+
+    Of the effort:
+        rms_torque…, peak_torque…: Of either motor's actual torque, u1 and u2.
+        effort_n2m2_s: ∫(u1² + u2²) dt, to which the heat of the windings is proportional.
+        work_j: ∫(|u1 θ̇1| + |u2 θ̇2|) dt, mechanical and without recovery. The electrical work also
+            has the losses of the windings, whose resistance the lab does not know.
+        torque1_variation_nm_per_s, torque2_variation_nm_per_s: Total variation Σ|Δu| a second.
+        torque1_noise_nm, torque2_noise_nm: Torque noise at rest, the standard deviation over the
+            last 0.5 s; None unless q_d and σ_d are constant in it and q moves by at most 0.1°.
     """
 
     duration_s: float
@@ -44,6 +70,65 @@ class Metrics:
     effort_n2m2_s: float
     recovery_time_s: float | None
     steady_state_position_error_rad: float | None
+    rise_time_s: float | None
+    overshoot_share: float | None
+    settling_time_s: float | None
+    peak_stiffness_error_share: float
+    integral_stiffness_error_nms_per_rad: float
+    stiffness_recovery_time_s: float | None
+    steady_state_stiffness_error_nm_per_rad: float | None
+    stiffness_rise_time_s: float | None
+    stiffness_overshoot_share: float | None
+    stiffness_settling_time_s: float | None
+    rms_torque1_nm: float
+    rms_torque2_nm: float
+    work_j: float
+    torque1_variation_nm_per_s: float
+    torque2_variation_nm_per_s: float
+    torque1_noise_nm: float | None
+    torque2_noise_nm: float | None
+
+    @property
+    def is_finite(self) -> bool:
+        """Whether all metrics that are defined are finite: the lane did not end."""
+        return all(value is None or math.isfinite(value) for value in vars(self).values())
+
+
+def derive_metrics(tally: Mapping[str, Any], counts: Any, periods: Any) -> dict[str, Any]:
+    """The metrics that follow from the sums and peaks of a `Tally`, of one run or of many.
+
+    Args:
+        tally: The fields of a `Tally`, numbers or (runs,).
+        counts: Measured ticks, NaN for none.
+        periods: Control period, s.
+    """
+    measured = counts / counts
+    squares1, squares2 = tally["torque1_squares"], tally["torque2_squares"]
+    return {
+        "rms_position_error_rad": np.sqrt(tally["position_squares"] / counts),
+        "peak_position_error_rad": tally["position_peak"] * measured,
+        "integral_position_error_rad_s": tally["position_absolute"] * periods * measured,
+        "rms_stiffness_error_nm_per_rad": np.sqrt(tally["stiffness_squares"] / counts),
+        "peak_stiffness_error_nm_per_rad": tally["stiffness_peak"] * measured,
+        "peak_stiffness_error_share": tally["share_peak"] * measured,
+        "rms_torque1_nm": np.sqrt(squares1 / counts),
+        "rms_torque2_nm": np.sqrt(squares2 / counts),
+        "peak_torque1_nm": tally["torque1_peak"] * measured,
+        "peak_torque2_nm": tally["torque2_peak"] * measured,
+        "effort_n2m2_s": (squares1 + squares2) * periods * measured,
+        "work_j": tally["power"] * periods * measured,
+        "torque1_variation_nm_per_s": tally["torque1_variation"] / (counts * periods),
+    }
+
+
+class _LastSamples(NamedTuple):
+    """Metrics of the last 0.5 s; None where they are not defined. has_ended: none is a number."""
+
+    position_error_rad: float | None = None
+    stiffness_error_nm_per_rad: float | None = None
+    torque1_noise_nm: float | None = None
+    torque2_noise_nm: float | None = None
+    has_ended: bool = False
 
 
 class RunningMetrics:
@@ -51,14 +136,11 @@ class RunningMetrics:
 
     def __init__(self, period_s: float) -> None:
         self._period = period_s
-        self._count = self._known = 0
-        self._squares = np.zeros(len(_COLUMNS))
-        self._error_sum = 0.0
-        self._peaks = np.zeros(len(_COLUMNS))
-        self._inside, self._recovered = 0.0, -1.0
-        self._last_size = math.inf
-        self._settled = math.ceil(STEADY_STATE_S / period_s - 1e-9)
-        self._newest = np.empty(0)
+        self._window = build_window(0, 0, period_s)
+        self._followed = start_following()
+        self._position = StepResponse(period_s, SMALLEST_POSITION_STEP_RAD)
+        self._stiffness = StepResponse(period_s, SMALLEST_STIFFNESS_STEP_NM_PER_RAD)
+        self._newest = np.empty((0, len(MEASURED)))
 
     def update(self, samples: np.ndarray) -> None:
         """Take in more rows of samples (ticks, channels), in the order of time."""
@@ -68,72 +150,71 @@ class RunningMetrics:
         """As `update`, with the columns `MEASURED` only."""
         if not len(values):
             return
-        sizes = np.abs(values)
-        missed = np.isnan(sizes[:, 0])
-        errors = self._hold(sizes[:, 0], missed)
-        newest = np.concatenate([self._newest, sizes[:, 0]])
-        if missed.any():
-            sizes = np.where(missed[:, None], 0.0, sizes)
-        peaks = np.maximum(np.maximum.accumulate(sizes[:, 0]), self._peaks[0])
-        self._inside, self._recovered = follow_errors(
-            np.ascontiguousarray(errors),
-            peaks,
-            self._count,
-            self._settled,
-            self._inside,
-            self._recovered,
-        )
-        self._squares += np.sum(sizes**2, axis=0)
-        self._error_sum += float(np.sum(sizes[:, 0]))
-        self._peaks = np.maximum(self._peaks, sizes.max(axis=0))
-        self._count += len(values)
-        self._known += int(np.count_nonzero(~missed))
-        self._newest = newest[-self._settled :]
-
-    def _hold(self, errors: np.ndarray, missed: np.ndarray) -> np.ndarray:
-        """Each that was missed as the last one before it: who was outside is so until seen."""
-        held = errors
-        if missed.any():
-            chain = np.concatenate([[self._last_size], errors])
-            known = np.where(np.isnan(chain), 0, np.arange(len(chain)))
-            held = chain[np.maximum.accumulate(known)][1:]
-        self._last_size = float(held[-1])
-        return held
+        is_start = self._followed.passed == 0.0 and values[0, _TIME] == 0.0
+        self._followed = follow_samples(self._followed, values, self._window)
+        for response, reference, error in (
+            (self._position, _Q, _E),
+            (self._stiffness, _SIGMA, _ES),
+        ):
+            response.update(values[:, reference], values[:, error], is_start)
+        settled = self._window.settled
+        self._newest = np.concatenate([self._newest, values[-settled:]])[-settled:]
 
     def summarize(self) -> Metrics | None:
         """The metrics so far; None before the first sample."""
-        if not self._count:
+        followed, period = self._followed, self._period
+        if not followed.passed:
             return None
-        is_known = self._known > 0 and not self._has_ended
-        squares, peaks = self._squares, self._peaks
-        if not is_known:
-            squares, peaks = np.full_like(squares, np.nan), np.full_like(peaks, np.nan)
-        rms = np.sqrt(squares / max(self._known, 1))
+        last = self._measure_last()
+        is_known = followed.known > 0 and not last.has_ended
+        known = followed.known if is_known else math.nan
+        derived = derive_metrics(followed.tally._asdict(), known, period)
+        position, stiffness = self._position, self._stiffness
+        has_moved = followed.tally.stiffness_peak > UNMOVED_NM_PER_RAD
+        recovered, stiffness_recovered = (
+            None if one.recovered < 0.0 else one.recovered * period
+            for one in (followed.position, followed.stiffness)
+        )
         return Metrics(
-            duration_s=self._count * self._period,
-            rms_position_error_rad=float(rms[0]),
-            peak_position_error_rad=float(peaks[0]),
-            rms_stiffness_error_nm_per_rad=float(rms[1]),
-            peak_stiffness_error_nm_per_rad=float(peaks[1]),
-            peak_torque1_nm=float(peaks[2]),
-            peak_torque2_nm=float(peaks[3]),
-            integral_position_error_rad_s=(
-                self._error_sum * self._period if is_known else math.nan
+            duration_s=followed.passed * period,
+            **{name: float(value) for name, value in derived.items()},
+            recovery_time_s=recovered,
+            steady_state_position_error_rad=last.position_error_rad,
+            rise_time_s=position.rise_time_s,
+            overshoot_share=position.overshoot_share,
+            settling_time_s=position.settling_time_s,
+            integral_stiffness_error_nms_per_rad=(
+                followed.stiffness_absolute * period if is_known else math.nan
             ),
-            effort_n2m2_s=float(squares[2] + squares[3]) * self._period,
-            recovery_time_s=None if self._recovered < 0.0 else self._recovered * self._period,
-            steady_state_position_error_rad=self._measure_steady_state(),
+            stiffness_recovery_time_s=stiffness_recovered if has_moved else None,
+            steady_state_stiffness_error_nm_per_rad=last.stiffness_error_nm_per_rad,
+            stiffness_rise_time_s=stiffness.rise_time_s,
+            stiffness_overshoot_share=stiffness.overshoot_share,
+            stiffness_settling_time_s=stiffness.settling_time_s,
+            torque2_variation_nm_per_s=followed.torque2_variation / (known * period),
+            torque1_noise_nm=last.torque1_noise_nm,
+            torque2_noise_nm=last.torque2_noise_nm,
         )
 
-    @property
-    def _has_ended(self) -> bool:
-        return len(self._newest) == self._settled and bool(np.isnan(self._newest).all())
-
-    def _measure_steady_state(self) -> float | None:
-        if self._count < 2 * self._settled:
-            return None
-        known = self._newest[~np.isnan(self._newest)]
-        return float(np.sqrt(np.mean(known**2))) if len(known) else math.nan
+    def _measure_last(self) -> _LastSamples:
+        settled = self._window.settled
+        if len(self._newest) < settled:
+            return _LastSamples()
+        known = self._newest
+        missed = np.isnan(known[:, _E])
+        if missed.any():
+            known = known[~missed]
+        if not len(known):
+            return _LastSamples(has_ended=True)
+        noise1 = noise2 = None
+        if (known[:, _Q] == known[0, _Q]).all() and (known[:, _SIGMA] == known[0, _SIGMA]).all():
+            errors = known[:, _E]
+            if errors.max() - errors.min() <= AT_REST_RAD:
+                noise1, noise2 = float(known[:, _U1].std()), float(known[:, _U2].std())
+        if self._followed.passed < 2 * settled:
+            return _LastSamples(None, None, noise1, noise2)
+        position, stiffness = (float(np.sqrt(np.mean(known[:, of] ** 2))) for of in (_E, _ES))
+        return _LastSamples(position, stiffness, noise1, noise2)
 
 
 def compute_metrics(samples: np.ndarray, period_s: float) -> Metrics:

@@ -18,7 +18,7 @@ RUNS = 10_000
 PAGE = 20
 REPEATS = 30
 MARK_MS = 20.0
-METRICS = Metrics(60.0, 1e-3, 2e-3, 1e-2, 2e-2, 3.0, 0.4, 0.05, 120.0, 1.25, 1e-4)
+METRICS = Metrics(*(0.125,) * len(dataclasses.fields(Metrics)))
 WINDOW = MeasuredWindow("load", "3 kg load", 5000, 20_000, 5.0, 20.0, False, ("NDOBC", "FL"))
 
 

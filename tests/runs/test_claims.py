@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from svsa.runs.claims import ClaimNumbers, judge_claim, measure_claim
+from svsa.runs.metrics import MEASURED
 
 FL = ClaimNumbers(0.04, 12.1, 12.08, 0.001, 0.43)
 NDOBC = ClaimNumbers(0.0012, 4.1, 0.0013, 0.0001, 0.0001)
@@ -14,7 +15,7 @@ NDOBC = ClaimNumbers(0.0012, 4.1, 0.0013, 0.0001, 0.0001)
 def test_a_run_is_measured_in_the_windows_of_the_paper() -> None:
     time_s = np.arange(2000) / 100
     error = np.where(time_s < 5.0, 0.001, np.where(time_s < 6.0, 0.2, 0.002))
-    found = measure_claim(np.column_stack([error] * 4), 0.01)
+    found = measure_claim(np.column_stack([error] * len(MEASURED)), 0.01)
     assert found.before_deg == pytest.approx(math.degrees(0.001))
     assert found.peak_deg == pytest.approx(math.degrees(0.2))
     assert found.steady_deg == pytest.approx(math.degrees(0.002))
@@ -22,7 +23,7 @@ def test_a_run_is_measured_in_the_windows_of_the_paper() -> None:
 
 
 def test_a_run_that_ended_early_has_no_number_for_what_it_did_not_reach() -> None:
-    found = measure_claim(np.zeros((700, 4)), 0.01)
+    found = measure_claim(np.zeros((700, len(MEASURED))), 0.01)
     assert found.peak_deg == 0.0
     assert math.isnan(found.steady_deg)
 

@@ -6,7 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from svsa.actuators.signals import CHANNEL_INDEX, CHANNELS
-from svsa.runs.metrics import STEADY_STATE_S, RunningMetrics, compute_metrics
+from svsa.runs.metrics import RunningMetrics, compute_metrics
+from svsa.simulation.loop.tally import STEADY_STATE_S
 
 T = 0.001
 
@@ -14,6 +15,8 @@ T = 0.001
 def build_samples(ticks, **channels):
     """Samples that are zero but for these channels."""
     samples = np.zeros((ticks, len(CHANNELS)))
+    samples[:, CHANNEL_INDEX["time_s"]] = np.arange(ticks) * T
+    samples[:, CHANNEL_INDEX["stiffness_reference_nm_per_rad"]] = 20.0
     for name, values in channels.items():
         samples[:, CHANNEL_INDEX[name]] = values
     return samples
@@ -43,6 +46,9 @@ def test_each_metric_reads_its_own_channel_and_the_sign_does_not_matter():
     assert metrics.rms_stiffness_error_nm_per_rad == 2.0
     assert metrics.peak_stiffness_error_nm_per_rad == 2.0
     assert (metrics.peak_torque1_nm, metrics.peak_torque2_nm) == (3.0, 4.0)
+    assert metrics.peak_stiffness_error_share == 2.0 / 20.0
+    assert metrics.integral_stiffness_error_nms_per_rad == pytest.approx(2.0 * 0.1)
+    assert (metrics.rms_torque1_nm, metrics.rms_torque2_nm) == pytest.approx((3.0, 4.0))
     assert metrics.integral_position_error_rad_s == pytest.approx(1.0 * 0.1)
     assert metrics.effort_n2m2_s == pytest.approx((9.0 + 16.0) * 0.1)
 
@@ -147,18 +153,19 @@ def test_taken_in_pieces_the_metrics_are_those_of_the_whole(cuts, rate):
     """A session updates at every wake: where the wakes fall must not show."""
     t = np.arange(1500) * T
     error = np.exp(-rate * t) * np.sin(40.0 * t)
+    step = 20.0 + 5.0 * np.clip(t - 0.2, 0.0, 0.1)
     samples = build_samples(
-        1500, position_error_rad=error, stiffness_error_nm_per_rad=5.0 * error, torque1_nm=t
+        1500,
+        position_error_rad=error,
+        stiffness_error_nm_per_rad=5.0 * error,
+        stiffness_reference_nm_per_rad=step,
+        torque1_nm=t,
     )
     whole = compute_metrics(samples, T)
     running, edges = RunningMetrics(T), np.minimum(np.cumsum([0, *cuts]), 1500)
     for start, end in zip(edges, [*edges[1:], 1500], strict=True):
         running.update(samples[start:end])
-    found = running.summarize()
-    assert found is not None
-    numbers, expected = dict(vars(found)), dict(vars(whole))
-    assert numbers.pop("recovery_time_s") == expected.pop("recovery_time_s")
-    assert numbers == pytest.approx(expected, rel=1e-12)
+    assert running.summarize() == whole
 
 
 def test_the_settled_error_is_that_of_the_end_however_the_samples_come():
@@ -174,3 +181,73 @@ def test_the_settled_error_is_that_of_the_end_however_the_samples_come():
     assert settled == pytest.approx(3.0 / np.sqrt(2.0), rel=1e-12)
     assert compute_metrics(samples[:999], T).steady_state_position_error_rad is None
     assert compute_metrics(samples[:1000], T).steady_state_position_error_rad == pytest.approx(4.0)
+
+
+def test_total_variation_work_and_rms_of_torques_known_by_hand():
+    """A triangle of 1 N·m up and down each 0.2 s varies by 10 N·m/s; its rms is 1/√3."""
+    t = np.arange(2001) * T
+    triangle = np.abs((t / 0.2 + 0.5) % 1.0 - 0.5) * 2.0
+    samples = build_samples(
+        2001,
+        torque1_nm=triangle,
+        torque2_nm=-2.0 * triangle,
+        motor1_velocity_rad_per_s=-3.0,
+        motor2_velocity_rad_per_s=1.0,
+    )
+    found = compute_metrics(samples, T)
+    assert found.torque1_variation_nm_per_s == pytest.approx(10.0, rel=1e-3)
+    assert found.torque2_variation_nm_per_s == pytest.approx(20.0, rel=1e-3)
+    assert found.rms_torque1_nm == pytest.approx(1.0 / np.sqrt(3.0), rel=1e-3)
+    assert found.work_j == pytest.approx((3.0 * 0.5 + 1.0 * 1.0) * 2.0, rel=1e-3)
+
+
+def test_torque_noise_is_that_at_rest():
+    """A sine of 0.3 N·m about a constant torque: 0.3/√2; none while anything moves."""
+    t = np.arange(500) * T
+    noise = {
+        "torque1_nm": 2.0 + 0.3 * np.sin(2.0 * np.pi * 50.0 * t),
+        "torque2_nm": 0.1 * np.sin(2.0 * np.pi * 50.0 * t),
+    }
+    found = compute_metrics(build_samples(500, **noise), T)
+    assert found.torque1_noise_nm == pytest.approx(0.3 / np.sqrt(2.0))
+    assert found.torque2_noise_nm == pytest.approx(0.1 / np.sqrt(2.0))
+    for moving in (
+        {"position_reference_rad": t},
+        {"stiffness_reference_nm_per_rad": 20.0 + t},
+        {"position_error_rad": np.linspace(0.0, np.radians(0.11), 500)},
+    ):
+        assert compute_metrics(build_samples(500, **noise, **moving), T).torque1_noise_nm is None
+    short = compute_metrics(build_samples(500, **noise)[:499], T)
+    assert short.torque1_noise_nm is None
+
+
+def test_the_stiffness_has_the_metrics_of_the_position():
+    """e^(−10 t) N·m/rad: within 2 % from 0.392 s on; below 0.01 N·m/rad it has not deviated."""
+    error = np.exp(-10.0 * np.arange(1500) * T)
+    found = compute_metrics(build_samples(1500, stiffness_error_nm_per_rad=error), T)
+    assert found.stiffness_recovery_time_s == pytest.approx(0.392)
+    assert found.integral_stiffness_error_nms_per_rad == pytest.approx(0.1, rel=0.01)
+    small = compute_metrics(build_samples(1500, stiffness_error_nm_per_rad=0.009 * error), T)
+    assert small.stiffness_recovery_time_s is None
+    constant = compute_metrics(build_samples(1000, stiffness_error_nm_per_rad=-0.4), T)
+    assert constant.steady_state_stiffness_error_nm_per_rad == pytest.approx(0.4)
+    assert constant.stiffness_recovery_time_s is None
+
+
+def test_a_step_of_either_reference_has_a_step_response():
+    tau, t = 0.1, np.arange(1500) * T
+    left = np.exp(-t / tau)
+    samples = build_samples(
+        1500,
+        position_reference_rad=0.5,
+        position_error_rad=0.5 * left,
+        stiffness_error_nm_per_rad=10.0 * left,
+    )
+    found = compute_metrics(samples, T)
+    rise = pytest.approx(tau * np.log(9.0), abs=T)
+    assert (found.rise_time_s, found.stiffness_rise_time_s) == (rise, rise)
+    assert (found.overshoot_share, found.stiffness_overshoot_share) == (0.0, 0.0)
+    assert found.settling_time_s == found.stiffness_settling_time_s == pytest.approx(0.392)
+    samples[:, CHANNEL_INDEX["time_s"]] += 3.0
+    later = compute_metrics(samples, T)
+    assert (later.rise_time_s, later.stiffness_settling_time_s) == (None, None), "no step of q_d"

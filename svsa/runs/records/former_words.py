@@ -19,7 +19,7 @@ STEPS = {"hand-in": "submit"}
 SUBMISSIONS = "handed-in"
 """Folder of the submissions of a course."""
 METRICS = {"settled_position_error_rad": "steady_state_position_error_rad"}
-"""Metrics in the catalogue of runs, and columns and criteria of studies."""
+"""Metrics: columns and criteria of studies."""
 SETTINGS = {"realism": "effects"}
 """Settings in the catalogue of runs."""
 RESULTS = {"told": "description", "draws": "trials", "draws_held": "trials_held"}

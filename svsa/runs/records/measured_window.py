@@ -1,6 +1,5 @@
 """The window of a recorded run that is measured: one law a lane, and no change in it."""
 
-import math
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
@@ -78,9 +77,12 @@ def summarize(
     """
     found = tuple(metrics for lane in lanes if (metrics := lane.summarize()) is not None)
     if window.load_ended:
-        found = tuple(replace(metrics, steady_state_position_error_rad=None) for metrics in found)
-    numbers = [value for lane in found for value in vars(lane).values() if value is not None]
-    return found if all(map(math.isfinite, numbers)) else None
+        unknown = {
+            "steady_state_position_error_rad": None,
+            "steady_state_stiffness_error_nm_per_rad": None,
+        }
+        found = tuple(replace(metrics, **unknown) for metrics in found)
+    return found if all(metrics.is_finite for metrics in found) else None
 
 
 def _build(record: Record, window: Window, lanes: tuple[str, ...]) -> MeasuredWindow:

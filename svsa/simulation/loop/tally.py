@@ -7,7 +7,7 @@ import numpy as np
 
 from svsa.actuators.dynamics import InternalTorque, compute_deflection
 from svsa.actuators.lever import compute_lever_ratio
-from svsa.actuators.signals import CHANNEL_INDEX, Reference, State, Torque
+from svsa.actuators.signals import Reference, State, Torque
 from svsa.actuators.spring import compute_stiffness
 from svsa.numerics.compilation import compiled
 from svsa.numerics.simd.choice import choose, greatest
@@ -78,16 +78,6 @@ SUMMARY = np.dtype(
 """Of each run: `INSIDE` or why it ended, after how many ticks, `Tally`, and the state reached."""
 
 
-_REFERENCE = CHANNEL_INDEX["position_reference_rad"]
-_SIGMA = CHANNEL_INDEX["stiffness_reference_nm_per_rad"]
-_Q, _DQ = CHANNEL_INDEX["position_rad"], CHANNEL_INDEX["velocity_rad_per_s"]
-_THETA1 = CHANNEL_INDEX["motor1_position_rad"]
-_DTHETA1 = CHANNEL_INDEX["motor1_velocity_rad_per_s"]
-_THETA2 = CHANNEL_INDEX["motor2_position_rad"]
-_DTHETA2 = CHANNEL_INDEX["motor2_velocity_rad_per_s"]
-_U1, _U2 = CHANNEL_INDEX["torque1_nm"], CHANNEL_INDEX["torque2_nm"]
-
-
 @compiled
 def build_window(begin: int, end: int, period: float) -> Window:
     """`Window` of a run of `end` ticks of `period`, s."""
@@ -127,20 +117,73 @@ def follow_recovery(
     return inside, choose(stayed, inside, recovered)
 
 
-@compiled
-def follow_errors(
-    errors: np.ndarray, peaks: np.ndarray, count: int, settled: int, inside: float, recovered: float
-) -> tuple[float, float]:
-    """`follow_recovery` over many ticks of one run. errors, peaks: (ticks,), rad.
+class Moment(NamedTuple):
+    """What the metrics are of, at one tick.
 
-    count: ticks measured before. Returns (inside, recovered).
+    position, stiffness: errors q_d − q, rad, and σ_d − σ, N·m/rad. sigma: σ_d, N·m/rad. u1, u2:
+    actual torque, N·m. dtheta1, dtheta2: motor velocities, rad/s.
     """
-    for i in range(errors.shape[0]):
-        passed = float(count + i + 1)
-        inside, recovered = follow_recovery(
-            True, errors[i], peaks[i], passed, float(settled), inside, recovered
-        )
-    return inside, recovered
+
+    position: float
+    stiffness: float
+    sigma: float
+    u1: float
+    u2: float
+    dtheta1: float
+    dtheta2: float
+
+
+@compiled
+def add_moment(
+    tally: Tally,
+    runs: bool,
+    window: Window,
+    limits: tuple[float, float],
+    moment: Moment,
+    tick: int,
+) -> Tally:
+    """`Tally` with one tick, where it `runs`. limits: of either torque, N·m."""
+    t, m = tally, moment
+    e, s = choose(runs, abs(m.position), 0.0), choose(runs, abs(m.stiffness), 0.0)
+    u1, u2 = choose(runs, abs(m.u1), 0.0), choose(runs, abs(m.u2), 0.0)
+    peak, passed = greatest(t.position_peak, e), float(tick - window.begin + 1)
+    settled = float(window.settled)
+    inside, recovered = follow_recovery(runs, e, peak, passed, settled, t.inside, t.recovered)
+    is_limited = (u1 >= AT_LIMIT * limits[0]) | (u2 >= AT_LIMIT * limits[1])
+    share = s / m.sigma
+    squares, stiffness_squares = t.steady_state_squares, t.stiffness_steady_squares
+    if tick >= window.end - window.settled:
+        squares, stiffness_squares = squares + e * e, stiffness_squares + s * s
+    last_peak, share_last_peak = t.position_last_peak, t.share_last_peak
+    if tick >= window.end - window.last:
+        last_peak, share_last_peak = greatest(last_peak, e), greatest(share_last_peak, share)
+    variation = t.torque1_variation
+    if tick > window.begin:
+        variation = variation + choose(runs, abs(m.u1 - t.torque1_last), 0.0)
+    return Tally(
+        t.position_squares + e * e,
+        t.stiffness_squares + s * s,
+        t.torque1_squares + u1 * u1,
+        t.torque2_squares + u2 * u2,
+        t.position_absolute + e,
+        peak,
+        greatest(t.stiffness_peak, s),
+        greatest(t.torque1_peak, u1),
+        greatest(t.torque2_peak, u2),
+        choose(runs, m.position, t.position_last),
+        choose(runs, m.stiffness, t.stiffness_last),
+        squares,
+        inside,
+        recovered,
+        choose(is_limited, t.limited + 1.0, t.limited),
+        stiffness_squares,
+        greatest(t.share_peak, share),
+        last_peak,
+        share_last_peak,
+        variation,
+        m.u1,
+        t.power + choose(runs, u1 * abs(m.dtheta1) + u2 * abs(m.dtheta2), 0.0),
+    )
 
 
 @compiled
@@ -160,50 +203,13 @@ def measure(
     """
     if tick < window.begin:
         return tally
-    t, plant = tally, blocks.plant
+    plant = blocks.plant
     mu = compute_lever_ratio(x.theta2, plant.mu0, plant.gamma)
     sigma = compute_stiffness(mu, compute_deflection(x), plant.K)
-    position, stiffness = reference.q - x.q, reference.sigma - sigma
-    e, s = choose(runs, abs(position), 0.0), choose(runs, abs(stiffness), 0.0)
-    u1, u2 = choose(runs, abs(torque.u1), 0.0), choose(runs, abs(torque.u2), 0.0)
-    peak, passed = greatest(t.position_peak, e), float(tick - window.begin + 1)
-    settled = float(window.settled)
-    inside, recovered = follow_recovery(runs, e, peak, passed, settled, t.inside, t.recovered)
-    is_limited = (u1 >= AT_LIMIT * blocks.torque1_max) | (u2 >= AT_LIMIT * blocks.torque2_max)
-    share = s / reference.sigma
-    squares, stiffness_squares = t.steady_state_squares, t.stiffness_steady_squares
-    if tick >= window.end - window.settled:
-        squares, stiffness_squares = squares + e * e, stiffness_squares + s * s
-    last_peak, share_last_peak = t.position_last_peak, t.share_last_peak
-    if tick >= window.end - window.last:
-        last_peak, share_last_peak = greatest(last_peak, e), greatest(share_last_peak, share)
-    variation = t.torque1_variation
-    if tick > window.begin:
-        variation = variation + choose(runs, abs(torque.u1 - t.torque1_last), 0.0)
-    return Tally(
-        t.position_squares + e * e,
-        t.stiffness_squares + s * s,
-        t.torque1_squares + u1 * u1,
-        t.torque2_squares + u2 * u2,
-        t.position_absolute + e,
-        peak,
-        greatest(t.stiffness_peak, s),
-        greatest(t.torque1_peak, u1),
-        greatest(t.torque2_peak, u2),
-        choose(runs, position, t.position_last),
-        choose(runs, stiffness, t.stiffness_last),
-        squares,
-        inside,
-        recovered,
-        choose(is_limited, t.limited + 1.0, t.limited),
-        stiffness_squares,
-        greatest(t.share_peak, share),
-        last_peak,
-        share_last_peak,
-        variation,
-        torque.u1,
-        t.power + choose(runs, u1 * abs(x.dtheta1) + u2 * abs(x.dtheta2), 0.0),
-    )
+    errors = reference.q - x.q, reference.sigma - sigma
+    moment = Moment(*errors, reference.sigma, torque.u1, torque.u2, x.dtheta1, x.dtheta2)
+    limits = blocks.torque1_max, blocks.torque2_max
+    return add_moment(tally, runs, window, limits, moment, tick)
 
 
 @compiled
@@ -222,18 +228,3 @@ def publish_tally(
     window = kept.window
     tally = measure(kept.tally, runs, window, blocks, reference, lane.x, action.actual, tick)
     return Kept(tally, window)
-
-
-@compiled
-def sum_up(samples: np.ndarray, blocks: Blocks, begin: int, end: int) -> Tally:
-    """`Tally` of the samples (ticks, channels) of one run of `end` ticks, to a batch's bits.
-
-    begin: the tick at which measuring begins. Fewer samples than ticks: the run ended early.
-    """
-    tally, window = start_tally(0.0), build_window(begin, end, blocks.period)
-    for tick in range(samples.shape[0]):
-        s = samples[tick]
-        reference = Reference(s[_REFERENCE], 0.0, 0.0, 0.0, 0.0, s[_SIGMA], 0.0, 0.0)
-        x = State(s[_Q], s[_DQ], s[_THETA1], s[_DTHETA1], s[_THETA2], s[_DTHETA2])
-        tally = measure(tally, True, window, blocks, reference, x, Torque(s[_U1], s[_U2]), tick)
-    return tally

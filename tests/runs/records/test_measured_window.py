@@ -107,7 +107,11 @@ def test_what_is_left_after_a_load_that_ended_by_itself_is_no_error_under_load()
     assert find(ended).load_ended
     assert of_pulse.steady_state_position_error_rad is None
     assert of_mass.steady_state_position_error_rad is not None
-    unsettled = dataclasses.replace(of_mass, steady_state_position_error_rad=None)
+    unsettled = dataclasses.replace(
+        of_mass,
+        steady_state_position_error_rad=None,
+        steady_state_stiffness_error_nm_per_rad=None,
+    )
     assert of_pulse == unsettled
 
 

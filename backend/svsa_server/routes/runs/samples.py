@@ -1,7 +1,5 @@
 """Recorded runs looked at: samples for a plot, metrics of a stretch."""
 
-import dataclasses
-import math
 from typing import Annotated
 
 import msgspec
@@ -95,11 +93,7 @@ def _measure(values: np.ndarray, period_s: float) -> Metrics | None:
     running = RunningMetrics(period_s)
     running.update_measured(values)
     metrics = running.summarize()
-    if metrics is None or not all(
-        value is None or math.isfinite(value) for value in dataclasses.astuple(metrics)
-    ):
-        return None
-    return metrics
+    return metrics if metrics is not None and metrics.is_finite else None
 
 
 def _choose_channels(record: Record, channels: str | None) -> list[str]:

@@ -10,7 +10,7 @@ import msgspec
 
 from svsa.errors import Fault, ParameterError, SvsaError, Violation
 from svsa.runs.metrics import Metrics
-from svsa.runs.records.former_words import METRICS, SETTINGS, translate_fields
+from svsa.runs.records.former_words import SETTINGS, translate_fields
 from svsa.runs.records.header import BranchPoint, PlantKind
 from svsa.runs.records.measured_window import MeasuredWindow
 from svsa.runs.records.settings import RunSettings, name_figure
@@ -188,7 +188,11 @@ def write_entry(entry: RunEntry) -> str:
 
 
 def read_entry(text: str) -> RunEntry:
-    """An entry from `write_entry`; without metrics of a window that was not written."""
+    """An entry from `write_entry`.
+
+    Without metrics of a window that was not written. Without window and metrics if an older version
+    computed fewer metrics: `describe_older` computes them again from the samples.
+    """
     written = json.loads(text)
     for name in ("tags", "lanes"):
         written[name] = tuple(written[name])
@@ -196,8 +200,9 @@ def read_entry(text: str) -> RunEntry:
     written["window"] = _read(MeasuredWindow, written.get("window"))
     written["fault"] = _read(Fault, written.get("fault"))
     if written["metrics"] is not None:
-        present = [translate_fields(one, METRICS) for one in written["metrics"]]
-        written["metrics"] = _read(tuple[Metrics, ...], present)
+        written["metrics"] = _read(tuple[Metrics, ...], written["metrics"])
+        if written["metrics"] is None:
+            written["window"] = None
     if written["window"] is None:
         written["metrics"] = None
     if branch := written.get("branch_of"):

@@ -1,8 +1,9 @@
 """The tables of the catalogue: columns to sort and filter by, and the entries as they are.
 
-Format 5. A catalogue of format 1 has no settings, one of 2 has metrics of whole records, one of 3
-has no owners, and one of 4 has a former word for the steady-state error. It is written again from
-its entries; `describe_older` then reads the rest from the folders.
+Format 6. A catalogue of format 1 has no settings, one of 2 has metrics of whole records, one of 3
+has no owners, one of 4 has a former word for the steady-state error, and one of 5 has fewer
+metrics. It is written again from its entries; `describe_older` then reads the rest from the
+folders.
 """
 
 import re
@@ -20,8 +21,8 @@ from svsa.runs.records.catalogue.entry import (
     write_entry,
 )
 
-VERSION = 5
-_REBUILT = (0, 1, 2, 3, 4)
+VERSION = 6
+_REBUILT = (0, 1, 2, 3, 4, 5)
 _COLUMNS = {
     "id": "TEXT PRIMARY KEY",
     "created": "TEXT NOT NULL",

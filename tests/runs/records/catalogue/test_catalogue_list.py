@@ -38,11 +38,13 @@ PRAGMA user_version = 2;
 """
 
 FORMAT_4 = """
-UPDATE entries SET entry = replace(
-    replace(entry, 'steady_state_position_error_rad', 'settled_position_error_rad'),
-    '"effects":', '"realism":'
-);
+UPDATE entries SET entry = replace(entry, '"effects":', '"realism":');
 PRAGMA user_version = 4;
+"""
+
+FORMAT_5 = """
+UPDATE entries SET entry = json_remove(entry, '$.metrics[0].work_j');
+PRAGMA user_version = 5;
 """
 
 
@@ -217,13 +219,12 @@ def test_a_catalogue_of_the_older_format_is_opened_and_filled_in(varied: Catalog
     assert again.list_facets()["tag"] == {"class": 1}
 
 
-def test_metrics_that_an_older_version_took_of_whole_runs_are_measured_anew(
-    varied: Catalogue,
-) -> None:
+@pytest.mark.parametrize("former", [FORMAT_2, FORMAT_5], ids=["of whole runs", "fewer"])
+def test_metrics_of_an_older_version_are_computed_again(varied: Catalogue, former: str) -> None:
     before = varied.get("run-3")
     assert before.window is not None
     connection = sqlite3.connect(varied.folder / "catalogue.sqlite")
-    connection.executescript(FORMAT_2)
+    connection.executescript(former)
     connection.close()
     again = Catalogue(varied.folder)
     assert again.get("run-3").settings == before.settings
