@@ -51,7 +51,7 @@ class Metrics:
 
     Of the effort:
         rms_torque…, peak_torque…: Of either motor's actual torque, u1 and u2.
-        effort_n2m2_s: ∫(u1² + u2²) dt, to which the heat of the windings is proportional.
+        effort_n2m2_s: ∫(u1² + u2²) dt; the heat of each motor's windings follows its term.
         work_j: ∫(|u1 θ̇1| + |u2 θ̇2|) dt, mechanical and without recovery. The electrical work also
             has the losses of the windings, whose resistance the lab does not know.
         torque1_variation_nm_per_s, torque2_variation_nm_per_s: Total variation Σ|Δu| a second.

@@ -6,6 +6,7 @@ import { isLive, samples } from "../core/state/session";
 import { text } from "../core/text/en";
 import { formatNumber, toDegrees } from "../core/units";
 import { useLiveText } from "../core/widgets/live";
+import { AllMetricsButton } from "./allmetrics";
 import { bestIn, hasEnded, recoveryOf, sinceOf } from "./window";
 
 const { compare } = text;
@@ -76,7 +77,12 @@ export function Comparison({ state }: { state: SessionState }) {
     <MetricsTable
       class="surface metrics comparison"
       label={isBench ? compare.benchHeading : compare.heading}
-      caption={sinceOf(window)}
+      caption={
+        <span class="comparison-caption">
+          <span>{sinceOf(window)}</span>
+          <AllMetricsButton state={state} />
+        </span>
+      }
       {...(isBench ? { captionHint: compare.benchHint } : {})}
       corner={compare.lane}
       rows={lanes.map((lane) => ({ key: String(lane.lane), look: lookOf(lane), name: lane.name }))}

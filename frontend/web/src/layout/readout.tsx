@@ -3,6 +3,7 @@ import { isLive, samples } from "../core/state/session";
 import { text } from "../core/text/en";
 import { formatNumber, toDegrees } from "../core/units";
 import { useLiveText } from "../core/widgets/live";
+import { AllMetricsButton } from "./allmetrics";
 import { type Recovery, recoveryOf, sinceOf } from "./window";
 
 const degrees = (rad: number | null | undefined) =>
@@ -32,7 +33,10 @@ export function Readout({ state }: { state: SessionState }) {
   return (
     <dl class="surface readout" aria-label={text.readout.heading}>
       <div class="is-main">
-        <dt>{isLive.value ? text.readout.error : text.readout.lastError}</dt>
+        <dt>
+          {isLive.value ? text.readout.error : text.readout.lastError}{" "}
+          <AllMetricsButton state={state} />
+        </dt>
         <dd>
           <CurrentError /> <span class="unit">deg</span>
         </dd>

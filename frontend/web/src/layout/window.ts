@@ -1,5 +1,6 @@
 /** Since when numbers are measured, in words, and what became of the load. */
 import type { LaneRow, Metrics, SessionState, WindowState } from "../core/api/types";
+import { isLost } from "../core/plots/metricrows";
 import { text } from "../core/text/en";
 import { measuredText } from "../core/text/measured";
 import { formatNumber } from "../core/units";
@@ -39,20 +40,16 @@ export interface Recovery {
   hint: string;
 }
 
-/** Within this share of the peak an error counts as recovered. */
-const RECOVERY_SHARE = 0.02;
-
-/** The steady error is beyond what counts as recovered: a load that grows slowly comes to that. */
-const isLarge = (of: Metrics): boolean =>
-  (of.steady_state_position_error_rad ?? 0) > RECOVERY_SHARE * of.peak_position_error_rad;
-
 /** metrics: of the load's window; null for a lane that was not there when the load came. */
 export function recoveryOf(metrics: Metrics | null, load: WindowState | null): Recovery {
   if (load === null) return { seconds: null, words: windows.noLoad, hint: windows.recovery };
   const hint = windows.recoveryFrom(at(load));
   if (metrics === null) return { seconds: null, words: formatNumber(null), hint: windows.notThere };
   const { recovery_time_s: seconds } = metrics;
-  if (seconds !== null && isLarge(metrics)) {
+  if (
+    seconds !== null &&
+    isLost(metrics.steady_state_position_error_rad, metrics.peak_position_error_rad)
+  ) {
     const after = formatNumber(seconds, 3, 2);
     return { seconds: null, words: windows.lost, hint: windows.lostAfter(at(load), after) };
   }

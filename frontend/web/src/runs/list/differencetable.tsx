@@ -8,7 +8,7 @@ type Row = RunDifference["differences"][number];
 function Group({ name, rows }: { name: string; rows: readonly Row[] }) {
   return (
     <tbody>
-      <tr class="difference-group">
+      <tr class="metrics-group">
         <th scope="colgroup" colSpan={1 + (rows[0]?.values.length ?? 0)}>
           {name}
         </th>

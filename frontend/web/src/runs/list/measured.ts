@@ -30,3 +30,7 @@ export function explainSteadyState({ load_ended: hasEnded, start_s: start, end_s
   if (hasEnded) return words.loadEnded;
   return end - start < 1 ? words.tooShort : words.steadyStateHint;
 }
+
+/** Whether a load came on or was removed at the start of the window. */
+export const isDisturbed = ({ kind }: Pick<MeasuredWindow, "kind">): boolean =>
+  kind === "load" || kind === "unload";

@@ -1,9 +1,11 @@
 import type { Metrics, RunDifference } from "../../core/api/types";
+import { AllMetrics } from "../../core/plots/allmetrics";
 import { type MetricsColumn, MetricsTable } from "../../core/plots/metricstable";
 import { text } from "../../core/text/en";
+import { metricsText } from "../../core/text/metrics";
 import { formatError, formatNumber, toDegrees } from "../../core/units";
 import { bestOf } from "../../core/widgets/tables";
-import { describeMeasured } from "./measured";
+import { describeMeasured, isDisturbed } from "./measured";
 import { areOfOneLength, nameCurve, type Overlaid, whyUnlike } from "./overlaid";
 
 const words = text.overlay;
@@ -129,6 +131,19 @@ export function OverlayTable({ curves, difference }: OverlayTableProps) {
         }))}
         columns={[window, ...columns]}
       />
+      <details>
+        <summary>{metricsText.all}</summary>
+        <AllMetrics
+          caption={words.table}
+          lanes={curves.map((curve) => ({
+            key: curve.key,
+            look: curve.lineStyle,
+            name: nameCurve(curve),
+            metrics: curve.metrics,
+            isDisturbed: curve.window !== null && isDisturbed(curve.window),
+          }))}
+        />
+      </details>
     </section>
   );
 }

@@ -1,5 +1,5 @@
 /** The run inside the page: JSON, and arrays of numbers packed into one compressed text. */
-import type { Metrics } from "../../core/api/types";
+import type { MeasuredWindow, Metrics } from "../../core/api/types";
 import type { RunEvent } from "../../core/plots/eventlines";
 import { type Mark, markOf } from "../../core/state/plant";
 import type { Measured } from "../list/measured";
@@ -45,7 +45,7 @@ export interface Run {
   details: Record<string, unknown>;
   events: RunEvent[];
   /** In which the metrics were measured, in the time of the page. */
-  window: Measured;
+  window: Measured & Pick<MeasuredWindow, "kind">;
   /** Of every lane; none where samples are no numbers. */
   metrics: Metrics[];
   /** Of `stride` samples one is drawn, with the peaks between. */

@@ -1,9 +1,11 @@
 import type { Metrics as LaneMetrics } from "../../core/api/types";
+import { AllMetrics } from "../../core/plots/allmetrics";
 import { lineStyleAt, lineStyleOf } from "../../core/plots/linestyles";
 import { type MetricsColumn, MetricsTable } from "../../core/plots/metricstable";
+import { metricsText } from "../../core/text/metrics";
 import { text } from "../../core/text/replay";
 import { formatNumber, toDegrees } from "../../core/units";
-import { describeMeasured, explainSteadyState } from "../list/measured";
+import { describeMeasured, explainSteadyState, isDisturbed } from "../list/measured";
 import { isPlaying, seek } from "./clock";
 import type { Recording, Run } from "./data";
 
@@ -72,6 +74,23 @@ function Metrics({ run }: { run: Run }) {
   );
 }
 
+function Details({ run }: { run: Run }) {
+  const { window, metrics } = run;
+  const lanes = window.lanes.map((name, index) => ({
+    key: `${index}.${name}`,
+    look: lineStyleOf(lineStyleIn(run, index)),
+    name,
+    metrics: metrics[index] ?? null,
+    isDisturbed: isDisturbed(window),
+  }));
+  return (
+    <details>
+      <summary>{metricsText.all}</summary>
+      <AllMetrics caption={describeMeasured(window)} lanes={lanes} />
+    </details>
+  );
+}
+
 function Events({ run }: { run: Run }) {
   return (
     <div class="menu events">
@@ -101,6 +120,7 @@ export function Numbers({ recording: { run } }: { recording: Recording }) {
   return (
     <section class="surface replay-numbers">
       <Metrics run={run} />
+      <Details run={run} />
       <Events run={run} />
     </section>
   );

@@ -1,0 +1,198 @@
+/** Every metric of a window of a run, as rows of a table. */
+import type { Metrics } from "../api/types";
+import { metricsText as words } from "../text/metrics";
+import { formatError, formatNumber, toDegrees } from "../units";
+import type { LineStyle } from "./definitions";
+
+const { units, undefined: reasons } = words;
+
+export interface MeasuredLane {
+  key: string;
+  look: LineStyle;
+  name: string;
+  /** null where samples are no numbers. */
+  metrics: Metrics | null;
+  /** Whether a load came on or was removed at the start of the window. */
+  isDisturbed: boolean;
+}
+
+/** A value in words and, of one that is not defined, why. */
+interface Shown {
+  value: string;
+  hint?: string;
+}
+
+export interface MetricRow {
+  name: string;
+  hint: string;
+  unit: string;
+  read: (metrics: Metrics, isDisturbed: boolean) => Shown;
+}
+
+const RECOVERY_SHARE = 0.02;
+/** A smaller stiffness error has no recovery time. */
+const UNMOVED_NM_PER_RAD = 0.01;
+
+/** The error in the end is beyond what counts as recovered: a load that grows later comes to that. */
+export const isLost = (steady: number | null, peak: number): boolean =>
+  (steady ?? 0) > RECOVERY_SHARE * peak;
+
+const number = (value: number): Shown => ({ value: formatNumber(value, 3, 4) });
+const missing = (hint: string): Shown => ({ value: formatNumber(null), hint });
+const orMissing = (value: number | null, hint: string): Shown =>
+  value === null ? missing(hint) : number(value);
+const both = (first: number | null, second: number | null): Shown =>
+  first === null || second === null
+    ? missing(reasons.moving)
+    : { value: `${formatError(first, 3)} / ${formatError(second, 3)}` };
+
+/** What the metrics of position and stiffness have in common; convert: to the unit on screen. */
+interface Output {
+  unit: string;
+  integralUnit: string;
+  convert: (value: number) => number;
+  rms: (metrics: Metrics) => number;
+  peak: (metrics: Metrics) => number;
+  steady: (metrics: Metrics) => number | null;
+  integral: (metrics: Metrics) => number;
+  recovery: (metrics: Metrics) => number | null;
+  rise: (metrics: Metrics) => number | null;
+  overshoot: (metrics: Metrics) => number | null;
+  settling: (metrics: Metrics) => number | null;
+}
+
+const POSITION: Output = {
+  unit: units.degrees,
+  integralUnit: units.degreeSeconds,
+  convert: toDegrees,
+  rms: (one) => one.rms_position_error_rad,
+  peak: (one) => one.peak_position_error_rad,
+  steady: (one) => one.steady_state_position_error_rad,
+  integral: (one) => one.integral_position_error_rad_s,
+  recovery: (one) => one.recovery_time_s,
+  rise: (one) => one.rise_time_s,
+  overshoot: (one) => one.overshoot_share,
+  settling: (one) => one.settling_time_s,
+};
+
+const STIFFNESS: Output = {
+  unit: units.stiffness,
+  integralUnit: units.stiffnessSeconds,
+  convert: (value) => value,
+  rms: (one) => one.rms_stiffness_error_nm_per_rad,
+  peak: (one) => one.peak_stiffness_error_nm_per_rad,
+  steady: (one) => one.steady_state_stiffness_error_nm_per_rad,
+  integral: (one) => one.integral_stiffness_error_nms_per_rad,
+  recovery: (one) => one.stiffness_recovery_time_s,
+  rise: (one) => one.stiffness_rise_time_s,
+  overshoot: (one) => one.stiffness_overshoot_share,
+  settling: (one) => one.stiffness_settling_time_s,
+};
+
+function showRecovery(of: Output, metrics: Metrics, isDisturbed: boolean): Shown {
+  const seconds = of.recovery(metrics);
+  if (!isDisturbed) return missing(reasons.undisturbed);
+  if (seconds === null) {
+    const isUnmoved = of === STIFFNESS && of.peak(metrics) <= UNMOVED_NM_PER_RAD;
+    return missing(isUnmoved ? reasons.unmoved : reasons.outside);
+  }
+  if (isLost(of.steady(metrics), of.peak(metrics))) {
+    return missing(reasons.lost(formatNumber(seconds, 3, 3)));
+  }
+  return number(seconds);
+}
+
+/** The rows of the errors, and those of a step where one of the lanes has a response to one. */
+function listOutput(of: Output, lanes: readonly MeasuredLane[]): MetricRow[] {
+  const inUnit = (read: (metrics: Metrics) => number) => (metrics: Metrics) => ({
+    value: formatError(of.convert(read(metrics))),
+  });
+  const hasStep = lanes.some(({ metrics }) => metrics !== null && of.rise(metrics) !== null);
+  const steps: MetricRow[] = [
+    {
+      ...words.rise,
+      unit: units.seconds,
+      read: (one) => orMissing(of.rise(one), reasons.unreached),
+    },
+    {
+      ...words.overshoot,
+      unit: units.percent,
+      read: (one) => {
+        const share = of.overshoot(one);
+        return share === null ? missing(reasons.unreached) : number(100 * share);
+      },
+    },
+    {
+      ...words.settling,
+      unit: units.seconds,
+      read: (one) => orMissing(of.settling(one), reasons.unsettled),
+    },
+  ];
+  return [
+    { ...words.rms, unit: of.unit, read: inUnit(of.rms) },
+    { ...words.peak, unit: of.unit, read: inUnit(of.peak) },
+    ...(of === STIFFNESS
+      ? [
+          {
+            ...words.peakShare,
+            unit: units.percent,
+            read: (one: Metrics) => number(100 * one.peak_stiffness_error_share),
+          },
+        ]
+      : []),
+    {
+      ...words.steady,
+      unit: of.unit,
+      read: (one) => {
+        const steady = of.steady(one);
+        const why = one.duration_s < 1 ? reasons.tooShort : reasons.loadEnded;
+        return steady === null ? missing(why) : { value: formatError(of.convert(steady)) };
+      },
+    },
+    { ...words.iae, unit: of.integralUnit, read: inUnit(of.integral) },
+    { ...words.recovery, unit: units.seconds, read: (...one) => showRecovery(of, ...one) },
+    ...(hasStep ? steps : []),
+  ];
+}
+
+const EFFORT: readonly MetricRow[] = [
+  {
+    ...words.rmsTorque,
+    unit: units.torque,
+    read: (one) => both(one.rms_torque1_nm, one.rms_torque2_nm),
+  },
+  {
+    ...words.peakTorque,
+    unit: units.torque,
+    read: (one) => both(one.peak_torque1_nm, one.peak_torque2_nm),
+  },
+  { ...words.work, unit: units.work, read: (one) => number(one.work_j) },
+  { ...words.effort, unit: units.effort, read: (one) => number(one.effort_n2m2_s) },
+  {
+    ...words.variation,
+    unit: units.variation,
+    read: (one) => both(one.torque1_variation_nm_per_s, one.torque2_variation_nm_per_s),
+  },
+  {
+    ...words.noise,
+    unit: units.torque,
+    read: (one) => both(one.torque1_noise_nm, one.torque2_noise_nm),
+  },
+];
+
+interface MetricGroup {
+  name: string;
+  remark: string;
+  rows: readonly MetricRow[];
+}
+
+/** The rows by what they are of. */
+export const listGroups = (lanes: readonly MeasuredLane[]): MetricGroup[] => [
+  { name: words.groups.position, remark: "", rows: listOutput(POSITION, lanes) },
+  { name: words.groups.stiffness, remark: "", rows: listOutput(STIFFNESS, lanes) },
+  { name: words.groups.effort, remark: words.both, rows: EFFORT },
+];
+
+/** What a row shows of a lane. */
+export const readCell = (row: MetricRow, { metrics, isDisturbed }: MeasuredLane): Shown =>
+  metrics === null ? missing(reasons.lane) : row.read(metrics, isDisturbed);

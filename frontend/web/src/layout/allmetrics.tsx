@@ -1,0 +1,34 @@
+import type { SessionState } from "../core/api/types";
+import { AllMetrics } from "../core/plots/allmetrics";
+import { lineStyleOf } from "../core/plots/linestyles";
+import { metricsText as words } from "../core/text/metrics";
+import { Popup } from "../core/widgets/popup";
+import { isDisturbed } from "../runs/list/measured";
+import { sinceOf } from "./window";
+
+/** A button that opens every metric of the lanes since the last change. */
+export function AllMetricsButton({ state: { lanes, window } }: { state: SessionState }) {
+  const disturbed = isDisturbed(window);
+  return (
+    <Popup
+      class="quiet small"
+      popupClass="metrics-popup"
+      button={words.all}
+      name={words.all}
+      title={words.allHint}
+    >
+      {() => (
+        <AllMetrics
+          caption={sinceOf(window)}
+          lanes={lanes.map(({ lane, name, stretches, in_window: metrics }) => ({
+            key: String(lane),
+            look: lineStyleOf(stretches.at(-1)?.line_style ?? 0),
+            name,
+            metrics,
+            isDisturbed: disturbed,
+          }))}
+        />
+      )}
+    </Popup>
+  );
+}
