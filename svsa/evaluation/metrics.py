@@ -15,33 +15,35 @@ from svsa.runs.result.result import Result
 from svsa.simulation.loop.tally import STEADY_STATE_S, SUMMARY, Tally
 from svsa.simulation.loop.tally_rows import sum_up
 
-METRICS = {
-    "rms_position_error_rad": "rad",
-    "peak_position_error_rad": "rad",
-    "last_position_error_rad": "rad",
-    "steady_state_position_error_rad": "rad",
-    "recovery_time_s": "s",
-    "integral_position_error_rad_s": "rad·s",
-    "rms_stiffness_error_nm_per_rad": "N·m/rad",
-    "peak_stiffness_error_nm_per_rad": "N·m/rad",
-    "peak_stiffness_error_share": "1",
-    "steady_state_stiffness_error_nm_per_rad": "N·m/rad",
-    "rms_torque1_nm": "N·m",
-    "rms_torque2_nm": "N·m",
-    "peak_torque1_nm": "N·m",
-    "peak_torque2_nm": "N·m",
-    "effort_n2m2_s": "N²·m²·s",
-    "work_j": "J",
-    "torque1_variation_nm_per_s": "N·m/s",
-    "limit_share": "1",
-}
-"""Each metric with its unit; from `measure_from_s` to the end, or to the fault.
+QUANTITIES = {
+    "rms_position_error_rad": ("rad", "rms of q_d − q"),
+    "peak_position_error_rad": ("rad", "Largest |q_d − q|"),
+    "last_position_error_rad": ("rad", "|q_d − q| in the last sample"),
+    "steady_state_position_error_rad": ("rad", "rms of q_d − q over the last 0.5 s"),
+    "recovery_time_s": ("s", "Until |q_d − q| stays within 2 % of its peak for 0.5 s"),
+    "integral_position_error_rad_s": ("rad·s", "Integral of |q_d − q|"),
+    "rms_stiffness_error_nm_per_rad": ("N·m/rad", "rms of σ_d − σ"),
+    "peak_stiffness_error_nm_per_rad": ("N·m/rad", "Largest |σ_d − σ|"),
+    "peak_stiffness_error_share": ("1", "Largest |σ_d − σ| over σ_d"),
+    "steady_state_stiffness_error_nm_per_rad": (
+        "N·m/rad", "rms of σ_d − σ over the last 0.5 s",
+    ),
+    "rms_torque1_nm": ("N·m", "rms of τ_1"),
+    "rms_torque2_nm": ("N·m", "rms of τ_2"),
+    "peak_torque1_nm": ("N·m", "Largest |τ_1|"),
+    "peak_torque2_nm": ("N·m", "Largest |τ_2|"),
+    "effort_n2m2_s": ("N²·m²·s", "Integral of τ_1² + τ_2²"),
+    "work_j": ("J", "Integral of |τ_1 θ̇_1| + |τ_2 θ̇_2|"),
+    "torque1_variation_nm_per_s": ("N·m/s", "Total variation of τ_1 a second"),
+    "limit_share": ("1", "Share of the ticks in which a motor makes its limit"),
+}  # fmt: skip
+"""Each metric with its unit and meaning; from `measure_from_s` to the end, or to the fault.
 
 Those of `svsa.runs.metrics.Metrics` by its names; recovery and steady-state errors are NaN where it
-has none. last_position_error_rad: |q_d − q| of the last sample. peak_stiffness_error_share: largest
-|σ_d − σ|/σ_d. work_j: ∫(|u1 θ̇1| + |u2 θ̇2|) dt, mechanical. torque1_variation_nm_per_s: Σ|Δu1| a
-second. limit_share: of the ticks in which a motor made its limit, to 0.1 %.
+has none. Torques are those made, work is mechanical, and a limit is made to 0.1 %.
 """
+METRICS = {name: unit for name, (unit, _) in QUANTITIES.items()}
+"""The unit of each metric."""
 
 _CODES = {name: code for code, name in FAULT_CODES.items()} | {None: INSIDE}
 RECOVERY = "recovery_time_s"

@@ -1,24 +1,32 @@
 """The progress of long work on the command line: a bar with count, rate and time left."""
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import Protocol
 
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-Report = Callable[[int, str], None]
-"""Is given how many runs are done, and a description; an empty one leaves the last."""
+
+class Report(Protocol):
+    """What `show_progress` yields."""
+
+    def __call__(self, done: float, description: str = "", total: int | None = None) -> None:
+        """Show how much is done; an empty description and a total of None leave the last."""
 
 
 @contextmanager
-def show_progress(console: Console, description: str, total: int) -> Iterator[Report]:
+def show_progress(
+    console: Console, description: str, total: int | None = None, unit: str = "runs"
+) -> Iterator[Report]:
     """Show a bar until the work ends.
 
     Args:
         console: Where the bar is shown.
         description: In front of the bar.
-        total: How many runs there are.
+        total: How much there is to do; None until it is reported.
+        unit: What is counted, for the rate; "" shows none.
 
     Yields:
         A function that updates the bar. The first report counts as done before.
@@ -30,16 +38,17 @@ def show_progress(console: Console, description: str, total: int) -> Iterator[Re
         TextColumn("{task.fields[rate]}"),
         TimeRemainingColumn(),
     )
+    compiling = "compiling …" if unit else ""
     with Progress(*columns, console=console, transient=True) as bar:
-        task = bar.add_task(description, total=total, rate="compiling …")
-        first: list[tuple[float, int]] = []
+        task = bar.add_task(description, total=total, rate=compiling)
+        first: list[tuple[float, float]] = []
 
-        def report(done: int, reported: str = "") -> None:
+        def report(done: float, description: str = "", total: int | None = None) -> None:
             first.append((time.monotonic(), done))
             passed, more = first[-1][0] - first[0][0], done - first[0][1]
-            rate = f"{more / passed:.0f} runs/s" if more and passed else "compiling …"
-            text = reported or bar.tasks[task].description
-            bar.update(task, completed=done, description=text, rate=rate)
+            rate = f"{more / passed:.0f} {unit}/s" if unit and more and passed else compiling
+            text = description or bar.tasks[task].description
+            bar.update(task, completed=done, description=text, rate=rate, total=total)
             del first[1:]
 
         yield report

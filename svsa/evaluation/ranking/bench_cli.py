@@ -6,10 +6,10 @@ from typing import Annotated
 
 import typer
 from rich.console import Console
-from rich.progress import Progress, SpinnerColumn, TimeElapsedColumn
 
 from svsa.control.installed import PAPERS_LAW, check_installed, list_law_names
 from svsa.errors import ParameterError, Violation
+from svsa.evaluation.progress_bar import show_progress
 from svsa.evaluation.ranking.bench_runs import BenchRuns, read_bench_runs, write_bench_runs
 from svsa.evaluation.ranking.bench_table import build_table, format_bench
 from svsa.evaluation.ranking.measure_bench import measure_on_bench
@@ -64,7 +64,6 @@ def _check_figure(key: str) -> str:
 
 
 def _measure(laws: tuple[str, ...], figures: tuple[str, ...]) -> BenchRuns:
-    columns = (SpinnerColumn(), *Progress.get_default_columns(), TimeElapsedColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task(f"{len(laws) * len(figures)} runs of 20 s through CAN", total=1.0)
-        return measure_on_bench(laws, figures, lambda done: bar.update(task, completed=done))
+    runs = len(laws) * len(figures)
+    with show_progress(Console(stderr=True), "Runs of 20 s through CAN", runs, "") as report:
+        return measure_on_bench(laws, figures, lambda share: report(share * runs))

@@ -7,9 +7,9 @@ from typing import Annotated
 import typer
 from rich.box import SIMPLE_HEAD
 from rich.console import Console
-from rich.progress import Progress, SpinnerColumn, TimeElapsedColumn
 from rich.table import Table
 
+from svsa.evaluation.progress_bar import show_progress
 from svsa.evaluation.ranking.bench_runs import load_published_bench_runs
 from svsa.evaluation.ranking.entry import build_entry, get_entry_title, list_entry_keys
 from svsa.evaluation.ranking.measure import TRIALS
@@ -60,13 +60,10 @@ def run_ranking(
         done = {row.key for row in known if row.key in tuned and row.tuning == tuned[row.key]}
         keys = [key for key in keys if key not in done]
     found = Results.build(known, seed, trials) if known else None
-    columns = (SpinnerColumn(), *Progress.get_default_columns(), TimeElapsedColumn())
-    with Progress(*columns, console=_messages, transient=True) as bar:
-        task = bar.add_task("", total=len(keys))
+    with show_progress(_messages, "", len(keys), "") as bar:
 
         def report(key: str, done: float) -> None:
-            title = get_entry_title(key)
-            bar.update(task, completed=keys.index(key) + done, description=title)
+            bar(keys.index(key) + done, get_entry_title(key))
 
         for found in measure_entries(keys, seed, trials, known, report):
             if save is not None:

@@ -1,26 +1,18 @@
 """`svsa tune`: search laws' parameters, and write them where they can be used."""
 
 import json
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
-from rich.progress import (
-    BarColumn,
-    MofNCompleteColumn,
-    Progress,
-    TaskID,
-    TextColumn,
-    TimeRemainingColumn,
-)
 from rich.table import Table
 
 from svsa.control.installed import check_installed, get_title, list_law_names
 from svsa.errors import ParameterError, Violation
+from svsa.evaluation.progress_bar import Report, show_progress
 
+_messages = Console(stderr=True)
 INTERRUPTED = 130
 RANKING_BUDGET, BUDGET = 2000, 128
 
@@ -78,7 +70,7 @@ def tune(
 
     name = check_installed(law or "")
     count = budget or BUDGET
-    with _show_progress() as (bar, task):
+    with show_progress(_messages, get_title(name), count, "candidates") as report:
         tuned = search(
             name,
             budget=count,
@@ -87,7 +79,7 @@ def tune(
             seed=seed,
             held=dict(map(_read_held, hold or ())),
             present=None if parameters is None else read_design(parameters),
-            on_candidate=_Follow(bar, task, get_title(name), count),
+            on_candidate=_Follow(report, get_title(name)),
         )
     if as_json:
         typer.echo(json.dumps(describe_tuned(tuned), indent=2))
@@ -121,8 +113,11 @@ def _tune_all(budget: int, trials: int, validation: int, seed: int, output: Path
         checkpoint = folder / f"{law}.{budget}-{trials}-{seed}.jsonl"
         checkpoint.parent.mkdir(parents=True, exist_ok=True)
         known = read_checkpoint(checkpoint)
-        with _show_progress() as (bar, task), checkpoint.open("a", encoding="utf-8") as lines:
-            follow = _Follow(bar, task, get_title(law), budget)
+        with (
+            show_progress(_messages, get_title(law), budget, "candidates") as report,
+            checkpoint.open("a", encoding="utf-8") as lines,
+        ):
+            follow = _Follow(report, get_title(law))
 
             def note(candidate: "Candidate", follow: "_Follow" = follow) -> None:
                 if candidate.stage != "validation" and candidate.number >= len(known):  # noqa: B023  used before the next law begins
@@ -139,7 +134,7 @@ def _tune_all(budget: int, trials: int, validation: int, seed: int, output: Path
         write_tuned_law(folder, build_tuned_law(tuned))
         checkpoint.unlink()
         before, after = tuned.finals[0].judgment, tuned.best.judgment
-        Console(stderr=True).print(
+        _messages.print(
             f"{get_title(law)}: cost {before.cost:.3f} → {after.cost:.3f}, held {before.held} →"
             f" {after.held} of {validation}, torque variation"
             f" {after.torque_variation_nm_per_s:.0f} N·m/s",
@@ -150,24 +145,13 @@ def _tune_all(budget: int, trials: int, validation: int, seed: int, output: Path
 class _Follow:
     """Shows the candidates of one search on a bar."""
 
-    def __init__(self, bar: Progress, task: TaskID, title: str, budget: int) -> None:
-        self._bar, self._task, self._title = bar, task, title
+    def __init__(self, report: Report, title: str) -> None:
+        self._report, self._title = report, title
         self._best = float("inf")
-        bar.update(task, total=budget, description=f"{title}: compiling")
 
     def __call__(self, candidate: "Candidate") -> None:
         self._best = min(self._best, candidate.judgment.cost)
-        reported = f"{self._title}: best {self._best:.4g}"
-        self._bar.update(self._task, completed=candidate.number, description=reported)
-
-
-@contextmanager
-def _show_progress() -> Iterator[tuple[Progress, TaskID]]:
-    with Progress(
-        TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn(),
-        console=Console(stderr=True), transient=True,
-    ) as bar:  # fmt: skip
-        yield bar, bar.add_task("", total=None)
+        self._report(candidate.number, f"{self._title}: best {self._best:.4g}")
 
 
 def _save(tuned: "Tuned", path: Path) -> None:

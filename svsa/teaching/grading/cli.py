@@ -8,10 +8,10 @@ from typing import Annotated
 import typer
 from rich.console import Console
 from rich.markup import escape
-from rich.progress import Progress
 from rich.table import Table
 
 from svsa.errors import ParameterError, Violation
+from svsa.evaluation.progress_bar import show_progress
 from svsa.teaching.course.exercise import Exercise
 from svsa.teaching.course.file import find_course_folder, read_course
 from svsa.teaching.grading.grade import Grade
@@ -66,18 +66,17 @@ def _grade_all(
     """The grades in the order of the files, and why others got none."""
     workers = min(len(files), os.cpu_count() or 1)
     found, refused = dict[Path, Grade](), list[str]()
-    with Progress(console=_messages, transient=True) as bar:
-        task = bar.add_task("Grading", total=len(files))
+    with show_progress(_messages, "Grading", len(files), "") as bar:
 
-        def show(share: float) -> None:
-            bar.update(task, completed=len(found) + len(refused) + share)
+        def report(share: float) -> None:
+            bar(len(found) + len(refused) + share)
 
-        for path, given in grade_files(files, exercises, runs, book, workers, report=show):
+        for path, given in grade_files(files, exercises, runs, book, workers, report=report):
             if isinstance(given, Grade):
                 found[path] = given
             else:
                 refused.append(f"{path.name}: {given}")
-            bar.update(task, completed=len(found) + len(refused))
+            report(0.0)
     return [found[path] for path in files if path in found], sorted(refused)
 
 

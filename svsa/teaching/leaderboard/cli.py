@@ -10,10 +10,10 @@ import typer
 from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.markup import escape
-from rich.progress import Progress
 from rich.table import Table
 
 from svsa.control.installed import get_title
+from svsa.evaluation.progress_bar import show_progress
 from svsa.evaluation.ranking.scenarios import PUBLIC_SEED
 from svsa.teaching.isolation.confinement import leave_open
 from svsa.teaching.leaderboard.board import (
@@ -82,9 +82,8 @@ def leaderboard_command(
 
 @contextmanager
 def _show_progress(title: str) -> Iterator[Tell]:
-    with Progress(console=_messages, transient=True) as bar:
-        task = bar.add_task(escape(title), total=None)
-        yield lambda done, total: bar.update(task, completed=done, total=total)
+    with show_progress(_messages, escape(title)) as report:
+        yield lambda done, total: report(done, total=total)
 
 
 def _show(entries: Sequence[Entry], as_json: bool, trials: str, marked: str | None = None) -> None:
