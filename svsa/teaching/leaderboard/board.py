@@ -1,7 +1,7 @@
 """The board: a folder with the season's secret and an entry a file."""
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
@@ -110,6 +110,12 @@ class Board(ClassFolder[Entry]):
         """Every entry, the best success rate first."""
         entries = [one for one in self.read_all() if _is_present(one)]
         return sorted(entries, key=lambda one: (-one.standing.success, one.name, one.key))
+
+
+def rank_entries(entries: Sequence[Entry]) -> list[int]:
+    """The place of each entry by success rate, 1 the best; equal rates share a place."""
+    rates = [one.standing.success for one in entries]
+    return [1 + sum(other > rate for other in rates) for rate in rates]
 
 
 def measure_missing(

@@ -22,6 +22,7 @@ from svsa.teaching.leaderboard.board import (
     build_entry,
     go_isolated,
     measure_missing,
+    rank_entries,
     submit,
 )
 from svsa.teaching.leaderboard.standing import Tell, build_season, measure_standing
@@ -107,7 +108,7 @@ def _build_table(entries: Sequence[Entry], trials: str, marked: str | None) -> T
     )
     for heading in _HEADINGS:
         table.add_column(heading, justify="left" if heading in ("law", "by", "worst") else "right")
-    for place, one in enumerate(entries, 1):
+    for place, one in zip(rank_entries(entries), entries, strict=True):
         table.add_row(str(place), *_build_cells(one), style="bold" if one.key == marked else None)
     return table
 

@@ -98,6 +98,7 @@ def test_a_worker_enters_the_law_and_the_labs_and_the_same_text_has_no_second_jo
     assert progress.done == progress.total == 3 * Board(board).season.run_count
     state = lab.get(BOARD).json()
     assert {one["name"] for one in state["entries"]} == {"Mine", "fl", "ndobc"}
+    assert min(one["rank"] for one in state["entries"]) == 1
     assert state["missing"] == []
     assert state["not_isolated"] is None
     assert next(one["author"] for one in state["entries"] if one["name"] == "Mine") == "Ada"

@@ -18,7 +18,7 @@ from svsa.teaching.isolation import confinement
 from svsa.teaching.isolation.probe import check_isolation
 from svsa.teaching.isolation.refusal import NotIsolatedError
 from svsa.teaching.leaderboard import board as boards
-from svsa.teaching.leaderboard.board import Board, measure_missing, submit
+from svsa.teaching.leaderboard.board import Board, measure_missing, rank_entries, submit
 from svsa.teaching.leaderboard.standing import Season, build_season, measure_standing
 from tests.teaching.grading.submissions import GOOD, LAZY
 from tests.teaching.isolation.test_attacks import isolation  # noqa: F401
@@ -72,6 +72,15 @@ def test_on_the_public_seed_a_law_holds_what_it_holds_in_the_ranking():
     assert (standing.trials, standing.trials_held) == (16, int(find_held(trials).sum()))
     assert standing.tick_us is not None
     assert standing.tick_us > 0
+
+
+def test_equal_rates_share_a_place_and_the_next_one_is_skipped():
+    shown = stand(build_short_season(5), go_with({}))
+    entries = [
+        boards.build_entry("fl", "fl", True, shown.changed(success=rate))
+        for rate in (0.9, 0.7, 0.7, 0.2)
+    ]
+    assert rank_entries(entries) == [1, 2, 2, 4]
 
 
 def test_the_interval_is_wilsons():

@@ -25,6 +25,7 @@ from svsa_server.schemas.teaching.leaderboard import (
     LawSubmission,
     LeaderboardState,
     SubmissionState,
+    describe_entries,
 )
 
 KIND = "submission"
@@ -42,7 +43,7 @@ async def read_leaderboard(request: Request) -> LeaderboardState:
         began=board.began,
         not_isolated=await asyncio.to_thread(find_isolation_problem),
         runs=board.season.run_count,
-        entries=entries,
+        entries=describe_entries(entries),
         missing=await asyncio.to_thread(board.list_missing),
     )
 

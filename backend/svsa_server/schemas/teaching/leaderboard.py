@@ -1,9 +1,11 @@
 """The leaderboard on the wire."""
 
+from collections.abc import Sequence
+
 from pydantic import BaseModel, Field
 
-from svsa.inputs.checked import Checked, quantity
-from svsa.teaching.leaderboard.board import MAX_NAME, Author, Entry, EntryName
+from svsa.inputs.checked import Checked, Whole, quantity
+from svsa.teaching.leaderboard.board import MAX_NAME, Author, Entry, EntryName, rank_entries
 from svsa.teaching.submission import LawText
 from svsa_server.schemas.evaluation.job import JobState
 
@@ -25,6 +27,18 @@ class SubmissionState(BaseModel):
     job: JobState | None = Field(description="To be followed; null where it has its entry already")
 
 
+class RankedEntry(Entry):
+    """An entry with its place."""
+
+    rank: Whole = quantity("", "By success rate, 1 the best; equal rates share a place", ge=1)
+
+
+def describe_entries(entries: Sequence[Entry]) -> list[RankedEntry]:
+    """The entries with their places."""
+    ranks = rank_entries(entries)
+    return [RankedEntry(**dict(one), rank=at) for at, one in zip(ranks, entries, strict=True)]
+
+
 class LeaderboardState(BaseModel):
     """A season: who is on the board, the best first."""
 
@@ -34,5 +48,5 @@ class LeaderboardState(BaseModel):
         description="Why this machine takes no law, as it cannot isolate one; null where it can"
     )
     runs: int = Field(description="How many runs a law is put through")
-    entries: list[Entry]
+    entries: list[RankedEntry]
     missing: list[str] = Field(description="Laws of the lab that are not measured on it yet")

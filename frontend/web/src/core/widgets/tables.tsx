@@ -1,4 +1,5 @@
 /** Parts of tables that several pages show: the best value, heads that sort, pages. */
+import type { Signal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 
 interface TableProps {
@@ -86,41 +87,82 @@ export function bestOf(values: readonly (number | null | undefined)[]): number {
 
 // The head of a column that a table can be ordered by: pressed again it orders the other way.
 
+/** Rows in the order of a value, else as they are; those without a value come last. */
+export function sortBy<T>(
+  rows: readonly T[],
+  read: (row: T) => number | string | null,
+  isDown: boolean,
+): readonly T[] {
+  const way = isDown ? -1 : 1;
+  return [...rows].sort((one, other) => {
+    const [a, b] = [read(one), read(other)];
+    if (a === b) return 0;
+    if (a === null) return 1;
+    if (b === null) return -1;
+    return (a < b ? -1 : 1) * way;
+  });
+}
+
 /** An order is the name of a column, with "-" before it where the greatest is first. */
 export function nextSort(now: string, column: string, isDownFirst: boolean): string {
   if (now.replace(/^-/, "") !== column) return isDownFirst ? `-${column}` : column;
   return now.startsWith("-") ? column : `-${column}`;
 }
 
-interface SortHeadProps {
-  column: string;
-  sort: string;
-  hint: string | undefined;
-  isDownFirst: boolean | undefined;
-  onSort: (next: string) => void;
+export interface SortColumn {
+  key: string;
+  /** The first press brings the greatest up. */
+  isDownFirst?: boolean | undefined;
   class?: string;
-  children: ComponentChildren;
 }
 
-export function SortHead({ column, sort, hint, isDownFirst, onSort, ...rest }: SortHeadProps) {
-  const isSorted = sort.replace(/^-/, "") === column;
+interface SortHeadProps {
+  column: SortColumn;
+  words: { name: ComponentChildren; hint?: string | undefined };
+  sort: string;
+  onSort: (next: string) => void;
+}
+
+export function SortHead({ column, words, sort, onSort }: SortHeadProps) {
+  const isSorted = sort.replace(/^-/, "") === column.key;
   const isDown = sort.startsWith("-");
   return (
     <th
       scope="col"
-      class={rest.class}
+      class={column.class}
       aria-sort={isSorted ? (isDown ? "descending" : "ascending") : "none"}
     >
       <button
         type="button"
-        title={hint}
-        onClick={() => onSort(nextSort(sort, column, isDownFirst ?? false))}
+        title={words.hint}
+        onClick={() => onSort(nextSort(sort, column.key, column.isDownFirst ?? false))}
       >
-        {rest.children}
+        {words.name}
         <span class="sort-sign" aria-hidden="true">
           {isSorted ? (isDown ? "▼" : "▲") : ""}
         </span>
       </button>
     </th>
   );
+}
+
+interface SortHeadsProps<K extends string> {
+  columns: readonly (SortColumn & { key: K })[];
+  words: Record<K, SortHeadProps["words"]>;
+  sort: Signal<string>;
+}
+
+/** The heads of a table that is ordered here. */
+export function SortHeads<K extends string>({ columns, words, sort }: SortHeadsProps<K>) {
+  return columns.map((column) => (
+    <SortHead
+      key={column.key}
+      column={column}
+      words={words[column.key]}
+      sort={sort.value}
+      onSort={(next) => {
+        sort.value = next;
+      }}
+    />
+  ));
 }

@@ -2,6 +2,7 @@
 import type { Family, Outcome, Results, Row } from "../../core/api/ranking";
 import { text } from "../../core/text/en";
 import { formatNumber, toDegrees } from "../../core/units";
+import { type SortColumn, sortBy } from "../../core/widgets/tables";
 
 const words = text.ranking;
 const MIDDLE = 4;
@@ -10,9 +11,8 @@ export const PEAK = "peak_position_error_rad";
 export const SHARE = "peak_stiffness_error_share";
 export const RECOVERY = "recovery_time_s";
 
-export interface Column {
+export interface Column extends SortColumn {
   key: keyof typeof words.columns;
-  isDownFirst?: boolean;
   /** What it is ordered by; null comes last. */
   read: (row: Row, results: Results) => number | null;
   write: (row: Row, results: Results) => string;
@@ -104,12 +104,5 @@ export function sortRows(results: Results | null, key: string, isDown: boolean):
   if (results === null) return [];
   const column = COLUMNS.find((one) => one.key === key);
   if (column === undefined) return results.rows;
-  const way = isDown ? -1 : 1;
-  return [...results.rows].sort((one, other) => {
-    const [a, b] = [column.read(one, results), column.read(other, results)];
-    if (a === b) return results.rows.indexOf(one) - results.rows.indexOf(other);
-    if (a === null) return 1;
-    if (b === null) return -1;
-    return way * (a - b);
-  });
+  return sortBy(results.rows, (row) => column.read(row, results), isDown);
 }

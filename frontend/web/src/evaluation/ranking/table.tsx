@@ -1,27 +1,10 @@
 import type { Row } from "../../core/api/ranking";
 import { text } from "../../core/text/en";
-import { SortHead } from "../../core/widgets/tables";
+import { SortHeads } from "../../core/widgets/tables";
 import { COLUMNS, type Column } from "./columns";
 import { chosen, opening, results, rows, see, sort, titleOfRow } from "./ranking";
 
 const words = text.ranking;
-
-function Head({ column }: { column: Column }) {
-  const { name, hint } = words.columns[column.key];
-  return (
-    <SortHead
-      column={column.key}
-      sort={sort.value}
-      hint={hint}
-      isDownFirst={column.isDownFirst}
-      onSort={(next) => {
-        sort.value = next;
-      }}
-    >
-      {name}
-    </SortHead>
-  );
-}
 
 function Cell({ column, row }: { column: Column; row: Row }) {
   const found = results.value;
@@ -56,9 +39,7 @@ export function RankingTable() {
             <th scope="col" class="is-name">
               {words.law}
             </th>
-            {COLUMNS.map((column) => (
-              <Head key={column.key} column={column} />
-            ))}
+            <SortHeads columns={COLUMNS} words={words.columns} sort={sort} />
           </tr>
         </thead>
         <tbody>

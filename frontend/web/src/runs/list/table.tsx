@@ -22,15 +22,11 @@ function Head({ name, hint, sort: column, isDownFirst, isNumber, ...rest }: Head
   }
   return (
     <SortHead
-      column={column}
+      column={{ key: column, isDownFirst, class: look }}
+      words={{ name, hint }}
       sort={sort.value}
-      hint={hint}
-      isDownFirst={isDownFirst}
       onSort={(next) => ask({ sort: next })}
-      class={look}
-    >
-      {name}
-    </SortHead>
+    />
   );
 }
 

@@ -4,7 +4,7 @@ import { type BoardEntry, measureLaws, readBoard, submitLaw } from "../../core/a
 import { isGoing } from "../../core/jobs/progress";
 import { followResults } from "../../core/jobs/results";
 import { place } from "../../runs/list/place";
-import { rankEntries, sortEntries } from "./columns";
+import { sortEntries } from "./columns";
 
 const results = followResults("submission", readBoard);
 export const { found: board, problem, job, open: openBoard, leave, cancel } = results;
@@ -16,10 +16,9 @@ export const sort = signal("rank");
 export const submitted = signal("");
 export const isAsking = signal(false);
 
-export const ranks = computed(() => rankEntries(board.value?.entries ?? []));
 export const entries = computed<readonly BoardEntry[]>(() => {
   const key = sort.value.replace(/^-/, "");
-  return sortEntries(board.value?.entries ?? [], ranks.value, key, sort.value.startsWith("-"));
+  return sortEntries(board.value?.entries ?? [], key, sort.value.startsWith("-"));
 });
 /** The entry whose worst run is looked at; undefined where the address names none of this season. */
 export const looked = computed(() => {

@@ -2,31 +2,13 @@ import type { BoardEntry } from "../../core/api/ranking";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
-import { SortHead } from "../../core/widgets/tables";
+import { SortHeads } from "../../core/widgets/tables";
 import { PlaceLink } from "../../runs/list/place";
 import { formatMoment, formatMomentShort } from "../../runs/list/words";
-import { COLUMNS, type Column, nameOf } from "./columns";
-import { board, entries, ranks, sort, submitted } from "./leaderboard";
+import { COLUMNS, nameOf } from "./columns";
+import { board, entries, sort, submitted } from "./leaderboard";
 
 const words = text.leaderboard;
-
-function Head({ column }: { column: Column }) {
-  const { name, hint } = words.columns[column.key];
-  return (
-    <SortHead
-      column={column.key}
-      sort={sort.value}
-      hint={hint}
-      isDownFirst={column.isDownFirst}
-      onSort={(next) => {
-        sort.value = next;
-      }}
-      class={`${column.key === "law" ? "is-name" : ""} ${column.isNumber ? "number" : ""}`}
-    >
-      {name}
-    </SortHead>
-  );
-}
 
 /** The success rate with the ends of its interval. */
 function Success({ standing }: BoardEntry) {
@@ -52,7 +34,7 @@ function Row({ entry }: { entry: BoardEntry }) {
   ];
   return (
     <tr class={look.join(" ")}>
-      <td class="number">{ranks.value.get(entry.key)}</td>
+      <td class="number">{entry.rank}</td>
       <th scope="row" class="is-name">
         {name}
         <small>
@@ -110,9 +92,7 @@ export function BoardTable() {
           <caption class="visually-hidden">{words.tableHint}</caption>
           <thead>
             <tr>
-              {COLUMNS.map((column) => (
-                <Head key={column.key} column={column} />
-              ))}
+              <SortHeads columns={COLUMNS} words={words.columns} sort={sort} />
             </tr>
           </thead>
           <tbody>

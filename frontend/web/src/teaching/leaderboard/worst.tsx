@@ -4,7 +4,7 @@ import { formatNumber } from "../../core/units";
 import { PlaceLink } from "../../runs/list/place";
 import { ReplayFrame } from "../../runs/list/replayframe";
 import { nameOf } from "./columns";
-import { board, looked, ranks } from "./leaderboard";
+import { board, looked } from "./leaderboard";
 
 const words = text.leaderboard;
 const PAPERS_LAW = "ndobc";
@@ -38,7 +38,7 @@ export function Worst() {
           <p>
             {worst.title}: <strong>{error}</strong>
             {worst.problem && ` · ${worst.problem}`} ·{" "}
-            {words.standing(ranks.value.get(entry.key) ?? 0, text.leaderboard.percent(success))}
+            {words.standing(entry.rank, text.leaderboard.percent(success))}
           </p>
           <p class="hint">
             {words.beside(entry.key === PAPERS_LAW ? "FL" : "NDOBC", entry.is_installed)}
