@@ -10,7 +10,7 @@ import pytest
 from playwright.sync_api import Browser, BrowserContext, Error, Locator, Page, Playwright, expect
 
 from tests.lab import Lab
-from tests.server.routes.test_recording_routes import wait_for_run
+from tests.waiting import follow_recording
 
 # Without a graphics card: the page is put together without one, WebGL is drawn by SwiftShader.
 # Putting the page together by SwiftShader too took most of a test's processor time.
@@ -123,31 +123,26 @@ class KeptPage:
 
 
 @pytest.fixture(scope="session")
-def kept_pages(browser: Browser, browser_context_args: dict) -> Iterator[KeptPage]:
-    kept = KeptPage(browser, browser_context_args)
+def kept_pages(browser: Browser, browser_context_args: dict) -> Iterator[tuple[KeptPage, KeptPage]]:
+    """One for most tests, one for those that patch a bench into it."""
+    kept = KeptPage(browser, browser_context_args), KeptPage(browser, browser_context_args)
     yield kept
-    kept.close()
+    for one in kept:
+        one.close()
 
 
 @pytest.fixture
-def kept_page(kept_pages: KeptPage) -> Iterator[Page]:
+def kept_page(kept_pages: tuple[KeptPage, KeptPage]) -> Iterator[Page]:
     """The page that other tests had before; `page` of a module that uses this fixture."""
-    yield kept_pages.get()
-    kept_pages.forget()
-
-
-@pytest.fixture(scope="session")
-def kept_bench_pages(browser: Browser, browser_context_args: dict) -> Iterator[KeptPage]:
-    kept = KeptPage(browser, browser_context_args)
-    yield kept
-    kept.close()
+    yield kept_pages[0].get()
+    kept_pages[0].forget()
 
 
 @pytest.fixture
-def bench_page(kept_bench_pages: KeptPage) -> Iterator[Page]:
+def bench_page(kept_pages: tuple[KeptPage, KeptPage]) -> Iterator[Page]:
     """As `kept_page`, for tests that each patch a bench into it: the last patch counts."""
-    yield kept_bench_pages.get()
-    kept_bench_pages.forget()
+    yield kept_pages[1].get()
+    kept_pages[1].forget()
 
 
 @pytest.fixture
@@ -171,7 +166,7 @@ def lab_without_runs(shared_lab: Lab) -> Lab:
     client.put(shared_lab.session + "/lanes", json={"comparisons": []}).raise_for_status()
     while runs := client.get("/api/v1/runs").raise_for_status().json()["runs"]:
         for run in runs:
-            wait_for_run(shared_lab, run["id"])
+            follow_recording(client, f"/api/v1/runs/{run['id']}")
             client.delete(f"/api/v1/runs/{run['id']}").raise_for_status()
     return shared_lab
 

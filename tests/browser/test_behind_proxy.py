@@ -6,9 +6,7 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser, Page, WebSocket, expect
 
-from svsa_server.access.class_keys import ClassKeys
-from tests.lab import run_lab
-from tests.server.test_behind_proxy import ROOT, find_caddy, find_free_port, run_caddy
+from tests.server.test_behind_proxy import ROOT, find_caddy, run_proxied
 
 pytestmark = [
     pytest.mark.browser,
@@ -21,15 +19,8 @@ LONGEST_MS = 90_000
 @pytest.fixture(scope="module")
 def joined_at(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, str]]:
     """Where a class is behind Caddy, and its code."""
-    data, folder = tmp_path_factory.mktemp("class"), tmp_path_factory.mktemp("caddy")
-    _, reported = ClassKeys.open(data)
-    assert reported is not None
-    port = find_free_port()
-    with (
-        run_lab("--class", "--root-path", ROOT, data=str(data)) as lab,
-        run_caddy(folder, port, lab.url.rpartition(":")[2]),
-    ):
-        yield f"https://localhost:{port}{ROOT}/", reported.code
+    with run_proxied(tmp_path_factory) as proxied:
+        yield f"{proxied.url}{ROOT}/", proxied.reported.code
 
 
 @pytest.fixture

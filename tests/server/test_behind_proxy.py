@@ -89,8 +89,9 @@ def wait_for_trust(root: Path, port: int) -> ssl.SSLContext:
     raise AssertionError("Caddy did not come up")
 
 
-@pytest.fixture(scope="module")
-def proxied(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Proxied]:
+@contextlib.contextmanager
+def run_proxied(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Proxied]:
+    """A class behind Caddy, which ends with the block."""
     data, folder = tmp_path_factory.mktemp("class"), tmp_path_factory.mktemp("caddy")
     _, reported = ClassKeys.open(data)
     assert reported is not None
@@ -101,6 +102,12 @@ def proxied(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Proxied]:
     ):
         root = folder / CERTIFICATE
         yield Proxied(f"https://localhost:{port}", reported, trust, root)
+
+
+@pytest.fixture(scope="module")
+def proxied(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Proxied]:
+    with run_proxied(tmp_path_factory) as proxied:
+        yield proxied
 
 
 def test_the_page_and_all_that_it_loads_are_below_the_path(proxied: Proxied) -> None:

@@ -16,7 +16,8 @@ from tests.hardware.live_bench import start_live_emulator, write_bench
 from tests.hardware.safety.survivors import LOAD
 from tests.lab import END_TIMEOUT_S, PATIENCE_S, Lab, run_lab
 from tests.server.blocked_lab import BLOCKING, BLOCKING_WAKE, PROGRAM
-from tests.server.sessions.bench_lab import BenchLab, wait_until
+from tests.server.sessions.bench_lab import BenchLab
+from tests.waiting import wait_until
 
 STOP = "/api/v1/quick-stop"
 

@@ -115,13 +115,6 @@ def build_record(
     return Record(header, list(commands), first_tick, len(samples), _read_from(parts))
 
 
-def read_record(folder: Path) -> Record:
-    """The record in a folder, all its samples read; raises `RecordError`."""
-    record = open_record(folder)
-    _ = record.samples
-    return record
-
-
 def open_record(folder: Path) -> Record:
     """The record in a folder, its samples read on demand; raises `RecordError`.
 

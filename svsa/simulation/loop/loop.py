@@ -158,21 +158,6 @@ def measure(blocks: Blocks, call: Call, x: State, tick: int) -> Positions:
 
 
 @compiled
-def advance_tick(
-    blocks: Blocks, law: BoundLaw, inputs: Inputs, lane: LaneState, tick: int, sample: np.ndarray
-) -> tuple[LaneState, int]:
-    """One tick of the loop, from Python; `advance` is many.
-
-    law: `BoundLaw`. lane: `LaneState` at the start of the tick, whose memory the law writes in.
-    sample: (channels,), written. Returns (lane, code): at a code other than `INSIDE` nothing else
-    was done.
-    """
-    F = compute_internal_torque(blocks.nominal, lane.known)
-    lane, _, code, _ = run_tick(blocks, law, inputs, lane, F, INSIDE, tick, sample)
-    return lane, code
-
-
-@compiled
 def run_tick(
     blocks: Blocks,
     law: BoundLaw,

@@ -8,7 +8,7 @@ from playwright.sync_api import Page
 
 from tests.browser.runs.recorded import BOTH, STIFF, record
 from tests.lab import Lab
-from tests.server.routes.test_recording_routes import wait_for_run
+from tests.waiting import follow_recording
 
 
 @pytest.fixture(scope="module")
@@ -25,7 +25,7 @@ def recorded(lab: Lab) -> tuple[str, str]:
         record(lab, STIFF, "4b", [], []),
     )
     for run in pair:
-        assert wait_for_run(lab, run)["state"] == "complete"
+        assert follow_recording(lab.client, f"/api/v1/runs/{run}")["state"] == "complete"
     return pair
 
 

@@ -10,7 +10,7 @@ from playwright.sync_api import Page, Route, expect
 from svsa_server.problems import MEDIA_TYPE
 from tests.browser.runs.recorded import find_replay
 from tests.lab import Lab
-from tests.server.routes.test_recording_routes import wait_for_run
+from tests.waiting import follow_recording
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
 
@@ -57,7 +57,7 @@ def test_a_run_in_which_nothing_ran_says_so_in_place_of_a_replay(page: Page, lab
     answer = lab.client.post(lab.session + "/recording", json={}).raise_for_status().json()
     lab.client.delete(lab.session + "/recording").raise_for_status()
     run_id = answer["recording"]["run_id"]
-    wait_for_run(lab, run_id)
+    follow_recording(lab.client, f"/api/v1/runs/{run_id}")
     page.goto(f"{lab.url}/?run={run_id}")
     expect(page.get_by_text("This run has no samples")).to_be_visible()
     lab.client.delete(f"/api/v1/runs/{run_id}").raise_for_status()

@@ -7,7 +7,6 @@ import socket
 import subprocess
 import sys
 import threading
-import time
 
 import pytest
 from distributed import Client, LocalCluster
@@ -27,6 +26,7 @@ from svsa.evaluation.studies.store import (
 )
 from tests.evaluation.studies.ended import end_on_the_way
 from tests.evaluation.studies.studies import build_study
+from tests.waiting import wait_until
 
 pytestmark = pytest.mark.long
 TRIALS = 400
@@ -88,13 +88,6 @@ def whole(tmp_path_factory):
 
 def read_table(stored):
     return (stored.folder / "rows.parquet").read_bytes()
-
-
-def wait_until(is_so):
-    deadline = time.monotonic() + WAIT_S
-    while not is_so():
-        assert time.monotonic() < deadline
-        time.sleep(0.05)
 
 
 @pytest.mark.exhaustive

@@ -3,7 +3,7 @@
 import threading
 import time
 import types
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Any
 
 import pytest
@@ -15,6 +15,7 @@ from svsa.hardware.safety import third_line
 from svsa.hardware.safety.heartbeat import Heartbeats
 from svsa.hardware.safety.third_line import ThirdLine
 from tests.hardware.wired_bench import EMULATOR_BENCH
+from tests.waiting import wait_until
 
 PATIENCE_S = 60.0
 
@@ -86,13 +87,6 @@ def watched(monkeypatch: pytest.MonkeyPatch) -> Iterator[Watched]:
     yield made
     made.line.stop()
     made.beats.close()
-
-
-def wait_until(done: Callable[[], object]) -> None:
-    end = time.monotonic() + PATIENCE_S
-    while not done():
-        assert time.monotonic() < end
-        time.sleep(0.002)
 
 
 def test_it_does_nothing_while_one_is_left_or_none_has_begun(watched: Watched) -> None:

@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from tests.runs.records.records import wait_until
+from tests.waiting import wait_until
 
 START = """
 import signal, sys

@@ -1,7 +1,7 @@
 """Records to test with, made without simulating."""
 
-import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -9,6 +9,7 @@ import numpy as np
 from svsa.actuators.signals import CHANNEL_INDEX, CHANNELS
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.runs.records.header import RecordHeader
+from svsa.runs.records.reader import Record, open_record
 from svsa.runs.records.writer import write_record
 
 PERIOD_S = 0.001
@@ -62,8 +63,8 @@ def list_ids(catalogue: Catalogue, **query: object) -> list[str]:
     return [run.id for run in catalogue.list(**query).runs]  # pyright: ignore[reportArgumentType]
 
 
-def wait_until(condition: Callable[[], bool], timeout_s: float = 10.0) -> None:
-    deadline = time.monotonic() + timeout_s
-    while not condition():
-        assert time.monotonic() < deadline, "it did not happen in time"
-        time.sleep(0.01)
+def read_record(folder: Path) -> Record:
+    """The record in a folder with all its samples read."""
+    record = open_record(folder)
+    _ = record.samples
+    return record

@@ -18,11 +18,12 @@ from svsa.actuators.signals import CHANNELS
 from svsa.errors import ParameterError, SvsaError
 from svsa.runs.records import recorder as recorder_module
 from svsa.runs.records.header import RecordError, RecordHeader, parse_header
-from svsa.runs.records.reader import open_record, read_record, recover
+from svsa.runs.records.reader import open_record, recover
 from svsa.runs.records.recorder import Recorder
 from svsa.runs.records.writer import write_record
+from tests.waiting import wait_until
 
-from .records import build_header, build_samples, wait_until
+from .records import build_header, build_samples, read_record
 
 
 def test_samples_and_commands_come_back_bit_for_bit(tmp_path: Path) -> None:

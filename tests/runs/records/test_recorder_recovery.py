@@ -16,12 +16,13 @@ import pytest
 
 from svsa.runs.records import reader
 from svsa.runs.records.header import RecordError, RecordHeader
-from svsa.runs.records.reader import read_record, recover
+from svsa.runs.records.reader import recover
 from svsa.runs.records.recorder import Recorder
 from svsa.runs.records.writer import write_record
 from tests.exhaustive import exhaust
+from tests.waiting import wait_until
 
-from .records import PERIOD_S, build_header, build_samples, wait_until
+from .records import PERIOD_S, build_header, build_samples, read_record
 
 ROUNDS_OF_KILLING = [5, 20]
 """The fewer in `make test`."""

@@ -1,7 +1,6 @@
 """A class in this process, with its code and token, and people who have joined."""
 
 import contextlib
-import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
@@ -65,15 +64,6 @@ def run_class(folder: Path, **settings: str) -> Iterator[Classroom]:
 def read_kind(answer: httpx.Response) -> str:
     """Why a request was refused."""
     return answer.json()["type"].rpartition(":")[2]
-
-
-def wait_for_run(browser: httpx.Client, path: str) -> None:
-    """Until the file of a run that was recorded is finished."""
-    for _ in range(600):
-        if browser.get(path).raise_for_status().json()["state"] != "recording":
-            return
-        time.sleep(0.05)
-    raise AssertionError(f"{path} is not finished")
 
 
 def read_person(browser: httpx.Client) -> dict:

@@ -20,8 +20,8 @@ from tests.server.access.classroom import (
     read_kind,
     read_person,
     run_class,
-    wait_for_run,
 )
+from tests.waiting import follow_recording
 
 ADA = Person("p-1", "Ada", Role.OPERATOR)
 
@@ -183,7 +183,7 @@ def test_a_private_session_and_its_runs_are_their_makers_and_the_instructors(
     ada.post(path + "/step", json={"ticks": 100}).raise_for_status()
     ada.delete(path + "/recording").raise_for_status()
     run = f"/api/v1/runs/{run_id}"
-    wait_for_run(ada, run)
+    follow_recording(ada, run)
     for below in ("", "/origin"):
         assert read_kind(bob.get(path + below)) == "not_found"
     for call in ("/start", "/pause", "/quick-stop"):
@@ -212,7 +212,7 @@ def test_a_run_of_the_shared_session_is_read_by_all_and_changed_by_who_recorded_
     state = instructor.post(SHARED + "/recording", json={"name": "shown"}).json()
     instructor.delete(SHARED + "/recording").raise_for_status()
     run = f"/api/v1/runs/{state['recording']['run_id']}"
-    wait_for_run(instructor, run)
+    follow_recording(instructor, run)
     assert ada.get(run).status_code == 200
     assert read_kind(bob.delete(run)) == "not_yours"
     assert instructor.delete(run).status_code == 200

@@ -24,10 +24,10 @@ from tests.server.access.classroom import (
     read_kind,
     read_person,
     run_class,
-    wait_for_run,
 )
 from tests.server.access.request_ids import Asked, build_request, list_places
 from tests.server.schema import SCHEMA
+from tests.waiting import follow_recording
 
 MISSING = {
     "session": "s-0123456789ab",
@@ -85,7 +85,7 @@ def record(browser: httpx.Client, session: str, name: str = SECRET) -> str:
     browser.post(session + "/step", json={"ticks": 50}).raise_for_status()
     browser.delete(session + "/recording").raise_for_status()
     run = started["recording"]["run_id"]
-    wait_for_run(browser, f"/api/v1/runs/{run}")
+    follow_recording(browser, f"/api/v1/runs/{run}")
     return run
 
 

@@ -8,7 +8,7 @@ import pytest
 
 from svsa_server.commands import compiling
 from svsa_server.commands.compiling import compile_laws
-from tests.server.sessions.bench_lab import wait_until
+from tests.waiting import wait_until
 
 WAIT = "import time; time.sleep(600)"
 

@@ -1,6 +1,5 @@
 """The falsifier over REST: followed to what it found, broken off, seen in a session, refused."""
 
-import time
 import tomllib
 
 import pytest
@@ -9,8 +8,8 @@ from svsa.evaluation.falsifier.adversary import Adversary
 from svsa.evaluation.falsifier.falsification import falsify
 from svsa.evaluation.falsifier.file import read_adversary
 from tests.lab_in_process import run_lab_in_process
+from tests.waiting import follow
 
-LONGEST_S = 240.0
 SEARCHES = "/api/v1/falsifications"
 PULL = """\
 title = "A pull on the link"
@@ -36,27 +35,13 @@ def lab():
         yield lab.client
 
 
-def wait_until(lab, name, is_there):
-    end = time.monotonic() + LONGEST_S
-    while time.monotonic() < end:
-        state = lab.get(f"{SEARCHES}/{name}").raise_for_status().json()
-        if is_there(state):
-            return state
-        time.sleep(0.1)
-    raise AssertionError(f"still {state['status']} after {state['done']}")
-
-
-def has_ended(state):
-    return state["status"] not in ("waiting", "running")
-
-
 def test_a_search_is_followed_to_what_it_found_and_seen_in_a_session(lab, tmp_path):
     asked = {"text": PULL, "law": "fl", "runs": 96, "seed": 3}
     begun = lab.post(SEARCHES, json=asked)
     assert begun.status_code == 201
     assert begun.json()["adversary"]["law"] == "fl"
     name = begun.json()["id"]
-    state = wait_until(lab, name, has_ended)
+    state = follow(lab, f"{SEARCHES}/{name}")
     assert (state["status"], state["problem"], state["law"]) == ("done", None, "fl")
     assert [one["law"] for one in state["outcomes"]] == ["fl", "ndobc"]
 
@@ -82,10 +67,10 @@ def test_a_search_is_broken_off_and_keeps_its_worst(lab):
     name = lab.post(SEARCHES, json={"text": PULL, "runs": 100_000}).json()["id"]
     refused = lab.get(f"{SEARCHES}/{name}/file")
     assert refused.status_code == 409
-    going = wait_until(lab, name, lambda state: state["done"] >= 32 and state["worst"])
+    going = follow(lab, f"{SEARCHES}/{name}", lambda state: state["done"] >= 32 and state["worst"])
     assert 1 <= going["worst"]["found"]["at_run"] <= going["total"]
     assert lab.delete(f"{SEARCHES}/{name}").is_success
-    state = wait_until(lab, name, has_ended)
+    state = follow(lab, f"{SEARCHES}/{name}")
     assert state["status"] == "cancelled"
     assert state["scenario"]["found"]["runs"] < 100_000
     assert name in [job["id"] for job in lab.get("/api/v1/jobs").json()]
@@ -110,7 +95,7 @@ def test_one_of_one_s_own_is_searched_as_its_text_is(lab):
     states = []
     for asked in ({"definition": OWN}, {"text": PULL}):
         name = lab.post(SEARCHES, json=asked | {"runs": 64}).raise_for_status().json()["id"]
-        states.append(wait_until(lab, name, has_ended))
+        states.append(follow(lab, f"{SEARCHES}/{name}"))
     assert states[0]["adversary"] == states[1]["adversary"]
     assert states[0]["scenario"] == states[1]["scenario"] is not None
 

@@ -1,7 +1,5 @@
 """A law for the leaderboard over REST: refused, followed, broken off, and kept once."""
 
-import time
-
 import pytest
 
 from svsa.teaching.isolation.refusal import NotIsolatedError
@@ -13,8 +11,8 @@ from tests.lab_in_process import run_lab_in_process
 from tests.teaching.grading.submissions import GOOD, LAZY
 from tests.teaching.isolation.test_attacks import isolation  # noqa: F401
 from tests.teaching.leaderboard.test_leaderboard import short_season  # noqa: F401
+from tests.waiting import follow
 
-LONGEST_S = 240.0
 BOARD = "/api/v1/leaderboard"
 
 
@@ -27,16 +25,6 @@ def data(tmp_path_factory):
 def lab(data):
     with run_lab_in_process(data=str(data), max_submissions="2") as lab:
         yield lab.client
-
-
-def wait_until(lab, name, is_there):
-    end = time.monotonic() + LONGEST_S
-    while time.monotonic() < end:
-        state = lab.get(f"/api/v1/jobs/{name}").json()
-        if is_there(state):
-            return state
-        time.sleep(0.1)
-    raise AssertionError(f"still {state['status']} after {state['done']}")
 
 
 def test_a_board_begins_with_all_laws_missing_and_its_secret_in_the_labs_folder(lab, data):
@@ -52,9 +40,7 @@ def test_a_law_that_fails_at_once_is_refused_by_its_job_and_has_no_entry(lab):
     begun = lab.post(f"{BOARD}/submissions", json={"name": "Mine", "law": law})
     assert begun.status_code == 201
     assert begun.json()["key"] == digest_law(law.encode())
-    state = wait_until(
-        lab, begun.json()["job"]["id"], lambda state: state["status"] not in ("waiting", "running")
-    )
+    state = follow(lab, f"/api/v1/jobs/{begun.json()['job']['id']}")
     assert state["status"] == "failed"
     assert "name 'spring' is not defined" in state["problem"]
     assert lab.get(BOARD).json()["entries"] == []
@@ -63,12 +49,12 @@ def test_a_law_that_fails_at_once_is_refused_by_its_job_and_has_no_entry(lab):
 def test_a_submission_is_followed_and_broken_off_and_enters_nothing(lab):
     begun = lab.post(f"{BOARD}/submissions", json={"name": "Mine", "law": LAZY.decode()}).json()
     name = begun["job"]["id"]
-    state = wait_until(lab, name, lambda state: state["done"] >= 2)
+    state = follow(lab, f"/api/v1/jobs/{name}", lambda state: state["done"] >= 2)
     assert state["kind"] == "submission"
     assert state["title"] == "Mine"
     assert state["total"] == lab.get(BOARD).json()["runs"]
     lab.delete(f"/api/v1/jobs/{name}")
-    wait_until(lab, name, lambda state: state["status"] == "cancelled")
+    follow(lab, f"/api/v1/jobs/{name}", lambda state: state["status"] == "cancelled")
     assert lab.get(BOARD).json()["entries"] == []
 
 

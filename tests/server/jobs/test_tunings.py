@@ -1,15 +1,13 @@
 """A tuning over REST: followed while it goes on, broken off, and put to use."""
 
-import time
-
 import pytest
 
 import svsa
 from svsa.runs.configuration import parse_design
 from svsa_server.jobs.heavy_work import RETRY_AFTER_S
 from tests.lab_in_process import run_lab_in_process
+from tests.waiting import follow
 
-LONGEST_S = 240.0
 TUNINGS = "/api/v1/tunings"
 
 
@@ -19,16 +17,6 @@ def lab():
         yield lab.client
 
 
-def wait_until(lab, name, is_there):
-    end = time.monotonic() + LONGEST_S
-    while time.monotonic() < end:
-        state = lab.get(f"{TUNINGS}/{name}").json()
-        if is_there(state):
-            return state
-        time.sleep(0.1)
-    raise AssertionError(f"still {state['status']} after {state['tried']}")
-
-
 def test_a_tuning_is_followed_to_its_end_and_put_into_a_session(lab):
     asked = {"law": "fl_integral", "budget": 2, "seed": 1}
     begun = lab.post(TUNINGS, json=asked)
@@ -36,7 +24,7 @@ def test_a_tuning_is_followed_to_its_end_and_put_into_a_session(lab):
     name = begun.json()["id"]
     refused = lab.get(f"{TUNINGS}/{name}/file")
     assert (refused.status_code, begun.json()["status"]) == (409, "waiting")
-    done = wait_until(lab, name, lambda state: state["status"] not in ("waiting", "running"))
+    done = follow(lab, f"{TUNINGS}/{name}")
     assert (done["status"], done["tried"], done["problem"]) == ("done", 3, None)
     assert [one["stage"] for one in done["candidates"]] == ["present", "search", "search"]
     assert done["present"]["values"] == [54.6, 32.9]
@@ -67,9 +55,9 @@ def test_a_tuning_is_broken_off_and_keeps_its_best(lab):
     lab.put("/api/v1/sessions/lab/observer", json=beta)
     asked = {"law": "ndobc", "budget": 2000, "session": "lab"}
     name = lab.post(TUNINGS, json=asked).json()["id"]
-    wait_until(lab, name, lambda state: state["tried"] >= 2)
+    follow(lab, f"{TUNINGS}/{name}", lambda state: state["tried"] >= 2)
     lab.delete(f"{TUNINGS}/{name}")
-    state = wait_until(lab, name, lambda state: state["status"] == "cancelled")
+    state = follow(lab, f"{TUNINGS}/{name}", lambda state: state["status"] == "cancelled")
     assert 2 <= state["tried"] < 2000
     assert state["present"]["values"] == pytest.approx([60.0, 40.0, 44.0])
     setting = state["best_setting"]
@@ -101,7 +89,7 @@ def test_what_cannot_be_tuned_and_one_too_many_are_refused(lab):
     assert lab.delete(f"/api/v1/jobs/{queued}").json()["status"] == "cancelled"
     assert lab.get(f"{TUNINGS}/{queued}/file").status_code == 409, "nothing was tried"
     assert lab.get("/api/v1/jobs/nothing").status_code == 404
-    wait_until(lab, begun, lambda state: state["status"] == "running")
+    follow(lab, f"{TUNINGS}/{begun}", lambda state: state["status"] == "running")
     lab.delete(f"{TUNINGS}/{begun}")
-    state = wait_until(lab, begun, lambda state: state["status"] == "cancelled")
+    state = follow(lab, f"{TUNINGS}/{begun}", lambda state: state["status"] == "cancelled")
     assert f"{state['tried'] - 1} of 128 candidates" in lab.get(f"{TUNINGS}/{begun}/file").text

@@ -7,9 +7,9 @@ import httpx
 import pytest
 
 from tests.lab_in_process import run_lab_in_process
-from tests.server.access.classroom import wait_for_run
 from tests.server.routes.writing import list_examples
 from tests.server.schema import SCHEMA
+from tests.waiting import follow_recording
 
 WORKERS = {
     "POST /api/v1/tunings",
@@ -77,7 +77,7 @@ def run(lab: httpx.Client) -> str:
     run = lab.post(path + "/recording", json={}).json()["recording"]["run_id"]
     lab.post(path + "/step", json={"ticks": 1000}).raise_for_status()
     lab.delete(path + "/recording").raise_for_status()
-    wait_for_run(lab, f"/api/v1/runs/{run}")
+    follow_recording(lab, f"/api/v1/runs/{run}")
     lab.delete(path).raise_for_status()
     return run
 

@@ -1,7 +1,5 @@
 """Grades over REST: a class's for its instructor, everybody's own for themselves."""
 
-import time
-
 import pytest
 
 from svsa.teaching.course.progress import ProgressStore
@@ -11,9 +9,9 @@ from svsa_server.jobs.progress import JobFolder, ask_to_stop
 from tests.server.access.classroom import run_class
 from tests.teaching.course.runs import find_exercise
 from tests.teaching.grading.test_class_grades import FL, submit
+from tests.waiting import follow
 
 GRADES = "/api/v1/grades"
-LONGEST_S = 240.0
 
 
 @pytest.fixture(scope="module")
@@ -27,14 +25,6 @@ def find_id(browser):
     return browser.get("/api/v1/access").json()["id"]
 
 
-def wait_for_end(browser, job):
-    end = time.monotonic() + LONGEST_S
-    while (state := browser.get(f"/api/v1/jobs/{job}").json())["status"] in ("waiting", "running"):
-        assert time.monotonic() < end, state
-        time.sleep(0.1)
-    return state
-
-
 def test_the_instructor_grades_and_each_student_sees_the_own_grade_alone(classroom):
     room, store = classroom
     ada, bob, instructor = room.join("Ada"), room.join("Bob"), room.log_in()
@@ -46,7 +36,7 @@ def test_the_instructor_grades_and_each_student_sees_the_own_grade_alone(classro
 
     begun = instructor.post(GRADES, json={"again": False})
     assert begun.status_code == 201
-    state = wait_for_end(instructor, begun.json()["id"])
+    state = follow(instructor, f"/api/v1/jobs/{begun.json()['id']}")
     assert (state["kind"], state["status"], state["done"]) == ("grading", "done", 2)
 
     table = instructor.get(GRADES).json()

@@ -6,8 +6,8 @@ import httpx
 import pytest
 
 from tests.lab_in_process import run_lab_in_process
-from tests.server.access.classroom import wait_for_run
 from tests.server.routes.writing import SESSION, WRITING, list_examples, write
+from tests.waiting import follow_recording
 
 PUTS = [label for label in WRITING if label.startswith(f"PUT {SESSION}")]
 ONLY_IN_A_CLASS = [f"PUT {SESSION}/control/lock"]
@@ -72,7 +72,7 @@ def test_the_same_again_changes_neither_samples_nor_record_nor_events(
     assert states[0]["sample"] == states[1]["sample"]
     assert states[0]["window"] == states[1]["window"]
     lab.delete(twice + "/recording").raise_for_status()
-    wait_for_run(lab, run)
+    follow_recording(lab, run)
     assert read_commands(lab, run) == commands
     for path in (once, twice):
         lab.delete(path).raise_for_status()

@@ -12,10 +12,11 @@ import pytest
 from tests.lab import Lab, run_lab
 from tests.lab_in_process import run_lab_in_process
 from tests.runs.records.test_recorder import mount_small_disk
+from tests.waiting import follow_recording
 
 
 def record(lab: Lab, seconds: float = 3.0, **wanted: object) -> str:
-    """Record the shared session for some session time with a load in it; the run's id."""
+    """Record the shared session for some session time with a load in it; the run's path."""
     answer = lab.client.post(lab.session + "/recording", json=wanted)
     assert answer.status_code == 201, answer.text
     state = answer.json()
@@ -25,17 +26,7 @@ def record(lab: Lab, seconds: float = 3.0, **wanted: object) -> str:
     lab.jump(seconds)
     stopped = lab.client.delete(lab.session + "/recording").raise_for_status().json()
     assert stopped["recording"] is None
-    return state["recording"]["run_id"]
-
-
-def wait_for_run(lab: Lab, run_id: str) -> dict:
-    """The run's entry once its file is finished."""
-    for _ in range(300):
-        run = lab.client.get(f"/api/v1/runs/{run_id}").raise_for_status().json()
-        if run["state"] != "recording":
-            return run
-        time.sleep(0.1)
-    raise AssertionError("the run was never finished")
+    return f"/api/v1/runs/{state['recording']['run_id']}"
 
 
 def test_a_recorded_run_is_its_own_simulation_bit_for_bit(lab: Lab) -> None:
@@ -45,7 +36,7 @@ def test_a_recorded_run_is_its_own_simulation_bit_for_bit(lab: Lab) -> None:
         lab.session + "/lanes", json={"comparisons": [{"law": "ndobc"}]}
     ).raise_for_status()
     lab.jump(1)
-    run = wait_for_run(lab, record(lab, name="A run", tags=["test"]))
+    run = follow_recording(lab.client, record(lab, name="A run", tags=["test"]))
     assert run["name"] == "A run"
     assert run["state"] == "complete"
     assert run["ticks"] == 3000
@@ -54,7 +45,7 @@ def test_a_recorded_run_is_its_own_simulation_bit_for_bit(lab: Lab) -> None:
 
 
 def test_a_run_is_opened_again_at_a_tick_and_goes_on_as_a_branch(lab: Lab) -> None:
-    run = wait_for_run(lab, record(lab))
+    run = follow_recording(lab.client, record(lab))
     tick = run["first_tick"] + 1000
     state = lab.client.post(f"/api/v1/runs/{run['id']}/branch", json={"tick": tick}).json()
     assert state["status"] == "paused"
@@ -71,7 +62,7 @@ def test_a_run_is_opened_again_at_a_tick_and_goes_on_as_a_branch(lab: Lab) -> No
 
 
 def test_the_replay_page_needs_nothing_else(lab: Lab) -> None:
-    run = wait_for_run(lab, record(lab, name="<script>alert(1)</script>"))
+    run = follow_recording(lab.client, record(lab, name="<script>alert(1)</script>"))
     answer = lab.client.get(f"/api/v1/runs/{run['id']}/replay.html")
     assert answer.status_code == 200
     assert "attachment" in answer.headers["content-disposition"]

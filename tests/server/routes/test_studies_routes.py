@@ -2,7 +2,6 @@
 
 import json
 import struct
-import time
 
 import numpy as np
 import pyarrow.parquet as pq
@@ -14,9 +13,9 @@ from svsa.evaluation.studies.store import find_missing, open_study, read_rows
 from svsa.evaluation.studies.summary import summarize_laws
 from svsa_server.jobs.study_rows import thin_out
 from tests.lab_in_process import run_lab_in_process
+from tests.waiting import follow
 
 STUDIES = "/api/v1/studies"
-LONGEST_S = 240.0
 TEXT = """title = "Short runs"
 laws = ["ndobc", "fl"]
 runs = 24
@@ -50,19 +49,11 @@ def lab():
 def run_study(lab, **asked):
     begun = lab.post(STUDIES, json={"text": TEXT, **asked})
     assert begun.status_code == 201, begun.text
-    return wait_until(lab, begun.json()["name"], lambda state: not is_under_way(state))
+    return follow(lab, f"{STUDIES}/{begun.json()['name']}", lambda state: not is_under_way(state))
 
 
 def is_under_way(state):
     return state["job"]["status"] in ("waiting", "running")
-
-
-def wait_until(lab, name, is_there):
-    end = time.monotonic() + LONGEST_S
-    while not is_there(state := lab.get(f"{STUDIES}/{name}").json()):
-        assert time.monotonic() < end, state
-        time.sleep(0.1)
-    return state
 
 
 @pytest.fixture(scope="module")
@@ -175,9 +166,9 @@ def test_a_cancelled_study_keeps_its_rows_and_goes_on_to_the_same_table(lab, who
     begun = lab.post(STUDIES, json={"text": TEXT, "name": "left", "runs": 20_000}).json()
     again = lab.post(STUDIES, json={"text": TEXT, "name": "left", "runs": 20_000})
     assert (again.status_code, "cancel it first" in again.json()["detail"]) == (409, True)
-    wait_until(lab, "left", lambda state: state["done"] >= 256)
+    follow(lab, f"{STUDIES}/left", lambda state: state["done"] >= 256)
     lab.delete(f"/api/v1/jobs/{begun['job']['id']}")
-    left = wait_until(lab, "left", lambda state: not is_under_way(state))
+    left = follow(lab, f"{STUDIES}/left", lambda state: not is_under_way(state))
     assert left["job"]["status"] == "cancelled"
     assert 256 <= left["done"] < left["rows"] == 40_000
     stored = open_study("left")
@@ -186,9 +177,11 @@ def test_a_cancelled_study_keeps_its_rows_and_goes_on_to_the_same_table(lab, who
     assert first.to_pandas().equals(read_rows(open_study("whole")).to_pandas())
     on = lab.post(STUDIES, json={"source": "left"}).json()
     assert on["job"]["id"] != begun["job"]["id"]
-    wait_until(lab, "left", lambda state: state["done"] > left["done"] or state["job"]["done"])
+    follow(
+        lab, f"{STUDIES}/left", lambda state: state["done"] > left["done"] or state["job"]["done"]
+    )
     lab.delete(f"/api/v1/jobs/{on['job']['id']}")
-    wait_until(lab, "left", lambda state: not is_under_way(state))
+    follow(lab, f"{STUDIES}/left", lambda state: not is_under_way(state))
 
 
 def test_a_wrong_study_is_refused_with_line_name_value_and_bound(lab):

@@ -5,8 +5,7 @@ What the rig's drives were told is read from the rig itself, and every wait is g
 
 import contextlib
 import threading
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +16,7 @@ from svsa.hardware.emulator.launch import RunningEmulator
 from tests.hardware.live_bench import start_live_emulator, write_bench
 from tests.lab import START_TIMEOUT_S, Lab, run_lab
 from tests.processes import find_child
+from tests.waiting import wait_until
 
 PATIENCE_S = 120.0
 
@@ -114,15 +114,6 @@ def read_stream(stream: Any) -> None:
     with contextlib.suppress(ConnectionClosed):
         while True:
             stream.recv()
-
-
-def wait_until(
-    done: Callable[[], bool], describe: Callable[[], str] = str, longest_s: float = PATIENCE_S
-) -> None:
-    end = time.monotonic() + longest_s
-    while not done():
-        assert time.monotonic() < end, describe()
-        time.sleep(0.02)
 
 
 @contextlib.contextmanager

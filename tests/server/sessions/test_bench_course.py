@@ -13,7 +13,8 @@ from svsa.teaching.grading.grade import Grade, grade
 from svsa.teaching.submission import read_submission
 from tests.hardware.live_bench import start_live_emulator, write_bench
 from tests.lab import run_lab
-from tests.server.sessions.bench_lab import BenchLab, wait_until
+from tests.server.sessions.bench_lab import BenchLab
+from tests.waiting import wait_until
 
 pytestmark = pytest.mark.wall_clock
 

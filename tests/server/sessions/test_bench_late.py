@@ -12,7 +12,8 @@ from svsa.hardware.emulator.launch import start_emulator
 from tests.hardware.live_bench import IDLE_S, write_bench
 from tests.hardware.safety.survivors import LOOP
 from tests.lab import run_lab
-from tests.server.sessions.bench_lab import BenchLab, wait_until
+from tests.server.sessions.bench_lab import BenchLab
+from tests.waiting import wait_until
 
 pytestmark = pytest.mark.wall_clock
 

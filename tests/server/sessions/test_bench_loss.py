@@ -13,7 +13,8 @@ from typing import Any
 import pytest
 
 from tests.hardware.safety.survivors import LOAD, LOOP, SUPERVISOR, wait_until_held
-from tests.server.sessions.bench_lab import BenchLab, run_bench_lab, wait_until
+from tests.server.sessions.bench_lab import BenchLab, run_bench_lab
+from tests.waiting import wait_until
 
 pytestmark = pytest.mark.wall_clock
 

@@ -4,7 +4,8 @@ from collections.abc import Iterator
 
 import pytest
 
-from tests.server.sessions.bench_lab import BenchLab, run_bench_lab, wait_until
+from tests.server.sessions.bench_lab import BenchLab, run_bench_lab
+from tests.waiting import wait_until
 
 pytestmark = pytest.mark.wall_clock
 

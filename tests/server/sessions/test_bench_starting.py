@@ -18,8 +18,8 @@ from svsa_server.sessions.hosted import HostedSession
 from svsa_server.sessions.state import build_state
 from tests.hardware.live_bench import start_live_emulator, write_bench
 from tests.lab import run_lab
-from tests.server.sessions.bench_lab import wait_until
 from tests.server.sessions.scripted_bench import STEP, Processes, build_bench_session
+from tests.waiting import wait_until
 
 COMMANDS: dict[str, Callable[[BenchSession], Any]] = {
     "arm": lambda session: session.arm(),

@@ -3,7 +3,6 @@
 import json
 import subprocess
 import sys
-import time
 
 import pytest
 
@@ -12,6 +11,7 @@ from svsa.analysis.identification.excitation import EXCITATION, EXCITATION_DURAT
 from svsa.runs.configuration import write_design
 from svsa.runs.records.reader import open_record
 from tests.lab import Lab, run_lab
+from tests.waiting import follow
 
 BENCH_LIKE = {"encoders": {}, "estimation": {}, "friction": {}, "current_lag": {}}
 PATIENCE_S = 240.0
@@ -22,14 +22,6 @@ def run_command(*arguments: str, **settings: str) -> str:
     done = subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE_S)
     assert done.returncode == 0, done.stderr
     return done.stdout
-
-
-def wait_for_end(lab: Lab) -> dict:
-    end = time.monotonic() + PATIENCE_S
-    while (state := lab.read())["excitation"] is not None:
-        assert time.monotonic() < end
-        time.sleep(0.1)
-    return state
 
 
 @pytest.mark.exhaustive
@@ -89,7 +81,8 @@ def test_what_disturbs_it_breaks_it_off_with_its_recording(lab: Lab, how: str) -
             lab.client.delete(lab.session + "/excitation").raise_for_status()
         case "recording":
             lab.client.delete(lab.session + "/recording").raise_for_status()
-    assert wait_for_end(lab)["recording"] is None
+    ended = follow(lab.client, lab.session, lambda state: state["excitation"] is None)
+    assert ended["recording"] is None
 
 
 @pytest.mark.exhaustive

@@ -20,7 +20,6 @@ from svsa.runs.run import Run
 from svsa.simulation.loop.lane import Action, Inputs, LaneState, build_lane_state
 from svsa.simulation.loop.loop import advance as advance_lane
 from svsa.simulation.loop.loop import (
-    advance_tick,
     delay,
     measure,
     read_reference,
@@ -76,7 +75,7 @@ def initial(configuration):
 
 
 def compose_tick(blocks, law, inputs, lane, tick, sample):
-    """`advance_tick` written out in Python over the same compiled pieces."""
+    """A tick of the loop written out in Python over the same compiled pieces."""
     assert check_domain(blocks.domain, blocks.plant, lane.x) == INSIDE
     effects, period, time = blocks.effects, blocks.period, tick * blocks.period
     call = build_call(law, lane.memory)
@@ -119,14 +118,6 @@ def test_one_call_is_what_a_run_does(parts, initial, whole):
     samples = np.empty_like(whole)
     _, done, code = advance_lane(*parts, initial, 0, samples)
     assert (done, code) == (TICKS, INSIDE)
-    np.testing.assert_array_equal(samples, whole)
-
-
-def test_tick_by_tick_from_python_gives_the_same_bits(parts, initial, whole):
-    samples, lane = np.empty_like(whole), initial
-    for tick in range(TICKS):
-        lane, code = advance_tick(*parts, lane, tick, samples[tick])
-        assert code == INSIDE
     np.testing.assert_array_equal(samples, whole)
 
 

@@ -15,7 +15,8 @@ from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.runs.records.header import BranchPoint, read_header, write_header
 from svsa.simulation.plant.loads.paper import PaperLoad
 from svsa_server.sessions.recording import open_catalogue
-from tests.runs.records.records import Command, add, list_ids, wait_until
+from tests.runs.records.records import Command, add, list_ids
+from tests.waiting import wait_until
 
 OLDER = """
 DROP TABLE runs; DROP TABLE facets;
