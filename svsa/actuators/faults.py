@@ -26,7 +26,6 @@ class FaultKind(NamedTuple):
         where: Whether a run on a bench, a simulated run or both can end in it.
         within_s: The longest time from the cause to zero current on the wire, s; None if no
             current can flow.
-        short: A word or two for a narrow column; empty if the label has to do.
         is_loss: Whether the server reports it because the loop of a bench cannot report.
     """
 
@@ -37,7 +36,6 @@ class FaultKind(NamedTuple):
     where: Literal["bench", "both"] = "bench"
     within_s: float | None = _TICK_S
     is_loss: bool = False
-    short: str = ""
 
 
 _DOMAIN = "the actuator left the domain of the model"
@@ -50,7 +48,6 @@ FAULTS: dict[str, FaultKind] = {
         " the last changes, or place slower poles (Place poles).",
         number=1,
         where="both",
-        short="not finite",
     ),
     "lever_end": FaultKind(
         "End of the spiral",
@@ -63,7 +60,6 @@ FAULTS: dict[str, FaultKind] = {
         " NDOBC-S).",
         number=2,
         where="both",
-        short="spiral end",
     ),
     "deflection_limit": FaultKind(
         "Deflection too large",
@@ -73,7 +69,6 @@ FAULTS: dict[str, FaultKind] = {
         " that reduces its bandwidth while the torque saturates (NDOBC-W, NDOBC-S).",
         number=3,
         where="both",
-        short="deflection",
     ),
     "singular_decoupling": FaultKind(
         "Decoupling near singular",
@@ -83,7 +78,6 @@ FAULTS: dict[str, FaultKind] = {
         " stiffer setting, a smaller load or a slower motion.",
         number=4,
         where="both",
-        short="singular",
     ),
     "quick_stop": FaultKind("Quick stop", "a user pressed the quick stop"),
     "stale_feedback": FaultKind(

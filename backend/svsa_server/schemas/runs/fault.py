@@ -16,7 +16,6 @@ class FaultKindState(BaseModel):
         description="Its number in compiled code, as study rows hold it; null where it has none"
     )
     label: str = Field(description="In a few words")
-    short: str = Field(description="In a word or two, for a narrow column")
     cause: str = Field(description="What happened")
     advice: str | None = Field(description="What to try; null where its message says it all")
     where: Literal["bench", "both"] = Field(
@@ -77,7 +76,6 @@ def _build_kind(code: str, kind: FaultKind) -> FaultKindState:
         code=code,
         number=kind.number,
         label=kind.label,
-        short=kind.short or kind.label.lower(),
         cause=kind.cause,
         advice=kind.advice,
         where=kind.where,

@@ -14,10 +14,6 @@ export const labelFault = (code: string): string =>
 /** The same within a sentence or a cell: no capital at its beginning. */
 export const writeFault = (code: string): string => labelFault(code).toLowerCase();
 
-/** The fewest words for a fault, for a narrow column. */
-export const shortenFault = (code: string): string =>
-  faultKinds.value.find((kind) => kind.code === code)?.short ?? code.replaceAll("_", " ");
-
 /** Read the table when the page opens, once: it changes with the server only. */
 export async function openFaults(): Promise<void> {
   try {

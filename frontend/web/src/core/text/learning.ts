@@ -96,7 +96,6 @@ export const learningText = {
     },
     submit: "Submit",
     submitHint: "Once. After it nothing of the exercise is changed any more.",
-    inAll: (points: number, most: number) => `${points} of ${most} points`,
     held: (name: string) => `${name} is in control of this session.`,
     nobody: "Nobody is in control of this session.",
     ask: "Ask for control",
@@ -237,7 +236,6 @@ export const learningText = {
       both_grow: "Position and stiffness error both grow with FL",
       ndobc_better: "NDOBC stays better in both: at least 100 times",
     },
-    partNumbers: (first: string, second: string) => `${first} and ${second}`,
     sizes:
       "The paper gives neither gains nor limits, so the size of FL's error confirms no figure; the order does.",
   },
