@@ -1,167 +1,144 @@
-"""A running lab for a program that awaits: the calls of the blocking client, each in a thread.
+"""A running lab for a program that awaits: the methods of the blocking client, each in a thread.
 
-    async with await svsa.connect_async("http://127.0.0.1:8000") as lab:
-        await lab.session.set(position=svsa.SinePosition(amplitude_rad=0.5, frequency_hz=0.2))
-        async with lab.session.record("3 kg") as recording:
-            await lab.session.add_load(svsa.PaperLoad())
-            async for block in lab.session.stream("position_rad", duration_s=5.0):
+    async with svsa.connect_async("http://127.0.0.1:8000") as lab:
+        session = lab.session
+        await session.set(position=svsa.SinePosition(amplitude_rad=0.5, frequency_hz=0.2))
+        async with session.record("3 kg") as recording:
+            await session.loads.add(svsa.PaperLoad())
+            async for block in session.stream("position_rad", duration_s=5.0):
                 print(block.time_s[-1], block["position_rad"][-1])
         result = await recording.read_result()
 
-If a task is cancelled while it awaits a call, the lab may still carry the call out.
+Every method has the name and the arguments of the blocking one; where that is a context, this is
+one for `async with`. A property that is asked of the lab is read by `await session.get("law")` and
+set by `await session.set(law="fl")`. If a task is cancelled while it awaits a call, the lab may
+still carry the call out.
 """
 
 import asyncio
-from collections.abc import AsyncIterator, Awaitable, Callable
-from contextlib import AbstractContextManager, ExitStack, asynccontextmanager
+from collections.abc import AsyncIterator, Callable, Generator
+from contextlib import ExitStack
 from functools import partial
-from typing import Any, Self, TypeVar
+from typing import Any, Generic, TypeVar
 
-from svsa.client.connection import Acted
-from svsa.client.lab import SHARED, Lab, connect
-from svsa.client.loads import AppliedLoad
-from svsa.client.runs import Recording
+from svsa.client.connection import is_settable
+from svsa.client.lab import Lab, connect
+from svsa.client.loads import Loads
+from svsa.client.runs import Recording, RemoteRuns, RemoteStudies
 from svsa.client.session import RemoteBench, RemoteSession
-from svsa.client.stream import BlockStream
-from svsa.runs.result.result import Result
-from svsa.simulation.plant.loads import Load
 
 T = TypeVar("T")
-SETTINGS = frozenset(
-    name for name, one in vars(RemoteSession).items() if isinstance(one, property) and one.fset
-)
-"""What `AsyncSession.set` takes: the properties of a session that can be set."""
+IMMEDIATE = frozenset({"open_session", "stream"})
+"""Methods that ask the lab for nothing: they are not awaited."""
 
 
-async def connect_async(
+def connect_async(
     url: str = "http://127.0.0.1:8000", token: str | None = None, **options: Any
-) -> "AsyncLab":
-    """A running lab; options: those of `svsa.connect`. Raises `LabError` where none answers."""
-    return AsyncLab(await asyncio.to_thread(connect, url, token, **options))
+) -> "Pending[AsyncLab]":
+    """A running lab, for `async with` or `await`; options: those of `svsa.connect`.
+
+    Raises, when it is awaited, `LabError` where none answers.
+    """
+    return Pending(partial(connect, url, token, **options))
+
+
+class Pending(Generic[T]):
+    """A call of the blocking client that has not begun: awaited, or entered with `async with`."""
+
+    def __init__(self, call: Callable[[], Any]) -> None:
+        self._call = call
+        self._opened = ExitStack()
+
+    def __await__(self) -> Generator[Any, None, T]:
+        return self._wait().__await__()
+
+    async def _wait(self) -> Any:
+        return wrap(await asyncio.to_thread(self._call))
+
+    async def __aenter__(self) -> T:
+        context = await asyncio.to_thread(self._call)
+        entered: Any = wrap(await asyncio.to_thread(self._opened.enter_context, context))
+        return entered
+
+    async def __aexit__(self, *_: object) -> None:
+        await asyncio.to_thread(self._opened.close)
 
 
 class _Awaited:
-    """An object whose methods block; here each of them, by its own name, is awaited."""
+    """An object whose methods block: here each of them, by its own name, is awaited."""
 
-    def __init__(self, blocking: object) -> None:
-        self._blocking = blocking
+    def __init__(self, blocking: Any) -> None:
+        object.__setattr__(self, "_blocking", blocking)
 
-    def __getattr__(self, name: str) -> Callable[..., Awaitable[Any]]:
-        if name.startswith("_") or not callable(getattr(type(self._blocking), name, None)):
-            raise AttributeError(f"{type(self).__name__} has no call {name!r}.", name=name)
-        return partial(asyncio.to_thread, getattr(self._blocking, name))
+    def __getattr__(self, name: str) -> Any:
+        kind = type(self._blocking)
+        found = getattr(kind, name, None)
+        if name.startswith("_") or not hasattr(kind, name):
+            raise AttributeError(f"{type(self).__name__} has no attribute {name!r}.", name=name)
+        if isinstance(found, property):
+            reported = f"{name!r} is asked of the lab: await it, as {_describe_read(kind, name)}."
+            raise AttributeError(reported, name=name)
+        value = getattr(self._blocking, name)
+        if not callable(value):
+            return wrap(value)
+        if name in IMMEDIATE:
+            return lambda *given, **named: wrap(value(*given, **named))
+        return lambda *given, **named: Pending(partial(value, *given, **named))
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        """Raises `AttributeError`: what is set has to be awaited."""
+        hint = ""
+        if is_settable(type(self._blocking), name):
+            hint = f" Set it with: await session.set({name}=…)."
+        reported = f"{name!r} of {type(self).__name__} cannot be set.{hint}"
+        raise AttributeError(reported, name=name, obj=self)
 
     def __dir__(self) -> list[str]:
         return sorted({*super().__dir__(), *dir(self._blocking)})
 
-
-class AsyncLab(_Awaited):
-    """A running lab: awaits each method of `Lab`, such as `run`. lab: the blocking client."""
-
-    def __init__(self, lab: Lab) -> None:
-        super().__init__(lab)
-        self.lab = lab
-        self.session = self.open_session(SHARED)
-
-    async def __aenter__(self) -> Self:
+    async def __aenter__(self) -> Any:
         return self
 
     async def __aexit__(self, *_: object) -> None:
-        await self.close()
+        await asyncio.to_thread(self._blocking.__exit__, None, None, None)
 
-    def open_session(self, name: str) -> "AsyncSession":
-        """The session of this name; the first call fails if the lab has none."""
-        return AsyncSession(self.lab.open_session(name))
+    async def __aiter__(self) -> AsyncIterator[Any]:
+        for one in await asyncio.to_thread(list, self._blocking):
+            yield wrap(one)
 
-    async def create_session(self, *args: Any, **settings: Any) -> "AsyncSession":
-        """Create a private session; arguments: those of `Lab.create_session`."""
-        return AsyncSession(await asyncio.to_thread(self.lab.create_session, *args, **settings))
 
-    @asynccontextmanager
-    async def private(
-        self, figure: str = "4a", law: str = "ndobc", **settings: Any
-    ) -> "AsyncIterator[AsyncSession]":
-        """A private session that ends with the block."""
-        async with _enter(self.lab.private(figure, law, **settings)) as session:
-            yield AsyncSession(session)
+def _describe_read(kind: type, name: str) -> str:
+    return f"session.get({name!r})" if kind is RemoteSession else f"a method that reads {name!r}"
 
-    async def open_run(self, run_id: str) -> Result:
-        """The result of a recorded run."""
-        return await asyncio.to_thread(self.lab.runs.__getitem__, run_id)
+
+class AsyncLab(_Awaited):
+    """`Lab` with its methods awaited."""
 
 
 class AsyncSession(_Awaited):
-    """A session: awaits each method of `RemoteSession`. session: the blocking one.
-
-    Its properties are read together by `read_state` and set by `set`.
-    """
-
-    def __init__(self, session: RemoteSession) -> None:
-        super().__init__(session)
-        self.session = session
-
-    @property
-    def acted(self) -> Acted | None:
-        """When the last command acted; None before the first."""
-        return self.session.acted
-
-    async def set(self, **settings: Any) -> None:
-        """Set properties of the session, in the order given; returns when the last one holds.
-
-        Args:
-            **settings: any of `SETTINGS`, with the value that the property takes.
-
-        Raises:
-            ParameterError, StateError: the lab rejects a value; what was set before it stays.
-            TypeError: there is no such setting; nothing is set.
-        """
-        if unknown := settings.keys() - SETTINGS:
-            raise TypeError(f"No setting of a session: {', '.join(sorted(unknown))}.")
-        for name, value in settings.items():
-            await asyncio.to_thread(setattr, self.session, name, value)
-
-    async def add_load(self, load: Load) -> AppliedLoad:
-        """Apply a load, now or at its `start_s`."""
-        return await asyncio.to_thread(self.session.loads.add, load)
-
-    async def remove_load(self, load: AppliedLoad | int) -> None:
-        """Remove a load."""
-        await asyncio.to_thread(self.session.loads.remove, load)
-
-    async def report_bench(self, call: Callable[[RemoteBench], None]) -> None:
-        """A call of the bench, as `await session.report_bench(RemoteBench.arm)`."""
-        await asyncio.to_thread(call, self.session.bench)
-
-    @asynccontextmanager
-    async def record(self, *args: Any, **options: Any) -> "AsyncIterator[AsyncRecording]":
-        """Record every sample and command within the block; arguments: `RemoteSession.record`."""
-        recording = await asyncio.to_thread(self.session.record, *args, **options)
-        async with _enter(recording):
-            yield AsyncRecording(recording)
-
-    def stream(self, *channels: Any, **options: Any) -> BlockStream:
-        """Samples for `async for`; arguments: those of `RemoteSession.stream`."""
-        return self.session.stream(*channels, **options)
+    """`RemoteSession` with its methods awaited, and with those of its `loads` and `bench`."""
 
 
-class AsyncRecording:
-    """A recording, in the lab's list. run_id: its id there."""
-
-    def __init__(self, recording: Recording) -> None:
-        self._recording = recording
-        self.run_id = recording.run_id
-
-    async def read_result(self) -> Result:
-        """The run as `svsa.simulate` would have returned it, once it has ended."""
-        return await asyncio.to_thread(lambda: self._recording.result)
+class AsyncRecording(_Awaited):
+    """`Recording` with its methods awaited."""
 
 
-@asynccontextmanager
-async def _enter(context: AbstractContextManager[T]) -> AsyncIterator[T]:
-    """A blocking context whose two ends run in a thread."""
-    opened = ExitStack()
-    inside = await asyncio.to_thread(opened.enter_context, context)
-    try:
-        yield inside
-    finally:
-        await asyncio.to_thread(opened.close)
+class AsyncCollection(_Awaited):
+    """Loads, runs, studies or the bench with their methods awaited; `async for` lists them."""
+
+
+_KINDS: dict[type, type[_Awaited]] = {
+    Lab: AsyncLab,
+    RemoteSession: AsyncSession,
+    Recording: AsyncRecording,
+    Loads: AsyncCollection,
+    RemoteBench: AsyncCollection,
+    RemoteRuns: AsyncCollection,
+    RemoteStudies: AsyncCollection,
+}
+
+
+def wrap(value: Any) -> Any:
+    """An object of the blocking client with its methods awaited; any other value as it is."""
+    kind = _KINDS.get(type(value))
+    return value if kind is None else kind(value)

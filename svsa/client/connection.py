@@ -14,6 +14,7 @@ from urllib.parse import quote
 import httpx
 
 from svsa.errors import ParameterError, StateError, SvsaError, Violation
+from svsa.inputs.nearest import suggest
 
 
 class LabError(SvsaError):
@@ -191,6 +192,30 @@ def _read_json(answer: httpx.Response) -> Any:
         return answer.text
 
 
+class Remote:
+    """An object of a lab. It has no attributes but its own: a typing error is not silent."""
+
+    __slots__ = ()
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        """Set an attribute; raises `AttributeError` where there is none of this name."""
+        try:
+            super().__setattr__(name, value)
+        except AttributeError as error:
+            if hasattr(type(self), name):
+                raise
+            settable = [one for one in dir(type(self)) if is_settable(type(self), one)]
+            hint = suggest(name, settable)
+            reported = f"{type(self).__name__} has no attribute {name!r}.{hint}"
+            raise AttributeError(reported, name=name, obj=self) from error
+
+
+def is_settable(kind: type, name: str) -> bool:
+    """Whether a class has a property of this name that can be set."""
+    found = getattr(kind, name, None)
+    return isinstance(found, property) and found.fset is not None
+
+
 @dataclass(frozen=True)
 class Acted:
     """When a command acted: the tick at whose beginning it holds, and its session time."""
@@ -199,8 +224,10 @@ class Acted:
     time_s: float
 
 
-class SessionConnection:
+class SessionConnection(Remote):
     """A session by its name. acted: when the last command acted; None before the first."""
+
+    __slots__ = ("acted", "connection", "name")
 
     def __init__(self, connection: Connection, name: str) -> None:
         self.connection, self.name = connection, name

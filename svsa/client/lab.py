@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from typing import Any, Self
 
-from svsa.client.connection import Connection
+from svsa.client.connection import Connection, Remote
 from svsa.client.runs import RemoteRuns, RemoteStudies
 from svsa.client.session import RemoteSession, dump_lane
 from svsa.errors import FaultError, ParameterError, Violation
@@ -42,12 +42,14 @@ def connect(
     return Lab(connection)
 
 
-class Lab:
+class Lab(Remote):
     """A running lab over its public API.
 
     session: the one that everybody shares, with the bench where there is one. runs: what was
     recorded there. studies: those that were begun there.
     """
+
+    __slots__ = ("connection", "runs", "session", "studies")
 
     def __init__(self, connection: Connection) -> None:
         self.connection = connection

@@ -11,6 +11,8 @@ WAIT_S = 0.5
 class ControlledConnection(SessionConnection):
     """A session that one client at a time may be in control of."""
 
+    __slots__ = ()
+
     def take_control(
         self, by: str = "A script", take_over: bool = False, wait_s: float = 600.0
     ) -> None:

@@ -6,7 +6,7 @@ from typing import Any
 
 from pydantic import TypeAdapter
 
-from svsa.client.connection import SessionConnection
+from svsa.client.connection import Remote, SessionConnection
 from svsa.simulation.plant.loads import Load
 
 _LOAD: TypeAdapter[Load] = TypeAdapter(Load)
@@ -23,8 +23,10 @@ class AppliedLoad:
     load: Load
 
 
-class Loads:
+class Loads(Remote):
     """What loads a session: iterate over them, add one, take one or all off."""
+
+    __slots__ = ("_session",)
 
     def __init__(self, session: SessionConnection) -> None:
         self._session = session

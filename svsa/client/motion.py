@@ -14,6 +14,8 @@ LOOK_S = 0.05
 class RunningConnection(ControlledConnection):
     """A session whose time goes on when it is told to: a simulation, or a bench in real time."""
 
+    __slots__ = ()
+
     @property
     def fault(self) -> Fault | None:
         """What has ended the run, or stopped the bench."""

@@ -7,7 +7,7 @@ from tempfile import TemporaryDirectory
 from typing import Any, Self
 from urllib.parse import quote
 
-from svsa.client.connection import Connection, LabError, SessionConnection
+from svsa.client.connection import Connection, LabError, Remote, SessionConnection
 from svsa.runs.records.parquet import unpack_parquet
 from svsa.runs.result.recorded import open_run
 from svsa.runs.result.result import Result
@@ -15,14 +15,20 @@ from svsa.runs.result.result import Result
 PAGE_SIZE = 100
 
 
-class RemoteRuns:
+class RemoteRuns(Remote):
     """`runs[id]` is the result of a recorded run; iterate for their ids, the newest first."""
+
+    __slots__ = ("_connection", "_folder")
 
     def __init__(self, connection: Connection) -> None:
         self._connection = connection
         self._folder = TemporaryDirectory(prefix="svsa-runs-")
 
     def __getitem__(self, run_id: str) -> Result:
+        return self.open(run_id)
+
+    def open(self, run_id: str) -> Result:
+        """The result of a recorded run."""
         folder = Path(self._folder.name) / quote(run_id, safe="")
         if not folder.exists():
             content = self._connection.download(f"{_path(run_id)}/export", kind="parquet")
@@ -63,8 +69,10 @@ def _path(run_id: str) -> str:
     return f"/runs/{quote(run_id, safe='')}"
 
 
-class RemoteStudies:
+class RemoteStudies(Remote):
     """The studies that were begun in a lab; iterate for their names, the newest first."""
+
+    __slots__ = ("_connection",)
 
     def __init__(self, connection: Connection) -> None:
         self._connection = connection
@@ -90,12 +98,14 @@ FINISHED_S = 60.0
 POLL_S = 0.05
 
 
-class Recording:
+class Recording(Remote):
     """Every sample and command of a session from its beginning to its end, in the lab's list.
 
     run_id: its id there. As a context it ends with the block; what went wrong inside is not
     hidden by it.
     """
+
+    __slots__ = ("_runs", "_session", "run_id")
 
     def __init__(self, session: SessionConnection, runs: RemoteRuns, run_id: str) -> None:
         self._session, self._runs, self.run_id = session, runs, run_id
@@ -120,4 +130,8 @@ class Recording:
     @property
     def result(self) -> Result:
         """The run as `svsa.simulate` would have returned it."""
-        return self._runs[self.run_id]
+        return self.read_result()
+
+    def read_result(self) -> Result:
+        """The run as `svsa.simulate` would have returned it."""
+        return self._runs.open(self.run_id)

@@ -7,13 +7,14 @@ from typing import Any, Literal
 from pydantic import TypeAdapter
 
 from svsa.actuators.parameters import ActuatorParameters
-from svsa.client.connection import Connection, SessionConnection
+from svsa.client.connection import Connection, Remote, SessionConnection, is_settable
 from svsa.client.loads import Loads
 from svsa.client.motion import RunningConnection
 from svsa.client.runs import Recording, RemoteRuns
 from svsa.client.stream import BlockStream
 from svsa.control.gains import Gains
 from svsa.control.observers.disturbance import ObserverBandwidth
+from svsa.inputs.nearest import suggest
 from svsa.runs.configuration import Lane
 from svsa.runs.result.channels import ChannelName
 from svsa.simulation.plant.effects import Effects
@@ -30,6 +31,8 @@ class RemoteSession(RunningConnection):
     set already stays as it is, without a new fade or event. What the lab refuses raises
     `ParameterError` or `StateError` and changes nothing.
     """
+
+    __slots__ = ("_runs", "bench", "loads")
 
     def __init__(self, connection: Connection, runs: RemoteRuns, name: str) -> None:
         super().__init__(connection, name)
@@ -66,6 +69,34 @@ class RemoteSession(RunningConnection):
 
     def _read(self, name: str) -> Any:
         return self.read_state()["configuration"][name]
+
+    def get(self, name: str) -> Any:
+        """The present value of a property by its name, such as "law" or "time_s".
+
+        Raises:
+            AttributeError: There is no such property.
+        """
+        known = [one for one in dir(type(self)) if isinstance(getattr(type(self), one), property)]
+        if name not in known:
+            raise AttributeError(f"A session has no property {name!r}.{suggest(name, known)}")
+        return getattr(self, name)
+
+    def set(self, **settings: Any) -> None:
+        """Set properties, in the order given; returns when the last one holds.
+
+        Args:
+            **settings: Any properties that can be set, such as law="fl", each with its value.
+
+        Raises:
+            ParameterError, StateError: The lab rejects a value; what was set before it stays.
+            TypeError: There is no such setting; nothing is set.
+        """
+        known = [one for one in dir(type(self)) if is_settable(type(self), one)]
+        for name in settings:
+            if name not in known:
+                raise TypeError(f"A session has no setting {name!r}.{suggest(name, known)}")
+        for name, value in settings.items():
+            setattr(self, name, value)
 
     @property
     def position(self) -> PositionReference:
@@ -208,8 +239,10 @@ class RemoteSession(RunningConnection):
         self.connection.call("DELETE", self.path)
 
 
-class RemoteBench:
+class RemoteBench(Remote):
     """What only a bench can be told; a simulated session raises `StateError`."""
+
+    __slots__ = ("_session",)
 
     def __init__(self, session: SessionConnection) -> None:
         self._session = session

@@ -1,4 +1,4 @@
-"""The client of a program that awaits: the calls of the other, beside its own work."""
+"""The client of a program that awaits: the methods of the blocking one, by the same names."""
 
 import asyncio
 
@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import svsa
-from svsa.client import LabError
+from svsa.client import Lab, LabError, Loads, RemoteSession
 from tests.lab import Lab as Server
 
 
@@ -17,7 +17,7 @@ def server(lab: Server) -> Server:
 
 def test_a_run_is_set_loaded_watched_and_recorded(server: Server) -> None:
     async def work() -> None:
-        async with await svsa.connect_async(server.url) as lab, lab.private(load=False) as session:
+        async with svsa.connect_async(server.url) as lab, lab.private(load=False) as session:
             await session.pause()
             sine = svsa.SinePosition(amplitude_rad=0.5, frequency_hz=0.3)
             await session.set(position=sine, law="fl")
@@ -25,11 +25,12 @@ def test_a_run_is_set_loaded_watched_and_recorded(server: Server) -> None:
             configuration = (await session.read_state())["configuration"]
             assert (configuration["law"], configuration["position"]["amplitude_rad"]) == ("fl", 0.5)
             async with session.record("awaited") as recording:
-                load = await session.add_load(svsa.PaperLoad())
+                load = await session.loads.add(svsa.PaperLoad())
+                assert [one async for one in session.loads] == [load]
                 await session.start()
                 stream = session.stream("position_rad", duration_s=0.2)
                 blocks = [block async for block in stream]
-                await session.remove_load(load)
+                await session.loads.remove(load)
             result = await recording.read_result()
         ticks = np.concatenate([block.ticks for block in blocks])
         first = round(float(result.time_s[0]) / blocks[0].period_s)
@@ -42,7 +43,7 @@ def test_a_run_is_set_loaded_watched_and_recorded(server: Server) -> None:
 
 def test_several_go_on_side_by_side_and_give_the_library_s_runs(server: Server) -> None:
     async def work() -> list[svsa.Result]:
-        async with await svsa.connect_async(server.url) as lab:
+        async with svsa.connect_async(server.url) as lab:
             laws = [lab.run("4a", law, duration_s=0.3) for law in ("fl", "ndobc", "pd")]
             return await asyncio.gather(*laws)
 
@@ -53,30 +54,58 @@ def test_several_go_on_side_by_side_and_give_the_library_s_runs(server: Server) 
 
 def test_a_refusal_and_a_missing_lab_are_told_as_by_the_other(server: Server) -> None:
     async def refuse() -> None:
-        async with await svsa.connect_async(server.url) as lab, lab.private(load=False) as session:
+        async with svsa.connect_async(server.url) as lab, lab.private(load=False) as session:
             await session.set(law="nobody")
 
     with pytest.raises(svsa.ParameterError, match="nobody"):
         asyncio.run(refuse())
+
+    async def miss() -> None:
+        await svsa.connect_async("http://127.0.0.1:9", patience_s=0.0)
+
     with pytest.raises(LabError, match="does not answer"):
-        asyncio.run(svsa.connect_async("http://127.0.0.1:9", patience_s=0.0))
+        asyncio.run(miss())
 
 
 def test_every_method_of_the_blocking_client_is_awaited_by_its_name(server: Server) -> None:
     async def work() -> None:
-        async with await svsa.connect_async(server.url) as lab, lab.private(load=False) as session:
+        lab = await svsa.connect_async(server.url)
+        async with lab, lab.private(load=False) as session:
             await session.pause()
             await session.set_laws("fl")
-            configuration = (await session.read_state())["configuration"]
-            assert configuration["law"] == "fl"
-            assert {"set_laws", "run_until", "record"} <= set(dir(session))
-            with pytest.raises(AttributeError, match="no call 'time_s'"):
-                _ = session.time_s
-            with pytest.raises(TypeError, match="No setting of a session: lwa"):
-                await session.set(
-                    position=svsa.SinePosition(amplitude_rad=0.1, frequency_hz=0.2), lwa="fl"
-                )
-            unchanged = (await session.read_state())["configuration"]
-            assert unchanged["position"] == configuration["position"]
+            assert await session.get("law") == "fl"
+            for kind, one in ((Lab, lab), (RemoteSession, session), (Loads, session.loads)):
+                public = [name for name in vars(kind) if not name.startswith("_")]
+                calls = [name for name in public if callable(getattr(kind, name))]
+                assert calls
+                assert all(callable(getattr(one, name)) for name in calls)
+            with pytest.raises(svsa.StateError, match="no bench"):
+                await session.bench.arm()
 
     asyncio.run(work())
+
+
+def test_a_typing_error_is_reported_by_both_clients_and_nothing_is_set(server: Server) -> None:
+    async def work() -> None:
+        async with svsa.connect_async(server.url) as lab, lab.private(load=False) as session:
+            with pytest.raises(AttributeError, match=r"await session\.set\(law=…\)"):
+                session.law = "fl"
+            with pytest.raises(AttributeError, match=r"session\.get\('time_s'\)"):
+                _ = session.time_s
+            before = (await session.read_state())["configuration"]
+            with pytest.raises(TypeError, match=r"no setting 'lawx'\. Did you mean 'law'"):
+                await session.set(gains=svsa.Gains.from_poles([-20.0] * 4, [-20.0] * 2), lawx=1)
+            assert (await session.read_state())["configuration"] == before
+
+    asyncio.run(work())
+    with svsa.connect(server.url) as lab, lab.private(load=False) as session:
+        before = session.read_state()["configuration"]
+        with pytest.raises(AttributeError, match=r"no attribute 'lawx'\. Did you mean 'law'"):
+            session.lawx = "fl"  # pyright: ignore[reportAttributeAccessIssue]
+        with pytest.raises(TypeError, match=r"no setting 'positon'\. Did you mean 'position'"):
+            session.set(law="fl", positon=svsa.ConstantPosition())
+        with pytest.raises(AttributeError, match=r"no property 'tme_s'\. Did you mean 'time_s'"):
+            session.get("tme_s")
+        with pytest.raises(AttributeError):
+            session.status = "paused"  # pyright: ignore[reportAttributeAccessIssue]
+        assert session.read_state()["configuration"] == before

@@ -1,12 +1,12 @@
 """The channels of a run by name, for people, for completion by Tab and for type checkers."""
 
-import difflib
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from svsa.actuators.signals import CHANNEL_INDEX, CHANNEL_NAMES
 from svsa.errors import ParameterError, Violation
+from svsa.inputs.nearest import find_nearest
 
 ChannelName = Literal[
     "time_s",
@@ -98,8 +98,7 @@ class Channels:
 
 def find_near(name: str) -> str:
     """What may have been meant, to be added to a sentence; "" where nothing is near."""
-    near = difflib.get_close_matches(str(name), CHANNEL_NAMES, n=3, cutoff=0.5)
-    near = near or [known for known in CHANNEL_NAMES if str(name) and str(name) in known][:3]
+    near = find_nearest(str(name), CHANNEL_NAMES)
     if not near:
         return f"; there are {', '.join(CHANNEL_NAMES)}"
     return f": perhaps {' or '.join(sorted(near, key=CHANNEL_NAMES.index))}"
