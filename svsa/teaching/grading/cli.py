@@ -12,12 +12,14 @@ from rich.table import Table
 
 from svsa.errors import ParameterError, Violation
 from svsa.evaluation.progress_bar import show_progress
+from svsa.teaching.course.criterion import CriterionResult
 from svsa.teaching.course.exercise import Exercise
 from svsa.teaching.course.file import find_course_folder, read_course
 from svsa.teaching.grading.grade import Grade
 from svsa.teaching.grading.gradebook import Book
 from svsa.teaching.grading.queue import grade_files
 from svsa.teaching.grading.report import write_csv, write_page
+from svsa.teaching.isolation.refusal import PRINTED
 
 _messages = Console(stderr=True)
 _File = Annotated[Path | None, typer.Option(help="Write all grades into this file.")]
@@ -54,6 +56,9 @@ def grade_command(
         if path is not None:
             path.write_text(write(reported), encoding="utf-8")
     Console().print(_build_table(found))
+    for one in found:
+        for failure in filter(None, map(_describe_failure, one.criteria)):
+            _messages.print(escape(f"{one.student}, {one.exercise}: {failure}"), highlight=False)
     for line in refused:
         _messages.print(f"[bold red]Refused:[/] {escape(line)}", highlight=False)
     if refused:
@@ -78,6 +83,11 @@ def _grade_all(
                 refused.append(f"{path.name}: {given}")
             report(0.0)
     return [found[path] for path in files if path in found], sorted(refused)
+
+
+def _describe_failure(one: CriterionResult) -> str:
+    """Why a law failed, with what it printed; empty for any other criterion."""
+    return f"{one.name}: {one.feedback}" if PRINTED in one.feedback else ""
 
 
 def _build_table(grades: Sequence[Grade]) -> Table:

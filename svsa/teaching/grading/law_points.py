@@ -23,7 +23,7 @@ from svsa.teaching.course.criterion import CriterionResult
 from svsa.teaching.isolation.confinement import BOUNDS, confine
 from svsa.teaching.isolation.probe import check_isolation
 from svsa.teaching.isolation.process import GroupProcess, Place
-from svsa.teaching.isolation.refusal import LawFaultError, describe_last_output
+from svsa.teaching.isolation.refusal import LawFaultError, describe_output
 
 BLOCK, MOST_TRIALS = 96, 2_400
 """How many trials are added at once, and at most."""
@@ -118,13 +118,13 @@ def _run_block(
     """
     configurations = [one.build_configuration(PAPERS_LAW) for one in scenarios]
     held, rms_deg = np.zeros(len(scenarios), dtype=bool), np.full(len(scenarios), np.nan)
-    problems, done = dict[int, str](), list[int]()
+    problems, done, output = dict[int, str](), list[int](), ""
     for alike in find_alike(configurations):
         for begin in range(0, len(alike), WIDTH):
             if done and monotonic() > end_s:
                 chosen = sorted(done)
                 problem = problems[min(problems)] if problems else ""
-                return Trials(held[chosen], rms_deg[chosen], problem), True
+                return Trials(held[chosen], rms_deg[chosen], problem, output), True
             numbers = alike[begin : begin + WIDTH]
             group = [configurations[number] for number in numbers]
             duration_s, begin_s = scenarios[0].duration_s, scenarios[0].measured_s
@@ -134,6 +134,8 @@ def _run_block(
             try:
                 with GroupProcess(source, list(map(_build_model, group)), bounds, place) as law:
                     summaries = run_group(group, law, duration_s, begin_s)
+                    if not output and (summaries["code"] != INSIDE).any():
+                        output = law.read_output()
             except LawFaultError as error:
                 return Trials(held, rms_deg, str(error), error.output), True
             done += numbers
@@ -146,7 +148,7 @@ def _run_block(
                 for number, one, summary in zip(numbers, group, summaries, strict=True)
                 if summary["code"] != INSIDE
             }
-    return Trials(held, rms_deg, problems[min(problems)] if problems else ""), False
+    return Trials(held, rms_deg, problems[min(problems)] if problems else "", output), False
 
 
 def _build_model(configuration: Configuration) -> Actuator:
@@ -173,8 +175,7 @@ def judge_law(trials: Trials | None) -> list[CriterionResult]:
     count = len(trials.held)
     whole, held, accuracy = (float(share) for share in trials.compute_shares().mean(axis=1))
     ended = f" First: {trials.problem}" if trials.problem else ""
-    if said := describe_last_output(trials.output):
-        ended += f" It said: {said}"
+    ended += describe_output(trials.output)
     rms = f"median rms {np.nanmedian(trials.rms_deg):.3g}°" if whole else "no run reached its end"
     chance = f"On other trials 95 % of grades are within ±{trials.estimate_range() / 2:.2f} points."
     reported = (

@@ -58,13 +58,14 @@ def run_law(
             begin, reported = perf_counter(), law.torques
             result = simulate(configuration, law, duration_s=scenario.duration_s)
             took_s, costs = perf_counter() - begin, sorted(law.cost_s)
+            output = law.read_output() if result.fault else ""
     except LawFaultError as error:
         return LawRun(
             scenario.name, False, None, str(error), error.output, torques=_pack_torques(reported)
         )
     run = describe_run(scenario, result, took_s)
     cost_us = 1e6 * costs[len(costs) // 2] if costs else None
-    return run._replace(cost_us=cost_us, torques=_pack_torques(reported))
+    return run._replace(cost_us=cost_us, output=output, torques=_pack_torques(reported))
 
 
 def _pack_torques(reported: list[tuple[float, float]]) -> bytes:

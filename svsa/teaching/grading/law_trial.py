@@ -29,13 +29,13 @@ def try_law(text: str, place: Place = confine) -> KeptLaw:
 
 def judge_trial(text: str, run: LawRun) -> KeptLaw:
     """What a run of a law shows, in words."""
+    output = run.output[-LONGEST_OUTPUT:]
     if run.cost_us is None:
-        output = run.output[-LONGEST_OUTPUT:]
         return KeptLaw(text=text, verdict="failed", feedback=run.problem, output=output)
     cost = f"An answer takes {run.cost_us:.0f} µs."
     if run.rms_deg is None:
         reported = f"{run.problem} {cost}"
-        return KeptLaw(text=text, verdict="ended", feedback=reported)
+        return KeptLaw(text=text, verdict="ended", feedback=reported, output=output)
     rms = f"{run.rms_deg:.3g}° rms from the load on"
     if run.held:
         reported = f"The run held: {HELD}; {rms}."

@@ -18,6 +18,7 @@ th, td { text-align: left; padding: .3rem .8rem .3rem 0; vertical-align: top;
   border-bottom: 1px solid color-mix(in srgb, currentColor 25%, transparent); }
 td.number, th.number { text-align: right; white-space: nowrap; font-variant-numeric: tabular-nums; }
 small { overflow-wrap: anywhere; }
+.feedback { white-space: pre-wrap; overflow-wrap: anywhere; }
 """
 HEADINGS = ("student", "exercise", "points", "max_points", "submission", "seed", "version")
 
@@ -84,7 +85,8 @@ def _write_table(grades: Sequence[Grade]) -> str:
 def _write_grade(grade: Grade, anchor: str) -> str:
     rows = "".join(
         f"<tr><td>{escape(one.step)}</td><td>{escape(one.name)}</td>"
-        f"{_write_points(one.points, one.max_points)}<td>{escape(one.feedback)}</td></tr>"
+        f"{_write_points(one.points, one.max_points)}"
+        f'<td class="feedback">{escape(one.feedback)}</td></tr>'
         for one in grade.criteria
     )
     seed = f"; trials of seed {grade.seed}" if grade.seed else ""

@@ -1,6 +1,6 @@
 """The law's side: a new process in empty namespaces, with the law and two ends of pipes.
 
-    python -I -S -B child.py LAW FILTER ANSWERS MEMORY_BYTES CPU_S OUTPUT_BYTES
+    python -I -S -B -u child.py LAW FILTER ANSWERS MEMORY_BYTES CPU_S OUTPUT_BYTES
 
 LAW: the law's file. FILTER: the compiled filter of system calls, or "-" for none. ANSWERS: number
 of the pipe that answers go to; requests come on standard input. The law is read only when every

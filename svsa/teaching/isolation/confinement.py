@@ -119,7 +119,8 @@ def leave_open(source: bytes, answers: int, bounds: Bounds) -> Iterator[Command]
 
 def _start_child(folder: str, program: str, answers: int, bounds: Bounds) -> list[str]:
     numbers = (answers, bounds.memory_bytes, bounds.cpu_s, bounds.output_bytes)
-    interpreter = [str(_find_interpreter()), "-I", "-S", "-B", f"{folder}/child.py"]
+    # -u: what a law has printed is kept also if it is killed.
+    interpreter = [str(_find_interpreter()), "-I", "-S", "-B", "-u", f"{folder}/child.py"]
     return [*interpreter, f"{folder}/law.py", program, *map(str, numbers)]
 
 

@@ -109,6 +109,13 @@ class RunningLaw:
         """End the process and whatever it began."""
         self._opened.close()
 
+    def read_output(self) -> str:
+        """The end of what the law has printed so far, on both its standard streams."""
+        # `pread`: the position of the file is also that at which the law goes on to print.
+        descriptor = self._output.fileno()
+        begin = max(0, os.fstat(descriptor).st_size - SHOWN_BYTES)
+        return os.pread(descriptor, SHOWN_BYTES, begin).decode("utf-8", "replace")
+
     def _ask(self, kind: int, rows: bytes, expected: int, wait_s: float) -> bytes:
         number = self._draw_number()
         asked = ASK.pack(kind, int.from_bytes(number, "little"), self._runs) + rows
@@ -170,11 +177,7 @@ class RunningLaw:
 
     def _fail(self, code: LawFaultCode, message: str) -> LawFaultError:
         self._end()
-        self._output.seek(0, os.SEEK_END)
-        self._output.seek(max(0, self._output.tell() - SHOWN_BYTES))
-        return LawFaultError(
-            code, message, self._output.read(SHOWN_BYTES).decode("utf-8", "replace")
-        )
+        return LawFaultError(code, message, self.read_output())
 
     def _end(self) -> None:
         """End bwrap, and with it, as the first process of its namespace, everything in it."""

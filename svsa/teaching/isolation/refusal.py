@@ -10,6 +10,7 @@ LawFaultCode = Literal["error", "late", "early", "ended", "garbled"]
 no answer."""
 
 
+PRINTED = "The law printed"
 _OWN_LINE = re.compile(r'File "law\.py", line (\d+)')
 
 
@@ -37,10 +38,15 @@ class LawFaultError(SvsaError):
         return type(self), (self.code, str(self), self.output)
 
 
-def describe_last_output(output: str) -> str:
-    """The last line that a law printed, with the line of its file that a traceback names; ""."""
-    lines = output.strip().splitlines()
-    if not lines:
+def describe_output(output: str) -> str:
+    """What a failed law printed last, from a line of its own on; empty if it printed nothing.
+
+    Args:
+        output: The end of what it printed, with the traceback of an error.
+    """
+    shown = output.strip()
+    if not shown:
         return ""
     at = _OWN_LINE.findall(output)
-    return f"line {at[-1]}: {lines[-1]}" if at else lines[-1]
+    place = f" (line {at[-1]} of the law)" if at else ""
+    return f"\n{PRINTED}{place}:\n{shown}"

@@ -16,7 +16,7 @@ from svsa.evaluation.scenario import Scenario
 from svsa.evaluation.statistics import estimate_share
 from svsa.inputs.checked import Checked, Number, Whole, quantity
 from svsa.teaching.grading.law_runs import LawRun
-from svsa.teaching.isolation.refusal import describe_last_output
+from svsa.teaching.isolation.refusal import describe_output
 
 TRIALS = 200
 """Half of each family: the 95 % interval of a success rate of 90 % is 85–93 %."""
@@ -109,7 +109,8 @@ def measure_standing(
             )
         run = go(scenario)
         if not found and run.problem and run.tick_us is None:
-            raise StateError(_describe_failure(run))
+            failure = f"The law fails in its first run: {run.problem}"
+            raise StateError(failure + describe_output(run.output))
         found[scenario.name] = run if scenario.name in reported else run._replace(torques=b"")
         report(len(found), season.run_count)
     return _sum_up(season, found)
@@ -146,8 +147,3 @@ def _sum_up(season: Season, found: dict[str, LawRun]) -> Measured:
 
 def _rank_badness(run: LawRun) -> float:
     return math.inf if run.rms_deg is None else run.rms_deg
-
-
-def _describe_failure(run: LawRun) -> str:
-    said = describe_last_output(run.output)
-    return f"The law fails in its first run: {run.problem}" + (f" It said: {said}" if said else "")

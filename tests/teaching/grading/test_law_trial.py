@@ -36,6 +36,12 @@ def test_a_law_that_fails_is_told_what_it_printed(text, verdict, reported):
     assert reported in found.output
 
 
+def test_a_run_that_ends_in_a_fault_keeps_what_its_law_printed():
+    found = try_law("def law(*given):\n    print('far')\n    return 9.0, 9.0\n")
+    assert found.verdict == "ended"
+    assert found.output.endswith("far\n")
+
+
 def test_a_run_is_judged_by_how_far_it_goes():
     assert try_law(LAZY.decode()).verdict in ("ran", "ended")
     assert judge_trial("", WHOLE).verdict == "held"

@@ -13,7 +13,7 @@ from svsa.teaching.isolation import confinement, system_calls
 from svsa.teaching.isolation.confinement import Bounds, confine, leave_open
 from svsa.teaching.isolation.probe import check_isolation
 from svsa.teaching.isolation.process import LawProcess
-from svsa.teaching.isolation.refusal import LawFaultError, NotIsolatedError, describe_last_output
+from svsa.teaching.isolation.refusal import LawFaultError, NotIsolatedError, describe_output
 from tests.teaching.isolation.attackers import MODEL, TOLD
 from tests.teaching.isolation.test_attacks import isolation  # noqa: F401
 
@@ -168,15 +168,25 @@ def test_a_sandbox_that_does_not_start_is_none(monkeypatch, tmp_path):
     check_isolation.cache_clear()
 
 
-def test_of_what_a_law_said_the_last_line_is_told_with_the_line_of_its_file():
+def test_what_a_failed_law_printed_is_described_with_the_line_of_its_file():
     with pytest.raises(LawFaultError) as raised:
-        run(b"def inner(): return spring\n\ndef law(*given):\n    return inner()\n")
+        run(b"def inner(): return spring\n\ndef law(*given):\n    print('x')\n    return inner()")
     assert "child.py" not in raised.value.output
-    assert describe_last_output(raised.value.output) == (
-        "line 1: NameError: name 'spring' is not defined"
-    )
-    assert describe_last_output("only this\n") == "only this"
-    assert describe_last_output(" \n") == ""
+    described = describe_output(raised.value.output)
+    assert described.startswith("\nThe law printed (line 1 of the law):\nx\nTraceback")
+    assert described.endswith("NameError: name 'spring' is not defined")
+    assert describe_output("only this\n") == "\nThe law printed:\nonly this"
+    assert describe_output(" \n") == ""
+
+
+def test_what_a_law_printed_before_it_was_killed_is_kept():
+    endless = b"def law(*given):\n    print('here')\n    while True: pass\n"
+    with (
+        LawProcess(endless, MODEL, Bounds(answer_s=0.5)) as law,
+        pytest.raises(LawFaultError, match="did not answer") as raised,
+    ):
+        law(0.0, *TOLD)
+    assert raised.value.output == "here\n"
 
 
 def test_a_law_process_keeps_what_was_answered():

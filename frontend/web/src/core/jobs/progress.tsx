@@ -36,7 +36,9 @@ export function JobProgress({ job, done, total, label, onCancel, children }: Job
   const isUnderWay = isGoing(job);
   return (
     <div class="row grow">
-      <span role="status">{[done, ...describeJob(job)].join(" · ")}</span>
+      <span role="status" class="as-written">
+        {[done, ...describeJob(job)].join(" · ")}
+      </span>
       {isUnderWay && <progress value={job?.done ?? 0} max={total} aria-label={label} />}
       {isUnderWay ? (
         <button type="button" class="button" title={words.cancelHint} onClick={onCancel}>

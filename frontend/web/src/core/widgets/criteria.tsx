@@ -17,7 +17,7 @@ export function Criteria({ grade }: { grade: Grade }) {
         <tr key={`${one.step} ${one.name}`}>
           <th scope="row">{one.name}</th>
           <td class="nowrap">{words.of(formatPoints(one.points), formatPoints(one.max_points))}</td>
-          <td>{one.feedback}</td>
+          <td class="as-written">{one.feedback}</td>
         </tr>
       ))}
     </Table>

@@ -47,7 +47,7 @@ export function Results({
                 {one.points} / {one.max_points}
               </small>
             </p>
-            <p>{one.feedback}</p>
+            <p class="as-written">{one.feedback}</p>
             {run !== null && typeof one.time_s === "number" && (
               <button
                 type="button"
