@@ -2,7 +2,8 @@
 
 import asyncio
 import contextlib
-from collections.abc import AsyncIterator
+import logging
+from collections.abc import AsyncIterator, Callable
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -43,6 +44,7 @@ from svsa_server.scene.scenes import Scenes
 from svsa_server.scene.viser_proxy import ViserProxy
 from svsa_server.sessions.bench_start import open_bench
 from svsa_server.sessions.hosted import note_settled
+from svsa_server.sessions.indexing import Indexing
 from svsa_server.sessions.laboratory import SHARED_SESSION, Laboratory, build_shared_session
 from svsa_server.sessions.lock import take_turn
 from svsa_server.sessions.ownership import find_owner
@@ -52,6 +54,7 @@ from svsa_server.sessions.recording import Recordings, open_catalogue
 if TYPE_CHECKING:
     from svsa_server.lti.tool import LtiTool
 
+_log = logging.getLogger("svsa")
 MAX_GRADINGS = 2
 _DESCRIPTION = (
     "Position and stiffness control of a serial variable stiffness actuator. SI units; every"
@@ -65,11 +68,13 @@ def build_app(
     shared: Session | None = None,
     keys: ClassKeys | None = None,
     host: str = "127.0.0.1",
+    report: Callable[[str], None] = _log.info,
 ) -> FastAPI:
     """The lab as an ASGI application; sessions live as long as it runs.
 
     shared: the session that everyone shares; a simulated one if left out. keys: of a class, if
-    they are open already. host: the address that is listened on.
+    they are open already. host: the address that is listened on. report: prints a line on
+    the console.
     """
     config = config or Settings()
     authentication = build_authentication(config, keys)
@@ -84,6 +89,7 @@ def build_app(
     app.state.authentication = authentication
     app.state.config = config
     app.state.host = host
+    app.state.report = report
     app.state.shared = shared
     app.state.design = read_design(config.parameters) if config.parameters else load_prototype()
     app.state.course = {one.name: one for one in read_course(config.course)}
@@ -178,6 +184,7 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
     )
     app.state.laboratory = laboratory
     app.state.catalogue = await asyncio.to_thread(open_catalogue)
+    app.state.indexing = Indexing(app.state.catalogue, app.state.report)
     app.state.recordings = Recordings(app.state.catalogue)
     quota = DiskQuota(app.state.catalogue, laboratory, config.quota_mb * 1e6)
     app.state.quota = quota
@@ -215,6 +222,7 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
         app.state.heavy_work.close()
         app.state.jobs.close()
         await app.state.recordings.close()
+        await asyncio.to_thread(app.state.indexing.close)
         await app.state.viser.close()
         await scenes.close()
         if app.state.lti is not None:

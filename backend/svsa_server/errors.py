@@ -1,5 +1,6 @@
 """Which refusal of the library and of the routing is which problem."""
 
+import contextlib
 import errno
 import json
 from dataclasses import replace
@@ -61,7 +62,11 @@ def install_error_handlers(app: FastAPI) -> None:
         return answer_problem(409, "held", str(error))
 
     @app.exception_handler(RecordError)
-    def refuse_record(_: Request, error: RecordError) -> JSONResponse:
+    def refuse_record(request: Request, error: RecordError) -> JSONResponse:
+        if "run_id" in request.path_params:
+            # The list says from now on what is wrong with it.
+            with contextlib.suppress(SvsaError):
+                request.app.state.catalogue.check(request.path_params["run_id"])
         return answer_problem(409, "record", str(error))
 
     @app.exception_handler(StudyError)

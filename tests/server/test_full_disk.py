@@ -5,10 +5,12 @@ import subprocess
 from collections.abc import Iterator
 from pathlib import Path
 
+import httpx
 import pytest
 
 from svsa.teaching.class_folder import SECRET_BYTES, keep_secret
 from tests.lab_in_process import run_lab_in_process
+from tests.runs.records.records import wait_until
 from tests.server.access.classroom import read_kind
 from tests.server.routes.test_scenarios_routes import BLOW
 
@@ -57,6 +59,35 @@ def test_what_a_full_disk_cannot_take_is_rejected_and_done_once_there_is_room(di
         assert [*disk.rglob("*.tmp"), *disk.rglob("*.part")] == []
 
 
+def test_a_recording_that_a_full_disk_ended_is_listed_as_failed_with_what_opens(disk: Path) -> None:
+    def read_run(client: httpx.Client) -> dict:
+        (run,) = client.get("/api/v1/runs").raise_for_status().json()["runs"]
+        return run
+
+    with run_lab_in_process(data=str(disk)) as lab:
+        lab.load_figure()
+        lab.client.post(lab.session + "/recording", json={}).raise_for_status()
+        lab.jump(1)
+        wait_until(lambda: lab.read()["recording"]["ticks"] >= 1000)
+        assert read_run(lab.client)["state"] == "recording"
+        with filled(disk):
+            lab.jump(2)
+            wait_until(lambda: lab.read()["recording"]["state"] == "failed")
+            wait_until(lambda: read_run(lab.client)["state"] == "failed")
+            lab.client.delete(lab.session + "/recording").raise_for_status()
+            run = read_run(lab.client)
+            assert run["state"] == "failed"
+            assert "No space left" in run["message"]
+            assert f"What was written opens: {run['duration_s']:.6g} s" in run["message"]
+            assert run["duration_s"] >= 1.0
+            path = f"/api/v1/runs/{run['id']}/samples"
+            assert lab.client.get(path, params={"channels": "position_rad"}).is_success
+    with run_lab_in_process(data=str(disk)) as lab:
+        wait_until(lambda: lab.client.get("/api/v1/runs").json()["indexing"] is None)
+        assert read_run(lab.client)["state"] == "failed"
+        assert not [*disk.rglob("samples.arrows")]
+
+
 def test_a_full_disk_leaves_no_empty_secret(disk: Path) -> None:
     with filled(disk), pytest.raises(OSError, match="No space left"):
         keep_secret(disk / "secret")
@@ -66,7 +97,10 @@ def test_a_full_disk_leaves_no_empty_secret(disk: Path) -> None:
 
 def test_a_leaderboard_on_a_read_only_disk_says_so(disk: Path) -> None:
     with run_lab_in_process(data=str(disk)) as running:
-        subprocess.run(["mount", "-o", "remount,ro", str(disk)], check=True)
+        # The catalogue's file stays open for writing: a second, read-only mount of the same disk.
+        for options in (["--bind", str(disk)], ["-o", "remount,bind,ro"]):
+            subprocess.run(["mount", *options, str(disk)], check=True)
         answer = running.client.get("/api/v1/leaderboard")
+        subprocess.run(["umount", "--lazy", str(disk)], check=True)
         assert answer.status_code in (422, 507)
         assert "Read-only file system" in answer.json()["detail"]

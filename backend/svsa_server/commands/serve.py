@@ -127,7 +127,7 @@ def run_server(
     shared = build_shared_session(bench, design)
     # Sessions run in a thread of their own: one that blocks leaves health, the quick stop and the
     # end of the server to this thread.
-    lab = ResponsiveApp(build_app(config, shared, keys, chosen), shared)
+    lab = ResponsiveApp(build_app(config, shared, keys, chosen, print_line), shared)
     server = AnnouncedServer(
         uvicorn.Config(
             lab,
@@ -189,6 +189,11 @@ def claim_data_folder(folder: Path) -> IO[str] | None:
     file.write(f"{os.getpid()}\n")
     file.flush()
     return file
+
+
+def print_line(line: str) -> None:
+    """Print a line on the console that the lab was started from."""
+    Console(soft_wrap=True).print(line, highlight=False, markup=False)
 
 
 def _bound_exit(is_stuck: bool) -> None:

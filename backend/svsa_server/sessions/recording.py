@@ -2,7 +2,6 @@
 
 import asyncio
 import logging
-import threading
 from collections.abc import Callable
 from datetime import UTC, datetime
 from typing import Any, NoReturn
@@ -35,25 +34,12 @@ class NoCatalogue:
 
 
 def open_catalogue() -> Catalogue | NoCatalogue:
-    """The catalogue in SVSA_DATA, with what a crash cut off finished; for every start.
-
-    What an older version did not enter of its runs is read in the background.
-    """
+    """The catalogue in SVSA_DATA; `Indexing` finishes what a crash cut off."""
     try:
-        catalogue = Catalogue()
-        catalogue.recover()
+        return Catalogue()
     except CatalogueError as error:
         _log.warning("Nothing can be recorded. %s", error)
         return NoCatalogue(str(error))
-    threading.Thread(target=_describe_older, args=(catalogue,), daemon=True).start()
-    return catalogue
-
-
-def _describe_older(catalogue: Catalogue) -> None:
-    try:
-        catalogue.describe_older()
-    except CatalogueError as error:
-        _log.warning("The settings of older runs are not all in the list. %s", error)
 
 
 class Recordings:

@@ -11,7 +11,6 @@ from rich.table import Table
 
 if TYPE_CHECKING:
     from svsa.analysis.identification.identify import Identification
-    from svsa.runs.records.reader import Record
 
 
 def identify(
@@ -26,8 +25,12 @@ def identify(
     """Estimate inertias, dampings, spring and friction from a recorded run."""
     from svsa.analysis.identification import identify as identification
     from svsa.runs.configuration import write_design
+    from svsa.runs.records.header import describe_newer
+    from svsa.runs.result.recorded import find_record
 
-    record = _open(run)
+    record = find_record(run)
+    if newer := describe_newer(record.header.version):
+        Console(stderr=True).print(f"Note: {newer}", highlight=False, markup=False)
     with Progress(console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task("Identifying", total=1.0)
         found = identification.identify(record, lambda done: bar.update(task, completed=done))
@@ -41,13 +44,6 @@ def identify(
     source = f"run {found.run_id}: actuator and nominal identified, the rest as in the run"
     write_design(output, design, source)
     console.print(f"Parameter file: {output}", highlight=False)
-
-
-def _open(run: str) -> "Record":
-    from svsa.runs.records.catalogue.runs import Catalogue
-    from svsa.runs.records.reader import open_record
-
-    return open_record(Path(run)) if Path(run).is_dir() else Catalogue().open(run)
 
 
 def _build_table(found: "Identification") -> Table:

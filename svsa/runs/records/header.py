@@ -14,6 +14,7 @@ from pydantic import model_validator
 from svsa.actuators.signals import Channel
 from svsa.errors import ParameterError, SvsaError, Violation
 from svsa.inputs.checked import Checked, Number, Whole, quantity
+from svsa.inputs.extras import __version__
 from svsa.runs.records.former_words import FIELDS, translate_fields
 
 FORMAT = 1
@@ -120,15 +121,40 @@ def parse_header(text: str) -> RecordHeader:
         raise RecordError(f"not JSON ({error})") from None
     if not isinstance(written, dict):
         raise RecordError("not a JSON object")
+    newer = describe_newer(str(written.get("version", "")))
     if written.get("format") != FORMAT:
-        known = f"this version of svsa reads format {FORMAT}"
+        known = f"this version of svsa reads format {FORMAT}. {newer}".strip()
         raise RecordError(f"format {str(written.get('format'))[:40]}, but {known}")
+    if newer:
+        written = {name: written[name] for name in written if name in RecordHeader.model_fields}
     if "configuration" in written:
         written["configuration"] = translate_fields(written["configuration"], FIELDS)
     try:
         return RecordHeader(**written)
     except ParameterError as error:
         raise RecordError(str(error)) from None
+
+
+def describe_newer(version: str) -> str:
+    """A note about a record that a newer version of svsa wrote; empty for any other.
+
+    Args:
+        version: The version that wrote it.
+    """
+    if _read_release(version) <= _read_release(__version__):
+        return ""
+    return (
+        f"Recorded by svsa {version[:40]}, which is newer than the installed {__version__}:"
+        " settings that are unknown here are left out."
+    )
+
+
+def _read_release(version: str) -> tuple[int, ...]:
+    """The numbers of a version, to be compared: of 0.10.0 (0, 10)."""
+    numbers = [int(number) for number in re.findall(r"\d{1,9}", version.partition("+")[0])]
+    while numbers and numbers[-1] == 0:
+        numbers.pop()
+    return tuple(numbers)
 
 
 def write_header(folder: Path, header: RecordHeader) -> None:

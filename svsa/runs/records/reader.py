@@ -159,6 +159,15 @@ def recover(folder: Path) -> Finished | None:
         return finish(folder) if mine else None
 
 
+def count_readable_rows(folder: Path) -> int:
+    """How many samples of a finished record can be read, from the first on."""
+    rows = 0
+    with contextlib.suppress(RecordError), open_parquet(folder) as file:
+        for batch in _explain(file.iter_batches(ROWS_A_GROUP, columns=None), folder):
+            rows += batch.num_rows
+    return rows
+
+
 def _read_from(batches: Sequence[pa.RecordBatch]) -> ReadBatches:
     def read(columns: Sequence[str] | None, start: int, stop: int) -> Iterator[pa.RecordBatch]:
         row = 0

@@ -35,6 +35,7 @@ def compare(
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
 ) -> None:
     """Judge a run against another. Exit code 0: held; 1: not; 2: they cannot be compared."""
+    from svsa.runs.records.header import describe_newer
     from svsa.runs.records.verdict import Tolerance, judge
     from svsa.runs.result.recorded import find_record
 
@@ -42,7 +43,11 @@ def compare(
         rest = Tolerance(absolute=absolute, relative=relative, time_s=time_s)
         given = read_tolerances(tolerances) if tolerances else {}
         given |= {name: given.get(name, rest) for name in channel or ()}
-        verdict = judge(find_record(run), find_record(other), given, None if channel else rest)
+        records = find_record(run), find_record(other)
+        for header in (record.header for record in records):
+            if newer := describe_newer(header.version):
+                _messages.print(f"Note: {header.run_id}: {newer}", highlight=False, markup=False)
+        verdict = judge(*records, given, None if channel else rest)
     except (SvsaError, OSError) as error:
         _messages.print(f"Error: {error}", style="bold red", highlight=False, markup=False)
         raise typer.Exit(REFUSED) from None

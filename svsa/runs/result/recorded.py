@@ -1,5 +1,6 @@
 """Recorded runs in a script: list them, open one, simulate it again, export it."""
 
+import warnings
 from pathlib import Path
 
 from svsa.actuators.signals import CHANNEL_NAMES
@@ -7,7 +8,7 @@ from svsa.errors import ParameterError
 from svsa.runs.records.acting import read_acting
 from svsa.runs.records.catalogue.entry import RunPage
 from svsa.runs.records.catalogue.runs import Catalogue
-from svsa.runs.records.header import HEADER_FILE, RecordError
+from svsa.runs.records.header import HEADER_FILE, RecordError, describe_newer
 from svsa.runs.records.reader import Record, open_record
 from svsa.runs.records.resimulation import Comparison, compare_with_simulation, read_origin
 from svsa.runs.result.result import Result, build_results
@@ -39,10 +40,13 @@ def open_run(run: str | Path) -> Result:
     those given while it was recorded or before; `fault` is None also for a record of a version
     that did not write it. On a bench the true disturbance is unknown (NaN). Raises `RecordError`
     for a record that cannot be read, of other channels, or of a configuration that this version
-    does not know, `UnknownRunError` for an id that is not there.
+    does not know, `UnknownRunError` for an id that is not there. Warns of a record of a newer
+    version.
     """
     record = find_record(run)
     header = record.header
+    if newer := describe_newer(header.version):
+        warnings.warn(f"Run {header.run_id}: {newer}", stacklevel=2)
     if header.channel_names != CHANNEL_NAMES:
         raise RecordError(f"Run {header.run_id} has other channels than this version of svsa.")
     try:

@@ -3,7 +3,7 @@
 import dataclasses
 from typing import Annotated, Any
 
-from fastapi import Body, Header, Query
+from fastapi import Body, Header, Query, Request
 
 from svsa.runs.records.catalogue.entry import (
     LONGEST_SEARCH,
@@ -43,6 +43,7 @@ Facet = Annotated[str | None, Query(max_length=LONGEST_FACET)]
 @router.get("/runs")
 @allow(OBSERVER)
 def list_runs(
+    request: Request,
     runs: Runs,
     person: NamedPerson,
     search: Annotated[
@@ -92,6 +93,7 @@ def list_runs(
         page_size=found.page_size,
         tags=facets["tag"],
         facets=facets,
+        indexing=request.app.state.indexing.progress,
     )
 
 
@@ -161,6 +163,7 @@ def _list_values(runs: Catalogue, *entries: RunEntry) -> list[dict[str, Any]]:
         {field.name: getattr(entry, field.name) for field in dataclasses.fields(entry)}
         | {
             "title": entry.title,
+            "note": entry.note,
             "revision": entry.revision,
             "branch_of": name_origin(entry.branch_of, origins),
             "fault": entry.fault and RunFault.report(entry.fault),

@@ -75,9 +75,11 @@ class RunSummary(BaseModel):
     created: str = Field(description="UTC, ISO 8601")
     version: str = Field(description="Version of svsa that recorded")
     state: RunState = Field(
-        description="failed: it ended early, message says why; damaged: it cannot be read"
+        description="failed: it ended early; damaged: not all of it can be read. `message` has the"
+        " reason, and what of it opens."
     )
     message: str
+    note: str = Field(description="That a newer version of svsa recorded it; else empty")
     plant: PlantKind = Field(description="What lane 1 was; only a simulated run can be branched")
     lanes: list[str]
     period_s: float
@@ -94,6 +96,15 @@ class RunSummary(BaseModel):
     deleted: str | None = Field(description="When it went into the trash, UTC")
 
 
+class IndexProgress(BaseModel):
+    """How far the list of runs is brought up to date after a start."""
+
+    model_config = ConfigDict(from_attributes=True)
+
+    done: int = Field(description="Runs that were read")
+    total: int = Field(description="Runs that are new, changed or cut off; 0 while they are found")
+
+
 class RunList(BaseModel):
     """A page of runs."""
 
@@ -105,6 +116,9 @@ class RunList(BaseModel):
     facets: dict[str, dict[str, int]] = Field(
         description="What the list can be filtered by: facet (tag, law, load, figure, plant),"
         " value, and how many of all runs outside the trash have it"
+    )
+    indexing: IndexProgress | None = Field(
+        description="While runs are still being added to the list after a start; else null"
     )
 
 

@@ -3,6 +3,7 @@
 import contextlib
 import dataclasses
 import sqlite3
+import weakref
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any
@@ -33,6 +34,7 @@ class Database:
         except sqlite3.DatabaseError:
             self._set_aside()
             self._prepare()
+        self._keep_open()
 
     def add(self, *entries: RunEntry) -> None:
         """Add runs; one that is known stays as it is."""
@@ -130,17 +132,12 @@ class Database:
             known = [run_id for run_id in set(run_ids) if has(connection, run_id)]
             return {run_id: get(connection, run_id) for run_id in known}
 
-    def list_undescribed(self) -> list[str]:
-        """The runs whose settings are not known, though they are recorded to their end."""
-        select = "SELECT id FROM runs WHERE described = 0 AND state IN ('complete', 'failed')"
+    def list_known(self) -> dict[str, tuple[str, bool, str]]:
+        """For every run its state, whether it is in the trash, and `RunEntry.files`."""
+        select = "SELECT id, state, trash, files FROM runs"
         with self._connect() as connection:
-            return [run_id for (run_id,) in connection.execute(select)]
-
-    def list_states(self) -> dict[str, tuple[str, bool]]:
-        """For every run its state and whether it is in the trash."""
-        with self._connect() as connection:
-            rows = connection.execute("SELECT id, state, trash FROM runs")
-            return {run_id: (state, bool(deleted)) for run_id, state, deleted in rows}
+            rows = connection.execute(select)
+            return {run_id: (state, bool(trash), files) for run_id, state, trash, files in rows}
 
     @contextlib.contextmanager
     def _connect(self) -> Iterator[sqlite3.Connection]:
@@ -165,6 +162,16 @@ class Database:
                 raise sqlite3.DatabaseError(verdict)
         finally:
             connection.close()
+
+    def _keep_open(self) -> None:
+        """Keep one idle connection: the last one to close deletes the files of the write-ahead log.
+
+        On a disk that has become full they could not be made again, and not even a list be read.
+        """
+        with contextlib.suppress(sqlite3.Error):
+            idle = sqlite3.connect(self._path, check_same_thread=False)
+            weakref.finalize(self, idle.close)
+            idle.execute("SELECT count(*) FROM runs").fetchone()
 
     def _set_aside(self) -> None:
         """Keep a database that is none under another name; the folders hold all it knew."""

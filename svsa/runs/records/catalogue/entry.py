@@ -11,7 +11,7 @@ import msgspec
 from svsa.errors import Fault, ParameterError, SvsaError, Violation
 from svsa.runs.metrics import Metrics
 from svsa.runs.records.former_words import SETTINGS, translate_fields
-from svsa.runs.records.header import BranchPoint, PlantKind
+from svsa.runs.records.header import BranchPoint, PlantKind, describe_newer
 from svsa.runs.records.measured_window import MeasuredWindow
 from svsa.runs.records.settings import RunSettings, name_figure
 
@@ -59,7 +59,8 @@ class RunEntry:
     metrics: per lane, of `window`; None where there are none, or no finite ones. fault: what the
     run ended in.
     settings: None while it is recorded, and where they cannot be read. branch_of: where it
-    went on from. owner: id of who recorded it, in a class.
+    went on from. owner: id of who recorded it, in a class. files: which files of its folder all
+    this describes; empty where an older version described it.
     """
 
     id: str
@@ -85,11 +86,17 @@ class RunEntry:
     settings: RunSettings | None = None
     branch_of: BranchPoint | None = None
     owner: str = ""
+    files: str = ""
 
     @property
     def title(self) -> str:
         """What it is called: by people, or by its settings, or by its id."""
         return self.name or (self.settings.name if self.settings else "") or self.id
+
+    @property
+    def note(self) -> str:
+        """That a newer version of svsa recorded it; empty for any other run."""
+        return describe_newer(self.version)
 
     @property
     def revision(self) -> str:

@@ -3,96 +3,93 @@
 import contextlib
 import dataclasses
 import functools
-import time
 from collections.abc import Iterator
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
 from svsa.errors import SvsaError
+from svsa.inputs.extras import __version__
 from svsa.runs.metrics import MEASURED, Metrics, RunningMetrics
+from svsa.runs.records.catalogue.damage import describe_readable
 from svsa.runs.records.catalogue.database import Database
-from svsa.runs.records.catalogue.entry import RunEntry, UnknownRunError
+from svsa.runs.records.catalogue.entry import CatalogueError, RunEntry, UnknownRunError
 from svsa.runs.records.header import STREAM_FILE, RecordError, is_run_id, read_header
 from svsa.runs.records.measured_window import MeasuredWindow, find_measured_window, summarize
 from svsa.runs.records.parquet import measure_bytes
-from svsa.runs.records.reader import Record, open_record, recover
+from svsa.runs.records.reader import Record, claim, open_record, recover
 from svsa.runs.records.settings import describe_settings
 
-CUT_OFF = "The recording was cut off; what had been written is here."
+CUT_OFF = "The recording was cut off."
 GONE = "Its folder is gone."
 
 
-@dataclass(frozen=True)
-class Recovery:
-    """What a recovery did, as ids; problems: ids with what is wrong with their records."""
+def index_runs(database: Database, runs: Path, trash: Path) -> Iterator[tuple[int, int]]:
+    """Finish every unfinished record, register every unknown folder, mark what is damaged or gone.
 
-    finished: tuple[str, ...]
-    registered: tuple[str, ...]
-    problems: tuple[tuple[str, str], ...]
+    A record whose files have not changed since it was described is not read again.
 
-
-def recover_runs(database: Database, runs: Path, trash: Path) -> Recovery:
-    """Finish every unfinished record, register every unknown folder, mark what is gone."""
-    finished: list[str] = []
-    registered: list[str] = []
-    problems: list[tuple[str, str]] = []
-    known = database.list_states()
+    Yields:
+        How many records are done, and of how many; first (0, total), then after each record.
+    """
+    known = database.list_known()
     found: set[str] = set()
+    waiting: list[tuple[Path, bool, str]] = []
     for folder, deleted in _list_folders(runs, trash):
         found.add(folder.name)
-        state, was_deleted = known.get(folder.name, ("", deleted))
-        unfinished = (folder / STREAM_FILE).exists()
-        if state not in ("", "recording", "missing") and was_deleted == deleted and not unfinished:
+        state, was_deleted, files = known.get(folder.name, ("", deleted, ""))
+        is_settled = state in ("complete", "failed", "damaged") and was_deleted == deleted
+        if is_settled and not (folder / STREAM_FILE).exists() and files == read_files(folder):
             continue
-        try:
-            entry = _recover_run(database, folder, deleted, state)
-        except (FileNotFoundError, UnknownRunError):
-            continue  # another process took it away meanwhile
-        if entry is None:
-            continue
-        if not state:
-            registered.append(folder.name)
-        elif unfinished and entry.state == "complete":
-            finished.append(folder.name)
-        if entry.state == "damaged":
-            problems.append((folder.name, entry.message))
+        waiting.append((folder, deleted, state))
+    yield 0, len(waiting)
+    # The ids begin with the time: the newest runs, which are looked for most, are listed first.
+    waiting.sort(key=lambda one: one[0].name, reverse=True)
+    for done, (folder, deleted, state) in enumerate(waiting, 1):
+        # Another process may take it away meanwhile.
+        with contextlib.suppress(FileNotFoundError, UnknownRunError):
+            _recover_run(database, folder, deleted, state)
+        yield done, len(waiting)
     for run_id in known.keys() - found:
         with contextlib.suppress(UnknownRunError):
             places = (runs / run_id, trash / run_id)
-            if database.revise(run_id, functools.partial(_miss, places)).state == "missing":
-                problems.append((run_id, GONE))
-    return Recovery(tuple(finished), tuple(registered), tuple(problems))
+            database.revise(run_id, functools.partial(_miss, places))
 
 
-def describe_older(database: Database, places: tuple[Path, ...]) -> None:
-    """Give the runs what older versions did not enter: settings, metrics of a named window, fault.
+def settle(database: Database, folder: Path, entry: RunEntry, failure: str) -> RunEntry:
+    """The entry of a recording as it is: ended, if no process writes it any more.
 
-    What cannot be read stays without. It sleeps half of the time, so that thousands of runs
-    do not delay a loop on the same machine.
+    Args:
+        database: Takes the entry of an ended recording, if its disk has room.
+        folder: The record's folder.
+        entry: An entry that says "recording".
+        failure: Why the recording ended, if that is known.
     """
-    for run_id in database.list_undescribed():
-        begin = time.perf_counter()
-        for folder in (place / run_id for place in places):
-            with contextlib.suppress(RecordError, OSError, UnknownRunError):
-                database.change(run_id, _describe(open_record(folder)))
-        time.sleep(time.perf_counter() - begin)
+    if not folder.is_dir():
+        return entry
+    with claim(folder) as is_ended:
+        if not is_ended:
+            return entry
+    if not failure and (folder / STREAM_FILE).exists():
+        failure = CUT_OFF
+    changes = describe(folder, failure)
+    try:
+        return database.change(entry.id, changes)
+    except CatalogueError:  # as on a full disk: the list is right nevertheless
+        return dataclasses.replace(entry, **changes)
 
 
-def _recover_run(database: Database, folder: Path, deleted: bool, state: str) -> RunEntry | None:
-    """Finish and enter one run; None for a folder that a recording had only begun to make."""
+def _recover_run(database: Database, folder: Path, deleted: bool, state: str) -> None:
+    """Finish and enter one run, but no folder that a recording had only begun to make."""
     if not state:
         # The process died before its first byte: there is nothing to recover, or it records just
         # now.
         if not any(path.stat().st_size for path in folder.iterdir()):
-            return None
+            return
         database.add(build_entry(folder))
     entry = database.get(folder.name)
-    changes: dict[str, Any] = {"deleted": _choose_time(entry, deleted)}
-    unfinished = (folder / STREAM_FILE).exists()
-    if unfinished or state in ("", "recording", "missing"):
-        changes |= _finish(folder, entry, unfinished)
+    changes = {"deleted": _choose_time(entry, deleted)} | _finish(folder, entry)
 
     def apply(now: RunEntry) -> dict[str, Any]:
         # Finishing a record takes long, and the lock of the database is not held meanwhile: what
@@ -102,7 +99,7 @@ def _recover_run(database: Database, folder: Path, deleted: bool, state: str) ->
             return changes
         return {}  # another thread or process changed it meanwhile, and knows better
 
-    return database.revise(folder.name, apply)
+    database.revise(folder.name, apply)
 
 
 def _miss(places: tuple[Path, ...], _: RunEntry) -> dict[str, Any]:
@@ -113,11 +110,21 @@ def _miss(places: tuple[Path, ...], _: RunEntry) -> dict[str, Any]:
     return {"state": "missing", "message": GONE}
 
 
-def describe(folder: Path) -> dict[str, Any]:
-    """What an entry says of a finished record; "damaged" where it cannot be read."""
+def describe(folder: Path, failure: str = "") -> dict[str, Any]:
+    """What an entry says of an ended record: every sample of it is read.
+
+    Args:
+        folder: The record's folder.
+        failure: Why the recording ended early; empty if it did not.
+
+    Returns:
+        Fields of `RunEntry`. A record that cannot be read whole is "damaged": the message has the
+        reason, and what can still be read.
+    """
+    files = {"files": read_files(folder)} if folder.is_dir() else {}
     try:
         record = open_record(folder)
-        return {
+        changes = {
             "state": "complete",
             "message": "",
             "first_tick": record.first_tick,
@@ -127,15 +134,34 @@ def describe(folder: Path) -> dict[str, Any]:
             **_describe(record),
         }
     except (RecordError, OSError) as error:
-        return {"state": "damaged", "message": str(error)}
+        return files | {"state": "damaged", "message": f"{error} {describe_readable(folder)}"}
+    if failure:
+        saved = f"What was written opens: {record.duration_s:.6g} s."
+        changes |= {"state": "failed", "message": f"{failure} {saved}"}
+    return files | changes
+
+
+def read_files(folder: Path) -> str:
+    """Another text for other files, and for another version of svsa, which may read more."""
+    size = newest = 0
+    for path in folder.iterdir():
+        with contextlib.suppress(FileNotFoundError):  # a draft that took its place meanwhile
+            state = path.stat()
+            size, newest = size + state.st_size, max(newest, state.st_mtime_ns)
+    return f"{__version__} {size} {newest}"
 
 
 def _describe(record: Record) -> dict[str, Any]:
     """What is read from the record itself: how it was set, how well it did, and in which window."""
     window = find_measured_window(record)
+    metrics = None if window is None else measure(record, window)
+    if metrics is None:
+        # Nothing has read the samples: damage is found by reading.
+        for _ in record.iterate_batches():
+            pass
     return {
         "window": window,
-        "metrics": None if window is None else measure(record, window),
+        "metrics": metrics,
         "settings": describe_settings(
             record.header, record.commands, record.first_tick, record.tick_count
         ),
@@ -172,18 +198,19 @@ def build_entry(folder: Path) -> RunEntry:
     return entry
 
 
-def _finish(folder: Path, entry: RunEntry, unfinished: bool) -> dict[str, Any]:
+def _finish(folder: Path, entry: RunEntry) -> dict[str, Any]:
     """What changes of the entry by finishing its record; nothing while a process records it."""
-    try:
-        if unfinished and recover(folder) is None:
-            return {}
-    except RecordError as error:
-        return {"state": "damaged", "message": str(error)}
-    changes = describe(folder)
-    if changes["state"] == "complete" and unfinished:
-        if entry.state == "failed":
-            return changes | {"state": "failed", "message": entry.message}
-        return changes | {"message": CUT_OFF}
+    failure = ""
+    if (folder / STREAM_FILE).exists():
+        failure = CUT_OFF
+        try:
+            if recover(folder) is None:
+                return {}
+        except RecordError as error:  # a full disk, or a damaged stream: `describe` finds out
+            failure = f"{CUT_OFF} {error}"
+    changes = describe(folder, failure)
+    if entry.state == "failed" and changes["state"] != "damaged":
+        return changes | {"state": "failed", "message": entry.message}
     return changes
 
 

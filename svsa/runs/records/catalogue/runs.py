@@ -8,7 +8,7 @@ import dataclasses
 import os
 import secrets
 import shutil
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -25,11 +25,11 @@ from svsa.runs.records.catalogue.entry import (
     UnknownRunError,
 )
 from svsa.runs.records.catalogue.recovery import (
-    Recovery,
     build_entry,
     describe,
-    describe_older,
-    recover_runs,
+    index_runs,
+    read_files,
+    settle,
 )
 from svsa.runs.records.header import (
     RecordError,
@@ -62,6 +62,7 @@ class Catalogue:
         except OSError as error:
             raise CatalogueError(f"Runs cannot be kept in {self.folder}: {error}.") from None
         self._database = Database(self.folder / "catalogue.sqlite")
+        self._recorders: dict[str, Recorder] = {}
 
     def record(self, header: RecordHeader) -> Recorder:
         """Begin to record a run and put it into the list; raises `RecordError`."""
@@ -72,6 +73,7 @@ class Catalogue:
         except CatalogueError:
             recorder.close()
             raise
+        self._recorders[header.run_id] = recorder
         return recorder
 
     def register(self, header: RecordHeader) -> RunEntry:
@@ -87,16 +89,16 @@ class Catalogue:
         """
         if status is not None and status.state == "recording":
             return self.get(run_id)
-        changes = describe(self.find_folder(run_id))
-        if status is not None and status.state == "failed" and changes["state"] == "complete":
-            changes |= {"state": "failed", "message": status.message}
-        return self._database.change(run_id, changes)
+        failure = status.message if status is not None and status.state == "failed" else ""
+        entry = self._database.change(run_id, describe(self.find_folder(run_id), failure))
+        self._recorders.pop(run_id, None)
+        return entry
 
     def get(self, run_id: str) -> RunEntry:
         """What the list says of a run, in the trash or not."""
         if not is_run_id(run_id):
             raise UnknownRunError(f"There is no run {run_id!r:.80}.")
-        return self._database.get(run_id)
+        return self._settle(self._database.get(run_id))
 
     def open(self, run_id: str) -> Record:
         """The record of a run; raises `RecordError` where it cannot be read."""
@@ -136,13 +138,14 @@ class Catalogue:
                 write_header(folder, read_header(folder).changed(**changes))
             except OSError as error:
                 raise RecordError(f"Run {run_id} cannot be changed: {error}.") from None
-            return changes | {"bytes": measure_bytes(folder)}
+            return changes | {"bytes": measure_bytes(folder), "files": read_files(folder)}
 
         return self._database.revise(run_id, write)
 
     def query(self, query: Query) -> RunPage:
         """The page of the list that `query` asks for."""
-        return self._database.query(query)
+        page = self._database.query(query)
+        return dataclasses.replace(page, runs=tuple(map(self._settle, page.runs)))
 
     def list_facets(self, reader: Reader | None = None) -> dict[str, dict[str, int]]:
         """What the list can be filtered by: facet, value, on how many runs (see `Query`)."""
@@ -195,24 +198,46 @@ class Catalogue:
             raise RecordError(f"Run {run_id} cannot be deleted: {error}.") from None
         self._database.forget(run_id)
 
-    def recover(self) -> Recovery:
-        """Finish what a crash cut off and put back what the database lost; for every start."""
-        return recover_runs(self._database, self._runs, self._trash)
+    def check(self, run_id: str) -> None:
+        """Read a run whole, and list it as damaged if it is; for a run that was not readable."""
+        entry = self.get(run_id)
+        if entry.state in ("complete", "failed"):
+            changes = describe(self._locate(entry))
+            if changes["state"] == "damaged":
+                self._database.change(run_id, changes)
 
-    def describe_older(self) -> None:
-        """Read of older runs what the version that entered them did not; once for each.
+    def index(self) -> Iterator[tuple[int, int]]:
+        """Finish what a crash cut off, and enter what the database lacks; for every start.
 
-        It takes some milliseconds a run, and may run at the same time as all else.
+        The catalogue may be used at the same time.
+
+        Yields:
+            How many runs are done, and of how many.
         """
-        describe_older(self._database, (self._runs, self._trash))
+        return index_runs(self._database, self._runs, self._trash)
+
+    def recover(self) -> None:
+        """Do all of `index` at once."""
+        for _ in self.index():
+            pass
 
     def find_folder(self, run_id: str) -> Path:
         """The folder that a run is in, in the trash or not."""
-        return self._locate(self.get(run_id))
+        if not is_run_id(run_id):
+            raise UnknownRunError(f"There is no run {run_id!r:.80}.")
+        return self._locate(self._database.get(run_id))
 
     def list(self, search: str = "", **wanted: Any) -> RunPage:
         """A page of the list, by the fields of `Query`; raises `ParameterError` as it does."""
         return self.query(Query(search, **wanted))
+
+    def _settle(self, entry: RunEntry) -> RunEntry:
+        """An entry without "recording" if its recording has ended, as on a full disk."""
+        if entry.state != "recording":
+            return entry
+        recorder = self._recorders.get(entry.id)
+        failure = recorder.status.message if recorder and recorder.status.state == "failed" else ""
+        return settle(self._database, self._locate(entry), entry, failure)
 
     def _locate(self, entry: RunEntry) -> Path:
         return (self._runs if entry.deleted is None else self._trash) / entry.id

@@ -1,9 +1,9 @@
 """The tables of the catalogue: columns to sort and filter by, and the entries as they are.
 
-Format 6. A catalogue of format 1 has no settings, one of 2 has metrics of whole records, one of 3
-has no owners, one of 4 has a former word for the steady-state error, and one of 5 has fewer
-metrics. It is written again from its entries; `describe_older` then reads the rest from the
-folders.
+Format 7. A catalogue of format 1 has no settings, one of 2 has metrics of whole records, one of 3
+has no owners, one of 4 has a former word for the steady-state error, one of 5 has fewer metrics,
+and one of 6 does not say which files it describes. It is written again from its entries;
+`index_runs` then reads the rest from the folders.
 """
 
 import re
@@ -21,8 +21,8 @@ from svsa.runs.records.catalogue.entry import (
     write_entry,
 )
 
-VERSION = 6
-_REBUILT = (0, 1, 2, 3, 4, 5)
+VERSION = 7
+_REBUILT = range(VERSION)
 _COLUMNS = {
     "id": "TEXT PRIMARY KEY",
     "created": "TEXT NOT NULL",
@@ -32,7 +32,7 @@ _COLUMNS = {
     "bytes": "INTEGER NOT NULL",
     "state": "TEXT NOT NULL",
     "trash": "INTEGER NOT NULL",
-    "described": "INTEGER NOT NULL",
+    "files": "TEXT NOT NULL",
     "figure": "TEXT",
     "laws": "TEXT",
     "stiffness_nm_per_rad": "REAL",
@@ -148,7 +148,7 @@ def _build_row(entry: RunEntry, trash: int) -> dict[str, Any]:
         "bytes": entry.bytes,
         "state": entry.state,
         "trash": trash,
-        "described": int(settings is not None and entry.window is not None),
+        "files": entry.files,
         "figure": _order(settings.figure) if settings else None,
         "laws": _order(settings.laws) if settings else None,
         "stiffness_nm_per_rad": settings.stiffness_nm_per_rad if settings else None,

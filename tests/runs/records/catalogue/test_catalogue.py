@@ -10,8 +10,15 @@ from svsa.errors import ParameterError, StateError
 from svsa.runs.metrics import compute_metrics
 from svsa.runs.records.catalogue.entry import UnknownRunError
 from svsa.runs.records.catalogue.runs import Catalogue, build_run_id, find_data_folder
-from svsa.runs.records.header import is_run_id
-from tests.runs.records.records import PERIOD_S, add, build_header, build_samples, list_ids
+from svsa.runs.records.header import HEADER_FILE, is_run_id
+from tests.runs.records.records import (
+    PERIOD_S,
+    add,
+    build_header,
+    build_samples,
+    list_ids,
+    wait_until,
+)
 
 HOSTILE_NAMES = [
     "../../etc/passwd",
@@ -51,6 +58,34 @@ def test_a_recording_that_failed_says_so_in_the_list(catalogue: Catalogue) -> No
     entry = catalogue.finish("run-1", recorder.close())
     assert (entry.state, entry.ticks) == ("failed", 10)
     assert "jump" in entry.message
+    assert "What was written opens: 0.01 s." in entry.message
+
+
+def test_a_recording_that_failed_is_not_listed_as_one_that_goes_on(catalogue: Catalogue) -> None:
+    recorder = catalogue.record(build_header("run-1"))
+    assert catalogue.list().runs[0].state == "recording"
+    recorder.write_samples(0, build_samples(10))
+    recorder.write_samples(500, build_samples(10))
+    wait_until(lambda: catalogue.get("run-1").state == "failed")
+    (entry,) = catalogue.list().runs
+    assert (entry.ticks, recorder.status.message in entry.message) == (10, True)
+    catalogue.delete("run-1")
+
+
+def test_a_record_of_a_newer_version_is_read_and_says_so(catalogue: Catalogue) -> None:
+    add(catalogue, "run-1", version="99.1")
+    add(catalogue, "run-2")
+    path = catalogue.find_folder("run-1") / HEADER_FILE
+    path.write_text(path.read_text().replace('"seed":', '"unknown":{"a":1},"seed":', 1))
+    assert catalogue.open("run-1").tick_count == 20
+    notes = {run.id: run.note for run in catalogue.list().runs}
+    assert notes["run-2"] == ""
+    assert "svsa 99.1" in notes["run-1"]
+    path.write_text(path.read_text().replace('"format":1', '"format":2', 1))
+    catalogue.recover()
+    assert catalogue.get("run-1").state == "damaged"
+    assert "format 2" in catalogue.get("run-1").message
+    assert "svsa 99.1" in catalogue.get("run-1").message
 
 
 def test_search_tags_sort_and_pages(catalogue: Catalogue) -> None:
@@ -166,7 +201,7 @@ def test_a_run_that_is_being_recorded_is_not_deleted(catalogue: Catalogue) -> No
     recorder = catalogue.record(build_header("run-1"))
     with pytest.raises(StateError, match="stop the recording"):
         catalogue.delete("run-1")
-    assert catalogue.recover().finished == ()
+    catalogue.recover()
     assert catalogue.get("run-1").state == "recording"
     recorder.close()
 

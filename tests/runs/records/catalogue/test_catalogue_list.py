@@ -14,6 +14,7 @@ from svsa.runs.records.catalogue.entry import SORTS
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.runs.records.header import BranchPoint, read_header, write_header
 from svsa.simulation.plant.loads.paper import PaperLoad
+from svsa_server.sessions.indexing import Indexing
 from svsa_server.sessions.recording import open_catalogue
 from tests.runs.records.records import Command, add, list_ids
 from tests.waiting import wait_until
@@ -26,14 +27,15 @@ CREATE TABLE runs (
 );
 CREATE TABLE tags (tag TEXT, run TEXT, trash INTEGER, PRIMARY KEY (tag, run)) WITHOUT ROWID;
 INSERT INTO runs SELECT id, '', '', '', 0, 0, 'complete', 0, '' FROM entries;
-UPDATE entries SET entry = json_remove(entry, '$.settings', '$.branch_of', '$.window', '$.fault');
+UPDATE entries SET entry =
+    json_remove(entry, '$.settings', '$.branch_of', '$.window', '$.fault', '$.files');
 PRAGMA user_version = 1;
 """
 
 FORMAT_2 = """
 UPDATE entries SET entry = json_remove(
     json_set(entry, '$.metrics[0].peak_position_error_rad', 9.0),
-    '$.window', '$.fault', '$.metrics[0].steady_state_position_error_rad'
+    '$.window', '$.fault', '$.files', '$.metrics[0].steady_state_position_error_rad'
 );
 PRAGMA user_version = 2;
 """
@@ -214,7 +216,7 @@ def test_a_catalogue_of_the_older_format_is_opened_and_filled_in(varied: Catalog
     undescribed = again.list(sort="name").runs
     assert {run.settings for run in undescribed} == {None}
     assert [run.title for run in undescribed] == ["Mine", "run-1", "run-2"]
-    again.describe_older()
+    again.recover()
     assert [again.list(sort="name").runs, again.list(trash=True).runs] == before
     assert list_ids(again, law="ndobc", figure="4b") == ["run-1"]
     assert again.list_facets()["tag"] == {"class": 1}
@@ -230,7 +232,7 @@ def test_metrics_of_an_older_version_are_computed_again(varied: Catalogue, forme
     again = Catalogue(varied.folder)
     assert again.get("run-3").settings == before.settings
     assert again.get("run-3").metrics is None, "a number without its window is not shown"
-    again.describe_older()
+    again.recover()
     assert again.get("run-3") == before
 
 
@@ -247,7 +249,7 @@ def test_a_run_that_cannot_be_read_stays_while_the_others_are_filled_in(varied: 
     make_older(varied.folder)
     (varied.folder / "runs" / "run-1" / "header.json").write_text("{")
     again = Catalogue(varied.folder)
-    again.describe_older()
+    again.recover()
     described = {run.id: run.settings is not None for run in again.list().runs}
     assert described == {"run-1": False, "run-2": True, "run-3": True, "run-4": True}
 
@@ -268,4 +270,6 @@ def test_a_server_fills_in_what_an_older_one_has_entered(
     make_older(varied.folder)
     monkeypatch.setenv("SVSA_DATA", str(varied.folder))
     opened = open_catalogue()
-    wait_until(lambda: opened.list(figure="4b").total == 1)
+    indexing = Indexing(opened)
+    wait_until(lambda: indexing.progress is None)
+    assert opened.list(figure="4b").total == 1

@@ -8,10 +8,14 @@ from pathlib import Path
 
 import pytest
 
+from svsa.actuators.signals import CHANNELS
 from svsa.runs.records.catalogue.entry import CatalogueError
+from svsa.runs.records.catalogue.recovery import GONE
 from svsa.runs.records.catalogue.runs import Catalogue
-from svsa.runs.records.header import RecordError
-from tests.runs.records.records import add, list_ids
+from svsa.runs.records.header import PARQUET_FILE, STREAM_FILE, RecordError
+from svsa.runs.records.parquet import ROWS_A_GROUP
+from svsa.runs.records.writer import write_record
+from tests.runs.records.records import add, build_header, build_samples, list_ids
 
 CHILD = """
 import os, signal, sys
@@ -30,13 +34,14 @@ def test_the_next_start_finishes_what_a_killed_server_recorded(catalogue: Catalo
     killed = subprocess.run([sys.executable, "-c", CHILD, str(catalogue.folder)])
     assert killed.returncode == -signal.SIGKILL
     again = Catalogue(catalogue.folder)
-    assert again.get("run-9").state == "recording"
-    assert again.recover().finished == ("run-9",)
+    assert again.get("run-9").state == "failed"
+    again.recover()
     entry = again.get("run-9")
-    assert (entry.state, entry.ticks) == ("complete", 400)
-    assert "cut off" in entry.message
+    assert (entry.state, entry.ticks) == ("failed", 400)
+    assert entry.message == "The recording was cut off. What was written opens: 0.4 s."
     assert entry.metrics is not None
-    assert again.recover().finished == ()
+    assert not (again.find_folder("run-9") / STREAM_FILE).exists()
+    assert list(again.index()) == [(0, 0)]
 
 
 @pytest.mark.parametrize("loss", ["gone", "damaged"])
@@ -53,7 +58,7 @@ def test_the_list_is_built_anew_from_the_folders(catalogue: Catalogue, loss: str
         else:
             path.write_bytes(b"this is no database" * 1000)
     again = Catalogue(catalogue.folder)
-    assert sorted(again.recover().registered) == ["run-1", "run-2", "run-3"]
+    assert list(again.index()) == [(0, 3), (1, 3), (2, 3), (3, 3)]
     assert again.list(sort="name").runs == before
     assert list_ids(again, trash=True) == ["run-3"]
     assert again.list_facets()["tag"]["kept"] == 1
@@ -73,8 +78,7 @@ def test_damaged_and_missing_runs_stay_in_the_list_and_say_so(catalogue: Catalog
     (runs / "run-5").mkdir()
     (runs / "no id!").mkdir()
     again = Catalogue(catalogue.folder)
-    recovery = again.recover()
-    assert {run_id for run_id, _ in recovery.problems} == {"run-1", "run-2"}
+    again.recover()
     assert {run.id: run.state for run in again.list().runs} == {
         "run-1": "damaged",
         "run-2": "damaged",
@@ -85,10 +89,33 @@ def test_damaged_and_missing_runs_stay_in_the_list_and_say_so(catalogue: Catalog
         with pytest.raises(RecordError):
             again.open(run_id)
     shutil.rmtree(runs / "run-3")
-    assert ("run-3", "Its folder is gone.") in again.recover().problems
-    assert again.get("run-3").state == "missing"
+    again.recover()
+    assert (again.get("run-3").state, again.get("run-3").message) == ("missing", GONE)
     again.delete("run-3")
     again.purge("run-3")
+
+
+def test_damage_is_listed_with_its_reason_and_what_still_opens(catalogue: Catalogue) -> None:
+    header = build_header("run-1", lanes=("pd",), channels=CHANNELS[:2])
+    folder = catalogue.folder / "runs" / "run-1"
+    samples = build_samples(2 * ROWS_A_GROUP, 1)[:, :, :2]
+    write_record(folder, header, [(3, {"kind": "stop"})], 0, samples)
+    catalogue.recover()
+    assert catalogue.get("run-1").state == "complete"
+    path = folder / PARQUET_FILE
+    content = path.read_bytes()
+    middle = len(content) * 3 // 4
+    path.write_bytes(content[:middle] + b"no samples" + content[middle + 10 :])
+    catalogue.recover()
+    entry = catalogue.get("run-1")
+    assert entry.state == "damaged"
+    assert "The samples of record run-1 are damaged" in entry.message
+    assert entry.message.endswith("Still readable: settings, 1 command, the first 65.536 s.")
+    readable = catalogue.open("run-1").read_channels([CHANNELS[1].name], 0, ROWS_A_GROUP)
+    assert (readable[:, :, 0] == samples[:ROWS_A_GROUP, :, 1]).all()
+    path.write_bytes(content)
+    catalogue.recover()
+    assert (catalogue.get("run-1").state, catalogue.get("run-1").message) == ("complete", "")
 
 
 def test_a_folder_that_cannot_be_used_is_told(tmp_path: Path) -> None:

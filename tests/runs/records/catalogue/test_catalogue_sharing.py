@@ -95,10 +95,10 @@ def test_a_run_deleted_while_somebody_recovers_stays_deleted(
     write_record(catalogue.folder / "runs" / "run-1", header, [], 0, build_samples(20))
     catalogue.register(header)
 
-    def describe_slowly(folder: Path) -> dict[str, Any]:
+    def describe_slowly(folder: Path, failure: str) -> dict[str, Any]:
         catalogue.finish("run-1")
         catalogue.delete("run-1")
-        return describe(folder)
+        return describe(folder, failure)
 
     monkeypatch.setattr(recovery, "describe", describe_slowly)
     catalogue.recover()

@@ -6,6 +6,11 @@ export const runsText = {
     back: "Back to the lab",
     title: "Runs",
     count: (total: number) => (total === 1 ? "1 run" : `${total} runs`),
+    indexing: (done: number, total: number) =>
+      total === 0
+        ? "Reading the list of runs…"
+        : `Adding runs to the list: ${done} of ${total}. The list is not complete yet.`,
+    indexingLabel: "Runs added to the list",
     search: "Search",
     searchHint: "Name, setting, tag, note",
     searchDoes:

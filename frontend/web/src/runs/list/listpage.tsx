@@ -1,4 +1,5 @@
 import { useEffect } from "preact/hooks";
+import type { RunList } from "../../core/api/types";
 import { text } from "../../core/text/en";
 import { Pager } from "../../core/widgets/tables";
 import { Finder } from "./finder";
@@ -92,11 +93,23 @@ function Pages({ total }: { total: number }) {
   );
 }
 
+function Indexing({ progress }: { progress: NonNullable<RunList["indexing"]> }) {
+  const { done, total } = progress;
+  return (
+    <div class="row">
+      <span role="status">{words.indexing(done, total)}</span>
+      <progress value={done} max={Math.max(1, total)} aria-label={words.indexingLabel} />
+    </div>
+  );
+}
+
 /** Every recorded run as a table, newest first. */
 export function ListPage() {
   useEffect(followList, []);
   const list = found.value;
-  const isGrowing = list?.runs.some((run) => run.state === "recording") ?? false;
+  const indexing = list?.indexing ?? null;
+  const isRecorded = list?.runs.some((run) => run.state === "recording") ?? false;
+  const isGrowing = isRecorded || indexing !== null;
   useEffect(() => {
     if (!isGrowing) return;
     const timer = setInterval(() => void refresh(), RECORDING_MS);
@@ -112,6 +125,7 @@ export function ListPage() {
         {list && <Pages total={list.total} />}
         <Overlayer />
       </div>
+      {indexing !== null && <Indexing progress={indexing} />}
       {list === null && <p class="empty">{words.loading}</p>}
       {list?.runs.length === 0 && <Empty />}
       {list && list.runs.length > 0 && <RunTable runs={list.runs} />}

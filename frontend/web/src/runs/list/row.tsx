@@ -78,7 +78,7 @@ function Remove({ run }: { run: RunSummary }) {
 
 /** What the run is called, and what people wrote to it, as far as there is room. */
 function Name({ run }: { run: RunSummary }) {
-  const notes = [run.notes, run.message].filter((note) => note !== "").join(" · ");
+  const notes = [run.notes, run.message, run.note].filter((note) => note !== "").join(" · ");
   return (
     <th scope="row" class="run-what">
       <div class="run-title">

@@ -87,6 +87,7 @@ function About({ run, onChanged }: AboutProps) {
         )}
         <Tags run={run} onChanged={onChanged} onRefused={readAgain} />
       </div>
+      {[run.message, run.note].map((line) => line !== "" && <p class="hint">{line}</p>)}
       <Written
         label={words.notes}
         hint={words.notesHint}

@@ -1,0 +1,79 @@
+"""Bring the list of runs up to date in the background, while the lab is used."""
+
+import logging
+import threading
+import time
+from collections.abc import Callable
+from typing import NamedTuple
+
+from svsa.runs.records.catalogue.entry import CatalogueError
+from svsa.runs.records.catalogue.runs import Catalogue
+from svsa_server.sessions.recording import NoCatalogue
+
+REPORT_S = 5.0
+_log = logging.getLogger("svsa")
+
+
+class Indexed(NamedTuple):
+    """Runs that were read since the start, and how many are to be read."""
+
+    done: int
+    total: int
+
+
+class Indexing:
+    """Reads the runs that are new, changed or cut off, in a thread; see `Catalogue.index`.
+
+    It sleeps half of the time, so that thousands of runs do not delay a loop on the same machine.
+
+    Args:
+        catalogue: The runs.
+        report: Is called with a line of text every few seconds, if it takes that long.
+    """
+
+    def __init__(
+        self, catalogue: Catalogue | NoCatalogue, report: Callable[[str], None] = _log.info
+    ) -> None:
+        self._catalogue, self._report = catalogue, report
+        self._stop = threading.Event()
+        self._indexed: Indexed | None = Indexed(0, 0)
+        self._thread = threading.Thread(target=self._run, name="index of runs", daemon=True)
+        self._thread.start()
+
+    @property
+    def progress(self) -> Indexed | None:
+        """How far it is; None once the list is complete."""
+        return self._indexed
+
+    def wait(self) -> None:
+        """Wait until the list is complete."""
+        self._thread.join()
+
+    def close(self) -> None:
+        """Stop after the present run; the next start does the rest."""
+        self._stop.set()
+        self.wait()
+
+    def _run(self) -> None:
+        try:
+            self._index()
+        except (CatalogueError, OSError) as error:
+            _log.warning("The list of runs is not complete. %s", error)
+        self._indexed = None
+
+    def _index(self) -> None:
+        if isinstance(self._catalogue, NoCatalogue):
+            return
+        total = 0
+        begin = reported = before = time.monotonic()
+        for done, total in self._catalogue.index():
+            self._indexed = Indexed(done, total)
+            now = time.monotonic()
+            if now - reported > REPORT_S:
+                reported = now
+                self._report(f"Indexing recorded runs: {done} of {total}.")
+            if self._stop.wait(now - before):
+                return
+            before = time.monotonic()
+        if reported > begin:
+            self._report(f"The list of runs is complete: {total} were indexed.")
