@@ -13,7 +13,7 @@ import svsa
 from svsa.errors import ParameterError, Violation
 from svsa.inputs.extras import require_extra
 from svsa.runs.configuration import load_prototype, read_design
-from svsa.runs.records.catalogue.runs import find_data_folder
+from svsa.runs.records.catalogue.runs import Catalogue, find_data_folder
 from svsa.runs.session.session import Session
 from svsa.teaching.course.file import read_course
 from svsa.teaching.course.progress import ProgressStore
@@ -223,6 +223,8 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
         app.state.jobs.close()
         await app.state.recordings.close()
         await asyncio.to_thread(app.state.indexing.close)
+        if isinstance(app.state.catalogue, Catalogue):
+            app.state.catalogue.close()
         await app.state.viser.close()
         await scenes.close()
         if app.state.lti is not None:

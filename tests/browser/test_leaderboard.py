@@ -84,6 +84,5 @@ def test_a_law_that_fails_is_told_where(page: Page, lab_with_board: Lab) -> None
     page.get_by_role("button", name="Submit", exact=True).press("Enter")
     expect(page.get_by_role("heading", name=re.compile("^Measur.*: Broken"))).to_be_in_viewport()
     reported = page.get_by_role("alert").filter(has_text="It did not get onto the board.")
-    expect(reported).to_contain_text(
-        "line 2: NameError: name 'spring' is not defined", timeout=WORKER_MS
-    )
+    expect(reported).to_contain_text("NameError: name 'spring' is not defined", timeout=WORKER_MS)
+    expect(reported).to_contain_text("line 2, in law")

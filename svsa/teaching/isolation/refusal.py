@@ -1,6 +1,5 @@
 """What goes wrong between the lab and a law in a process of its own, by name."""
 
-import re
 from typing import Literal, Self
 
 from svsa.errors import SvsaError
@@ -10,8 +9,7 @@ LawFaultCode = Literal["error", "late", "early", "ended", "garbled"]
 no answer."""
 
 
-PRINTED = "The law printed"
-_OWN_LINE = re.compile(r'File "law\.py", line (\d+)')
+PRINTED = "The law printed:"
 
 
 class NotIsolatedError(SvsaError):
@@ -45,8 +43,4 @@ def describe_output(output: str) -> str:
         output: The end of what it printed, with the traceback of an error.
     """
     shown = output.strip()
-    if not shown:
-        return ""
-    at = _OWN_LINE.findall(output)
-    place = f" (line {at[-1]} of the law)" if at else ""
-    return f"\n{PRINTED}{place}:\n{shown}"
+    return f"\n{PRINTED}\n{shown}" if shown else ""

@@ -144,7 +144,8 @@ def test_a_law_that_fails_is_graded_with_the_line_and_its_problem_goes(store):
     assert own.grade is not None
     assert own.grade.is_isolated
     law = [one for one in own.grade.criteria if one.step == "law"]
-    assert "line 2: NameError" in law[0].feedback
+    assert "line 2, in law" in law[0].feedback
+    assert "NameError" in law[0].feedback
     book.refuse(own.grade.submission, "It was refused.")
     assert give(store, again=True)
     assert list_graded(store, "p-1")[-1].problem == ""

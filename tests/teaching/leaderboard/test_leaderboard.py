@@ -108,7 +108,9 @@ def test_a_law_that_fails_in_its_first_run_is_refused_with_what_it_said():
     season = build_season(5)
     name = season.singles[0].name
     failed = LawRun(name, False, None, "error: it raised", "Traceback\nNameError: spring\n")
-    with pytest.raises(StateError, match="it raised\nThe law printed:\nNameError: spring"):
+    with pytest.raises(
+        StateError, match="it raised\nThe law printed:\nTraceback\nNameError: spring"
+    ):
         measure_standing(season, go_with({name: failed}))
 
 

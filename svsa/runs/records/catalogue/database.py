@@ -34,6 +34,7 @@ class Database:
         except sqlite3.DatabaseError:
             self._set_aside()
             self._prepare()
+        self.close: Callable[[], object] = lambda: None
         self._keep_open()
 
     def add(self, *entries: RunEntry) -> None:
@@ -170,7 +171,7 @@ class Database:
         """
         with contextlib.suppress(sqlite3.Error):
             idle = sqlite3.connect(self._path, check_same_thread=False)
-            weakref.finalize(self, idle.close)
+            self.close = weakref.finalize(self, idle.close)
             idle.execute("SELECT count(*) FROM runs").fetchone()
 
     def _set_aside(self) -> None:

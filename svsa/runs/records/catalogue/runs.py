@@ -63,6 +63,11 @@ class Catalogue:
             raise CatalogueError(f"Runs cannot be kept in {self.folder}: {error}.") from None
         self._database = Database(self.folder / "catalogue.sqlite")
         self._recorders: dict[str, Recorder] = {}
+        self._is_indexing = False
+
+    def close(self) -> None:
+        """Let go of the database file, which is otherwise kept open; the catalogue stays usable."""
+        self._database.close()
 
     def record(self, header: RecordHeader) -> Recorder:
         """Begin to record a run and put it into the list; raises `RecordError`."""
@@ -214,7 +219,11 @@ class Catalogue:
         Yields:
             How many runs are done, and of how many.
         """
-        return index_runs(self._database, self._runs, self._trash)
+        self._is_indexing = True
+        try:
+            yield from index_runs(self._database, self._runs, self._trash)
+        finally:
+            self._is_indexing = False
 
     def recover(self) -> None:
         """Do all of `index` at once."""
@@ -236,6 +245,8 @@ class Catalogue:
         if entry.state != "recording":
             return entry
         recorder = self._recorders.get(entry.id)
+        if recorder is None and self._is_indexing:
+            return entry  # `index` finishes it just now, or soon
         failure = recorder.status.message if recorder and recorder.status.state == "failed" else ""
         return settle(self._database, self._locate(entry), entry, failure)
 

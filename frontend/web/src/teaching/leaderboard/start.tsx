@@ -37,7 +37,7 @@ function Progress() {
       </h3>
       {isEntered.value && <p class="hint">{words.labFollows}</p>}
       {failed ? (
-        <p class="problem breaks" role="alert">
+        <p class="problem as-written" role="alert">
           <strong>{words.failed}</strong> {now.problem} {words.failedHint}
         </p>
       ) : (
