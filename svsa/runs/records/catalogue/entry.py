@@ -197,8 +197,8 @@ def write_entry(entry: RunEntry) -> str:
 def read_entry(text: str) -> RunEntry:
     """An entry from `write_entry`.
 
-    Without metrics of a window that was not written. Without window and metrics if an older version
-    computed fewer metrics: `describe_older` computes them again from the samples.
+    Without metrics of a window that was not written. Without window, metrics and files if an older
+    version computed fewer metrics: `index_runs` then computes them again from the samples.
     """
     written = json.loads(text)
     for name in ("tags", "lanes"):
@@ -209,7 +209,7 @@ def read_entry(text: str) -> RunEntry:
     if written["metrics"] is not None:
         written["metrics"] = _read(tuple[Metrics, ...], written["metrics"])
         if written["metrics"] is None:
-            written["window"] = None
+            written |= {"window": None, "files": ""}
     if written["window"] is None:
         written["metrics"] = None
     if branch := written.get("branch_of"):
