@@ -10,9 +10,9 @@ import pytest
 
 from svsa.teaching.class_folder import SECRET_BYTES, keep_secret
 from tests.lab_in_process import run_lab_in_process
-from tests.runs.records.records import wait_until
 from tests.server.access.classroom import read_kind
 from tests.server.routes.test_scenarios_routes import BLOW
+from tests.waiting import wait_until
 
 SCENARIO = "/api/v1/scenarios/mine"
 

@@ -18,7 +18,8 @@ from svsa_server.sessions import indexing
 from svsa_server.sessions.indexing import Indexing
 from svsa_server.sessions.recording import open_catalogue
 from tests.lab_in_process import run_lab_in_process
-from tests.runs.records.records import build_header, build_samples, wait_until
+from tests.runs.records.records import build_header, build_samples
+from tests.waiting import wait_until
 
 RUNS, READ_AT_ONCE = 40, 5
 LIST = "/api/v1/runs"
@@ -60,7 +61,7 @@ def test_a_start_with_unknown_runs_answers_while_they_are_indexed(
         lab.client.delete(lab.session + "/recording").raise_for_status()
         assert lab.client.get(LIST).json()["indexing"] == progress
         used.set()
-        wait_until(lambda: lab.client.get(LIST).json()["indexing"] is None, timeout_s=60)
+        wait_until(lambda: lab.client.get(LIST).json()["indexing"] is None)
         found = lab.client.get(LIST).json()
         assert found["total"] == RUNS  # one was deleted, one was recorded
         assert found["runs"][0]["name"] == "new"

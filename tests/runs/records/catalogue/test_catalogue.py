@@ -17,8 +17,8 @@ from tests.runs.records.records import (
     build_header,
     build_samples,
     list_ids,
-    wait_until,
 )
+from tests.waiting import wait_until
 
 HOSTILE_NAMES = [
     "../../etc/passwd",
