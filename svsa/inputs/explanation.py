@@ -1,7 +1,8 @@
 """Pydantic's errors in the words of a `Violation`: field, value, unit and bound."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from difflib import get_close_matches
 from typing import Any
 
 from pydantic import BaseModel, ValidationError
@@ -36,8 +37,18 @@ def explain_problems(
             here += inner.within(_write(path)).violations
         elif not _is_noise(path, problem, paths, problems):
             field = (fields or {}).get(path[0]) if path else None
-            here.append(_explain_problem(path, problem, field))
+            violation = _explain_problem(path, problem, field)
+            if problem["type"] == "extra_forbidden":
+                nearest = suggest(violation.name, fields or ())
+                violation = replace(violation, bound=violation.bound + nearest)
+            here.append(violation)
     return [reported for path, here in violations.items() for reported in _join(path, here)]
+
+
+def suggest(name: str, known: Iterable[str]) -> str:
+    """The known name that is nearest to a wrong one, to be appended to a message; "" for none."""
+    nearest = get_close_matches(name, list(known), 1)
+    return f"; the nearest is {nearest[0]}" if nearest else ""
 
 
 def _find_path(loc: Sequence[Any], named: int) -> tuple[Any, ...]:

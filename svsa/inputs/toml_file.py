@@ -8,9 +8,12 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from svsa.errors import ParameterError, Violation
+from svsa.inputs.explanation import suggest
 
 _Kind = TypeVar("_Kind")
 _TABLE = re.compile(r"\s*(\[\[?)([^\[\]]+)\]")
+_PLACE = re.compile(r"\(at line (\d+), column \d+\)$")
+_COMMA = re.compile(r"=\s*([+-]?\d+,\d+)\s*(?:#|$)")
 _KEY = re.compile(r"\s*([\w.\-\s\"']+?)\s*=")
 
 
@@ -18,6 +21,10 @@ def read_toml(path: Path | str, kind: str) -> dict[str, Any]:
     """What is in a file; raises `ParameterError` that calls it by its kind, as "bench file"."""
     try:
         text = Path(path).read_text(encoding="utf-8")
+    except FileNotFoundError:
+        there = [str(each) for each in Path(path).parent.glob("*.toml")]
+        finding = f"there is no file {path}{suggest(str(path), there)}"
+        raise ParameterError(Violation(kind, path, "", "", finding=finding)) from None
     except (OSError, UnicodeDecodeError) as error:
         raise _refuse(kind, path, error) from None
     return parse_toml(text, kind, path)
@@ -28,7 +35,7 @@ def parse_toml(text: str, kind: str, name: Path | str) -> dict[str, Any]:
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise _refuse(kind, name, error) from None
+        raise _refuse(kind, name, _describe_comma(error, text) or error) from None
     except RecursionError:
         # tomllib parses nested arrays and tables by recursion.
         raise _refuse(kind, name, "its values are nested too deeply") from None
@@ -67,6 +74,17 @@ def read_checked(
 
 def _refuse(kind: str, name: Path | str, error: Exception | str) -> ParameterError:
     return ParameterError(Violation(kind, name, "", f"a readable TOML file ({error})"))
+
+
+def _describe_comma(error: tomllib.TOMLDecodeError, text: str) -> str | None:
+    """The advice for a decimal comma in the line that does not parse; None for another cause."""
+    place = _PLACE.search(str(error))
+    line = text.splitlines()[int(place[1]) - 1] if place else ""
+    comma = _COMMA.search(line)
+    if place is None or comma is None:
+        return None
+    number, point = comma[1], comma[1].replace(",", ".")
+    return f"line {place[1]}: {number} has a decimal comma; write a decimal point: {point}"
 
 
 def find_lines(text: str, names: Iterable[str]) -> list[int]:

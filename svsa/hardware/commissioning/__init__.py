@@ -55,7 +55,10 @@ def check_bench(
         design = read_bench_design(bench)
         probe = Probe(bench, opener, now)
     except ParameterError as error:
-        yield CheckStep("file", Result.FAIL, str(error), "Correct the bench file.")
+        advice = "Correct the bench file."
+        if not Path(path).exists():
+            advice = "Give the path of a bench file; README, *First power-up*, has a model."
+        yield CheckStep("file", Result.FAIL, str(error), advice)
         return
     yield _describe_file(bench)
     yield from list_implausible(bench, design)
@@ -68,7 +71,8 @@ def check_bench(
     try:
         yield from _check_on_bus(probe, moved if move else None)
     except BusError as error:
-        yield CheckStep("bus", Result.FAIL, str(error), advise_on_bus(bench))
+        advice = error.advice or advise_on_bus(bench)
+        yield CheckStep("bus", Result.FAIL, error.finding, advice)
     finally:
         probe.close()
     if "motor1" in moved.turns:

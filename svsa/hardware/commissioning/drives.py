@@ -5,6 +5,7 @@ import numpy as np
 from svsa.hardware.commissioning.probe import Probe
 from svsa.hardware.commissioning.step import CheckStep, Result
 from svsa.hardware.commissioning.traffic import Traffic
+from svsa.hardware.drives.bus import advise_on_adapter
 from svsa.hardware.drives.installed import get_family
 from svsa.hardware.drives.phase import Phase
 from svsa.hardware.file import BenchFile
@@ -56,12 +57,7 @@ def check_bus(probe: Probe) -> CheckStep:
 
 def advise_on_bus(bench: BenchFile) -> str:
     """What to look at where the bus does not open or is full of errors."""
-    bus = bench.bus
-    return (
-        f"Check that the adapter is plugged in, that its name {bus.channel} is right and that its"
-        f" interface is up (for SocketCAN: `ip link set {bus.channel} up type can bitrate"
-        f" {bus.bitrate}`). Then the wiring: {describe_wiring(bench)}."
-    )
+    return f"{advise_on_adapter(bench.bus)} Then the wiring: {describe_wiring(bench)}."
 
 
 def check_drive(probe: Probe, name: str) -> CheckStep:

@@ -11,6 +11,7 @@ import can
 
 from svsa.errors import SvsaError
 from svsa.hardware.settings import BusSettings
+from svsa.inputs.explanation import suggest
 
 _ANSWER_S = 5.0
 DELIVERY_S = 0.05
@@ -37,7 +38,14 @@ BUS_TROUBLE = (can.CanError, OSError, ValueError)
 
 
 class BusError(SvsaError):
-    """A bus that cannot be opened or used; the message says what to look at."""
+    """A bus that cannot be opened or used.
+
+    finding: what failed. advice: what to do; "" where the cause is not known. The message has both.
+    """
+
+    def __init__(self, finding: str, advice: str = "") -> None:
+        self.finding, self.advice = finding, advice
+        super().__init__(f"{finding} {advice}".strip())
 
 
 def open_bus(settings: BusSettings) -> can.BusABC:
@@ -59,23 +67,47 @@ def open_bus(settings: BusSettings) -> can.BusABC:
             **_choose_options(settings),
         )
     except Exception as error:  # a driver that is missing shows as any kind, even NameError
-        raise BusError(_describe_failure(settings, error)) from None
+        raise _describe_failure(settings, error) from None
     finally:
         socket.setdefaulttimeout(before)
 
 
-def _describe_failure(settings: BusSettings, error: Exception) -> str:
+def _describe_failure(settings: BusSettings, error: Exception) -> BusError:
     name, driver = settings.interface, _DRIVERS.get(settings.interface)
     if name not in can.VALID_INTERFACES:
-        there = ", ".join(sorted(can.VALID_INTERFACES))
-        return f"The CAN bus cannot be opened: bus.interface is {name!r}, python-can has {there}."
+        known = f"python-can has {', '.join(sorted(can.VALID_INTERFACES))}"
+        nearest = suggest(name, can.VALID_INTERFACES)
+        return BusError(
+            f"The CAN bus cannot be opened: bus.interface is {name!r}, {known}{nearest}.",
+            "Set interface in [bus] to one of them.",
+        )
     is_missing = isinstance(error, NameError | ImportError | can.CanInterfaceNotImplementedError)
     reason = "its driver is not installed" if driver and is_missing else str(error).rstrip(".")
     needed = f" It needs {driver}." if driver else ""
+    return BusError(
+        f"The CAN bus {name} {settings.channel} cannot be opened: {reason}.{needed}",
+        advise_on_adapter(settings),
+    )
+
+
+def advise_on_adapter(settings: BusSettings) -> str:
+    """What to look at where the bus does not open, or is lost."""
+    if settings.interface == "socketcand":
+        host, port = (settings.options.get(name, "(not given)") for name in ("host", "port"))
+        return (
+            f"Check that a socketcand server runs at host {host}, port {port} (options of [bus]),"
+            f" and that it serves {settings.channel}: start `socketcand` there, or `svsa emulator`"
+            " for the emulated bench."
+        )
+    if settings.interface == "socketcan":
+        return (
+            f"Check that the adapter is plugged in, that its name {settings.channel} is right, and"
+            f" that its interface is up: `ip link set {settings.channel} up type can bitrate"
+            f" {settings.bitrate}`."
+        )
     return (
-        f"The CAN bus {name} {settings.channel} cannot be opened: {reason}.{needed}"
-        " Check that the adapter is plugged in, its driver is there, the channel's name, and that"
-        " no other program holds it."
+        "Check that the adapter is plugged in, that its driver is installed, that its channel"
+        f" {settings.channel} is right, and that no other program uses it."
     )
 
 

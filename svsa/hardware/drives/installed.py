@@ -3,13 +3,16 @@
 Families need python-can, an extra: they are imported when a motor's section is read, not before.
 """
 
+from collections.abc import Callable
 from functools import cache
 from importlib.metadata import EntryPoint, entry_points
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from svsa.errors import ParameterError, SvsaError, Violation
 from svsa.hardware.drives.emulated import EmulatedMotor
 from svsa.hardware.settings import DEFAULT_DRIVE, MotorSettings
+from svsa.inputs.checked import Checked
+from svsa.inputs.explanation import suggest
 from svsa.inputs.extras import require_extra
 
 if TYPE_CHECKING:
@@ -17,6 +20,7 @@ if TYPE_CHECKING:
     from svsa.hardware.drives.family import DriveFamily
 
 GROUP = "svsa.drives"
+_Section = TypeVar("_Section", bound=Checked)
 
 
 class DriveFamilyError(SvsaError):
@@ -44,7 +48,9 @@ def get_family(name: str) -> "DriveFamily":
     """
     entry = _find_entries().get(name)
     if entry is None:
-        bound = f"a family of drives that is installed here: {', '.join(list_drive_names())}"
+        names = list_drive_names()
+        bound = f"a family of drives that is installed here: {', '.join(names)}"
+        bound += suggest(name, names)
         raise ParameterError(Violation("drive", name, "", bound))
     require_extra("bench")
     try:
@@ -65,14 +71,41 @@ def read_motor(given: Any) -> MotorSettings:
     """A motor's section of a bench file, as the family of its drive describes it."""
     if isinstance(given, MotorSettings):
         return given
-    return _find_family(given).settings(**given)
+    return _read_section(given, lambda family: family.settings)
 
 
 def read_emulated_motor(given: Any) -> EmulatedMotor:
     """A motor's section of an emulator's file, as the family of its drive describes it."""
     if isinstance(given, EmulatedMotor):
         return given
-    return _find_family(given).emulated(**given)
+    return _read_section(given, lambda family: family.emulated)
+
+
+def _read_section(given: Any, choose: "Callable[[DriveFamily], type[_Section]]") -> _Section:
+    """A section as the family of its drive describes it; names the family of a foreign field."""
+    family = _find_family(given)
+    fields = choose(family).model_fields
+    foreign = {
+        field: name
+        for name in list_drive_names()
+        for field in choose(get_family(name)).model_fields
+        if field in given and field not in fields
+    }
+    if foreign:
+        known = ", ".join(list_drive_names())
+        raise ParameterError(
+            *(
+                Violation(
+                    field,
+                    given[field],
+                    "",
+                    f"left out: it belongs to drive = {name!r}, and drive is {family.name!r}"
+                    f" (known drives: {known})",
+                )
+                for field, name in foreign.items()
+            )
+        )
+    return choose(family)(**given)
 
 
 def _find_family(section: Any) -> "DriveFamily":

@@ -30,7 +30,7 @@ def test_the_command_moves_nothing_where_it_is_not_allowed_to(tmp_path):
 def test_the_command_ends_with_an_error_where_a_step_fails(tmp_path):
     result = CliRunner().invoke(APP, ["bench-check", str(tmp_path / "none.toml")])
     assert result.exit_code == 1
-    assert "Correct the bench file" in result.output
+    assert "Give the path of a bench file" in result.output
 
 
 def test_the_command_names_the_fields_of_the_bench_file_with_their_sections(tmp_path):

@@ -109,4 +109,4 @@ def test_a_bus_that_cannot_be_opened_says_what_to_look_at(path, bus):
     steps = list(check_bench(path, opener=refuse, now=bus.now))
     assert [step.result for step in steps[:2]] == [Result.OK, Result.FAIL]
     assert "no such device" in steps[1].measured
-    assert "ip link set" in steps[1].advice
+    assert "socketcand server" in steps[1].advice

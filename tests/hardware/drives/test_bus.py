@@ -18,6 +18,22 @@ def test_unknown_interfaces_and_wrong_options_are_errors_of_the_bus():
             open_bus(BusSettings(**{"channel": "can0", **options}))
 
 
+def test_the_advice_fits_the_interface():
+    """A server that does not answer is not an adapter that is not plugged in."""
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        port = server.getsockname()[1]
+    options = {"host": "127.0.0.1", "port": port}
+    with pytest.raises(BusError) as caught:
+        open_bus(BusSettings(interface="socketcand", channel="can0", options=options))
+    assert "refused" in caught.value.finding
+    assert f"host 127.0.0.1, port {port}" in caught.value.advice
+    assert "plugged" not in str(caught.value)
+    with pytest.raises(BusError, match="the nearest is socketcand"):
+        open_bus(BusSettings(interface="socketcandd", channel="can0"))
+    with pytest.raises(BusError, match="ip link set nocan0 up"):
+        open_bus(BusSettings(interface="socketcan", channel="nocan0"))
+
+
 @pytest.mark.parametrize(
     ("interface", "package", "raised"),
     [
