@@ -13,9 +13,9 @@ import time
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
-from numba.core.caching import FunctionCache
+from numba.core.caching import CompileResultCacheImpl, FunctionCache, UserProvidedCacheLocator
 
 from svsa.inputs.file_lock import take_lock
 
@@ -30,6 +30,19 @@ _OF_EARLIER_VERSION = re.compile(f"compiled-{_FINGERPRINT}")
 _OF_FILE = re.compile(r"\w+(\.\w+)*")
 
 
+class _Locator(UserProvidedCacheLocator):
+    """The folder of `SharedCache`; one that cannot be written is read, as that of an image."""
+
+    def ensure_cache_path(self) -> None:
+        """Make the folder, unless it can only be read."""
+        with contextlib.suppress(OSError):
+            super().ensure_cache_path()
+
+
+class _Implementation(CompileResultCacheImpl):
+    _locator_classes: ClassVar = [_Locator]
+
+
 class SharedCache(FunctionCache):
     """numba's cache of one function, which several processes fill at once.
 
@@ -37,10 +50,13 @@ class SharedCache(FunctionCache):
     processes that do so at once one would find the other's code under the types of its own.
     """
 
+    _impl_class = _Implementation
+
     def save_overload(self, sig: Any, data: Any) -> None:
-        """Add a function's code for the types `sig`."""
+        """Add a function's code for the types `sig`, where the folder can be written."""
         with _hold(Path(self.cache_path)):
-            super().save_overload(sig, data)
+            if os.access(self.cache_path, os.W_OK):
+                super().save_overload(sig, data)
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """The function's code for the types `sig`; None where there is none."""
@@ -77,7 +93,10 @@ def choose_root() -> Path:
 
 
 def open_folder(module: str, fingerprint: str) -> Path | None:
-    """The folder of a module's code with this fingerprint; None where none can be written."""
+    """The folder of a module's code with this fingerprint; None where none can be made.
+
+    One that exists and cannot be written is used for reading.
+    """
     root = choose_root()
     folder = root / module / fingerprint
     try:
@@ -85,11 +104,11 @@ def open_folder(module: str, fingerprint: str) -> Path | None:
         # The age that decides about removal is that of the last use, not of the creation.
         os.utime(folder)
     except OSError:
-        return None
+        return folder if os.access(folder, os.R_OK | os.X_OK) else None
     with contextlib.suppress(OSError):  # another process removes the same
         _remove_texts(folder.parent)
         _remove_abandoned(root)
-    return folder if os.access(folder, os.W_OK) else None
+    return folder
 
 
 def _remove_texts(folder: Path) -> None:

@@ -131,7 +131,7 @@ def _compute_fingerprint(file: Path) -> str:
 
 @cache
 def _open_cache(module: str, file: Path) -> Path | None:
-    """The cache folder of a file's functions; None where none can be written."""
+    """The cache folder of a file's functions; None where there is none and none can be made."""
     return open_folder(module, _compute_fingerprint(file))
 
 

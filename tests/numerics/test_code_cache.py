@@ -5,6 +5,9 @@ And what several add at once is all there.
 
 import contextlib
 import os
+import shutil
+import subprocess
+import sys
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
@@ -100,3 +103,29 @@ def test_what_two_processes_compile_at_once_is_kept_for_each(
     for one, result in zip(made, results, strict=True):
         kept = SharedCache(add_one).load_overload(result.signature.args, one.targetctx)
         assert kept.signature == result.signature
+
+
+PROGRAM = """
+from svsa.numerics.compilation import watch_compilation
+with watch_compilation(print):
+    from svsa.numerics.trigonometry import cos
+    cos(0.5)
+"""
+
+
+def test_a_cache_that_cannot_be_written_is_read(tmp_path: Path) -> None:
+    """As in an image whose file system is read-only, or whose user is another one."""
+    if shutil.which("bwrap") is None:
+        pytest.skip("bwrap is not installed")
+    environment = os.environ | {"SVSA_CACHE": str(tmp_path)}
+    read_only = ["bwrap", "--dev-bind", "/", "/", "--ro-bind", str(tmp_path), str(tmp_path)]
+
+    def compile_with(*before: str) -> str:
+        command = [*before, sys.executable, "-c", PROGRAM]
+        ran = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
+        return ran.stdout
+
+    assert "cos" in compile_with()
+    kept = sorted(tmp_path.rglob("*"))
+    assert compile_with(*read_only) == ""
+    assert sorted(tmp_path.rglob("*")) == kept

@@ -14,6 +14,7 @@ from rich.console import Console
 from svsa.cli import prepare
 from svsa.control.installed import BASELINE, PAPERS_LAW
 from svsa.errors import ParameterError, StateError, SvsaError, Violation
+from svsa.hardware.safety.heartbeat import check_shared_memory
 from svsa.inputs.file_lock import try_lock
 from svsa.runs.configuration import read_design
 from svsa.runs.records.catalogue.runs import DATA_VARIABLE, find_data_folder
@@ -89,9 +90,9 @@ def run_server(
 ) -> None:
     """Serve the lab until a signal ends it, with a bench where its file is given.
 
-    Raises `SecurityError`, `ListenError`, and `ParameterError` for a wrong bench file or
-    exercise. A bench
-    is opened while the lab is served already, see `open_bench`.
+    Raises `SecurityError`, `ListenError`, `ParameterError` for a wrong bench file or exercise, and
+    `StateError` without shared memory. A bench is opened while the lab is served already, see
+    `open_bench`.
     """
     config = Settings()
     bench = bench or config.bench
@@ -107,6 +108,7 @@ def run_server(
         bound = "left out with a bench: its own file names it, as [design] file"
         raise ParameterError(Violation("--parameters", str(config.parameters), "", bound))
     config.check_root_path()
+    check_shared_memory()
     design = read_design(config.parameters) if config.parameters else None
     read_course(config.course)
     chosen = config.choose_host(host)

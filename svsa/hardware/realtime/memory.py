@@ -9,7 +9,7 @@ from typing import Self
 import numpy as np
 
 from svsa.actuators.signals import CHANNELS
-from svsa.hardware.safety.heartbeat import attach_block
+from svsa.hardware.safety.heartbeat import attach_block, create_block
 
 CAPACITY_TICKS = 16_384
 _EDGES_A_DECADE = 100
@@ -59,7 +59,7 @@ class LoopMemory:
     @classmethod
     def create(cls) -> Self:
         """A new block, zeroed; who created it also removes it at `close`."""
-        block = shared_memory.SharedMemory(create=True, size=_LAYOUT.itemsize)
+        block = create_block(_LAYOUT.itemsize)
         memory = cls(block, owner=True)
         memory.fields[...] = np.zeros((), _LAYOUT)
         return memory

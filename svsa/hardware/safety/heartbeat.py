@@ -10,6 +10,8 @@ from typing import Literal, Self
 
 import numpy as np
 
+from svsa.errors import StateError
+
 Slot = Literal["loop", "supervisor", "server", "operator", "stopping"]
 SLOTS: tuple[Slot, ...] = ("loop", "supervisor", "server", "operator", "stopping")
 
@@ -29,7 +31,7 @@ class Heartbeats:
     @classmethod
     def create(cls) -> Self:
         """A new block without a beat; who created it also removes it at `close`."""
-        block = shared_memory.SharedMemory(create=True, size=8 * (len(SLOTS) + 1))
+        block = create_block(8 * (len(SLOTS) + 1))
         beats = cls(block, owner=True)
         beats._times[:], beats._stops[:] = 0.0, 0
         return beats
@@ -67,6 +69,25 @@ class Heartbeats:
         self._block.close()
         if self._owner:
             self._block.unlink()
+
+
+def create_block(size: int) -> shared_memory.SharedMemory:
+    """A new block of shared memory, bytes; raises `StateError` where the system has none."""
+    try:
+        return shared_memory.SharedMemory(create=True, size=size)
+    except OSError as error:
+        raise StateError(
+            f"A block of shared memory of {size} bytes cannot be created:"
+            f" {error.strerror or error}. Linux keeps it in /dev/shm: mount a tmpfs there that this"
+            " user can write (in Docker: --tmpfs /dev/shm), and start again."
+        ) from None
+
+
+def check_shared_memory() -> None:
+    """Raise `StateError` where neither a bench nor a worker process could be started."""
+    block = create_block(1)
+    block.close()
+    block.unlink()
 
 
 def attach_block(name: str) -> shared_memory.SharedMemory:

@@ -3,6 +3,8 @@
 import asyncio
 import gc
 import os
+import shutil
+import subprocess
 import sys
 from pathlib import Path
 
@@ -80,3 +82,16 @@ def test_nobody_else_reads_the_files_of_a_class(tmp_path: Path) -> None:
         written = [path for path in tmp_path.rglob("*") if path.is_file()]
         assert {"catalogue.sqlite", "class.json", "members.sqlite"} <= {one.name for one in written}
         assert [one for one in written if one.stat().st_mode & 0o077] == []
+
+
+@pytest.mark.skipif(shutil.which("bwrap") is None, reason="bwrap is not installed")
+def test_a_server_without_shared_memory_says_so_at_its_start() -> None:
+    """As in a container whose /dev/shm is read-only."""
+    shared = str(Path("/dev") / "shm")
+    before = ["bwrap", "--dev-bind", "/", "/", "--ro-bind", shared, shared]
+    command = [*before, str(Path(sys.executable).with_name("svsa")), "serve", "--port", "0"]
+    ran = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+    assert ran.returncode != 0
+    told = " ".join((ran.stdout + ran.stderr).split())
+    assert "A block of shared memory of 1 bytes cannot be created" in told
+    assert "mount a tmpfs there" in told
