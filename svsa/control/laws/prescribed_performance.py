@@ -156,7 +156,8 @@ PRESCRIBED_PERFORMANCE = Law(
     name="prescribed_performance",
     title="Prescribed perf.",
     summary="Holds every error in a funnel that narrows with time, without a model of the inertias"
-    " and without an estimate of the load.",
+    " and without an estimate of the load. On a bench, choose it before the start: under a load, a"
+    " change to it ends in overspeed.",
     equation=r"u=-k\rho\,\varepsilon(\tfrac e\rho),\quad"
     r"\varepsilon(x)=\tfrac12\ln\tfrac{1+x}{1-x},\quad"
     r"\rho(t)=\rho_\infty+(\rho_0-\rho_\infty)e^{-\lambda t}",

@@ -169,9 +169,14 @@ class BenchLoop:
     def change(self, command: Command) -> int:
         """Give the run a command now; returns the tick at which it holds.
 
-        Raises `ParameterError` or `StateError`, and then nothing has changed.
+        Raises `ParameterError` or `StateError`, and then nothing has changed. A law that brings its
+        own ŵ begins with the present one: from zero it would drop the load that is held.
         """
+        before = self.run.configuration.law
         self.run.change(command)
+        law = get_law(self.run.configuration.law)
+        if law.name != before and law.estimate == "own" and self._is_known:
+            self.run.lanes[0].memory[: len(self._estimate)] = self._estimate
         return self.run.tick
 
     def warm_up(self) -> None:

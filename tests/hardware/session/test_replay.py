@@ -22,7 +22,7 @@ from tests.hardware.session.recorded_bench import run_bench, write_bench_record
 
 TICKS, MISSED_AT, MISSED = 900, 300, 7
 SLOWER = Set("observer", ObserverBandwidth(bandwidth_rad_per_s=(40.0, 40.0, 40.0)))
-TO_FL = Set("law", "fl", tick=600)
+TO_ESP = Set("law", "esp", tick=600)
 COUNT_RAD = 2.0 * math.pi / 8000
 RESIDUALS = [CHANNEL_INDEX[name] for name in CHANNEL_INDEX if "residual" in name]
 Run = tuple[Configuration, np.ndarray, BenchStart]
@@ -32,10 +32,10 @@ Run = tuple[Configuration, np.ndarray, BenchStart]
 def run() -> Run:
     wanted = get_figure("4a").build_configuration(load=False)
     late = {0: 3, MISSED_AT: MISSED}
-    return run_bench(wanted, TICKS, before=[SLOWER], later=[TO_FL], late=late)
+    return run_bench(wanted, TICKS, before=[SLOWER], later=[TO_ESP], late=late)
 
 
-def verify(folder: Path, run: Run, commands: tuple = (SLOWER, TO_FL)) -> Verified:
+def verify(folder: Path, run: Run, commands: tuple = (SLOWER, TO_ESP)) -> Verified:
     write_bench_record(folder / "run-1", run, commands)
     return verify_bench_record(open_record(folder / "run-1"))
 
@@ -89,7 +89,7 @@ def test_another_start_is_found(run: Run, tmp_path: Path) -> None:
 
 
 def test_a_command_that_is_left_out_or_comes_later_is_found(run: Run, tmp_path: Path) -> None:
-    for number, commands in enumerate([(SLOWER,), (SLOWER, TO_FL.at(601))]):
+    for number, commands in enumerate([(SLOWER,), (SLOWER, TO_ESP.at(601))]):
         with pytest.raises(RecordError, match="does not follow"):
             verify(tmp_path / str(number), run, commands)
 
