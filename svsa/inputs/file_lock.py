@@ -1,6 +1,29 @@
-"""A lock on an open file or folder, which the system takes back when a process dies."""
+"""Who else may use a file: other accounts, and, by a lock on it, other processes.
 
+The system takes a lock back when its process dies.
+"""
+
+import contextlib
+import os
 import sys
+from pathlib import Path
+
+
+def close_to_others(path: Path) -> None:
+    """Create a file if it is missing, and take every right on it from other accounts.
+
+    The rights of the owner and of its group stay. Where they cannot be changed, nothing is done:
+    what opens the file next says why it cannot be used.
+
+    Args:
+        path: The file.
+    """
+    with contextlib.suppress(OSError):
+        # Never a file that exists: to close it would end the locks of SQLite on it.
+        with contextlib.suppress(FileExistsError):
+            os.close(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600))
+        path.chmod(path.stat().st_mode & 0o770)
+
 
 if sys.platform == "win32":
 

@@ -14,6 +14,7 @@ from typing import Any
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from svsa.inputs.file_lock import close_to_others
 from svsa_server.access.guard import PERSON, find_path
 from svsa_server.access.permissions import PermissionTable
 from svsa_server.leases.lease import CHANGING
@@ -30,6 +31,7 @@ class AuditLog:
 
     def __init__(self, folder: Path) -> None:
         folder.mkdir(parents=True, exist_ok=True)
+        close_to_others(folder / FILE)
         file = RotatingFileHandler(
             folder / FILE, maxBytes=_MAX_BYTES, backupCount=_FILES, encoding="utf-8", delay=True
         )

@@ -2,15 +2,20 @@
 
 import asyncio
 import json
+import os
 import time
 from collections import Counter
 from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
 
+import pytest
+
 from svsa.runs.paper import get_figure
+from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.runs.session.simulated import SimulatedSession
 from svsa_server.access import audit
+from svsa_server.access.audit import AuditLog
 from svsa_server.leases.lease import Holder
 from svsa_server.leases.queue import ControlQueue
 from svsa_server.sessions.hosted import HostedSession, note_settled
@@ -121,3 +126,21 @@ def test_a_recording_that_grows_too_long_is_ended_and_no_other() -> None:
     quota = DiskQuota(catalogue, laboratory, 1000)  # type: ignore[arg-type]
     asyncio.run(quota.end_what_is_too_much())
     assert stopped == ["p-1", "p-1"]
+
+
+@pytest.mark.skipif(os.name == "nt", reason="other rights")
+def test_log_and_catalogue_are_closed_to_other_accounts_without_a_class_too(tmp_path: Path) -> None:
+    older = tmp_path / "older"
+    older.mkdir()
+    (older / "audit.jsonl").write_text("")
+    (older / "audit.jsonl").chmod(0o664)
+    before = os.umask(0)
+    try:
+        for folder in (tmp_path, older):
+            AuditLog(folder).close()
+            Catalogue(folder).list()
+    finally:
+        os.umask(before)
+    files = [*tmp_path.glob("*.*"), *older.glob("*.*")]
+    assert {"audit.jsonl", "catalogue.sqlite"} <= {path.name for path in files}
+    assert [path for path in files if path.stat().st_mode & 0o007] == []

@@ -55,6 +55,8 @@ class Things(NamedTuple):
     ada: httpx.Client
     instructor: httpx.Client
     others: dict[Role | None, httpx.Client]
+    script: httpx.Client
+    removed: httpx.Client
 
 
 @pytest.fixture(scope="module")
@@ -75,7 +77,11 @@ def things(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Things]:
             Role.OBSERVER: room.join("Ola", "observer"),
             Role.OPERATOR: room.join("Bob"),
         }
-        yield Things(room, adas, shared, ada, instructor, others)
+        token = others[Role.OPERATOR].post("/api/v1/tokens", json={}).raise_for_status().json()
+        removed = room.join("Rex")
+        instructor.delete(f"/api/v1/class/people/{read_person(removed)['id']}").raise_for_status()
+        script = room.open_browser(token["token"])
+        yield Things(room, adas, shared, ada, instructor, others, script, removed)
 
 
 def record(browser: httpx.Client, session: str, name: str = SECRET) -> str:
@@ -113,11 +119,16 @@ def describe(answer: httpx.Response, name: str) -> tuple[int, str, list[tuple[st
     return answer.status_code, answer.text.replace(name, "ID"), headers
 
 
-@pytest.mark.parametrize("role", ROLES, ids=lambda role: role.word if role else "anonymous")
+@pytest.mark.parametrize("who", ["anonymous", "observer", "operator", "script", "removed"])
 def test_the_id_of_anothers_thing_is_answered_as_one_that_does_not_exist(
-    things: Things, role: Role | None
+    things: Things, who: str
 ) -> None:
-    browser = things.others[role]
+    callers: dict[str, tuple[httpx.Client, Role | None]] = {
+        role.word if role else "anonymous": (browser, role)
+        for role, browser in things.others.items()
+    }
+    callers |= {"script": (things.script, Role.OPERATOR), "removed": (things.removed, None)}
+    browser, role = callers[who]
     assert len(PLACES) > 85
     permissions = find_app(things.room).state.permissions
     leaks = []

@@ -84,6 +84,7 @@ def send_page(file: IO[bytes]) -> StreamingResponse:
         # The page has its policy in itself, for offline use; only a header states who may frame it.
         "Content-Security-Policy": "frame-ancestors 'self'",
         "X-Content-Type-Options": "nosniff",
+        "Referrer-Policy": "no-referrer",
     }
     return _send(file, "text/html", headers)
 

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
+from svsa.inputs.file_lock import close_to_others
 from svsa.runs.records.catalogue.entry import (
     FACETS,
     CatalogueError,
@@ -155,6 +156,9 @@ class Database:
             raise CatalogueError(f"The catalogue {self._path} cannot be used: {error}.") from None
 
     def _prepare(self) -> None:
+        # Names and owners of runs are not for other accounts; SQLite gives its other files the
+        # same mode.
+        close_to_others(self._path)
         connection = sqlite3.connect(self._path, timeout=BUSY_TIMEOUT_S)
         try:
             prepare(connection)
