@@ -80,5 +80,5 @@ def test_a_file_that_is_none_is_an_error_with_words(tmp_path: Path, text: str) -
     path.write_text(text, encoding="utf-8")
     with pytest.raises(ParameterError):
         read_bench(path)
-    with pytest.raises(ParameterError, match="readable TOML"):
+    with pytest.raises(ParameterError, match="there is no file"):
         read_bench(tmp_path / "nowhere.toml")
