@@ -33,7 +33,7 @@ def bench_check(
     ] = False,
     yes: Annotated[
         bool,
-        typer.Option("--yes", help="Move without asking; nobody is then asked which way it went."),
+        typer.Option("--yes", help="Move without asking; no user is asked which way they went."),
     ] = False,
 ) -> None:
     """Test a bench step by step: file, bus, drives, encoders; with --move signs and scales."""
@@ -70,7 +70,8 @@ def bench_check(
 def bench_home(
     file: BenchPath,
     by: Annotated[
-        str | None, typer.Option(help="Who looks at the marks; asked for if left out.")
+        str | None,
+        typer.Option(help="Name of the user who looks at the marks; asked for if left out."),
     ] = None,
 ) -> None:
     """Write the calibration record of a bench: who saw it at its zero marks, and its zero."""
