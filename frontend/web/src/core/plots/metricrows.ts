@@ -37,14 +37,20 @@ const UNMOVED_NM_PER_RAD = 0.01;
 export const isLost = (steady: number | null, peak: number): boolean =>
   (steady ?? 0) > RECOVERY_SHARE * peak;
 
-const number = (value: number): Shown => ({ value: formatNumber(value, 3, 4) });
+const SMALLEST = 1e-6;
+
+/** A number that is not zero does not read as zero: a loop without effects leaves 10⁻¹⁵. */
+const format = (value: number): string =>
+  value !== 0 && Math.abs(value) < SMALLEST ? words.tiny : formatError(value);
+
+const number = (value: number): Shown => ({ value: format(value) });
 const missing = (hint: string): Shown => ({ value: formatNumber(null), hint });
 const orMissing = (value: number | null, hint: string): Shown =>
   value === null ? missing(hint) : number(value);
 const both = (first: number | null, second: number | null): Shown =>
   first === null || second === null
     ? missing(reasons.moving)
-    : { value: `${formatError(first, 3)} / ${formatError(second, 3)}` };
+    : { value: `${format(first)} / ${format(second)}` };
 
 /** What the metrics of position and stiffness have in common; convert: to the unit on screen. */
 interface Output {
@@ -104,9 +110,8 @@ function showRecovery(of: Output, metrics: Metrics, isDisturbed: boolean): Shown
 
 /** The rows of the errors, and those of a step where one of the lanes has a response to one. */
 function listOutput(of: Output, lanes: readonly MeasuredLane[]): MetricRow[] {
-  const inUnit = (read: (metrics: Metrics) => number) => (metrics: Metrics) => ({
-    value: formatError(of.convert(read(metrics))),
-  });
+  const inUnit = (read: (metrics: Metrics) => number) => (metrics: Metrics) =>
+    number(of.convert(read(metrics)));
   const hasStep = lanes.some(({ metrics }) => metrics !== null && of.rise(metrics) !== null);
   const steps: MetricRow[] = [
     {
@@ -146,7 +151,7 @@ function listOutput(of: Output, lanes: readonly MeasuredLane[]): MetricRow[] {
       read: (one) => {
         const steady = of.steady(one);
         const why = one.duration_s < 1 ? reasons.tooShort : reasons.loadEnded;
-        return steady === null ? missing(why) : { value: formatError(of.convert(steady)) };
+        return steady === null ? missing(why) : number(of.convert(steady));
       },
     },
     { ...words.iae, unit: of.integralUnit, read: inUnit(of.integral) },

@@ -13,6 +13,7 @@ export const metricsText = {
   metric: "Metric",
   groups: { position: "Position", stiffness: "Stiffness", effort: "Effort" },
   both: "u₁ / u₂",
+  tiny: "< 10⁻⁶",
   units: {
     degrees: "deg",
     degreeSeconds: "deg·s",
@@ -27,7 +28,10 @@ export const metricsText = {
   },
   rms: { name: "rms error", hint: "Root mean square over the window" },
   peak: { name: "Peak deviation", hint: "Largest size of the error in the window" },
-  peakShare: { name: "Peak deviation, of σ_d", hint: "Largest |σ_d − σ|/σ_d in the window" },
+  peakShare: {
+    name: "Peak deviation, relative",
+    hint: "Largest size of the stiffness error in the window, relative to the reference",
+  },
   steady: {
     name: "Steady-state error",
     hint: "rms error over the last 0.5 s of the window",

@@ -57,7 +57,7 @@ describe("the metrics of a lane", () => {
     expect(Position?.["rms error"]).toEqual({ value: "0.573" });
     expect(Position?.IAE).toEqual({ value: "1.15" });
     expect(Position?.["Recovery time"]).toEqual({ value: "0.250" });
-    expect(Stiffness?.["Peak deviation, of σ_d"]).toEqual({ value: "10.0" });
+    expect(Stiffness?.["Peak deviation, relative"]).toEqual({ value: "10.0" });
     expect(Effort?.["Peak torque"]).toEqual({ value: "15.0 / 2.00" });
     expect(Effort?.["Mechanical work"]).toEqual({ value: "0.750" });
   });
@@ -90,6 +90,10 @@ describe("the metrics of a lane", () => {
     const { Stiffness, Effort } = show(lane({ peak_stiffness_error_nm_per_rad: 0.009 }));
     expect(Stiffness?.["Recovery time"]?.hint).toBe(words.undefined.unmoved);
     expect(Effort?.["Torque noise at rest"]?.hint).toBe(words.undefined.moving);
+    const ideal = show(
+      lane({ rms_position_error_rad: 1e-15, torque1_noise_nm: 0, torque2_noise_nm: 0 }),
+    );
+    expect(ideal.Position?.["rms error"]?.value).toBe("< 10⁻⁶");
     const ended = show({ ...lane(), metrics: null });
     expect(ended.Effort?.["Mechanical work"]?.hint).toBe(words.undefined.lane);
   });
