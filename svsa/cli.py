@@ -177,7 +177,7 @@ def compile_loop() -> None:
 
 
 def prepare(laws: Iterable[str] | None = None) -> None:
-    """Have the control loop and these laws compiled, and say so where it takes long.
+    """Have the control loop, metrics and these laws compiled, and say so where it takes long.
 
     laws: all that are installed if left out. One that does not work is named, and the others go on.
     """
@@ -195,7 +195,7 @@ def prepare(laws: Iterable[str] | None = None) -> None:
     with _messages.status(text):
         for name in names:
             try:
-                simulate("4a", name, duration_s=0.01)
+                simulate("4a", name, duration_s=0.01).measure(0.0, 0.01)
             except LawError as error:
                 _messages.print(f"[bold red]{escape(str(error))}[/]", highlight=False)
 

@@ -150,13 +150,16 @@ class RunningMetrics:
         """As `update`, with the columns `MEASURED` only."""
         if not len(values):
             return
+        # One layout: for another the functions would be compiled again.
+        values = np.ascontiguousarray(values)
         is_start = self._followed.passed == 0.0 and values[0, _TIME] == 0.0
         self._followed = follow_samples(self._followed, values, self._window)
         for response, reference, error in (
             (self._position, _Q, _E),
             (self._stiffness, _SIGMA, _ES),
         ):
-            response.update(values[:, reference], values[:, error], is_start)
+            references = np.ascontiguousarray(values[:, reference])
+            response.update(references, np.ascontiguousarray(values[:, error]), is_start)
         settled = self._window.settled
         self._newest = np.concatenate([self._newest, values[-settled:]])[-settled:]
 

@@ -13,9 +13,9 @@ T = 0.001
 def respond(reference, output, pieces=1, is_start=False, smallest=0.1):
     """The response to a reference (ticks,)."""
     response = StepResponse(T, smallest)
-    rows = np.stack([reference, reference - output], axis=1)
-    for number, part in enumerate(np.array_split(rows, pieces)):
-        response.update(part[:, 0], part[:, 1], is_start and number == 0)
+    parts = (np.array_split(signal, pieces) for signal in (reference, reference - output))
+    for number, (references, errors) in enumerate(zip(*parts, strict=True)):
+        response.update(references, errors, is_start and number == 0)
     return response
 
 

@@ -1,10 +1,11 @@
 """The window of a recorded run that is measured: one law a lane, and no change in it."""
 
+import json
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 
 from svsa.errors import SvsaError
-from svsa.runs.metrics import Metrics, RunningMetrics
+from svsa.runs.metrics import MEASURED, Metrics, RunningMetrics
 from svsa.runs.records.reader import Record
 from svsa.runs.records.resimulation import read_origin
 from svsa.runs.replay import list_loads
@@ -83,6 +84,33 @@ def summarize(
         }
         found = tuple(replace(metrics, **unknown) for metrics in found)
     return found if all(metrics.is_finite for metrics in found) else None
+
+
+def measure(record: Record, window: MeasuredWindow) -> tuple[Metrics, ...] | None:
+    """The metrics of every lane in the window, a stretch at a time.
+
+    None without the channels for it, or with samples that are no numbers.
+    """
+    names = record.header.channel_names
+    if not set(MEASURED) <= set(names):
+        return None
+    places = [names.index(name) for name in MEASURED]
+    lanes = [RunningMetrics(record.header.period_s) for _ in record.header.lanes]
+    for tick, samples in record.iterate():
+        rows = samples[max(0, window.first_tick - tick) : max(0, window.end_tick - tick)]
+        for lane, running in enumerate(lanes):
+            running.update_measured(rows[:, lane, places])
+    return summarize(lanes, window)
+
+
+def write_metrics(record: Record) -> str:
+    """The measured window of a record and each lane's `Metrics` in it, as JSON; "null" without."""
+    window = find_measured_window(record)
+    found = None if window is None else measure(record, window)
+    if window is None or found is None:
+        return "null"
+    lanes = dict(zip(record.header.lanes, map(asdict, found), strict=True))
+    return json.dumps({"window": asdict(window), "lanes": lanes})
 
 
 def _build(record: Record, window: Window, lanes: tuple[str, ...]) -> MeasuredWindow:

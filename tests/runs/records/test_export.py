@@ -4,6 +4,7 @@ import io
 import json
 import shutil
 import subprocess
+from dataclasses import asdict
 from datetime import datetime
 from pathlib import Path
 
@@ -19,6 +20,7 @@ from svsa.errors import ParameterError
 from svsa.runs.records.export.formats import EXPORT_KINDS, build_file_name, export
 from svsa.runs.records.export.mat import build_identifiers
 from svsa.runs.records.header import RecordError
+from svsa.runs.records.measured_window import find_measured_window, measure
 from svsa.runs.records.reader import Record, build_record, open_record
 from svsa.runs.records.writer import write_record
 from tests.runs.records.records import build_header, build_samples
@@ -72,7 +74,25 @@ def test_mat_opens_in_scipy(record: Record, tmp_path: Path) -> None:
     assert read["units"]["stiffness_nm_per_rad"] == "N*m/rad"
     assert json.loads(read["run"]["commands_json"])[0]["tick"] == 45
     assert json.loads(read["run"]["header_json"])["name"] == record.header.name
+    assert read["run"]["metrics_json"] == "null", "a lane has samples that are no numbers"
     assert read["run"]["name"].startswith("../a run: ?ber 'alles'")
+
+
+def test_mat_and_mcap_have_the_metrics_of_the_run() -> None:
+    header = build_header(lanes=("one", "two"))
+    record = build_record(header, [], FIRST_TICK, build_samples(2000, 2, FIRST_TICK))
+    mat, mcap = io.BytesIO(), io.BytesIO()
+    export(record, "mat", mat)
+    export(record, "mcap", mcap)
+    read = scipy.io.loadmat(io.BytesIO(mat.getvalue()), simplify_cells=True)
+    (metadata,) = make_reader(io.BytesIO(mcap.getvalue())).iter_metadata()
+    window = find_measured_window(record)
+    assert window is not None
+    expected = [asdict(lane) for lane in measure(record, window) or ()]
+    for text in (read["run"]["metrics_json"], metadata.metadata["metrics"]):
+        found = json.loads(text)
+        assert found["lanes"] == dict(zip(("one", "two"), expected, strict=True))
+        assert found["window"]["end_s"] == window.end_s
 
 
 def test_mat_opens_in_octave(record: Record, tmp_path: Path) -> None:

@@ -9,8 +9,7 @@ import pytest
 from svsa.runs.configuration import Lane
 from svsa.runs.metrics import compute_metrics
 from svsa.runs.paper import get_figure
-from svsa.runs.records.catalogue.recovery import measure
-from svsa.runs.records.measured_window import MeasuredWindow, find_measured_window
+from svsa.runs.records.measured_window import MeasuredWindow, find_measured_window, measure
 from svsa.runs.records.reader import Record, build_record
 from svsa.simulation.plant.loads.mass import MassLoad
 from svsa.simulation.plant.loads.pulse import PulseLoad

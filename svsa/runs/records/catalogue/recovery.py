@@ -11,12 +11,11 @@ from typing import Any
 
 from svsa.errors import SvsaError
 from svsa.inputs.extras import __version__
-from svsa.runs.metrics import MEASURED, Metrics, RunningMetrics
 from svsa.runs.records.catalogue.damage import describe_readable
 from svsa.runs.records.catalogue.database import Database
 from svsa.runs.records.catalogue.entry import CatalogueError, RunEntry, UnknownRunError
 from svsa.runs.records.header import STREAM_FILE, RecordError, is_run_id, read_header
-from svsa.runs.records.measured_window import MeasuredWindow, find_measured_window, summarize
+from svsa.runs.records.measured_window import find_measured_window, measure
 from svsa.runs.records.parquet import measure_bytes
 from svsa.runs.records.reader import Record, claim, open_record, recover
 from svsa.runs.records.settings import describe_settings
@@ -167,23 +166,6 @@ def _describe(record: Record) -> dict[str, Any]:
         ),
         "fault": record.fault,
     }
-
-
-def measure(record: Record, window: MeasuredWindow) -> tuple[Metrics, ...] | None:
-    """The metrics of every lane in the window, a stretch at a time.
-
-    None without the channels for it, or with samples that are no numbers.
-    """
-    names = record.header.channel_names
-    if not set(MEASURED) <= set(names):
-        return None
-    places = [names.index(name) for name in MEASURED]
-    lanes = [RunningMetrics(record.header.period_s) for _ in record.header.lanes]
-    for tick, samples in record.iterate():
-        rows = samples[max(0, window.first_tick - tick) : max(0, window.end_tick - tick)]
-        for lane, running in enumerate(lanes):
-            running.update_measured(rows[:, lane, places])
-    return summarize(lanes, window)
 
 
 def build_entry(folder: Path) -> RunEntry:

@@ -1,7 +1,8 @@
 """MAT, version 5: a struct a lane with a column a channel; for MATLAB and GNU Octave.
 
 Texts are ASCII, since Octave cuts others short: a unit reads N*m/rad, a letter it lacks ?.
-`jsondecode(run.header_json)` gives every text as it is.
+`jsondecode(run.header_json)` gives every text as it is, and `jsondecode(run.metrics_json)` the
+metrics of every lane.
 """
 
 import json
@@ -12,6 +13,7 @@ from typing import IO, Any
 import numpy as np
 
 from svsa.runs.records.header import RecordError
+from svsa.runs.records.measured_window import write_metrics
 from svsa.runs.records.reader import Record
 
 MAX_BYTES_A_LANE = 2**31 - 2**20
@@ -78,6 +80,7 @@ def _describe(record: Record) -> dict[str, Any]:
         "lanes": ", ".join(header.lanes),
         "header_json": json.dumps(header.model_dump(mode="json")),
         "commands_json": json.dumps(commands),
+        "metrics_json": write_metrics(record),
         "events_json": json.dumps([asdict(event) for event in record.events]),
     }
     numbers = {"period_s": header.period_s, "seed": np.int64(header.seed)}

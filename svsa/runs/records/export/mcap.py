@@ -17,6 +17,7 @@ from mcap.writer import Writer
 from svsa.inputs.extras import __version__
 from svsa.runs.records.export.mcap_schemas import COMMAND, EVENT, JOINT_STATES, build_sample_schema
 from svsa.runs.records.header import RecordHeader
+from svsa.runs.records.measured_window import write_metrics
 from svsa.runs.records.reader import Record
 
 NANOSECONDS = 1_000_000_000
@@ -40,7 +41,10 @@ JOINTS = (
 
 
 def write_mcap(record: Record, stream: IO[bytes]) -> None:
-    """Write a record as MCAP: /<lane>/samples, /<lane>/joint_states, /commands, /events, header."""
+    """Write a record as MCAP: /<lane>/samples, /<lane>/joint_states, /commands, /events.
+
+    Its metadata `svsa` has header and metrics as JSON.
+    """
     header, names = record.header, record.header.channel_names
     joints = [joint for joint in JOINTS if joint.position in names]
     began_ns = round(datetime.fromisoformat(header.created).timestamp() * NANOSECONDS)
@@ -61,7 +65,8 @@ def write_mcap(record: Record, stream: IO[bytes]) -> None:
                 (state_topic, {"timestamp": stamp, "joints": states}),
             ):
                 writer.add_message(topic, time_ns, msgspec.json.encode(message), time_ns)
-    writer.add_metadata("svsa", {"header": header.to_json()})
+    metadata = {"header": header.to_json(), "metrics": write_metrics(record)}
+    writer.add_metadata("svsa", metadata)
     writer.finish()
 
 
