@@ -24,7 +24,6 @@ from svsa.hardware.emulator.faults import (
     Silence,
     Unplugged,
 )
-from svsa.hardware.safety.guard import OVERLOAD
 from svsa.hardware.safety.machine import BenchStatus
 from tests.exhaustive import exhaust
 from tests.hardware.emulator.in_process_emulator import InProcessEmulator, start_in_process
@@ -159,13 +158,15 @@ def test_a_drive_without_its_cable_holds_its_current_and_the_other_is_stopped(
     ready.recover()
 
 
-def test_a_motor_that_is_too_warm_ends_it_even_at_rest(ready: Bench) -> None:
-    """The drive of the weak motor makes 15 A by itself while nothing is asked of it."""
+def test_a_motor_that_a_drive_turns_at_rest_ends_it(ready: Bench) -> None:
+    """The drive of the weak motor makes 15 A while the bench commands none: its speed limit comes
+    before that of its heat.
+    """
     ready.emulator.control.fault(CurrentOffset(node="motor2", offset_a=15))
     ready.tick_until_fault()
     assert ready.plant.fault is not None
-    assert ready.plant.fault.code == "overload"
-    assert ready.plant.fault.values["motor2_heat"] > OVERLOAD
+    assert ready.plant.fault.code == "overspeed"
+    assert "motor2_velocity_rad_per_s" in ready.plant.fault.values
     ready.tick(2)
     assert ready.read_currents() == [0, 0]
     ready.recover()
