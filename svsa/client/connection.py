@@ -206,7 +206,7 @@ class Remote:
                 raise
             settable = [one for one in dir(type(self)) if is_settable(type(self), one)]
             hint = suggest(name, settable)
-            reported = f"{type(self).__name__} has no attribute {name!r}.{hint}"
+            reported = f"{type(self).__name__} has no attribute {name!r}{hint}."
             raise AttributeError(reported, name=name, obj=self) from error
 
 

@@ -78,7 +78,7 @@ class RemoteSession(RunningConnection):
         """
         known = [one for one in dir(type(self)) if isinstance(getattr(type(self), one), property)]
         if name not in known:
-            raise AttributeError(f"A session has no property {name!r}.{suggest(name, known)}")
+            raise AttributeError(f"A session has no property {name!r}{suggest(name, known)}.")
         return getattr(self, name)
 
     def set(self, **settings: Any) -> None:
@@ -94,7 +94,7 @@ class RemoteSession(RunningConnection):
         known = [one for one in dir(type(self)) if is_settable(type(self), one)]
         for name in settings:
             if name not in known:
-                raise TypeError(f"A session has no setting {name!r}.{suggest(name, known)}")
+                raise TypeError(f"A session has no setting {name!r}{suggest(name, known)}.")
         for name, value in settings.items():
             setattr(self, name, value)
 

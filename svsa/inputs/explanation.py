@@ -1,14 +1,14 @@
 """Pydantic's errors in the words of a `Violation`: field, value, unit and bound."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from difflib import get_close_matches
 from typing import Any
 
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 
 from svsa.errors import ParameterError, Violation, write_number
+from svsa.inputs.nearest import suggest
 
 
 def explain(error: ValidationError, model: type[BaseModel] | None = None) -> list[Violation]:
@@ -43,12 +43,6 @@ def explain_problems(
                 violation = replace(violation, bound=violation.bound + nearest)
             here.append(violation)
     return [reported for path, here in violations.items() for reported in _join(path, here)]
-
-
-def suggest(name: str, known: Iterable[str]) -> str:
-    """The known name that is nearest to a wrong one, to be appended to a message; "" for none."""
-    nearest = get_close_matches(name, list(known), 1)
-    return f"; the nearest is {nearest[0]}" if nearest else ""
 
 
 def _find_path(loc: Sequence[Any], named: int) -> tuple[Any, ...]:

@@ -21,6 +21,6 @@ def find_nearest(name: str, known: Iterable[str], count: int = 3) -> list[str]:
 
 
 def suggest(name: str, known: Iterable[str]) -> str:
-    """Ask, in a sentence to be added, whether the most similar name was meant; "" without one."""
-    near = find_nearest(name, known, 1)
-    return f" Did you mean {near[0]!r}?" if near else ""
+    """The known name that is nearest to a wrong one, to be appended to a message; "" for none."""
+    nearest = find_nearest(name, known, 1)
+    return f"; the nearest is {nearest[0]}" if nearest else ""

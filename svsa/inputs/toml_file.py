@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from svsa.errors import ParameterError, Violation
-from svsa.inputs.explanation import suggest
+from svsa.inputs.nearest import suggest
 
 _Kind = TypeVar("_Kind")
 _TABLE = re.compile(r"\s*(\[\[?)([^\[\]]+)\]")

@@ -11,7 +11,7 @@ import can
 
 from svsa.errors import SvsaError
 from svsa.hardware.settings import BusSettings
-from svsa.inputs.explanation import suggest
+from svsa.inputs.nearest import suggest
 
 _ANSWER_S = 5.0
 DELIVERY_S = 0.05

@@ -12,8 +12,8 @@ from svsa.errors import ParameterError, SvsaError, Violation
 from svsa.hardware.drives.emulated import EmulatedMotor
 from svsa.hardware.settings import DEFAULT_DRIVE, MotorSettings
 from svsa.inputs.checked import Checked
-from svsa.inputs.explanation import suggest
 from svsa.inputs.extras import require_extra
+from svsa.inputs.nearest import suggest
 
 if TYPE_CHECKING:
     from svsa.hardware.drives.drive import Drive, StopFrames
