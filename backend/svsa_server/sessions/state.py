@@ -22,7 +22,7 @@ from svsa_server.schemas.lab.lease import ControlState, QueueState, WaitingState
 from svsa_server.schemas.lab.session import BranchState, LoadState, SessionProgress, SessionState
 from svsa_server.schemas.lab.setting import ConfigurationState
 from svsa_server.schemas.runs.fault import build_session_fault
-from svsa_server.schemas.runs.lane import LaneMetrics, LaneState
+from svsa_server.schemas.runs.lane import LaneState
 from svsa_server.schemas.runs.run import RecordingState
 from svsa_server.sessions.bench_state import build_bench_state
 from svsa_server.sessions.excitation import build_excitation
@@ -50,7 +50,6 @@ def build_progress(hosted: HostedSession, since_tick: int = 0) -> SessionProgres
         fault=session.fault and build_session_fault(session.fault),
         window=build_window(timeline.window, run.period_s),
         load_window=load_window and build_window(load_window, run.period_s),
-        metrics=LaneMetrics(**_summarize(session, 0)),
         lanes=[
             LaneState(
                 lane=number + 1,

@@ -11,7 +11,6 @@ def test_the_table_is_the_library_s(lab: Lab) -> None:
         "code": "not_finite",
         "number": 1,
         "label": "Not a finite number",
-        "short": "not finite",
         "cause": FAULTS["not_finite"].cause,
         "advice": FAULTS["not_finite"].advice,
         "where": "both",

@@ -16,7 +16,7 @@ from svsa_server.schemas.lab.law import InstalledLane
 from svsa_server.schemas.lab.lease import ControlState, QueueState
 from svsa_server.schemas.lab.setting import ConfigurationState
 from svsa_server.schemas.runs.fault import SessionFault
-from svsa_server.schemas.runs.lane import EndedWindowState, LaneMetrics, LaneState, WindowState
+from svsa_server.schemas.runs.lane import EndedWindowState, LaneState, WindowState
 from svsa_server.schemas.runs.run import ExcitationState, RecordingState
 
 
@@ -102,7 +102,6 @@ class SessionProgress(BaseModel):
     load_window: WindowState | None = Field(
         description="From the newest load's onset to the next change; null where none came"
     )
-    metrics: LaneMetrics = Field(description="Of lane 1")
     lanes: list[LaneState]
     recording: RecordingState | None
     excitation: ExcitationState | None = Field(

@@ -42,9 +42,11 @@ class EndedWindowState(WindowState):
     )
 
 
-class LaneMetrics(BaseModel):
-    """How well a lane does; null where it was not there at the beginning of what is measured, and
-    half a second after it ended: a twin of a bench that left the domain of the model.
+class LaneState(BaseModel):
+    """A lane; lane 1 is the session's own controller.
+
+    Metrics are null where the lane was not there at the beginning of what is measured, and half a
+    second after it ended: a twin of a bench that left the domain of the model.
     """
 
     since_start: Metrics | None = Field(description="Of the whole run, whatever was changed")
@@ -53,11 +55,6 @@ class LaneMetrics(BaseModel):
         description="Of `load_window`, with which it ends: of who controls the lane now, on the"
         " lane that it had when the load came; its recovery time is the load's"
     )
-
-
-class LaneState(LaneMetrics):
-    """A lane; lane 1 is the session's own controller."""
-
     lane: int
     id: int = Field(
         description="Its own for the whole run: a lane keeps it where lanes before it are taken"
