@@ -29,16 +29,16 @@ SPAN = """() => {
 
 
 @pytest.fixture(scope="module")
-def opened(kept_pages: KeptPage, shared_lab: Lab) -> Iterator[Page]:
+def opened(kept_pages: tuple[KeptPage, KeptPage], shared_lab: Lab) -> Iterator[Page]:
     """The one page of these tests, on a session that stands at 25 s at first."""
     shared_lab.restart()
     shared_lab.jump(25)
-    page = kept_pages.get()
+    page = kept_pages[0].get()
     leave_3d_empty(page)
     open_page(page, shared_lab)
     wait_for_samples(page, 24.9)
     yield page
-    kept_pages.forget()
+    kept_pages[0].forget()
 
 
 @pytest.fixture
