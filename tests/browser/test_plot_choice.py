@@ -62,7 +62,7 @@ def test_an_event_tells_what_it_did_where_it_happened(page: Page, lab: Lab) -> N
     numbers = page.get_by_role("table", name=re.compile("^Position error until now"))
     expect(numbers).to_be_visible()
     cells = numbers.get_by_role("cell").all_inner_texts()
-    peak = lab.read()["metrics"]["since_load"]["peak_position_error_rad"] / ONE_DEGREE
+    peak = lab.read()["lanes"][0]["since_load"]["peak_position_error_rad"] / ONE_DEGREE
     assert float(cells[0]) == pytest.approx(peak, rel=1e-3)
     assert 0.1 < float(cells[2]) < 0.5
     page.keyboard.press("Escape")

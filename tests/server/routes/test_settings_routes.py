@@ -196,7 +196,7 @@ def test_load_errors_rise_and_return_with_ndobc_and_stay_with_fl(lab: Lab) -> No
         lab.jump(2)
         lab.client.post(lab.session + "/loads", json={"kind": "paper"})
         state = lab.jump(3)
-        peaks[law] = state["metrics"]["since_load"]
+        peaks[law] = state["lanes"][0]["since_load"]
         assert state["events"][-1]["label"] == "3 kg load on"
         assert abs(state["sample"]["estimate_link_nm"] - 2.0) < 0.1
         error = abs(state["sample"]["position_error_rad"])
