@@ -28,13 +28,13 @@ QUANTITIES = {
     "steady_state_stiffness_error_nm_per_rad": (
         "N·m/rad", "rms of σ_d − σ over the last 0.5 s",
     ),
-    "rms_torque1_nm": ("N·m", "rms of τ_1"),
-    "rms_torque2_nm": ("N·m", "rms of τ_2"),
-    "peak_torque1_nm": ("N·m", "Largest |τ_1|"),
-    "peak_torque2_nm": ("N·m", "Largest |τ_2|"),
-    "effort_n2m2_s": ("N²·m²·s", "Integral of τ_1² + τ_2²"),
-    "work_j": ("J", "Integral of |τ_1 θ̇_1| + |τ_2 θ̇_2|"),
-    "torque1_variation_nm_per_s": ("N·m/s", "Total variation of τ_1 a second"),
+    "rms_torque1_nm": ("N·m", "rms of u1"),
+    "rms_torque2_nm": ("N·m", "rms of u2"),
+    "peak_torque1_nm": ("N·m", "Largest |u1|"),
+    "peak_torque2_nm": ("N·m", "Largest |u2|"),
+    "effort_n2m2_s": ("N²·m²·s", "Integral of u1² + u2²"),
+    "work_j": ("J", "Integral of |u1 θ̇1| + |u2 θ̇2|"),
+    "torque1_variation_nm_per_s": ("N·m/s", "Total variation of u1 a second"),
     "limit_share": ("1", "Share of the ticks in which a motor makes its limit"),
 }  # fmt: skip
 """Each metric with its unit and meaning; from `measure_from_s` to the end, or to the fault.

@@ -20,11 +20,8 @@ at most at
 Saturation, spring, lever and the governor of the stiffness are NDOBC-W's; the barrier on the
 deflection may be approached faster.
 
-Its price (ranking, protocol 2, medians; NDOBC tuned in brackets): under the paper's load at σ = 15
-its peak is larger, 7.29° (6.45°), and it recovers no sooner, 0.276 s (0.276 s). In family A its
-stiffness error is larger, 0.0311 N·m/rad rms (0.0234), and it changes u1 more, by 112 N·m/s (99).
-With the gains declared for the paper NDOBC recovers sooner, 0.235 s, and ends half of these runs in
-a fault. The law has 21 parameters. No stability is proven: its poles depend on what it feels.
+What it costs compared with NDOBC is listed with the results. No stability is proven: its poles
+depend on what it measures.
 """
 
 from typing import NamedTuple

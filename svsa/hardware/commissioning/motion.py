@@ -1,4 +1,4 @@
-"""Do the motors move when current flows, and are they counted? Short pulses of current tell."""
+"""Check with short pulses of current that the motors move, and that their encoders count."""
 
 from svsa.hardware.commissioning.probe import Probe
 from svsa.hardware.commissioning.pulse import MIN_COUNTS, Turn, turn_a_little, turn_farther

@@ -185,7 +185,7 @@ def _pulse(probe: Probe, name: str, current_ma: int, duration_s: float) -> Pulse
 
 
 def _await_rest(probe: Probe, name: str) -> Traffic:
-    """The traffic of the last 20 ms before the motor stands, or of 20 ms after half a second."""
+    """The traffic of 20 ms: the last ones before the motor is at rest, or after 0.5 s."""
     end = probe.now() + REST_S
     while True:
         traffic = probe.listen(0.02)

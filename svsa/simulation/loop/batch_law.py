@@ -20,7 +20,7 @@ from svsa.numerics.simd.each import put, take
 from svsa.numerics.simd.number import WIDTH
 from svsa.numerics.simd.record import Column, VectorRecord, find_kind
 from svsa.simulation.loop.lane import AT_REST, NO_REFERENCE, NO_TORQUE, UNDISTURBED, UNMOVED
-from svsa.simulation.loop.stepwise import ask_python
+from svsa.simulation.loop.stepwise import EXCHANGED, ask_python
 
 
 def is_for_vectors(
@@ -147,9 +147,8 @@ class PythonLaw(NamedTuple):
     is_measuring: int = 1
 
 
-TOLD = sum(map(len, (NO_REFERENCE, AT_REST, UNDISTURBED, NO_TORQUE, UNMOVED)))
-"""How many numbers a law is told of a run: reference, x̂, ŵ, applied torque, positions."""
-WORDS = 1 + TOLD + len(NO_TORQUE)
+WORDS = 1 + EXCHANGED
+"""Of a run: whether it needs an answer, and what the loop and the law exchange."""
 
 
 @compiled
@@ -165,7 +164,7 @@ def compute_in_python(
     """u of those that run, `Torque`, N·m; 0 of the others: one call of Python for all eight.
 
     group: with a `PythonLaw`. Its memory holds rows (8, `WORDS`): 1.0 where the run needs an
-    answer, what the law is told, and its answer. Else as `svsa.control.call.compute_law`.
+    answer, the arguments of the law, and its answer. Else as `svsa.control.call.compute_law`.
     """
     nothing, rows = Torque(0.0, 0.0), group.memory
     torque = choose(group.runs, nothing, nothing)

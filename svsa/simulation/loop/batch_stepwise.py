@@ -7,12 +7,12 @@ import numpy as np
 
 from svsa.numerics.simd.number import WIDTH
 from svsa.simulation.loop.batch import Batch, pack_beginnings, run_batch
-from svsa.simulation.loop.batch_law import TOLD, WORDS, PythonLaw
+from svsa.simulation.loop.batch_law import WORDS, PythonLaw
 from svsa.simulation.loop.held_signals import hold_signals
 from svsa.simulation.loop.lane import Blocks, Inputs
 
 GroupController = Callable[[float, np.ndarray, np.ndarray], np.ndarray]
-"""Time (s), which runs need an answer (8,), what their law is told (8, 22) → torques (8, 2).
+"""Time (s), which runs need an answer (8,), arguments of their law (8, 22) → torques (8, 2).
 
 A row has `Reference`, x̂ (`State`), ŵ (`Disturbance`), the mean `Torque` that acted in the last
 period and the measured `Positions`; an answer is (u1, u2), N·m.
@@ -45,11 +45,11 @@ def run_batch_stepwise(
         nonlocal tick
         words = (ctypes.c_double * (WIDTH * WORDS)).from_address(address)
         rows = np.ctypeslib.as_array(words).reshape(WIDTH, WORDS)
-        told, answers = rows[:, 1 : 1 + TOLD], rows[:, 1 + TOLD :]
+        given, answers = rows[:, 1:-2], rows[:, -2:]
         try:
             # Here, and not in ctypes' own code, an exception of a signal handler can be caught.
             held.handle()
-            answers[:] = controller(tick * period, rows[:, 0] == 1.0, told)
+            answers[:] = controller(tick * period, rows[:, 0] == 1.0, given)
         # ctypes prints an exception of a callback and drops it: it is kept, and raised after the
         # compiled call.
         except BaseException as error:

@@ -42,7 +42,7 @@ By name, where it takes them: `applied`, the mean `Torque` that acted in the las
 _Call = ctypes.CFUNCTYPE(None, ctypes.c_void_p)
 
 
-class _Told(NamedTuple):
+class _Exchange(NamedTuple):
     """The arguments of the controller, and its answer."""
 
     reference: Reference
@@ -53,8 +53,9 @@ class _Told(NamedTuple):
     answer: Torque
 
 
-_ZEROS = _Told(NO_REFERENCE, AT_REST, UNDISTURBED, NO_TORQUE, UNMOVED, NO_TORQUE)
-_WORDS = sum(map(len, _ZEROS))
+_ZEROS = _Exchange(NO_REFERENCE, AT_REST, UNDISTURBED, NO_TORQUE, UNMOVED, NO_TORQUE)
+EXCHANGED = sum(map(len, _ZEROS))
+"""How many numbers the loop and a controller exchange in a tick; the last two are the answer."""
 
 
 class _Address(NamedTuple):
@@ -77,7 +78,7 @@ def _build_ask(typing: Any, address: Any, reported: Any) -> Any:
 
 
 ask_python: Any = intrinsic(_build_ask)
-"""Call the function at an address with the address of what it is told; in compiled code only."""
+"""Call the function at an address with the address of its arguments; in compiled code only."""
 
 
 @compiled
@@ -123,7 +124,7 @@ def advance_stepwise(
 
     def ask(address: int) -> None:
         nonlocal tick
-        words = (ctypes.c_double * _WORDS).from_address(address)
+        words = (ctypes.c_double * EXCHANGED).from_address(address)
         try:
             # Here, and not in ctypes' own code, an exception of a signal handler can be caught.
             held.handle()

@@ -1,19 +1,20 @@
 """The points of a law: hidden trials, as many as it takes until chance decides little."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from time import monotonic
 from typing import NamedTuple
 
 import numpy as np
 
 from svsa.actuators.domain import INSIDE
-from svsa.actuators.dynamics import Actuator, build_actuator
+from svsa.actuators.dynamics import build_actuator
 from svsa.actuators.signals import State
 from svsa.control.installed import PAPERS_LAW
 from svsa.evaluation.metrics import compute_metrics, find_held
 from svsa.evaluation.ranking.test_set import build_test_trial
 from svsa.evaluation.scenario import Scenario
+from svsa.evaluation.statistics import NORMAL_QUANTILE
 from svsa.numerics.simd.number import WIDTH
 from svsa.runs.batch import find_alike, run_group
 from svsa.runs.blocks import build_blocks, compute_start_ratio
@@ -38,7 +39,6 @@ POINTS = {
     "At most 1° and 10 % of σ_d in the last second": 5.0,
     "Accuracy under the load": 3.0,
 }
-_NORMAL_95 = 1.96
 
 
 class Trials(NamedTuple):
@@ -63,7 +63,7 @@ class Trials(NamedTuple):
     def estimate_range(self) -> float:
         """The width of the 95 % interval of the points."""
         points = np.array(list(POINTS.values())) @ self.compute_shares()
-        return float(2.0 * _NORMAL_95 * np.std(points, ddof=1) / math.sqrt(len(points)))
+        return float(2.0 * NORMAL_QUANTILE * np.std(points, ddof=1) / math.sqrt(len(points)))
 
 
 def run_trials(
@@ -119,40 +119,52 @@ def _run_block(
     configurations = [one.build_configuration(PAPERS_LAW) for one in scenarios]
     held, rms_deg = np.zeros(len(scenarios), dtype=bool), np.full(len(scenarios), np.nan)
     problems, done, output = dict[int, str](), list[int](), ""
+    for numbers in _list_groups(configurations):
+        if done and monotonic() > end_s:
+            chosen = sorted(done)
+            return Trials(held[chosen], rms_deg[chosen], _pick_first(problems), output), True
+        group = [configurations[number] for number in numbers]
+        try:
+            summaries, printed = _run_group(source, group, scenarios[0], place)
+        except LawFaultError as error:
+            return Trials(held, rms_deg, str(error), error.output), True
+        done += numbers
+        periods = np.array([one.sampling.period_s for one in group])
+        measured = compute_metrics(summaries, periods, scenarios[0].measured_s)
+        has_ended = summaries["code"] != INSIDE
+        output = output or printed
+        rms = np.degrees(measured["rms_position_error_rad"])
+        held[numbers], rms_deg[numbers] = find_held(summaries), np.where(has_ended, np.nan, rms)
+        for i in np.flatnonzero(has_ended):
+            problems[numbers[i]] = _describe_end(group[i], summaries[i])
+    return Trials(held, rms_deg, _pick_first(problems), output), False
+
+
+def _list_groups(configurations: Sequence[Configuration]) -> Iterator[list[int]]:
+    """The numbers of those that run side by side, at most eight at once."""
     for alike in find_alike(configurations):
         for begin in range(0, len(alike), WIDTH):
-            if done and monotonic() > end_s:
-                chosen = sorted(done)
-                problem = problems[min(problems)] if problems else ""
-                return Trials(held[chosen], rms_deg[chosen], problem, output), True
-            numbers = alike[begin : begin + WIDTH]
-            group = [configurations[number] for number in numbers]
-            duration_s, begin_s = scenarios[0].duration_s, scenarios[0].measured_s
-            bounds = BOUNDS._replace(
-                cpu_s=len(group) * BOUNDS.cpu_s, whole_s=len(group) * BOUNDS.whole_s
-            )
-            try:
-                with GroupProcess(source, list(map(_build_model, group)), bounds, place) as law:
-                    summaries = run_group(group, law, duration_s, begin_s)
-                    if not output and (summaries["code"] != INSIDE).any():
-                        output = law.read_output()
-            except LawFaultError as error:
-                return Trials(held, rms_deg, str(error), error.output), True
-            done += numbers
-            periods = np.array([one.sampling.period_s for one in group])
-            rms = compute_metrics(summaries, periods, begin_s)["rms_position_error_rad"]
-            held[numbers] = find_held(summaries)
-            rms_deg[numbers] = np.where(summaries["code"] == INSIDE, np.degrees(rms), np.nan)
-            problems |= {
-                number: _describe_end(one, summary)
-                for number, one, summary in zip(numbers, group, summaries, strict=True)
-                if summary["code"] != INSIDE
-            }
-    return Trials(held, rms_deg, problems[min(problems)] if problems else "", output), False
+            yield alike[begin : begin + WIDTH]
 
 
-def _build_model(configuration: Configuration) -> Actuator:
-    return build_actuator(configuration.nominal, compute_start_ratio(configuration))
+def _run_group(
+    source: bytes, group: Sequence[Configuration], scenario: Scenario, place: Place
+) -> tuple[np.ndarray, str]:
+    """`SUMMARY` of each run; where one ended early, also the end of what the law printed.
+
+    scenario: any of the group, which have the same duration.
+    """
+    count = len(group)
+    bounds = BOUNDS._replace(cpu_s=count * BOUNDS.cpu_s, whole_s=count * BOUNDS.whole_s)
+    models = [build_actuator(one.nominal, compute_start_ratio(one)) for one in group]
+    with GroupProcess(source, models, bounds, place) as law:
+        summaries = run_group(group, law, scenario.duration_s, scenario.measured_s)
+        has_ended = (summaries["code"] != INSIDE).any()
+        return summaries, law.read_output() if has_ended else ""
+
+
+def _pick_first(problems: dict[int, str]) -> str:
+    return problems[min(problems)] if problems else ""
 
 
 def _describe_end(configuration: Configuration, summary: np.void) -> str:

@@ -88,7 +88,7 @@ class RunningLaw:
             self._opened = opened.pop_all()
 
     def answer(self, rows: bytes) -> bytes:
-        """The torques (`PAIR`) for what each run's law is told (`ROW`), one after the other."""
+        """The torques (`PAIR`) for the arguments of each run's law (`ROW`), one after the other."""
         begin = perf_counter()
         torques = self._ask(TICK, rows, TORQUE, self._bounds.answer_s)
         self.cost_s.append(perf_counter() - begin)
@@ -111,7 +111,7 @@ class RunningLaw:
 
     def read_output(self) -> str:
         """The end of what the law has printed so far, on both its standard streams."""
-        # `pread`: the position of the file is also that at which the law goes on to print.
+        # `pread`: the position of the file is also that at which the law prints next.
         descriptor = self._output.fileno()
         begin = max(0, os.fstat(descriptor).st_size - SHOWN_BYTES)
         return os.pread(descriptor, SHOWN_BYTES, begin).decode("utf-8", "replace")

@@ -1,7 +1,6 @@
-"""`svsa falsify`: what was found is a file that any law is put through; a wrong one is refused."""
+"""`svsa falsify`: what was found is a file that any law is put through."""
 
 import json
-import math
 
 import pytest
 from typer.testing import CliRunner
@@ -10,65 +9,13 @@ from svsa.cli import app
 from svsa.errors import ParameterError
 from svsa.evaluation.falsifier import falsification as finding
 from svsa.evaluation.falsifier.file import (
-    forget_scenario,
-    keep_scenario,
     list_adversaries,
-    list_scenarios,
-    open_scenario,
     read_adversary,
     read_scenario,
-    write_scenario,
 )
-from svsa.evaluation.falsifier.measure import measure_attacks, run_scenario
-from svsa.evaluation.falsifier.scenario import LoadScenario
-from svsa.evaluation.falsifier.trace import sample_torque, trace_scenario
-from svsa.simulation.plant.loads.constant import ConstantLoad
-from svsa.simulation.plant.loads.pulse import PulseLoad
-from svsa.simulation.plant.loads.sine import SineLoad
+from svsa.evaluation.falsifier.measure import measure_attacks
+from tests.evaluation.falsifier.test_scenario_files import GOOD
 from tests.evaluation.falsifier.weak_law import install
-
-GOOD = """\
-title = "A pulse"
-law = "weak"
-duration_s = 2.0
-
-[base]
-figure = "4a"
-loads = []
-
-[[terms]]
-kind = "pulse"
-torque_nm = 1.5
-start_s = [0.2, 0.8]
-duration_s = [0.02, 1.0]
-
-[[vary]]
-path = "actuator.link_inertia_kg_m2"
-kind = "uniform"
-low = 0.9
-high = 1.1
-relative = true
-"""
-SCENARIO = """\
-title = "A pulse and a sine"
-duration_s = 1.0
-[base]
-figure = "4b"
-effects = "rig"
-loads = []
-[settings]
-"actuator.link_inertia_kg_m2" = 0.02
-[[loads]]
-kind = "pulse"
-torque_nm = [1.0, 0.0, 0.0]
-start_s = 0.2
-duration_s = 0.1
-[[loads]]
-kind = "sine"
-torque_nm = [0.0, 0.5, 0.0]
-start_s = 0.5
-frequency_hz = 2.0
-"""
 
 
 @pytest.fixture(autouse=True)
@@ -164,111 +111,6 @@ def test_the_search_is_compared_with_random_samples_seed_by_seed(tmp_path):
     assert "seed" in run("compare", "pulse.toml", "--seeds", "1", "--runs", "64").stdout
 
 
-def test_a_scenario_of_one_s_own_is_run_with_its_loads_and_settings(tmp_path):
-    path = tmp_path / "own.toml"
-    path.write_text(SCENARIO)
-    scenario = read_scenario(path)
-    configuration = scenario.build_configuration("fl")
-    assert [type(load) for load in configuration.loads] == [PulseLoad, SineLoad]
-    assert configuration.actuator.link_inertia_kg_m2 == 0.02
-    assert configuration.effects.delay_samples == 1
-    (plain,) = run_scenario(scenario.changed(settings={}, loads=()), ("fl",))
-    (hurt,) = run_scenario(scenario, ("fl",))
-    assert hurt.metrics["peak_position_error_rad"] > plain.metrics["peak_position_error_rad"]
-    write_scenario(path, scenario)
-    assert read_scenario(path) == scenario
-    times, torque = sample_torque(configuration, 1.0)
-    assert torque[250].tolist() == [1.0, 0.0, 0.0]
-    assert torque[625, 1] == pytest.approx(0.5 * math.sin(2 * math.pi * 2.0 * 0.125))
-    assert times[250] == pytest.approx(0.25)
-    traced = trace_scenario(scenario, ("fl",))
-    assert traced.torque_nm.tolist() == torque.tolist()
-    (fl,) = traced.laws
-    peak = abs(fl.errors[:, 0]).max()
-    assert peak == pytest.approx(hurt.metrics["peak_position_error_rad"], rel=1e-9)
-    assert fl.fault is None
-    assert len(fl.errors) == len(times)
-
-
-def test_a_scenario_s_loads_come_besides_those_of_its_base():
-    load = ConstantLoad(torque_nm=(1.0, 0.0, 0.0), start_s=1.0)
-    scenario = LoadScenario(title="x", base={"figure": "4a"}, loads=(load,))
-    assert [one.kind for one in scenario.build_configuration("fl").loads] == ["paper", "constant"]
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "reported"),
-    [
-        ('"weak"', '"nobody"', r"line 2: law is 'nobody': it must be a law that is installed here"),
-        (
-            "duration_s = 2.0",
-            "duration_s = 0.5",
-            r"line 12: terms\[0\]\.start_s .* before the run's",
-        ),
-        ('"4a"', '"9"', r"line 6: base\.figure is '9'"),
-        ('"pulse"', '"kick"', r"line 10: terms\[0\]\.kind is 'kick': it must be one of 'step'"),
-        (
-            "torque_nm = 1.5",
-            "torque_nm = 90.0",
-            r"line 11: terms\[0\]\.torque_nm is 90.* at most 50",
-        ),
-        (
-            "[0.2, 0.8]",
-            "[0.8, 0.2]",
-            r"line 12: terms\[0\]\.start_s is \[0\.8, 0\.2\].*less than the",
-        ),
-        ("[0.02, 1.0]", "[0.0, 1.0]", r"line 13: terms\[0\]\.duration_s is .*at least 0\.0001"),
-        ("link_inertia", "mass", r"line 16: vary\[0\]\.path is 'actuator\.mass.*link_inertia"),
-        ("low = 0.9", "low = -1.0", r"line 18: vary\[0\]\.low: with -1\.0 there, link_inertia.*"),
-        ("title =", "title", r"it must be a readable TOML file .*line 1"),
-    ],
-)
-def test_a_wrong_adversary_is_told_with_its_line(tmp_path, old, new, reported):
-    path = tmp_path / "wrong.toml"
-    path.write_text(GOOD.replace(old, new, 1))
-    with pytest.raises(ParameterError, match=r"(?s)wrong\.toml.*" + reported):
-        read_adversary(path)
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "reported"),
-    [
-        (
-            "duration_s = 1.0",
-            "duration_s = 0.0",
-            r"line 2: duration_s is 0\.0 s: .* greater than 0",
-        ),
-        (
-            "= 0.02",
-            "= -1.0",
-            r"line 8: settings\.actuator\.link_inertia_kg_m2: with -1\.0, .* at least",
-        ),
-        (
-            "link_inertia_kg_m2",
-            "weight",
-            r"line 8: settings\.actuator\.weight: with 0\.02, .*one of link_inertia_kg_m2",
-        ),
-        ("[1.0, 0.0, 0.0]", "[99.0, 0.0, 0.0]", r"line 11: loads\[0\]\.torque_nm\[0\] is 99"),
-        ("frequency_hz = 2.0", "", r"line 14: loads\[1\]\.frequency_hz is missing"),
-    ],
-)
-def test_a_wrong_scenario_is_told_with_its_line(tmp_path, old, new, reported):
-    path = tmp_path / "wrong.toml"
-    path.write_text(SCENARIO.replace(old, new, 1))
-    with pytest.raises(ParameterError, match=r"(?s)wrong\.toml.*" + reported):
-        read_scenario(path)
-
-
-def test_a_grid_and_too_many_loads_are_refused():
-    good = read_adversary("impulse")
-    vary = [{"path": "effects.delay_samples", "kind": "grid", "values": [0, 1]}]
-    with pytest.raises(ParameterError, match=r"vary\[0\]\.kind is 'grid'.*for an adversary"):
-        good.changed(vary=vary)
-    load = {"kind": "constant", "torque_nm": [0, 0, 0], "start_s": 1.0}
-    with pytest.raises(ParameterError, match="loads is 17: it must be at most 16"):
-        good.changed(base={"loads": [load] * 16})
-
-
 def test_those_that_come_with_the_package_are_listed():
     names = list_adversaries()
     assert {"impulse", "everything"} <= set(names)
@@ -276,27 +118,3 @@ def test_those_that_come_with_the_package_are_listed():
     assert all(name in listed for name in names)
     with pytest.raises(ParameterError, match=r"adversary is 'nobody': .*impulse"):
         read_adversary("nobody")
-
-
-def test_a_scenario_is_kept_by_a_name_that_no_other_one_has(monkeypatch, tmp_path):
-    monkeypatch.setenv("SVSA_DATA", str(tmp_path / "data"))
-    file = tmp_path / "own.toml"
-    file.write_text(SCENARIO)
-    scenario = read_scenario(file)
-    assert list_scenarios() == {}
-    path = keep_scenario("mine", scenario)
-    assert keep_scenario("mine", scenario) == path, "the same again is no other one"
-    assert open_scenario("mine") == open_scenario(str(file)) == scenario
-    with pytest.raises(ParameterError, match="free: another scenario is kept by it"):
-        keep_scenario("mine", scenario.changed(duration_s=2.0))
-    path.with_name("broken.toml").write_text("title = 3")
-    assert list_scenarios() == {"mine": scenario}
-    reported = CliRunner().invoke(app, ["falsify", "run", "mine", "--laws", "fl", "--json"])
-    assert json.loads(reported.stdout)["laws"][0]["law"] == "fl"
-    for name in ("../mine", "", "a b"):
-        with pytest.raises(ParameterError, match="1 to 64 letters"):
-            keep_scenario(name, scenario)
-    with pytest.raises(ParameterError, match="kept by its name: mine"):
-        open_scenario("nobody")
-    assert forget_scenario("mine")
-    assert not forget_scenario("mine")

@@ -25,7 +25,7 @@ def law(time_s, *others):
 def test_the_interval_of_the_points_is_that_of_their_mean():
     """Three of four trials have all points, one none: s = 10 √(3/16 · 4/3) = 5."""
     trials = Trials(np.array([True, True, True, False]), np.array([0.0, 0.0, 0.0, np.nan]))
-    assert trials.estimate_range() == pytest.approx(2 * 1.96 * 5.0 / 2.0)
+    assert trials.estimate_range() == pytest.approx(2 * 1.959964 * 5.0 / 2.0)
     points = [one.points for one in judge_law(trials)]
     assert points == pytest.approx([1.5, 3.75, 2.25])
 
@@ -59,6 +59,17 @@ def test_each_run_has_a_law_of_its_own(monkeypatch):
     monkeypatch.setattr(law_points, "BLOCK", 8)
     monkeypatch.setattr(law_points, "MOST_TRIALS", 8)
     assert run_trials(COUNTS, SEED, leave_open).output == ""
+
+
+def test_what_a_law_printed_is_shown_where_a_run_ended_early(monkeypatch):
+    """The largest torques end every run; a law whose runs all reach their end shows nothing."""
+    monkeypatch.setattr(law_points, "BLOCK", 8)
+    monkeypatch.setattr(law_points, "MOST_TRIALS", 8)
+    wild = b"print('built')\ndef law(*given):\n    return 1e3, 1e3\n"
+    found = run_trials(wild, SEED, leave_open)
+    assert np.isnan(found.rms_deg).all()
+    assert "built" in judge_law(found)[0].feedback
+    assert "μ" in found.problem or "φ" in found.problem
 
 
 def test_a_law_that_fails_in_one_run_has_no_points_for_the_block(monkeypatch):

@@ -60,7 +60,7 @@ export const metricsText = {
   undefined: {
     lane: "This lane has no numbers in the window.",
     tooShort: "Not defined: the window is shorter than 1 s.",
-    loadEnded: "Not defined: the load ended by itself within the window.",
+    loadEnded: "Not defined: the load ended within the window.",
     undisturbed: "Not defined: no load came on or was removed at the start of the window.",
     outside: "Not yet: the error has not stayed within 2 % of its peak for 0.5 s.",
     unmoved: "Not defined: the stiffness error never exceeded 0.01 N·m/rad.",
