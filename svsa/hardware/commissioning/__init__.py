@@ -84,7 +84,7 @@ def check_bench(
 
 @dataclass
 class Moved:
-    """What the pulses have shown: a turn of each motor that moved; deflection counts at rest."""
+    """Results of the pulses: a turn of each motor that moved, and deflection counts at rest."""
 
     turns: dict[str, Turn] = field(default_factory=dict)
     rest: float = 0.0
@@ -96,7 +96,7 @@ def _judge(
     moved: Moved,
     watch: Callable[[str], bool] | None,
 ) -> Iterator[CheckStep]:
-    """Signs and magnitudes, from the pulses and from what a user has seen of them."""
+    """Check signs and magnitudes with the pulses, and with what the user has observed."""
     step, link = check_coupling(bench, actuator, moved.turns, moved.rest)
     yield step
     yield from judge_signs(bench, moved.turns, link, ask_directions(moved.turns, watch))
@@ -105,7 +105,7 @@ def _judge(
 
 
 def _conclude(judged: list[CheckStep]) -> bool | None:
-    """Whether every sign and scale is right, or None where that was not found out."""
+    """Whether every sign and scale is right; None if that is unknown."""
     if any(step.result is Result.FAIL for step in judged):
         return False
     results = {step.name: step.result for step in judged}

@@ -1,4 +1,4 @@
-"""Does the deflection follow motor 1, and is it read in the right byte order?"""
+"""Check that the deflection follows motor 1, and that its byte order is right."""
 
 from collections.abc import Mapping
 

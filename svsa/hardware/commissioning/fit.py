@@ -1,4 +1,4 @@
-"""What the traces of a turn say of the scales: fits of the equations of motion.
+"""Estimate the scales from the traces of a turn: fits of the equations of motion.
 
 With double integrals from the beginning of a pulse, the counts n of a motor, those of the
 deflection m, and the current I obey

@@ -1,4 +1,4 @@
-"""Do feedback and deflection flow as the loop needs them, and is everything still at rest?"""
+"""Check that feedback and deflection arrive as the loop needs them, with everything at rest."""
 
 from collections.abc import Iterator
 

@@ -1,4 +1,4 @@
-"""Are the scales of the bench file right? Fitted values, compared with those of the file.
+"""Check the scales of the bench file: fitted values, compared with those of the file.
 
 The gain k of a motor contains its gear ratio twice, its counts a turn and its torque constant
 once. The ratio r of motor 1 to the deflection contains gear ratio and counts once, and no torque

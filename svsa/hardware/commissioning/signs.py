@@ -1,4 +1,4 @@
-"""Do motors and encoders turn the way the bench file says?
+"""Check that motors and encoders turn in the directions of the bench file.
 
 Three observations determine every sign: whether the counts of a motor follow its current,
 whether the deflection goes the other way than motor 1, and which way a motor was seen to turn.
