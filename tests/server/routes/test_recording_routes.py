@@ -12,7 +12,7 @@ import pytest
 from tests.lab import Lab, run_lab
 from tests.lab_in_process import run_lab_in_process
 from tests.runs.records.test_recorder import mount_small_disk
-from tests.waiting import follow_recording
+from tests.waiting import follow, follow_recording
 
 
 def record(lab: Lab, seconds: float = 3.0, **wanted: object) -> str:
@@ -99,7 +99,8 @@ def test_a_killed_lab_finishes_the_run_at_its_next_start(tmp_path: Path) -> None
         os.kill(lab.process.pid, signal.SIGKILL)
         lab.process.wait()
     with run_lab(data=str(tmp_path)) as lab:
-        runs = lab.client.get("/api/v1/runs").json()["runs"]
+        listed = follow(lab.client, "/api/v1/runs", lambda answer: answer["indexing"] is None)
+        runs = listed["runs"]
         assert [run["name"] for run in runs] == ["cut off"]
         assert runs[0]["first_tick"] + runs[0]["ticks"] > ticks - 600
         compared = lab.client.post(f"/api/v1/runs/{runs[0]['id']}/compare").json()

@@ -129,8 +129,8 @@ async def see_falsification(
 
 
 def _find_scenario(job: Job) -> LoadScenario:
-    found = read_found(job.folder)
-    if found is None or job.is_under_way:
+    found = None if job.is_under_way else read_found(job.folder)
+    if found is None:
         raise StateError(
             f"The search {job.id} is {job.status} and has no scenario: one is written at its end."
         )
@@ -139,10 +139,12 @@ def _find_scenario(job: Job) -> LoadScenario:
 
 def _build(job: Job) -> FalsificationState:
     asked = job.asked
+    # The status before the files: a search that ends in between has not ended in this answer.
+    state = describe_job(job)
     found = None if job.is_under_way else read_found(job.folder)
     worst = read_worst(job.folder)
     return FalsificationState(
-        **describe_job(job).model_dump(),
+        **state.model_dump(),
         law=asked.adversary.law,
         harm=asked.adversary.harm,
         seed=asked.seed,

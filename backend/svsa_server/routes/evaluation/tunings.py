@@ -84,8 +84,8 @@ async def stop_tuning(request: Request, tuning: TuningId) -> TuningState:
 def read_tuned_file(request: Request, tuning: TuningId) -> Response:
     """The parameter file (TOML) of the best, which says what it was measured on."""
     found = find_jobs(request).get(tuning, "tuning")
-    text = read_file(found.folder)
-    if text is None or found.is_under_way:
+    text = None if found.is_under_way else read_file(found.folder)
+    if text is None:
         raise StateError(
             f"The tuning {tuning} is {found.status} and has no file: one is written at the end of"
             " each that was begun."
@@ -104,11 +104,13 @@ def _find_present(request: Request, wanted: TuningRequest) -> Design:
 
 def _build(tuning: Job, first: int | None) -> TuningState:
     """first: from which candidate on they are sent; None for none of them."""
+    # The status before the candidates: a search that ends in between has not ended in this answer.
+    status, is_under_way = tuning.status, tuning.is_under_way
     asked, tried = tuning.asked, read_candidates(tuning.folder)
     space = build_space(asked.law, asked.held)
     candidates = [one for one in tried if one["stage"] != "validation"]
     finals = [one for one in tried if one["stage"] == "validation"]
-    is_final = bool(finals) and not tuning.is_under_way
+    is_final = bool(finals) and not is_under_way
     best: dict[str, Any] | None = min(
         finals if is_final else candidates, key=lambda one: one["cost"], default=None
     )
@@ -124,7 +126,7 @@ def _build(tuning: Job, first: int | None) -> TuningState:
     return TuningState(
         id=tuning.id,
         law=asked.law,
-        status=tuning.status,
+        status=status,
         budget=asked.budget,
         seed=asked.seed,
         held=asked.held,
