@@ -25,12 +25,12 @@ const lookOf = ({ stretches }: LaneRow) => lineStyleOf(stretches.at(-1)?.line_st
 const degrees = (rad: number | undefined) =>
   formatNumber(rad === undefined ? null : toDegrees(rad), 3, 3);
 
-/** The lanes in numbers since the last change, the best of each column marked where they compete. */
+/** The lanes in numbers of one window, since the last change; the best is marked where all compete. */
 export function Comparison({ state }: { state: SessionState }) {
-  const { lanes, window, load_window: load } = state;
+  const { lanes, window } = state;
   const metrics = lanes.map((lane) => lane.in_window);
   const ended = lanes.map((lane) => hasEnded(lane, state));
-  const recoveries = lanes.map((lane) => recoveryOf(lane.since_load, load));
+  const recoveries = lanes.map((lane) => recoveryOf(lane.in_window, window));
   const inUnit = (name: string, unit: string) => (
     <>
       {name} <span class="unit">{unit}</span>
@@ -62,13 +62,13 @@ export function Comparison({ state }: { state: SessionState }) {
     },
     {
       key: "recovery",
-      title: inUnit(compare.recovery, compare.recoveredFrom(load?.start_s ?? null)),
+      title: inUnit(compare.recovery, compare.seconds),
       hint: text.windows.recovery,
       cell: (row) => (ended[row] ? compare.ended : (recoveries[row]?.words ?? "")),
       cellHint: (row) => (ended[row] ? compare.endedHint : recoveries[row]?.hint),
       best: bestIn(
         state,
-        lanes.map((lane, row) => lane.since_load && (recoveries[row]?.seconds ?? Infinity)),
+        metrics.map((known, row) => known && (recoveries[row]?.seconds ?? Infinity)),
       ),
     },
   ];

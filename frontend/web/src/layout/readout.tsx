@@ -26,10 +26,10 @@ function Recovered({ recovery: { seconds, words } }: { recovery: Recovery }) {
 
 /** The numbers that tell how well the controller does. */
 export function Readout({ state }: { state: SessionState }) {
-  const { window, load_window: load, lanes } = state;
+  const { window, lanes } = state;
   const metrics = lanes[0]?.in_window;
   const since = <span class="since">{text.readout.since[window.kind]}</span>;
-  const recovery = recoveryOf(lanes[0]?.since_load ?? null, load);
+  const recovery = recoveryOf(metrics ?? null, window);
   return (
     <dl class="surface readout" aria-label={text.readout.heading}>
       <div class="is-main">

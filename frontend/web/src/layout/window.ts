@@ -1,10 +1,11 @@
-/** Since when numbers are measured, in words, and what became of the load. */
+/** The window of the numbers in words, the recovery time in it, and which lane does best in it. */
 import type { LaneRow, Metrics, SessionState, WindowState } from "../core/api/types";
 import { isLost } from "../core/plots/metricrows";
 import { text } from "../core/text/en";
 import { measuredText } from "../core/text/measured";
 import { formatNumber } from "../core/units";
 import { bestOf } from "../core/widgets/tables";
+import { isDisturbed } from "../runs/list/measured";
 
 const { windows } = text;
 
@@ -27,34 +28,44 @@ export const hasEnded = (
   { time_s: now, window }: Pick<SessionState, "time_s" | "window">,
 ): boolean => lane.in_window === null && now - window.start_s > STEADY_STATE_S;
 
-/** Whose number is clearly the smallest; none beside a bench, whose lanes are not of one plant. */
-export const bestIn = (
-  { bench }: Pick<SessionState, "bench">,
-  values: Parameters<typeof bestOf>[0],
-): number => (bench === null ? bestOf(values) : -1);
+/** Whether the controllers of all lanes began before the window, or all began with it. */
+const areComparable = ({ lanes, window }: Pick<SessionState, "lanes" | "window">): boolean =>
+  new Set(lanes.map(({ stretches }) => stretches.at(-1)?.start_tick === window.start_tick)).size <=
+  1;
 
-/** How soon the error was small again after the load; what is no time is said in words. */
+/**
+ * The lane whose number is clearly the smallest. None on a bench, whose lanes are not of one plant,
+ * and none where one controller alone began with the window: others had responded to the load before.
+ */
+export const bestIn = (
+  state: Pick<SessionState, "bench" | "lanes" | "window">,
+  values: Parameters<typeof bestOf>[0],
+): number => (state.bench === null && areComparable(state) ? bestOf(values) : -1);
+
+/** The recovery time, or in words why there is none. */
 export interface Recovery {
   seconds: number | null;
   words: string;
   hint: string;
 }
 
-/** metrics: of the load's window; null for a lane that was not there when the load came. */
-export function recoveryOf(metrics: Metrics | null, load: WindowState | null): Recovery {
-  if (load === null) return { seconds: null, words: windows.noLoad, hint: windows.recovery };
-  const hint = windows.recoveryFrom(at(load));
-  if (metrics === null) return { seconds: null, words: formatNumber(null), hint: windows.notThere };
+/** metrics: of the window; null for a lane that has no numbers in it. */
+export function recoveryOf(metrics: Metrics | null, window: WindowState): Recovery {
+  const none = formatNumber(null);
+  if (!isDisturbed(window)) {
+    const words = window.kind === "start" ? windows.noLoad : none;
+    return { seconds: null, words, hint: windows.undisturbed };
+  }
+  const hint = windows.recoveryFrom(at(window));
+  if (metrics === null) return { seconds: null, words: none, hint };
   const { recovery_time_s: seconds } = metrics;
   if (
     seconds !== null &&
     isLost(metrics.steady_state_position_error_rad, metrics.peak_position_error_rad)
   ) {
     const after = formatNumber(seconds, 3, 2);
-    return { seconds: null, words: windows.lost, hint: windows.lostAfter(at(load), after) };
+    return { seconds: null, words: windows.lost, hint: windows.lostAfter(at(window), after) };
   }
   if (seconds !== null) return { seconds, words: formatNumber(seconds, 3, 2), hint };
-  if (load.end_s === null) return { seconds, words: windows.notYet, hint };
-  const end = load.end_s.toFixed(2);
-  return { seconds, words: windows.notBefore(end), hint: windows.endedBefore(at(load), end) };
+  return { seconds, words: windows.notYet, hint };
 }

@@ -1,20 +1,28 @@
 import { describe, expect, it, vi } from "vitest";
-import type { BenchState, Metrics, WindowState } from "../../src/core/api/types";
+import type {
+  BenchState,
+  LaneRow,
+  Metrics,
+  SessionState,
+  WindowState,
+} from "../../src/core/api/types";
 import { text as page } from "../../src/core/text/en";
 import { text as replay } from "../../src/core/text/replay";
 import { bestIn, hasEnded, recoveryOf, sinceOf } from "../../src/layout/window";
 
-const window = (
-  kind: WindowState["kind"],
-  label: string,
-  end: number | null = null,
-): WindowState => ({
+const window = (kind: WindowState["kind"], label: string): WindowState => ({
   kind,
   label,
   start_tick: 5000,
   start_s: 5,
-  end_tick: end === null ? null : end * 1000,
-  end_s: end,
+  end_tick: null,
+  end_s: null,
+});
+/** Lanes under a load of 5 s, whose present controllers began at these ticks. */
+const lanesFrom = (...ticks: number[]): Pick<SessionState, "bench" | "lanes" | "window"> => ({
+  bench: null,
+  window: window("change", "FL beside"),
+  lanes: ticks.map((start_tick) => ({ stretches: [{ start_tick }] }) as LaneRow),
 });
 const metrics = (seconds: number | null) => ({ recovery_time_s: seconds }) as Metrics;
 
@@ -28,9 +36,16 @@ describe("a window", () => {
   });
 
   it("has a best where all lanes are simulated, none where one of them is a bench", () => {
-    expect(bestIn({ bench: null }, [0.2, 0.1])).toBe(1);
-    expect(bestIn({ bench: {} as BenchState }, [0.2, 0.1])).toBe(-1);
+    const state = lanesFrom(0, 0);
+    expect(bestIn(state, [0.2, 0.1])).toBe(1);
+    expect(bestIn({ ...state, bench: {} as BenchState }, [0.2, 0.1])).toBe(-1);
   });
+});
+
+it("marks no best in a window that one controller alone began with", () => {
+  expect(bestIn(lanesFrom(0, 5000), [0.002, 12.1])).toBe(-1);
+  expect(bestIn(lanesFrom(0, 3000), [0.002, 12.1])).toBe(0);
+  expect(bestIn(lanesFrom(5000, 5000), [0.002, 12.1])).toBe(0);
 });
 
 it("knows a lane that ended by its numbers, which half a second without any takes away", () => {
@@ -58,18 +73,19 @@ it("says it in the words of the replay and the overlay", async () => {
   expect(page.overlay.recovery).toBe(page.compare.recovery);
 });
 
-describe("the recovery from a load", () => {
-  const words = (seconds: number | null, end: number | null) =>
-    recoveryOf(metrics(seconds), window("load", "3 kg load", end)).words;
+describe("the recovery time", () => {
+  const words = (kind: WindowState["kind"], seconds: number | null) =>
+    recoveryOf(metrics(seconds), window(kind, "3 kg load")).words;
 
-  it("keeps its value after a change", () => {
-    expect(words(0.2, null)).toBe("0.20");
-    expect(words(0.2, 9)).toBe("0.20");
+  it("is that of the window which a load or its removal began", () => {
+    expect(words("load", 0.2)).toBe("0.20");
+    expect(words("unload", 0.2)).toBe("0.20");
+    expect(words("load", null)).toBe("not yet");
   });
 
-  it("is still to come, or did not come before something was changed", () => {
-    expect(words(null, null)).toBe("not yet");
-    expect(words(null, 9)).toBe("not by 9.00");
+  it("is none in another window, whatever load came before", () => {
+    expect(words("change", 0.2)).toBe("\u2013");
+    expect(words("start", 0.2)).toBe("no load yet");
   });
 
   it("is none while the error is large again, as under a load that grows", () => {
@@ -87,8 +103,7 @@ describe("the recovery from a load", () => {
     expect(recoveryOf(small, load).words).toBe("0.00");
   });
 
-  it("is nothing without a load, or for a law that was not there when it came", () => {
-    expect(recoveryOf(metrics(0.2), null).seconds).toBeNull();
+  it("is nothing for a lane without numbers", () => {
     expect(recoveryOf(null, window("load", "3 kg load")).words).toBe("\u2013");
   });
 });

@@ -202,17 +202,14 @@ export const plotsText = {
   },
   windows: {
     at: (label: string, time: string) => `${label} at ${time} s`,
-    recovery: "Time from a load until the error stays small again",
+    recovery: "Time from the start of the window until the error stays small again",
+    undisturbed: "No load came on or was removed at the start of this window",
     recoveryFrom: (load: string) => `Time from ${load} until the error stayed small`,
     notYet: "not yet",
     lost: "not now",
     lostAfter: (load: string, seconds: string) =>
       `${seconds} s from ${load} on the error was small, and it is not any more`,
     noLoad: "no load yet",
-    notThere: "It controlled nothing when the load came",
-    notBefore: (time: string) => `not by ${time}`,
-    endedBefore: (load: string, time: string) =>
-      `From ${load} on the error was not small again before something was changed at ${time} s`,
   },
   compare: {
     with: (law: string) => `Compare with ${law}`,
@@ -231,7 +228,6 @@ export const plotsText = {
     peak: names.peak,
     recovery: names.recovered,
     degrees: "deg",
-    recoveredFrom: (time: number | null) => (time === null ? "s" : `s, from ${time.toFixed(2)} s`),
     seconds: "s",
     ended: "ended",
     endedHint: "It left what the model describes, and is simulated no further in this run",
