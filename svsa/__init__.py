@@ -31,6 +31,7 @@ from svsa.runs.configuration import (
 from svsa.runs.result.channels import ChannelName
 from svsa.runs.result.result import Result
 from svsa.runs.result.simulate import simulate
+from svsa.runs.stepper import Observation, Stepper
 from svsa.simulation.plant.effects import IDEAL, RIG, Effects
 from svsa.simulation.plant.loads import LOADS
 from svsa.simulation.plant.loads.constant import ConstantLoad
@@ -54,6 +55,7 @@ if TYPE_CHECKING:
     from svsa.analysis import design
     from svsa.client import connect, connect_async
     from svsa.evaluation import falsifier as falsify
+    from svsa.evaluation.sweep import sweep
     from svsa.evaluation.tuning.tuner import tune
     from svsa.runs.records.catalogue.runs import Catalogue
     from svsa.runs.result.recorded import export_run, list_runs, open_run, resimulate
@@ -64,6 +66,7 @@ _LATE = {
     "connect": "svsa.client",
     "connect_async": "svsa.client",
     "Catalogue": "svsa.runs.records.catalogue.runs",
+    "sweep": "svsa.evaluation.sweep",
     "tune": "svsa.evaluation.tuning.tuner",
     **dict.fromkeys(
         ("export_run", "open_run", "resimulate", "list_runs"), "svsa.runs.result.recorded"
@@ -109,6 +112,7 @@ __all__ = [
     "MinimumJerkPosition",
     "MinimumJerkStiffness",
     "MissingExtraError",
+    "Observation",
     "ObserverBandwidth",
     "PaperLoad",
     "ParameterError",
@@ -122,6 +126,7 @@ __all__ = [
     "SinePosition",
     "SineStiffness",
     "StateError",
+    "Stepper",
     "StepsPosition",
     "StepsStiffness",
     "SvsaError",
@@ -140,6 +145,7 @@ __all__ = [
     "resimulate",
     "sample_reference",
     "simulate",
+    "sweep",
     "tune",
     "write_design",
 ]

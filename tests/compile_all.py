@@ -39,6 +39,7 @@ def main() -> None:
     if EXHAUSTIVE in sys.argv:
         processes.append(start("tests.runs.paper.golden", "--figures", **GENERIC))
     prepare()
+    svsa.Stepper().step((0.0, 0.0))
     compile_bench()
     compile_identification()
     predict(FIGURES["4a"].build_configuration("ndobc"), STIFFNESS)

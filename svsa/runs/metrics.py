@@ -88,6 +88,10 @@ class Metrics:
     torque1_noise_nm: float | None
     torque2_noise_nm: float | None
 
+    def to_dict(self) -> dict[str, float | None]:
+        """The metrics by name, as JSON or a row of a table has them."""
+        return dict(vars(self))
+
     @property
     def is_finite(self) -> bool:
         """Whether all metrics that are defined are finite: the lane did not end."""

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -91,4 +90,4 @@ def compute_metrics(
     lanes = [RunningMetrics(period_s) for _ in range(samples.shape[1])]
     for lane, running in enumerate(lanes):
         running.update_measured(samples[:, lane, columns])
-    return [asdict(metrics) for metrics in summarize(lanes, window) or ()]
+    return [metrics.to_dict() for metrics in summarize(lanes, window) or ()]

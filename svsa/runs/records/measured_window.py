@@ -109,7 +109,7 @@ def write_metrics(record: Record) -> str:
     found = None if window is None else measure(record, window)
     if window is None or found is None:
         return "null"
-    lanes = dict(zip(record.header.lanes, map(asdict, found), strict=True))
+    lanes = {name: one.to_dict() for name, one in zip(record.header.lanes, found, strict=True)}
     return json.dumps({"window": asdict(window), "lanes": lanes})
 
 

@@ -10,8 +10,9 @@ from svsa.actuators.signals import CHANNELS
 from svsa.errors import ParameterError, Violation
 from svsa.inputs.checked import check_number
 from svsa.runs.change import Change, build_commands
-from svsa.runs.configuration import Configuration, Design, read_design
-from svsa.runs.paper import DURATION_S, get_figure
+from svsa.runs.configuration import Configuration, Design
+from svsa.runs.experiment import build_experiment
+from svsa.runs.paper import DURATION_S
 from svsa.runs.replay import STRETCH_TICKS, play
 from svsa.runs.result.progress import Follow, follow_progress
 from svsa.runs.result.result import Result, build_results
@@ -50,18 +51,10 @@ def simulate(
     Raises `ParameterError` for a value out of range, `KeyboardInterrupt` at Ctrl-C. A run that
     leaves the domain of the model ends early: see `Result.fault`.
     """
-    if isinstance(experiment, Configuration):
-        configuration = experiment
-    else:
-        configuration = get_figure(experiment).build_configuration()
-    if parameters is not None:
-        design = parameters if isinstance(parameters, Design) else read_design(parameters)
-        configuration = configuration.with_design(design)
     own = law if callable(law) else None
     if law is not None and own is None:
         changes["law"] = law
-    if changes:
-        configuration = configuration.changed(**changes)
+    configuration = build_experiment(experiment, parameters, **changes)
     period = configuration.sampling.period_s
     check_number("duration_s", duration_s, "s", period, MAX_TICKS * period)
     check_number("steps", steps, "", 1, MAX_STEPS)

@@ -1,0 +1,204 @@
+"""The plant tick by tick, under motor torques from outside: for a controller or an agent."""
+
+import math
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from svsa.actuators.domain import INSIDE, check_domain
+from svsa.actuators.lever import compute_lever_ratio
+from svsa.actuators.signals import (
+    CHANNELS,
+    Disturbance,
+    Positions,
+    Reference,
+    Sample,
+    State,
+    Torque,
+)
+from svsa.actuators.spring import compute_stiffness
+from svsa.control.call import BoundLaw, bind
+from svsa.control.law import Nothing
+from svsa.errors import Fault, FaultError, ParameterError, Violation
+from svsa.inputs.checked import check_number
+from svsa.numerics.compilation import compiled
+from svsa.numerics.packed import pack
+from svsa.runs.configuration import Configuration, Design, Lane
+from svsa.runs.experiment import build_experiment
+from svsa.runs.fault import build_fault
+from svsa.runs.run import Run
+from svsa.simulation.loop.lane import Blocks
+from svsa.simulation.loop.loop import read_reference
+from svsa.simulation.plant.sensors import read_positions
+
+MAX_STEP_TICKS = 1_000_000
+
+
+class Observation(NamedTuple):
+    """What a controller knows at the beginning of a tick: the arguments of a law in plain Python.
+
+    Attributes:
+        time_s: Time of the run, s.
+        reference: q_d to its fourth derivative, σ_d to its second.
+        x: x̂, the state as the sensors and the state estimator have it.
+        w: ŵ of the disturbance observer, N·m.
+        measured: Positions from the encoders, rad.
+        applied: Mean torque that acted in the last period, N·m.
+    """
+
+    time_s: float
+    reference: Reference
+    x: State
+    w: Disturbance
+    measured: Positions
+    applied: Torque
+
+
+@compiled
+def _return_held(
+    nominal: Any,
+    constants: Any,
+    memory: Any,
+    x: State,
+    reference: Reference,
+    estimate: Disturbance,
+    applied: Torque,
+    period: float,
+) -> Torque:
+    """The torque in the memory, as `svsa.control.law.Law.control`."""
+    return Torque(memory.u1, memory.u2)
+
+
+def _bind_held(configuration: Configuration, lane: Lane, blocks: Blocks) -> BoundLaw:
+    return bind(_return_held, pack(blocks.nominal), pack(Nothing()), pack(Torque(0.0, 0.0)), False)
+
+
+class Stepper:
+    """A simulated run in which the caller is the controller.
+
+        stepper = svsa.Stepper("4a", effects=svsa.RIG)
+        seen = stepper.reset()
+        while stepper.fault is None and seen.time_s < 10.0:
+            seen = stepper.step(law(*seen[:4]))
+
+    Limits, effects, loads, plant, sensors and observers are those of `svsa.simulate`, compiled from
+    the same functions: the same torques give the same samples, bit for bit.
+
+    Attributes:
+        configuration: Of the present run.
+        fault: Why the run ended, or None.
+        sample: The channels of the tick before, as in a `Result`; None at t = 0.
+    """
+
+    def __init__(
+        self,
+        experiment: str | Configuration = "4a",
+        *,
+        steps: int = 1,
+        parameters: Design | Path | str | None = None,
+        **changes: Any,
+    ) -> None:
+        """Build the plant and begin a run.
+
+        Args:
+            experiment: A figure of the paper ("4a", "4b", "5") or a `Configuration`. Its law and
+                comparisons do not count.
+            steps: Runge–Kutta steps a period.
+            parameters: A parameter file or its `Design`, instead of the experiment's own.
+            **changes: Fields of the configuration, as of `simulate`: effects, loads, position, …
+
+        Raises:
+            ParameterError: A value is out of range.
+        """
+        self.configuration = build_experiment(experiment, parameters, **changes)
+        self._steps = steps
+        self.reset()
+
+    @property
+    def period_s(self) -> float:
+        """Control period T, s."""
+        return self.configuration.sampling.period_s
+
+    @property
+    def torque_limits_nm(self) -> Torque:
+        """Largest torque of either motor, N·m; it acts if the effect `torque_limits` is on."""
+        limits = self.configuration.limits
+        return Torque(limits.torque1_nm, limits.torque2_nm)
+
+    def reset(self, **changes: Any) -> Observation:
+        """Begin a run from rest at t = 0.
+
+        Args:
+            **changes: Fields of the configuration that are different from now on, such as a seed of
+                the sensor noise or loads.
+
+        Returns:
+            The `Observation` at t = 0.
+
+        Raises:
+            ParameterError: A value is out of range; the run before stays.
+        """
+        configuration = build_experiment(self.configuration, **changes).changed(comparisons=())
+        self._run = Run(configuration, self._steps, bind=_bind_held)
+        self.configuration = configuration
+        self.fault: Fault | None = None
+        self.sample: Sample | None = None
+        return self._observe()
+
+    def step(self, torque: tuple[float, float], ticks: int = 1) -> Observation:
+        """Apply motor torques for a control period, or for several.
+
+        Args:
+            torque: (u1, u2) at the gearbox outputs, N·m, as a law commands it: before limits,
+                delay and lag.
+            ticks: Number of control periods in which it is held.
+
+        Returns:
+            The `Observation` after it; `fault` says if the run ended on the way.
+
+        Raises:
+            FaultError: The run had ended before: `reset` begins another.
+            ParameterError: The torque is not two finite numbers; nothing is simulated.
+        """
+        if self.fault is not None:
+            raise FaultError(self.fault)
+        u1, u2 = _read_torque(torque)
+        check_number("ticks", ticks, "", 1, MAX_STEP_TICKS)
+        run, samples = self._run, np.empty((1, ticks, len(CHANNELS)))
+        run.lanes = [run.lanes[0]._replace(memory=np.array([u1, u2]))]
+        done = run.advance(samples)
+        if done:
+            self.sample = Sample(*samples[0, done - 1].tolist())
+        self.fault = run.fault or self._find_fault()
+        return self._observe()
+
+    def compute_errors(self) -> tuple[float, float]:
+        """The true errors at this tick: q_d − q in rad, σ_d − σ in N·m/rad."""
+        x, plant = self._run.lanes[0].x, self._run.blocks[0].plant
+        reference = read_reference(self._run.inputs, self._run.time_s)
+        mu = compute_lever_ratio(x.theta2, plant.mu0, plant.gamma)
+        return reference.q - x.q, reference.sigma - compute_stiffness(mu, x.q - x.theta1, plant.K)
+
+    def _find_fault(self) -> Fault | None:
+        """The fault that the next tick would begin with."""
+        run, blocks, x = self._run, self._run.blocks[0], self._run.lanes[0].x
+        code = check_domain(blocks.domain, blocks.plant, x)
+        return None if code == INSIDE else build_fault(code, 0, run.tick, blocks, x)
+
+    def _observe(self) -> Observation:
+        run, lane = self._run, self._run.lanes[0]
+        reference = read_reference(run.inputs, run.time_s)
+        measured = read_positions(run.blocks[0].effects, lane.x, run.tick)
+        return Observation(run.time_s, reference, lane.known, lane.estimate, measured, lane.applied)
+
+
+def _read_torque(torque: Any) -> tuple[float, float]:
+    try:
+        u1, u2 = torque
+        numbers = float(u1), float(u2)
+    except (TypeError, ValueError):
+        numbers = math.nan, math.nan
+    if not all(map(math.isfinite, numbers)):
+        raise ParameterError(Violation("torque", torque, "N·m", "two finite numbers (u1, u2)"))
+    return numbers
