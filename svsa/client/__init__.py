@@ -21,7 +21,7 @@ require_extra("client")
 from svsa.client.asynchronous import AsyncLab, AsyncRecording, AsyncSession, connect_async
 from svsa.client.connection import (
     AccessError,
-    Acted,
+    AppliedAt,
     Connection,
     ControlError,
     LabError,
@@ -35,7 +35,7 @@ from svsa.client.stream import Block, BlockStream
 
 __all__ = [
     "AccessError",
-    "Acted",
+    "AppliedAt",
     "AppliedLoad",
     "AsyncLab",
     "AsyncRecording",

@@ -67,16 +67,16 @@ class Connection:
     """An address of a lab, and how a script shows itself there.
 
     token: of its class, or the lab's secret, or None where it has neither. client: what the
-    script is known by; the lab gives control to it. patience_s: for how long a lab that does not
+    script is known by; the lab gives control to it. timeout_s: for how long a lab that does not
     answer, is busy or starts again is asked anew, s.
     """
 
     def __init__(
-        self, url: str, token: str | None = None, client: str = "", patience_s: float = 30.0
+        self, url: str, token: str | None = None, client: str = "", timeout_s: float = 30.0
     ) -> None:
         self.url = url.rstrip("/")
         self.client = client or f"script-{uuid.uuid4().hex}"
-        self.patience_s = patience_s
+        self.timeout_s = timeout_s
         self.headers = {"SVSA-Client": quote(self.client)}
         if token:
             self.headers["Authorization"] = f"Bearer {token}"
@@ -124,7 +124,7 @@ class Connection:
         """The answer; None for a changing call that was carried out and whose answer was lost."""
         name = uuid.uuid4().hex
         named = {"SVSA-Request": name} if method != "GET" else {}
-        until = time.monotonic() + self.patience_s
+        until = time.monotonic() + self.timeout_s
         while True:
             sent_at = time.monotonic()
             try:
@@ -165,7 +165,7 @@ class Connection:
                     )
             time.sleep(PAUSE_S)
         raise LostAnswerError(
-            f"{what} was sent, and its answer did not come within {self.patience_s:g} s:"
+            f"{what} was sent, and its answer did not come within {self.timeout_s:g} s:"
             " whether it was carried out is not known."
         )
 
@@ -217,21 +217,24 @@ def is_settable(kind: type, name: str) -> bool:
 
 
 @dataclass(frozen=True)
-class Acted:
-    """When a command acted: the tick at whose beginning it holds, and its session time."""
+class AppliedAt:
+    """When a command was applied: the tick at whose beginning it holds, and its session time."""
 
     tick: int
     time_s: float
 
 
 class SessionConnection(Remote):
-    """A session by its name. acted: when the last command acted; None before the first."""
+    """A session by its name.
 
-    __slots__ = ("acted", "connection", "name")
+    applied_at: when the last command was applied; None before the first.
+    """
+
+    __slots__ = ("applied_at", "connection", "name")
 
     def __init__(self, connection: Connection, name: str) -> None:
         self.connection, self.name = connection, name
-        self.acted: Acted | None = None
+        self.applied_at: AppliedAt | None = None
 
     @property
     def path(self) -> str:
@@ -243,9 +246,9 @@ class SessionConnection(Remote):
         return self.connection.read(self.path)
 
     def call(self, method: str, path: str, body: Any = None) -> dict[str, Any]:
-        """A call below its own path that answers with its state; notes when it acted."""
+        """A call below its own path that answers with its state; notes when it was applied."""
         state = self.connection.call(method, self.path + path, body, state_at=self.path)
         past = [event for event in state["events"] if event["tick"] <= state["tick"]]
         newest = past[-1] if past else state
-        self.acted = Acted(newest["tick"], newest["time_s"])
+        self.applied_at = AppliedAt(newest["tick"], newest["time_s"])
         return state

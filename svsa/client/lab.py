@@ -25,15 +25,15 @@ def connect(
     token: str | None = None,
     *,
     client: str = "",
-    patience_s: float = 30.0,
+    timeout_s: float = 30.0,
 ) -> "Lab":
     """A running lab; a context closes it. Raises `LabError` where none answers.
 
     token: of its class, or the lab's secret; left out, that of the environment (SVSA_SECRET).
-    client: what the lab knows this script by, drawn at random if left out. patience_s: for how
+    client: what the lab knows this script by, drawn at random if left out. timeout_s: for how
     long a lab that does not answer, or is busy, is asked again, s.
     """
-    connection = Connection(url, token or os.environ.get("SVSA_SECRET"), client, patience_s)
+    connection = Connection(url, token or os.environ.get("SVSA_SECRET"), client, timeout_s)
     try:
         connection.read("/laws")
     except BaseException:
@@ -91,7 +91,7 @@ class Lab(Remote):
         return self.open_session(state["session"])
 
     @contextmanager
-    def private(
+    def new_session(
         self, figure: str = "4a", law: str = "ndobc", **settings: Any
     ) -> Iterator[RemoteSession]:
         """A private session that ends with the block."""
@@ -128,7 +128,7 @@ class Lab(Remote):
         self, shared: bool, seed: int = 0, **settings: Any
     ) -> AbstractContextManager[RemoteSession]:
         """`operate`, or `private` with this seed; the noise of the shared session is its own."""
-        return self.operate(**settings) if shared else self.private(seed=seed, **settings)
+        return self.operate(**settings) if shared else self.new_session(seed=seed, **settings)
 
     def run(
         self,
@@ -154,7 +154,7 @@ class Lab(Remote):
         period = wanted.sampling.period_s
         check_number("duration_s", duration_s, "s", period, MAX_TICKS * period)
         comparisons = [dump_lane(lane) for lane in wanted.comparisons]
-        with self.private(
+        with self.new_session(
             law=wanted.law, load=False, comparisons=comparisons, seed=wanted.seed
         ) as session:
             session.pause()

@@ -78,7 +78,7 @@ class RemoteStudies(Remote):
         self._connection = connection
 
     def __iter__(self) -> Iterator[str]:
-        for study in self._connection.read("/studies")["kept"]:
+        for study in self._connection.read("/studies")["saved"]:
             yield study["name"]
 
     def read(self, name: str) -> dict[str, Any]:

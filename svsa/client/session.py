@@ -27,8 +27,8 @@ _STIFFNESS: TypeAdapter[StiffnessReference] = TypeAdapter(StiffnessReference)
 class RemoteSession(RunningConnection):
     """A session by its name; every property is asked of the lab when it is read.
 
-    Setting one returns when the lab has taken it, and `acted` says at which tick it holds; what is
-    set already stays as it is, without a new fade or event. What the lab refuses raises
+    Setting one returns when the lab has taken it, and `applied_at` says at which tick it holds;
+    what is set already stays as it is, without a new fade or event. What the lab refuses raises
     `ParameterError` or `StateError` and changes nothing.
     """
 

@@ -81,7 +81,7 @@ class BlockStream:
             "proxy": None,
         }
         self._name = f"The stream of session {session} at {connection.url}"
-        self._duration_s, self._patience_s = duration_s, connection.patience_s
+        self._duration_s, self._timeout_s = duration_s, connection.timeout_s
         self._until: float | None = None
         self._is_complete = False
         self._reported_at = time.monotonic()
@@ -145,7 +145,7 @@ class BlockStream:
             if isinstance(error, InvalidStatus) and error.response.status_code in (401, 403):
                 reported = error.response.body or b"null"
                 raise build_refusal(error.response.status_code, json.loads(reported)) from None
-            if time.monotonic() - self._reported_at > self._patience_s:
+            if time.monotonic() - self._reported_at > self._timeout_s:
                 raise LabError(f"{self._name} broke off: {error}.") from None
 
 

@@ -50,7 +50,7 @@ class Window:
     end_tick: int | None = None
 
 
-class Stretch(NamedTuple):
+class Segment(NamedTuple):
     """A controller on a lane, ticks first … end − 1; end None: until now.
 
     number: of the controller, in the order in which they came, from 1. line_style: which look its
@@ -65,9 +65,9 @@ class Stretch(NamedTuple):
 
 
 class Timeline:
-    """The stretches of every lane and the windows of a run, command by command.
+    """The segments of every lane and the windows of a run, command by command.
 
-    kept_ticks: how long a stretch that has ended is kept. `load_window`: of the newest load;
+    kept_ticks: how long a segment that has ended is kept. `load_window`: of the newest load;
     it ends with the next change, when a load is taken off, or with another one; a load that ends
     by itself ends no window, so that a push shows after it. `load_numbers`: which controller each
     lane had when that load came, None for a lane that began later. `lane_ids`: of every lane an
@@ -81,7 +81,7 @@ class Timeline:
         self.kept_ticks = kept_ticks
         self._numbers: dict[Controller, int] = {}
         self._names: dict[int, str] = {}
-        self.lanes: list[list[Stretch]] = [[] for _ in configuration.lanes]
+        self.lanes: list[list[Segment]] = [[] for _ in configuration.lanes]
         self._new_lane_ids = itertools.count(1)
         self.lane_ids = [next(self._new_lane_ids) for _ in self.lanes]
         self.windows: list[Window] = [Window("start", "", 0)]
@@ -127,17 +127,17 @@ class Timeline:
         """A load that acted was taken off by hand."""
         self._begin("unload", describe_end(load), tick)
 
-    def list_stretches(
+    def list_segments(
         self, first_tick: float = 0, most: int = MAX_STRETCHES
-    ) -> list[list[Stretch]]:
+    ) -> list[list[Segment]]:
         """Of every lane those that reach beyond a tick, the newest ones where there are more."""
         return [
             [one for one in lane if one.end_tick is None or one.end_tick > first_tick][-most:]
             for lane in self.lanes
         ]
 
-    def name_stretches(self, lanes: Sequence[Sequence[Stretch]]) -> dict[int, str]:
-        """By its number, a name for everybody who controlled these lanes in these stretches.
+    def name_segments(self, lanes: Sequence[Sequence[Segment]]) -> dict[int, str]:
+        """By its number, a name for everybody who controlled these lanes in these segments.
 
         They are named together, in the order in which they came; kept until others are asked for.
         """
@@ -188,7 +188,7 @@ class Timeline:
             if not lane or lane[-1].end_tick is not None:
                 number = self._numbers.setdefault(controller, len(self._numbers) + 1)
                 lane.append(
-                    Stretch(controller, number, self._find_line_style(controller, present), tick)
+                    Segment(controller, number, self._find_line_style(controller, present), tick)
                 )
 
     def _find_line_style(self, controller: Controller, present: Sequence[Controller]) -> int:
@@ -224,7 +224,7 @@ def read_timeline(
 ) -> Timeline:
     """The timeline of a run that was given these commands.
 
-    ticks: from which tick on stretches are kept, and how far the run went. Raises
+    ticks: from which tick on segments are kept, and how far the run went. Raises
     `ParameterError` or `StateError` for commands that this run cannot have had.
     """
     first_tick, end_tick = ticks
@@ -263,8 +263,8 @@ def _join(before: str, label: str) -> str:
     return f"{before}, {label}"
 
 
-def _end(lane: list[Stretch], tick: int) -> None:
-    """The present stretch ends; one that has only begun was none."""
+def _end(lane: list[Segment], tick: int) -> None:
+    """The present segment ends; one that has only begun was none."""
     if lane[-1].first_tick == tick:
         lane.pop()
     elif lane[-1].end_tick is None:

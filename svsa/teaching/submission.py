@@ -127,7 +127,7 @@ TrialVerdict = Literal["held", "ran", "ended", "failed", "untried"]
 part; this machine could not try it."""
 
 
-class KeptLaw(Checked):
+class SavedLaw(Checked):
     """A law's file, and the verdict of its trial. output: the end of what it printed."""
 
     text: str = quantity("", "Text of a law's Python file")

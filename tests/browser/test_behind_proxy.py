@@ -51,7 +51,7 @@ def test_the_page_its_stream_and_the_3d_view_come_through(
     page.get_by_role("button", name="Join", exact=True).click()
     status = page.get_by_role("region", name="Status", exact=True)
     expect(status).to_contain_text("Live", timeout=LONGEST_MS)
-    expect(page.get_by_text("Your return code:")).to_be_visible()
+    expect(page.get_by_text("Your rejoin code:")).to_be_visible()
     wanted = {"api/v1/sessions/lab/stream", "viser/lab"}
     for _ in range(LONGEST_MS // 200):
         if all(received[path] > 5 for path in wanted):

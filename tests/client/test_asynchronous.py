@@ -17,11 +17,11 @@ def server(lab: Server) -> Server:
 
 def test_a_run_is_set_loaded_watched_and_recorded(server: Server) -> None:
     async def work() -> None:
-        async with svsa.connect_async(server.url) as lab, lab.private(load=False) as session:
+        async with svsa.connect_async(server.url) as lab, lab.new_session(load=False) as session:
             await session.pause()
             sine = svsa.SinePosition(amplitude_rad=0.5, frequency_hz=0.3)
             await session.set(position=sine, law="fl")
-            assert session.acted is not None
+            assert session.applied_at is not None
             configuration = (await session.read_state())["configuration"]
             assert (configuration["law"], configuration["position"]["amplitude_rad"]) == ("fl", 0.5)
             async with session.record("awaited") as recording:
@@ -54,14 +54,14 @@ def test_several_go_on_side_by_side_and_give_the_library_s_runs(server: Server) 
 
 def test_a_refusal_and_a_missing_lab_are_told_as_by_the_other(server: Server) -> None:
     async def refuse() -> None:
-        async with svsa.connect_async(server.url) as lab, lab.private(load=False) as session:
+        async with svsa.connect_async(server.url) as lab, lab.new_session(load=False) as session:
             await session.set(law="nobody")
 
     with pytest.raises(svsa.ParameterError, match="nobody"):
         asyncio.run(refuse())
 
     async def miss() -> None:
-        await svsa.connect_async("http://127.0.0.1:9", patience_s=0.0)
+        await svsa.connect_async("http://127.0.0.1:9", timeout_s=0.0)
 
     with pytest.raises(LabError, match="does not answer"):
         asyncio.run(miss())
@@ -70,7 +70,7 @@ def test_a_refusal_and_a_missing_lab_are_told_as_by_the_other(server: Server) ->
 def test_every_method_of_the_blocking_client_is_awaited_by_its_name(server: Server) -> None:
     async def work() -> None:
         lab = await svsa.connect_async(server.url)
-        async with lab, lab.private(load=False) as session:
+        async with lab, lab.new_session(load=False) as session:
             await session.pause()
             await session.set_laws("fl")
             assert await session.get("law") == "fl"
@@ -87,7 +87,7 @@ def test_every_method_of_the_blocking_client_is_awaited_by_its_name(server: Serv
 
 def test_a_typing_error_is_reported_by_both_clients_and_nothing_is_set(server: Server) -> None:
     async def work() -> None:
-        async with svsa.connect_async(server.url) as lab, lab.private(load=False) as session:
+        async with svsa.connect_async(server.url) as lab, lab.new_session(load=False) as session:
             with pytest.raises(AttributeError, match=r"await session\.set\(law=…\)"):
                 session.law = "fl"
             with pytest.raises(AttributeError, match=r"session\.get\('time_s'\)"):
@@ -98,7 +98,7 @@ def test_a_typing_error_is_reported_by_both_clients_and_nothing_is_set(server: S
             assert (await session.read_state())["configuration"] == before
 
     asyncio.run(work())
-    with svsa.connect(server.url) as lab, lab.private(load=False) as session:
+    with svsa.connect(server.url) as lab, lab.new_session(load=False) as session:
         before = session.read_state()["configuration"]
         with pytest.raises(AttributeError, match=r"no attribute 'lawx'; the nearest is law"):
             session.lawx = "fl"  # pyright: ignore[reportAttributeAccessIssue]

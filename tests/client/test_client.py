@@ -26,7 +26,7 @@ def lab(server: Server) -> Iterator[Lab]:
 
 
 def test_what_is_set_is_what_is_read_and_says_when_it_acted(lab: Lab) -> None:
-    with lab.private(load=False) as session:
+    with lab.new_session(load=False) as session:
         session.pause()
         session.run_until(0.25)
         for name, value in {
@@ -42,12 +42,12 @@ def test_what_is_set_is_what_is_read_and_says_when_it_acted(lab: Lab) -> None:
         }.items():
             setattr(session, name, value)
             assert getattr(session, name) == value
-            assert session.acted is not None
-            assert (session.acted.tick, session.acted.time_s) == (250, 0.25)
+            assert session.applied_at is not None
+            assert (session.applied_at.tick, session.applied_at.time_s) == (250, 0.25)
 
 
 def test_a_refusal_is_the_error_of_the_library(lab: Lab) -> None:
-    with lab.private(load=False) as session, pytest.raises(svsa.ParameterError) as refused:
+    with lab.new_session(load=False) as session, pytest.raises(svsa.ParameterError) as refused:
         session.set_parameters("fl_integral", position_pole_rad_per_s=1e6)
     (violation,) = refused.value.violations
     assert (violation.name, violation.value) == ("fl_integral.position_pole_rad_per_s", 1e6)
@@ -59,7 +59,7 @@ def test_a_refusal_is_the_error_of_the_library(lab: Lab) -> None:
 
 
 def test_a_load_of_a_run_that_is_recorded_and_watched(lab: Lab) -> None:
-    with lab.private(load=False) as session:
+    with lab.new_session(load=False) as session:
         with session.record("3 kg", tags=("test",)) as recording:
             load = session.loads.add(svsa.PaperLoad())
             assert [one.load for one in session.loads] == [svsa.PaperLoad()]
@@ -119,7 +119,7 @@ def test_a_call_whose_answer_is_lost_is_carried_out_once(server: Server) -> None
     with (
         run_faulty_line(server.url) as line,
         svsa.connect(line.url) as lab,
-        lab.private(load=False) as session,
+        lab.new_session(load=False) as session,
     ):
         session.pause()
         line.break_answers = 1
@@ -144,11 +144,11 @@ def test_a_stream_that_breaks_goes_on_with_a_gap(server: Server) -> None:
 
 def test_a_lab_that_is_not_there_is_named() -> None:
     with pytest.raises(LabError, match=r"http://127\.0\.0\.1:9 does not answer"):
-        svsa.connect("http://127.0.0.1:9", patience_s=0.0)
+        svsa.connect("http://127.0.0.1:9", timeout_s=0.0)
 
 
 def test_control_is_taken_and_given_back(server: Server, lab: Lab) -> None:
-    with svsa.connect(server.url, client="Ada's") as other, lab.private(load=False) as session:
+    with svsa.connect(server.url, client="Ada's") as other, lab.new_session(load=False) as session:
         other_s = other.open_session(session.name)
         other_s.take_control("Ada")
         with pytest.raises(ControlError, match="Ada is in control"):

@@ -21,7 +21,7 @@ def ask(*outcomes: tuple[int, object]) -> object:
             return httpx.Response(status, json=reported)
         return httpx.Response(200, json=STATE)
 
-    with Connection("http://lab", patience_s=30.0) as connection:
+    with Connection("http://lab", timeout_s=30.0) as connection:
         connection._http = httpx.Client(
             transport=httpx.MockTransport(answer), base_url="http://lab/api/v1"
         )

@@ -17,7 +17,7 @@ from svsa.runs.events import list_events
 from svsa.runs.records.measured_window import trace_record
 from svsa.runs.records.reader import open_record
 from svsa.runs.records.resimulation import compare_with_simulation
-from svsa_server.runs.lanes import list_record_stretches, name_lanes
+from svsa_server.runs.lanes import list_record_segments, name_lanes
 
 EXAMPLE = Path(__file__).parents[1] / "data" / "example_law"
 SCRIPT = """
@@ -92,7 +92,7 @@ def test_lanes_and_replay_of_such_a_record_have_its_name(made):
     record = open_record(made[1])
     timeline = trace_record(record)
     assert timeline is not None
-    names = name_lanes(list_record_stretches(record, timeline))
+    names = name_lanes(list_record_segments(record, timeline))
     assert all(name.startswith("motor_pd (not installed)") for name in names)
     assert len(set(names)) == 2
     configuration = svsa.open_run(made[1]).configuration

@@ -264,8 +264,8 @@ def test_a_lane_set_otherwise_keeps_its_past_and_gets_a_name_of_its_own():
     session.step(40)
     assert session.journal.timeline.lane_ids[1] == second_id
     assert np.all(np.isfinite(read_samples(session, 1)))
-    lanes = session.journal.timeline.list_stretches()
-    names = session.journal.timeline.name_stretches(lanes)
+    lanes = session.journal.timeline.list_segments()
+    names = session.journal.timeline.name_segments(lanes)
     reported = [[(names[s.number], s.first_tick, s.end_tick) for s in lane] for lane in lanes]
     assert reported == [
         [("FL + I a 54.6", 0, None)],

@@ -20,7 +20,7 @@ STIFFER = svsa.Gains.from_poles([-80.0] * 4, [-60.0] * 2)
 
 def report(timeline: Timeline) -> list[list[tuple[str, int, int | None]]]:
     """Of every lane: name, first tick, end."""
-    lanes = timeline.list_stretches()
+    lanes = timeline.list_segments()
     names = name_controllers(one.controller for lane in lanes for one in lane)
     return [[(names[one.controller], one.first_tick, one.end_tick) for one in x] for x in lanes]
 
@@ -35,7 +35,7 @@ def test_laws_that_change_places_leave_the_past_its_names():
         [("FL", 0, 30), ("NDOBC", 30, None)],
     ]
     line_styles = [
-        [one.line_style for one in lane] for lane in session.journal.timeline.list_stretches()
+        [one.line_style for one in lane] for lane in session.journal.timeline.list_segments()
     ]
     first, other = (list_law_names().index(law) for law in ("ndobc", "fl"))
     assert line_styles == [[first, other], [other, first]]
@@ -62,7 +62,7 @@ def test_one_law_with_other_gains_is_told_apart_by_them():
     session.change(Set("gains", STIFFER))
     names = [name for name, _, _ in report(session.journal.timeline)[0]]
     assert names == ["NDOBC β 60 ωq 60 ωσ 40", "NDOBC β 120 ωq 60 ωσ 40", "NDOBC β 120 ωq 80 ωσ 60"]
-    assert len({one.line_style for one in session.journal.timeline.list_stretches()[0]}) == 3
+    assert len({one.line_style for one in session.journal.timeline.list_segments()[0]}) == 3
 
 
 def test_what_a_law_does_not_use_makes_it_no_other():
@@ -87,7 +87,7 @@ def test_a_law_has_its_own_ink_again_when_the_other_is_no_longer_kept():
         session.step(tick - session.run.tick)
         session.change(Set("observer", observer))
         timeline.take(session.journal.commands[-1])
-    assert [one.line_style for one in timeline.list_stretches()[0]] == [1, 0]
+    assert [one.line_style for one in timeline.list_segments()[0]] == [1, 0]
 
 
 def test_laws_side_by_side_have_each_a_colour_of_its_own_and_the_first_two_their_own():
@@ -95,7 +95,7 @@ def test_laws_side_by_side_have_each_a_colour_of_its_own_and_the_first_two_their
     for comparisons in itertools.combinations(laws[1:], 3):
         lanes = tuple(svsa.Lane(law=law) for law in comparisons)
         timeline = Timeline(build_configuration(law=laws[0], comparisons=lanes))
-        line_styles = [lane[-1].line_style for lane in timeline.list_stretches()]
+        line_styles = [lane[-1].line_style for lane in timeline.list_segments()]
         assert len({line_style % LINE_COLORS for line_style in line_styles}) == len(line_styles), (
             comparisons
         )
@@ -107,7 +107,7 @@ def test_a_law_that_follows_another_of_its_colour_takes_a_free_one():
     laws = list_law_names()
     timeline = Timeline(build_configuration(law=laws[0]))
     timeline.take(build_command(10, "law", laws[LINE_COLORS]))
-    first, second = (one.line_style for one in timeline.list_stretches()[0])
+    first, second = (one.line_style for one in timeline.list_segments()[0])
     assert first % LINE_COLORS != second % LINE_COLORS
 
 
@@ -212,7 +212,7 @@ def test_a_recorded_run_has_the_timeline_that_its_session_had():
     again = read_timeline(session.journal.initial, session.journal.commands, (-1, session.run.tick))
     assert again.windows == session.journal.timeline.windows
     assert again.load_window == session.journal.timeline.load_window
-    assert again.list_stretches() == session.journal.timeline.list_stretches()
+    assert again.list_segments() == session.journal.timeline.list_segments()
     assert {window.kind for window in again.windows} == {"start", "load", "unload", "change"}
 
 
@@ -244,9 +244,9 @@ def test_names_of_many_are_worked_out_once_and_each_is_looked_at_once(monkeypatc
     )
     timeline = session.journal.timeline
     for _ in range(3):
-        names = timeline.name_stretches(timeline.list_stretches())
+        names = timeline.name_segments(timeline.list_segments())
     assert len(looked_at) == len(names) == 61
     assert list(names.values())[:3] == ["NDOBC β 60", "NDOBC β 70", "NDOBC β 71"]
     session.step(10)
     session.change(Set("law", "fl"))
-    assert timeline.name_stretches(timeline.list_stretches())[62] == "FL"
+    assert timeline.name_segments(timeline.list_segments())[62] == "FL"

@@ -16,7 +16,7 @@ from svsa.errors import ParameterError
 from svsa.runs.events import Event
 from svsa.runs.metrics import compute_metrics
 from svsa.runs.records.measured_window import MeasuredWindow
-from svsa_scene.pose import LaneStretch
+from svsa_scene.pose import LaneSegment
 from svsa_scene.replay_curves import decimate, pack_curves
 from svsa_scene.replay_motion import record_motion
 from svsa_scene.replay_packing import ArrayPack
@@ -122,7 +122,7 @@ def test_the_run_inside_the_page_is_strict_json(tmp_path: Path) -> None:
 def test_a_bench_that_does_not_know_its_disturbance_moves_all_the_same() -> None:
     """Nothing is drawn of what is not known; where nothing is known, what was before stays."""
     samples, mass = make_run(ticks=1000, lanes=1)
-    lanes = [[LaneStretch("Bench", 0, 1, 0, 1000)]]
+    lanes = [[LaneSegment("Bench", 0, 1, 0, 1000)]]
     bench = samples.copy()
     bench[:, :, CHANNELS.index("disturbance_link_nm")] = math.nan
     bench[330:333] = math.nan
@@ -145,7 +145,7 @@ def test_what_acts_on_the_motors_is_drawn_as_it_is_in_the_live_view() -> None:
     for load_nm in (0.0, 2.0):
         samples[:, :, CHANNELS.index("disturbance_motor1_nm")] = load_nm
         samples[500:, :, CHANNELS.index("disturbance_motor1_nm")] = 0.5 * load_nm
-        lanes = [[LaneStretch("A", 0, 1, 0, 1000)]]
+        lanes = [[LaneSegment("A", 0, 1, 0, 1000)]]
         motion = record_motion(samples, CHANNELS, lanes, PERIOD_S, mass, ArrayPack())
         names.append({one["name"] for one in motion.content["tracks"]})
     assert any("w4" in name for name in names[1] - names[0])

@@ -80,7 +80,7 @@ def test_the_secret_is_asked_for_where_one_is_set_but_for_stop_and_login() -> No
         "/api/v1/access",
         "/api/v1/login",
         "/api/v1/join",
-        "/api/v1/return",
+        "/api/v1/rejoin",
         "/api/v1/quick-stop",
     }
     assert not [o for item in SCHEMA["paths"].values() for o in item.values() if "security" in o]

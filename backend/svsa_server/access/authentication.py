@@ -11,7 +11,7 @@ from weakref import WeakValueDictionary
 
 from starlette.datastructures import Headers
 
-from svsa_server.access.class_keys import ClassKeys, draw_return_code
+from svsa_server.access.class_keys import ClassKeys, draw_rejoin_code
 from svsa_server.access.memberships import Membership, Memberships
 from svsa_server.access.people import People
 from svsa_server.access.roles import EVERYBODY, INSTRUCTOR, Person, Role
@@ -167,9 +167,9 @@ class ClassAuthentication:
         await asyncio.to_thread(self.members.keep, Membership(person))
         return person
 
-    async def come_back(self, return_code: str) -> Membership | None:
-        """Whose return code it is; their name may have got a number meanwhile."""
-        hashed = await self._hash(self.keys.hash_return_code, return_code)
+    async def rejoin(self, rejoin_code: str) -> Membership | None:
+        """Whose rejoin code it is; their name may have got a number meanwhile."""
+        hashed = await self._hash(self.keys.hash_rejoin_code, rejoin_code)
         found = self.members.find_returning(hashed)
         if found is None or found.is_ended:
             return found
@@ -179,7 +179,7 @@ class ClassAuthentication:
             await asyncio.to_thread(self.members.keep, found)
         return found
 
-    async def renew_return_code(self, person: Person) -> str | None:
+    async def renew_rejoin_code(self, person: Person) -> str | None:
         """A new code by which this person comes back, the one before is worth nothing.
 
         None for who has no membership, or carries less than its role.
@@ -187,8 +187,8 @@ class ClassAuthentication:
         found = self.members.find(person.id)
         if found is None or found.person != person:
             return None
-        code = draw_return_code()
-        hashed = await self._hash(self.keys.hash_return_code, code)
+        code = draw_rejoin_code()
+        hashed = await self._hash(self.keys.hash_rejoin_code, code)
         await asyncio.to_thread(self.members.keep, found._replace(return_hash=hashed))
         return code
 

@@ -88,8 +88,8 @@ class ClassKeys:
         self._salt, self._code = (base64.b64decode(hashed[name]) for name in ("salt", "code"))
         return code
 
-    def hash_return_code(self, code: str) -> bytes:
-        """The hash of a return code; takes some 50 ms.
+    def hash_rejoin_code(self, code: str) -> bytes:
+        """The hash of a rejoin code; takes some 50 ms.
 
         The salt is the class's own and not the person's, since the code alone says who comes.
         """
@@ -110,7 +110,7 @@ class ClassKeys:
             return None
 
 
-def draw_return_code() -> str:
+def draw_rejoin_code() -> str:
     """A code by which one person comes back: 59 random bits."""
     return _draw_code(_RETURN_CODE_LENGTH)
 

@@ -13,7 +13,7 @@ from svsa_server.leases.lease import CHANGING, STOPS
 Kind = Literal["joins", "codes", "logins", "sessions", "runs", "commands"]
 _KINDS: dict[str, Kind] = {
     "POST /api/v1/join": "joins",
-    "POST /api/v1/return": "joins",
+    "POST /api/v1/rejoin": "joins",
     "POST /lti/login": "joins",
     "POST /lti/launch": "joins",
     "POST /sessions": "sessions",

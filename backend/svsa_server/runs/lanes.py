@@ -8,39 +8,39 @@ from typing import Any
 from svsa.runs.records.reader import Record
 from svsa.runs.session.journal import KEPT_S
 from svsa.runs.session.session import Session
-from svsa.runs.timeline import Stretch, Timeline, Window
-from svsa_server.schemas.runs.lane import EndedWindowState, StretchState, WindowState
+from svsa.runs.timeline import Segment, Timeline, Window
+from svsa_server.schemas.runs.lane import EndedWindowState, SegmentState, WindowState
 
 MAX_STRETCHES = 200
 
 
-def list_kept_stretches(session: Session) -> list[list[Stretch]]:
-    """Of every lane the stretches of the last `KEPT_S`; the last one is the present."""
+def list_kept_segments(session: Session) -> list[list[Segment]]:
+    """Of every lane the segments of the last `KEPT_S`; the last one is the present."""
     first_tick = session.run.tick - KEPT_S / session.run.period_s
-    return session.journal.timeline.list_stretches(first_tick, MAX_STRETCHES)
+    return session.journal.timeline.list_segments(first_tick, MAX_STRETCHES)
 
 
-def list_session_stretches(session: Session, since_tick: int = 0) -> list[list[StretchState]]:
+def list_session_segments(session: Session, since_tick: int = 0) -> list[list[SegmentState]]:
     """Those of the last `KEPT_S`; of what has ended only what did so at since_tick or later."""
-    kept = list_kept_stretches(session)
+    kept = list_kept_segments(session)
     return _build(session.journal.timeline, kept, session.run.period_s, since_tick)
 
 
-def list_record_stretches(record: Record, timeline: Timeline | None) -> list[list[StretchState]]:
-    """Of every lane its stretches in the record; without a timeline, the lane by its own name."""
+def list_record_segments(record: Record, timeline: Timeline | None) -> list[list[SegmentState]]:
+    """Of every lane its segments in the record; without a timeline, the lane by its own name."""
     period_s = record.header.period_s
     if timeline is not None:
-        return _build(timeline, timeline.list_stretches(), period_s)
+        return _build(timeline, timeline.list_segments(), period_s)
     whole = {"start_tick": 0, "start_s": 0.0, "end_tick": None, "end_s": None}
     return [
-        [StretchState(number=lane + 1, name=name, line_style=lane, **whole)]
+        [SegmentState(number=lane + 1, name=name, line_style=lane, **whole)]
         for lane, name in enumerate(record.header.lanes)
     ]
 
 
-def name_lanes(stretches: Sequence[Sequence[StretchState]]) -> list[str]:
+def name_lanes(segments: Sequence[Sequence[SegmentState]]) -> list[str]:
     """A name for each lane as a whole: NDOBC → FL where its controller changed."""
-    return [" → ".join(dict.fromkeys(one.name for one in lane)) for lane in stretches]
+    return [" → ".join(dict.fromkeys(one.name for one in lane)) for lane in segments]
 
 
 def build_window(window: Window, period_s: float) -> WindowState:
@@ -79,12 +79,12 @@ def list_ended_windows(session: Session, since_tick: int = 0) -> list[EndedWindo
 
 
 def _build(
-    timeline: Timeline, lanes: Sequence[Sequence[Stretch]], period_s: float, since_tick: int = 0
-) -> list[list[StretchState]]:
-    names = timeline.name_stretches(lanes)
+    timeline: Timeline, lanes: Sequence[Sequence[Segment]], period_s: float, since_tick: int = 0
+) -> list[list[SegmentState]]:
+    names = timeline.name_segments(lanes)
     return [
         [
-            StretchState(
+            SegmentState(
                 number=one.number,
                 name=names[one.number],
                 line_style=one.line_style,

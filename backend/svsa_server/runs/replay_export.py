@@ -12,10 +12,10 @@ from svsa.runs.records.reader import Record
 from svsa.runs.records.resimulation import read_origin
 from svsa.runs.records.settings import describe_settings
 from svsa.runs.replay import list_loads
-from svsa_scene.pose import LaneStretch
+from svsa_scene.pose import LaneSegment
 from svsa_scene.replay import build_replay_html
-from svsa_server.runs.lanes import list_record_stretches, name_lanes
-from svsa_server.schemas.runs.lane import StretchState
+from svsa_server.runs.lanes import list_record_segments, name_lanes
+from svsa_server.schemas.runs.lane import SegmentState
 
 
 def build_replay(record: Record) -> str:
@@ -24,12 +24,12 @@ def build_replay(record: Record) -> str:
     Raises `ParameterError` where the record lacks a channel that the view needs.
     """
     header = record.header
-    stretches = list_record_stretches(record, trace_record(record))
+    segments = list_record_segments(record, trace_record(record))
     settings = describe_settings(header, record.commands, record.first_tick, record.tick_count)
     return build_replay_html(
         header.name or settings.name or f"Run {header.run_id}",
         header.period_s,
-        name_lanes(stretches),
+        name_lanes(segments),
         list(header.channel_names),
         record.samples,
         compute_hung_mass(record),
@@ -47,17 +47,17 @@ def build_replay(record: Record) -> str:
         events=list_events(*read_origin(record), record.fault, record.events),
         first_tick=record.first_tick,
         window=find_measured_window(record),
-        stretches=[[_place(record, one) for one in lane] for lane in stretches],
+        segments=[[_place(record, one) for one in lane] for lane in segments],
     )
 
 
-def _place(record: Record, stretch: StretchState) -> LaneStretch:
-    """A stretch in the record's own ticks."""
-    first = max(0, stretch.start_tick - record.first_tick)
+def _place(record: Record, segment: SegmentState) -> LaneSegment:
+    """A segment in the record's own ticks."""
+    first = max(0, segment.start_tick - record.first_tick)
     end = record.tick_count
-    if stretch.end_tick is not None:
-        end = min(end, stretch.end_tick - record.first_tick)
-    return LaneStretch(stretch.name, stretch.line_style, stretch.number, first, end)
+    if segment.end_tick is not None:
+        end = min(end, segment.end_tick - record.first_tick)
+    return LaneSegment(segment.name, segment.line_style, segment.number, first, end)
 
 
 def compute_hung_mass(record: Record) -> np.ndarray:

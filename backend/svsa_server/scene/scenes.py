@@ -10,7 +10,7 @@ from svsa.actuators.signals import CHANNEL_INDEX
 from svsa.runs.session.session import Session
 from svsa_scene import ActuatorPose, ComparisonPose
 from svsa_scene.pose import POSE_CHANNELS, draw_nothing_unknown
-from svsa_server.runs.lanes import list_session_stretches
+from svsa_server.runs.lanes import list_session_segments
 from svsa_server.sessions.laboratory import SHARED_SESSION, Laboratory
 
 
@@ -31,11 +31,11 @@ def read_pose(session: Session) -> ActuatorPose | None:
 def _read_comparisons(session: Session) -> tuple[ComparisonPose, ...]:
     """Where the links of the other lanes are; none before a lane's first sample."""
     poses = []
-    for number, stretches in enumerate(list_session_stretches(session)[1:], start=1):
+    for number, segments in enumerate(list_session_segments(session)[1:], start=1):
         newest = session.journal.history.read_newest(number)
         position = math.nan if newest is None else float(newest[CHANNEL_INDEX["position_rad"]])
         if math.isfinite(position):
-            present = stretches[-1]
+            present = segments[-1]
             poses.append(ComparisonPose(present.name, position, present.line_style))
     return tuple(poses)
 

@@ -8,7 +8,7 @@ from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from svsa_server.runs.lanes import list_kept_stretches
+from svsa_server.runs.lanes import list_kept_segments
 from svsa_server.schemas.lab.session import SessionProgress
 from svsa_server.schemas.lab.stream import StateMessage
 from svsa_server.sessions.hosted import HostedSession
@@ -31,7 +31,7 @@ class Reported:
         """The past up to now."""
         session = hosted.session
         timeline = session.journal.timeline
-        names = timeline.name_stretches(list_kept_stretches(session))
+        names = timeline.name_segments(list_kept_segments(session))
         lane_ids = tuple(timeline.lane_ids)
         return cls(session.journal.run_number, session.run.tick, lane_ids, names)
 

@@ -16,7 +16,7 @@ from svsa.simulation.plant.effects import find_preset
 from svsa.simulation.plant.load_table import ScheduledLoad
 from svsa_server.leases.lease import ControlLease, asking
 from svsa_server.leases.queue import ControlQueue
-from svsa_server.runs.lanes import build_window, list_ended_windows, list_session_stretches
+from svsa_server.runs.lanes import build_window, list_ended_windows, list_session_segments
 from svsa_server.schemas.lab.gain import GainsState, Root
 from svsa_server.schemas.lab.lease import ControlState, QueueState, WaitingState
 from svsa_server.schemas.lab.session import BranchState, LoadState, SessionProgress, SessionState
@@ -36,7 +36,7 @@ def build_progress(hosted: HostedSession, since_tick: int = 0) -> SessionProgres
     """
     session = hosted.session
     run, pace = session.run, session.pace
-    stretches = list_session_stretches(session, since_tick)
+    segments = list_session_segments(session, since_tick)
     timeline = session.journal.timeline
     load_window = timeline.load_window
     return SessionProgress(
@@ -55,8 +55,8 @@ def build_progress(hosted: HostedSession, since_tick: int = 0) -> SessionProgres
                 lane=number + 1,
                 id=timeline.lane_ids[number],
                 law=lane.law,
-                name=stretches[number][-1].name,
-                stretches=stretches[number],
+                name=segments[number][-1].name,
+                segments=segments[number],
                 **_summarize(session, number),
             )
             for number, lane in enumerate(run.configuration.lanes)

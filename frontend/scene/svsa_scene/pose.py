@@ -47,7 +47,7 @@ def draw_nothing_unknown(values: Mapping[str, float]) -> dict[str, float]:
     }
 
 
-class LaneStretch(NamedTuple):
+class LaneSegment(NamedTuple):
     """Who controlled a lane of a recorded run. name: as it is read. line_style: of its curves.
 
     number: which controller. first, end: ticks from the first sample, end not included.

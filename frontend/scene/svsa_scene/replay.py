@@ -19,7 +19,7 @@ import numpy.typing as npt
 from svsa.errors import ParameterError, SvsaError, Violation
 from svsa.runs.events import Event
 from svsa.runs.records.measured_window import MeasuredWindow
-from svsa_scene.pose import POSE_CHANNELS, LaneStretch
+from svsa_scene.pose import POSE_CHANNELS, LaneSegment
 from svsa_scene.replay_curves import compute_metrics, pack_curves
 from svsa_scene.replay_motion import record_motion
 from svsa_scene.replay_packing import ArrayPack
@@ -51,13 +51,13 @@ def build_replay_html(
     *,
     events: Iterable[Event] = (),
     first_tick: int = 0,
-    stretches: Sequence[Sequence[LaneStretch]] | None = None,
+    segments: Sequence[Sequence[LaneSegment]] | None = None,
     window: MeasuredWindow | None = None,
 ) -> str:
     """The run as a page of HTML.
 
     title: heading, any text. period_s: s. lanes: 1–4 names; the first is drawn as the actuator,
-    the others as outlines of their links. stretches: of every lane who controlled it when, in
+    the others as outlines of their links. segments: of every lane who controlled it when, in
     order; left out, each lane is one under its name. channels: names as in
     `svsa.actuators.signals.CHANNELS`, at least those of a pose; more are left out. samples: float64
     (ticks, lanes, channels), SI. load_mass_kg: mass hung on the link at every tick, (ticks,), kg;
@@ -76,20 +76,20 @@ def build_replay_html(
     template = _read_template()
     pack = ArrayPack()
     curves = pack_curves(samples, channels, period_s, pack)
-    if stretches is None:
+    if segments is None:
         whole = len(samples)
-        stretches = [[LaneStretch(name, i, i + 1, 0, whole)] for i, name in enumerate(lanes)]
+        segments = [[LaneSegment(name, i, i + 1, 0, whole)] for i, name in enumerate(lanes)]
     if window is None:
         end = first_tick + len(samples)
         times = first_tick * period_s, end * period_s
         window = MeasuredWindow("start", "", first_tick, end, *times, True, tuple(lanes))
-    motion = record_motion(samples, channels, stretches, period_s, mass, pack)
+    motion = record_motion(samples, channels, segments, period_s, mass, pack)
     run = {
         "title": title,
         "period_s": period_s,
         "ticks": len(samples),
         "lanes": lanes,
-        "stretches": [[_write_stretch(one, period_s) for one in lane] for lane in stretches],
+        "segments": [[_write_segment(one, period_s) for one in lane] for lane in segments],
         "details": details,
         "events": [
             {
@@ -128,13 +128,13 @@ def _write_event(event: Event, period_s: float, first_tick: int) -> dict[str, An
     return {"time_s": time_s, "kind": event.kind, "label": event.label}
 
 
-def _write_stretch(stretch: LaneStretch, period_s: float) -> dict[str, Any]:
+def _write_segment(segment: LaneSegment, period_s: float) -> dict[str, Any]:
     return {
-        "number": stretch.number,
-        "name": stretch.name,
-        "line_style": stretch.line_style,
-        "start_s": stretch.first * period_s,
-        "end_s": stretch.end * period_s,
+        "number": segment.number,
+        "name": segment.name,
+        "line_style": segment.line_style,
+        "start_s": segment.first * period_s,
+        "end_s": segment.end * period_s,
     }
 
 

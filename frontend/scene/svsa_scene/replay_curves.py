@@ -30,16 +30,16 @@ _MIN_TORQUE_AXIS_NM = 1.0
 
 def decimate(values: Array, stride: int) -> Array:
     """One value for every `stride` samples: the first of them, or the one that sticks out most
-    from between the first and the next stretch's first, so that no peak is lost.
+    from between the first and the next segment's first, so that no peak is lost.
     """
     if stride == 1:
         return values
     count = -(-len(values) // stride)
     padded = np.append(values, np.full(count * stride - len(values), values[-1]))
-    stretches = padded.reshape(count, stride)
-    first = stretches[:, 0]
+    segments = padded.reshape(count, stride)
+    first = segments[:, 0]
     following = np.append(first[1:], values[-1])
-    top, bottom = np.fmax.reduce(stretches, axis=1), np.fmin.reduce(stretches, axis=1)
+    top, bottom = np.fmax.reduce(segments, axis=1), np.fmin.reduce(segments, axis=1)
     above = top - np.fmax(first, following)
     below = np.fmin(first, following) - bottom
     kept = np.where((above > 0) & (above >= below), top, first)

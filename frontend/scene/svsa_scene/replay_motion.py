@@ -21,7 +21,7 @@ from svsa_scene import appearance as look
 from svsa_scene import mechanism
 from svsa_scene.geometry import turn
 from svsa_scene.names import add_label
-from svsa_scene.pose import POSE_CHANNELS, ActuatorPose, LaneStretch, draw_nothing_unknown
+from svsa_scene.pose import POSE_CHANNELS, ActuatorPose, LaneSegment, draw_nothing_unknown
 from svsa_scene.replay_packing import ArrayPack
 from svsa_scene.scene import ActuatorScene
 
@@ -53,7 +53,7 @@ class _Key(NamedTuple):
 def record_motion(
     samples: npt.NDArray[np.float64],
     channels: Sequence[str],
-    lanes: Sequence[Sequence[LaneStretch]],
+    lanes: Sequence[Sequence[LaneSegment]],
     period_s: float,
     load_mass_kg: npt.NDArray[np.float64],
     pack: ArrayPack,
@@ -111,18 +111,18 @@ class _Ghosts:
     """The outlines of a lane, one a controller; that of the present one is seen."""
 
     def __init__(
-        self, server: viser.ViserServer, lane: int, stretches: Sequence[LaneStretch], named: bool
+        self, server: viser.ViserServer, lane: int, segments: Sequence[LaneSegment], named: bool
     ) -> None:
-        self._stretches = stretches
+        self._segments = segments
         self._frames: dict[int, viser.SceneNodeHandle] = {}
-        for stretch in stretches:
-            if stretch.number not in self._frames:
-                name = stretch.name if named and len(stretch.name) <= _LONGEST_NAME else ""
-                self._frames[stretch.number] = _add_ghost(server, lane, stretch, name)
+        for segment in segments:
+            if segment.number not in self._frames:
+                name = segment.name if named and len(segment.name) <= _LONGEST_NAME else ""
+                self._frames[segment.number] = _add_ghost(server, lane, segment, name)
 
     def show(self, tick: int, angle: float) -> None:
         """The lane's link at a tick, counted from the first sample."""
-        present = next((one for one in self._stretches if one.first <= tick < one.end), None)
+        present = next((one for one in self._segments if one.first <= tick < one.end), None)
         for number, frame in self._frames.items():
             is_seen = present is not None and number == present.number
             if frame.visible != is_seen:
@@ -132,15 +132,15 @@ class _Ghosts:
 
 
 def _add_ghost(
-    server: viser.ViserServer, lane: int, stretch: LaneStretch, name: str
+    server: viser.ViserServer, lane: int, segment: LaneSegment, name: str
 ) -> viser.SceneNodeHandle:
-    node = f"/a/lane{lane}c{stretch.number}"
-    finish = look.Finish(look.get_line_color(stretch.line_style), 0.0, 0.8, 0.45)
+    node = f"/a/lane{lane}c{segment.number}"
+    finish = look.Finish(look.get_line_color(segment.line_style), 0.0, 0.8, 0.45)
     frame = server.scene.add_frame(
         node,
         show_axes=False,
         position=(0.0, 0.0, _GHOST_STEP * lane),
-        visible=stretch.first <= 0,
+        visible=segment.first <= 0,
     )
     server.scene.add_glb(f"{node}/solid", mechanism.export(_build_ghost, finish))
     if name:

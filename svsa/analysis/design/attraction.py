@@ -27,7 +27,7 @@ DURATION_S = 2.0
 LAST_S = 0.2
 CLOSE_RAD = math.radians(1.0)
 
-Outcome = Literal["rest", "fault", "astray"]
+Outcome = Literal["rest", "fault", "unsettled"]
 
 
 class Cell(NamedTuple):
@@ -37,7 +37,7 @@ class Cell(NamedTuple):
     column: int
 
 
-class Fate(NamedTuple):
+class StartOutcome(NamedTuple):
     """What becomes of a start. after_s: when it was close for good, or when the fault came."""
 
     outcome: Outcome
@@ -88,9 +88,9 @@ def order_cells(count: int) -> list[Cell]:
     return list(ordered)
 
 
-def find_fates(
+def find_start_outcomes(
     configuration: Configuration, sigma: float, starts: Map, cells: Sequence[Cell]
-) -> Iterator[tuple[Cell, Fate]]:
+) -> Iterator[tuple[Cell, StartOutcome]]:
     """What becomes of each start, one after another, simulated with the compiled loop.
 
     The link starts at q0 with q̇0, motor 1 at q0 − φ0 with q̇0 − φ̇0, the lever where the nominal σ
@@ -122,14 +122,14 @@ def find_fates(
         kind = law.function, blocks.steps
         _, done, _ = advance_in_slices(follow, kind, lane, 0, samples)
         if done < len(samples):
-            yield cell, Fate("fault", done * period)
+            yield cell, StartOutcome("fault", done * period)
             continue
         far = np.flatnonzero(np.abs(samples[:, column]) >= CLOSE_RAD)
         settled = int(far[-1]) + 1 if len(far) else 0
         is_rest = settled <= done - last
-        yield cell, Fate("rest" if is_rest else "astray", settled * period)
+        yield cell, StartOutcome("rest" if is_rest else "unsettled", settled * period)
 
 
-def compute_share(fates: Sequence[Fate]) -> float:
+def compute_share(outcomes: Sequence[StartOutcome]) -> float:
     """The share of starts that come to rest."""
-    return sum(fate.outcome == "rest" for fate in fates) / len(fates)
+    return sum(one.outcome == "rest" for one in outcomes) / len(outcomes)

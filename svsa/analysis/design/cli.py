@@ -13,7 +13,7 @@ from rich.table import Table
 from svsa.inputs.extras import require_extra
 
 if TYPE_CHECKING:
-    from svsa.analysis.design.attraction import Cell, Fate
+    from svsa.analysis.design.attraction import Cell, StartOutcome
     from svsa.analysis.design.report import Report
     from svsa.analysis.design.robustness import StableRange
 
@@ -176,7 +176,7 @@ def _format_fastest(report: "Report", delay: int) -> str:
     return "over 1000" if beta is None else f"{beta:.0f}"
 
 
-def _format_share(fates: "dict[Cell, Fate]") -> str:
+def _format_share(outcomes: "dict[Cell, StartOutcome]") -> str:
     from svsa.analysis.design.attraction import compute_share
 
-    return f"{compute_share(list(fates.values())):.2f}" if fates else "–"
+    return f"{compute_share(list(outcomes.values())):.2f}" if outcomes else "–"

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure as Picture
 
-from svsa.analysis.design.attraction import Cell, Fate, build_map, compute_share
+from svsa.analysis.design.attraction import Cell, StartOutcome, build_map, compute_share
 from svsa.analysis.design.report import Report
 from svsa.analysis.design.sampled_loop import compute_disturbance_response, find_fastest_observer
 from svsa.control.gains import Gains
@@ -19,8 +19,8 @@ from svsa.simulation.plant.effects import IDEAL, RIG
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 CURVE_STIFFNESSES = (5.0, 15.0, 30.0, 60.0)
 CURVE_POLES = np.arange(20.0, 101.0, 10.0)
-_FATES = {"rest": 0, "fault": 1, "astray": 2}
-_FATE_COLORS = ("#8fc7e8", "#f0b49b", "#b9b9b9")
+_OUTCOMES = {"rest": 0, "fault": 1, "unsettled": 2}
+_OUTCOME_COLORS = ("#8fc7e8", "#f0b49b", "#b9b9b9")
 
 
 def save_picture(configuration: Configuration, reports: Sequence[Report], path: Path) -> None:
@@ -94,16 +94,16 @@ def _draw_fastest(axes: Axes, configuration: Configuration) -> None:
     _finish(axes)
 
 
-def _draw_attraction(axes: Axes, drawn: str, fates: dict[Cell, Fate]) -> None:
-    if not fates:
+def _draw_attraction(axes: Axes, drawn: str, outcomes: dict[Cell, StartOutcome]) -> None:
+    if not outcomes:
         axes.set_axis_off()
         return
-    count = 1 + max(cell.row for cell in fates)
+    count = 1 + max(cell.row for cell in outcomes)
     grid = np.zeros((count, count))
-    for cell, fate in fates.items():
-        grid[cell] = _FATES[fate.outcome]
+    for cell, one in outcomes.items():
+        grid[cell] = _OUTCOMES[one.outcome]
     starts = build_map(count)
-    for (outcome, number), color in zip(_FATES.items(), _FATE_COLORS, strict=True):
+    for (outcome, number), color in zip(_OUTCOMES.items(), _OUTCOME_COLORS, strict=True):
         if np.any(grid == number):
             axes.plot([], [], "s", color=color, label=outcome)
     axes.legend(fontsize=8, loc="lower left")
@@ -111,11 +111,11 @@ def _draw_attraction(axes: Axes, drawn: str, fates: dict[Cell, Fate]) -> None:
         np.degrees(starts.positions),
         starts.velocities,
         grid,
-        cmap=ListedColormap(_FATE_COLORS),
+        cmap=ListedColormap(_OUTCOME_COLORS),
         vmin=0,
         vmax=2,
     )
-    share = compute_share(list(fates.values()))
+    share = compute_share(list(outcomes.values()))
     axes.set(
         title=f"Rig, {drawn}\n{share:.2f} of {count} × {count} starts come to rest; no proof",
         xlabel="q0 [°]",

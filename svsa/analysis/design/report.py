@@ -7,11 +7,11 @@ from typing import Any, NamedTuple
 
 from svsa.analysis.design.attraction import (
     Cell,
-    Fate,
     Slice,
+    StartOutcome,
     build_map,
     compute_share,
-    find_fates,
+    find_start_outcomes,
     order_cells,
 )
 from svsa.analysis.design.rate_gain import RAMPS_NM_PER_S, RampRun, simulate_ramp
@@ -39,8 +39,8 @@ class Report(NamedTuple):
     ramps: list[RampRun]
     fastest: dict[int, float | None]
     is_observed: bool
-    rigid: dict[Cell, Fate]
-    deflected: dict[Cell, Fate]
+    rigid: dict[Cell, StartOutcome]
+    deflected: dict[Cell, StartOutcome]
 
     def to_json(self) -> dict[str, Any]:
         """Numbers with their units in their names; null where there is none."""
@@ -99,14 +99,14 @@ def build_report(
     done, total = 0, max(1, 2 * len(sigmas) * starts**2)
     reports = []
 
-    def fill(sigma: float, chosen: Slice) -> dict[Cell, Fate]:
+    def fill(sigma: float, chosen: Slice) -> dict[Cell, StartOutcome]:
         nonlocal done
-        fates: dict[Cell, Fate] = {}
+        outcomes: dict[Cell, StartOutcome] = {}
         on_rig, cells = configuration.changed(effects=RIG), order_cells(starts)
-        for cell, fate in find_fates(on_rig, sigma, build_map(starts, chosen), cells):
-            fates[cell], done = fate, done + 1
+        for cell, outcome in find_start_outcomes(on_rig, sigma, build_map(starts, chosen), cells):
+            outcomes[cell], done = outcome, done + 1
             report(done / total)
-        return fates
+        return outcomes
 
     for sigma in sigmas:
         stability = assess(configuration, sigma)
@@ -121,8 +121,8 @@ def build_report(
     return reports
 
 
-def _share(fates: dict[Cell, Fate]) -> float | None:
-    return compute_share(list(fates.values())) if fates else None
+def _share(outcomes: dict[Cell, StartOutcome]) -> float | None:
+    return compute_share(list(outcomes.values())) if outcomes else None
 
 
 def _finite(value: float) -> float | None:

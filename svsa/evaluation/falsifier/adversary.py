@@ -15,21 +15,22 @@ from svsa.evaluation.studies.study import FIGURE, build_base, check_measured, ch
 from svsa.evaluation.studies.variation import DRAWN, Variation
 from svsa.inputs.checked import Checked, Number, quantity
 from svsa.runs.configuration import Configuration
+from svsa.runs.records.former_words import SEARCHES, translate_fields
 
-Harm = Literal["fault", "peak", "recovery"]
+Cost = Literal["fault", "peak", "recovery"]
 
 
 class Adversary(Checked):
     """Bounds on loads and perturbations, under which a law is hurt. Raises `ParameterError`.
 
     terms: loads that come together. vary: settings that are perturbed, as of a study, but no grids;
-    what a run begins from is their nominal value. harm: a fault; or the greatest position error, or
+    what a run begins from is their nominal value. cost: a fault; or the greatest position error, or
     the longest recovery, than each of which a fault is worse.
     """
 
     title: str = quantity("", "What the adversary may do", max_length=200)
     law: InstalledLaw = quantity("", "Law that is to be hurt", default=PAPERS_LAW)
-    harm: Harm = quantity("", "What it is after: fault, peak, recovery", default="fault")
+    cost: Cost = quantity("", "What it is after: fault, peak, recovery", default="fault")
     base: dict[str, Any] = quantity("", "Settings that all runs begin from", default={FIGURE: "4a"})
     duration_s: Number = quantity("s", "How long a run is", gt=0, le=60, default=10.0)
     measure_from_s: Number = quantity("s", "From when on it is measured", ge=0, default=0.0)
@@ -37,6 +38,11 @@ class Adversary(Checked):
     vary: Annotated[tuple[Variation, ...], Field(max_length=16)] = quantity(
         "", "Settings that it may perturb", default=()
     )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _translate(cls, written: Any) -> Any:
+        return translate_fields(written, SEARCHES)
 
     @model_validator(mode="after")
     def _check(self) -> Self:

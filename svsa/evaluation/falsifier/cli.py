@@ -122,7 +122,7 @@ def list_command() -> None:
     table = Table("adversary", "what it may do", "after", "numbers", title_justify="left")
     for name, title in list_adversaries().items():
         one = read_adversary(name)
-        table.add_row(name, title, one.harm, str(one.size))
+        table.add_row(name, title, one.cost, str(one.size))
     Console().print(table)
 
 
@@ -151,7 +151,7 @@ def compare_command(
         cells = [
             f"fault at run {run}"
             if run
-            else f"none in {runs}: {format_severity(adversary.harm, x)}"
+            else f"none in {runs}: {format_severity(adversary.cost, x)}"
             for run, x in ((one.cma_run, one.cma_worst), (one.random_run, one.random_worst))
         ]
         table.add_row(str(one.seed), *cells)
@@ -196,7 +196,7 @@ def _describe(found: "Falsified", path: Path) -> dict[str, object]:
     return {
         "adversary": found.adversary.title,
         "law": found.adversary.law,
-        "harm": found.adversary.harm,
+        "cost": found.adversary.cost,
         "seed": found.seed,
         "runs": len(found.severities),
         "run": found.run,
@@ -218,7 +218,7 @@ def _print_found(found: "Falsified") -> None:
     )
 
     console, a = Console(highlight=False), found.adversary
-    nothing = format_severity(a.harm, found.nothing)
+    nothing = format_severity(a.cost, found.nothing)
     console.print(f"{get_title(a.law)} without it: {nothing}")
     console.print(f"Found at run {found.run} of {len(found.severities)}: {found.outcome}")
     console.print(f"  {describe_attack(found.attack)}")
@@ -256,4 +256,4 @@ def _report_worst(adversary: "Adversary", report: Report) -> "Callable[[int, flo
     from svsa.evaluation.falsifier.description import describe_worst
 
     title = get_title(adversary.law)
-    return lambda done, worst: report(done, f"{title}: {describe_worst(adversary.harm, worst)}")
+    return lambda done, worst: report(done, f"{title}: {describe_worst(adversary.cost, worst)}")

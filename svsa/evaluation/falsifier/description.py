@@ -4,7 +4,7 @@ import math
 from typing import Any
 
 from svsa.actuators.faults import label_fault
-from svsa.evaluation.falsifier.adversary import Harm
+from svsa.evaluation.falsifier.adversary import Cost
 from svsa.evaluation.falsifier.measure import METRIC, Measured
 from svsa.evaluation.falsifier.scenario import Attack, Finding
 from svsa.evaluation.studies.outcome import REFUSED
@@ -24,26 +24,26 @@ def format_run_number(template: str, value: float) -> str:
     return template.format(value).replace("-", "−")
 
 
-def describe_outcome(measured: Measured, row: int, harm: Harm) -> str:
+def describe_outcome(measured: Measured, row: int, cost: Cost) -> str:
     """The fault that a run ended in, or how much it hurt."""
     fault = measured.outcome["fault"][row]
     if fault == REFUSED:
         return "refused: its settings do not go together"
-    return label_fault(fault) if fault else format_severity(harm, float(measured.severity[row]))
+    return label_fault(fault) if fault else format_severity(cost, float(measured.severity[row]))
 
 
-def describe_worst(harm: Harm, severity: float) -> str:
+def describe_worst(cost: Cost, severity: float) -> str:
     """How much the worst run of a search hurts so far, which fault it is not yet known."""
     if math.isinf(severity):
         return "a fault" if severity > 0.0 else "settings that do not go together"
-    return format_severity(harm, severity)
+    return format_severity(cost, severity)
 
 
-def format_severity(harm: Harm, severity: float) -> str:
+def format_severity(cost: Cost, severity: float) -> str:
     """How much a run without a fault hurts, with its unit; see `measure.judge`."""
-    if harm == "fault":
+    if cost == "fault":
         return f"no fault, strain {severity:.3g}"
-    metric = METRIC[harm]
+    metric = METRIC[cost]
     return f"{format_metric(metric)} {format_value(metric, severity)} {format_unit(metric)}"
 
 

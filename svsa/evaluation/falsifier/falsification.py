@@ -98,7 +98,7 @@ def _describe(
         loads=attack.loads,
         found=Finding(
             law=adversary.law,
-            harm=adversary.harm,
+            cost=adversary.cost,
             outcome=outcomes[1],
             adversary=adversary.title,
             method=method,
@@ -177,7 +177,7 @@ def falsify(
     same result. At Ctrl-C the worst so far is returned as it is.
 
     Args:
-        adversary: Law, harm and ranges.
+        adversary: Law, cost and ranges.
         runs: Of the search at most, without those of shrinking and of the neighborhood.
         seed: Of the search.
         method: "cma", or "random" for a comparison.
@@ -199,14 +199,14 @@ def falsify(
     check_number("seed", seed, "", 0, 2**63 - 1)
 
     def report_worse(number: int, attack: Attack, severity: float) -> None:
-        reported = describe_worst(adversary.harm, severity)
+        reported = describe_worst(adversary.cost, severity)
         search = method, seed, number, number
         on_worse(_describe(adversary, attack, adversary.duration_s, (reported, reported), search))
 
     one = _Search(adversary, runs, known, report_worse)
     nothing = one.measure([Attack((), {})])
     if not np.isfinite(nothing.severity[0]):
-        reported = describe_outcome(nothing, 0, adversary.harm)
+        reported = describe_outcome(nothing, 0, adversary.cost)
         raise FalsifierError(f"{adversary.law} needs no adversary: without any load, {reported}.")
     is_complete = False
 
@@ -240,7 +240,7 @@ def falsify(
         nothing=float(nothing.severity[0]),
         run=number + 1,
         attack=attack,
-        outcome=describe_outcome(found, 0, adversary.harm),
+        outcome=describe_outcome(found, 0, adversary.cost),
         shrunk=simple,
         neighborhood=neighborhood,
         is_complete=is_complete,

@@ -8,15 +8,15 @@ import numpy as np
 from svsa.actuators.parameters import Limits
 from svsa.control.installed import BASELINE, PAPERS_LAW, check_installed
 from svsa.errors import ParameterError
-from svsa.evaluation.falsifier.adversary import Adversary, Harm
+from svsa.evaluation.falsifier.adversary import Adversary, Cost
 from svsa.evaluation.falsifier.scenario import Attack, LoadScenario
 from svsa.evaluation.metrics import METRICS, RECOVERY
 from svsa.evaluation.studies.outcome import REFUSED, Success
 from svsa.evaluation.studies.work import measure_runs
 from svsa.runs.configuration import Configuration
 
-METRIC: dict[Harm, str] = {"peak": "peak_position_error_rad", "recovery": RECOVERY}
-"""What each harm is measured by as long as no run ends in a fault; for a fault see `_strain`."""
+METRIC: dict[Cost, str] = {"peak": "peak_position_error_rad", "recovery": RECOVERY}
+"""What each cost is measured by as long as no run ends in a fault; for a fault see `_strain`."""
 KEPT_SHARE = 0.95
 """Of what was found, where it is no fault."""
 REFUSAL = -np.inf
@@ -36,19 +36,19 @@ def measure_attacks(
     """Run attacks side by side."""
     configurations = [_apply(attack, base) for attack in attacks]
     outcome = measure_runs(configurations, duration_s, adversary.measure_from_s, Success())
-    return Measured(judge(outcome, adversary.harm, duration_s, base.limits), outcome)
+    return Measured(judge(outcome, adversary.cost, duration_s, base.limits), outcome)
 
 
-def judge(outcome: dict[str, Any], harm: Harm, duration_s: float, limits: Limits) -> np.ndarray:
-    """How much each run hurts: infinite for a fault, else the harm's metric, in its unit.
+def judge(outcome: dict[str, Any], cost: Cost, duration_s: float, limits: Limits) -> np.ndarray:
+    """How much each run hurts: infinite for a fault, else the cost's metric, in its unit.
 
     A run that does not recover hurts more than any that does, by its error at the end.
     """
-    if harm == "fault":
+    if cost == "fault":
         severity = _strain(outcome, limits)
     else:
-        severity = np.array(outcome[METRIC[harm]], dtype=float)
-    if harm == "recovery":
+        severity = np.array(outcome[METRIC[cost]], dtype=float)
+    if cost == "recovery":
         last = np.asarray(outcome["last_position_error_rad"], dtype=float)
         severity = np.where(np.isnan(severity), duration_s + last, severity)
     faults = outcome["fault"]
@@ -57,8 +57,8 @@ def judge(outcome: dict[str, Any], harm: Harm, duration_s: float, limits: Limits
     return severity
 
 
-def keeps_harm(measured: Measured, found: Measured) -> np.ndarray:
-    """Which runs hurt as much as one that was found: a fault, or 95 % of its harm.
+def hurts_as_much(measured: Measured, found: Measured) -> np.ndarray:
+    """Which runs hurt as much as one that was found: a fault, or 95 % of its cost.
 
     Returns:
         Shape (n,), bool.

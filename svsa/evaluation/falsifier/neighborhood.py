@@ -6,7 +6,7 @@ import numpy as np
 
 from svsa.evaluation.falsifier.adversary import Adversary
 from svsa.evaluation.falsifier.load_terms import Axis, admits
-from svsa.evaluation.falsifier.measure import REFUSAL, Measured, keeps_harm, measure_attacks
+from svsa.evaluation.falsifier.measure import REFUSAL, Measured, hurts_as_much, measure_attacks
 from svsa.evaluation.falsifier.scenario import Attack
 from svsa.evaluation.falsifier.shrink import Place, list_places, replace_number
 from svsa.evaluation.studies.setting import read_setting
@@ -42,7 +42,7 @@ def measure_neighborhood(
 
     Returns:
         How many were run, without those whose settings do not go together, and how many of them
-        end in a fault; of an attack without a fault, in at least 95 % of its harm.
+        end in a fault; of an attack without a fault, in at least 95 % of its cost.
     """
     random = np.random.Generator(np.random.Philox(seed))
     places = [
@@ -59,7 +59,7 @@ def measure_neighborhood(
         neighbors.append(neighbor)
     measured = measure_attacks(adversary, base, neighbors, adversary.duration_s)
     runs = int(np.sum(measured.severity != REFUSAL))
-    return Neighborhood(runs, int(np.sum(keeps_harm(measured, found))))
+    return Neighborhood(runs, int(np.sum(hurts_as_much(measured, found))))
 
 
 def _find_axis(

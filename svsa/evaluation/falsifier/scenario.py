@@ -13,6 +13,7 @@ from svsa.evaluation.studies.study import FIGURE, build_base, check_measured
 from svsa.inputs.checked import Checked, Number, Whole, quantity
 from svsa.runs.configuration import MAX_LOADS, Configuration
 from svsa.runs.paper import DURATION_S
+from svsa.runs.records.former_words import SEARCHES, translate_fields
 from svsa.simulation.plant.loads import Load
 
 
@@ -32,7 +33,7 @@ class Finding(Checked):
     """How a scenario was found."""
 
     law: LawName = quantity("", "Law that it hurts")
-    harm: str = quantity("", "What was looked for", max_length=40)
+    cost: str = quantity("", "What was looked for", max_length=40)
     outcome: str = quantity("", "Outcome of the law", max_length=200)
     adversary: str = quantity("", "Among what was searched", max_length=200)
     method: str = quantity("", "How", max_length=40)
@@ -44,6 +45,11 @@ class Finding(Checked):
         "", "Random loads near it that were run, each number within 5 % of its range", default=None
     )
     neighbors_hurt: Whole | None = quantity("", "Those that hurt as much", ge=0, default=None)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _translate(cls, written: Any) -> Any:
+        return translate_fields(written, SEARCHES)
 
     @property
     def neighborhood(self) -> Interval | None:

@@ -17,7 +17,7 @@ from svsa.evaluation.falsifier.description import (
     describe_outcome,
     format_run_number,
 )
-from svsa.evaluation.falsifier.measure import Measured, keeps_harm, measure_attacks
+from svsa.evaluation.falsifier.measure import Measured, hurts_as_much, measure_attacks
 from svsa.evaluation.falsifier.scenario import Attack
 from svsa.evaluation.studies.setting import read_setting
 from svsa.runs.configuration import Configuration
@@ -161,7 +161,7 @@ def shrink(adversary: Adversary, base: Configuration, attack: Attack, found: Mea
                 one.simplify(make(one.attack, place, base))
         if not one.remove():
             break
-    reported = describe_outcome(one.measure([one.attack]), 0, adversary.harm)
+    reported = describe_outcome(one.measure([one.attack]), 0, adversary.cost)
     return Shrunk(one.attack, one.duration_s, reported, one.runs, tuple(one.steps))
 
 
@@ -217,4 +217,4 @@ class _Shrinking:
         fault = self._found.outcome["fault"][0]
         if fault is not None:
             return np.array([one == fault for one in measured.outcome["fault"]])
-        return keeps_harm(measured, self._found)
+        return hurts_as_much(measured, self._found)

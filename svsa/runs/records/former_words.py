@@ -24,6 +24,8 @@ SETTINGS = {"realism": "effects"}
 """Settings in the catalogue of runs."""
 RESULTS = {"told": "description", "draws": "trials", "draws_held": "trials_held"}
 """Fields of grades and of entries of the leaderboard."""
+SEARCHES = {"harm": "cost"}
+"""Fields of an adversary's file, and of how a scenario was found."""
 SCENARIOS = {"unloading": "load_removal", "draw_": "trial_", "unloading_": "load_removal_"}
 """Scenarios of the ranking, by the beginning of their names."""
 

@@ -87,7 +87,7 @@ def summarize(
 
 
 def measure(record: Record, window: MeasuredWindow) -> tuple[Metrics, ...] | None:
-    """The metrics of every lane in the window, a stretch at a time.
+    """The metrics of every lane in the window, a segment at a time.
 
     None without the channels for it, or with samples that are no numbers.
     """
@@ -126,7 +126,7 @@ def _build(record: Record, window: Window, lanes: tuple[str, ...]) -> MeasuredWi
 
 def _name_lanes(timeline: Timeline, tick: int) -> tuple[str, ...]:
     """Who controlled each lane at a tick."""
-    lanes = timeline.list_stretches()
-    names = timeline.name_stretches(lanes)
+    lanes = timeline.list_segments()
+    names = timeline.name_segments(lanes)
     present = [[one for one in lane if one.first_tick <= tick] or lane for lane in lanes]
     return tuple(names[lane[-1].number] for lane in present)

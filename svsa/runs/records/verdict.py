@@ -33,7 +33,7 @@ class ChannelVerdict:
     """How a channel of a lane was judged. worst_s: the moment at which it leaves the band furthest,
     or comes nearest to leaving it; there `value`, and the band from `low` to `high`. excess: how
     far it is outside then, negative inside; NaN where one of both is not known. outside: from when
-    to when it is outside, s, in order; stretches nearer to each other than a `MAX_OUTSIDE`-th of
+    to when it is outside, s, in order; segments nearer to each other than a `MAX_OUTSIDE`-th of
     what is compared are one. outside_s: how long it is outside in all, every tick counted.
     """
 
@@ -133,14 +133,14 @@ def _judge_channels(
                 excess=float(excess[worst]),
                 outside=tuple(
                     ((first + begin) * header.period_s, (first + end) * header.period_s)
-                    for begin, end in _find_stretches(is_outside)
+                    for begin, end in _find_segments(is_outside)
                 ),
                 outside_s=float(is_outside.sum() * header.period_s),
             )
 
 
-def _find_stretches(is_outside: np.ndarray) -> list[tuple[int, int]]:
-    """First and last tick of each stretch; see `ChannelVerdict.outside`."""
+def _find_segments(is_outside: np.ndarray) -> list[tuple[int, int]]:
+    """First and last tick of each segment; see `ChannelVerdict.outside`."""
     ticks = np.flatnonzero(is_outside)
     if not len(ticks):
         return []

@@ -79,7 +79,7 @@ class Result(Channels):
             raise ParameterError(Violation("(start_s, end_s)", (start_s, end_s), "s", bound))
         return compute_metrics(rows, period)
 
-    def list_stretches(self) -> list[tuple[str, slice]]:
+    def list_segments(self) -> list[tuple[str, slice]]:
         """The laws that controlled, one after the other, each with its rows of the samples."""
         period, rows = self.configuration.sampling.period_s, len(self.samples)
         first = round(float(self.time_s[0]) / period) if rows else 0
@@ -118,7 +118,7 @@ class Result(Channels):
 
         period = self.configuration.sampling.period_s
         changes_s = {command.tick * period for command in self.commands}
-        return plot_run(self, self.list_stretches(), changes_s)
+        return plot_run(self, self.list_segments(), changes_s)
 
     def __repr__(self) -> str:
         return "\n".join(self._describe())
@@ -159,7 +159,7 @@ class Result(Channels):
             if self.comparisons
             else ""
         )
-        stretches = self.list_stretches()
+        stretches = self.list_segments()
         laws = " → ".join(name_law(law) for law, _ in stretches)
         called = f"{self.name}: " if self.name else ""
         first = (

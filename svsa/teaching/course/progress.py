@@ -23,7 +23,7 @@ from svsa.teaching.course.criterion import CriterionResult
 from svsa.teaching.course.exercise import Exercise
 from svsa.teaching.course.judge import check_answer
 from svsa.teaching.course.steps import Experiment, Explain, Predict, SubmitStep
-from svsa.teaching.submission import MAX_STEPS, Answer, KeptLaw, StepName, Submission
+from svsa.teaching.submission import MAX_STEPS, Answer, SavedLaw, StepName, Submission
 
 COURSE_FOLDER = "course"
 _log = logging.getLogger("svsa")
@@ -50,7 +50,7 @@ class ExerciseProgress(Checked):
 
     at: StepName | None = None
     steps: dict[StepName, StepProgress] = quantity("", "By step", default={}, max_length=MAX_STEPS)
-    law: KeptLaw | None = None
+    law: SavedLaw | None = None
     submitted_at: str | None = None
     points: Number | None = None
     changes: Whole = 0
@@ -151,7 +151,7 @@ def keep_run(
     return progress
 
 
-def keep_law(exercise: Exercise, progress: ExerciseProgress, law: KeptLaw) -> ExerciseProgress:
+def keep_law(exercise: Exercise, progress: ExerciseProgress, law: SavedLaw) -> ExerciseProgress:
     """With a law in place of the one before; raises `StateError` where none belongs to it."""
     check_takes_law(exercise, progress)
     return progress.changed(law=law)

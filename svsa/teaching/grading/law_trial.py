@@ -7,13 +7,13 @@ from svsa.teaching.grading.law_runs import LawRun, run_law
 from svsa.teaching.isolation.confinement import Bounds, confine
 from svsa.teaching.isolation.process import Place
 from svsa.teaching.isolation.refusal import NotIsolatedError
-from svsa.teaching.submission import LONGEST_OUTPUT, KeptLaw
+from svsa.teaching.submission import LONGEST_OUTPUT, SavedLaw
 
 BOUNDS = Bounds(cpu_s=20, start_s=10.0, whole_s=20.0)
 OPEN_TRIAL = 0
 
 
-def try_law(text: str, place: Place = confine) -> KeptLaw:
+def try_law(text: str, place: Place = confine) -> SavedLaw:
     """The law with what came of one run on the first public draw, within 20 s.
 
     A machine that cannot hold a law leaves it untried, and says why.
@@ -23,22 +23,22 @@ def try_law(text: str, place: Place = confine) -> KeptLaw:
         run = run_law(text.encode(), scenario, BOUNDS, place)
     except NotIsolatedError as error:
         reported = f"{error} At home svsa grade --practice tries it."
-        return KeptLaw(text=text, verdict="untried", feedback=reported)
+        return SavedLaw(text=text, verdict="untried", feedback=reported)
     return judge_trial(text, run)
 
 
-def judge_trial(text: str, run: LawRun) -> KeptLaw:
+def judge_trial(text: str, run: LawRun) -> SavedLaw:
     """What a run of a law shows, in words."""
     output = run.output[-LONGEST_OUTPUT:]
     if run.cost_us is None:
-        return KeptLaw(text=text, verdict="failed", feedback=run.problem, output=output)
+        return SavedLaw(text=text, verdict="failed", feedback=run.problem, output=output)
     cost = f"An answer takes {run.cost_us:.0f} µs."
     if run.rms_deg is None:
         reported = f"{run.problem} {cost}"
-        return KeptLaw(text=text, verdict="ended", feedback=reported, output=output)
+        return SavedLaw(text=text, verdict="ended", feedback=reported, output=output)
     rms = f"{run.rms_deg:.3g}° rms from the load on"
     if run.held:
         reported = f"The run held: {HELD}; {rms}."
-        return KeptLaw(text=text, verdict="held", feedback=f"{reported} {cost}")
+        return SavedLaw(text=text, verdict="held", feedback=f"{reported} {cost}")
     reported = f"The run reached its end with {rms}, but did not hold. Held: {HELD}."
-    return KeptLaw(text=text, verdict="ran", feedback=f"{reported} {cost}")
+    return SavedLaw(text=text, verdict="ran", feedback=f"{reported} {cost}")

@@ -6,7 +6,12 @@ import numpy as np
 import pytest
 
 import svsa
-from svsa.analysis.design.attraction import build_map, compute_share, find_fates, order_cells
+from svsa.analysis.design.attraction import (
+    build_map,
+    compute_share,
+    find_start_outcomes,
+    order_cells,
+)
 from svsa.analysis.design.closed_loop import linearize_loop
 from svsa.analysis.design.response import ONSET_S, simulate_load
 from svsa.analysis.design.sampled_loop import compute_disturbance_response
@@ -33,15 +38,15 @@ def build(law: str = "ndobc", pole: float = 60.0, **changes: object) -> Configur
 )
 def test_the_share_that_comes_to_rest(law, pole, sigma, share):
     starts = build_map(COARSE)
-    found = find_fates(build(law, pole), sigma, starts, order_cells(COARSE))
-    assert compute_share([fate for _, fate in found]) == pytest.approx(share, abs=0.04)
+    found = find_start_outcomes(build(law, pole), sigma, starts, order_cells(COARSE))
+    assert compute_share([outcome for _, outcome in found]) == pytest.approx(share, abs=0.04)
 
 
 def test_a_slice_with_deflection_shows_less_than_the_one_without():
     """At 45/60 all rigid starts come to rest, and about 64 % of those with a bent spring."""
     starts = build_map(21, "deflected")
-    found = find_fates(build("ndobc", 45.0), 15.0, starts, order_cells(21))
-    assert compute_share([fate for _, fate in found]) == pytest.approx(0.64, abs=0.05)
+    found = find_start_outcomes(build("ndobc", 45.0), 15.0, starts, order_cells(21))
+    assert compute_share([outcome for _, outcome in found]) == pytest.approx(0.64, abs=0.05)
     assert np.max(np.abs(starts.deflections)) <= 0.3
     assert np.max(np.abs(starts.rates)) <= 5.0
     again = build_map(21, "deflected")
@@ -58,9 +63,9 @@ def test_a_map_is_filled_from_coarse_to_fine():
 def test_a_fate_is_that_of_a_run_from_there():
     """Rest at the middle at once; at the edge of the map, where 60/60 fails, a fault."""
     starts = build_map(3)
-    fates = dict(find_fates(build(), 15.0, starts, order_cells(3)))
-    assert fates[1, 1] == ("rest", 0.0)
-    edge = fates[0, 0]
+    outcomes = dict(find_start_outcomes(build(), 15.0, starts, order_cells(3)))
+    assert outcomes[1, 1] == ("rest", 0.0)
+    edge = outcomes[0, 0]
     assert edge.outcome == "fault"
     assert 0.0 < edge.after_s < 1.0
 

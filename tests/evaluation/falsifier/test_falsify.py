@@ -66,7 +66,7 @@ def test_a_planted_weakness_is_found_and_made_simple():
 
 
 def test_each_worse_run_is_told_as_a_scenario_that_is_as_bad():
-    adversary = build_adversary(harm="peak", law="fl")
+    adversary = build_adversary(cost="peak", law="fl")
     reported = []
     found = falsify(adversary, runs=320, on_worse=reported.append, is_shrunk=False)
     runs = [one.found.at_run for one in reported]
@@ -102,7 +102,7 @@ def test_the_same_seed_finds_the_same_and_another_one_goes_another_way():
 
 @pytest.mark.parametrize("method", ["cma", "random"])
 def test_a_search_that_was_broken_off_goes_on_to_the_same_end(monkeypatch, method):
-    adversary = build_adversary(law="fl", harm="peak")
+    adversary = build_adversary(law="fl", cost="peak")
     whole = falsify(adversary, runs=300, seed=4, method=method)
     generations = []
 
@@ -136,7 +136,7 @@ def test_a_search_that_was_broken_off_goes_on_to_the_same_end(monkeypatch, metho
 
 @pytest.mark.exhaustive
 def test_a_search_for_the_peak_ends_with_its_bound_and_keeps_95_percent():
-    adversary = build_adversary(law="fl", harm="peak", terms=[PULSE, STEP])
+    adversary = build_adversary(law="fl", cost="peak", terms=[PULSE, STEP])
     found = falsify(adversary, runs=2560)
     assert len(found.severities) == 2560
     assert found.severity == found.severities.max() > 5.0 * found.nothing

@@ -197,10 +197,10 @@ def test_a_run_without_samples_says_so(result: svsa.Result) -> None:
 
 def test_a_law_names_only_what_it_controlled(result: svsa.Result) -> None:
     """History is not renamed by the law of the beginning, nor comparisons by the first lane's."""
-    stretches = [(law, rows.start, rows.stop) for law, rows in result.list_stretches()]
+    stretches = [(law, rows.start, rows.stop) for law, rows in result.list_segments()]
     assert stretches == [("ndobc", 0, 100), ("fl", 100, 400), ("ndobc", 400, 600)]
     comparison = result.comparisons[0]
-    assert comparison.list_stretches() == [("fl", slice(0, 600))]
+    assert comparison.list_segments() == [("fl", slice(0, 600))]
     assert all(command.kind != "law" for command in comparison.commands)
     error = result.plot().axes[1]
     drawn = [(line.get_label(), len(line.get_xdata())) for line in error.lines[:3]]

@@ -143,7 +143,7 @@ def summarize(session):
         list(session.journal.events),
         session.version,
         session.journal.timeline.window,
-        session.journal.timeline.list_stretches(),
+        session.journal.timeline.list_segments(),
         len(session.journal.metrics.since_start),
         session.journal.metrics.since_load is None,
     )

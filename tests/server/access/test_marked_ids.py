@@ -24,7 +24,7 @@ NO_IDS = {
     "column": "of a table",
     "exercise": "of the course, which all may read",
     "figure": "of the paper",
-    "harm": "a kind",
+    "cost": "a kind",
     "held": "a parameter of a law",
     "if-match": "a revision",
     "key": "of the leaderboard, which all may read",

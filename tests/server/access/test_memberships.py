@@ -31,16 +31,16 @@ def classroom(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Classroom]:
         yield room
 
 
-def come_back(browser: httpx.Client, code: str) -> httpx.Response:
-    return browser.post("/api/v1/return", json={"code": code})
+def rejoin(browser: httpx.Client, code: str) -> httpx.Response:
+    return browser.post("/api/v1/rejoin", json={"code": code})
 
 
 def join(classroom: Classroom, name: str) -> tuple[httpx.Client, str]:
-    """A browser of somebody who has joined, and their return code."""
+    """A browser of somebody who has joined, and their rejoin code."""
     browser = classroom.open_browser()
     body = {"name": name, "code": classroom.reported.code}
     reported = browser.post("/api/v1/join", json=body).raise_for_status().json()
-    return browser, reported["return_code"]
+    return browser, reported["rejoin_code"]
 
 
 def test_who_is_removed_is_out_at_once_and_has_neither_control_nor_a_place(
@@ -162,26 +162,26 @@ def test_a_person_comes_back_by_their_code_from_another_browser_as_who_they_were
     ada, code = join(classroom, "Gauss")
     private = ada.post("/api/v1/sessions", json={}).raise_for_status().json()["session"]
     other = classroom.open_browser()
-    refused = come_back(other, "AAAA-AAAA-AAAA")
+    refused = rejoin(other, "AAAA-AAAA-AAAA")
     assert (refused.status_code, read_kind(refused)) == (401, "wrong_code")
-    answer = come_back(other, code.lower().replace("-", " ")).raise_for_status()
+    answer = rejoin(other, code.lower().replace("-", " ")).raise_for_status()
     assert "httponly" in answer.headers["set-cookie"].lower()
-    assert "return_code" not in answer.json()
+    assert "rejoin_code" not in answer.json()
     assert read_person(other) == read_person(ada)
     assert other.get(f"/api/v1/sessions/{private}").status_code == 200
-    new = other.post("/api/v1/return-code").raise_for_status().json()["return_code"]
-    assert come_back(classroom.open_browser(), code).status_code == 401
-    assert come_back(classroom.open_browser(), new).status_code == 200
+    new = other.post("/api/v1/rejoin-code").raise_for_status().json()["rejoin_code"]
+    assert rejoin(classroom.open_browser(), code).status_code == 401
+    assert rejoin(classroom.open_browser(), new).status_code == 200
 
 
-def test_a_return_code_gives_nobody_more_than_they_have(classroom: Classroom) -> None:
+def test_a_rejoin_code_gives_nobody_more_than_they_have(classroom: Classroom) -> None:
     ada, code = join(classroom, "Noether")
     instructor = classroom.log_in()
     token = ada.post("/api/v1/tokens", json={"role": "observer"}).json()["token"]
     for one in (classroom.open_browser(token), instructor):
-        assert one.post("/api/v1/return-code").status_code == 409
+        assert one.post("/api/v1/rejoin-code").status_code == 409
     instructor.delete(f"{PEOPLE}/{read_person(ada)['id']}").raise_for_status()
-    refused = come_back(classroom.open_browser(), code)
+    refused = rejoin(classroom.open_browser(), code)
     assert (refused.status_code, read_kind(refused)) == (401, "removed")
 
 
@@ -190,13 +190,13 @@ def test_who_comes_back_while_another_has_the_name_gets_a_number(classroom: Clas
     ada.post("/api/v1/leave").raise_for_status()
     classroom.join("Euler")
     back = classroom.open_browser()
-    assert come_back(back, code).json()["name"] == "Euler (2)"
+    assert rejoin(back, code).json()["name"] == "Euler (2)"
     assert read_person(back)["name"] == "Euler (2)"
 
 
-def test_guesses_of_return_codes_are_as_few_as_joins(tmp_path: Path) -> None:
+def test_guesses_of_rejoin_codes_are_as_few_as_joins(tmp_path: Path) -> None:
     with run_class(tmp_path, joins="3/minute") as room:
-        guesses = [come_back(room.lab.client, "AAAA-AAAA-AAAA").status_code for _ in range(4)]
+        guesses = [rejoin(room.lab.client, "AAAA-AAAA-AAAA").status_code for _ in range(4)]
         assert guesses == [401, 401, 401, 429]
 
 

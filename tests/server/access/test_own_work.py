@@ -84,7 +84,7 @@ def test_a_kept_study_is_seen_by_its_maker_and_the_instructor(tmp_path: Path) ->
         study = read_study("load")[1].changed(runs=4)
         keep_study("load", study, tmp_path / "studies", read_person(ada)["id"])
         for one, sees in ((ada, ["load"]), (bob, []), (instructor, ["load"])):
-            assert [kept["name"] for kept in one.get(STUDIES).json()["kept"]] == sees
+            assert [kept["name"] for kept in one.get(STUDIES).json()["saved"]] == sees
         for below in ("", "/summary", "/rows?column=succeeded", "/rows.parquet", "/rows/0"):
             assert read_kind(bob.get(f"{STUDIES}/load{below}")) == "not_found", below
         assert read_kind(bob.delete(f"{STUDIES}/load")) == "not_found"
@@ -103,8 +103,8 @@ def test_a_kept_study_is_its_makers_and_the_instructors(classroom: Classroom) ->
     copied = bob.post(STUDIES + "/check", json={"source": "load-3", "runs": 4})
     assert copied.status_code == 404
     for one, sees in ((ada, ["load"]), (bob, ["load-2"]), (watching, [])):
-        assert [kept["name"] for kept in one.get(STUDIES).json()["kept"]] == sees
-    kept = instructor.get(STUDIES).json()["kept"]
+        assert [kept["name"] for kept in one.get(STUDIES).json()["saved"]] == sees
+    kept = instructor.get(STUDIES).json()["saved"]
     assert {one["name"] for one in kept} == {"load", "load-2"}
     for below in ("", "/summary", "/sensitivity", "/rows?column=succeeded", "/rows.parquet"):
         for other in (bob, watching):
@@ -121,7 +121,7 @@ def test_a_kept_study_is_its_makers_and_the_instructors(classroom: Classroom) ->
         assert other.delete(f"{STUDIES}/load").status_code == status
     for one, name in ((ada, "load"), (instructor, "load-2")):
         assert one.delete(f"{STUDIES}/{name}").status_code == 204
-    assert instructor.get(STUDIES).json()["kept"] == []
+    assert instructor.get(STUDIES).json()["saved"] == []
     assert ada.get(f"/api/v1/runs/{run}").is_success, "what was recorded of it stays"
 
 

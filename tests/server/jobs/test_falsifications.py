@@ -13,7 +13,7 @@ from tests.waiting import follow
 SEARCHES = "/api/v1/falsifications"
 PULL = """\
 title = "A pull on the link"
-harm = "peak"
+cost = "peak"
 duration_s = 1.0
 
 [base]

@@ -56,7 +56,7 @@ def test_no_run_before_its_prediction_which_stays_from_then_on(student):
     assert late.status_code == 409
     part = next(one for one in student.read()["parts"] if one["name"] == "predict-error")
     assert part["answer"] == 7.5
-    assert part["is_kept"]
+    assert part["is_final"]
 
 
 def test_a_choice_is_made_once(student):

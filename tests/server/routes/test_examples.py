@@ -28,7 +28,7 @@ PATHS = SCHEMA["paths"]
 COURSE = "/api/v1/course/{exercise}"
 NOT_HERE = {
     "POST /api/v1/join": "no class",
-    "POST /api/v1/return": "no class",
+    "POST /api/v1/rejoin": "no class",
     "POST /api/v1/tokens": "no class",
     "POST /api/v1/sessions/{session}/control/handover": "nobody waits",
     "PUT /api/v1/sessions/{session}/control/lock": "no class",

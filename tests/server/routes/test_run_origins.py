@@ -1,4 +1,4 @@
-"""What decides a run, and how good a stretch of it is, over REST: what the page's scripts need."""
+"""What decides a run, and how good a segment of it is, over REST: what the page's scripts need."""
 
 import time
 from pathlib import Path

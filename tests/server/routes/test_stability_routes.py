@@ -92,16 +92,16 @@ def test_the_map_comes_in_parts_from_coarse_to_fine(lab: Lab) -> None:
     lab.load_figure(law="ndobc")
     first = ask(lab, "region", starts=5, count=9)
     assert len(first["positions_rad"]) == 5
-    assert {(one["row"], one["column"]) for one in first["fates"]} == {
+    assert {(one["row"], one["column"]) for one in first["outcomes"]} == {
         (row, column) for row in (0, 2, 4) for column in (0, 2, 4)
     }
-    middle = next(one for one in first["fates"] if (one["row"], one["column"]) == (2, 2))
+    middle = next(one for one in first["outcomes"] if (one["row"], one["column"]) == (2, 2))
     assert middle["outcome"] == "rest"
     rest = ask(lab, "region", starts=5, first=first["next"], count=100)
     assert rest["next"] is None
-    assert len(first["fates"]) + len(rest["fates"]) == 25
+    assert len(first["outcomes"]) + len(rest["outcomes"]) == 25
     stiff = ask(lab, "region", starts=5, count=25, stiffness_nm_per_rad=60.0)
-    assert sum(one["outcome"] == "rest" for one in stiff["fates"]) > 20
+    assert sum(one["outcome"] == "rest" for one in stiff["outcomes"]) > 20
 
 
 def test_another_slice_has_starts_with_a_bent_spring(lab: Lab) -> None:
@@ -109,7 +109,8 @@ def test_another_slice_has_starts_with_a_bent_spring(lab: Lab) -> None:
     slower = {"gains": {"position_poles_rad_per_s": [-45] * 4}, "starts": 7, "count": 49}
     shares = [
         sum(
-            one["outcome"] == "rest" for one in ask(lab, "region", chosen=chosen, **slower)["fates"]
+            one["outcome"] == "rest"
+            for one in ask(lab, "region", chosen=chosen, **slower)["outcomes"]
         )
         for chosen in ("rigid", "deflected")
     ]

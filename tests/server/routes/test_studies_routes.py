@@ -77,7 +77,7 @@ def test_a_study_is_run_to_its_end_and_its_rows_are_those_of_the_table(lab, whol
     assert (whole["job"]["status"], whole["job"]["problem"]) == ("done", None)
     assert whole["done"] == whole["rows"] == whole["job"]["done"] == whole["job"]["total"] == 48
     listed = lab.get(STUDIES).json()
-    assert listed["kept"][0]["name"] == "whole"
+    assert listed["saved"][0]["name"] == "whole"
     assert {"perturbation", "load"} <= {one["name"] for one in listed["built_in"]}
 
     wanted = ["law", "loads[0].torque_nm[0]", "effects", "peak_position_error_rad", "succeeded"]

@@ -33,7 +33,7 @@ def test_one_that_is_being_run_is_cancelled_first_and_leaves_nothing(lab: httpx.
     delete(lab, name)
     assert lab.get(f"/api/v1/jobs/{job}").json()["status"] == "cancelled"
     assert lab.get(f"{STUDIES}/{name}").status_code == 404
-    assert lab.get(STUDIES).json()["kept"] == []
+    assert lab.get(STUDIES).json()["saved"] == []
     assert list(find_studies_folder().iterdir()) == []
     assert lab.delete(f"{STUDIES}/{name}").status_code == 404
     again = lab.post(STUDIES, json={"source": "load", "runs": 1, "laws": ["fl"]}).json()

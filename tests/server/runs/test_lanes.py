@@ -12,7 +12,7 @@ from svsa.runs.records.measured_window import trace_record
 from svsa.runs.records.reader import Record, build_record
 from svsa.runs.session.simulated import SimulatedSession
 from svsa.simulation.plant.loads.paper import PaperLoad
-from svsa_server.runs.lanes import list_record_stretches, name_lanes
+from svsa_server.runs.lanes import list_record_segments, name_lanes
 from svsa_server.sessions.hosted import HostedSession
 from svsa_server.sessions.state import build_state
 from tests.runs.records.records import build_header, build_samples
@@ -36,9 +36,9 @@ def record_lanes(
     return build_record(header, given, FIRST_TICK, build_samples(10, lanes, FIRST_TICK))
 
 
-def list_stretches(record: Record) -> list[list[tuple[str, int, int, int | None]]]:
-    stretches = list_record_stretches(record, trace_record(record))
-    return [[(s.name, s.line_style, s.start_tick, s.end_tick) for s in lane] for lane in stretches]
+def list_segments(record: Record) -> list[list[tuple[str, int, int, int | None]]]:
+    segments = list_record_segments(record, trace_record(record))
+    return [[(s.name, s.line_style, s.start_tick, s.end_tick) for s in lane] for lane in segments]
 
 
 @pytest.mark.parametrize(
@@ -59,12 +59,12 @@ def test_lanes_are_called_by_the_laws_while_the_recording_went_on(
     lanes: int, comparisons: list[Any], commands: list[tuple[int, str, Any]], names: list[str]
 ) -> None:
     record = record_lanes(lanes, comparisons, commands)
-    assert name_lanes(list_record_stretches(record, trace_record(record))) == names
+    assert name_lanes(list_record_segments(record, trace_record(record))) == names
 
 
 def test_a_bench_and_its_twin_are_told_apart() -> None:
     record = record_lanes(3, [NDOBC, FL], [(205, "law", "fl")], plant="emulated")
-    assert list_stretches(record) == [
+    assert list_segments(record) == [
         [("Bench NDOBC", 0, 0, 205), ("Bench FL", 3, 205, None)],
         [("Twin NDOBC", 2, 0, 205), ("Twin FL", 4, 205, None)],
         [("FL", 1, 0, None)],
@@ -73,16 +73,16 @@ def test_a_bench_and_its_twin_are_told_apart() -> None:
 
 def test_what_was_tried_before_the_recording_takes_no_ink_from_what_is_in_it() -> None:
     record = record_lanes(1, [], [(100, "observer", FASTER), (150, "law", "fl")])
-    assert list_stretches(record) == [[("FL", 1, 150, None)]]
+    assert list_segments(record) == [[("FL", 1, 150, None)]]
     again = record_lanes(1, [], [(100, "observer", FASTER), (205, "law", "fl")])
-    assert list_stretches(again) == [[("NDOBC", 0, 100, 205), ("FL", 1, 205, None)]]
+    assert list_segments(again) == [[("NDOBC", 0, 100, 205), ("FL", 1, 205, None)]]
 
 
 def test_a_stretch_over_several_windows_says_so() -> None:
     timeline = trace_record(record_lanes(1, [], [(205, "law", "fl")]))
     assert timeline is not None
-    stretches = ((200, 210), (205, 210), (200, 205))
-    reported = [[one.label for one in timeline.list_windows(*ticks)] for ticks in stretches]
+    segments = ((200, 210), (205, 210), (200, 205))
+    reported = [[one.label for one in timeline.list_windows(*ticks)] for ticks in segments]
     assert reported == [["", "NDOBC → FL"], ["NDOBC → FL"], [""]]
 
 

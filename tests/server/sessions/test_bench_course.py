@@ -142,7 +142,7 @@ def test_a_bench_gets_law_references_and_observer_and_keeps_what_it_is(room: Roo
     for name in ("actuator", "nominal", "limits", "effects"):
         assert reported[name] == before[name]
     step = room.call("GET", "")["parts"][0]
-    assert step["bench"]["hands"] == [{"time_s": 0.8, "is_on": True}]
+    assert step["bench"]["manual_loads"] == [{"time_s": 0.8, "is_on": True}]
 
 
 @pytest.fixture(scope="module")

@@ -167,8 +167,8 @@ def test_a_push_is_one_load_from_the_first_time_it_is_told_to_its_end(bench: Ben
     end_tick = events["load_off"]["tick"]
     assert events["load_on"]["tick"] == pushes[0]["tick"]
     assert end_tick == pushes[-1]["tick"] + 2000
-    stretch = {"channels": "estimate_link_nm", "start_s": 1e-3 * end_tick - 0.5}
-    seen = client.get(f"{run}/samples", params=stretch).raise_for_status().json()
+    segment = {"channels": "estimate_link_nm", "start_s": 1e-3 * end_tick - 0.5}
+    seen = client.get(f"{run}/samples", params=segment).raise_for_status().json()
     bench_lane, twin = (lane["estimate_link_nm"] for lane in seen["lanes"].values())
     for estimates in (bench_lane, twin):
         assert estimates[0] == pytest.approx(1.2, abs=0.3)

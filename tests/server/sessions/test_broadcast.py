@@ -105,10 +105,10 @@ def test_a_message_does_not_grow_with_the_changes_of_a_minute(hosted):
 def join(known: dict, message: dict) -> dict:
     """What a reader knows after a message, as the schema says."""
     since, state = message["since_tick"], message["state"]
-    was = {lane["id"]: lane["stretches"] for lane in known["lanes"]}
+    was = {lane["id"]: lane["segments"] for lane in known["lanes"]}
     for lane in state["lanes"]:
         over = [one for one in was.get(lane["id"], []) if one["end_tick"] is not None]
-        lane["stretches"] = [o for o in over if o["end_tick"] < since] + lane["stretches"]
+        lane["segments"] = [o for o in over if o["end_tick"] < since] + lane["segments"]
     if "events" in state:
         before = [event for event in known["events"] if event["tick"] < since]
         state["events"] = before + state["events"]

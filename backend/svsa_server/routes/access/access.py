@@ -20,8 +20,8 @@ from svsa_server.schemas.access.access import (
     JoinRequest,
     JoinState,
     LoginRequest,
-    ReturnCode,
-    ReturnRequest,
+    RejoinCode,
+    RejoinRequest,
     TokenRequest,
     TokenState,
 )
@@ -80,7 +80,7 @@ async def join(
 ) -> JoinState | JSONResponse:
     """Join the class with a name and its code; a cookie says from then on who one is.
 
-    A name that somebody here has already gets a number. `return_code` is told once: by it one comes
+    A name that somebody here has already gets a number. `rejoin_code` is told once: by it one comes
     back as the same person from any browser.
     """
     authentication = find_class(request)
@@ -93,47 +93,47 @@ async def join(
         await authentication.patience.wait(address)
         return answer_problem(401, "wrong_code", "That is not the code of this class.")
     person = await authentication.join(wanted.name, Role[wanted.role.upper()])
-    code = await authentication.renew_return_code(person)
+    code = await authentication.renew_rejoin_code(person)
     assert code is not None  # noqa: S101  who has just joined has a membership
     set_cookie(request, response, authentication.keys.sign(person))
-    return JoinState(**_describe(request, person).model_dump(), return_code=code)
+    return JoinState(**_describe(request, person).model_dump(), rejoin_code=code)
 
 
 @router.post(
-    "/return",
+    "/rejoin",
     response_model=AccessState,
-    operation_id="come_back",
+    operation_id="rejoin",
     responses={**_WRONG, 409: REFUSALS[409], 422: REFUSALS[422]},
 )
 @allow(ANYBODY)
-async def come_back(
+async def rejoin(
     request: Request,
     response: Response,
-    wanted: Annotated[ReturnRequest, Body(examples=[{"code": "ABCD-2345-EFGH"}])],
+    wanted: Annotated[RejoinRequest, Body(examples=[{"code": "ABCD-2345-EFGH"}])],
 ) -> AccessState | JSONResponse:
     """Come back as who one was, with one's runs and exercises, by the code that joining told."""
     authentication = find_class(request)
-    membership = await authentication.come_back(wanted.code)
+    membership = await authentication.rejoin(wanted.code)
     if membership is None:
         await authentication.patience.wait(read_address(request.scope))
-        return answer_problem(401, "wrong_code", "That is nobody's return code in this class.")
+        return answer_problem(401, "wrong_code", "That is nobody's rejoin code in this class.")
     if membership.is_ended:
         return answer_problem(401, "removed", REMOVED)
     set_cookie(request, response, authentication.keys.sign(membership.person))
     return _describe(request, membership.person)
 
 
-@router.post("/return-code", status_code=201, responses={409: REFUSALS[409]})
+@router.post("/rejoin-code", status_code=201, responses={409: REFUSALS[409]})
 @allow(OBSERVER)
-async def renew_return_code(request: Request, person: NamedPerson) -> ReturnCode:
-    """A new return code, told once; the one before lets nobody back in any more."""
-    code = await find_class(request).renew_return_code(person)
+async def renew_rejoin_code(request: Request, person: NamedPerson) -> RejoinCode:
+    """A new rejoin code, told once; the one before lets nobody back in any more."""
+    code = await find_class(request).renew_rejoin_code(person)
     if code is None:
         raise StateError(
-            "A return code is for who has joined: the instructor comes back with the token, and a"
+            "A rejoin code is for who has joined: the instructor comes back with the token, and a"
             " script that may do less than its maker with its own."
         )
-    return ReturnCode(return_code=code)
+    return RejoinCode(rejoin_code=code)
 
 
 @router.post("/leave", status_code=204)

@@ -47,7 +47,7 @@ _TOML = {"application/toml": {"schema": {"type": "string"}}}
 
 @router.get("/adversaries")
 @allow(OBSERVER)
-def list_all_adversaries() -> list[AdversaryState]:
+def list_adversary_files() -> list[AdversaryState]:
     """The adversaries that come with the lab: which loads each may choose, and what it is after."""
     return [
         AdversaryState(
@@ -117,7 +117,7 @@ def read_scenario_file(request: Request, name: Search) -> Response:
 
 @router.post("/{falsification}/sessions", status_code=201)
 @allow(OPERATOR)
-async def see_falsification(
+async def open_found_session(
     request: Request, _: NamedClient, person: NamedPerson, name: Search
 ) -> SessionState:
     """A private session, running, of the law in what was found, and another law beside it."""
@@ -146,7 +146,7 @@ def _build(job: Job) -> FalsificationState:
     return FalsificationState(
         **state.model_dump(),
         law=asked.adversary.law,
-        harm=asked.adversary.harm,
+        cost=asked.adversary.cost,
         seed=asked.seed,
         adversary=asked.adversary.model_dump(mode="json"),
         worst=worst and dump_scenario(worst),

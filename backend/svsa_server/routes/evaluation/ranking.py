@@ -27,7 +27,7 @@ async def read_ranking(_: NamedClient) -> Results:
 
 @router.post("/sessions", status_code=201, responses=REFUSALS)
 @allow(OPERATOR)
-async def see_scenario(
+async def open_ranking_session(
     request: Request,
     _: NamedClient,
     person: NamedPerson,

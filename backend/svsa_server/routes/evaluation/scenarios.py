@@ -21,7 +21,7 @@ from svsa_server.problems import UnknownError
 from svsa_server.routes.depends import BUSY, REFUSALS, NamedClient, NamedPerson, Work
 from svsa_server.routing import build_router
 from svsa_server.schemas.evaluation.scenario import (
-    KeptScenario,
+    SavedScenario,
     ScenarioRuns,
     ScenarioSession,
     ScenarioTraceState,
@@ -49,7 +49,7 @@ _TOML = {"application/toml": {"schema": {"type": "string"}}}
 
 @router.get("")
 @allow(OBSERVER)
-def list_kept() -> list[KeptScenario]:
+def list_saved_scenarios() -> list[SavedScenario]:
     """The scenarios that are kept in this lab, by name."""
     return [describe_kept(name, one) for name, one in list_scenarios().items()]
 
@@ -81,7 +81,9 @@ async def open_scenario_session(
 
 @router.put("/{scenario}")
 @allow(OPERATOR)
-def keep(name: Name, wanted: Annotated[LoadScenario, Body(examples=[_EXAMPLE])]) -> KeptScenario:
+def save_scenario(
+    name: Name, wanted: Annotated[LoadScenario, Body(examples=[_EXAMPLE])]
+) -> SavedScenario:
     """Keep a scenario by a name, which no other one may have."""
     keep_scenario(name, wanted)
     return describe_kept(name, wanted)
@@ -89,7 +91,7 @@ def keep(name: Name, wanted: Annotated[LoadScenario, Body(examples=[_EXAMPLE])])
 
 @router.get("/{scenario}")
 @allow(OBSERVER)
-def read_scenario(name: Name) -> KeptScenario:
+def read_scenario(name: Name) -> SavedScenario:
     """One that is kept."""
     return describe_kept(name, _open(name))
 
@@ -109,7 +111,7 @@ def download_scenario(name: Name) -> Response:
 
 @router.delete("/{scenario}", status_code=204)
 @allow(INSTRUCTOR_ONLY)
-def forget(name: Name) -> None:
+def delete_scenario(name: Name) -> None:
     """Keep it no longer."""
     if not forget_scenario(name):
         raise _refuse(name)

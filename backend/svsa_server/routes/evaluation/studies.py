@@ -60,7 +60,7 @@ _PARQUET = {"application/vnd.apache.parquet": {"schema": {"type": "string", "for
 
 @router.get("")
 @allow(OBSERVER)
-def list_all(request: Request, person: NamedPerson) -> StudyList:
+def list_all_studies(request: Request, person: NamedPerson) -> StudyList:
     """The studies that come with the lab, and those that were begun here, the last one first.
 
     In a class those that one began oneself, and those that nobody of it did.
@@ -73,7 +73,7 @@ def list_all(request: Request, person: NamedPerson) -> StudyList:
     ]
     return StudyList(
         built_in=built_in,
-        kept=[describe_study(one, _find_job(request, one.name)) for one in kept],
+        saved=[describe_study(one, _find_job(request, one.name)) for one in kept],
         metrics=[
             StudyMetric(name=name, label=format_metric(name), unit=unit)
             for name, unit in METRICS.items()

@@ -8,7 +8,14 @@ from typing import Annotated, Literal
 import numpy as np
 from fastapi import Body, Request
 
-from svsa.analysis.design.attraction import Cell, Fate, Map, build_map, find_fates, order_cells
+from svsa.analysis.design.attraction import (
+    Cell,
+    Map,
+    StartOutcome,
+    build_map,
+    find_start_outcomes,
+    order_cells,
+)
 from svsa.analysis.design.loop_noise import choose_sensing
 from svsa.analysis.design.margins import compute_margins
 from svsa.analysis.design.response import LoadResponse, simulate_load
@@ -29,7 +36,6 @@ from svsa_server.schemas.lab.gain import Root
 from svsa_server.schemas.lab.session import SessionState
 from svsa_server.schemas.lab.stability import (
     DesignRequest,
-    FateState,
     FrequencyResponseState,
     LoadResponseState,
     MarginsState,
@@ -38,6 +44,7 @@ from svsa_server.schemas.lab.stability import (
     ResponseState,
     StabilityState,
     StableRangeState,
+    StartOutcomeState,
 )
 from svsa_server.sessions.state import build_state
 from svsa_server.sessions.tried_design import build_tried
@@ -52,7 +59,7 @@ Tried = Annotated[DesignRequest, Body(examples=[_POLES])]
 
 @router.post("/response")
 @allow(OBSERVER)
-async def respond(hosted: NamedSession, request: Tried) -> ResponseState:
+async def compute_load_response(hosted: NamedSession, request: Tried) -> ResponseState:
     """What this design does when the 3 kg come, and to a sine on the link; nothing is changed."""
     configuration, sigma = build_tried(hosted.session, request)
     load = await asyncio.to_thread(simulate_load, configuration, sigma)
@@ -118,7 +125,7 @@ async def map_attraction(
     sensing = configuration.changed(effects=choose_sensing(configuration.effects))
     starts, end = build_map(request.starts, request.chosen), request.first + request.count
     cells = order_cells(request.starts)[request.first : end]
-    fates = await work.run(_find_part, sensing, sigma, starts, cells)
+    outcomes = await work.run(_find_part, sensing, sigma, starts, cells)
     return RegionState(
         law=configuration.law,
         chosen=request.chosen,
@@ -126,9 +133,11 @@ async def map_attraction(
         encoders=_name_encoders(configuration),
         positions_rad=starts.positions.tolist(),
         velocities_rad_per_s=starts.velocities.tolist(),
-        fates=[
-            FateState(row=cell.row, column=cell.column, outcome=fate.outcome, after_s=fate.after_s)
-            for cell, fate in fates
+        outcomes=[
+            StartOutcomeState(
+                row=cell.row, column=cell.column, outcome=one.outcome, after_s=one.after_s
+            )
+            for cell, one in outcomes
         ],
         next=end if end < request.starts**2 else None,
     )
@@ -160,8 +169,8 @@ def _compute_sensed_radius(configuration: Configuration, sigma: float) -> float:
 
 def _find_part(
     configuration: Configuration, sigma: float, starts: Map, cells: Sequence[Cell]
-) -> list[tuple[Cell, Fate]]:
-    return list(find_fates(configuration, sigma, starts, cells))
+) -> list[tuple[Cell, StartOutcome]]:
+    return list(find_start_outcomes(configuration, sigma, starts, cells))
 
 
 def _name_encoders(configuration: Configuration) -> Literal["session", "rig"]:

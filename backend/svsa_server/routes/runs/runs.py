@@ -21,7 +21,7 @@ from svsa_server.access.roles import Role
 from svsa_server.routes.depends import CHANGED, REFUSALS, ChangedRunId, NamedPerson, RunId, Runs
 from svsa_server.routes.runs.origins import name_origin
 from svsa_server.routing import build_router
-from svsa_server.runs.lanes import build_window, list_record_stretches, name_lanes
+from svsa_server.runs.lanes import build_window, list_record_segments, name_lanes
 from svsa_server.schemas.runs.run import (
     RunCommand,
     RunDetails,
@@ -103,12 +103,12 @@ def read_run(runs: Runs, run_id: RunId) -> RunDetails:
     """A run with its configuration, its channels and the commands given while it went on."""
     entry, record = runs.get(run_id), runs.open(run_id)
     timeline = trace_record(record)
-    stretches = list_record_stretches(record, timeline)
+    segments = list_record_segments(record, timeline)
     windows = [] if timeline is None else timeline.windows
     return RunDetails(
         **_tell(runs, entry),
-        lane_names=name_lanes(stretches),
-        stretches=stretches,
+        lane_names=name_lanes(segments),
+        segments=segments,
         windows=[build_window(window, record.header.period_s) for window in windows],
         seed=record.header.seed,
         configuration=record.header.configuration,

@@ -1,4 +1,4 @@
-"""Recorded runs looked at: samples for a plot, metrics of a stretch."""
+"""Recorded runs looked at: samples for a plot, metrics of a segment."""
 
 from typing import Annotated
 
@@ -45,7 +45,7 @@ def read_samples(
     end_s: RunTime = None,
     points: Annotated[int, Query(ge=2, le=MAX_POINTS, description="At most so many")] = 2000,
 ) -> Response:
-    """A stretch of the run for a plot; least and greatest values are kept."""
+    """A segment of the run for a plot; least and greatest values are kept."""
     record = runs.open(run_id)
     names = _choose_channels(record, channels)
     start, stop = _choose_rows(record, start_s, end_s)
@@ -71,7 +71,7 @@ def read_samples(
 def read_metrics(
     runs: Runs, run_id: RunId, start_s: RunTime = None, end_s: RunTime = None
 ) -> RunMetrics:
-    """How good every lane is over a stretch of the run, such as from its load on."""
+    """How good every lane is over a segment of the run, such as from its load on."""
     record = runs.open(run_id)
     start, stop = _choose_rows(record, start_s, end_s)
     measured = record.read_channels(MEASURED, start, stop)

@@ -80,7 +80,7 @@ def read_exercise(request: Request, person: NamedPerson, exercise: ExerciseName)
 
 @router.put("/course/{exercise}/place")
 @allow(OPERATOR)
-def visit(
+def set_exercise_place(
     request: Request,
     person: NamedPerson,
     exercise: ExerciseName,
@@ -92,7 +92,7 @@ def visit(
 
 @router.put("/course/{exercise}/steps/{step}/answer")
 @allow(OPERATOR)
-def answer(
+def answer_step(
     request: Request,
     person: NamedPerson,
     exercise: ExerciseName,
@@ -114,7 +114,7 @@ def answer(
 
 @router.post("/sessions/{session}/exercise")
 @allow(OPERATOR)
-async def set_up(
+async def set_up_experiment(
     request: Request,
     hosted: NamedSession,
     person: NamedPerson,
@@ -146,7 +146,7 @@ async def set_up(
 
 @router.post("/course/{exercise}/steps/{step}/check")
 @allow(OPERATOR)
-def check(
+def check_experiment(
     request: Request,
     person: NamedPerson,
     runs: Runs,
@@ -172,7 +172,7 @@ def check(
 
 @router.put("/course/{exercise}/law", responses=BUSY)
 @allow(OPERATOR)
-async def try_law(
+async def try_submission_law(
     request: Request,
     person: NamedPerson,
     work: Work,
@@ -196,7 +196,7 @@ async def try_law(
 
 @router.post("/course/{exercise}/submission", status_code=201)
 @allow(OPERATOR)
-def submit(
+def submit_exercise(
     request: Request,
     person: NamedPerson,
     runs: Runs,

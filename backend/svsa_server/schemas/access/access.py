@@ -34,10 +34,10 @@ class JoinRequest(Checked):
     )
 
 
-class ReturnRequest(Checked):
+class RejoinRequest(Checked):
     """Comes back as somebody who has joined before."""
 
-    code: Annotated[str, Field(max_length=100)] = quantity("", "One's own return code")
+    code: Annotated[str, Field(max_length=100)] = quantity("", "One's own rejoin code")
 
 
 class TokenRequest(Checked):
@@ -75,11 +75,11 @@ class AccessState(BaseModel):
     )
 
 
-class ReturnCode(BaseModel):
+class RejoinCode(BaseModel):
     """A code by which a person comes back to their work from any browser; told once."""
 
-    return_code: str
+    rejoin_code: str
 
 
-class JoinState(AccessState, ReturnCode):
+class JoinState(AccessState, RejoinCode):
     """As whom one has joined."""

@@ -66,7 +66,7 @@ class FalsificationState(JobState):
     """A search, and what it found."""
 
     law: str
-    harm: str
+    cost: str
     seed: int
     adversary: dict[str, Any] = Field(description="Within which bounds it searches")
     worst: dict[str, Any] | None = Field(

@@ -77,7 +77,7 @@ class ScenarioTraceState(BaseModel):
     laws: list[LawTraceState]
 
 
-class KeptScenario(BaseModel):
+class SavedScenario(BaseModel):
     """A scenario that is kept by a name."""
 
     name: str
@@ -90,6 +90,6 @@ def dump_scenario(scenario: LoadScenario) -> dict[str, Any]:
     return scenario.model_dump(mode="json", exclude_none=True)
 
 
-def describe_kept(name: str, scenario: LoadScenario) -> KeptScenario:
+def describe_kept(name: str, scenario: LoadScenario) -> SavedScenario:
     """A kept scenario."""
-    return KeptScenario(name=name, title=scenario.title, scenario=dump_scenario(scenario))
+    return SavedScenario(name=name, title=scenario.title, scenario=dump_scenario(scenario))

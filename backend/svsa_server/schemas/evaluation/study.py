@@ -149,7 +149,7 @@ class StudyList(BaseModel):
     """All that can be looked at or run, and what is measured of a run."""
 
     built_in: list[BuiltInStudy]
-    kept: list[StudyState] = Field(description="The last begun first")
+    saved: list[StudyState] = Field(description="The last begun first")
     metrics: list[StudyMetric]
 
 

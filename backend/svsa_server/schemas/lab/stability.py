@@ -148,12 +148,12 @@ class MarginsState(BaseModel):
     )
 
 
-class FateState(BaseModel):
+class StartOutcomeState(BaseModel):
     """What becomes of a start."""
 
     row: int
     column: int
-    outcome: Literal["rest", "fault", "astray"]
+    outcome: Literal["rest", "fault", "unsettled"]
     after_s: float = Field(description="Close for good since then, or the fault's time")
 
 
@@ -169,5 +169,5 @@ class RegionState(BaseModel):
     encoders: Literal["session", "rig"]
     positions_rad: list[float] = Field(description="q0 of the columns")
     velocities_rad_per_s: list[float] = Field(description="q̇0 of the rows")
-    fates: list[FateState]
+    outcomes: list[StartOutcomeState]
     next: int | None = Field(description="Where the next part begins")

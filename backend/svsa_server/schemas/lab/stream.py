@@ -76,7 +76,7 @@ class StateMessage(BaseModel):
 
     type: Literal["state"] = "state"
     since_tick: int = Field(
-        description="Of `events`, of `ended_windows` and of the lanes' `stretches` that have ended"
+        description="Of `events`, of `ended_windows` and of the lanes' `segments` that have ended"
         " only those at or after this tick are told, or that ended then; what was told of the time"
         " before holds. 0: all are told, and nothing else holds"
     )
@@ -119,7 +119,7 @@ def describe_stream(batch_period_s: float) -> str:
             " change, and with the fields that move by themselves five times a second in the first"
             " seconds of a window and once a second later, `error` before the stream is closed for"
             " a wrong address. Their schema is that of the answer 101. What is over is told once: a"
-            " `state` has events, windows and stretches that have ended from its `since_tick` on,"
+            " `state` has events, windows and segments that have ended from its `since_tick` on,"
             " and those before stay as they were told.",
             "",
             f"Binary messages are batches of samples, about {1 / batch_period_s:.0f} a second,"

@@ -15,7 +15,7 @@ class Period(BaseModel):
     end_s: float | None
 
 
-class StretchState(Period):
+class SegmentState(Period):
     """A controller (a law with its gains and observer) on a lane, from start to before end."""
 
     number: int = Field(
@@ -62,6 +62,6 @@ class LaneState(BaseModel):
     )
     law: str
     name: str = Field(description="Of who controls it now")
-    stretches: list[StretchState] = Field(
+    segments: list[SegmentState] = Field(
         description="Who controlled it in the last 60 s, the present one last"
     )

@@ -20,7 +20,7 @@ from svsa.runs.records.header import (
 from svsa.runs.records.measured_window import MeasuredWindow
 from svsa.runs.records.settings import RunSettings
 from svsa_server.schemas.runs.fault import RunFault
-from svsa_server.schemas.runs.lane import StretchState, WindowState
+from svsa_server.schemas.runs.lane import SegmentState, WindowState
 
 ExportName = Literal["csv", "parquet", "mat", "mcap"]
 RunName = Annotated[str, Field(max_length=LONGEST_NAME)]
@@ -140,7 +140,7 @@ class RunDetails(RunSummary):
     """A run with everything that decided its samples."""
 
     lane_names: list[str] = Field(description="What to call the lanes: by their laws")
-    stretches: list[list[StretchState]] = Field(description="Of every lane, who controlled it when")
+    segments: list[list[SegmentState]] = Field(description="Of every lane, who controlled it when")
     windows: list[WindowState] = Field(
         description="Between the changes of the run; the newest 1000"
     )
@@ -163,7 +163,7 @@ class RunOrigin(BaseModel):
 
 
 class RunMetrics(BaseModel):
-    """How good a stretch of a run is, from every sample in it."""
+    """How good a segment of a run is, from every sample in it."""
 
     start_s: float
     end_s: float

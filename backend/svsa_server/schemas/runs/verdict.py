@@ -53,7 +53,7 @@ class ChannelJudged(BaseModel):
         description="How far outside then, negative inside; null where one of both is not known"
     )
     outside: list[tuple[float, float]] = Field(
-        description="From when to when it is outside; what is nearly one stretch is one"
+        description="From when to when it is outside; what is nearly one segment is one"
     )
     outside_s: float = Field(description="How long in all, every tick counted")
 

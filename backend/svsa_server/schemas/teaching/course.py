@@ -11,7 +11,7 @@ from svsa.teaching.course.progress import ExerciseProgress, find_done, find_miss
 from svsa.teaching.course.steps import Experiment, Explain, Predict, Step, SubmitStep
 from svsa.teaching.course.text import render_text
 from svsa.teaching.grading.law_points import POINTS
-from svsa.teaching.submission import LONGEST_NAME, Answer, KeptLaw, LawText, StepName
+from svsa.teaching.submission import LONGEST_NAME, Answer, LawText, SavedLaw, StepName
 from svsa_server.access.owned import Owned
 
 
@@ -61,7 +61,7 @@ class OptionState(BaseModel):
     text: str
 
 
-class LeaseState(BaseModel):
+class ManualLoadState(BaseModel):
     """A time at which somebody hangs or takes off a load of a bench by hand."""
 
     time_s: float = Field(description="Of the run")
@@ -72,8 +72,8 @@ class BenchStepState(BaseModel):
     """An experiment as it is run on a bench."""
 
     criteria: list[str] = Field(description="What is asked of its run")
-    by_hand: str = Field(description="What whoever stands at the bench does with its loads")
-    hands: list[LeaseState] = Field(description="When, in the order of time")
+    manual_load: str = Field(description="What whoever stands at the bench does with its loads")
+    manual_loads: list[ManualLoadState] = Field(description="When, in the order of time")
 
 
 class StepState(BaseModel):
@@ -98,7 +98,7 @@ class StepState(BaseModel):
     )
     law: bool = Field(default=False, description="Whether a law's file is submitted")
     answer: Answer | None = None
-    is_kept: bool = Field(description="Whether the answer cannot be changed any more")
+    is_final: bool = Field(description="Whether the answer cannot be changed any more")
     begun: bool
     run_id: str | None
     done: bool
@@ -128,7 +128,7 @@ class ExerciseState(ExerciseSummary):
 
     html: str
     missing: list[str] = Field(description="Steps that are to be done before it is submitted")
-    law: KeptLaw | None = Field(description="The law that was tried last, which is submitted")
+    law: SavedLaw | None = Field(description="The law that was tried last, which is submitted")
     parts: list[StepState]
 
 
@@ -177,7 +177,7 @@ def _describe_step(exercise: Exercise, step: Step, progress: ExerciseProgress) -
         html=render_text(step.text),
         max_points=0.0,
         answer=known.answer,
-        is_kept=progress.submitted_at is not None,
+        is_final=progress.submitted_at is not None,
         begun=known.begun,
         run_id=known.run,
         bench=None,
@@ -194,7 +194,7 @@ def _describe_step(exercise: Exercise, step: Step, progress: ExerciseProgress) -
                 step.high,
             )
             state.judged_by, state.max_points = judge.name, step.points
-            state.is_kept = state.is_kept or progress.get(judge.name).begun
+            state.is_final = state.is_final or progress.get(judge.name).begun
         case Experiment():
             state.duration_s, state.free = step.duration_s, list(step.free)
             state.criteria = [one.title for one in step.list_criteria(is_bench=False)]
@@ -203,7 +203,7 @@ def _describe_step(exercise: Exercise, step: Step, progress: ExerciseProgress) -
         case Explain():
             state.options = [OptionState(name=one.name, text=one.text) for one in step.options]
             state.max_points = step.points
-            state.is_kept = state.is_kept or known.answer is not None
+            state.is_final = state.is_final or known.answer is not None
         case SubmitStep():
             state.law = step.law
     return state
@@ -212,15 +212,15 @@ def _describe_step(exercise: Exercise, step: Step, progress: ExerciseProgress) -
 def _describe_bench(step: Experiment) -> BenchStepState | None:
     if step.bench is None:
         return None
-    hands: list[LeaseState] = []
+    manual_loads: list[ManualLoadState] = []
     for load in step.bench_configuration.loads:
         begin_s = load.start_s or 0.0
-        hands.append(LeaseState(time_s=begin_s, is_on=True))
+        manual_loads.append(ManualLoadState(time_s=begin_s, is_on=True))
         end_s = begin_s + load.get_duration()
         if end_s < step.duration_s:
-            hands.append(LeaseState(time_s=end_s, is_on=False))
+            manual_loads.append(ManualLoadState(time_s=end_s, is_on=False))
     return BenchStepState(
         criteria=[one.title for one in step.list_criteria(is_bench=True)],
-        by_hand=step.bench.by_hand,
-        hands=sorted(hands, key=lambda one: one.time_s),
+        manual_load=step.bench.by_hand,
+        manual_loads=sorted(manual_loads, key=lambda one: one.time_s),
     )

@@ -20,9 +20,9 @@ export function AllMetricsButton({ state: { lanes, window } }: { state: SessionS
       {() => (
         <AllMetrics
           caption={sinceOf(window)}
-          lanes={lanes.map(({ lane, name, stretches, in_window: metrics }) => ({
+          lanes={lanes.map(({ lane, name, segments, in_window: metrics }) => ({
             key: String(lane),
-            look: lineStyleOf(stretches.at(-1)?.line_style ?? 0),
+            look: lineStyleOf(segments.at(-1)?.line_style ?? 0),
             name,
             metrics,
             isDisturbed: disturbed,

@@ -6,7 +6,7 @@ import { text } from "../core/text/en";
 import { Problem } from "../core/widgets/form";
 import { ControlBanner } from "../lab/lease/banner";
 import { FaultAdvice, StopBanners } from "../lab/safety/stopbanner";
-import { ReturnCodeBanner } from "../teaching/classroom/join";
+import { RejoinCodeBanner } from "../teaching/classroom/join";
 import { SavedNote } from "./savednote";
 
 /** Of a command whose answer was lost: that nobody knows yet, or that it was carried out. */
@@ -99,7 +99,7 @@ export function Banners() {
         </div>
       )}
       <ControlBanner />
-      <ReturnCodeBanner />
+      <RejoinCodeBanner />
       <SavedNote />
       <Problem control="session" />
     </div>

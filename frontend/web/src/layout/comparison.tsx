@@ -20,7 +20,7 @@ function CurrentError({ lane }: { lane: number }) {
   return <span ref={element} />;
 }
 
-const lookOf = ({ stretches }: LaneRow) => lineStyleOf(stretches.at(-1)?.line_style ?? 0);
+const lookOf = ({ segments }: LaneRow) => lineStyleOf(segments.at(-1)?.line_style ?? 0);
 
 const degrees = (rad: number | undefined) =>
   formatNumber(rad === undefined ? null : toDegrees(rad), 3, 3);

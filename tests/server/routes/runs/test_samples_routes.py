@@ -1,4 +1,4 @@
-"""The samples of a recorded run over REST: as files, thinned out, and a stretch of them."""
+"""The samples of a recorded run over REST: as files, thinned out, and a segment of them."""
 
 import io
 

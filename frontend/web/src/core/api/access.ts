@@ -20,10 +20,10 @@ export const readAccess = () => request("get", "access") as Promise<Access>;
 export const login = (secret: string) => comeIn("login", { secret });
 export const join = (name: string, code: string) =>
   comeIn("join", { name, code, role: "operator" }) as Promise<Schemas["JoinState"]>;
-/** As who one was, by one's own return code. */
-export const comeBack = (code: string) => comeIn("return", { code }) as Promise<Access>;
-export const renewReturnCode = () =>
-  request("post", "return-code") as Promise<Schemas["ReturnCode"]>;
+/** As who one was, by one's own rejoin code. */
+export const comeBack = (code: string) => comeIn("rejoin", { code }) as Promise<Access>;
+export const renewRejoinCode = () =>
+  request("post", "rejoin-code") as Promise<Schemas["RejoinCode"]>;
 export const leave = () => request("post", "leave");
 export const createToken = () =>
   request("post", "tokens", { role: "operator" }) as Promise<Schemas["TokenState"]>;

@@ -12,7 +12,7 @@ export type Stability = Schemas["StabilityState"];
 export type Margins = Schemas["MarginsState"];
 type RegionRequest = Partial<Schemas["RegionRequest"]>;
 export type Region = Schemas["RegionState"];
-export type Fate = Schemas["FateState"];
+export type StartOutcome = Schemas["StartOutcomeState"];
 export type Endurance = Schemas["EnduranceState"];
 type PredictRequest = Partial<Schemas["PredictRequest"]>;
 

@@ -11,9 +11,9 @@ export type Adversary = Schemas["Adversary"];
 export type Term = Adversary["terms"][number];
 export type LawTrace = Schemas["LawTraceState"];
 export type Trace = Schemas["ScenarioTraceState"];
-export type KeptScenario = Schemas["KeptScenario"];
+export type SavedScenario = Schemas["SavedScenario"];
 /** As it would stand in its file. */
-export type Scenario = KeptScenario["scenario"];
+export type Scenario = SavedScenario["scenario"];
 
 /** What is searched; one of adversary, text and definition. */
 export interface SearchWish {
@@ -41,9 +41,9 @@ export const readSearch = (id: string) => request("get", searchPath(id)) as Prom
 export const stopSearch = (id: string) => request("delete", searchPath(id)) as Promise<Search>;
 export const searchFileOf = (id: string): string => new URL(searchPath(id, "/file"), API).href;
 
-export const listScenarios = () => request("get", "scenarios") as Promise<KeptScenario[]>;
+export const listScenarios = () => request("get", "scenarios") as Promise<SavedScenario[]>;
 export const keepScenario = (name: string, scenario: Scenario) =>
-  request("put", scenarioPath(name), scenario) as Promise<KeptScenario>;
+  request("put", scenarioPath(name), scenario) as Promise<SavedScenario>;
 export const scenarioFileOf = (name: string): string =>
   new URL(scenarioPath(name, "/file"), API).href;
 /** What came of each law, and its errors over time. */

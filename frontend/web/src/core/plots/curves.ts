@@ -31,11 +31,11 @@ export class Curve {
       ring.firstAt(from) - 1,
       ring.firstAt(to) + 2,
     );
-    const stretch = ring.stretch(channel, lane, first, end);
+    const segment = ring.segment(channel, lane, first, end);
     this.points.count = 0;
-    if (stretch === null) return 1;
-    const perBucket = samplesPerBucket(stretch.count, pixels);
-    decimate(stretch, perBucket, factor, this.points);
+    if (segment === null) return 1;
+    const perBucket = samplesPerBucket(segment.count, pixels);
+    decimate(segment, perBucket, factor, this.points);
     return perBucket;
   }
 

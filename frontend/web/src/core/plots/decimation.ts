@@ -1,5 +1,5 @@
 /** Fewer points with the same look: of each bucket of samples the smallest and the largest. */
-import type { Stretch } from "../stream/ring";
+import type { Segment } from "../stream/ring";
 
 /** Points to draw; no number (NaN) parts one piece of the curve from the next. */
 export interface Points {
@@ -35,7 +35,7 @@ function lift(points: Points): void {
   if (!isLifted) put(points, Number.NaN, Number.NaN);
 }
 
-function copyAll({ time, values, start, count }: Stretch, factor: number, out: Points): void {
+function copyAll({ time, values, start, count }: Segment, factor: number, out: Points): void {
   makeRoom(out, count);
   let slot = start;
   for (let index = 0; index < count; index++) {
@@ -45,17 +45,17 @@ function copyAll({ time, values, start, count }: Stretch, factor: number, out: P
 }
 
 /**
- * Writes the points of a stretch, times `factor`, into `out`. Buckets begin at multiples of
+ * Writes the points of a segment, times `factor`, into `out`. Buckets begin at multiples of
  * `perBucket` of a sample's number, so that they do not change while time goes on. Real samples
  * only, in the order of time; a gap stays one, and ends a bucket.
  */
-export function decimate(stretch: Stretch, perBucket: number, factor: number, out: Points): void {
+export function decimate(segment: Segment, perBucket: number, factor: number, out: Points): void {
   out.count = 0;
   if (perBucket <= 2) {
-    copyAll(stretch, factor, out);
+    copyAll(segment, factor, out);
     return;
   }
-  const { time, values, start, count, number } = stretch;
+  const { time, values, start, count, number } = segment;
   makeRoom(out, count + 2);
   const after = (slot: number) => (slot + 1 === values.length ? 0 : slot + 1);
   let slot = start;

@@ -54,10 +54,10 @@ export function shareLineStyles(own: readonly (number | null)[]): LineStyle[] {
 
 /** Of who controlled a lane at a time; null where nobody is known. */
 export const lineStyleAt = (
-  stretches: readonly { line_style: number; start_s: number }[] | undefined,
+  segments: readonly { line_style: number; start_s: number }[] | undefined,
   timeS: number,
 ): number | null =>
-  stretches?.filter(({ start_s: start }) => start <= timeS).at(-1)?.line_style ?? null;
+  segments?.filter(({ start_s: start }) => start <= timeS).at(-1)?.line_style ?? null;
 
 const COLOURS: readonly PlotColour[] = ["blue", "vermilion", "green", "orange", "purple"];
 

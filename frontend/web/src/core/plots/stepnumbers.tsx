@@ -42,8 +42,8 @@ export function StepNumbers({ event, nextS }: StepNumbersProps) {
   const shown = shownCast.value;
   const of = { ring: shownRing(), shown, present: cast.value };
   const { untilS, read } = findStep(state, event, nextS, of);
-  const rows = shown.flatMap((stretches, index) => {
-    const controller = controllerAt(stretches, event.time_s);
+  const rows = shown.flatMap((segments, index) => {
+    const controller = controllerAt(segments, event.time_s);
     const metrics = read(index);
     return controller === undefined ? [] : [{ ...controller, lane: index + 1, metrics }];
   });

@@ -1,5 +1,5 @@
 /** From the channels of a plot and the lanes of the session to the curves that are drawn. */
-import type { Cast, Stretch } from "../state/lanes";
+import type { Cast, Segment } from "../state/lanes";
 import { plotsText as text } from "../text/plots";
 import { CHANNELS, type ChannelName } from "./channels";
 import {
@@ -34,12 +34,12 @@ function trace(channel: ChannelName, lane: number, lineStyle: LineStyle, name: s
   };
 }
 
-interface Placed extends Stretch {
+interface Placed extends Segment {
   lane: number;
 }
 
 /** Who controls a lane now comes first, in the order of the lanes, then who did before. */
-function listStretches(cast: Cast): Placed[] {
+function listSegments(cast: Cast): Placed[] {
   const lanes = cast.map((lane, index) => lane.map((one) => ({ ...one, lane: index + 1 })));
   const present = lanes.flatMap((lane) => lane.slice(-1));
   const past = lanes.flatMap((lane) => lane.slice(0, -1));
@@ -50,14 +50,14 @@ function listStretches(cast: Cast): Placed[] {
 function pieces(
   channel: ChannelName,
   cast: Cast,
-  ownerOf: (stretch: Placed) => string,
-  look: (stretch: Placed) => { lineStyle: LineStyle; label: string },
+  ownerOf: (segment: Placed) => string,
+  look: (segment: Placed) => { lineStyle: LineStyle; label: string },
 ): Trace[] {
   const owners = new Set<string>();
-  return listStretches(cast).map((stretch) => {
-    const { lane, from, to } = stretch;
-    const { lineStyle, label: name } = look(stretch);
-    const owner = ownerOf(stretch);
+  return listSegments(cast).map((segment) => {
+    const { lane, from, to } = segment;
+    const { lineStyle, label: name } = look(segment);
+    const owner = ownerOf(segment);
     const piece: Trace = { ...trace(channel, lane, lineStyle, name), from, to, key: owner };
     if (!owners.has(owner)) {
       owners.add(owner);

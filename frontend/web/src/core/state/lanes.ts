@@ -23,7 +23,7 @@ export function comparisonLanes(state: SessionState): ComparisonLane[] {
   return comparisonsOf(state).flatMap((controller, index) => {
     const row = state.lanes[first + index];
     const lane = first + index + 1;
-    const lineStyle = row?.stretches.at(-1)?.line_style ?? 0;
+    const lineStyle = row?.segments.at(-1)?.line_style ?? 0;
     return row ? [{ lane, id: row.id, name: row.name, lineStyle, controller }] : [];
   });
 }
@@ -57,7 +57,7 @@ export function comparisonLaws(law: Law, state: SessionState): Law[] {
 }
 
 /** A controller on a lane, from a time on up to before another, s. */
-export interface Stretch {
+export interface Segment {
   /** Which controller. */
   number: number;
   name: string;
@@ -67,27 +67,27 @@ export interface Stretch {
 }
 
 /** Of lane 1, 2, … who controlled it when, the present one last. */
-export type Cast = readonly (readonly Stretch[])[];
+export type Cast = readonly (readonly Segment[])[];
 
 /** A string, so that what depends on it is made anew only when a lane changes. */
 const castKey = computed(() =>
-  JSON.stringify((session.value?.lanes ?? []).map(({ stretches }) => stretches)),
+  JSON.stringify((session.value?.lanes ?? []).map(({ segments }) => segments)),
 );
 
 /** The same array until a lane changes. */
 export const cast = computed<Cast>(() =>
-  (JSON.parse(castKey.value) as LaneRow["stretches"][]).map((stretches) =>
-    stretches.map(({ number, name, line_style: lineStyle, start_s: from, end_s: to }) => {
+  (JSON.parse(castKey.value) as LaneRow["segments"][]).map((segments) =>
+    segments.map(({ number, name, line_style: lineStyle, start_s: from, end_s: to }) => {
       return { number, name, lineStyle, from, to: to ?? Number.POSITIVE_INFINITY };
     }),
   ),
 );
 
 /** Who controls a lane now. */
-const presentOf = (lane: readonly Stretch[]): Stretch | undefined => lane.at(-1);
+const presentOf = (lane: readonly Segment[]): Segment | undefined => lane.at(-1);
 
 /** Who controlled a lane at a time. */
-export const controllerAt = (lane: readonly Stretch[], timeS: number): Stretch | undefined =>
+export const controllerAt = (lane: readonly Segment[], timeS: number): Segment | undefined =>
   lane.find(({ from, to }) => timeS >= from && timeS < to);
 
 /** Names of lane 1, 2, … as they are now. */

@@ -16,7 +16,7 @@ const MAX_EVENTS = 200;
 type Over = { end_tick: number | null };
 
 /**
- * The state after a message, which tells events, ended windows and ended stretches of lanes from
+ * The state after a message, which tells events, ended windows and ended segments of lanes from
  * its `sinceTick` on: those before are as they were known.
  */
 export function joinPast(known: SessionState, progress: Progress, sinceTick: number): SessionState {
@@ -33,10 +33,10 @@ export function joinPast(known: SessionState, progress: Progress, sinceTick: num
     joined.ended_windows = [...known.ended_windows.filter(isBefore), ...progress.ended_windows];
   }
   if (progress.lanes !== undefined) {
-    const pastOf = (lane: number) => known.lanes.find(({ id }) => id === lane)?.stretches ?? [];
+    const pastOf = (lane: number) => known.lanes.find(({ id }) => id === lane)?.segments ?? [];
     joined.lanes = progress.lanes.map((lane) => ({
       ...lane,
-      stretches: [...pastOf(lane.id).filter(isBefore), ...lane.stretches],
+      segments: [...pastOf(lane.id).filter(isBefore), ...lane.segments],
     }));
   }
   return joined;

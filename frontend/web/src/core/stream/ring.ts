@@ -43,7 +43,7 @@ export function sourcesOf(channel: string): string[] {
 // what lies before to what lies after.
 
 /** A piece of one column where it lies: sample i is at (start + i) mod the columns' length. */
-export interface Stretch {
+export interface Segment {
   time: Float64Array;
   values: Float32Array;
   start: number;
@@ -181,7 +181,7 @@ export class SampleRing extends TimeRing {
   }
 
   /** Samples from index `first` up to before `end` of a channel and lane; null where it is not. */
-  stretch(channel: string, lane: number, first: number, end: number): Stretch | null {
+  segment(channel: string, lane: number, first: number, end: number): Segment | null {
     const values = this.#column(channel, lane);
     if (values === undefined) return null;
     const from = Math.max(0, first);

@@ -8,16 +8,16 @@ export const classroomText = {
     token: "Instructor token",
     ways: {
       student: "Join with the class code",
-      back: "Come back with a return code",
+      back: "Come back with a rejoin code",
       instructor: "I am the instructor",
     },
-    returnCode: "Your return code",
-    returnCodeTitle: "Your return code:",
-    returnCodeText:
+    rejoinCode: "Your rejoin code",
+    rejoinCodeTitle: "Your rejoin code:",
+    rejoinCodeText:
       "It is shown once. Write it down: in another browser it brings you back to your runs and exercises.",
-    returnCodeNoted: "I have noted it",
-    newReturnCode: "New return code",
-    newReturnCodeHint:
+    rejoinCodeNoted: "I have noted it",
+    newRejoinCode: "New rejoin code",
+    newRejoinCodeHint:
       "Brings you back to your runs and exercises from another browser; the one before is no longer good",
     youAreRemoved:
       "The instructor has removed you from the class. Talk to them: they can let you in again.",

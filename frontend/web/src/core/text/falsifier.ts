@@ -21,13 +21,13 @@ export const falsifierText = {
       given: "as there",
     },
     figure: "References of figure",
-    harm: "What counts as hurt",
-    harms: {
+    cost: "What counts as hurt",
+    costs: {
       fault: "a fault",
       peak: "peak error",
       recovery: "time to recover",
     },
-    harmHint: "A fault is worse than any error and than any recovery",
+    costHint: "A fault is worse than any error and than any recovery",
     loads: "Loads that it may choose",
     kind: "Kind of load",
     kinds: { step: "Step", pulse: "Pulse", sine: "Sine" },
@@ -61,7 +61,7 @@ export const falsifierText = {
     neighborhood: (hurt: number, runs: number, share: string) =>
       `${hurt} of ${runs} random loads near it hurt as much: ${share}`,
     neighborhoodHint:
-      "Each number of the load is drawn within 5 % of its range. A small share means an isolated case: a slightly different load does not hurt. As much: a fault, or without one 95 % of the harm; the interval is at 95 %",
+      "Each number of the load is drawn within 5 % of its range. A small share means an isolated case: a slightly different load does not hurt. As much: a fault, or without one 95 % of the cost; the interval is at 95 %",
     lasts: (duration: string) => `a run of ${duration} s`,
     perturbed: "With",
     steps: (count: number) => `How it was made simple: ${count} steps`,

@@ -53,7 +53,7 @@ export const runsText = {
       peak: "Peak error",
       window: "Measured in",
       windowHint:
-        "What the errors are of: the last load while nothing else was changed, or the last stretch",
+        "What the errors are of: the last load while nothing else was changed, or the last segment",
       peakHint: "Largest position error in that window, lane by lane",
       settled: "Settled",
       steadyStateHint: `${measuredText.steadyStateHint}, lane by lane`,

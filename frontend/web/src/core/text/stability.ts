@@ -96,7 +96,7 @@ export const stabilityText = {
     law: "Law",
     fill: "Fill the map",
     stop: "Stop",
-    looks: { rest: "comes to rest", fault: "fault", astray: "not within 2 s" },
+    looks: { rest: "comes to rest", fault: "fault", unsettled: "not within 2 s" },
     regionEmpty: "961 starts, simulated one after another.",
     regionSummary: (share: string, stiffness: string) =>
       `Map of starts at σ = ${stiffness} N·m/rad: ${share} come to rest`,

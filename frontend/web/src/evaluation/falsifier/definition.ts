@@ -23,7 +23,7 @@ export interface TermForm {
 export interface AdversaryForm {
   title: string;
   law: string;
-  harm: Adversary["harm"];
+  cost: Adversary["cost"];
   base: Adversary["base"];
   durationS: number;
   measureFromS: number;
@@ -70,7 +70,7 @@ export function readForm(from: Adversary): AdversaryForm {
   return {
     title: from.title,
     law: from.law,
-    harm: from.harm,
+    cost: from.cost,
     base: from.base,
     durationS: from.duration_s,
     measureFromS: from.measure_from_s,
@@ -92,7 +92,7 @@ export function writeForm(form: AdversaryForm): Adversary {
   return {
     title: form.title,
     law: form.law,
-    harm: form.harm,
+    cost: form.cost,
     base: form.base,
     duration_s: form.durationS,
     measure_from_s: form.measureFromS,

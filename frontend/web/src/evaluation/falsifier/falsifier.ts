@@ -2,13 +2,13 @@
 import { computed, signal } from "@preact/signals";
 import {
   type AdversaryState,
-  type KeptScenario,
   keepScenario,
   listAdversaries,
   listScenarios,
   listSearches,
   readSearch,
   runLaws,
+  type SavedScenario,
   type Scenario,
   type Search,
   type SearchWish,
@@ -28,7 +28,7 @@ const BASELINE = "fl";
 
 export const adversaries = signal<readonly AdversaryState[]>([]);
 export const searches = signal<readonly Search[] | null>(null);
-export const kept = signal<readonly KeptScenario[] | null>(null);
+export const kept = signal<readonly SavedScenario[] | null>(null);
 export const search = signal<Search | null>(null);
 /** What came of the laws, of which scenario and laws it is, and where that is looked at. */
 export const traced = signal<{ at: string; key: string; trace: Trace } | null>(null);
@@ -54,7 +54,7 @@ export const scenario = computed((): Scenario | null => {
 interface Finding {
   adversary: string;
   law: Law;
-  harm: string;
+  cost: string;
   outcome: string;
   at_run: number;
   runs: number;

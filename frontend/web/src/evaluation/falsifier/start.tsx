@@ -127,12 +127,12 @@ export function Start() {
       {form ? (
         <>
           <SelectField
-            label={words.harm}
-            value={form.harm}
+            label={words.cost}
+            value={form.cost}
             options={HARMS}
-            name={(harm) => words.harms[harm]}
-            title={words.harmHint}
-            onChoose={(harm) => change({ harm })}
+            name={(cost) => words.costs[cost]}
+            title={words.costHint}
+            onChoose={(cost) => change({ cost })}
           />
           <Base form={form} onChange={change} />
           <Loads form={form} onChange={change} />

@@ -37,7 +37,7 @@ import { LawTable, Sensitivity } from "./tables";
 const words = text.studies;
 
 function Kept() {
-  const kept = list.value?.kept ?? [];
+  const kept = list.value?.saved ?? [];
   return (
     <nav class="surface card menu" aria-label={words.kept}>
       <h3>{words.kept}</h3>

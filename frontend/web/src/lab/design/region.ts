@@ -1,6 +1,6 @@
 /** The map of starts that come to rest, as it fills. */
 import { computed, signal } from "@preact/signals";
-import { askRegion, type Fate, type Region } from "../../core/api/design";
+import { askRegion, type Region, type StartOutcome } from "../../core/api/design";
 import type { Law } from "../../core/api/types";
 import { draft } from "./draft";
 import { designRequest } from "./stability";
@@ -9,7 +9,7 @@ export type Slice = Region["chosen"];
 export const STARTS = 31;
 const PART = 48;
 
-export const fates = signal<readonly Fate[]>([]);
+export const outcomes = signal<readonly StartOutcome[]>([]);
 /** What the map is of: the answer that came first. */
 export const shown = signal<Region | null>(null);
 export const isFilling = signal(false);
@@ -20,7 +20,7 @@ const designOf = () => JSON.stringify(draft.value);
 /** Whether the poles have been moved since. */
 export const isOutdated = computed(() => shown.value !== null && mapped.value !== designOf());
 export const share = computed(() => {
-  const all = fates.value;
+  const all = outcomes.value;
   return all.length === 0
     ? null
     : all.filter(({ outcome }) => outcome === "rest").length / all.length;
@@ -43,7 +43,7 @@ export async function fillRegion(law: Law, chosen: Slice, stiffness: number): Pr
     stiffness_nm_per_rad: stiffness,
     starts: STARTS,
   };
-  fates.value = [];
+  outcomes.value = [];
   shown.value = null;
   problem.value = null;
   mapped.value = designOf();
@@ -54,7 +54,7 @@ export async function fillRegion(law: Law, chosen: Slice, stiffness: number): Pr
       const part: Region = await askRegion({ ...request, first, count: PART });
       if (number !== filling) return;
       shown.value ??= part;
-      fates.value = [...fates.peek(), ...part.fates];
+      outcomes.value = [...outcomes.peek(), ...part.outcomes];
       first = part.next;
     }
   } catch (error) {

@@ -6,10 +6,10 @@ import { text } from "../../core/text/en";
 import { formatInput, formatNumber } from "../../core/units";
 import { ErrorLine, SelectField } from "../../core/widgets/form";
 import {
-  fates,
   fillRegion,
   isFilling,
   isOutdated,
+  outcomes,
   problem,
   type Slice,
   STARTS,
@@ -30,7 +30,7 @@ const CELL_X = (WIDTH - LEFT - RIGHT) / STARTS;
 const CELL_Y = (HEIGHT - TOP - BOTTOM) / STARTS;
 const POSITIONS = [-90, -45, 0, 45, 90];
 const VELOCITIES = [-20, -10, 0, 10, 20];
-const LOOKS = ["rest", "fault", "astray"] as const;
+const LOOKS = ["rest", "fault", "unsettled"] as const;
 const SLICES: readonly Slice[] = ["rigid", "deflected"];
 
 const placeX = (degrees: number) =>
@@ -41,7 +41,7 @@ const written = (value: number) => String(value).replace("-", "\u2212");
 
 /** One path a look: a thousand cells are three elements. */
 function pathOf(look: (typeof LOOKS)[number]): string {
-  return fates.value
+  return outcomes.value
     .filter(({ outcome }) => outcome === look)
     .map(({ row, column }) => {
       const x = LEFT + column * CELL_X;
@@ -194,7 +194,7 @@ export function RegionMap() {
           ? words.regionEmpty
           : words.regionFound(
               percent(part),
-              fates.value.length,
+              outcomes.value.length,
               STARTS * STARTS,
               words.sensing[found.encoders],
               isOutdated.value,

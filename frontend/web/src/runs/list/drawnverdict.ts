@@ -20,7 +20,7 @@ function within(plot: uPlot, draw: (context: CanvasRenderingContext2D) => void):
   context.restore();
 }
 
-/** Stretches of a band of which both bounds are known, as indices from … to before. */
+/** Segments of a band of which both bounds are known, as indices from … to before. */
 export function listKnown({ low, high }: BandShown): [number, number][] {
   const known: [number, number][] = [];
   let begin = -1;

@@ -123,7 +123,7 @@ export function overlay(
     lane: run.lane_names[index] ?? lane,
     measuredLane: window?.lanes[index] ?? lane,
     plant: index === 0 ? run.plant : "simulated",
-    ownLineStyle: lineStyleAt(run.stretches[index], begin),
+    ownLineStyle: lineStyleAt(run.segments[index], begin),
     isAlone: run.lanes.length === 1,
     hasOnset: window?.kind === "load",
     window: window && shiftToRecord(window, run),

@@ -14,7 +14,7 @@ const CHANNEL: StreamedName = "position_error_rad";
 const SMALLEST = 1e-4;
 
 interface Spark {
-  /** One a stretch of a lane, in the line style of who controlled it. */
+  /** One a segment of a lane, in the line style of who controlled it. */
   paths: { lineStyle: number; path: string }[];
   /** Height of zero error. */
   zero: number;
@@ -25,15 +25,15 @@ interface Spark {
 /** A run at a glance: its curves, and who controlled its lanes. */
 export interface Glance extends Spark {
   lanes: string[];
-  stretches: Stretches;
+  segments: Segments;
 }
 
-type Stretches = RunDetails["stretches"];
-type Stretch = Stretches[number][number];
+type Segments = RunDetails["segments"];
+type Segment = Segments[number][number];
 
 export function drawSpark(
   { time_s: time, lanes }: Pick<RunSamples, "time_s" | "lanes">,
-  stretches: Stretches,
+  segments: Segments,
 ): Spark {
   const curves = Object.values(lanes).map((channels) => channels[CHANNEL] ?? []);
   const values = curves.flat().filter((value) => value !== null);
@@ -44,7 +44,7 @@ export function drawSpark(
   const span = Math.max((time.at(-1) ?? 1) - first, 1e-9);
   const across = (seconds: number) => ((seconds - first) / span) * WIDTH;
   const down = (value: number) => MARGIN + ((high - value) / (high - low)) * (HEIGHT - 2 * MARGIN);
-  const draw = (curve: readonly (number | null)[], { start_s: from, end_s: to }: Stretch) => {
+  const draw = (curve: readonly (number | null)[], { start_s: from, end_s: to }: Segment) => {
     let isDown = false;
     return curve
       .map((value, index) => {
@@ -60,9 +60,9 @@ export function drawSpark(
       .join("");
   };
   const paths = curves.flatMap((curve, lane) =>
-    (stretches[lane] ?? []).map((stretch) => ({
-      lineStyle: stretch.line_style,
-      path: draw(curve, stretch),
+    (segments[lane] ?? []).map((segment) => ({
+      lineStyle: segment.line_style,
+      path: draw(curve, segment),
     })),
   );
   return { paths, zero: down(0), peak };
@@ -73,8 +73,8 @@ const kept = new Map<string, Promise<Glance>>();
 
 async function readGlance(run: string): Promise<Glance> {
   const [details, samples] = await Promise.all([readRun(run), readSamples(run, [CHANNEL], POINTS)]);
-  const { lane_names: lanes, stretches } = details;
-  return { ...drawSpark(samples, stretches), lanes, stretches };
+  const { lane_names: lanes, segments } = details;
+  return { ...drawSpark(samples, segments), lanes, segments };
 }
 
 /** Read once a run and length; a run that is still recorded grows. */

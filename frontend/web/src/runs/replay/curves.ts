@@ -55,8 +55,8 @@ function joinPieces(recording: Recording, traces: readonly Trace[]): Curve[] {
 }
 
 export function definePlots(recording: Recording): ReplayPlot[] {
-  const { stretches, curves } = recording.run;
-  const cast = stretches.map((lane) =>
+  const { segments, curves } = recording.run;
+  const cast = segments.map((lane) =>
     lane.map(({ number, name, line_style: lineStyle, start_s: from, end_s: to }) => {
       return { number, name, lineStyle, from, to };
     }),

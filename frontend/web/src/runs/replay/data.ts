@@ -27,7 +27,7 @@ export interface Motion {
 }
 
 /** Who controlled a lane, from a time of the page on up to before another. */
-export interface LaneStretch {
+export interface LaneSegment {
   number: number;
   name: string;
   line_style: number;
@@ -41,7 +41,7 @@ export interface Run {
   ticks: number;
   lanes: string[];
   /** Of every lane, in the order of time. */
-  stretches: LaneStretch[][];
+  segments: LaneSegment[][];
   details: Record<string, unknown>;
   events: RunEvent[];
   /** In which the metrics were measured, in the time of the page. */

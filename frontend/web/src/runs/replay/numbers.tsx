@@ -15,8 +15,8 @@ const formatMetric = (value: number | null) => formatNumber(value, 3, 4);
 const formatError = (rad: number | null) => formatMetric(rad === null ? null : toDegrees(rad));
 
 /** Of who controlled the lane in the window. */
-const lineStyleIn = ({ stretches, window }: Run, lane: number): number =>
-  lineStyleAt(stretches[lane], window.start_s) ?? lane;
+const lineStyleIn = ({ segments, window }: Run, lane: number): number =>
+  lineStyleAt(segments[lane], window.start_s) ?? lane;
 
 function Metrics({ run }: { run: Run }) {
   const { window, metrics } = run;

@@ -33,8 +33,8 @@ function followClock(scene: Scene): () => void {
 }
 
 /** The outlines of a lane have the colours of its curves. */
-const coloursOf = ({ stretches }: Run, lane: number) => [
-  ...new Set(stretches[lane]?.map(({ line_style: lineStyle }) => lineStyleOf(lineStyle).colour)),
+const coloursOf = ({ segments }: Run, lane: number) => [
+  ...new Set(segments[lane]?.map(({ line_style: lineStyle }) => lineStyleOf(lineStyle).colour)),
 ];
 
 export function View({ recording: { run, arrays } }: { recording: Recording }) {

@@ -17,7 +17,7 @@ function StudentForm({ enter }: EnterProps) {
     enter(async () => {
       const joined = await join(name.trim(), code);
       rememberPerson(joined.name);
-      returnCode.value = joined.return_code;
+      rejoinCode.value = joined.rejoin_code;
     });
   };
   return (
@@ -64,7 +64,7 @@ export function Join({ enter }: EnterProps) {
     <>
       {access.value?.removed === true && <p class="problem">{words.youAreRemoved}</p>}
       {chosen === "student" && <StudentForm enter={enter} />}
-      {chosen === "back" && <SecretForm label={words.returnCode} enter={enter} send={comeIn} />}
+      {chosen === "back" && <SecretForm label={words.rejoinCode} enter={enter} send={comeIn} />}
       {chosen === "instructor" && <SecretForm label={words.token} enter={enter} send={login} />}
       <p class="row">
         {WAYS.filter((way) => way !== chosen).map((way) => (
@@ -132,24 +132,24 @@ export function takeCode(): string {
 // One's own code to come back by: told when one has joined, until it is put away.
 
 /** Empty where none is to be told. */
-export const returnCode = signal("");
+export const rejoinCode = signal("");
 
-export function ReturnCodeBanner() {
-  if (returnCode.value === "") return null;
+export function RejoinCodeBanner() {
+  if (rejoinCode.value === "") return null;
   return (
     <div class="banner is-news" role="status">
       <p>
-        <strong>{words.returnCodeTitle}</strong>{" "}
-        <code class="class-return">{returnCode.value}</code> {words.returnCodeText}
+        <strong>{words.rejoinCodeTitle}</strong>{" "}
+        <code class="class-return">{rejoinCode.value}</code> {words.rejoinCodeText}
       </p>
       <button
         type="button"
         class="button"
         onClick={() => {
-          returnCode.value = "";
+          rejoinCode.value = "";
         }}
       >
-        {words.returnCodeNoted}
+        {words.rejoinCodeNoted}
       </button>
     </div>
   );

@@ -10,7 +10,7 @@ import {
   readClass,
   removePerson,
   renewCode,
-  renewReturnCode,
+  renewRejoinCode,
   restorePerson,
 } from "../../core/api/access";
 import { explain } from "../../core/state/actions";
@@ -21,7 +21,7 @@ import { ErrorLine } from "../../core/widgets/form";
 import { Panel, PanelButton } from "../../core/widgets/panel";
 import { PlaceLink } from "../../runs/list/place";
 import { AuditLog } from "./auditlog";
-import { returnCode } from "./join";
+import { rejoinCode } from "./join";
 import { People, Removed, Sessions, Waiting } from "./people";
 
 const words = text.classroom;
@@ -141,14 +141,14 @@ function Inside() {
           <button
             type="button"
             class="button"
-            title={words.newReturnCodeHint}
+            title={words.newRejoinCodeHint}
             onClick={() =>
               void attempt(async () => {
-                returnCode.value = (await renewReturnCode()).return_code;
+                rejoinCode.value = (await renewRejoinCode()).rejoin_code;
               })
             }
           >
-            {words.newReturnCode}
+            {words.newRejoinCode}
           </button>
         )}
         <button

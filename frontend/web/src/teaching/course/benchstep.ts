@@ -33,12 +33,12 @@ export const isDoneHere = (of: Step, bench: BenchState | null): boolean =>
 export const askedOf = (of: Step, bench: BenchState | null): readonly string[] =>
   (bench !== null && of.bench?.criteria) || of.criteria;
 
-type Hand = NonNullable<Step["bench"]>["hands"][number];
+type Hand = NonNullable<Step["bench"]>["manual_loads"][number];
 const STILL_SHOWN_S = 2;
 
 /** What is to be done by hand next, or was due a moment ago; null where nothing is left. */
 export const handDue = (of: Step, timeS: number): Hand | null =>
-  of.bench?.hands.find(({ time_s: at }) => timeS < at + STILL_SHOWN_S) ?? null;
+  of.bench?.manual_loads.find(({ time_s: at }) => timeS < at + STILL_SHOWN_S) ?? null;
 
 export type Cut = "control" | "stopped";
 

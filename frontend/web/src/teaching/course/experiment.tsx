@@ -29,9 +29,9 @@ const words = text.lesson;
 function Hands({ of }: { of: Step }) {
   const now = bench.value;
   const state = session.value;
-  if (now === null || of.bench === null || of.bench.hands.length === 0) return null;
+  if (now === null || of.bench === null || of.bench.manual_loads.length === 0) return null;
   if (now.emulated) return <p class="hint">{words.handsEmulated}</p>;
-  const { by_hand: what, hands } = of.bench;
+  const { manual_load: what, manual_loads: hands } = of.bench;
   if (trial.value?.step !== of.name) {
     return <p class="hint">{words.hands(what, hands)}</p>;
   }

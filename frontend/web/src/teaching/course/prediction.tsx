@@ -20,9 +20,9 @@ export function Prediction({ of, exercise, onDone }: Task) {
       <>
         <p class="note">
           <strong>{words.kept(String(given), of.unit)}</strong>{" "}
-          {of.is_kept ? words.isKept : words.keptHint}
+          {of.is_final ? words.isKept : words.keptHint}
         </p>
-        {!of.is_kept && (
+        {!of.is_final && (
           <button type="button" class="button" onClick={() => setChanging(true)}>
             {words.change}
           </button>

@@ -7,7 +7,7 @@ import {
   samplesPerBucket,
 } from "../../../src/core/plots/decimation";
 import { measureBetween } from "../../../src/core/plots/statistics";
-import { SampleRing, type Stretch } from "../../../src/core/stream/ring";
+import { SampleRing, type Segment } from "../../../src/core/stream/ring";
 
 const ALONE = [[{ number: 1, name: "NDOBC", lineStyle: 0, from: 0, to: Number.POSITIVE_INFINITY }]];
 
@@ -18,8 +18,8 @@ function ringOf(values: readonly number[], channel = "position_error_rad"): Samp
   return ring;
 }
 
-const all = (ring: SampleRing, first = 0): Stretch =>
-  ring.stretch("position_error_rad", 1, first, ring.length) as Stretch;
+const all = (ring: SampleRing, first = 0): Segment =>
+  ring.segment("position_error_rad", 1, first, ring.length) as Segment;
 
 function decimated(values: readonly number[], perBucket: number, first = 0) {
   const points = emptyPoints();

@@ -7,7 +7,7 @@ import { shareColours } from "../../../src/core/plots/linestyles";
 import { readSetups } from "../../../src/core/plots/setups";
 import { drawSvg } from "../../../src/core/plots/svg";
 import { composeContent, hasOneValue, tracesOf } from "../../../src/core/plots/traces";
-import type { Cast, Stretch } from "../../../src/core/state/lanes";
+import type { Cast, Segment } from "../../../src/core/state/lanes";
 import { SampleRing } from "../../../src/core/stream/ring";
 
 describe("what the browser kept of the plots", () => {
@@ -48,21 +48,21 @@ describe("what the browser kept of the plots", () => {
   });
 });
 
-const stretch = (
+const segment = (
   number: number,
   name: string,
   from = 0,
   to = Number.POSITIVE_INFINITY,
-): Stretch => {
+): Segment => {
   return { number, name, lineStyle: number - 1, from, to };
 };
 /** Lanes that nobody changed. */
-const castOf = (...names: string[]): Cast => names.map((name, index) => [stretch(index + 1, name)]);
+const castOf = (...names: string[]): Cast => names.map((name, index) => [segment(index + 1, name)]);
 
 describe("the curves of a switch", () => {
   const swapped: Cast = [
-    [stretch(1, "NDOBC", 0, 7), stretch(2, "FL", 7)],
-    [stretch(2, "FL", 0, 7), stretch(1, "NDOBC", 7)],
+    [segment(1, "NDOBC", 0, 7), segment(2, "FL", 7)],
+    [segment(2, "FL", 0, 7), segment(1, "NDOBC", 7)],
   ];
   const curves = (cast: Cast) =>
     tracesOf(composeContent(["position_error_rad"], cast), new Set(["position_error_rad"]), 2);
@@ -103,7 +103,7 @@ describe("the curves of a switch", () => {
   });
 
   it("of a lane alone are in the lineStyles of its laws too, and named by them", () => {
-    const alone: Cast = [[stretch(1, "NDOBC", 0, 7), stretch(2, "FL", 7)]];
+    const alone: Cast = [[segment(1, "NDOBC", 0, 7), segment(2, "FL", 7)]];
     const traces = tracesOf(composeContent(["position_error_rad"], alone), new Set(), 1);
     expect(traces.map(({ label, colour }) => [label, colour])).toEqual([
       ["FL", "vermilion"],
@@ -112,7 +112,7 @@ describe("the curves of a switch", () => {
   });
 
   it("of a new lane begin where it began", () => {
-    const cast: Cast = [[stretch(1, "NDOBC")], [stretch(2, "FL", 7)]];
+    const cast: Cast = [[segment(1, "NDOBC")], [segment(2, "FL", 7)]];
     expect(curves(cast).find(({ lane }) => lane === 2)?.from).toBe(7);
   });
 });
@@ -127,9 +127,9 @@ describe("the curves of a plot", () => {
       const entries = all.filter(({ follows }) => follows === undefined);
       return entries.filter(({ key }) => hasOneValue(all, key)).map(({ label }) => label);
     };
-    const swapped = [stretch(1, "NDOBC", 0, 7), stretch(2, "FL", 7), stretch(1, "NDOBC", 9)];
+    const swapped = [segment(1, "NDOBC", 0, 7), segment(2, "FL", 7), segment(1, "NDOBC", 9)];
     expect(valued(castOf("NDOBC", "FL"))).toEqual(["NDOBC", "FL"]);
-    expect(valued([swapped, [stretch(3, "LQI")]])).toEqual(["NDOBC", "LQI", "FL"]);
+    expect(valued([swapped, [segment(3, "LQI")]])).toEqual(["NDOBC", "LQI", "FL"]);
     expect(valued([swapped])).toEqual(["NDOBC", "FL"]);
   });
 

@@ -21,14 +21,14 @@ const event = (tick: number): SessionEvent => ({
   kind: "load_on",
   label: "3 kg load on",
 });
-const stretch = (number: number, name: string) => ({
+const segment = (number: number, name: string) => ({
   number,
   name,
   lineStyle: 0,
   from: 0,
   to: Number.POSITIVE_INFINITY,
 });
-const BOTH: Cast = [[stretch(1, "NDOBC")], [stretch(2, "FL")]];
+const BOTH: Cast = [[segment(1, "NDOBC")], [segment(2, "FL")]];
 const state = {
   window: { start_tick: 9000 },
   ended_windows: [{ start_tick: 5000, end_s: 9, lanes: [metrics(0.0723), metrics(0.21)] }],
@@ -65,7 +65,7 @@ describe("the numbers of an event", () => {
   });
 
   it("are each lane's own where lanes have been taken away since the plots stand still", () => {
-    const present: Cast = [[stretch(2, "FL")]];
+    const present: Cast = [[segment(2, "FL")]];
     const later = {
       ...state,
       ended_windows: [{ start_tick: 5000, end_s: 9, lanes: [metrics(0.21)] }],

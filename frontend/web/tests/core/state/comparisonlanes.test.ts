@@ -7,7 +7,7 @@ const POLE = { position_pole_rad_per_s: 54.6 };
 function stateOf(law: string, comparisons: Lane[], changes: object = {}): SessionState {
   const lanes = [law, ...comparisons.map((comparison) => comparison.law)].map((name, index) => ({
     ...{ lane: index + 1, id: index + 1, law: name, name },
-    stretches: [{ number: index + 1, name, line_style: index, start_s: 0, end_s: null }],
+    segments: [{ number: index + 1, name, line_style: index, start_s: 0, end_s: null }],
   }));
   return {
     ...{ run_number: 1, tick: 0, bench: null, lanes },

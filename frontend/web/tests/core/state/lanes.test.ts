@@ -2,7 +2,7 @@ import { expect, it, vi } from "vitest";
 import { SampleRing } from "../../../src/core/stream/ring";
 
 const FOREVER = { start_s: 0, end_s: null };
-const laneOf = (id: number, name: string) => ({ id, stretches: [{ ...FOREVER, name }] });
+const laneOf = (id: number, name: string) => ({ id, segments: [{ ...FOREVER, name }] });
 const stateAt = (tick: number, lanes: object[]) => ({ run_number: 1, tick, lanes }) as never;
 const batchAt = (tick: number, lanes: number[], values: number[]) => ({
   ...{ run: 1, firstTick: tick, stride: 1, count: 1, missed: 0 },

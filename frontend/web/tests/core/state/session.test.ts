@@ -3,7 +3,7 @@ import { expect, it } from "vitest";
 import type { SessionState } from "../../../src/core/api/types";
 import { joinPast, type Progress } from "../../../src/core/state/session";
 
-const stretch = (name: string, end_tick: number | null) => ({ name, end_tick });
+const segment = (name: string, end_tick: number | null) => ({ name, end_tick });
 const ended = (start_tick: number, end_tick: number) => ({ start_tick, end_tick });
 const stateAt = (tick: number, rest: object) =>
   ({ run_number: 1, rate_hz: 1000, tick, ...rest }) as unknown as SessionState;
@@ -13,8 +13,8 @@ const KNOWN = stateAt(500, {
   events: [{ tick: 100 }, { tick: 400 }],
   ended_windows: [ended(0, 100), ended(100, 400)],
   lanes: [
-    { id: 1, stretches: [stretch("FL", 400), stretch("NDOBC", null)] },
-    { id: 2, stretches: [stretch("FL", null)] },
+    { id: 1, segments: [segment("FL", 400), segment("NDOBC", null)] },
+    { id: 2, segments: [segment("FL", null)] },
   ],
 });
 
@@ -23,14 +23,14 @@ it("keeps what was over before, and takes what a message tells from its tick on"
     events: [{ tick: 600 }],
     ended_windows: [ended(400, 600)],
     lanes: [
-      { id: 1, stretches: [stretch("NDOBC", 600), stretch("NDOBC β 70", null)] },
-      { id: 3, stretches: [stretch("FL", null)] },
+      { id: 1, segments: [segment("NDOBC", 600), segment("NDOBC β 70", null)] },
+      { id: 3, segments: [segment("FL", null)] },
     ],
   });
   const joined = joinPast(KNOWN, progress as Progress, 500);
   expect(joined.events.map(({ tick }) => tick)).toEqual([100, 400, 600]);
   expect(joined.ended_windows.map(({ end_tick }) => end_tick)).toEqual([100, 400, 600]);
-  expect(joined.lanes.map((lane) => lane.stretches.map(({ name }) => name))).toEqual([
+  expect(joined.lanes.map((lane) => lane.segments.map(({ name }) => name))).toEqual([
     ["FL", "NDOBC", "NDOBC β 70"],
     ["FL"],
   ]);

@@ -136,7 +136,7 @@ describe("the lanes of a SampleRing", () => {
       [1, 2],
       [300, 301],
     ]);
-    expect(ring.stretch("a", 2, 0, 2)?.values.slice(0, 2)).toEqual(new Float32Array([300, 301]));
+    expect(ring.segment("a", 2, 0, 2)?.values.slice(0, 2)).toEqual(new Float32Array([300, 301]));
   });
 
   it("are told apart by the batch, where it was sent before lanes changed", () => {
@@ -244,10 +244,10 @@ describe("a SampleRing whose channels change", () => {
     const ring = new SampleRing(3, ["a"], [1]);
     ring.append(one(0, 0, 10, 20), 1);
     expect([-5, 0.4, 0.6, 9].map((time) => ring.nearestTo(time))).toEqual([0, 0, 1, 2]);
-    expect(ring.stretch("a", 1, 2, 3)?.number).toBe(2);
+    expect(ring.segment("a", 1, 2, 3)?.number).toBe(2);
     ring.append(one(3, 30), 1);
-    expect(ring.stretch("a", 1, 1, 3)?.number).toBe(2);
-    expect(ring.stretch("b", 1, 0, 3)).toBeNull();
+    expect(ring.segment("a", 1, 1, 3)?.number).toBe(2);
+    expect(ring.segment("b", 1, 0, 3)).toBeNull();
     expect(new SampleRing(3, []).nearestTo(1)).toBe(-1);
   });
 });

@@ -19,7 +19,7 @@ const { describeJob } = await import("../../../src/core/jobs/progress");
 const ADVERSARY: Adversary = {
   title: "A pulse and a sine",
   law: "ndobc",
-  harm: "peak",
+  cost: "peak",
   base: { figure: "4b", effects: "rig", loads: [] },
   duration_s: 9,
   measure_from_s: 2,

@@ -14,7 +14,7 @@ async function load() {
       return new Response(JSON.stringify({ detail: refusal, violations: [] }), { status: 409 });
     }
     if (method === "DELETE") return new Response(null, { status: 204 });
-    return new Response(JSON.stringify({ built_in: [], kept: [], metrics: [] }));
+    return new Response(JSON.stringify({ built_in: [], saved: [], metrics: [] }));
   });
   return import("../../../src/evaluation/studies/studies");
 }

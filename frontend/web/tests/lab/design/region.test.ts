@@ -1,10 +1,12 @@
 import { afterEach, beforeEach, expect, it, vi } from "vitest";
 import "../../browserless";
-import type { Fate, Region } from "../../../src/core/api/design";
+import type { Region, StartOutcome } from "../../../src/core/api/design";
 
 const FIRSTS = [0, 48, 96];
 /** Of each part, which has three starts here, one comes to rest. */
-const FATES = ["rest", "fault", "fault"].map((outcome) => ({ outcome })) as unknown as Fate[];
+const OUTCOMES = ["rest", "fault", "fault"].map((outcome) => ({
+  outcome,
+})) as unknown as StartOutcome[];
 const asked: { first: number; count: number }[] = [];
 let answer: (first: number) => Promise<Region>;
 
@@ -12,7 +14,7 @@ beforeEach(() => {
   asked.length = 0;
   answer = async (first) => {
     const next = FIRSTS[FIRSTS.indexOf(first) + 1] ?? null;
-    return { fates: FATES, next } as unknown as Region;
+    return { outcomes: OUTCOMES, next } as unknown as Region;
   };
   vi.doMock("../../../src/core/api/design", () => ({
     askRegion: (wanted: { first: number; count: number }) => {
@@ -25,21 +27,21 @@ beforeEach(() => {
 afterEach(() => vi.doUnmock("../../../src/core/api/design"));
 
 it("a map is asked for part by part, until it is full", async () => {
-  const { fates, fillRegion, isFilling, share, shown } = await import(
+  const { outcomes, fillRegion, isFilling, share, shown } = await import(
     "../../../src/lab/design/region"
   );
   const filled = fillRegion("ndobc", "rigid", 10);
   expect([isFilling.value, share.value]).toEqual([true, null]);
   await filled;
   expect(asked.map(({ first, count }) => [first, count])).toEqual(FIRSTS.map((one) => [one, 48]));
-  expect(fates.value).toHaveLength(9);
+  expect(outcomes.value).toHaveLength(9);
   expect(share.value).toBeCloseTo(1 / 3);
   expect(shown.value?.next, "it is of what was answered first").toBe(48);
   expect(isFilling.value).toBe(false);
 });
 
 it("a map that is left asks for nothing more, and takes no answer that comes later", async () => {
-  const { fates, fillRegion, isFilling, stopFilling } = await import(
+  const { outcomes, fillRegion, isFilling, stopFilling } = await import(
     "../../../src/lab/design/region"
   );
   let give = (_: Region) => {};
@@ -49,9 +51,9 @@ it("a map that is left asks for nothing more, and takes no answer that comes lat
     });
   const filled = fillRegion("ndobc", "rigid", 10);
   stopFilling();
-  give({ fates: FATES, next: 48 } as unknown as Region);
+  give({ outcomes: OUTCOMES, next: 48 } as unknown as Region);
   await filled;
-  expect([asked.length, fates.value.length, isFilling.value]).toEqual([1, 0, false]);
+  expect([asked.length, outcomes.value.length, isFilling.value]).toEqual([1, 0, false]);
 });
 
 it("why it cannot be filled is told", async () => {

@@ -13,7 +13,7 @@ const { COLUMNS, findBest } = await import("../../../src/runs/list/overlaytable"
 describe("runs laid over one another", () => {
   const runOf = (change: object) =>
     ({
-      ...{ lanes: ["lane1"], lane_names: ["FL"], stretches: [], period_s: 0.001, first_tick: 0 },
+      ...{ lanes: ["lane1"], lane_names: ["FL"], segments: [], period_s: 0.001, first_tick: 0 },
       ...change,
     }) as never;
   const NAMED = { is_whole: false, lanes: ["FL"], load_ended: false };
@@ -79,7 +79,7 @@ describe("the best of an overlay", () => {
     const run = {
       id,
       lane_names: ["FL"],
-      stretches: [],
+      segments: [],
       window: lane,
       metrics,
       ...of,

@@ -16,7 +16,7 @@ const details = (change: object) =>
     period_s: 0.001,
     first_tick: 0,
     ticks: 10_000,
-    stretches: [],
+    segments: [],
     ...change,
   }) as unknown as RunDetails;
 let readPlace: typeof ReadPlace;
@@ -121,13 +121,13 @@ describe("the window of a run's numbers", () => {
 
   it("begins at 0 of an overlay, which says where it ends and whose numbers those are", () => {
     const run = details({ title: "A", lane_names: ["NDOBC → FL"], window, metrics: [{}] });
-    const stretches = [
+    const segments = [
       [
         { line_style: 0, start_s: 0 },
         { line_style: 1, start_s: 1.5 },
       ],
     ];
-    const [curve] = overlay({ ...run, stretches } as never, samples);
+    const [curve] = overlay({ ...run, segments } as never, samples);
     expect(curve?.ownLineStyle).toBe(1);
     expect(curve).toMatchObject({ hasOnset: true, changedS: 3, measuredLane: "FL" });
     expect([...(curve?.time ?? [])]).toEqual([0, 3]);

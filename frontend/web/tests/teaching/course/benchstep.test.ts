@@ -23,8 +23,8 @@ const bench = (change: object = {}) =>
 const of = (bench: object | null) => ({ criteria: ["simulated"], bench }) as unknown as Step;
 const HUNG = of({
   criteria: ["on a bench"],
-  by_hand: "hang 3 kg",
-  hands: [
+  manual_load: "hang 3 kg",
+  manual_loads: [
     { time_s: 5, is_on: true },
     { time_s: 8, is_on: false },
   ],
