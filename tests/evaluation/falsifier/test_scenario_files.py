@@ -75,6 +75,12 @@ def weak(monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
 
 
+def test_an_adversary_file_with_a_former_word_is_read(tmp_path):
+    path = tmp_path / "former.toml"
+    path.write_text('harm = "peak"\n' + GOOD, encoding="utf-8")
+    assert read_adversary(path).cost == "peak"
+
+
 def test_a_scenario_of_one_s_own_is_run_with_its_loads_and_settings(tmp_path):
     path = tmp_path / "own.toml"
     path.write_text(SCENARIO)

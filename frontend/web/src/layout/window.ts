@@ -30,8 +30,7 @@ export const hasEnded = (
 
 /** Whether the controllers of all lanes began before the window, or all began with it. */
 const areComparable = ({ lanes, window }: Pick<SessionState, "lanes" | "window">): boolean =>
-  new Set(lanes.map(({ stretches }) => stretches.at(-1)?.start_tick === window.start_tick)).size <=
-  1;
+  new Set(lanes.map(({ segments }) => segments.at(-1)?.start_tick === window.start_tick)).size <= 1;
 
 /**
  * The lane whose number is clearly the smallest. None on a bench, whose lanes are not of one plant,

@@ -22,7 +22,7 @@ const window = (kind: WindowState["kind"], label: string): WindowState => ({
 const lanesFrom = (...ticks: number[]): Pick<SessionState, "bench" | "lanes" | "window"> => ({
   bench: null,
   window: window("change", "FL beside"),
-  lanes: ticks.map((start_tick) => ({ stretches: [{ start_tick }] }) as LaneRow),
+  lanes: ticks.map((start_tick) => ({ segments: [{ start_tick }] }) as LaneRow),
 });
 const metrics = (seconds: number | null) => ({ recovery_time_s: seconds }) as Metrics;
 
