@@ -14,7 +14,7 @@ BY_FOUR := -n 4 $(BY_MODULE)
 BY_TWO := -n 2 $(BY_MODULE)
 # A search at less depth than `make test-all`'s (tests/conftest.py).
 SHOWN := --hypothesis-profile=shown
-SERVED := package hardware scene server client browser
+SERVED := package docs hardware scene server client browser
 WEB := PATH="$(CURDIR)/$(BIN):$$PATH" npm --prefix frontend/web
 WALL_CLOCK = $$(grep -rl --include='test_*.py' 'mark\.wall_clock' tests)
 export PYTHONDONTWRITEBYTECODE =

@@ -19,7 +19,17 @@ TESTS = Path(__file__).parent
 COMPILED = "compiled"
 ORDER = (
     *("package", "inputs", "numerics", "actuators", "control", "simulation", "runs"),
-    *("analysis", "evaluation", "teaching", "hardware", "scene", "server", "client", "browser"),
+    *(
+        "analysis",
+        "evaluation",
+        "teaching",
+        "hardware",
+        "scene",
+        "server",
+        "client",
+        "docs",
+        "browser",
+    ),
 )
 """The folders, fast tests first. The browser tests are last: the synchronous driver of Playwright
 leaves an event loop running in its process, in which `asyncio.run` raises an error. xdist assigns

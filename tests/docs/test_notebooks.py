@@ -1,4 +1,4 @@
-"""The notebooks of the documentation run from the first cell to the last, in a kernel."""
+"""The notebooks of the tutorials run from the first cell to the last, in a kernel."""
 
 import os
 from pathlib import Path
@@ -7,7 +7,7 @@ import nbformat
 import pytest
 from nbclient import NotebookClient
 
-FOLDER = Path(__file__).parents[2] / "docs" / "notebooks"
+FOLDER = Path(__file__).parents[2] / "docs" / "tutorials"
 NOTEBOOKS = sorted(FOLDER.glob("*.ipynb"))
 
 
