@@ -57,10 +57,12 @@ if TYPE_CHECKING:
     from svsa.evaluation import falsifier as falsify
     from svsa.evaluation.sweep import sweep
     from svsa.evaluation.tuning.tuner import tune
+    from svsa.runs.environment import ActuatorEnv
     from svsa.runs.records.catalogue.runs import Catalogue
     from svsa.runs.result.recorded import export_run, list_runs, open_run, resimulate
 
 _LATE = {
+    "ActuatorEnv": "svsa.runs.environment",
     "design": "svsa.analysis.design",
     "falsify": "svsa.evaluation.falsifier",
     "connect": "svsa.client",
@@ -92,6 +94,7 @@ def __getattr__(name: str) -> object:
 __all__ = [
     "IDEAL",
     "RIG",
+    "ActuatorEnv",
     "ActuatorParameters",
     "Catalogue",
     "Change",

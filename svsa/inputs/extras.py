@@ -8,7 +8,7 @@ from typing import Literal
 from svsa.errors import SvsaError
 
 DISTRIBUTION = "svsa-lab"
-Extra = Literal["server", "client", "bench", "plot", "nidaqmx", "xarray", "cluster", "lti"]
+Extra = Literal["server", "client", "bench", "plot", "nidaqmx", "xarray", "cluster", "lti", "gym"]
 MODULES: dict[Extra, tuple[str, ...]] = {
     "server": (
         *("fastapi", "pydantic_settings", "uvicorn", "websockets", "httpx"),
@@ -21,6 +21,7 @@ MODULES: dict[Extra, tuple[str, ...]] = {
     "xarray": ("xarray",),
     "cluster": ("distributed",),
     "lti": ("joserfc",),
+    "gym": ("gymnasium",),
 }
 
 

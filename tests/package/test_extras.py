@@ -30,11 +30,12 @@ class WithoutExtras:
 assert not hidden & set(sys.modules), "importing the library has imported an extra's package"
 sys.meta_path[:] = [WithoutExtras(finder) for finder in sys.meta_path]
 """
-ALL = ("server", "client", "bench", "plot", "nidaqmx", "xarray", "cluster", "lti")
+ALL = ("server", "client", "bench", "plot", "nidaqmx", "xarray", "cluster", "lti", "gym")
 CALLS = {
     "svsa.simulate('4a', duration_s=0.01).plot()": "plot",
     "svsa.reproduce(('6a',))": "bench",
     "svsa.connect()": "client",
+    "svsa.ActuatorEnv()": "gym",
     "svsa.simulate('4a', duration_s=0.01).to_xarray()": "xarray",
     "run('reproduce')": "plot",
     "run('bench-check', 'bench.toml')": "bench",
