@@ -59,7 +59,15 @@ if TYPE_CHECKING:
     from svsa.evaluation.tuning.tuner import tune
     from svsa.runs.environment import ActuatorEnv
     from svsa.runs.records.catalogue.runs import Catalogue
-    from svsa.runs.result.recorded import export_run, list_runs, open_run, resimulate
+    from svsa.runs.records.verdict import Tolerance
+    from svsa.runs.result.recorded import (
+        compare_runs,
+        export_run,
+        list_runs,
+        open_run,
+        resimulate,
+    )
+    from svsa.runs.result.saved import save_run
 
 _LATE = {
     "ActuatorEnv": "svsa.runs.environment",
@@ -68,10 +76,13 @@ _LATE = {
     "connect": "svsa.client",
     "connect_async": "svsa.client",
     "Catalogue": "svsa.runs.records.catalogue.runs",
+    "Tolerance": "svsa.runs.records.verdict",
+    "save_run": "svsa.runs.result.saved",
     "sweep": "svsa.evaluation.sweep",
     "tune": "svsa.evaluation.tuning.tuner",
     **dict.fromkeys(
-        ("export_run", "open_run", "resimulate", "list_runs"), "svsa.runs.result.recorded"
+        ("compare_runs", "export_run", "open_run", "resimulate", "list_runs"),
+        "svsa.runs.result.recorded",
     ),
 }
 
@@ -133,6 +144,8 @@ __all__ = [
     "StepsPosition",
     "StepsStiffness",
     "SvsaError",
+    "Tolerance",
+    "compare_runs",
     "connect",
     "connect_async",
     "design",
@@ -147,6 +160,7 @@ __all__ = [
     "reproduce",
     "resimulate",
     "sample_reference",
+    "save_run",
     "simulate",
     "sweep",
     "tune",

@@ -18,6 +18,8 @@ from svsa.errors import ParameterError, Violation
 
 GROUP = "svsa.laws"
 PAPERS_LAW = "ndobc"
+OWN_LAW = "own"
+"""Instead of a law's name: a function of a script."""
 BASELINE = "fl"
 """What the paper compares its law with."""
 
@@ -108,6 +110,8 @@ def get_title(name: str) -> str:
     """How a law is called in a legend; one that is not installed, or does not load, says so."""
     if is_usable(name):
         return get_law(name).title
+    if name == OWN_LAW:
+        return "own controller"
     return f"{name} (does not load)" if name in _find_entries() else f"{name} (not installed)"
 
 

@@ -13,13 +13,6 @@ def write_export(kind: str, folder: Path, target: Path) -> None:
     export(open_record(folder), kind, target)
 
 
-def write_replay(folder: Path, target: Path) -> None:
-    """The record in this folder as a page with 3D replay."""
-    from svsa_server.runs.replay_export import build_replay
-
-    target.write_text(build_replay(open_record(folder)), encoding="utf-8")
-
-
 def write_worst_run(key: str, folder: Path, target: Path) -> None:
     """The worst run of an entry of the board in this folder as a page with 3D replay."""
     from svsa_server.runs.worst_run_page import build_worst_run_page

@@ -3,15 +3,13 @@
 import asyncio
 import logging
 from collections.abc import Callable
-from datetime import UTC, datetime
 from typing import Any, NoReturn
 
 import svsa
-from svsa.actuators.signals import CHANNELS
 from svsa.control.gains import Gains
 from svsa.runs.records.catalogue.entry import CatalogueError
-from svsa.runs.records.catalogue.runs import Catalogue, build_run_id
-from svsa.runs.records.header import RecordHeader
+from svsa.runs.records.catalogue.runs import Catalogue
+from svsa.runs.records.header import RecordHeader, build_header
 from svsa.runs.records.recorder import Recorder
 from svsa.runs.session.session import Session
 
@@ -57,7 +55,7 @@ class Recordings:
         owner: id of the person whose run it is, in a class.
         """
         session.prepare_recording()
-        header = build_header(session, name, tags, notes, owner)
+        header = build_session_header(session, name, tags, notes, owner)
         recorder = await asyncio.to_thread(self._catalogue.record, header)
         session.journal.on_recorded = self.finish
         try:
@@ -88,7 +86,7 @@ class Recordings:
             _log.warning("Run %s was not entered: %s", recorder.header.run_id, error)
 
 
-def build_header(
+def build_session_header(
     session: Session, name: str, tags: tuple[str, ...], notes: str, owner: str = ""
 ) -> RecordHeader:
     """What the record of this session says of itself; raises `ParameterError`.
@@ -97,10 +95,9 @@ def build_header(
     record could not be opened again.
     """
     Gains(**dict(session.journal.initial.gains))
-    return RecordHeader(
-        version=svsa.__version__,
-        run_id=build_run_id(),
-        created=datetime.now(UTC).isoformat(timespec="milliseconds"),
+    return build_header(
+        session.journal.initial,
+        len(session.run.lanes),
         session=session.name,
         plant=session.plant,
         name=name,
@@ -108,9 +105,4 @@ def build_header(
         notes=notes,
         owner=owner,
         branch_of=session.journal.branch_of,
-        lanes=tuple(f"lane{number + 1}" for number in range(len(session.run.lanes))),
-        configuration=session.journal.initial.model_dump(mode="json"),
-        seed=session.journal.initial.seed,
-        period_s=session.run.period_s,
-        channels=CHANNELS,
     )

@@ -1,27 +1,22 @@
 """A row of a study as the run that it was: every sample, and the same metrics to the bit."""
 
 import struct
-from datetime import UTC, datetime
 from typing import Any, NamedTuple
 
 import numpy as np
 import pyarrow.compute as pc
 
-from svsa.actuators.signals import CHANNELS
 from svsa.evaluation.metrics import METRICS, summarize_result
 from svsa.evaluation.studies.outcome import Success, build_outcome
 from svsa.evaluation.studies.samples import build_configurations, draw
 from svsa.evaluation.studies.store import StoredStudy, StudyError, read_rows
 from svsa.evaluation.studies.work import ROW
 from svsa.inputs.checked import check_number
-from svsa.inputs.extras import __version__
 from svsa.runs.configuration import Configuration
 from svsa.runs.records.catalogue.entry import RunEntry
-from svsa.runs.records.catalogue.runs import Catalogue, build_run_id
-from svsa.runs.records.header import RecordHeader
-from svsa.runs.records.outcome import write_fault
-from svsa.runs.records.writer import write_record
+from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.runs.result.result import Result
+from svsa.runs.result.saved import record_result
 from svsa.runs.result.simulate import simulate
 
 
@@ -91,26 +86,15 @@ def record_replay(
         f"{name}: {value:g}" if isinstance(value, float) else f"{name}: {value}"
         for name, value in varied.items()
     ]
-    header = RecordHeader(
-        version=__version__,
-        run_id=build_run_id(),
-        created=datetime.now(UTC).isoformat(timespec="milliseconds"),
+    return record_result(
+        replay.result,
+        catalogue,
         session=f"study {stored.name}",
         name=f"Study {stored.name}, row {replay.row}",
         tags=("study", stored.name[:50]),
         notes="\n".join((stored.study.title, *reported)),
-        lanes=("lane1",),
-        configuration=replay.configuration.model_dump(mode="json"),
-        seed=replay.configuration.seed,
-        period_s=replay.configuration.sampling.period_s,
-        channels=CHANNELS,
         owner=owner,
     )
-    folder = catalogue.folder / "runs" / header.run_id
-    write_record(folder, header, [], 0, replay.result.samples[:, None])
-    write_fault(folder, replay.result.fault)
-    catalogue.register(header)
-    return catalogue.finish(header.run_id)
 
 
 def _is_same(a: float, b: float) -> bool:

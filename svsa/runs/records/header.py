@@ -3,18 +3,20 @@
 import json
 import os
 import re
+import secrets
 import threading
 from dataclasses import dataclass
-from datetime import datetime
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, Literal, Self
 
 from pydantic import model_validator
 
-from svsa.actuators.signals import Channel
+from svsa.actuators.signals import CHANNELS, Channel
 from svsa.errors import ParameterError, SvsaError, Violation
 from svsa.inputs.checked import Checked, Number, Whole, quantity
 from svsa.inputs.extras import __version__
+from svsa.runs.configuration import Configuration
 from svsa.runs.records.former_words import FIELDS, translate_fields
 
 FORMAT = 1
@@ -71,6 +73,7 @@ class RecordHeader(Checked):
     configuration: dict[str, Any] = quantity("", "The run's configuration at tick 0")
     seed: Whole = quantity("", "Seed of the sensor noise", ge=0, le=2**63 - 1)
     period_s: Number = quantity("s", "Control period T", gt=0, le=10)
+    steps: Whole = quantity("", "Runge–Kutta steps a control period", ge=1, default=1)
     channels: tuple[Channel, ...] = quantity("", "Name, unit and label of every channel")
 
     @model_validator(mode="after")
@@ -100,6 +103,35 @@ class RecordHeader(Checked):
     def to_json(self) -> str:
         """The header as a JSON object."""
         return self.model_dump_json()
+
+
+def build_header(configuration: Configuration, lane_count: int, **known: Any) -> RecordHeader:
+    """The header of a record that begins now, under a new id.
+
+    Args:
+        configuration: of the run at tick 0.
+        lane_count: 1 to 4.
+        known: the other fields of the header, or some of these in place of their new values.
+
+    Raises:
+        ParameterError: If a value is out of range.
+    """
+    values = {
+        "version": __version__,
+        "run_id": build_run_id(),
+        "created": datetime.now(UTC).isoformat(timespec="milliseconds"),
+        "lanes": tuple(f"lane{number + 1}" for number in range(lane_count)),
+        "configuration": configuration.model_dump(mode="json"),
+        "seed": configuration.seed,
+        "period_s": configuration.sampling.period_s,
+        "channels": CHANNELS,
+    }
+    return RecordHeader(**(values | known))
+
+
+def build_run_id() -> str:
+    """An id for a new run: the time in UTC, and a random number so that no two are the same."""
+    return f"{datetime.now(UTC):%Y%m%d-%H%M%S}-{secrets.token_hex(4)}"
 
 
 def read_header(folder: Path) -> RecordHeader:

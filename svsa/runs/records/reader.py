@@ -107,12 +107,16 @@ def name_column(lane: str, channel: str) -> str:
 
 
 def build_record(
-    header: RecordHeader, commands: Commands, first_tick: int, samples: np.ndarray
+    header: RecordHeader,
+    commands: Commands,
+    first_tick: int,
+    samples: np.ndarray,
+    fault: Fault | None = None,
 ) -> Record:
     """A record of samples (ticks, lanes, channels) in memory, to export as one from a disk."""
     batch = build_batch(header, build_schema(header), first_tick, samples)
     parts = [batch.slice(row, ROWS_A_GROUP) for row in range(0, len(samples), ROWS_A_GROUP)]
-    return Record(header, list(commands), first_tick, len(samples), _read_from(parts))
+    return Record(header, list(commands), first_tick, len(samples), _read_from(parts), fault)
 
 
 def open_record(folder: Path) -> Record:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from svsa.control.installed import OWN_LAW
 from svsa.runs.command import Command, read_command
 from svsa.runs.configuration import Configuration
 from svsa.runs.records.header import RecordError
@@ -35,20 +36,30 @@ def read_origin(record: Record) -> tuple[Configuration, list[Command]]:
 
 
 def check_simulated(record: Record) -> None:
-    """Raise `RecordError` for a run of a bench, which nothing can simulate again."""
+    """Raise `RecordError` for a run of a bench, of a function, or of other integration steps."""
     header = record.header
     if header.plant != "simulated":
         raise RecordError(
             f"Run {header.run_id} was recorded on a bench (plant: {header.plant}): only a"
             " simulated run can be simulated again."
         )
+    if header.configuration.get("law") == OWN_LAW:
+        raise RecordError(
+            f"Run {header.run_id} was controlled by a function of a script, which its record does"
+            " not contain: only a run of installed laws can be simulated again."
+        )
+    if header.steps != 1:
+        raise RecordError(
+            f"Run {header.run_id} was integrated with {header.steps} steps a control period: only"
+            " a run with one step can be simulated again."
+        )
 
 
 def compare_with_simulation(record: Record) -> Comparison:
     """Simulate a recorded run again from its record alone and compare every bit.
 
-    Raises `RecordError` for a run of a bench, and where it was recorded with other channels
-    than this version has.
+    Raises `RecordError` for a run of `check_simulated`, and where it was recorded with other
+    channels than this version has.
     """
     check_simulated(record)
     configuration, commands = read_origin(record)

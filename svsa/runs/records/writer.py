@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from svsa.errors import Fault
 from svsa.inputs.file_lock import take_lock
 from svsa.runs.records.header import (
     COMMANDS_FILE,
@@ -14,6 +15,7 @@ from svsa.runs.records.header import (
     RecordHeader,
     write_header,
 )
+from svsa.runs.records.outcome import write_fault
 from svsa.runs.records.parquet import ROWS_A_GROUP, Commands, Finished, finish, write_command
 from svsa.runs.records.stream import END_OF_STREAM, TIME, build_batch, build_schema, write_all
 
@@ -88,14 +90,23 @@ class RecordWriter:
 
 
 def write_record(
-    folder: Path, header: RecordHeader, commands: Commands, first_tick: int, samples: np.ndarray
+    folder: Path,
+    header: RecordHeader,
+    commands: Commands,
+    first_tick: int,
+    samples: np.ndarray,
+    fault: Fault | None = None,
 ) -> Finished:
-    """Write a record of a run that was not live, (ticks, lanes, channels), in one call."""
+    """Write a record of a run that was not live, (ticks, lanes, channels), in one call.
+
+    Raises `RecordError` where the folder exists or the disk fails.
+    """
     writer = RecordWriter(folder, header)
     try:
         writer.write_lines(b"".join(write_command(*command) for command in commands))
         for row in range(0, len(samples), ROWS_A_GROUP):
             writer.write_samples(first_tick + row, samples[row : row + ROWS_A_GROUP])
+        write_fault(folder, fault)
     except OSError as error:
         writer.release()
         raise RecordError(f"Record {folder.name} cannot be written: {error}.") from None

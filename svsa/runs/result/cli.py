@@ -4,7 +4,7 @@ import json
 import math
 from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, cast
 
 import typer
 from rich.console import Console
@@ -15,6 +15,7 @@ from svsa.inputs.toml_file import describe_place, read_toml
 
 if TYPE_CHECKING:
     from svsa.runs.records.verdict import Tolerance, Verdict
+    from svsa.runs.result.channels import ChannelName
 
 NOT_HELD, REFUSED = 1, 2
 _messages = Console(stderr=True)
@@ -36,18 +37,21 @@ def compare(
 ) -> None:
     """Judge a run against another. Exit code 0: held; 1: not; 2: they cannot be compared."""
     from svsa.runs.records.header import describe_newer
-    from svsa.runs.records.verdict import Tolerance, judge
-    from svsa.runs.result.recorded import find_record
+    from svsa.runs.result.recorded import compare_runs, find_record
 
     try:
-        rest = Tolerance(absolute=absolute, relative=relative, time_s=time_s)
-        given = read_tolerances(tolerances) if tolerances else {}
-        given |= {name: given.get(name, rest) for name in channel or ()}
-        records = find_record(run), find_record(other)
-        for header in (record.header for record in records):
+        for header in (find_record(one).header for one in (run, other)):
             if newer := describe_newer(header.version):
                 _messages.print(f"Note: {header.run_id}: {newer}", highlight=False, markup=False)
-        verdict = judge(*records, given, None if channel else rest)
+        verdict = compare_runs(
+            run,
+            other,
+            absolute=absolute,
+            relative=relative,
+            time_s=time_s,
+            channels=cast("list[ChannelName] | None", channel),
+            tolerances=read_tolerances(tolerances) if tolerances else None,
+        )
     except (SvsaError, OSError) as error:
         _messages.print(f"Error: {error}", style="bold red", highlight=False, markup=False)
         raise typer.Exit(REFUSED) from None

@@ -28,6 +28,4 @@ def style_law(law: str) -> dict[str, Any]:
 
 def name_law(law: str) -> str:
     """What controlled, in words: a law's title, "own controller", or a lane as it was called."""
-    if law == "own":
-        return "own controller"
     return get_title(law) if NAME.fullmatch(law) else law

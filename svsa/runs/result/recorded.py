@@ -1,6 +1,10 @@
-"""Recorded runs in a script: list them, open one, simulate it again, export it."""
+"""Recorded runs in a script: list them, open one, simulate it again, compare it, export it.
+
+Where a run is an argument, it is its id in this machine's catalogue, its folder, or a `Result`.
+"""
 
 import warnings
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from svsa.actuators.signals import CHANNEL_NAMES
@@ -11,7 +15,10 @@ from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.runs.records.header import HEADER_FILE, RecordError, describe_newer
 from svsa.runs.records.reader import Record, open_record
 from svsa.runs.records.resimulation import Comparison, compare_with_simulation, read_origin
+from svsa.runs.records.verdict import Tolerance, Verdict, judge
+from svsa.runs.result.channels import ChannelName
 from svsa.runs.result.result import Result, build_results
+from svsa.runs.result.saved import build_result_record
 
 
 def list_runs(search: str = "", page: int = 1, page_size: int = 50) -> RunPage:
@@ -22,11 +29,14 @@ def list_runs(search: str = "", page: int = 1, page_size: int = 50) -> RunPage:
     return Catalogue().list(search=search, page=page, page_size=page_size)
 
 
-def find_record(run: str | Path) -> Record:
-    """The record of a run: its id in this machine's catalogue, or its folder.
+def find_record(run: str | Path | Result) -> Record:
+    """The record of a run: of its id in this machine's catalogue, its folder, or a result.
 
-    Raises `UnknownRunError` for an id that is not there, `RecordError` for what cannot be read.
+    Raises `UnknownRunError` for an id that is not there, `RecordError` for what cannot be read,
+    `StateError` for a result that is one lane of a run, or has no samples.
     """
+    if isinstance(run, Result):
+        return build_result_record(run)
     folder = Path(run)
     if isinstance(run, Path) or (folder / HEADER_FILE).is_file():
         return open_record(folder)
@@ -61,17 +71,69 @@ def open_run(run: str | Path) -> Result:
         laws = header.lanes
     name = header.name or header.run_id
     return build_results(
-        configuration, samples, laws, record.fault, tuple(commands), name, header.plant
+        configuration,
+        samples,
+        laws,
+        record.fault,
+        tuple(commands),
+        name,
+        header.plant,
+        header.steps,
     )
 
 
-def resimulate(run: str | Path) -> Comparison:
-    """Simulate a recorded run again from its record alone and compare every bit."""
+def resimulate(run: str | Path | Result) -> Comparison:
+    """Simulate a run again from its record alone and compare every bit.
+
+    Raises `RecordError` for a run of a bench, of a function as controller, or of more than one
+    integration step a period.
+    """
     return compare_with_simulation(find_record(run))
 
 
-def export_run(run: str | Path, kind: str, target: Path | str) -> None:
-    """Write a recorded run as "csv", "parquet", "mat" or "mcap"; see `records.export.formats`."""
+def compare_runs(
+    run: str | Path | Result,
+    other: str | Path | Result,
+    *,
+    absolute: float = 0.0,
+    relative: float = 0.0,
+    time_s: float = 0.0,
+    channels: Sequence[ChannelName] | None = None,
+    tolerances: Mapping[str, Tolerance] | None = None,
+) -> Verdict:
+    """Compare a run with another within tolerances, channel by channel and lane by lane.
+
+    A value a is held against b, any value that the other run has within `time_s` of that moment:
+    |a − b| ≤ absolute + relative · |b|.
+
+    Args:
+        run: The run that is judged.
+        other: The run that it should be.
+        absolute: Tolerance in the unit of each channel.
+        relative: Tolerance as a share of the other run's value.
+        time_s: How much earlier or later a value may be, s.
+        channels: Only these; left out, all.
+        tolerances: Of single channels, in place of the three above.
+
+    Returns:
+        The verdict: `held`, and of every channel its worst moment.
+
+    Raises:
+        ParameterError: If a tolerance is negative or there is no such channel.
+        RecordError: If the runs have other lanes or periods, or nothing in common.
+    """
+    rest = Tolerance(absolute=absolute, relative=relative, time_s=time_s)
+    given = dict(tolerances or {})
+    given |= {name: given.get(name, rest) for name in channels or ()}
+    return judge(find_record(run), find_record(other), given, None if channels else rest)
+
+
+def export_run(run: str | Path | Result, kind: str, target: Path | str) -> None:
+    """Write a run for other programs: "csv", "parquet", "mat", "mcap" or "html".
+
+    "html" is one page with 3D replay and plots, which needs the extra `server`, but no server.
+    Raises `ParameterError` for another kind, `RecordError` where the run cannot be written.
+    """
     from svsa.runs.records.export.formats import (
         export,  # late: what the formats need takes a second
     )

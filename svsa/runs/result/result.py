@@ -41,7 +41,7 @@ class Result(Channels):
     fault: why the run ended early, or None. comparisons: the results of the controllers that ran
     beside this one. law: what controlled first, "own" for a function of one's own. commands: what
     was changed of this lane on the way. name: what a recorded run is called. plant: what the first
-    lane was.
+    lane was. steps: Runge–Kutta steps a control period.
     """
 
     configuration: Configuration
@@ -52,6 +52,7 @@ class Result(Channels):
     commands: tuple[Command, ...] = ()
     name: str = ""
     plant: PlantKind = "simulated"
+    steps: int = 1
 
     @property
     def units(self) -> dict[str, str]:
@@ -190,9 +191,10 @@ def build_results(
     commands: tuple[Command, ...] = (),
     name: str = "",
     plant: PlantKind = "simulated",
+    steps: int = 1,
 ) -> Result:
     """The first lane's result with those of its comparisons. samples: (lanes, ticks, channels)."""
     of_all = tuple(command for command in commands if command.kind != "law")
     (rows, law), *others = zip(samples, laws, strict=True)
     comparisons = tuple(Result(configuration, r, fault, (), of, of_all, name) for r, of in others)
-    return Result(configuration, rows, fault, comparisons, law, commands, name, plant)
+    return Result(configuration, rows, fault, comparisons, law, commands, name, plant, steps)

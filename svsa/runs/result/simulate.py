@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from svsa.actuators.signals import CHANNELS
+from svsa.control.installed import OWN_LAW
 from svsa.errors import ParameterError, Violation
 from svsa.inputs.checked import check_number
 from svsa.runs.change import Change, build_commands
@@ -68,5 +69,8 @@ def simulate(
     with follow_progress("Simulating", progress) as follow:
         for reached, _ in play(run, given, ticks, samples, stretch):
             follow(reached.tick / ticks)
-    laws = ["own" if own else configuration.law, *(lane.law for lane in configuration.comparisons)]
-    return build_results(configuration, samples[:, : run.tick], laws, run.fault, given)
+    laws = [
+        OWN_LAW if own else configuration.law,
+        *(lane.law for lane in configuration.comparisons),
+    ]
+    return build_results(configuration, samples[:, : run.tick], laws, run.fault, given, steps=steps)

@@ -14,7 +14,7 @@ from svsa.runs.records.resimulation import Comparison, check_simulated
 from svsa_server.access.permissions import OBSERVER, allow
 from svsa_server.routes.depends import BUSY, REFUSALS, RunId, Runs, Work
 from svsa_server.routing import build_router
-from svsa_server.runs.work import compare, write_export, write_replay
+from svsa_server.runs.work import compare, write_export
 from svsa_server.schemas.runs.run import ExportName
 
 CHUNK_BYTES = 1 << 18
@@ -26,6 +26,7 @@ _FILES = {
 PAGE: dict[int | str, dict[str, Any]] = {
     200: {"content": {"text/html": {"schema": {"type": "string"}}}, "description": "The page"}
 }
+_write_page = partial(write_export, "html")
 router = build_router(tags=["runs"], responses=REFUSALS | BUSY)
 
 
@@ -54,7 +55,7 @@ async def export_run(
 @allow(OBSERVER)
 async def show_replay(runs: Runs, work: Work, run_id: RunId) -> StreamingResponse:
     """The page of `replay.html` to be looked at in place; `?t=12.3` opens it at 12.3 s."""
-    file = await work.write(write_replay, await asyncio.to_thread(runs.find_folder, run_id))
+    file = await work.write(_write_page, await asyncio.to_thread(runs.find_folder, run_id))
     return send_page(file)
 
 
@@ -63,7 +64,7 @@ async def show_replay(runs: Runs, work: Work, run_id: RunId) -> StreamingRespons
 async def download_replay(runs: Runs, work: Work, run_id: RunId) -> StreamingResponse:
     """The run as one page with 3D replay and plots together; opens from a file, offline."""
     record = await asyncio.to_thread(runs.open, run_id)
-    file = await work.write(write_replay, runs.find_folder(run_id))
+    file = await work.write(_write_page, runs.find_folder(run_id))
     name = f"{record.header.run_id}.html"
     return _send(file, "text/html", {"Content-Disposition": f'attachment; filename="{name}"'})
 

@@ -6,7 +6,6 @@ an index: its content is in the folders too, and `recover` builds it again from 
 
 import dataclasses
 import os
-import secrets
 import shutil
 from collections.abc import Iterable, Iterator
 from datetime import UTC, datetime
@@ -258,11 +257,6 @@ def find_data_folder() -> Path:
     """Where runs are kept: SVSA_DATA, or .local/share/svsa in the user's home."""
     given = os.environ.get(DATA_VARIABLE)
     return Path(given).expanduser() if given else Path.home() / ".local" / "share" / "svsa"
-
-
-def build_run_id() -> str:
-    """An id for a new run: the time in UTC, and enough chance that no two are the same."""
-    return f"{datetime.now(UTC):%Y%m%d-%H%M%S}-{secrets.token_hex(4)}"
 
 
 def _move(source: Path, target: Path) -> None:

@@ -1,6 +1,11 @@
-"""A record in the formats of other programs: CSV, Parquet, MAT (MATLAB, Octave), MCAP."""
+"""A record in the formats of other programs: CSV, Parquet, MAT (MATLAB, Octave), MCAP.
+
+A package above the library adds formats by the entry point group `svsa.exports` (the server adds
+"html").
+"""
 
 from collections.abc import Callable
+from importlib.metadata import entry_points
 from pathlib import Path
 from typing import IO, NamedTuple
 
@@ -31,6 +36,7 @@ def write_csv(record: Record, stream: IO[bytes]) -> None:
             writer.write_batch(pa.RecordBatch.from_arrays(batch.columns, schema=schema))
 
 
+GROUP = "svsa.exports"
 LONGEST_FILE_NAME = 80
 
 
@@ -57,7 +63,7 @@ EXPORT_KINDS: dict[str, ExportKind] = {
 
 
 def export(record: Record, kind: str, target: Path | str | IO[bytes]) -> None:
-    """Write a record as `kind` of `EXPORT_KINDS` to a path or a binary stream.
+    """Write a record as `kind` of `get_kind` to a path or a binary stream.
 
     Raises `ParameterError` for an unknown kind, and `RecordError` where the record cannot
     be read, is too long for the format, or the disk is full; no half file is left at a path.
@@ -74,9 +80,13 @@ def export(record: Record, kind: str, target: Path | str | IO[bytes]) -> None:
 
 def get_kind(kind: str) -> ExportKind:
     """The format of this name; raises `ParameterError` with those there are."""
-    if kind not in EXPORT_KINDS:
-        raise ParameterError(Violation("kind", kind, "", "one of " + ", ".join(EXPORT_KINDS)))
-    return EXPORT_KINDS[kind]
+    if kind in EXPORT_KINDS:
+        return EXPORT_KINDS[kind]
+    added = entry_points(group=GROUP)
+    if kind not in added.names:
+        names = ", ".join((*EXPORT_KINDS, *sorted(added.names)))
+        raise ParameterError(Violation("kind", kind, "", f"one of {names}"))
+    return added[kind].load()
 
 
 def build_file_name(record: Record, kind: str) -> str:

@@ -9,8 +9,8 @@ import pytest
 from svsa.errors import ParameterError, StateError
 from svsa.runs.metrics import compute_metrics
 from svsa.runs.records.catalogue.entry import UnknownRunError
-from svsa.runs.records.catalogue.runs import Catalogue, build_run_id, find_data_folder
-from svsa.runs.records.header import HEADER_FILE, is_run_id
+from svsa.runs.records.catalogue.runs import Catalogue, find_data_folder
+from svsa.runs.records.header import HEADER_FILE, build_run_id, is_run_id
 from tests.runs.records.records import (
     PERIOD_S,
     add,
