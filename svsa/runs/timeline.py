@@ -28,9 +28,8 @@ MAX_WINDOWS = 1000
 MAX_STRETCHES = 1000
 LONGEST_LABEL = 200
 _MORE = " …"
-# A line style's colour and dash are those of its remainders.
+# A line style's color is its remainder.
 LINE_COLORS = 5
-LINE_DASHES = 4
 
 WindowKind = Literal["start", "load", "unload", "change", "stop"]
 
@@ -192,28 +191,36 @@ class Timeline:
                 )
 
     def _find_line_style(self, controller: Controller, present: Sequence[Controller]) -> int:
-        """The one that it has, its law's own where its colour is free, else the first that is.
+        """The one that it has, else the first of its law's color that no kept controller has.
 
-        A colour is free where no curve that is kept has it, nor is it that of another law that
-        controls a lane now; where none is, where no lane has it now; then what looks otherwise.
+        While a different law has that color, and for a law that is not installed, the color is
+        another one: of no other law whose curves are kept, else of none that controls a lane now.
         """
         used = {one.controller: one.line_style for lane in self.lanes for one in lane}
         if controller in used:
             return used[controller]
         customary = list_law_line_styles()
         own = customary.get(controller.law)
-        kept = set(used.values())
-        now = {used[one] for one in present if one in used}
-        owed = {customary[one.law] for one in present if one.law in customary} - {own}
-        for avoided in (kept, now):
-            colors = {line_style % LINE_COLORS for line_style in avoided}
-            if own is not None and own not in kept and own % LINE_COLORS not in colors:
-                return own
-            colors |= {line_style % LINE_COLORS for line_style in owed}
-            for line_style in range(LINE_COLORS * LINE_DASHES):
-                if line_style not in kept and line_style % LINE_COLORS not in colors:
-                    return line_style
-        return next(line_style for line_style in itertools.count() if line_style not in kept | owed)
+        of_others = {one: style for one, style in used.items() if one.law != controller.law}
+        owed = {customary.get(one.law, 0) for one in present if one.law != controller.law}
+        kept = {style % LINE_COLORS for style in of_others.values()}
+        now = {style % LINE_COLORS for one, style in of_others.items() if one in present}
+        free = [
+            color for color in range(LINE_COLORS) if color not in {o % LINE_COLORS for o in owed}
+        ]
+        wishes = free if own is None else [own, *free]
+        first = next(
+            (
+                wish
+                for avoided in (kept, now)
+                for wish in wishes
+                if wish % LINE_COLORS not in avoided
+            ),
+            0,
+        )
+        return next(
+            style for style in itertools.count(first, LINE_COLORS) if style not in used.values()
+        )
 
 
 def read_timeline(

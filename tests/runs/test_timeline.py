@@ -80,14 +80,14 @@ def test_a_change_and_back_within_a_tick_is_no_stretch():
     assert report(session.journal.timeline) == [[("NDOBC", 0, None)]]
 
 
-def test_a_law_has_its_own_ink_again_when_the_other_is_no_longer_kept():
+def test_a_law_keeps_its_color_with_other_settings_and_has_its_own_line_style_again():
     timeline = Timeline(build_configuration(), kept_ticks=100)
     session = build_session()
     for tick, observer in ((10, FASTER), (200, session.run.configuration.observer)):
         session.step(tick - session.run.tick)
         session.change(Set("observer", observer))
         timeline.take(session.journal.commands[-1])
-    assert [one.line_style for one in timeline.list_segments()[0]] == [1, 0]
+    assert [one.line_style for one in timeline.list_segments()[0]] == [LINE_COLORS, 0]
 
 
 def test_laws_side_by_side_have_each_a_colour_of_its_own_and_the_first_two_their_own():

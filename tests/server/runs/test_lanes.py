@@ -65,8 +65,8 @@ def test_lanes_are_called_by_the_laws_while_the_recording_went_on(
 def test_a_bench_and_its_twin_are_told_apart() -> None:
     record = record_lanes(3, [NDOBC, FL], [(205, "law", "fl")], plant="emulated")
     assert list_segments(record) == [
-        [("Bench NDOBC", 0, 0, 205), ("Bench FL", 3, 205, None)],
-        [("Twin NDOBC", 2, 0, 205), ("Twin FL", 4, 205, None)],
+        [("Bench NDOBC", 0, 0, 205), ("Bench FL", 6, 205, None)],
+        [("Twin NDOBC", 5, 0, 205), ("Twin FL", 11, 205, None)],
         [("FL", 1, 0, None)],
     ]
 

@@ -1,6 +1,6 @@
 import type { SessionState } from "../core/api/types";
 import { AllMetrics } from "../core/plots/allmetrics";
-import { lineStyleOf } from "../core/plots/linestyles";
+import { lineStyleOfLane } from "../core/plots/linestyles";
 import { metricsText as words } from "../core/text/metrics";
 import { Popup } from "../core/widgets/popup";
 import { isDisturbed } from "../runs/list/measured";
@@ -22,7 +22,7 @@ export function AllMetricsButton({ state: { lanes, window } }: { state: SessionS
           caption={sinceOf(window)}
           lanes={lanes.map(({ lane, name, segments, in_window: metrics }) => ({
             key: String(lane),
-            look: lineStyleOf(segments.at(-1)?.line_style ?? 0),
+            look: lineStyleOfLane(segments.at(-1)?.line_style ?? 0, lane === 1),
             name,
             metrics,
             isDisturbed: disturbed,

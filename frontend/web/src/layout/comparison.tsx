@@ -1,6 +1,6 @@
 import { useCallback } from "preact/hooks";
 import type { LaneRow, SessionState } from "../core/api/types";
-import { lineStyleOf } from "../core/plots/linestyles";
+import { lineStyleOfLane } from "../core/plots/linestyles";
 import { type MetricsColumn, MetricsTable } from "../core/plots/metricstable";
 import { isLive, samples } from "../core/state/session";
 import { text } from "../core/text/en";
@@ -20,7 +20,8 @@ function CurrentError({ lane }: { lane: number }) {
   return <span ref={element} />;
 }
 
-const lookOf = ({ segments }: LaneRow) => lineStyleOf(segments.at(-1)?.line_style ?? 0);
+const lookOf = ({ segments, lane }: LaneRow) =>
+  lineStyleOfLane(segments.at(-1)?.line_style ?? 0, lane === 1);
 
 const degrees = (rad: number | undefined) =>
   formatNumber(rad === undefined ? null : toDegrees(rad), 3, 3);

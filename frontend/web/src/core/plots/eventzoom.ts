@@ -1,10 +1,11 @@
 /** The second around the last event, which stands still beside the plots while they go on. */
 import { computed, effect, signal } from "@preact/signals";
 import type { SessionEvent } from "../api/types";
+import type { Cast } from "../state/lanes";
 import { remember, remembered } from "../state/preferences";
 import { samples, selectionCount, session } from "../state/session";
 import type { SampleRing } from "../stream/ring";
-import { type ChartView, held, shownRing } from "./span";
+import { type ChartView, held, shownCast, shownRing } from "./span";
 import { mayShow, type Span } from "./spans";
 
 const STORE = "svsa.event_zoom";
@@ -36,7 +37,7 @@ export const zoomedEvent = computed(() => {
 });
 
 /** Samples of an event whose second is over, kept when the session's ring has them no more. */
-let kept: { run: number; timeS: number; ring: SampleRing } | null = null;
+let kept: { run: number; timeS: number; ring: SampleRing; cast: Cast } | null = null;
 
 function zoomedRing(): SampleRing {
   const event = zoomedEvent.peek();
@@ -45,8 +46,15 @@ function zoomedRing(): SampleRing {
   if (kept !== null && kept.run === run && kept.timeS === event.time_s) return kept.ring;
   const { ring } = samples;
   if (!(ring.newestTime >= spanAround(event).to)) return ring;
-  kept = { run, timeS: event.time_s, ring: ring.copy() };
+  kept = { run, timeS: event.time_s, ring: ring.copy(), cast: shownCast.peek() };
   return kept.ring;
+}
+
+/** The controllers of those samples: the session forgets those before the event after 60 s. */
+export function zoomedCast(): Cast {
+  const now = shownCast.value;
+  void zoomedEvent.value;
+  return kept !== null && zoomedRing() === kept.ring ? kept.cast : now;
 }
 
 export function zoomedSpan(): Span {

@@ -94,7 +94,8 @@ export class StrokeLayer {
       context.rect(piece.from, 0, piece.to - piece.from, this.#canvas.height);
       context.clip();
       context.translate(piece.shift, 0);
-      for (const curve of shown) {
+      // The chosen controller, the first, is on top, and the references are below all.
+      for (const curve of [...shown].reverse()) {
         curve.stroke(context, place, from - STROKE_PX * uPlot.pxRatio);
         drawSigns(context, curve, place, from);
       }

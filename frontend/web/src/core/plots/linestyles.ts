@@ -1,6 +1,6 @@
 /**
- * Stable line styles: who controls a lane has a colour and a dash of its own, numbered by the server, in
- * every picture; several channels of one lane have a colour each.
+ * Stable line styles: a law has a colour of its own, a controller a number from the server, in every
+ * picture; several channels of one lane have a colour each. Only references are dotted.
  */
 
 import { computed } from "@preact/signals";
@@ -14,19 +14,32 @@ export const DASHED: readonly number[] = [6, 5];
 export const DOTTED: readonly number[] = [2, 4];
 
 const LANE_COLOURS: readonly PlotColour[] = ["blue", "vermilion", "green", "purple", "orange"];
-const LANE_DASHES = [PLAIN, [9, 4], [3, 3], [10, 3, 2, 3]] as const;
+const COMPARISON_DASHES = [
+  [5, 3],
+  [9, 4],
+  [14, 4, 5, 4],
+] as const;
+const LANE_DASHES = [PLAIN, ...COMPARISON_DASHES] as const;
 
 /** Line style 0, 1, …: twenty, of which no two share both colour and dash, and neighbours share neither. */
 export const lineStyleOf = (lineStyle: number): LineStyle => ({
   colour: LANE_COLOURS[lineStyle % LANE_COLOURS.length] as PlotColour,
   dash: LANE_DASHES[lineStyle % LANE_DASHES.length] as readonly number[],
-  width: lineStyle === 0 ? 2.5 : 2,
+  width: 2,
 });
 
+/** The present controller of lane 1 is chosen: its curve is solid and wide, those of others are dashed. */
+export const lineStyleOfLane = (lineStyle: number, isChosen: boolean): LineStyle => {
+  const dash = COMPARISON_DASHES[lineStyle % COMPARISON_DASHES.length] as readonly number[];
+  const look = isChosen ? { dash: PLAIN, width: 2.5 } : { dash };
+  return { ...lineStyleOf(lineStyle), ...look };
+};
+
 /**
- * A line style for each of several curves, as the server shares them out among lanes: the own one where
- * its colour is free, else the first whose colour is; where none is, one that looks otherwise. The
- * order decides only between curves whose own line style is the same. null: one that has none.
+ * A line style for each of several curves: the own one where its colour is free, else the first whose
+ * colour is; where none is, one that looks otherwise. The order decides only between curves whose own
+ * line style is the same: next to other laws, these keep their colour and differ in dash. null: one
+ * that has none.
  */
 export function shareLineStyles(own: readonly (number | null)[]): LineStyle[] {
   const shared = new Map<number, number>();
@@ -41,8 +54,16 @@ export function shareLineStyles(own: readonly (number | null)[]): LineStyle[] {
   const wishes = own
     .map((lineStyle, index) => ({ lineStyle: lineStyle ?? Number.MAX_SAFE_INTEGER, index }))
     .sort((one, other) => one.lineStyle - other.lineStyle);
+  const areOfOneLaw = new Set(own).size === 1;
+  const listLooks = (lineStyle: number) =>
+    LANE_DASHES.map((_, turn) => lineStyle + turn * LANE_COLOURS.length);
   for (const { lineStyle, index } of wishes) {
-    if (own[index] !== null && !isColourTaken(lineStyle)) shared.set(index, lineStyle);
+    if (own[index] === null) continue;
+    const isAgain = wishes.some((one) => one.lineStyle === lineStyle && shared.has(one.index));
+    const look =
+      isAgain && !areOfOneLaw ? listLooks(lineStyle).find((one) => !isTaken(one)) : undefined;
+    if (look !== undefined) shared.set(index, look);
+    else if (!isColourTaken(lineStyle)) shared.set(index, lineStyle);
   }
   for (const { index } of wishes) {
     if (shared.has(index)) continue;

@@ -1,7 +1,7 @@
 import type { SampleRing } from "../stream/ring";
 import { text } from "../text/en";
 import { formatNumber } from "../units";
-import { unitOf } from "./channels";
+import { CHANNELS, type ChannelName, unitOf } from "./channels";
 import { cursorSamples } from "./cursors";
 import { readPiece, samplesOf, type Trace } from "./definitions";
 import { Swatch } from "./legend";
@@ -21,12 +21,19 @@ const HEADS: Readonly<Record<(typeof COLUMNS)[number], string>> = {
   rms: text.cursors.rms,
 };
 
-/** Every curve of a plot but the other side of its limits. */
+const isTruth = ({ channel }: Trace) => CHANNELS[channel as ChannelName].truthOf !== undefined;
+
+/** Every curve of a plot but the other side of its limits; the truth of each lane has its name. */
 function curvesOf({ channels }: PlotSetup): Trace[] {
   const lanes = shownCast.value;
   const content = composeContent(channels, lanes);
   const everything = new Set(content.groups.map((group) => group.key));
-  return tracesOf(content, everything, lanes.length).filter(({ factor }) => factor > 0);
+  return tracesOf(content, everything, lanes.length)
+    .filter(({ factor }) => factor > 0)
+    .map((one) => {
+      const name = lanes.length > 1 && isTruth(one) ? lanes[one.lane - 1]?.at(-1)?.name : undefined;
+      return name === undefined ? one : { ...one, label: text.plots.ofLane(name, one.label) };
+    });
 }
 
 /** Between the cursors, as far as the piece reaches; null where it does not. */

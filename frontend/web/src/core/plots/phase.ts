@@ -107,7 +107,7 @@ export class PhaseChart {
     const { ctx: context } = this.plot;
     const place = placeOn(this.plot);
     context.save();
-    for (const { trace, points } of this.#shown) {
+    for (const { trace, points } of [...this.#shown].reverse()) {
       context.strokeStyle = palette.peek()[trace.colour];
       context.lineWidth = STROKE_WIDTH * uPlot.pxRatio;
       context.setLineDash(trace.dash.map((length) => length * uPlot.pxRatio));

@@ -1,19 +1,20 @@
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { EquationButton } from "../equations/equation";
+import type { Cast } from "../state/lanes";
 import { text } from "../text/en";
 import { formatNumber } from "../units";
 import { CHANNELS, spanOf, unitOf } from "./channels";
 import { Chart } from "./chart";
 import { ChartBox } from "./chartbox";
 import { ownerOf, readPiece, type Trace } from "./definitions";
-import { EVENT_VIEW, isZoomOn } from "./eventzoom";
+import { EVENT_VIEW, isZoomOn, zoomedCast } from "./eventzoom";
 import { onFrame } from "./frame";
 import { hoverShare, sampleRead } from "./hover";
 import { Legend, useHidden } from "./legend";
 import { PlotMenu } from "./menu";
 import { type PhaseChannels, PhaseChart } from "./phase";
 import type { PlotSetup } from "./setups";
-import { PLOTS_VIEW, shownCast, shownRing } from "./span";
+import { PLOTS_VIEW, shownCast, shownRing, shownSpan } from "./span";
 import { composeContent, hasOneValue, hasUnnamedTruth, tracesOf } from "./traces";
 
 const READING_MS = 120;
@@ -33,8 +34,7 @@ const makeZoom = (host: HTMLElement, { channels }: PlotSetup, traces: readonly T
   new Chart(host, traces, spanOf(channels), EVENT_VIEW);
 
 /** The curves of a plot as its reader wants them. */
-function useTraces({ preset, channels }: PlotSetup, chosen: ReadonlySet<string>) {
-  const lanes = shownCast.value;
+function useTraces({ preset, channels }: PlotSetup, chosen: ReadonlySet<string>, lanes: Cast) {
   const drawn = preset === "phase" ? channels.slice(1) : channels;
   const key = drawn.join();
   const content = useMemo(() => composeContent(drawn, lanes), [key, lanes]);
@@ -46,15 +46,18 @@ function useTraces({ preset, channels }: PlotSetup, chosen: ReadonlySet<string>)
   return { content, shown, traces, isSideBySide: lanes.length > 1 };
 }
 
-/** Writes the values under the pointer, or the newest, into the legend. */
+/** Writes the values under the pointer, or the newest, into the legend; hides controllers that left the span. */
 function keepReadings(traces: readonly Trace[], readings: ReadonlyMap<string, HTMLElement>) {
   let readAt = 0;
   const read = () => {
     readAt = performance.now();
     const ring = shownRing();
     const index = sampleRead();
+    const { from } = shownSpan();
     for (const [key, element] of readings) {
       const values = traces.filter((one) => ownerOf(one) === key);
+      const entry = element.parentElement as HTMLElement;
+      entry.hidden = values.every(({ to }) => to <= from);
       const next = formatNumber(
         values.map((one) => readPiece(ring, one, index)).find(Number.isFinite),
         3,
@@ -102,11 +105,13 @@ function Chooser({ title, groups, shown, onChoose }: ChooserProps) {
 export function Plot({ setup }: { setup: PlotSetup }) {
   const [chosen, setChosen] = useState<ReadonlySet<string>>(new Set());
   const [hidden, toggle] = useHidden();
-  const { content, shown, traces, isSideBySide } = useTraces(setup, chosen);
+  const { content, shown, traces, isSideBySide } = useTraces(setup, chosen, shownCast.value);
+  const isPhase = setup.preset === "phase";
+  const isZoomed = isZoomOn.value && !isPhase;
+  const zoomed = useTraces(setup, chosen, isZoomed ? zoomedCast() : shownCast.value).traces;
   const readings = useRef(new Map<string, HTMLElement>()).current;
   useEffect(() => keepReadings(traces, readings), [traces]);
   const title = titleOf(setup);
-  const isPhase = setup.preset === "phase";
   return (
     <section
       class={`plot ${isPhase ? "is-phase" : ""}`}
@@ -134,8 +139,8 @@ export function Plot({ setup }: { setup: PlotSetup }) {
       </div>
       <div class="plot-row">
         <ChartBox class="plot-canvas" make={makeChart} {...{ setup, traces, hidden }} />
-        {isZoomOn.value && !isPhase && (
-          <ChartBox class="plot-zoom" make={makeZoom} {...{ setup, traces, hidden }} />
+        {isZoomed && (
+          <ChartBox class="plot-zoom" make={makeZoom} {...{ setup, traces: zoomed, hidden }} />
         )}
       </div>
     </section>

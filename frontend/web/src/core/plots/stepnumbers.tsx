@@ -5,7 +5,7 @@ import { session } from "../state/session";
 import { text } from "../text/en";
 import { formatNumber, toDegrees } from "../units";
 import { Swatch } from "./legend";
-import { lineStyleOf } from "./linestyles";
+import { lineStyleOfLane } from "./linestyles";
 import { shownCast, shownRing } from "./span";
 import { findStep } from "./stepmetrics";
 
@@ -47,6 +47,7 @@ export function StepNumbers({ event, nextS }: StepNumbersProps) {
     const metrics = read(index);
     return controller === undefined ? [] : [{ ...controller, lane: index + 1, metrics }];
   });
+  const chosen = shown[0]?.at(-1)?.number;
   const isHeld = rows.some(({ metrics }) => metrics !== null);
   const missingS = Math.max(0, ...rows.map(({ metrics }) => metrics?.missingS ?? 0));
   return (
@@ -72,10 +73,10 @@ export function StepNumbers({ event, nextS }: StepNumbersProps) {
             </tr>
           </thead>
           <tbody>
-            {rows.map(({ name, lineStyle, lane, metrics }) => (
+            {rows.map(({ name, number, lineStyle, lane, metrics }) => (
               <tr key={lane}>
                 <th scope="row">
-                  <Swatch look={lineStyleOf(lineStyle)} />
+                  <Swatch look={lineStyleOfLane(lineStyle, number === chosen)} />
                   {name}
                 </th>
                 <td>{degrees(metrics?.peak ?? Number.NaN)}</td>

@@ -143,7 +143,7 @@ function marks({ events, bounds, x, y, colours }: Drawing, at: Places): string {
 export function drawSvg(drawing: Drawing): string {
   const { title, curves, colours } = drawing;
   const at = placesOf(drawing);
-  const strokes = curves.map(
+  const strokes = [...curves].reverse().map(
     ({
       trace,
       points,

@@ -10,12 +10,13 @@ import {
   type Trace,
   type TraceGroup,
 } from "./definitions";
-import { DASHED, DOTTED, lineStyleOf, shareColours } from "./linestyles";
+import { DASHED, DOTTED, lineStyleOfLane, shareColours } from "./linestyles";
 
 const SIGNS: readonly PlotSign[] = ["none", "circle", "square", "triangle"];
 const WIDTHS = [3, 2, 1.25] as const;
 
 const REFERENCE: LineStyle = { colour: "reference", dash: DOTTED, width: 1.5 };
+const BOUND: LineStyle = { ...REFERENCE, dash: DASHED };
 
 const label = (channel: ChannelName): string => text.channelLabels[channel];
 
@@ -51,12 +52,13 @@ function pieces(
   channel: ChannelName,
   cast: Cast,
   ownerOf: (segment: Placed) => string,
-  look: (segment: Placed) => { lineStyle: LineStyle; label: string },
+  look: (segment: Placed, isChosen: boolean) => { lineStyle: LineStyle; label: string },
 ): Trace[] {
   const owners = new Set<string>();
+  const chosen = cast[0]?.at(-1)?.number;
   return listSegments(cast).map((segment) => {
     const { lane, from, to } = segment;
-    const { lineStyle, label: name } = look(segment);
+    const { lineStyle, label: name } = look(segment, segment.number === chosen);
     const owner = ownerOf(segment);
     const piece: Trace = { ...trace(channel, lane, lineStyle, name), from, to, key: owner };
     if (!owners.has(owner)) {
@@ -117,17 +119,17 @@ function compose(companion: ChannelName, own: readonly Trace[], cast: Cast): Tra
       return [{ ...trace(companion, 1, lineStyle, label(companion)), follows: leader.key }];
     }
     return cast.map((_, lane) => {
-      const truth = trace(companion, lane + 1, REFERENCE, text.plots.true);
+      const truth = trace(companion, lane + 1, BOUND, text.plots.true);
       return lane === 0 ? truth : { ...truth, follows: `${companion}.1` };
     });
   }
-  if (isAlone) return [trace(companion, 1, REFERENCE, label(companion))];
+  if (isAlone) return [trace(companion, 1, BOUND, label(companion))];
   const limits = pieces(
     companion,
     cast,
     (one) => keyOf(companion, one),
-    (one) => ({
-      lineStyle: { ...lineStyleOf(one.lineStyle), dash: DOTTED, width: 1.25 },
+    (one, isChosen) => ({
+      lineStyle: { ...lineStyleOfLane(one.lineStyle, isChosen), dash: DASHED, width: 1.25 },
       label: label(companion),
     }),
   );
@@ -152,8 +154,8 @@ export function composeContent(channels: readonly ChannelName[], cast: Cast): Pl
       channel,
       cast,
       (one) => (isByChannel ? channel : keyOf(channel, one)),
-      (one) => ({
-        lineStyle: isByChannel ? ofChannel : lineStyleOf(one.lineStyle),
+      (one, isChosen) => ({
+        lineStyle: isByChannel ? ofChannel : lineStyleOfLane(one.lineStyle, isChosen),
         label: isByChannel || isOneName ? label(channel) : one.name,
       }),
     ).map((one): Trace => ({ ...one, sign }));

@@ -2,7 +2,7 @@ import { useId, useState } from "preact/hooks";
 import { putLane } from "../../core/api/client";
 import type { SessionState } from "../../core/api/types";
 import { Swatch } from "../../core/plots/legend";
-import { lineStyleOf } from "../../core/plots/linestyles";
+import { lineStyleOfLane } from "../../core/plots/linestyles";
 import { perform } from "../../core/state/actions";
 import { CONTROL, removeLane } from "../../core/state/commands";
 import { type ComparisonLane, hasOwnSettings } from "../../core/state/lanes";
@@ -30,7 +30,7 @@ export function Beside({ state, beside, isRecording }: ComparisonLanesProps) {
   return (
     <li class="beside">
       <div class="beside-row">
-        <Swatch look={lineStyleOf(lineStyle)} />
+        <Swatch look={lineStyleOfLane(lineStyle, false)} />
         <LawPicker
           label={words.law(name)}
           title={words.lawHint}

@@ -1,6 +1,6 @@
 import type { Metrics as LaneMetrics } from "../../core/api/types";
 import { AllMetrics } from "../../core/plots/allmetrics";
-import { lineStyleAt, lineStyleOf } from "../../core/plots/linestyles";
+import { lineStyleAt, lineStyleOfLane } from "../../core/plots/linestyles";
 import { type MetricsColumn, MetricsTable } from "../../core/plots/metricstable";
 import { metricsText } from "../../core/text/metrics";
 import { text } from "../../core/text/replay";
@@ -66,7 +66,7 @@ function Metrics({ run }: { run: Run }) {
       ]}
       rows={window.lanes.map((name, index) => ({
         key: `${index}.${name}`,
-        look: lineStyleOf(lineStyleIn(run, index)),
+        look: lineStyleOfLane(lineStyleIn(run, index), index === 0),
         name,
       }))}
       columns={columns}
@@ -78,7 +78,7 @@ function Details({ run }: { run: Run }) {
   const { window, metrics } = run;
   const lanes = window.lanes.map((name, index) => ({
     key: `${index}.${name}`,
-    look: lineStyleOf(lineStyleIn(run, index)),
+    look: lineStyleOfLane(lineStyleIn(run, index), index === 0),
     name,
     metrics: metrics[index] ?? null,
     isDisturbed: isDisturbed(window),

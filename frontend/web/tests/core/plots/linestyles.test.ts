@@ -1,7 +1,12 @@
 import "../../browserless";
 import { beforeEach, describe, expect, it } from "vitest";
 import type { LawRow } from "../../../src/core/api/types";
-import { lineStyleAt, lineStyleOf, shareLineStyles } from "../../../src/core/plots/linestyles";
+import {
+  lineStyleAt,
+  lineStyleOf,
+  lineStyleOfLane,
+  shareLineStyles,
+} from "../../../src/core/plots/linestyles";
 import css from "../../../src/theme.css?raw";
 
 const colours = (own: readonly (number | null)[]) =>
@@ -12,7 +17,7 @@ describe("inks that curves share out", () => {
     expect(shareLineStyles([8, 0, 6, 12])).toEqual([8, 0, 6, 12].map(lineStyleOf));
   });
 
-  it("are as the server gives them to lanes: the first free colour where the own one is taken", () => {
+  it("are another colour where another law has the own one", () => {
     expect(shareLineStyles([0, 5])).toEqual([lineStyleOf(0), lineStyleOf(1)]);
     expect(shareLineStyles([0, 5, 1])).toEqual([lineStyleOf(0), lineStyleOf(2), lineStyleOf(1)]);
   });
@@ -35,9 +40,27 @@ describe("inks that curves share out", () => {
     expect(new Set(looks.map(({ colour, dash }) => `${colour} ${dash.join()}`)).size).toBe(20);
   });
 
+  it("are one colour a law next to others: two of FL differ in dash", () => {
+    const [ndobc, one, other] = shareLineStyles([0, 1, 1]);
+    expect([ndobc?.colour, one?.colour, other?.colour]).toEqual(["blue", "vermilion", "vermilion"]);
+    expect(one?.dash).not.toEqual(other?.dash);
+  });
+
   it("leave to those that have a line style their own", () => {
     expect(shareLineStyles([null, 0])).toEqual([lineStyleOf(1), lineStyleOf(0)]);
   });
+});
+
+it("solid is the chosen controller alone, and dots are left to references", () => {
+  for (const lineStyle of Array.from({ length: 20 }, (_, index) => index)) {
+    expect(lineStyleOfLane(lineStyle, true).dash).toEqual([]);
+    for (const { dash } of [lineStyleOf(lineStyle), lineStyleOfLane(lineStyle, false)]) {
+      expect(
+        Math.min(Number.POSITIVE_INFINITY, ...dash.filter((_, at) => at % 2 === 0)),
+      ).toBeGreaterThan(3);
+    }
+    expect(lineStyleOfLane(lineStyle, false).dash).not.toEqual([]);
+  }
 });
 
 it("the line style at a time is that of who controlled the lane then", () => {

@@ -154,6 +154,24 @@ describe("the curves of a plot", () => {
     expect(both[0]?.sign).not.toBe(both[2]?.sign);
   });
 
+  it("are solid for the chosen law, also where it was a comparison before, dashed for others", () => {
+    const cast = [
+      [segment(1, "NDOBC", 0, 7), segment(2, "FL", 7)],
+      [segment(2, "FL", 0, 7), segment(1, "NDOBC", 7)],
+    ];
+    const traces = tracesOf(
+      composeContent(["position_error_rad"], cast),
+      new Set(["position_error_rad"]),
+      2,
+    );
+    expect(traces.map(({ label, dash }) => [label, dash.length === 0])).toEqual([
+      ["FL", true],
+      ["NDOBC", false],
+      ["NDOBC", false],
+      ["FL", true],
+    ]);
+  });
+
   it("have a reference once, and a limit on both sides", () => {
     const position = composeContent(["position_rad", "position_reference_rad"], castOf("A", "B"));
     expect(position.common).toHaveLength(1);
