@@ -12,7 +12,7 @@ OWN_COLOR = "#000000"
 
 
 def style_law(law: str) -> dict[str, Any]:
-    """How the curves of a law look, as the page draws it: in the ink that is its own.
+    """How the curves of a law look, as the page draws it: in its own color.
 
     Twenty looks of which no two share both colour and dash; neighbours share neither. What is no
     installed law is drawn in black.
