@@ -12,7 +12,7 @@ from svsa.errors import FaultError, ParameterError, Violation
 from svsa.inputs.checked import check_number
 from svsa.runs.change import Change
 from svsa.runs.configuration import Configuration
-from svsa.runs.paper import DURATION_S, Figure, get_figure
+from svsa.runs.paper import DURATION_S, Figure, get_simulated_figure
 from svsa.runs.result.result import Result
 from svsa.runs.result.simulate import MAX_TICKS
 
@@ -147,7 +147,7 @@ class Lab(Remote):
         own: raises `ParameterError` where the experiment has others.
         """
         if isinstance(experiment, str):
-            experiment = get_figure(experiment)
+            experiment = get_simulated_figure(experiment)
         if isinstance(experiment, Figure):
             experiment = experiment.build_configuration()
         wanted = experiment.changed(**(changes if law is None else changes | {"law": law}))

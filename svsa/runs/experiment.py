@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import Any
 
 from svsa.runs.configuration import Configuration, Design, read_design
-from svsa.runs.paper import get_figure
+from svsa.runs.paper import get_simulated_figure
 
 
 def build_experiment(
@@ -26,7 +26,7 @@ def build_experiment(
     if isinstance(experiment, Configuration):
         configuration = experiment
     else:
-        configuration = get_figure(experiment).build_configuration()
+        configuration = get_simulated_figure(experiment).build_configuration()
     if parameters is not None:
         design = parameters if isinstance(parameters, Design) else read_design(parameters)
         configuration = configuration.with_design(design)

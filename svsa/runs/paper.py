@@ -94,3 +94,22 @@ def get_figure(key: str) -> Figure:
     if figure is None:
         raise ParameterError(Violation("figure", key, "", "one of " + ", ".join(figures)))
     return figure
+
+
+def get_simulated_figure(key: str) -> Figure:
+    """A simulated figure by its key ("4a", "4b", "5").
+
+    Raises `ParameterError` for any other: of figures 6A, 6B and 7, measured on a bench, it says how
+    to run them.
+    """
+    figure = get_figure(key)
+    if figure.key not in BENCH_FIGURES:
+        return figure
+    simulated = next(one for one, bench in ON_BENCH.items() if bench == figure.key)
+    bound = (
+        f"a simulated figure, {', '.join(FIGURES)}. Figure {figure.key.upper()} is measured on a"
+        f' bench: run svsa.reproduce(("{figure.key}",)) for it on the emulated bench, or simulate'
+        f' its references with the effects of the rig: svsa.simulate("{simulated}",'
+        " effects=svsa.RIG)"
+    )
+    raise ParameterError(Violation("experiment", key, "", bound))

@@ -14,7 +14,7 @@ from svsa.evaluation.studies.setting import change_settings, read_setting
 from svsa.evaluation.studies.variation import DRAWN, Variation, Variations
 from svsa.inputs.checked import Checked, Number, Whole, quantity
 from svsa.runs.configuration import Configuration
-from svsa.runs.paper import DURATION_S, get_figure
+from svsa.runs.paper import DURATION_S, get_simulated_figure
 
 MAX_RUNS = 10**9
 MAX_LAWS = 20
@@ -125,7 +125,7 @@ def build_base(base: Mapping[str, Any], law: str) -> Configuration:
     """A figure and settings in its place, under a law; raises `ParameterError`."""
     changes = {name: value for name, value in base.items() if name != FIGURE}
     try:
-        figure = get_figure(base.get(FIGURE, "4a"))
+        figure = get_simulated_figure(base.get(FIGURE, "4a"))
         return change_settings(figure.build_configuration(law), changes)
     except ParameterError as error:
         raise error.within("base") from None

@@ -114,6 +114,11 @@ def test_an_unknown_figure_is_refused_with_the_known_ones(figure):
         svsa.simulate(figure)
 
 
+def test_a_figure_of_the_bench_is_not_simulated_as_an_ideal_plant():
+    with pytest.raises(svsa.ParameterError, match=r'"6b".*"4b", effects=svsa.RIG'):
+        svsa.simulate("6B")
+
+
 @pytest.mark.parametrize("duration", [0.0, -1.0, 1e-9, 1e9, float("nan"), float("inf"), "20", None])
 def test_a_duration_out_of_range_or_of_the_wrong_type_is_refused(duration):
     with pytest.raises(svsa.ParameterError, match="duration_s"):

@@ -1,0 +1,45 @@
+"""Run the Python blocks of a page of the documentation, and compare what they print.
+
+    python -m tests.docs.executed PAGE LAB_ADDRESS
+
+A block ```python is run; a block ```text that follows one is what it prints. The blocks of a page
+share their names. A process of its own, since examples interrupt it and start a cluster.
+"""
+
+import contextlib
+import io
+import sys
+from pathlib import Path
+
+from markdown_it import MarkdownIt
+
+LAB = "http://127.0.0.1:8000"
+"""The address of the lab in the documentation."""
+
+
+def run_page(path: Path, address: str) -> int:
+    """Run a page; return how many blocks printed what it shows, or raise `AssertionError`."""
+    names: dict[str, object] = {"__name__": "__main__"}
+    printed, line, compared = "", 0, 0
+    for token in MarkdownIt().parse(path.read_text(encoding="utf-8")):
+        if token.type != "fence" or token.map is None:
+            continue
+        if token.info == "python":
+            assert not printed, f"{path}:{line} prints what the page does not show:\n{printed}"
+            line = token.map[0] + 2
+            stream = io.StringIO()
+            # Lines in front, so that a traceback has the line of the page.
+            text = "\n" * (line - 1) + token.content.replace(LAB, address)
+            code = compile(text, str(path), "exec")
+            with contextlib.redirect_stdout(stream):
+                exec(code, names)  # noqa: S102
+            printed = stream.getvalue()
+        elif token.info == "text" and line:
+            assert printed == token.content, f"{path}:{line} prints\n{printed}"
+            printed, line, compared = "", 0, compared + 1
+    assert not printed, f"{path}:{line} prints what the page does not show:\n{printed}"
+    return compared
+
+
+if __name__ == "__main__":
+    assert run_page(Path(sys.argv[1]), sys.argv[2]), "nothing was compared"
