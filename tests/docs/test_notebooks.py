@@ -1,14 +1,43 @@
 """The notebooks of the tutorials run from the first cell to the last, in a kernel."""
 
 import os
+import re
 from pathlib import Path
 
 import nbformat
 import pytest
 from nbclient import NotebookClient
 
+import svsa
+
 FOLDER = Path(__file__).parents[2] / "docs" / "tutorials"
 NOTEBOOKS = sorted(FOLDER.glob("*.ipynb"))
+
+
+def check_first_script(printed):
+    """FL keeps an error under load; a fast observer has a smaller error and more noise."""
+    steady = dict(re.findall(r"^(\w+) +steady, with load +([\d.]+)° rms", printed, re.MULTILINE))
+    assert float(steady["FL"]) > 1000 * float(steady["NDOBC"])
+    rows = re.findall(r"^ *\d+ +([\d.]+)° +[\d.]+° +([\d.]+) N·m$", printed, re.MULTILINE)
+    ideal, noise = ([float(number) for number in column] for column in zip(*rows, strict=True))
+    assert len(rows) == 4
+    assert ideal == sorted(ideal, reverse=True)
+    assert noise == sorted(noise)
+    # The text gives the rig encoders and a delay, and no sensor noise.
+    assert svsa.RIG.encoders
+    assert svsa.RIG.delay_samples
+    assert svsa.RIG.noise is None
+
+
+def check_own_law(printed):
+    """The law of the tutorial is the lab's FL to rounding errors."""
+    difference = re.search(r"largest difference in position: (\S+) rad", printed)
+    assert difference
+    assert float(difference[1]) < 1e-9
+
+
+CLAIMS = {"first_script": check_first_script, "own_law": check_own_law}
+"""What the text of a notebook says of the output of its cells."""
 
 
 @pytest.mark.exhaustive
@@ -24,3 +53,5 @@ def test_a_notebook_runs_and_is_kept_without_what_it_printed(path, tmp_path, mon
     assert "image/png" in shown
     errors = [output for cell in cells for output in cell.outputs if output.get("name") == "stderr"]
     assert not errors
+    texts = [output.get("text", "") for cell in cells for output in cell.outputs]
+    CLAIMS[path.stem]("".join(texts))
