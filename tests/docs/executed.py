@@ -18,15 +18,15 @@ LAB = "http://127.0.0.1:8000"
 
 
 def run_page(path: Path, address: str) -> int:
-    """Run a page; return how many blocks printed what it shows, or raise `AssertionError`."""
+    """Run a page; return the number of its blocks. Raises `AssertionError` for another output."""
     names: dict[str, object] = {"__name__": "__main__"}
-    printed, line, compared = "", 0, 0
+    printed, line, count = "", 0, 0
     for token in MarkdownIt().parse(path.read_text(encoding="utf-8")):
         if token.type != "fence" or token.map is None:
             continue
         if token.info == "python":
             assert not printed, f"{path}:{line} prints what the page does not show:\n{printed}"
-            line = token.map[0] + 2
+            line, count = token.map[0] + 2, count + 1
             stream = io.StringIO()
             # Lines in front, so that a traceback has the line of the page.
             text = "\n" * (line - 1) + token.content.replace(LAB, address)
@@ -36,10 +36,10 @@ def run_page(path: Path, address: str) -> int:
             printed = stream.getvalue()
         elif token.info == "text" and line:
             assert printed == token.content, f"{path}:{line} prints\n{printed}"
-            printed, line, compared = "", 0, compared + 1
+            printed, line = "", 0
     assert not printed, f"{path}:{line} prints what the page does not show:\n{printed}"
-    return compared
+    return count
 
 
 if __name__ == "__main__":
-    assert run_page(Path(sys.argv[1]), sys.argv[2]), "nothing was compared"
+    assert run_page(Path(sys.argv[1]), sys.argv[2]), "the page has no block to run"

@@ -1,4 +1,4 @@
-"""The Python examples of README and of the page about scripting print what these show."""
+"""The Python examples of README and documentation print what these show."""
 
 import os
 import subprocess
@@ -14,7 +14,7 @@ TIMEOUT_S = 900.0
 
 
 @pytest.mark.exhaustive
-@pytest.mark.parametrize("page", ["README.md", "docs/scripting.md"])
+@pytest.mark.parametrize("page", ["README.md", "docs/grading.md", "docs/scripting.md"])
 def test_the_examples_of_a_page_print_what_it_shows(page: str, lab: Lab, tmp_path: Path) -> None:
     folders = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
     environment = os.environ | {"SVSA_DATA": str(tmp_path / "data"), "PATH": folders}
