@@ -227,7 +227,7 @@ def test_a_screen_has_no_violation(
     expect_no_violation(page, *sizes)
 
 
-def test_the_keyboard_skips_to_the_plots(page: Page, recorded: Lab) -> None:
+def test_the_keyboard_skips_to_the_plots_and_to_the_controls(page: Page, recorded: Lab) -> None:
     open_lab(page, recorded)
     page.keyboard.press("Tab")
     expect(page.get_by_role("link", name="Skip to the plots")).to_be_focused()
@@ -235,6 +235,9 @@ def test_the_keyboard_skips_to_the_plots(page: Page, recorded: Lab) -> None:
     expect(page.get_by_role("region", name="Plots", exact=True)).to_be_focused()
     page.keyboard.press("Tab")
     expect(page.get_by_role("button", name="Pause plots")).to_be_focused()
+    page.get_by_role("link", name="Skip to the controls").focus()
+    page.keyboard.press("Enter")
+    expect(page.get_by_role("group", name="Controls", exact=True)).to_be_focused()
 
 
 @pytest.mark.exhaustive

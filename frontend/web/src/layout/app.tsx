@@ -75,9 +75,14 @@ export function App() {
   return (
     <>
       {isOfLab(at) && state !== null && (
-        <a class="skip" href="#plots">
-          {text.skip}
-        </a>
+        <>
+          <a class="skip" href="#plots">
+            {text.skip}
+          </a>
+          <a class="skip" href="#controls">
+            {text.skipToControls}
+          </a>
+        </>
       )}
       <TopBar />
       {(isOfLab(at) || at.kind === "list") && state?.bench && <BenchStrip bench={state.bench} />}

@@ -2,6 +2,8 @@
 export const designText = {
   design: {
     open: "Place poles",
+    shared: (names: readonly string[]) =>
+      `${names.join(", ")} has the same poles: they change together.`,
     openHint: "Poles on the s-plane, with what they would do, before they are applied",
     title: "Design",
     position: "Position",

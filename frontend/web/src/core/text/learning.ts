@@ -143,12 +143,12 @@ export const learningText = {
       plots: {
         title: "What happens",
         words:
-          "Dashed is what was asked for, solid what happened. On a good run you see one line. The symbol beside a title opens its equation.",
+          "Dotted is the reference, solid the chosen controller. If it follows well, you see one line. The symbol next to a title opens its equation.",
       },
       load: {
-        title: "Hang 3 kg",
+        title: "The 3 kg load",
         words:
-          "This is the experiment: a load that the controller knows nothing of. Watch the position error.",
+          "The button adds a load that the controller does not know, or removes it. Watch the position error.",
       },
       controller: {
         title: "FL or NDOBC",

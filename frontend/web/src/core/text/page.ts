@@ -3,6 +3,7 @@
 export const pageText = {
   name: "SVSA Lab",
   skip: "Skip to the plots",
+  skipToControls: "Skip to the controls",
   subtitle: "variable stiffness, live",
   session: "Session",
   view: "The actuator in 3D",

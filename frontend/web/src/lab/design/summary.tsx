@@ -1,4 +1,7 @@
-import { isLive } from "../../core/state/session";
+import type { SessionState } from "../../core/api/types";
+import { comparisonLanes } from "../../core/state/lanes";
+import { lawOf } from "../../core/state/laws";
+import { isLive, session } from "../../core/state/session";
 import { text } from "../../core/text/en";
 import { Problem } from "../../core/widgets/form";
 import { PanelButton } from "../../core/widgets/panel";
@@ -41,10 +44,18 @@ export function Undo() {
   );
 }
 
+/** The comparisons that have no gains of their own. */
+export const sharedWith = (state: SessionState): string[] =>
+  comparisonLanes(state)
+    .filter(({ controller: { law, gains } }) => !gains && lawOf(law)?.takes_gains)
+    .map(({ name }) => name);
+
 /** The poles in use, and the way to other ones. */
 export function DesignSummary() {
   const now = inUse.value;
-  if (now === null) return null;
+  const state = session.value;
+  if (now === null || state === null) return null;
+  const shared = sharedWith(state);
   return (
     <>
       <dl class="facts">
@@ -57,6 +68,7 @@ export function DesignSummary() {
           </div>
         ))}
       </dl>
+      {shared.length > 0 && <p class="hint">{words.shared(shared)}</p>}
       <div class="row design-open">
         <PanelButton isOpen={isOpen} hint={words.openHint}>
           <svg viewBox="0 0 16 16" aria-hidden="true">

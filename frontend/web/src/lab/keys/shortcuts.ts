@@ -52,12 +52,14 @@ export const endsHold = (press: KeyPress, focus: Focus): boolean =>
 
 const WRITING =
   "textarea, select, [contenteditable], input:not([type=range], [type=radio], [type=checkbox])";
+/** An open menu in which keys search: they belong to it before its field has the focus. */
+const TYPED_MENU = ".law-popup:popover-open";
 /** A button that was reached by key; one that was clicked gives the space bar back. */
 const CONTROL = ":is(button, summary, a, input):focus-visible";
 
 export function focusOf(target: EventTarget | null): Focus {
   const element = target as Element | null;
   if (typeof element?.closest !== "function") return "free";
-  if (element.closest(WRITING)) return "writing";
+  if (element.closest(WRITING) || element.ownerDocument.querySelector(TYPED_MENU)) return "writing";
   return element.matches(CONTROL) ? "control" : "free";
 }

@@ -14,6 +14,7 @@ import { Field } from "./field";
 import { Group } from "./group";
 import { LawForm } from "./law";
 import { LawPicker } from "./lawpicker";
+import { isExact } from "./parameters";
 
 export function Controller({ state }: { state: SessionState }) {
   const { law, gains } = state.configuration;
@@ -35,6 +36,7 @@ export function Controller({ state }: { state: SessionState }) {
       }
     >
       <p class="hint is-about">{present?.summary}</p>
+      {isExact(state.configuration) && <p class="hint">{text.controller.exact}</p>}
       <Problem control="controller.law" />
       {present && !present.takes_gains && <LawForm law={present} state={state} />}
       {(!present || present.takes_gains) && <Gains gains={gains} />}

@@ -16,6 +16,8 @@ export function Controls({ state }: { state: SessionState }) {
   const groups = useRef<HTMLDivElement>(null);
   return (
     <fieldset
+      id="controls"
+      tabIndex={-1}
       class="surface controls"
       disabled={!takesCommands.value}
       aria-label={text.controls.heading}

@@ -6,6 +6,7 @@ import {
   hungWeights,
   isRealBench,
   nextWeightAt,
+  type WeightForm,
   weightForm,
   weightOf,
 } from "../../core/state/plant";
@@ -14,7 +15,19 @@ import { text } from "../../core/text/en";
 import { Problem } from "../../core/widgets/form";
 import { EnduranceNote } from "../../hardware/endurance";
 
-function WeightPicture({ isHung }: { isHung: boolean }) {
+/** A mass on a cord, or the paper's torques: these have no mass and do not hang. */
+function WeightPicture({ isHung, form }: { isHung: boolean; form: WeightForm }) {
+  if (form === "paper") {
+    return (
+      <svg class="weight" viewBox="0 0 48 48" aria-hidden="true">
+        <path class="weight-ring" d="M9 36a17 17 0 1 1 30 0" />
+        <path class="weight-body" d="M33 33l13 1-8 10z" />
+        <text class="weight-torque" x="24" y="31" text-anchor="middle">
+          {text.load.torque2}
+        </text>
+      </svg>
+    );
+  }
   return (
     <svg class="weight" viewBox="0 0 48 48" aria-hidden="true">
       {isHung && <path class="weight-cord" d="M24 0v16" />}
@@ -27,10 +40,17 @@ function WeightPicture({ isHung }: { isHung: boolean }) {
   );
 }
 
+/** Of the load that acts, else of the one that the button adds. */
+function formOf(state: SessionState): WeightForm {
+  const [hung] = hungWeights(state);
+  if (hung !== undefined) return hung.load.kind === "paper" ? "paper" : "mass";
+  return isRealBench(state.bench) ? "mass" : weightForm.value;
+}
+
 function caption(state: SessionState, isHung: boolean): string {
   if (!isLive.value) return text.status.notKnown;
   if (isRealBench(state.bench)) return isHung ? text.load.marked : text.load.mark;
-  if (isHung) return text.load.hangs;
+  if (isHung) return formOf(state) === "paper" ? text.load.acts : text.load.hangs;
   const next = nextWeightAt(state);
   if (next !== null) return text.load.comesAt(next);
   return weightForm.value === "paper" ? text.load.paperShort : text.load.massShort;
@@ -62,7 +82,7 @@ export function LoadButton({ state }: { state: SessionState }) {
         disabled={isBusy || !takesCommands.value || state.status === "fault"}
         onClick={() => void press()}
       >
-        <WeightPicture isHung={isHung} />
+        <WeightPicture isHung={isHung} form={formOf(state)} />
         <span class="load-words">
           <strong>{words(state, isHung)}</strong>
           <small>{caption(state, isHung)}</small>

@@ -1,6 +1,6 @@
 import { useId } from "preact/hooks";
 import { type ActuatorPatch, patchActuator, patchNominal } from "../../core/api/client";
-import type { ActuatorParameters } from "../../core/api/types";
+import type { ActuatorParameters, Configuration } from "../../core/api/types";
 import { perform } from "../../core/state/actions";
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
@@ -40,11 +40,18 @@ interface ParameterTableProps {
   nominal: ActuatorParameters;
 }
 
+/** Whether the controller's model is the plant. */
+export const isExact = ({
+  actuator,
+  nominal,
+}: Pick<Configuration, "actuator" | "nominal">): boolean =>
+  KEYS.every((key) => actuator[key] === nominal[key]);
+
 /** What the plant is, and what the controller takes it for. */
 export function ParameterTable({ actuator, nominal }: ParameterTableProps) {
   const id = useId();
   const held = { actuator, nominal };
-  const isExact = KEYS.every((key) => actuator[key] === nominal[key]);
+  const isModelExact = isExact(held);
   const nameOf = (key: Key, column: string) => `realism.${column}.${key}`;
   return (
     <>
@@ -91,7 +98,7 @@ export function ParameterTable({ actuator, nominal }: ParameterTableProps) {
       <button
         type="button"
         class="button"
-        disabled={isExact}
+        disabled={isModelExact}
         onClick={() => void perform("realism.exact", () => patchNominal(actuator))}
       >
         {words.exact}

@@ -1,5 +1,11 @@
 import { describe, expect, it } from "vitest";
-import { endsHold, type Focus, findCommand, type KeyPress } from "../../../src/lab/keys/shortcuts";
+import {
+  endsHold,
+  type Focus,
+  findCommand,
+  focusOf,
+  type KeyPress,
+} from "../../../src/lab/keys/shortcuts";
 
 const PLAIN = { shiftKey: false, ctrlKey: false, metaKey: false, altKey: false, repeat: false };
 const press = (key: string, change: Partial<KeyPress> = {}): KeyPress => ({
@@ -29,6 +35,17 @@ describe("keys", () => {
     expect(find("r", "control")).toBe("record");
     expect(find("r", "free", { ctrlKey: true })).toBeNull();
     expect(find("l", "free", { repeat: true })).toBeNull();
+  });
+
+  it("are left to an open menu of laws, whatever has the focus", () => {
+    const button = (menu: object | null) =>
+      ({
+        closest: () => null,
+        matches: () => false,
+        ownerDocument: { querySelector: () => menu },
+      }) as unknown as Element;
+    expect(focusOf(button({}))).toBe("writing");
+    expect(focusOf(button(null))).toBe("free");
   });
 
   it("hold a switch, and let go of it where a release might not be heard", () => {
