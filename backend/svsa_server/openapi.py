@@ -10,6 +10,8 @@ from starlette.routing import BaseRoute, Route
 
 from svsa_server.access.guard import LONGEST_BODY_BYTES
 from svsa_server.access.permissions import ANYBODY, OBSERVER, PermissionTable, allow
+from svsa_server.leases.lease import CHANGING
+from svsa_server.leases.outcomes import KEY_HEADER, KEY_PATTERN, LONGEST_AGE_S, MAX_STORED
 from svsa_server.problems import MEDIA_TYPE
 
 BuildRoutes = Callable[[], list[BaseRoute]]
@@ -80,6 +82,8 @@ def _complete(
                 permission = permissions.find(method.upper(), path).permission
                 item[method][PERMISSION] = permission.word
                 _complete_operation(item[method], needs_secret and permission != ANYBODY)
+                if method.upper() in CHANGING:
+                    _declare_key(item[method])
     return schema
 
 
@@ -102,6 +106,26 @@ def _complete_operation(operation: dict[str, Any], needs_secret: bool) -> None:
     if "requestBody" in operation:
         answers["400"] = _describe("The body is no JSON")
         answers["413"] = _describe(f"The body is longer than {LONGEST_BODY_BYTES} bytes")
+
+
+def _declare_key(operation: dict[str, Any]) -> None:
+    """Declare the idempotency key, and what is answered because of it."""
+    operation.setdefault("parameters", []).append(
+        {
+            "name": KEY_HEADER,
+            "in": "header",
+            "required": False,
+            "description": "Drawn at random by the client, new for every request. A repeat with the"
+            " same key, address and body receives the first answer, with the header"
+            " `Idempotency-Replayed: true`. The server stores the newest"
+            f" {MAX_STORED} requests of the last {LONGEST_AGE_S / 3600:g} h.",
+            "schema": {"type": "string", "pattern": KEY_PATTERN},
+        }
+    )
+    answers = operation["responses"]
+    answers.setdefault("400", _describe("Idempotency-Key has a wrong form"))
+    answers.setdefault("409", _describe("The request with this key is still being carried out"))
+    answers.setdefault("422", _describe("The key was used for another request"))
 
 
 def _describe(text: str) -> dict[str, Any]:

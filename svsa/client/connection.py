@@ -1,7 +1,7 @@
-"""Calls to a lab: answered, refused in the library's words, or asked after when lost.
+"""Calls to a lab: answered, refused in the library's words, or repeated when the answer is lost.
 
-A changing call has a name of its own (`SVSA-Request`). Where its answer is lost, the lab is
-asked by that name whether it was carried out; it is sent again only where it never came.
+A changing call has an `Idempotency-Key`: the lab carries it out once, and answers a repeat as it
+answered the first.
 """
 
 import ssl
@@ -33,7 +33,12 @@ class LostAnswerError(LabError):
     """The answer was lost on the way; the message says what is known of the request."""
 
 
-_BY_KIND: dict[str, type[SvsaError]] = {"not_now": StateError, "held": ControlError}
+_BY_KIND: dict[str, type[SvsaError]] = {
+    "not_now": StateError,
+    "held": ControlError,
+    "key_pending": LostAnswerError,
+    "key_used": LostAnswerError,
+}
 _BY_STATUS = {401: AccessError, 403: AccessError}
 
 
@@ -47,8 +52,13 @@ def build_refusal(status: int, reported: Any) -> SvsaError:
     detail = str(reported.get("detail", f"The lab answered {status}."))
     if violations := reported.get("violations"):
         return ParameterError(*map(_read_violation, violations))
-    _, _, kind = str(reported.get("type")).rpartition(":")
+    kind = _read_kind(reported)
     return _BY_KIND.get(kind, _BY_STATUS.get(status, LabError))(detail)
+
+
+def _read_kind(reported: Any) -> str:
+    """Kind of a problem, as `not_now`; empty if it is none."""
+    return str(reported.get("type")).rpartition(":")[2] if isinstance(reported, dict) else ""
 
 
 def _read_violation(reported: dict[str, Any]) -> Violation:
@@ -59,6 +69,7 @@ def _read_violation(reported: dict[str, Any]) -> Violation:
 API = "/api/v1"
 ANSWER_S = 60.0
 CONNECT_S = 5.0
+KEY_HEADER = "Idempotency-Key"
 PAUSE_S = 0.2
 _NOT_SENT = (httpx.ConnectError, httpx.ConnectTimeout, httpx.PoolTimeout)
 
@@ -107,61 +118,57 @@ class Connection:
         """What stands at a path, as it comes."""
         return self._send("GET", path, None, query).content
 
-    def call(self, method: str, path: str, body: Any = None, *, state_at: str = "") -> Any:
-        """A changing call; what it answers, as JSON, or None for an answer without a body.
+    def call(self, method: str, path: str, body: Any = None) -> Any:
+        """A changing call; its answer as JSON, or None for an answer without a body.
 
-        state_at: path of what it answers with, to be read where the lab has carried it out and
-        the answer was lost. Raises `LostAnswerError` where nobody knows whether it was.
+        Raises `LostAnswerError` where it is not known whether the lab has carried it out.
         """
         answer = self._send(method, path, body, {})
-        if answer is None:
-            if state_at:
-                return self.read(state_at)
-            raise LostAnswerError(f"{method} {path} was carried out, but its answer was lost.")
         return answer.json() if answer.content else None
 
-    def _send(self, method: str, path: str, body: Any, query: dict[str, Any]) -> Any:
-        """The answer; None for a changing call that was carried out and whose answer was lost."""
-        name = uuid.uuid4().hex
-        named = {"SVSA-Request": name} if method != "GET" else {}
-        until = time.monotonic() + self.timeout_s
+    def _send(self, method: str, path: str, body: Any, query: dict[str, Any]) -> httpx.Response:
+        key = uuid.uuid4().hex
+        keyed = {KEY_HEADER: key} if method != "GET" else {}
+        begun = time.monotonic()
+        until = begun + self.timeout_s
         while True:
-            sent_at = time.monotonic()
             try:
                 answer = self._http.request(
-                    method, path, json=body, params=query or None, headers=named
+                    method, path, json=body, params=query or None, headers=keyed
                 )
             except httpx.TransportError as error:
-                if named and not isinstance(error, _NOT_SENT):
-                    if self._was_carried_out(name, f"{method} {path}", sent_at, until):
-                        return None
+                if keyed and not isinstance(error, _NOT_SENT):
+                    self._check_repeatable(key, f"{method} {path}", begun, until)
                 elif time.monotonic() > until:
                     raise LabError(f"The lab at {self.url} does not answer: {error}.") from None
                 time.sleep(PAUSE_S)
                 continue
-            if answer.status_code in (429, 503) and time.monotonic() < until:
+            if answer.is_success:
+                return answer
+            reported = _read_json(answer)
+            is_pending = answer.status_code == 409 and _read_kind(reported) == "key_pending"
+            is_busy = answer.status_code in (429, 503)
+            if (is_pending or is_busy) and time.monotonic() < until:
                 time.sleep(float(answer.headers.get("Retry-After", PAUSE_S)))
                 continue
-            if answer.is_error:
-                raise build_refusal(answer.status_code, _read_json(answer))
-            return answer
+            raise build_refusal(answer.status_code, reported)
 
-    def _was_carried_out(self, name: str, what: str, sent_at: float, until: float) -> bool:
-        """Whether the lab has carried out the call of this name; False: it never came there."""
+    def _check_repeatable(self, key: str, what: str, begun: float, until: float) -> None:
+        """Return when the lab answers again and a repeat cannot be carried out a second time.
+
+        The lab knows the key, or knows that no call with it came. A lab that was restarted
+        meanwhile knows neither.
+        """
         while time.monotonic() < until:
-            match self._read_outcome(name):
-                case {"outcome": "carried_out"}:
-                    return True
-                case {"outcome": "refused", "status": status}:
+            match self._read_outcome(key):
+                case {"outcome": "carried_out" | "refused" | "pending"}:
+                    return
+                case {"outcome": "unknown", "known_for_s": float() | int() as known_for_s}:
+                    if known_for_s > time.monotonic() - begun:
+                        return
                     raise LostAnswerError(
-                        f"{what} was refused with {status}; the reason was lost on the way."
-                    )
-                case {"outcome": "unknown", "age_s": float() | int() as age_s}:
-                    if age_s > time.monotonic() - sent_at:
-                        return False
-                    raise LostAnswerError(
-                        f"The lab began anew while {what} was under way:"
-                        " nobody knows whether it was carried out."
+                        f"The lab was restarted during {what}: whether it was carried out is not"
+                        " known. Sessions of the former lab have ended."
                     )
             time.sleep(PAUSE_S)
         raise LostAnswerError(
@@ -247,7 +254,7 @@ class SessionConnection(Remote):
 
     def call(self, method: str, path: str, body: Any = None) -> dict[str, Any]:
         """A call below its own path that answers with its state; notes when it was applied."""
-        state = self.connection.call(method, self.path + path, body, state_at=self.path)
+        state = self.connection.call(method, self.path + path, body)
         past = [event for event in state["events"] if event["tick"] <= state["tick"]]
         newest = past[-1] if past else state
         self.applied_at = AppliedAt(newest["tick"], newest["time_s"])

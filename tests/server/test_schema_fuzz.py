@@ -20,6 +20,7 @@ from schemathesis.specs.openapi.checks import (
     unsupported_method,
 )
 
+from svsa_server.leases.outcomes import KEY_HEADER
 from tests.lab import Lab
 from tests.server.schema import SCHEMA
 
@@ -203,7 +204,14 @@ def probe(
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("mode", GenerationMode, ids=lambda mode: mode.name.lower())
 def test_the_server_keeps_to_its_schema(lab: Lab, mode: GenerationMode) -> None:
-    schema = schemathesis.openapi.from_dict(lab.client.get("/openapi.json").json())
+    described = lab.client.get("/openapi.json").json()
+    for item in described["paths"].values():
+        for operation in item.values():
+            # A key that comes twice is answered otherwise: see `test_outcomes`.
+            operation["parameters"] = [
+                one for one in operation.get("parameters", ()) if one["name"] != KEY_HEADER
+            ]
+    schema = schemathesis.openapi.from_dict(described)
     chosen = settings(SETTINGS, max_examples=EXAMPLES)
     try:
         tried = sum(probe(lab, found.ok(), mode, chosen) for found in schema.get_all_operations())

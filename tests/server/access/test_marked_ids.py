@@ -26,6 +26,7 @@ NO_IDS = {
     "figure": "of the paper",
     "cost": "a kind",
     "held": "a parameter of a law",
+    "Idempotency-Key": "of the person who calls",
     "if-match": "a revision",
     "key": "of the leaderboard, which all may read",
     "kind": "of an operation",
@@ -74,7 +75,7 @@ NO_IDS_THERE = {
     "POST /api/v1/references/csv body:": "a file",
     "POST /api/v1/sessions/{session}/control/handover body:to": "waits in a queue that all see",
     "GET /api/v1/shares query:counts.[]": "two numbers",
-    "GET /api/v1/requests/{request_name} path:request_name": "looked up among the caller's own",
+    "GET /api/v1/requests/{key} path:key": "looked up among the caller's own",
 }
 """The same, where the name alone does not say it."""
 NOT_IN_THE_SCHEMA = {

@@ -230,7 +230,7 @@ def connect(room: Classroom, browser: httpx.Client, path: str, name: str = "") -
 
 def test_the_outcome_of_a_request_is_for_its_sender_only(things: Things) -> None:
     outcomes = "/api/v1/requests/"
-    things.ada.post(SHARED + "/pause", headers={"SVSA-Request": SECRET}).raise_for_status()
+    things.ada.post(SHARED + "/pause", headers={"Idempotency-Key": SECRET}).raise_for_status()
     assert things.ada.get(outcomes + SECRET).json()["outcome"] == "carried_out"
     for role in (Role.OBSERVER, Role.OPERATOR):
         found = [things.others[role].get(outcomes + name).json() for name in (SECRET, "none")]

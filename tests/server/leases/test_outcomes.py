@@ -1,12 +1,25 @@
-"""A request whose answer is lost: whether it was carried out can be asked."""
+"""A request with an idempotency key is carried out once, and its outcome can be read."""
 
+import asyncio
 import socket
 import time
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from urllib.parse import urlsplit
 
+import httpx
 import pytest
+from starlette.responses import Response
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from svsa_server.leases.outcomes import MAX_KEPT, Outcomes
+from svsa_server.leases.outcomes import (
+    LONGEST_AGE_S,
+    MAX_ANSWER_BYTES,
+    MAX_STORED,
+    MAX_STORED_BYTES,
+    OutcomeKeeper,
+    Outcomes,
+)
 from tests.lab import Lab
 
 
@@ -27,7 +40,7 @@ def test_a_request_whose_client_left_is_told_as_carried_out(lab: Lab) -> None:
     with socket.create_connection((address.hostname, address.port)) as connection:
         connection.sendall(
             f"POST {lab.session}/start HTTP/1.1\r\nHost: {address.netloc}\r\n"
-            "SVSA-Request: left-early\r\nContent-Length: 0\r\n\r\n".encode()
+            "Idempotency-Key: left-early\r\nContent-Length: 0\r\n\r\n".encode()
         )
         connection.shutdown(socket.SHUT_RDWR)
     found = read_outcome(lab, "left-early")
@@ -45,26 +58,151 @@ def test_a_refused_request_is_told_as_refused(
     lab: Lab, method: str, path: str, body: dict | None, status: int
 ) -> None:
     name = f"refused-{status}"
-    lab.client.request(method, f"{lab.session}/{path}", json=body, headers={"SVSA-Request": name})
+    lab.client.request(
+        method, f"{lab.session}/{path}", json=body, headers={"Idempotency-Key": name}
+    )
     found = read_outcome(lab, name)
     assert (found["outcome"], found["status"]) == ("refused", status)
 
 
 def test_what_never_came_and_what_only_reads_are_unknown(lab: Lab) -> None:
-    lab.client.get(lab.session, headers={"SVSA-Request": "reads"})
+    lab.client.get(lab.session, headers={"Idempotency-Key": "reads"})
     for name in ("never-sent", "reads"):
         found = read_outcome(lab, name)
-        assert (found["outcome"], found["status"]) == ("unknown", None)
-        assert found["age_s"] > 0
+        assert (found["outcome"], found["status"], found["age_s"]) == ("unknown", None, None)
+        assert found["known_for_s"] > 0
 
 
-def test_only_the_last_requests_are_kept() -> None:
+@pytest.fixture
+def session(lab: Lab) -> Iterator[str]:
+    name = lab.client.post("/api/v1/sessions", json={"load": False}).json()["session"]
+    yield f"/api/v1/sessions/{name}"
+    lab.client.delete(f"/api/v1/sessions/{name}")
+
+
+def add_load(lab: Lab, session: str, key: str, mass_kg: float = 1.0) -> httpx.Response:
+    load = {"kind": "mass", "mass_kg": mass_kg}
+    return lab.client.post(f"{session}/loads", json=load, headers={"Idempotency-Key": key})
+
+
+def test_a_repeat_receives_the_first_answer_and_changes_nothing(lab: Lab, session: str) -> None:
+    first, second = add_load(lab, session, "one-load"), add_load(lab, session, '"one-load"')
+    assert first.status_code == second.status_code
+    assert first.content == second.content
+    assert "idempotency-replayed" not in first.headers
+    assert second.headers["idempotency-replayed"] == "true"
+    assert len(lab.client.get(session).json()["loads"]) == 1
+
+
+def test_repeats_at_the_same_time_are_carried_out_once(lab: Lab, session: str) -> None:
+    with ThreadPoolExecutor(4) as pool:
+        answers = list(pool.map(lambda _: add_load(lab, session, "at-once"), range(4)))
+    assert len({answer.content for answer in answers}) == 1
+    assert sum("idempotency-replayed" in answer.headers for answer in answers) == 3
+    assert len(lab.client.get(session).json()["loads"]) == 1
+
+
+def test_a_key_with_another_body_is_rejected(lab: Lab, session: str) -> None:
+    add_load(lab, session, "reused").raise_for_status()
+    refused = add_load(lab, session, "reused", 2.0)
+    assert refused.status_code == 422
+    assert refused.json()["type"] == "urn:svsa:problem:key_reused"
+    assert len(lab.client.get(session).json()["loads"]) == 1
+
+
+def test_a_refusal_is_repeated_too(lab: Lab, session: str) -> None:
+    first, second = add_load(lab, session, "heavy", 1e9), add_load(lab, session, "heavy", 1e9)
+    assert first.status_code == second.status_code == 422
+    assert first.content == second.content
+
+
+@pytest.mark.parametrize("key", ["", "k" * 65, "with space"])
+def test_a_key_of_a_wrong_form_is_rejected(lab: Lab, session: str, key: str) -> None:
+    assert add_load(lab, session, key).status_code == 400
+    assert lab.client.get(session).json()["loads"] == []
+
+
+def run_keeper(app: ASGIApp, outcomes: Outcomes) -> httpx.AsyncClient:
+    keeper = OutcomeKeeper(app, outcomes, lambda scope: "")
+    return httpx.AsyncClient(transport=httpx.ASGITransport(keeper), base_url="http://lab")
+
+
+async def _answer_busy(scope: Scope, receive: Receive, send: Send) -> None:
+    await Response(status_code=503)(scope, receive, send)
+
+
+async def _answer_with_cookie(scope: Scope, receive: Receive, send: Send) -> None:
+    await Response(headers={"Set-Cookie": "secret=1"})(scope, receive, send)
+
+
+async def _answer_long(scope: Scope, receive: Receive, send: Send) -> None:
+    await Response(b"x" * (MAX_ANSWER_BYTES + 1))(scope, receive, send)
+
+
+@pytest.mark.parametrize(
+    ("app", "statuses", "outcome"),
+    [
+        (_answer_busy, [503, 503], "refused"),
+        (_answer_with_cookie, [200, 409], "carried_out"),
+        (_answer_long, [200, 409], "carried_out"),
+    ],
+)
+def test_what_is_not_stored(app: ASGIApp, statuses: list[int], outcome: str) -> None:
+    async def send_twice() -> list[int]:
+        async with run_keeper(app, outcomes) as client:
+            return [
+                (await client.post("/", headers={"Idempotency-Key": "k"})).status_code
+                for _ in range(2)
+            ]
+
     outcomes = Outcomes()
-    for number in range(MAX_KEPT + 1):
-        outcomes.note("p-1", str(number), 200)
-    assert outcomes.find("p-1", "0") == ("unknown", None)
-    assert outcomes.find("p-1", "1") == ("carried_out", 200)
-    outcomes.note("p-1", "1", None)
-    assert outcomes.find("p-1", "1") == ("pending", None)
-    outcomes.note("p-1", "1", 500)
-    assert outcomes.find("p-1", "1") == ("refused", 500)
+    assert asyncio.run(send_twice()) == statuses
+    assert outcomes.find("", "k")[0] == outcome
+
+
+def test_a_repeat_of_what_takes_long_is_told_to_come_later(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("svsa_server.leases.outcomes.LONGEST_WAIT_S", 0.0)
+    begun, release = asyncio.Event(), asyncio.Event()
+
+    async def app(scope: Scope, receive: Receive, send: Send) -> None:
+        begun.set()
+        await release.wait()
+        await Response(b"done")(scope, receive, send)
+
+    async def send_thrice() -> list[int]:
+        async with run_keeper(app, Outcomes()) as client:
+            key = {"Idempotency-Key": "slow"}
+            first = asyncio.create_task(client.post("/", headers=key))
+            await begun.wait()
+            second = await client.post("/", headers=key)
+            release.set()
+            return [
+                (await first).status_code,
+                second.status_code,
+                (await client.post("/", headers=key)).status_code,
+            ]
+
+    assert asyncio.run(send_thrice()) == [200, 409, 200]
+
+
+def test_requests_are_bounded_in_number_age_and_bytes() -> None:
+    time_s = 0.0
+    outcomes = Outcomes(lambda: time_s)
+    for number in range(MAX_STORED + 1):
+        time_s += 1.0
+        outcomes.end(outcomes.begin("p", str(number), ""), 200, None)
+    assert outcomes.find("p", "0") == ("unknown", None, None)
+    assert outcomes.find("p", "1") == ("carried_out", 200, time_s - 2.0)
+    assert outcomes.known_for_s == time_s - 1.0
+    answer: list[Message] = [{"type": "http.response.body", "body": bytes(MAX_ANSWER_BYTES)}]
+    count = MAX_STORED_BYTES // MAX_ANSWER_BYTES + 1
+    for number in range(count):
+        outcomes.end(outcomes.begin("q", str(number), ""), 200, answer)
+    assert outcomes.find("q", "0")[0] == "unknown"
+    assert outcomes.find("q", str(count - 1))[0] == "carried_out"
+    pending = outcomes.begin("r", "pending", "")
+    time_s += LONGEST_AGE_S
+    assert outcomes.find("q", str(count - 1))[0] == "unknown"
+    assert outcomes.find("r", "pending") == ("pending", None, LONGEST_AGE_S)
+    outcomes.end(pending, 500, None)
+    assert outcomes.find("r", "pending")[0] == "unknown"

@@ -1,4 +1,4 @@
-"""Ask what became of a request whose answer did not come."""
+"""Outcome of a request whose answer was lost."""
 
 from typing import Annotated
 
@@ -6,7 +6,7 @@ from fastapi import Path, Request
 from pydantic import BaseModel, Field
 
 from svsa_server.access.permissions import OBSERVER, allow
-from svsa_server.leases.outcomes import LONGEST_NAME, Outcome, Outcomes
+from svsa_server.leases.outcomes import Outcome, Outcomes
 from svsa_server.routes.depends import REFUSALS, NamedPerson
 from svsa_server.routing import build_router
 
@@ -14,31 +14,36 @@ router = build_router("/requests", tags=["lab"], responses={422: REFUSALS[422]})
 
 
 class OutcomeState(BaseModel):
-    """What became of a request."""
+    """Outcome of a request."""
 
     outcome: Outcome = Field(
-        description="unknown: it has not come to this server, or 1000 others have come since;"
-        " pending: it is being worked on"
+        description="unknown: it has not come to this server within `known_for_s`; pending: it is"
+        " being carried out"
     )
-    status: int | None = Field(description="That it was answered with")
-    age_s: float = Field(description="For how long this server has run, s")
+    status: int | None = Field(description="Status of its answer")
+    age_s: float | None = Field(description="How long ago it came, s; null if it is unknown")
+    known_for_s: float = Field(
+        description="Every request with a key that came in the last known_for_s is known, s"
+    )
 
 
-@router.get("/{request_name}")
+@router.get("/{key}")
 @allow(OBSERVER)
 async def read_outcome(
     request: Request,
     person: NamedPerson,
-    request_name: Annotated[
+    key: Annotated[
         str,
         Path(
-            max_length=LONGEST_NAME,
-            description="As the request named itself in its header `SVSA-Request`",
+            max_length=64,
+            description="Its header `Idempotency-Key`",
             examples=["5f0c2a"],
         ),
     ],
 ) -> OutcomeState:
-    """Whether a request of one's own whose answer did not come was carried out."""
+    """Read whether a request of one's own, the answer of which was lost, was carried out."""
     outcomes: Outcomes = request.app.state.outcomes
-    outcome, status = outcomes.find(person.id, request_name)
-    return OutcomeState(outcome=outcome, status=status, age_s=outcomes.age_s)
+    outcome, status, age_s = outcomes.find(person.id, key)
+    return OutcomeState(
+        outcome=outcome, status=status, age_s=age_s, known_for_s=outcomes.known_for_s
+    )

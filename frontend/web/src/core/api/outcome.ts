@@ -52,7 +52,7 @@ async function askUntilKnown(unanswered: UnansweredError): Promise<number | null
     const found = await ask(`requests/${unanswered.request}`);
     if (found?.outcome === "carried_out" || found?.outcome === "refused") return found.status;
     const sinceS = (performance.now() - unanswered.sentMs) / 1000;
-    if (found?.outcome === "unknown" && found.age_s < sinceS) break;
+    if (found?.outcome === "unknown" && found.known_for_s < sinceS) break;
     // Asked twice: it may have come after the first question, by another way.
     strange = found?.outcome === "unknown" ? strange + 1 : 0;
     if (strange === 2) return null;

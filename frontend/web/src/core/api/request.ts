@@ -44,7 +44,7 @@ export const sessionName = new URLSearchParams(location.search).get("session") ?
 export const isPrivate = sessionName !== SHARED;
 const CLIENT_HEADER = "SVSA-Client";
 /** What the server knows a changing request by, should its answer be lost. */
-const REQUEST_HEADER = "SVSA-Request";
+const REQUEST_HEADER = "Idempotency-Key";
 export const LONGEST_WAIT_MS = 6000;
 
 export async function request(

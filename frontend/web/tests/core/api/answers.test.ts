@@ -13,7 +13,7 @@ async function load(server: Server) {
   vi.stubGlobal("fetch", async (url: URL, init: RequestInit) => {
     const path = url.pathname.replace("/api/v1/", "");
     asked.push(`${init.method} ${path}`);
-    const name = (init.headers as Record<string, string>)["SVSA-Request"] ?? null;
+    const name = (init.headers as Record<string, string>)["Idempotency-Key"] ?? null;
     const answer = server(String(init.method), path, name);
     if (answer === "lost") throw new TypeError("Failed to fetch");
     return new Response(JSON.stringify(answer.body), { status: answer.status });
@@ -29,9 +29,9 @@ async function load(server: Server) {
   return { press: () => perform("session", start), problem, commandStatus, session, calls, words };
 }
 
-const outcome = (outcome: string, status: number | null, age_s = 1e6): Answer => ({
+const outcome = (outcome: string, status: number | null, known_for_s = 1e6): Answer => ({
   status: 200,
-  body: { outcome, status, age_s },
+  body: { outcome, status, age_s: null, known_for_s },
 });
 
 beforeEach(() => {
