@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from svsa.actuators.parameters import ActuatorParameters, Limits
 from svsa.control.gains import Gains
+from svsa.control.law_names import AnyLaw
 from svsa.control.observers.disturbance import ObserverBandwidth
 from svsa.errors import FaultError, ParameterError, StateError, SvsaError
 from svsa.evaluation.reproduction import reproduce
@@ -107,6 +108,7 @@ __all__ = [
     "RIG",
     "ActuatorEnv",
     "ActuatorParameters",
+    "AnyLaw",
     "Catalogue",
     "Change",
     "ChannelName",

@@ -182,6 +182,7 @@ def prepare(laws: Iterable[str] | None = None) -> None:
     laws: all that are installed if left out. One that does not work is named, and the others go on.
     """
     from svsa.control.installed import LawError, list_law_names
+    from svsa.control.law_names import AnyLaw
     from svsa.runs.result.simulate import simulate
     from svsa.simulation.loop.loop import advance
 
@@ -195,7 +196,7 @@ def prepare(laws: Iterable[str] | None = None) -> None:
     with _messages.status(text):
         for name in names:
             try:
-                simulate("4a", name, duration_s=0.01).measure(0.0, 0.01)
+                simulate("4a", AnyLaw(name), duration_s=0.01).measure(0.0, 0.01)
             except LawError as error:
                 _messages.print(f"[bold red]{escape(str(error))}[/]", highlight=False)
 

@@ -1,9 +1,10 @@
 """A lab at an address: its shared session, private ones, its recorded runs."""
 
+import inspect
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager
-from typing import Any, Self
+from typing import Any, Self, Unpack
 
 from svsa.client.connection import Connection, Remote
 from svsa.client.runs import RemoteRuns, RemoteStudies
@@ -15,9 +16,10 @@ from svsa.runs.configuration import Configuration
 from svsa.runs.paper import DURATION_S, Figure, get_simulated_figure
 from svsa.runs.result.result import Result
 from svsa.runs.result.simulate import MAX_TICKS
+from svsa.runs.shorthand import LawChoice, Settings, change_configuration, read_setting
 
 SHARED = "lab"
-SETTINGS = ("position", "stiffness", "gains", "observer", "actuator", "nominal", "effects")
+_SET_ALONE = ("position", "stiffness", "gains", "observer", "actuator", "nominal", "effects")
 
 
 def connect(
@@ -81,18 +83,20 @@ class Lab(Remote):
         return RemoteSession(self.connection, self.runs, name)
 
     def create_session(
-        self, figure: str = "4a", law: str = "ndobc", **settings: Any
+        self, figure: str = "4a", law: LawChoice = "ndobc", **settings: Any
     ) -> RemoteSession:
         """A private simulated session, running; it ends by itself when nobody uses it.
 
-        settings: load, comparisons, effects, seed, as of `POST /sessions`.
+        settings: load, comparisons, effects, seed, as of `POST /sessions`; an effect's preset and a
+        law may be given by name.
         """
-        state = self.connection.call("POST", "/sessions", {"figure": figure, "law": law} | settings)
+        wanted = _write_experiment(figure, law, settings)
+        state = self.connection.call("POST", "/sessions", wanted)
         return self.open_session(state["session"])
 
     @contextmanager
     def new_session(
-        self, figure: str = "4a", law: str = "ndobc", **settings: Any
+        self, figure: str = "4a", law: LawChoice = "ndobc", **settings: Any
     ) -> Iterator[RemoteSession]:
         """A private session that ends with the block."""
         session = self.create_session(figure, law, **settings)
@@ -103,7 +107,7 @@ class Lab(Remote):
 
     @contextmanager
     def operate(
-        self, figure: str = "4a", law: str = "ndobc", **settings: Any
+        self, figure: str = "4a", law: LawChoice = "ndobc", **settings: Any
     ) -> Iterator[RemoteSession]:
         """The shared session, set as a private one would be, at rest at t = 0; then given back.
 
@@ -115,7 +119,7 @@ class Lab(Remote):
         session.take_control()
         try:
             session.come_to_rest()
-            wanted = {"figure": figure, "law": law, "start": False} | settings
+            wanted = _write_experiment(figure, law, settings) | {"start": False}
             session.call("POST", "/experiment", wanted)
             with session.watch():
                 yield session
@@ -133,12 +137,12 @@ class Lab(Remote):
     def run(
         self,
         experiment: str | Figure | Configuration = "4a",
-        law: str | None = None,
+        law: LawChoice | None = None,
         *,
         duration_s: float = DURATION_S,
         commands: Sequence[Change] = (),
         name: str = "",
-        **changes: Any,
+        **changes: Unpack[Settings],
     ) -> Result:
         """Simulate a run in the lab, record it there, and return it as `svsa.simulate` would.
 
@@ -150,7 +154,9 @@ class Lab(Remote):
             experiment = get_simulated_figure(experiment)
         if isinstance(experiment, Figure):
             experiment = experiment.build_configuration()
-        wanted = experiment.changed(**(changes if law is None else changes | {"law": law}))
+        named = {} if law is None else {"law": law}
+        keywords = inspect.signature(self.run).parameters
+        wanted = change_configuration(experiment, {**changes, **named}, keywords)
         period = wanted.sampling.period_s
         check_number("duration_s", duration_s, "s", period, MAX_TICKS * period)
         comparisons = [dump_lane(lane) for lane in wanted.comparisons]
@@ -159,7 +165,7 @@ class Lab(Remote):
         ) as session:
             session.pause()
             _check_fixed(session, wanted)
-            for setting in SETTINGS:
+            for setting in _SET_ALONE:
                 setattr(session, setting, getattr(wanted, setting))
             for owner, parameters in wanted.parameters.items():
                 session.set_parameters(owner, **parameters.model_dump(mode="json"))
@@ -178,6 +184,18 @@ class Lab(Remote):
             finally:
                 recording.stop()
             return recording.result
+
+
+def _write_experiment(figure: str, law: str, settings: Mapping[str, Any]) -> dict[str, Any]:
+    """An experiment as a request has it."""
+    written = {"figure": get_figure(figure).key, "law": law, **settings}
+    if "effects" in settings and settings["effects"] is not None:
+        effects = read_setting("effects", settings["effects"], None)
+        written["effects"] = effects.model_dump(mode="json")
+    if "comparisons" in settings:
+        lanes = read_setting("comparisons", settings["comparisons"], None)
+        written["comparisons"] = [dump_lane(lane) for lane in lanes]
+    return written
 
 
 def _check_fixed(session: RemoteSession, wanted: Configuration) -> None:

@@ -7,6 +7,7 @@ from typing import Any
 from pydantic import TypeAdapter
 
 from svsa.client.connection import Remote, SessionConnection
+from svsa.runs.shorthand import Part, read_load
 from svsa.simulation.plant.loads import Load
 
 _LOAD: TypeAdapter[Load] = TypeAdapter(Load)
@@ -37,9 +38,9 @@ class Loads(Remote):
     def __len__(self) -> int:
         return len(self._session.read_state()["loads"])
 
-    def add(self, load: Load) -> AppliedLoad:
+    def add(self, load: Load | Part) -> AppliedLoad:
         """Apply a load, now or at its `start_s`; where it stands among those of the session."""
-        state = self._session.call("POST", "/loads", load.model_dump(mode="json"))
+        state = self._session.call("POST", "/loads", read_load(load).model_dump(mode="json"))
         return _read(state["loads"][-1])
 
     def remove(self, load: AppliedLoad | int) -> None:

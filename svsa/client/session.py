@@ -1,6 +1,6 @@
 """A session of a lab: shared or private, simulated or a bench, by the same words."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from contextlib import AbstractContextManager
 from typing import Any, Literal
 
@@ -13,10 +13,23 @@ from svsa.client.motion import RunningConnection
 from svsa.client.runs import Recording, RemoteRuns
 from svsa.client.stream import BlockStream
 from svsa.control.gains import Gains
+from svsa.control.law_names import AnyLaw
 from svsa.control.observers.disturbance import ObserverBandwidth
 from svsa.inputs.nearest import suggest
 from svsa.runs.configuration import Lane
 from svsa.runs.result.channels import ChannelName
+from svsa.runs.shorthand import (
+    GivenActuator,
+    GivenEffects,
+    GivenGains,
+    GivenLanes,
+    GivenObserver,
+    GivenPosition,
+    GivenStiffness,
+    LawChoice,
+    read_lane,
+    read_setting,
+)
 from svsa.simulation.plant.effects import Effects
 from svsa.simulation.reference.kinds import PositionReference, StiffnessReference
 
@@ -98,14 +111,20 @@ class RemoteSession(RunningConnection):
         for name, value in settings.items():
             setattr(self, name, value)
 
+    def _put(self, name: str, given: Any, method: str = "PUT") -> None:
+        """Set a property to what a script means by `given`."""
+        present = getattr(self, name) if isinstance(given, Mapping) else None
+        value = read_setting(name, given, present)
+        self.call(method, f"/{name}", value.model_dump(mode="json"))
+
     @property
     def position(self) -> PositionReference:
         """What q_d follows; faded over when it is set."""
         return _POSITION.validate_python(self._read("position"))
 
     @position.setter
-    def position(self, reference: PositionReference) -> None:
-        self.call("PUT", "/position", reference.model_dump(mode="json"))
+    def position(self, reference: GivenPosition) -> None:
+        self._put("position", reference)
 
     @property
     def stiffness(self) -> StiffnessReference:
@@ -113,8 +132,8 @@ class RemoteSession(RunningConnection):
         return _STIFFNESS.validate_python(self._read("stiffness"))
 
     @stiffness.setter
-    def stiffness(self, reference: StiffnessReference) -> None:
-        self.call("PUT", "/stiffness", reference.model_dump(mode="json"))
+    def stiffness(self, reference: GivenStiffness) -> None:
+        self._put("stiffness", reference)
 
     def repeat_position(self) -> None:
         """Begin the position reference again, faded over; set to what it is, it just goes on."""
@@ -125,12 +144,12 @@ class RemoteSession(RunningConnection):
         self.call("POST", "/stiffness/repeat")
 
     @property
-    def law(self) -> str:
+    def law(self) -> AnyLaw:
         """What controls its first lane."""
         return self._read("law")
 
     @law.setter
-    def law(self, law: str) -> None:
+    def law(self, law: LawChoice) -> None:
         self.call("PUT", "/law", {"law": law})
 
     @property
@@ -140,8 +159,8 @@ class RemoteSession(RunningConnection):
         return Gains(**{name: tuple(reported[name]) for name in Gains.model_fields})
 
     @gains.setter
-    def gains(self, gains: Gains) -> None:
-        self.call("PUT", "/gains", gains.model_dump(mode="json"))
+    def gains(self, gains: GivenGains) -> None:
+        self._put("gains", gains)
 
     @property
     def observer(self) -> ObserverBandwidth:
@@ -149,8 +168,8 @@ class RemoteSession(RunningConnection):
         return ObserverBandwidth.model_validate(self._read("observer"))
 
     @observer.setter
-    def observer(self, observer: ObserverBandwidth) -> None:
-        self.call("PUT", "/observer", observer.model_dump(mode="json"))
+    def observer(self, observer: GivenObserver) -> None:
+        self._put("observer", observer)
 
     @property
     def effects(self) -> Effects:
@@ -158,8 +177,8 @@ class RemoteSession(RunningConnection):
         return Effects.model_validate(self._read("effects"))
 
     @effects.setter
-    def effects(self, effects: Effects) -> None:
-        self.call("PUT", "/effects", effects.model_dump(mode="json"))
+    def effects(self, effects: GivenEffects) -> None:
+        self._put("effects", effects)
 
     @property
     def actuator(self) -> ActuatorParameters:
@@ -167,8 +186,8 @@ class RemoteSession(RunningConnection):
         return ActuatorParameters.model_validate(self._read("actuator"))
 
     @actuator.setter
-    def actuator(self, actuator: ActuatorParameters) -> None:
-        self.call("PATCH", "/actuator", actuator.model_dump(mode="json"))
+    def actuator(self, actuator: GivenActuator) -> None:
+        self._put("actuator", actuator, "PATCH")
 
     @property
     def nominal(self) -> ActuatorParameters:
@@ -176,8 +195,8 @@ class RemoteSession(RunningConnection):
         return ActuatorParameters.model_validate(self._read("nominal"))
 
     @nominal.setter
-    def nominal(self, nominal: ActuatorParameters) -> None:
-        self.call("PATCH", "/nominal", nominal.model_dump(mode="json"))
+    def nominal(self, nominal: GivenActuator) -> None:
+        self._put("nominal", nominal, "PATCH")
 
     @property
     def comparisons(self) -> tuple[Lane, ...]:
@@ -185,14 +204,15 @@ class RemoteSession(RunningConnection):
         return tuple(Lane.model_validate(lane) for lane in self._read("comparisons"))
 
     @comparisons.setter
-    def comparisons(self, comparisons: Sequence[Lane]) -> None:
-        self.call("PUT", "/lanes", {"comparisons": [dump_lane(lane) for lane in comparisons]})
+    def comparisons(self, comparisons: GivenLanes) -> None:
+        lanes = read_setting("comparisons", comparisons, None)
+        self.call("PUT", "/lanes", {"comparisons": [dump_lane(lane) for lane in lanes]})
 
-    def set_lane(self, number: int, lane: Lane) -> None:
+    def set_lane(self, number: int, lane: Lane | LawChoice) -> None:
         """Control one lane beside the first otherwise; number: 2 is the first beside."""
-        self.call("PUT", f"/lanes/{number}", dump_lane(lane))
+        self.call("PUT", f"/lanes/{number}", dump_lane(read_lane(lane, "lane")))
 
-    def set_laws(self, law: str, *comparison_laws: str) -> None:
+    def set_laws(self, law: LawChoice, *comparison_laws: LawChoice) -> None:
         """Other laws for the first lanes; every plant stays where it is."""
         self.call("PUT", "/law", {"law": law, "comparison_laws": comparison_laws})
 

@@ -4,6 +4,7 @@ import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+from svsa.control.law_names import AnyLaw
 from svsa.errors import FaultError
 from svsa.inputs.extras import require_extra
 from svsa.runs.paper import (
@@ -55,7 +56,7 @@ def _run_figure(key: str, law: str, progress: Callable[[float], None]) -> Reprod
 
         result = run_on_emulator(get_figure(key), law, DURATION_S, progress)
     else:
-        result = simulate(key, law)
+        result = simulate(key, AnyLaw(law))
     if result.fault is not None:
         raise FaultError(result.fault)
     return Reproduction(key, law, result, compute_table_row(result))

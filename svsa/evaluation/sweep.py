@@ -5,18 +5,21 @@ import os
 from collections.abc import Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import fields
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Unpack
 
 from svsa.errors import ParameterError, Violation
 from svsa.evaluation.studies.setting import change_settings
 from svsa.inputs.checked import Checked, check_number
-from svsa.runs.configuration import Configuration
+from svsa.runs.configuration import Configuration, Design
 from svsa.runs.experiment import build_experiment
 from svsa.runs.metrics import Metrics
 from svsa.runs.paper import DURATION_S
 from svsa.runs.result.progress import Follow, follow_progress
 from svsa.runs.result.simulate import simulate
 from svsa.runs.run import check_laws
+from svsa.runs.shorthand import LawChoice, Settings
+from svsa.simulation.loop.stepwise import Controller
 
 if TYPE_CHECKING:
     import pandas
@@ -31,11 +34,13 @@ def sweep(
     experiment: str | Configuration,
     vary: Mapping[str, Iterable[Any]],
     *,
+    law: LawChoice | Controller | None = None,
+    parameters: Design | Path | str | None = None,
     duration_s: float = DURATION_S,
     measure_from_s: float = 0.0,
     threads: int | None = None,
     progress: Follow | None = None,
-    **changes: Any,
+    **changes: Unpack[Settings],
 ) -> "pandas.DataFrame":
     """Simulate every combination of settings and return a row of metrics for each.
 
@@ -48,6 +53,8 @@ def sweep(
         experiment: A figure of the paper ("4a", "4b", "5") or a `Configuration`.
         vary: Values by setting: "law", "seed", a field of the configuration ("effects"), or a path
             to a value in one ("actuator.link_inertia_kg_m2", "loads[0].torque_nm[1]").
+        law: Of all runs, where `vary` has none: a name, or a function as of `simulate`.
+        parameters: A parameter file or its `Design`, instead of the experiment's own.
         duration_s: Of each run, s.
         measure_from_s: Start of the window of the metrics, s.
         threads: How many; one for each core if left out.
@@ -65,7 +72,8 @@ def sweep(
     """
     import pandas  # late: it takes a while
 
-    configuration = build_experiment(experiment, **changes)
+    named = {} if law is None or callable(law) else {"law": law}
+    configuration = build_experiment(experiment, parameters, {**changes, **named}, sweep)
     cases = [
         dict(zip(vary, values, strict=True))
         for values in itertools.product(*(_list_values(name, vary[name]) for name in vary))
@@ -76,7 +84,8 @@ def sweep(
     if threads is not None:
         check_number("threads", threads, "", 1, MAX_THREADS)
     configurations = [_change(configuration, case) for case in cases]
-    own = [case[LAW] if callable(case.get(LAW)) else None for case in cases]
+    laws = [case.get(LAW, law) for case in cases]
+    own: list[Any] = [one if callable(one) else None for one in laws]
 
     def run(number: int) -> dict[str, Any]:
         changed = configurations[number]

@@ -6,7 +6,7 @@ API, the TOML files, the REST schema and every error message speak from that one
 
 from collections.abc import Sequence
 from numbers import Real
-from typing import Annotated, Any, NamedTuple, Self
+from typing import Annotated, Any, ClassVar, NamedTuple, Self
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, Strict, ValidationError
 
@@ -35,15 +35,32 @@ BY_KIND = Field(discriminator="kind", json_schema_extra={"required": ["kind"]})
 
 
 class Checked(BaseModel):
-    """A frozen value. Raises `ParameterError` that names each field, its unit and bound."""
+    """A frozen value. Raises `ParameterError` that names each field, its unit and bound.
+
+    Attributes:
+        main: The field that a value without a name sets; "" for none.
+    """
+
+    main: ClassVar[str] = ""
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
-    def __init__(self, /, **values: Any) -> None:
+    def __init__(self, /, *positional: Any, **values: Any) -> None:
+        values |= self._name_positional(positional)
         try:
             super().__init__(**values)
         except ValidationError as error:
             raise ParameterError(*explain(error, type(self))) from None
+
+    @classmethod
+    def _name_positional(cls, positional: tuple[Any, ...]) -> dict[str, Any]:
+        """The value of `main`; raises `TypeError` with the names where there is another one."""
+        if not positional:
+            return {}
+        if len(positional) == 1 and cls.main:
+            return {cls.main: positional[0]}
+        names = ", ".join(f"{name}=…" for name in cls.model_fields if name != "kind")
+        raise TypeError(f"Values have names here: {cls.__name__}({names}).")
 
     def changed(self, **changes: Any) -> Self:
         """A copy with these fields replaced, checked again; itself where nothing is changed."""

@@ -1,7 +1,8 @@
 """The actuator as an environment of Gymnasium; needs the extra `gym`."""
 
 # ruff: noqa: E402
-from typing import Any
+from pathlib import Path
+from typing import Any, Unpack
 
 from svsa.inputs.extras import require_extra
 
@@ -12,8 +13,10 @@ import numpy as np
 
 from svsa.errors import ParameterError, Violation
 from svsa.inputs.checked import check_number
-from svsa.runs.configuration import Configuration
+from svsa.runs.configuration import Configuration, Design
+from svsa.runs.experiment import build_experiment
 from svsa.runs.paper import DURATION_S
+from svsa.runs.shorthand import Settings
 from svsa.runs.stepper import MAX_STEP_TICKS, Observation, Stepper
 
 POSITION_SCALE_RAD = np.radians(1.0)
@@ -47,7 +50,8 @@ class ActuatorEnv(gymnasium.Env[np.ndarray, np.ndarray]):
         *,
         duration_s: float = DURATION_S,
         action_period_s: float = 0.01,
-        **changes: Any,
+        parameters: Design | Path | str | None = None,
+        **changes: Unpack[Settings],
     ) -> None:
         """Build the environment.
 
@@ -55,12 +59,13 @@ class ActuatorEnv(gymnasium.Env[np.ndarray, np.ndarray]):
             experiment: A figure of the paper ("4a", "4b", "5") or a `Configuration`.
             duration_s: Of an episode, s.
             action_period_s: How long an action is held, s: whole control periods.
-            **changes: Fields of the configuration, as of `Stepper`.
+            parameters: A parameter file or its `Design`, instead of the experiment's own.
+            **changes: Fields of the configuration, as of `svsa.simulate`.
 
         Raises:
             ParameterError: A value is out of range.
         """
-        self.stepper = Stepper(experiment, **changes)
+        self.stepper = Stepper(build_experiment(experiment, parameters, changes, ActuatorEnv))
         period = self.stepper.period_s
         check_number("action_period_s", action_period_s, "s", period, MAX_STEP_TICKS * period)
         check_number("duration_s", duration_s, "s", action_period_s, MAX_STEP_TICKS * period)
@@ -88,7 +93,8 @@ class ActuatorEnv(gymnasium.Env[np.ndarray, np.ndarray]):
         """
         super().reset(seed=seed)
         noise = int(self.np_random.integers(_SEED_END))
-        seen = self.stepper.reset(**{"seed": noise, **(options or {})})
+        given: Any = {"seed": noise, **(options or {})}
+        seen = self.stepper.reset(**given)
         return _flatten(seen), self._describe(seen)
 
     def step(self, action: np.ndarray) -> tuple[np.ndarray, float, bool, bool, dict[str, Any]]:

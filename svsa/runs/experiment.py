@@ -1,16 +1,20 @@
 """What a run begins from: a figure of the paper or a configuration, and what is changed of it."""
 
+import inspect
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
 from svsa.runs.configuration import Configuration, Design, read_design
 from svsa.runs.paper import get_simulated_figure
+from svsa.runs.shorthand import change_configuration
 
 
 def build_experiment(
     experiment: str | Configuration,
-    parameters: Design | Path | str | None = None,
-    **changes: Any,
+    parameters: Design | Path | str | None,
+    given: Mapping[str, Any],
+    caller: Callable[..., Any],
 ) -> Configuration:
     """The configuration of an experiment.
 
@@ -18,10 +22,11 @@ def build_experiment(
         experiment: A figure of the paper ("4a", "4b", "5") or a `Configuration`.
         parameters: A parameter file, such as `svsa identify` writes, or its `Design`, instead of
             the experiment's own.
-        **changes: Fields of the configuration to replace.
+        given: What is changed, as `svsa.runs.shorthand.Settings`.
+        caller: What the user called: a wrong name may have meant another of its keywords.
 
     Raises:
-        ParameterError: There is no such figure or field, or a value is out of range.
+        ParameterError: There is no such figure or setting, or a value is out of range.
     """
     if isinstance(experiment, Configuration):
         configuration = experiment
@@ -30,4 +35,4 @@ def build_experiment(
     if parameters is not None:
         design = parameters if isinstance(parameters, Design) else read_design(parameters)
         configuration = configuration.with_design(design)
-    return configuration.changed(**changes)
+    return change_configuration(configuration, given, inspect.signature(caller).parameters)

@@ -2,7 +2,7 @@
 
 import math
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Unpack
 
 import numpy as np
 
@@ -28,6 +28,7 @@ from svsa.runs.configuration import Configuration, Design, Lane
 from svsa.runs.experiment import build_experiment
 from svsa.runs.fault import build_fault
 from svsa.runs.run import Run
+from svsa.runs.shorthand import Settings, change_configuration
 from svsa.simulation.loop.lane import Blocks
 from svsa.simulation.loop.loop import read_reference
 from svsa.simulation.plant.sensors import read_positions
@@ -97,7 +98,7 @@ class Stepper:
         *,
         steps: int = 1,
         parameters: Design | Path | str | None = None,
-        **changes: Any,
+        **changes: Unpack[Settings],
     ) -> None:
         """Build the plant and begin a run.
 
@@ -111,7 +112,7 @@ class Stepper:
         Raises:
             ParameterError: A value is out of range.
         """
-        self.configuration = build_experiment(experiment, parameters, **changes)
+        self.configuration = build_experiment(experiment, parameters, changes, Stepper)
         self._steps = steps
         self.reset()
 
@@ -126,7 +127,7 @@ class Stepper:
         limits = self.configuration.limits
         return Torque(limits.torque1_nm, limits.torque2_nm)
 
-    def reset(self, **changes: Any) -> Observation:
+    def reset(self, **changes: Unpack[Settings]) -> Observation:
         """Begin a run from rest at t = 0.
 
         Args:
@@ -139,7 +140,7 @@ class Stepper:
         Raises:
             ParameterError: A value is out of range; the run before stays.
         """
-        configuration = build_experiment(self.configuration, **changes).changed(comparisons=())
+        configuration = change_configuration(self.configuration, changes).changed(comparisons=())
         self._run = Run(configuration, self._steps, bind=_bind_held)
         self.configuration = configuration
         self.fault: Fault | None = None

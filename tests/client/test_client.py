@@ -46,6 +46,27 @@ def test_what_is_set_is_what_is_read_and_says_when_it_acted(lab: Lab) -> None:
             assert (session.applied_at.tick, session.applied_at.time_s) == (250, 0.25)
 
 
+def test_what_is_unambiguous_is_accepted_and_the_rest_named(lab: Lab) -> None:
+    with lab.new_session("4A", load=False, effects="rig", comparisons="fl") as session:
+        assert session.effects == svsa.RIG
+        assert session.comparisons == (svsa.Lane(law="fl"),)
+        session.stiffness = 30
+        assert session.stiffness == svsa.ConstantStiffness(stiffness_nm_per_rad=30.0)
+        session.set(position=0.2, effects="ideal", observer=50, comparisons=["pd"])
+        assert session.position == svsa.ConstantPosition(position_rad=0.2)
+        assert session.effects == svsa.IDEAL
+        assert session.observer.bandwidth_rad_per_s == (50.0, 50.0, 50.0)
+        assert session.comparisons == (svsa.Lane(law="pd"),)
+        before = session.nominal
+        session.nominal = {"link_inertia_kg_m2": 0.03}
+        assert session.nominal == before.changed(link_inertia_kg_m2=0.03)
+        assert session.loads.add({"kind": "paper"}).load == svsa.PaperLoad()
+        with pytest.raises(svsa.ParameterError, match=r"gains is 60: it must be svsa\.Gains"):
+            session.set(gains=60)
+    with pytest.raises(svsa.ParameterError, match=r"stifness: .*nearest is stiffness"):
+        lab.run("4a", **{"stifness": 40})
+
+
 def test_a_refusal_is_the_error_of_the_library(lab: Lab) -> None:
     with lab.new_session(load=False) as session, pytest.raises(svsa.ParameterError) as refused:
         session.set_parameters("fl_integral", position_pole_rad_per_s=1e6)

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Unpack
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from svsa.runs.replay import STRETCH_TICKS, play
 from svsa.runs.result.progress import Follow, follow_progress
 from svsa.runs.result.result import Result, build_results
 from svsa.runs.run import Run
+from svsa.runs.shorthand import LawChoice, Settings
 from svsa.simulation.loop.stepwise import Controller
 
 MAX_TICKS = 5_000_000
@@ -28,14 +29,14 @@ _OWN_STRETCH_TICKS = 1_000
 
 def simulate(
     experiment: str | Configuration = "4a",
-    law: str | Controller | None = None,
+    law: LawChoice | Controller | None = None,
     *,
     duration_s: float = DURATION_S,
     steps: int = 1,
     commands: Sequence[Change] = (),
     parameters: Design | Path | str | None = None,
     progress: Follow | None = None,
-    **changes: Any,
+    **changes: Unpack[Settings],
 ) -> Result:
     """Simulate a run from rest and return everything that happened.
 
@@ -53,9 +54,8 @@ def simulate(
     leaves the domain of the model ends early: see `Result.fault`.
     """
     own = law if callable(law) else None
-    if law is not None and own is None:
-        changes["law"] = law
-    configuration = build_experiment(experiment, parameters, **changes)
+    named = {} if law is None or own else {"law": law}
+    configuration = build_experiment(experiment, parameters, {**changes, **named}, simulate)
     period = configuration.sampling.period_s
     check_number("duration_s", duration_s, "s", period, MAX_TICKS * period)
     check_number("steps", steps, "", 1, MAX_STEPS)

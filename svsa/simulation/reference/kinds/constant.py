@@ -11,6 +11,8 @@ from svsa.simulation.reference.shape import FULL_TURN_RAD, TRANSITION, Shape
 class ConstantPosition(AnyPosition):
     """q_d held at one angle."""
 
+    main = "position_rad"
+
     kind: Literal["constant"] = "constant"
     position_rad: Number = quantity("rad", "q_d", ge=-FULL_TURN_RAD, le=FULL_TURN_RAD, default=0.0)
     transition_s: Number = quantity("s", "Time to fade over from the old reference", **TRANSITION)
@@ -26,6 +28,8 @@ class ConstantPosition(AnyPosition):
 
 class ConstantStiffness(AnyStiffness):
     """σ_d held at one value, inside the range that the limits give (1.7 … 150.56)."""
+
+    main = "stiffness_nm_per_rad"
 
     kind: Literal["constant"] = "constant"
     stiffness_nm_per_rad: Number = quantity("N·m/rad", "σ_d", gt=0, le=1e4)

@@ -1,0 +1,208 @@
+"""Settings as a script may write them, and the checked values that they stand for.
+
+What is unambiguous is accepted: a number for a constant, one load for a list, a part of some
+parameters. Files and REST take the full form only.
+"""
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, TypeAlias, TypedDict
+
+from pydantic import TypeAdapter, ValidationError
+
+from svsa.actuators.parameters import ActuatorParameters, Limits
+from svsa.control.gains import Gains
+from svsa.control.law_names import AnyLaw, KnownLaw
+from svsa.control.observers.disturbance import ObserverBandwidth
+from svsa.errors import ParameterError, Violation
+from svsa.inputs.checked import Checked
+from svsa.inputs.explanation import explain
+from svsa.inputs.nearest import suggest
+from svsa.runs.configuration import Configuration, Lane, Sampling
+from svsa.simulation.plant.effects import PRESETS, Effects
+from svsa.simulation.plant.effects.effect import PresetName
+from svsa.simulation.plant.loads import Load
+from svsa.simulation.plant.loads.load import AnyLoad
+from svsa.simulation.reference.kinds import PositionReference, StiffnessReference
+from svsa.simulation.reference.kinds.constant import ConstantPosition, ConstantStiffness
+
+Part: TypeAlias = Mapping[str, Any]
+"""Fields that are different, by name; the others stay."""
+LawChoice: TypeAlias = KnownLaw | AnyLaw
+GivenPosition: TypeAlias = PositionReference | Part | float
+"""A reference, or an angle that is held, rad."""
+GivenStiffness: TypeAlias = StiffnessReference | Part | float
+"""A reference, or a stiffness that is held, N·m/rad."""
+GivenEffects: TypeAlias = Effects | Part | PresetName
+GivenActuator: TypeAlias = ActuatorParameters | Part
+GivenGains: TypeAlias = Gains | Part
+GivenObserver: TypeAlias = ObserverBandwidth | Part | float
+"""Bandwidths, or one for all three channels, rad/s."""
+GivenLanes: TypeAlias = Lane | LawChoice | Sequence[Lane | LawChoice]
+
+
+class Settings(TypedDict, total=False):
+    """Fields of a configuration, as keywords of `svsa.simulate` and its relatives."""
+
+    comparisons: GivenLanes
+    effects: GivenEffects
+    seed: int
+    position: GivenPosition
+    stiffness: GivenStiffness
+    loads: Load | Part | Sequence[Load | Part]
+    actuator: GivenActuator
+    nominal: GivenActuator
+    gains: GivenGains
+    observer: GivenObserver
+    limits: Limits | Part
+    sampling: Sampling | Part
+
+
+class _Form:
+    """What a setting is, and what to write where it is none."""
+
+    def __init__(self, kind: Any, cure: str, is_partial: bool = False) -> None:
+        self.kind, self.cure, self.is_partial = kind, cure, is_partial
+        self.read = TypeAdapter(kind).validate_python
+
+
+_PLANT = _Form(
+    ActuatorParameters,
+    "svsa.ActuatorParameters, or a dict of the fields that are different, such as"
+    ' {"link_inertia_kg_m2": 0.05}',
+    is_partial=True,
+)
+_FORMS = {
+    "position": _Form(
+        PositionReference, "a reference, such as svsa.SinePosition(…), or an angle in rad"
+    ),
+    "stiffness": _Form(
+        StiffnessReference,
+        "a reference, such as svsa.SineStiffness(…), or a stiffness in N·m/rad",
+    ),
+    "effects": _Form(Effects, f"svsa.Effects(…), or one of {', '.join(PRESETS)}"),
+    "actuator": _PLANT,
+    "nominal": _PLANT,
+    "gains": _Form(
+        Gains,
+        "svsa.Gains, such as svsa.Gains.from_poles([-60] * 4, [-60] * 2), poles in rad/s",
+        is_partial=True,
+    ),
+    "observer": _Form(
+        ObserverBandwidth,
+        "svsa.ObserverBandwidth(bandwidth_rad_per_s=(β2, β4, β6)), or one bandwidth in rad/s",
+        is_partial=True,
+    ),
+    "limits": _Form(
+        Limits, "svsa.Limits, or a dict of the fields that are different", is_partial=True
+    ),
+    "sampling": _Form(Sampling, 'a dict, such as {"period_s": 0.001}', is_partial=True),
+}
+_OTHERS = ("law", "comparisons", "loads", "seed")
+_LISTED = str | Mapping | Checked
+
+
+def change_configuration(
+    configuration: Configuration, given: Mapping[str, Any], keywords: Iterable[str] = ()
+) -> Configuration:
+    """The configuration with these settings.
+
+    Args:
+        configuration: What is changed.
+        given: As `Settings`, and `law`.
+        keywords: Further keywords of the caller, which a wrong name may have meant.
+
+    Raises:
+        ParameterError: There is no such setting, or a value is none for it.
+    """
+    known = [*_FORMS, *_OTHERS]
+    unknown = [name for name in given if name not in known]
+    if unknown:
+        raise ParameterError(
+            *(
+                Violation(
+                    name,
+                    given[name],
+                    "",
+                    "",
+                    finding=f"there is no such keyword{suggest(name, [*keywords, *known])}",
+                )
+                for name in unknown
+            )
+        )
+    present = dict(configuration)
+    return configuration.changed(
+        **{name: read_setting(name, value, present[name]) for name, value in given.items()}
+    )
+
+
+def read_setting(name: str, given: Any, present: Any) -> Any:
+    """The checked value that a script means.
+
+    Args:
+        name: Of the setting, as "stiffness".
+        given: What the script wrote.
+        present: What a part is a part of.
+
+    Raises:
+        ParameterError: It is no value of this setting; the error names what would be.
+    """
+    if name in ("loads", "comparisons"):
+        read = read_load if name == "loads" else read_lane
+        if isinstance(given, _LISTED) or not isinstance(given, Iterable):
+            given = (given,)
+        return tuple(read(one, f"{name}[{number}]") for number, one in enumerate(given))
+    form = _FORMS.get(name)
+    if form is None:
+        return given
+    value = _spell_out(name, given)
+    if form.is_partial and isinstance(value, Mapping):
+        try:
+            return present.changed(**value)
+        except ParameterError as error:
+            raise error.within(name) from None
+    return _check(name, value, given, form)
+
+
+def _spell_out(name: str, given: Any) -> Any:
+    """A number or a name as the value that it stands for."""
+    is_number = isinstance(given, int | float) and not isinstance(given, bool)
+    try:
+        match name:
+            case "position" if is_number:
+                return ConstantPosition(position_rad=given)
+            case "stiffness" if is_number:
+                return ConstantStiffness(stiffness_nm_per_rad=given)
+            case "observer" if is_number:
+                return ObserverBandwidth(bandwidth_rad_per_s=(given, given, given))
+            case "effects" if isinstance(given, str):
+                return next((one for key, one in PRESETS.items() if key == given), given)
+    except ParameterError as error:
+        raise error.within(name) from None
+    return given
+
+
+def _check(name: str, value: Any, given: Any, form: _Form) -> Any:
+    if not isinstance(value, Checked | Mapping):
+        raise ParameterError(Violation(name, given, "", form.cure))
+    try:
+        return form.read(value)
+    except ParameterError as error:
+        raise error.within(name) from None
+    except ValidationError as error:
+        if isinstance(value, Checked):
+            raise ParameterError(Violation(name, given, "", form.cure)) from None
+        raise ParameterError(*explain(error)).within(name) from None
+
+
+_LOAD = _Form(Load, 'a load, such as svsa.PaperLoad() or {"kind": "paper"}')
+_LANE = _Form(Lane, 'svsa.Lane(law="fl"), or the name of a law')
+
+
+def read_load(given: Any, name: str = "load") -> AnyLoad:
+    """A load, or that of a dict; raises `ParameterError` with `name` for another value."""
+    return _check(name, given, given, _LOAD)
+
+
+def read_lane(given: Any, name: str) -> Lane:
+    """A lane, or the lane of a law's name; raises `ParameterError` with `name` for another."""
+    return _check(name, {"law": given} if isinstance(given, str) else given, given, _LANE)
