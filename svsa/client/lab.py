@@ -9,11 +9,12 @@ from typing import Any, Self, Unpack
 from svsa.client.connection import Connection, Remote
 from svsa.client.runs import RemoteRuns, RemoteStudies
 from svsa.client.session import RemoteSession, dump_lane
+from svsa.control.law_names import AnyLaw
 from svsa.errors import FaultError, ParameterError, Violation
 from svsa.inputs.checked import check_number
 from svsa.runs.change import Change
 from svsa.runs.configuration import Configuration
-from svsa.runs.paper import DURATION_S, Figure, get_simulated_figure
+from svsa.runs.paper import DURATION_S, Figure, get_figure, get_simulated_figure
 from svsa.runs.result.result import Result
 from svsa.runs.result.simulate import MAX_TICKS
 from svsa.runs.shorthand import LawChoice, Settings, change_configuration, read_setting
@@ -161,7 +162,7 @@ class Lab(Remote):
         check_number("duration_s", duration_s, "s", period, MAX_TICKS * period)
         comparisons = [dump_lane(lane) for lane in wanted.comparisons]
         with self.new_session(
-            law=wanted.law, load=False, comparisons=comparisons, seed=wanted.seed
+            law=AnyLaw(wanted.law), load=False, comparisons=comparisons, seed=wanted.seed
         ) as session:
             session.pause()
             _check_fixed(session, wanted)
