@@ -24,71 +24,128 @@ Rate = Annotated[str, AfterValidator(_check_rate)]
 
 
 class Settings(BaseSettings):
-    """Deployment: SVSA_SECRET is the shared secret that everyone who uses the lab knows.
+    """Deployment settings, each read from the environment variable `SVSA_` + its name.
 
-    SVSA_MAX_SESSIONS: private sessions at once. SVSA_MAX_SESSIONS_EACH: of one person of a class;
-    the instructor has as many as there is room for. SVSA_IDLE_S: how long one lives unused, s.
-    SVSA_CONTROL_S: how long control of a session outlives the last stream and call of whoever
-    has it, s.
-    SVSA_SILENCE_S: how long a client may take to send a request, or to read on and answer a ping,
-    s; its connection ends then.
-    SVSA_MAX_TUNINGS: tunings of laws that are worked at, one at a time, or wait.
-    SVSA_MAX_STUDIES: studies that are worked at, one at a time, or wait.
-    SVSA_MAX_FALSIFICATIONS: searches for what hurts a law that are worked at, or wait, likewise.
-    SVSA_MAX_SUBMISSIONS: laws for the leaderboard that are measured, one at a time, or wait.
-    SVSA_MAX_JOBS_EACH: jobs of one kind of one person of a class that run or wait; the instructor
-    has a place of their own. SVSA_JOB_S: how long one of theirs may run, s.
-    SVSA_MAX_EXPORTS: exports, replays, comparisons, maps and laws in the ranking that are worked at
-    or wait.
-    SVSA_PARAMETERS: the parameter file that figures and sessions start from; none is the paper's.
-    SVSA_COURSE: folder with exercises of one's own, beside those of the package.
-    SVSA_BENCH: the file of the bench that the shared session drives; none is a simulation.
-    SVSA_LTI: the file that names the learning platforms of a class, docs/lti.md; none launch else.
-    SVSA_CLASSROOM: whether people join with a name and a class code, and have roles.
-    SVSA_IDLE_OPERATOR_S: how long whoever is in control in a class may give no command before it
-    goes on to who waits, s.
-    SVSA_QUOTA_MB: disk that runs and studies of one person of a class may take, MB.
-    SVSA_JOINS, SVSA_CODES, SVSA_LOGINS: rate limits of a class, as "50/second": joins of an
-    address (a class behind one router has one), wrong class codes of an address and name, wrong
-    instructor tokens of an address. The right token is always accepted.
-    SVSA_COMMANDS, SVSA_SESSIONS, SVSA_RUNS: likewise, commands, new sessions and new recordings of
-    a person.
-    SVSA_ROOT_PATH: the path under which a proxy has the lab, such as /svsa; it takes it off before
-    it asks the lab.
-    SVSA_HOSTS: names with commas between, under which others reach the lab, besides addresses and
-    the names of this machine.
+    `docs/reference` has the table that is generated from the descriptions.
     """
 
     model_config = SettingsConfigDict(env_prefix="SVSA_", extra="ignore", frozen=True)
 
-    secret: SecretStr | None = None
-    max_sessions: int = Field(default=48, ge=0, le=1000)
-    max_sessions_each: int = Field(default=4, ge=1, le=1000)
-    idle_s: float = Field(default=600.0, ge=1)
-    control_s: float = Field(default=15.0, ge=1)
-    silence_s: float = Field(default=20.0, ge=1)
-    max_exports: int = Field(default=10, ge=0, le=1000)
-    max_tunings: int = Field(default=3, ge=0, le=100)
-    max_studies: int = Field(default=3, ge=0, le=100)
-    max_falsifications: int = Field(default=3, ge=0, le=100)
-    max_submissions: int = Field(default=10, ge=0, le=100)
-    max_jobs_each: int = Field(default=2, ge=1, le=100)
-    job_s: float = Field(default=900.0, ge=1)
-    bench: Path | None = None
-    parameters: Path | None = None
-    course: Path | None = None
-    lti: Path | None = None
-    classroom: bool = False
-    idle_operator_s: float = Field(default=90.0, ge=1)
-    hosts: str = ""
-    root_path: str = ""
-    quota_mb: float = Field(default=500.0, ge=0)
-    joins: Rate = "300/minute"
-    codes: Rate = "10/minute"
-    logins: Rate = "20/minute"
-    commands: Rate = "50/second"
-    sessions: Rate = "20/minute"
-    runs: Rate = "30/minute"
+    secret: SecretStr | None = Field(
+        default=None,
+        description="Shared secret of at least 8 characters that every user of the lab knows."
+        " Required beyond loopback, except for a class",
+    )
+    max_sessions: int = Field(
+        default=48, ge=0, le=1000, description="Private sessions of the lab at once"
+    )
+    max_sessions_each: int = Field(
+        default=4,
+        ge=1,
+        le=1000,
+        description="Private sessions of one student at once. The instructor has no such limit",
+    )
+    idle_s: float = Field(
+        default=600.0, ge=1, description="Time after which an unused private session ends, s"
+    )
+    control_s: float = Field(
+        default=15.0,
+        ge=1,
+        description="Time for which a control lease outlives the last stream and call of its"
+        " holder, s",
+    )
+    silence_s: float = Field(
+        default=20.0,
+        ge=1,
+        description="Longest time in which a client sends a request, reads on or answers a ping,"
+        " s. Then the connection is closed",
+    )
+    max_exports: int = Field(
+        default=10,
+        ge=0,
+        le=1000,
+        description="Exports, replays, comparisons, maps and ranked runs that run or wait",
+    )
+    max_tunings: int = Field(
+        default=3, ge=0, le=100, description="Tunings that run, one at a time, or wait"
+    )
+    max_studies: int = Field(
+        default=3, ge=0, le=100, description="Studies that run, one at a time, or wait"
+    )
+    max_falsifications: int = Field(
+        default=3,
+        ge=0,
+        le=100,
+        description="Searches of the falsifier that run, one at a time, or wait",
+    )
+    max_submissions: int = Field(
+        default=10,
+        ge=0,
+        le=100,
+        description="Laws for the leaderboard that are measured, one at a time, or wait",
+    )
+    max_jobs_each: int = Field(
+        default=2,
+        ge=1,
+        le=100,
+        description="Jobs of one kind of one student that run or wait. The instructor has a"
+        " reserved place",
+    )
+    job_s: float = Field(
+        default=900.0, ge=1, description="Longest time that a job of a student runs, s"
+    )
+    bench: Path | None = Field(
+        default=None,
+        description="Bench file (TOML) that the shared session drives. If not set, the shared"
+        " session is a simulation",
+    )
+    parameters: Path | None = Field(
+        default=None,
+        description="Parameter file (TOML) from which figures and sessions start. If not set, the"
+        " paper's parameters",
+    )
+    course: Path | None = Field(
+        default=None, description="Folder with exercises in addition to those of the package"
+    )
+    lti: Path | None = Field(
+        default=None, description="File with the learning platforms of a class (docs/lti.md)"
+    )
+    classroom: bool = Field(
+        default=False,
+        description="Class: students join with a name and a class code, and have roles",
+    )
+    idle_operator_s: float = Field(
+        default=90.0,
+        ge=1,
+        description="Time without a command after which the lease of a class passes to the next"
+        " user who waits, s",
+    )
+    hosts: str = Field(
+        default="",
+        description="Host names, separated by commas, that the lab accepts in addition to"
+        " addresses and the names of this machine",
+    )
+    root_path: str = Field(
+        default="",
+        description="Path under which a proxy serves the lab, such as /svsa. The proxy removes it"
+        " from the requests",
+    )
+    quota_mb: float = Field(
+        default=500.0, ge=0, description="Disk space for the runs and studies of one student, MB"
+    )
+    joins: Rate = Field(
+        default="300/minute", description="Joins of one address (a class behind one router has one)"
+    )
+    codes: Rate = Field(
+        default="10/minute", description="Wrong class codes of one address and name"
+    )
+    logins: Rate = Field(
+        default="20/minute",
+        description="Wrong instructor tokens of one address. The right token is always accepted",
+    )
+    commands: Rate = Field(default="50/second", description="Commands of one student")
+    sessions: Rate = Field(default="20/minute", description="New sessions of one student")
+    runs: Rate = Field(default="30/minute", description="New recordings of one student")
 
     @property
     def secret_text(self) -> str | None:
