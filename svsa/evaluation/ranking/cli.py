@@ -88,7 +88,7 @@ def print_table(
 def publish_ranking(
     tree: Annotated[Path, typer.Argument(help="The project's source tree.")] = Path(),
 ) -> None:
-    """Write the laws' pages with their pictures, and the README's table, from the results."""
+    """Write the laws' pages and their index with pictures from the results."""
     require_extra("plot")
     from svsa.evaluation.ranking.publish import publish
 

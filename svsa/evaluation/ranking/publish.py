@@ -1,6 +1,5 @@
-"""What is written from the results: the laws' pages, their index, and the README's table."""
+"""What is written from the results: the laws' pages and their index."""
 
-import re
 from pathlib import Path
 
 from svsa.control.installed import PAPERS_LAW, get_law, get_title
@@ -18,8 +17,6 @@ from svsa.evaluation.ranking.row import Row
 from svsa.evaluation.ranking.table import RECOVERY, format_markdown, format_number
 
 FOLDER = Path("docs") / "laws"
-README = Path("README.md")
-_BLOCK = re.compile(r"(<!-- ranking -->\n).*?(<!-- /ranking -->)", re.DOTALL)
 _NOT_IMPLEMENTED = (
     "## Not implemented",
     "",
@@ -40,12 +37,19 @@ def build_index(results: Results, bench: BenchRuns) -> str:
         "",
         "A page for each, with its idea, equation, needs and results. All run on the same plant,"
         " limits, noise and loads, and tuned with one budget, cost and noise limit"
-        " ([protocol](../decisions/26-evaluation.md)). Rows whose success rates do not differ"
-        " significantly share a rank.",
+        " ([protocol](../explanation/benchmark.md)). Success rates have Wilson's 95 % intervals."
+        " *p* is McNemar's exact test with Holm's correction. Rows whose success rates do not"
+        " differ significantly share a rank. Fixed scenarios run at both signs and eight phases."
+        " *Largest load* is the largest step on the link up to which all 16 variants are held.",
         "",
         "![Position error against stiffness error, effort as size](pictures/pareto.png)",
         "",
         format_markdown(results),
+        "",
+        describe_results(results),
+        "",
+        "![Where NDOBC with the declared gains loses: load removal, a step on the link, a load at"
+        " 2 Hz](pictures/losses.png)",
         "",
         "| law | what it does |",
         "| --- | --- |",
@@ -103,15 +107,8 @@ def _describe_row(row: Row) -> str:
     )
 
 
-def fill_readme(text: str, results: Results) -> str:
-    """The README with table and statements between its marks."""
-    block = f"{format_markdown(results)}\n\n{describe_results(results)}\n\n"
-    provenance = describe_provenance(results)
-    return _BLOCK.sub(lambda m: f"{m[1]}{block}{provenance}\n{m[2]}", text)
-
-
 def publish(root: Path, results: Results, bench: BenchRuns) -> None:
-    """Write pages, index, pictures and the README's table into a source tree."""
+    """Write pages, index and pictures into a source tree."""
     from svsa.evaluation.ranking.picture import save_law, save_losses, save_pareto
 
     pictures = root / FOLDER / "pictures"
@@ -123,5 +120,3 @@ def publish(root: Path, results: Results, bench: BenchRuns) -> None:
     (root / FOLDER / "README.md").write_text(build_index(results, bench), encoding="utf-8")
     save_pareto(results, pictures / "pareto.png")
     save_losses(pictures / "losses.png")
-    readme = (root / README).read_text(encoding="utf-8")
-    (root / README).write_text(fill_readme(readme, results), encoding="utf-8")
