@@ -3,6 +3,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 PORT ?= 8000
 PAGE := backend/svsa_server/page/index.html
+GUIDE := backend/svsa_server/guide
 PAGE_SOURCES := $(shell find frontend/web -path '*/node_modules' -prune -o -type f -print) \
   frontend/scene/svsa_scene/cameras.json
 LOCKED_EXTRAS := server client bench plot nidaqmx xarray cluster lti gym
@@ -23,7 +24,7 @@ COMPILE_AND_TEST_PAGE = $(BIN)/python -m tests.compile_all $(COMPILED) & \
   $(WEB) test && $(MAKE) --no-print-directory .venv/tests; \
   page=$$?; wait $$! && exit $$page
 
-.PHONY: help run dev bench-demo test test-all quick check check-beside-types hooks format page schema lock screenshots ranking benchmark clean
+.PHONY: help run dev bench-demo test test-all quick check check-beside-types hooks format page docs schema lock screenshots ranking benchmark clean
 
 help:  ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 20
@@ -85,6 +86,10 @@ schema: .venv/installed  ## docs/openapi.json, docs/permissions.txt, and the pag
 	$(BIN)/svsa openapi --permissions > docs/permissions.txt
 	$(WEB) run schema
 
+docs: .venv/installed  ## the documentation site, which the lab serves at /docs/guide/
+	$(BIN)/python -m sphinx --fail-on-warning --keep-going --quiet docs docs/_build/html
+	rm -rf $(GUIDE) && cp -r docs/_build/html $(GUIDE)
+
 screenshots: .venv/installed $(PAGE)  ## the README's pictures
 	$(BIN)/python -m tests.browser.screenshots
 
@@ -115,4 +120,4 @@ lock: .venv/installed  ## requirements.lock, every package with its hashes, at t
 	@mv $@.read $@
 
 clean:  ## remove what was installed and built
-	rm -rf .venv backend/svsa_server/page frontend/web/node_modules
+	rm -rf .venv backend/svsa_server/page $(GUIDE) docs/_build docs/reference/generated frontend/web/node_modules

@@ -1,4 +1,4 @@
-"""The built page at `/`, and the documentation of REST and stream at `/docs`."""
+"""The built page at `/`, the interactive schema at `/docs` and the guide at `/docs/guide/`."""
 
 from pathlib import Path
 from urllib.parse import quote
@@ -7,10 +7,12 @@ from starlette.requests import Request
 from starlette.responses import FileResponse, PlainTextResponse, RedirectResponse, Response
 from starlette.routing import BaseRoute, Mount, Route
 from starlette.staticfiles import StaticFiles
+from starlette.types import Scope
 
 from svsa_server.access.permissions import ANYBODY, OBSERVER, allow
 
 PAGE = Path(__file__).parent / "page"
+GUIDE = Path(__file__).parent / "guide"
 PLACES = ("ranking", "falsifier", "grades", "leaderboard", "learn", "runs", "studies")
 """What of the page has an address that people type; the page itself keeps it in its query."""
 
@@ -23,6 +25,24 @@ _HEADERS = {
     "X-Content-Type-Options": "nosniff",
     "Referrer-Policy": "no-referrer",
 }
+_GUIDE_HEADERS = _HEADERS | {
+    # The theme of the guide has scripts and styles in its pages; nothing in them comes from users.
+    "Content-Security-Policy": (
+        "default-src 'self'; script-src 'self' 'unsafe-inline'; style-src 'self' 'unsafe-inline';"
+        " img-src 'self' data:; object-src 'none'; base-uri 'none'; frame-ancestors 'self'"
+    ),
+}
+
+
+class _Guide(StaticFiles):
+    """The built documentation site."""
+
+    async def get_response(self, path: str, scope: Scope) -> Response:
+        if not (GUIDE / "index.html").is_file():
+            return PlainTextResponse("The guide was not built: run `make docs`.", 503)
+        response = await super().get_response(path, scope)
+        response.headers.update(_GUIDE_HEADERS)
+        return response
 
 
 def build_page_routes() -> list[BaseRoute]:
@@ -31,6 +51,7 @@ def build_page_routes() -> list[BaseRoute]:
         Route("/", _serve_index),
         Route("/icon.svg", _serve_icon),
         Route("/docs", _serve_docs),
+        Mount("/docs/guide", allow(ANYBODY)(_Guide(directory=GUIDE, html=True, check_dir=False))),
         *(Route(f"/{place}", _lead_to_place) for place in PLACES),
         Route("/learn/{exercise}", _lead_to_exercise),
         Route("/learn/{exercise}/{step}", _lead_to_exercise),

@@ -1,0 +1,78 @@
+"""Configuration of the documentation site: `make docs`."""
+
+import os
+import re
+import sys
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from sphinx.application import Sphinx
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+# Runs that a tutorial records are not the user's.
+os.environ["SVSA_DATA"] = tempfile.mkdtemp(prefix="svsa-docs-")
+
+from reference_pages import write_reference_pages
+
+from svsa import __version__
+
+project = "SVSA Lab"
+author = "SVSA Lab contributors"
+copyright = author
+version = release = __version__.partition("+")[0]
+language = "en"
+
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
+source_suffix = {".md": "myst-nb", ".ipynb": "myst-nb"}
+exclude_patterns = ["_build", "**/.ipynb_checkpoints"]
+nitpicky = False
+
+myst_enable_extensions = ["colon_fence", "deflist", "fieldlist"]
+myst_heading_anchors = 3
+# Links of a page to files of the repository that are no pages.
+suppress_warnings = ["myst.xref_missing"]
+nb_execution_mode = "cache"
+nb_execution_cache_path = str(Path(__file__).parent / "_build" / "executed")
+nb_execution_raise_on_error = True
+nb_execution_timeout = 300
+
+autodoc_typehints = "description"
+autodoc_member_order = "bysource"
+python_use_unqualified_type_names = True
+
+html_theme = "furo"
+html_title = f"{project} {version}"
+html_show_sourcelink = False
+html_copy_source = False
+html_static_path = ["_static"]
+html_css_files = ["site.css"]
+
+
+def escape_docstring(*arguments: Any) -> None:
+    """Escape what reStructuredText would read as markup: docstrings are plain text.
+
+    An indented block after a paragraph is code.
+    """
+    lines, escaped = arguments[-1], []
+    is_code, last = False, ""
+    for number, line in enumerate(lines):
+        is_indented = line.startswith("    ")
+        begins = is_indented and not lines[number - 1].strip() and not last.endswith(":")
+        if begins and not is_code and not last.startswith(" "):
+            escaped += ["::", ""]
+            is_code = True
+        elif line.strip() and not is_indented:
+            is_code = False
+        escaped.append(line if is_code else re.sub(r"([|*]|_(?=\W|$))", r"\\\1", line))
+        last = line or last
+    lines[:] = escaped
+
+
+def setup(app: Sphinx) -> None:
+    """Install the hook before that of napoleon."""
+    app.connect("autodoc-process-docstring", escape_docstring, priority=100)
+
+
+write_reference_pages(Path(__file__).parent / "reference" / "generated")

@@ -1,0 +1,37 @@
+"""The documentation site at /docs/guide/."""
+
+from pathlib import Path
+
+import pytest
+
+from svsa_server import page
+from tests.lab_in_process import run_lab_in_process
+
+
+@pytest.fixture
+def guide(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setattr(page, "GUIDE", tmp_path)
+    return tmp_path
+
+
+def test_the_built_guide_is_served_with_a_policy_that_loads_nothing_from_elsewhere(guide: Path):
+    (guide / "howto").mkdir()
+    (guide / "index.html").write_text("<h1>SVSA Lab</h1>")
+    (guide / "howto/add_friction.html").write_text("<h1>Add friction</h1>")
+    with run_lab_in_process() as lab:
+        start = lab.client.get("/docs/guide/")
+        deeper = lab.client.get("/docs/guide/howto/add_friction.html")
+        missing = lab.client.get("/docs/guide/nothing.html")
+        outside = lab.client.get("/docs/guide/..%2f..%2fetc/passwd")
+    assert "SVSA Lab" in start.text
+    assert "Add friction" in deeper.text
+    for answer in (start, deeper):
+        assert answer.headers["content-security-policy"].startswith("default-src 'self';")
+    assert (missing.status_code, outside.status_code) == (404, 404)
+
+
+def test_a_guide_that_was_not_built_names_the_command(guide: Path):
+    with run_lab_in_process() as lab:
+        answer = lab.client.get("/docs/guide/")
+    assert answer.status_code == 503
+    assert "make docs" in answer.text
