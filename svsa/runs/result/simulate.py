@@ -1,6 +1,7 @@
 """A whole run at once, as fast as it goes."""
 
 from collections.abc import Sequence
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Unpack
 
@@ -13,6 +14,7 @@ from svsa.inputs.checked import check_number
 from svsa.runs.change import Change, build_commands
 from svsa.runs.configuration import Configuration, Design
 from svsa.runs.experiment import build_experiment
+from svsa.runs.law_object import begin_run
 from svsa.runs.paper import DURATION_S
 from svsa.runs.replay import STRETCH_TICKS, play
 from svsa.runs.result.progress import Follow, follow_progress
@@ -29,7 +31,7 @@ _OWN_STRETCH_TICKS = 1_000
 
 def simulate(
     experiment: str | Configuration = "4a",
-    law: LawChoice | Controller | None = None,
+    law: LawChoice | Controller | type[object] | None = None,
     *,
     duration_s: float = DURATION_S,
     steps: int = 1,
@@ -40,18 +42,30 @@ def simulate(
 ) -> Result:
     """Simulate a run from rest and return everything that happened.
 
-    experiment: a figure of the paper ("4a", "4b", "5") or a `Configuration`. law: the name of one
-    that is installed ("ndobc", "fl", …), or a function (`Controller`): time in s, `Reference`, x̂
-    as `State`, ŵ as `Disturbance` → (u1, u2) in N·m; measured and applied where it names them.
-    duration_s: s. steps: Runge–Kutta steps a control period. commands: what is changed while it
-    runs, such as `svsa.Change(at_s=5.0, law="fl")`. parameters: a parameter file, such as
-    `svsa identify` writes, or its `Design`, instead of the experiment's own. progress: called with
-    the share that is done, 0 to 1; without it, a run of more than a second shows a bar if standard
-    error is a terminal. changes: fields of the configuration to replace, e.g. position, stiffness,
-    loads, gains, observer, limits, actuator, nominal, comparisons, effects, seed.
+    Args:
+        experiment: A figure of the paper ("4a", "4b", "5") or a `Configuration`.
+        law: Name of an installed law ("ndobc", "fl", …); a function (time in s, `Reference`, x̂ as
+            `State`, ŵ as `Disturbance`) -> (u1, u2) in N·m, which may also name `measured` and
+            `applied`; or a class of objects that are called like that, one for each run. An object
+            with a method `reset` is reset at the start of each run.
+        duration_s: Duration of the run, s.
+        steps: Runge–Kutta steps in a control period.
+        commands: Changes while the run goes on, such as `svsa.Change(at_s=5.0, law="fl")`.
+        parameters: Parameter file, such as `svsa identify` writes, or its `Design`, instead of
+            those of the experiment.
+        progress: Called with the share that is done, 0 to 1. Without it, a run of more than a
+            second shows a bar if standard error is a terminal.
+        changes: Fields of the configuration to replace: position, stiffness, loads, gains,
+            observer, limits, actuator, nominal, comparisons, effects, seed.
 
-    Raises `ParameterError` for a value out of range, `KeyboardInterrupt` at Ctrl-C. A run that
-    leaves the domain of the model ends early: see `Result.fault`.
+    Returns:
+        The samples of all ticks, metrics, and of each comparison the same. A run that leaves the
+        domain of the model ends early: see `Result.fault`.
+
+    Raises:
+        ParameterError: For a value out of range, or an unknown keyword.
+        StateError: If a law object without `reset` has the state of an earlier run.
+        KeyboardInterrupt: At Ctrl-C.
     """
     own = law if callable(law) else None
     named = {} if law is None or own else {"law": law}
@@ -62,11 +76,14 @@ def simulate(
     if not isinstance(steps, int):
         raise ParameterError(Violation("steps", steps, "", "a whole number"))
     given = build_commands(commands, period, duration_s)
-    run = Run(configuration, steps, own)
     ticks = round(duration_s / period)
-    samples = np.empty((len(run.lanes), ticks, len(CHANNELS)))
     stretch = STRETCH_TICKS if own is None else _OWN_STRETCH_TICKS
-    with follow_progress("Simulating", progress) as follow:
+    with (
+        nullcontext() if own is None else begin_run(own) as controller,
+        follow_progress("Simulating", progress) as follow,
+    ):
+        run = Run(configuration, steps, controller)
+        samples = np.empty((len(run.lanes), ticks, len(CHANNELS)))
         for reached, _ in play(run, given, ticks, samples, stretch):
             follow(reached.tick / ticks)
     laws = [
