@@ -54,8 +54,10 @@ from svsa.simulation.reference.series_csv import read_series
 
 if TYPE_CHECKING:
     from svsa.analysis import design
+    from svsa.analysis.identification.measured import identify
     from svsa.client import connect, connect_async
     from svsa.evaluation import falsifier as falsify
+    from svsa.evaluation.studies.run import run_study
     from svsa.evaluation.sweep import sweep
     from svsa.evaluation.tuning.tuner import tune
     from svsa.runs.environment import ActuatorEnv
@@ -81,6 +83,8 @@ _LATE = {
     "save_run": "svsa.runs.result.saved",
     "sweep": "svsa.evaluation.sweep",
     "tune": "svsa.evaluation.tuning.tuner",
+    "identify": "svsa.analysis.identification.measured",
+    "run_study": "svsa.evaluation.studies.run",
     **dict.fromkeys(
         ("compare_runs", "export_run", "open_run", "resimulate", "list_runs"),
         "svsa.runs.result.recorded",
@@ -153,6 +157,7 @@ __all__ = [
     "design",
     "export_run",
     "falsify",
+    "identify",
     "list_runs",
     "load_prototype",
     "open_run",
@@ -161,6 +166,7 @@ __all__ = [
     "read_series",
     "reproduce",
     "resimulate",
+    "run_study",
     "sample_reference",
     "save_run",
     "simulate",

@@ -1,4 +1,4 @@
-"""`svsa identify`: from a recorded run to a parameter file."""
+"""`svsa identify`: from a recorded run or a CSV file to a parameter file."""
 
 import json
 from pathlib import Path
@@ -14,26 +14,49 @@ if TYPE_CHECKING:
 
 
 def identify(
-    run: Annotated[str, typer.Argument(help="Id of a run in the catalogue, or a record's folder.")],
+    run: Annotated[
+        str,
+        typer.Argument(
+            metavar="RUN",
+            help="Id of a run in the catalogue, a record's folder, or a CSV file of one's own.",
+        ),
+    ],
     output: Annotated[Path, typer.Option(help="Parameter file to write.")] = Path(
         "identified.toml"
     ),
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the numbers as JSON, write no file.")
     ] = False,
+    stiffness: Annotated[
+        float | None,
+        typer.Option(help="Of a CSV file: stiffness without deflection in its first row, N·m/rad."),
+    ] = None,
+    parameters: Annotated[
+        Path | None,
+        typer.Option(help="Of a CSV file: parameter file with the known radius and γ."),
+    ] = None,
 ) -> None:
-    """Estimate inertias, dampings, spring and friction from a recorded run."""
-    from svsa.analysis.identification import identify as identification
+    """Estimate inertias, dampings, spring and friction from a recorded run or a CSV file.
+
+    The CSV file has the columns time_s, motor1_position_rad, motor2_position_rad, deflection_rad
+    (or _deg each), torque1_nm and torque2_nm, measured without a load in equal steps.
+    """
+    from svsa.analysis.identification.measured import identify as identify_measured
     from svsa.runs.configuration import write_design
     from svsa.runs.records.header import describe_newer
     from svsa.runs.result.recorded import find_record
 
-    record = find_record(run)
-    if newer := describe_newer(record.header.version):
+    is_csv = run.lower().endswith(".csv")
+    if not is_csv and (newer := describe_newer(find_record(run).header.version)):
         Console(stderr=True).print(f"Note: {newer}", highlight=False, markup=False)
     with Progress(console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task("Identifying", total=1.0)
-        found = identification.identify(record, lambda done: bar.update(task, completed=done))
+        found = identify_measured(
+            run,
+            parameters=parameters,
+            stiffness_nm_per_rad=stiffness,
+            progress=lambda done: bar.update(task, completed=done),
+        )
     if as_json:
         typer.echo(json.dumps(found.to_json(), indent=2))
         return

@@ -108,20 +108,33 @@ class Identification(NamedTuple):
 
 
 def identify(record: Record, progress: Progress = lambda _: None) -> Identification:
-    """Identify the actuator from the first lane of a record, by output error.
+    """Identify the actuator from the first lane of a record; see `identify_evidence`."""
+    return identify_evidence(read_evidence(record), record.header.run_id, progress)
 
-    Radius, γ, μ0 and the scale of the torques are taken as known; inertias, dampings, spring
-    and friction are found in proportion to that scale. Raises `IdentificationError` where
-    the run cannot be used. progress: told the share of the work that is done.
+
+def identify_evidence(
+    evidence: Evidence, run_id: str, progress: Progress = lambda _: None
+) -> Identification:
+    """Identify the actuator by output error.
+
+    Radius, γ, μ0 and the scale of the torques are taken as known. Inertias, dampings, spring and
+    friction are found in proportion to that scale.
+
+    Args:
+        evidence: Measured angles and torques.
+        run_id: The run, or the file of the measurement, for messages.
+        progress: Called with the share of the work that is done.
+
+    Raises:
+        IdentificationError: If the run cannot be used.
     """
-    evidence = read_evidence(record)
     found = fit(evidence, progress)
     noise = np.maximum(guess_noise(evidence), _MIN_NOISE_RAD)
     misfit = float(np.max(found.residual / noise))
     if misfit > LARGEST_MISFIT:
         raise IdentificationError(
             f"The model leaves {misfit:.0f} times the noise of the sensors unexplained in run"
-            f" {record.header.run_id}: was there a load, a contact or a wrong geometry?"
+            f" {run_id}: was there a load, a contact or a wrong geometry?"
         )
     from scipy.stats import t as student  # late: it takes a while
 
@@ -139,7 +152,7 @@ def identify(record: Record, progress: Progress = lambda _: None) -> Identificat
     piece = evidence.length * evidence.setting.period
     theta1, theta2, phi = found.residual.tolist()
     return Identification(
-        run_id=record.header.run_id,
+        run_id=run_id,
         configuration=evidence.configuration,
         estimates=estimates,
         residual_rad=(theta1, theta2, phi),

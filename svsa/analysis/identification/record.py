@@ -77,7 +77,7 @@ def read_evidence(record: Record) -> Evidence:
     loaded = np.zeros(len(rows), bool)
     for load in list_loads(configuration, commands):
         loaded[(ticks >= load.start_tick) & (ticks < load.end_tick)] = True
-    segments = _find_segments(~(loaded | missed), length)
+    segments = find_segments(~(loaded | missed), length)
     if len(segments) < MIN_SEGMENTS:
         raise IdentificationError(
             f"Run {record.header.run_id} has {len(segments) * SEGMENT_S:g} s without a load:"
@@ -85,17 +85,8 @@ def read_evidence(record: Record) -> Evidence:
         )
     a = configuration.actuator
     mu0 = rows[0, 5] - compute_lever_ratio(rows[0, 1], 0.0, a.spiral_reduction)
-    known = build_actuator(a, mu0)
     effects = configuration.effects
-    lag = effects.current_lag.time_constant_s if effects.current_lag else 0.0
-    setting = Setting(
-        known.gamma,
-        known.mu0,
-        known.reaction,
-        period,
-        NO_EFFECTS._replace(current_lag=lag),
-        UNLOADED,
-    )
+    setting, lag = build_setting(configuration, mu0, period)
     angles, torques = np.ascontiguousarray(rows[:, :3]), np.ascontiguousarray(rows[:, 3:5])
     if not is_measured:
         true = angles.copy()
@@ -107,6 +98,21 @@ def read_evidence(record: Record) -> Evidence:
         )
     torques = build_torques(torques, is_measured, lag, period)
     return Evidence(configuration, setting, angles, torques, segments, length, int(np.sum(loaded)))
+
+
+def build_setting(
+    configuration: Configuration, mu0: float, period_s: float
+) -> tuple[Setting, float]:
+    """What is known of the plant, and the time constant of its current loop, s.
+
+    mu0: lever ratio at θ2 = 0.
+    """
+    known = build_actuator(configuration.actuator, mu0)
+    lag = configuration.effects.current_lag
+    constant = lag.time_constant_s if lag else 0.0
+    effects = NO_EFFECTS._replace(current_lag=constant)
+    setting = Setting(known.gamma, known.mu0, known.reaction, period_s, effects, UNLOADED)
+    return setting, constant
 
 
 def _hold(rows: np.ndarray, missed: np.ndarray) -> np.ndarray:
@@ -149,7 +155,7 @@ def _find_plant(
     return configuration
 
 
-def _find_segments(free: np.ndarray, length: int) -> np.ndarray:
+def find_segments(free: np.ndarray, length: int) -> np.ndarray:
     """First rows of the whole pieces of `length` rows in the free stretches."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], free, [False]]).astype(int)))
     stretches = zip(edges[::2], edges[1::2], strict=True)

@@ -8,7 +8,7 @@ import pytest
 
 import svsa
 from svsa.actuators.signals import CHANNEL_INDEX
-from svsa.analysis.identification import identify as identification
+from svsa.analysis.identification import measured
 from svsa.analysis.identification.cli import identify as identify_command
 from svsa.analysis.identification.identify import ACTUATOR, identify
 from svsa.analysis.identification.kernel import compute_shifted_torque
@@ -242,7 +242,7 @@ def test_the_command_writes_a_design_that_can_be_read(
     recorder.write_samples(0, samples[:10, None, :])
     recorder.close()
     monkeypatch.setenv("SVSA_DATA", str(tmp_path / "data"))
-    monkeypatch.setattr(identification, "identify", lambda record, progress: found)
+    monkeypatch.setattr(measured, "identify_record", lambda record, progress: found)
     output = tmp_path / "found.toml"
     identify_command(record.header.run_id, output)
     design = read_design(output)

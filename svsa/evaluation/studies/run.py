@@ -1,0 +1,58 @@
+"""A study from Python: run it, or continue it, and read its rows."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rich.console import Console
+
+from svsa.errors import ParameterError, Violation
+from svsa.evaluation.progress_bar import show_progress
+from svsa.evaluation.studies.execution import WORKERS
+from svsa.evaluation.studies.execution import run_study as run_stored
+from svsa.evaluation.studies.file import read_study
+from svsa.evaluation.studies.store import keep_study, read_rows
+from svsa.evaluation.studies.study import Study
+from svsa.inputs.checked import check_number
+
+if TYPE_CHECKING:
+    import pandas
+
+
+def run_study(
+    source: Study | Path | str,
+    *,
+    name: str | None = None,
+    runs: int | None = None,
+    workers: int = WORKERS,
+) -> "pandas.DataFrame":
+    """Run a study and return a row of settings and metrics for each run.
+
+    A study of the same name that was interrupted continues. Ctrl-C keeps what is done, and the
+    rows that are done are returned.
+
+    Args:
+        source: File (.toml or .py), name of a built-in study, or a `Study`.
+        name: Name to save it by, in the folder of studies; that of the file if left out.
+        runs: Samples, instead of the file's.
+        workers: Processes; 0 runs it in this one. On platforms that start processes anew, the
+            calling script needs `if __name__ == "__main__":`.
+
+    Returns:
+        A frame with a column for each setting that varies, the law, the outcome and each metric, in
+        SI units.
+
+    Raises:
+        ParameterError: For a file that cannot be read, a wrong value, or a `Study` without a name.
+        StudyError: If another study has the name, or another process works at it.
+    """
+    check_number("workers", workers, "", 0, 256)
+    if isinstance(source, Study):
+        if name is None:
+            raise ParameterError(Violation("name", None, "", "given with a `Study`"))
+        known, study = name, source if runs is None else source.changed(runs=runs)
+    else:
+        known, study = read_study(source, runs)
+    stored = keep_study(name or known, study)
+    with show_progress(Console(stderr=True), stored.name, study.row_count) as report:
+        run_stored(stored, workers, progress=lambda done, _: report(done, ""))
+    return read_rows(stored).to_pandas()
