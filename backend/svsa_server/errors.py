@@ -121,7 +121,7 @@ def _refuse_request(request: Request, error: RequestValidationError) -> JSONResp
             found = json.JSONDecodeError(problem["ctx"]["error"], str(error.body), rest[0])
             place = f"line {found.lineno}, column {found.colno}"
             detail = f"The body is no JSON: {found.msg} at {place}."
-            return answer_problem(422, "malformed_json", detail)
+            return answer_problem(400, "malformed_json", detail)
         (body if where == "body" else others).append(problem | {"loc": rest})
     given, wanted = request.headers.get("content-type"), _find_media_type(request)
     if body and isinstance(error.body, bytes) and (given or "").partition(";")[0] != wanted:
@@ -146,13 +146,13 @@ def _refuse_route(request: Request, error: HTTPException) -> JSONResponse:
     path, status = request.url.path[:LONGEST_ECHO], error.status_code
     headers = error.headers
     if status == 404:
-        kind, message = "not_found", f"There is nothing at {path}; /docs has all there is."
+        kind, message = "not_found", f"Not found: {path}. /docs lists all routes."
     elif status == 405:
         allowed, kind = ", ".join(_find_allowed(request)), "method_not_allowed"
         headers = {"Allow": allowed}
         message = f"{request.method} is not possible at {path}, but {allowed} is."
     elif status == 400:
-        status, kind = 422, "malformed_json"
+        kind = "malformed_json"
         message = "The body is no JSON that can be read: it is not UTF-8, or nested too deeply."
     else:
         kind, message = "too_large" if status == 413 else "refused", str(error.detail)

@@ -26,6 +26,20 @@ _METHODS = ("get", "put", "post", "patch", "delete")
 _PROBLEM = {"schema": {"$ref": "#/components/schemas/Problem"}}
 
 
+_LINKS = {
+    "SessionState": {"read_session": ("session", "/session")},
+    "FalsificationState": {"read_falsification": ("falsification", "/id")},
+    "TuningState": {"read_tuning": ("tuning", "/id")},
+    "StudyState": {"read_study": ("study", "/name"), "read_job": ("job", "/job/id")},
+    "JobState": {"read_job": ("job", "/id")},
+    "SubmissionState": {"read_job": ("job", "/job/id")},
+    "RowReplay": {"read_run": ("run_id", "/run_id")},
+}
+"""By the answer of an operation that creates something: which operations read it, and their
+parameter with its place in the answer."""
+_MORE_LINKS = {"start_recording": {"read_run": ("run_id", "/recording/run_id")}}
+"""Likewise by the operation itself."""
+
 _TAGS = [
     {"name": name}
     for name in (
@@ -82,6 +96,7 @@ def _complete(
                 permission = permissions.find(method.upper(), path).permission
                 item[method][PERMISSION] = permission.word
                 _complete_operation(item[method], needs_secret and permission != ANYBODY)
+                _link(item[method])
                 if method.upper() in CHANGING:
                     _declare_key(item[method])
     return schema
@@ -106,6 +121,23 @@ def _complete_operation(operation: dict[str, Any], needs_secret: bool) -> None:
     if "requestBody" in operation:
         answers["400"] = _describe("The body is no JSON")
         answers["413"] = _describe(f"The body is longer than {LONGEST_BODY_BYTES} bytes")
+
+
+def _link(operation: dict[str, Any]) -> None:
+    """Link what creates something to what reads it."""
+    for status in ("200", "201"):
+        answer = operation["responses"].get(status, {})
+        body = answer.get("content", {}).get("application/json", {}).get("schema", {})
+        created = body.get("$ref", "").rpartition("/")[2] if status == "201" else ""
+        found = _LINKS.get(created, {}) | _MORE_LINKS.get(operation["operationId"], {})
+        if found and status in operation["responses"]:
+            answer["links"] = {
+                target: {
+                    "operationId": target,
+                    "parameters": {name: f"$response.body#{place}"},
+                }
+                for target, (name, place) in found.items()
+            }
 
 
 def _declare_key(operation: dict[str, Any]) -> None:

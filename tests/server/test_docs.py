@@ -134,3 +134,32 @@ def test_an_address_that_people_type_leads_to_its_place_in_the_page(
     assert answer.headers["content-type"].startswith("text/html")
     assert answer.url.path == "/"
     assert place in answer.url.params
+
+
+def test_what_creates_something_links_to_what_reads_it() -> None:
+    read = {
+        operation["operationId"]: [one["name"] for one in operation.get("parameters", [])]
+        for item in SCHEMA["paths"].values()
+        for operation in [item.get("get", {"operationId": ""})]
+    }
+    linked: dict[str, set[str]] = {}
+    for item in SCHEMA["paths"].values():
+        for operation in item.values():
+            answer = operation["responses"].get("201", {})
+            for link in answer.get("links", {}).values():
+                (name,) = link["parameters"]
+                assert name in read[link["operationId"]], operation["operationId"]
+                linked.setdefault(operation["operationId"], set()).add(link["operationId"])
+    assert linked["create_session"] == {"read_session"}
+    assert linked["start_recording"] == {"read_session", "read_run"}
+    assert linked["start_study"] == {"read_study", "read_job"}
+    assert len(linked) >= 14
+
+
+def test_a_link_leads_from_a_new_session_to_its_state(lab: Lab) -> None:
+    answer = SCHEMA["paths"]["/api/v1/sessions"]["post"]["responses"]["201"]
+    place = answer["links"]["read_session"]["parameters"]["session"].rpartition("/")[2]
+    created = lab.client.post("/api/v1/sessions", json={}).raise_for_status().json()
+    read = lab.client.get(f"/api/v1/sessions/{created[place]}").raise_for_status().json()
+    assert read["session"] == created["session"]
+    lab.client.delete(f"/api/v1/sessions/{created[place]}").raise_for_status()
