@@ -40,6 +40,9 @@ def _simulate(configuration: Configuration) -> None:
     for law in list_law_names():
         svsa.simulate("4a", law, duration_s=0.01)
     svsa.simulate("4a", lambda time_s, reference, x, w: (0.0, 0.0), duration_s=0.01)
+    stepper = svsa.Stepper(configuration)
+    stepper.reset()
+    stepper.step((0.0, 0.0))
     run_configurations([configuration], 0.01)
     x = State(0.1, 0.0, 0.1, 0.0, 0.0, 0.0)
     run = Run(configuration, start=Start(0.1, x))
