@@ -80,6 +80,7 @@ NO_IDS_THERE = {
 """The same, where the name alone does not say it."""
 NOT_IN_THE_SCHEMA = {
     "/assets/{path:path}": "files of the page",
+    "/docs/guide/{path:path}": "pages of the guide",
     "/learn/{exercise}": "the page",
     "/learn/{exercise}/{step}": "the page",
     "/viser/{session}": "checked as it is in the schema (see `test_owned_ids`)",

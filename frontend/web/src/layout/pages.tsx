@@ -93,6 +93,11 @@ export function PagesMenu() {
               </button>
             </li>
             <li>
+              <a href="docs/guide/" target="_blank" rel="noopener" onClick={close}>
+                <Entry name="guide" />
+              </a>
+            </li>
+            <li>
               <a href="docs" target="_blank" rel="noopener" onClick={close}>
                 <Entry name="docs" />
               </a>

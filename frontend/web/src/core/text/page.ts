@@ -10,7 +10,7 @@ export const pageText = {
   pages: {
     open: "Pages",
     openHint:
-      "Learn, runs, ranking, leaderboard, studies, falsifier, tuning, and the documented routes",
+      "Learn, runs, ranking, leaderboard, studies, falsifier, tuning, the guide, and the documented routes",
     names: {
       lab: "Lab",
       learn: "Learn",
@@ -21,6 +21,7 @@ export const pageText = {
       studies: "Studies",
       falsifier: "Falsifier",
       tune: "Tune …",
+      guide: "Guide",
       docs: "REST and stream",
     },
     hints: {
@@ -33,6 +34,7 @@ export const pageText = {
       studies: "Many perturbed runs of every law: how often they succeed, and what decides it",
       falsifier: "Search the load that hurts a law most, and put any law through it",
       tune: "Search a law's parameters on five training runs",
+      guide: "Tutorials, how-to guides, explanations and reference, in a new tab",
       docs: "What a script can do here, in a new tab",
     },
   },
