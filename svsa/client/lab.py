@@ -132,7 +132,7 @@ class Lab(Remote):
     def experiment(
         self, shared: bool, seed: int = 0, **settings: Any
     ) -> AbstractContextManager[RemoteSession]:
-        """`operate`, or `private` with this seed; the noise of the shared session is its own."""
+        """`operate`, or `new_session` with this seed; the shared session has its own noise."""
         return self.operate(**settings) if shared else self.new_session(seed=seed, **settings)
 
     def run(

@@ -8,6 +8,8 @@ from typing import Protocol
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
+LINE_S = 10.0
+
 
 class Report(Protocol):
     """What `show_progress` yields."""
@@ -20,7 +22,7 @@ class Report(Protocol):
 def show_progress(
     console: Console, description: str, total: int | None = None, unit: str = "runs"
 ) -> Iterator[Report]:
-    """Show a bar until the work ends.
+    """Show a bar until the work ends; where the console is no terminal, a line every 10 s.
 
     Args:
         console: Where the bar is shown.
@@ -42,6 +44,7 @@ def show_progress(
     with Progress(*columns, console=console, transient=True) as bar:
         task = bar.add_task(description, total=total, rate=compiling)
         first: list[tuple[float, float]] = []
+        printed = [time.monotonic()]
 
         def report(done: float, description: str = "", total: int | None = None) -> None:
             first.append((time.monotonic(), done))
@@ -50,5 +53,10 @@ def show_progress(
             text = description or bar.tasks[task].description
             bar.update(task, completed=done, description=text, rate=rate, total=total)
             del first[1:]
+            if not console.is_terminal and time.monotonic() - printed[0] >= LINE_S:
+                printed[0] = time.monotonic()
+                of = bar.tasks[task].total
+                share = f"{done:g}" if of is None else f"{done:g} of {of:g}"
+                console.print(f"{text}: {share} {unit} {rate}".rstrip(), highlight=False)
 
         yield report

@@ -1,0 +1,28 @@
+"""The progress of long work where nobody sees a bar."""
+
+import io
+
+from rich.console import Console
+
+from svsa.evaluation import progress_bar
+from svsa.evaluation.progress_bar import show_progress
+
+
+def test_a_pipe_gets_lines_with_count_and_total(monkeypatch):
+    monkeypatch.setattr(progress_bar, "LINE_S", 0.0)
+    pipe = io.StringIO()
+    with show_progress(Console(file=pipe), "Practice", 200) as report:
+        report(0)
+        report(50)
+        report(200, "Hidden trials")
+    lines = pipe.getvalue().splitlines()
+    assert any(line.startswith("Practice: 50 of 200 runs") for line in lines)
+    assert any(line.startswith("Hidden trials: 200 of 200 runs") for line in lines)
+
+
+def test_a_pipe_gets_no_line_before_its_time():
+    pipe = io.StringIO()
+    with show_progress(Console(file=pipe), "Short", 2) as report:
+        report(1)
+        report(2)
+    assert "of 2" not in pipe.getvalue()
