@@ -8,6 +8,7 @@ share their names. A process of its own, since examples interrupt it and start a
 
 import contextlib
 import io
+import signal
 import sys
 from pathlib import Path
 
@@ -42,4 +43,6 @@ def run_page(path: Path, address: str) -> int:
 
 
 if __name__ == "__main__":
+    # A shell starts what runs in the background with an interrupt that is ignored.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     assert run_page(Path(sys.argv[1]), sys.argv[2]), "the page has no block to run"

@@ -10,7 +10,7 @@ import pytest
 from tests.lab import Lab
 
 ROOT = Path(__file__).parents[2]
-TIMEOUT_S = 900.0
+TIMEOUT_S = 400.0
 
 
 @pytest.mark.exhaustive
