@@ -53,7 +53,7 @@ def join(page: Page, name: str, code: str | None = None) -> None:
     page.get_by_label("Your name").fill(name)
     if code is not None:
         page.get_by_label("Class code").fill(code)
-    page.get_by_role("button", name="Join").click()
+    page.get_by_role("button", name="Join", exact=True).click()
     expect(find_control(page)).to_be_visible()
 
 
@@ -69,7 +69,7 @@ def test_two_students_join_wait_and_hand_over(open_page, room: Room) -> None:
     ada = open_page()
     ada.get_by_label("Your name").fill("Ada")
     ada.get_by_label("Class code").fill("XXXX-XXXX")
-    ada.get_by_role("button", name="Join").click()
+    ada.get_by_role("button", name="Join", exact=True).click()
     expect(ada.get_by_text("That is not the code of this class.")).to_be_visible()
     expect_no_violation(ada, WIDE, PHONE)
     ada.set_viewport_size({"width": 1280, "height": 720})

@@ -79,9 +79,11 @@ export function App() {
           <a class="skip" href="#plots">
             {text.skip}
           </a>
-          <a class="skip" href="#controls">
-            {text.skipToControls}
-          </a>
+          {(at.kind !== "learn" || hasFreeSettings.value) && (
+            <a class="skip" href="#controls">
+              {text.skipToControls}
+            </a>
+          )}
         </>
       )}
       <TopBar />
