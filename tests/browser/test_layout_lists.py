@@ -52,7 +52,7 @@ def test_a_low_list_of_plots_shows_whole_ones_and_says_how_many_are_below(visite
 
 
 @pytest.mark.parametrize("visited", ["simulation"], indirect=True)
-def test_a_list_of_plots_shows_whole_ones_where_legends_have_two_rows(
+def test_a_legend_of_many_controllers_has_one_row_and_plots_stay_whole(
     visited: Page, still_lab: Lab
 ) -> None:
     """Controllers that followed one another, each with its entry in every legend."""
@@ -68,14 +68,11 @@ def test_a_list_of_plots_shows_whole_ones_where_legends_have_two_rows(
     expect(entries).to_have_count(6)
     visited.locator(".plots-scroll").evaluate("part => part.scrollTo({ top: 0 })")
 
-    def are_whole_below_two_rows() -> bool:
-        foot = get_box(visited.locator(".plots-foot"))["y"]
-        last = get_box(visited.locator(".plots-stage > .plot").last)["y"]
-        is_high = get_box(visited.locator(".plot-head").first)["height"] > 40
-        return is_high and last >= foot - 1 and visited.evaluate(WHOLE_PLOTS)
+    def are_whole_below_one_row() -> bool:
+        is_low = get_box(visited.locator(".plot-head").first)["height"] <= 40
+        return is_low and bool(visited.evaluate(WHOLE_PLOTS))
 
-    until(visited, are_whole_below_two_rows)
-    expect(visited.get_by_role("button", name=re.compile("more plots? below"))).to_be_visible()
+    until(visited, are_whole_below_one_row)
 
 
 # What a recording of before has left says so for 20 s.
