@@ -4,20 +4,17 @@ Each page is a function that returns Markdown; `PAGES` names them.
 """
 
 import json
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from importlib.metadata import entry_points
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
-from typing import Any
 
-import typer.main
+from interface_pages import write_commands, write_rest, write_stream
+from markdown_table import NONE, format_table
 from pydantic import BaseModel
 from pydantic_core import to_jsonable_python
-from typer.cli import get_docs_for_click
 
 from svsa.actuators.faults import FAULTS
 from svsa.actuators.parameters import ActuatorParameters, Limits
 from svsa.actuators.signals import CHANNELS
-from svsa.cli import app
 from svsa.control.gains import Gains
 from svsa.control.installed import get_law, get_title, has_own_parameters, list_law_names
 from svsa.hardware.file import (
@@ -33,21 +30,6 @@ from svsa.simulation.plant.effects import EFFECTS, Effects
 from svsa.simulation.plant.loads import LOADS
 from svsa.simulation.reference.kinds import POSITIONS, STIFFNESSES
 from svsa_server.config import Settings
-from svsa_server.schemas.lab.stream import describe_stream
-from svsa_server.sessions.cursor import BATCH_PERIOD_S
-
-OPENAPI = Path(__file__).with_name("openapi.json")
-METHODS = ("get", "put", "post", "patch", "delete")
-NONE = "–"
-
-
-def format_table(heads: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
-    """A Markdown table; a bar inside a cell is escaped."""
-    lines = [heads, ["---"] * len(heads), *rows]
-    return "\n".join(
-        "| " + " | ".join(str(cell).replace("|", "\\|").replace("\n", " ") for cell in line) + " |"
-        for line in lines
-    )
 
 
 def _format_default(value: object) -> str:
@@ -233,62 +215,6 @@ def write_bench_file() -> str:
     ]
     parts += [f"## `[{name}]`\n\n{format_fields(model)}\n" for name, model in sections.items()]
     return "\n".join(parts)
-
-
-def write_commands() -> str:
-    """The command line."""
-    command = typer.main.get_command(app)
-    for entry in entry_points(group="svsa.commands"):
-        if entry.name not in command.commands:  # pyright: ignore[reportAttributeAccessIssue]
-            app.command(entry.name)(entry.load())
-    command = typer.main.get_command(app)
-    context = command.context_class(command, info_name="svsa")
-    text = get_docs_for_click(obj=command, ctx=context, name="svsa", title="Commands")
-    return text.replace("&#x27;", "'")
-
-
-def write_rest() -> str:
-    """Every operation of the REST interface."""
-    schema = json.loads(OPENAPI.read_text(encoding="utf-8"))
-    grouped: dict[str, list[str]] = {tag["name"]: [] for tag in schema["tags"]}
-    for path, item in schema["paths"].items():
-        for method in METHODS:
-            if method in item:
-                tag = item[method].get("tags", ["other"])[0]
-                grouped.setdefault(tag, []).append(_format_operation(method, path, item[method]))
-    groups = "\n".join(
-        f"## {tag.capitalize()}\n\n" + "\n".join(rows) for tag, rows in grouped.items() if rows
-    )
-    return f"""# REST and stream
-
-Addresses are relative to the lab. Bodies and answers are JSON in SI units; errors are problems of
-RFC 9457. The running
-lab has the same list with every field and a form to try it under `/docs`, and the schema under
-`/openapi.json`.
-
-{groups}
-"""
-
-
-def _format_operation(method: str, path: str, operation: Mapping[str, Any]) -> str:
-    permission = operation.get("x-permission", NONE)
-    answers = ", ".join(operation["responses"])
-    text = operation.get("description", "").strip() or operation.get("summary", "")
-    named = [
-        (f"`{one['name']}`", one["in"], one.get("description", NONE))
-        for one in operation.get("parameters", [])
-        if one["in"] == "query"
-    ]
-    table = f"\n\n{format_table(('parameter', 'in', 'meaning'), named)}" if named else ""
-    return (
-        f"### `{method.upper()} {path}`\n\n{text}\n\n"
-        f"Permission: {permission}. Status codes: {answers}.{table}\n"
-    )
-
-
-def write_stream() -> str:
-    """The messages of the stream."""
-    return f"# Stream of samples\n\n{describe_stream(BATCH_PERIOD_S)}\n"
 
 
 PAGES: dict[str, Callable[[], str]] = {

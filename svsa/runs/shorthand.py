@@ -164,7 +164,7 @@ def read_setting(name: str, given: Any, present: Any) -> Any:
 
 
 def _spell_out(name: str, given: Any) -> Any:
-    """A number or a name as the value that it stands for."""
+    """Replace a number or a name by the value that it abbreviates."""
     is_number = isinstance(given, int | float) and not isinstance(given, bool)
     try:
         match name:

@@ -12,31 +12,26 @@ import signal
 import sys
 from pathlib import Path
 
-from markdown_it import MarkdownIt
-
-LAB = "http://127.0.0.1:8000"
-"""The address of the lab in the documentation."""
+from tests.docs.guide import LAB, read_blocks
 
 
 def run_page(path: Path, address: str) -> int:
     """Run a page; return the number of its blocks. Raises `AssertionError` for another output."""
     names: dict[str, object] = {"__name__": "__main__"}
     printed, line, count = "", 0, 0
-    for token in MarkdownIt().parse(path.read_text(encoding="utf-8")):
-        if token.type != "fence" or token.map is None:
-            continue
-        if token.info == "python":
+    for block in read_blocks(path):
+        if block.language == "python":
             assert not printed, f"{path}:{line} prints what the page does not show:\n{printed}"
-            line, count = token.map[0] + 2, count + 1
+            line, count = block.line, count + 1
             stream = io.StringIO()
             # Lines in front, so that a traceback has the line of the page.
-            text = "\n" * (line - 1) + token.content.replace(LAB, address)
+            text = "\n" * (line - 1) + block.text.replace(LAB, address)
             code = compile(text, str(path), "exec")
             with contextlib.redirect_stdout(stream):
                 exec(code, names)  # noqa: S102
             printed = stream.getvalue()
-        elif token.info == "text" and line:
-            assert printed == token.content, f"{path}:{line} prints\n{printed}"
+        elif block.language == "text" and line:
+            assert printed == block.text, f"{path}:{line} prints\n{printed}"
             printed, line = "", 0
     assert not printed, f"{path}:{line} prints what the page does not show:\n{printed}"
     return count

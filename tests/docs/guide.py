@@ -41,7 +41,7 @@ def read_blocks(path: Path) -> Iterator[Block]:
     """The code blocks of a page; the tables of contents are none."""
     note = subject = ""
     for token in MarkdownIt().parse(path.read_text(encoding="utf-8")):
-        if token.type == "html_block":
+        if token.type == "html_block" and token.content.startswith("<!--"):
             found = COMMENT.fullmatch(token.content.strip())
             assert found, f"{path}: unknown comment {token.content}"
             note, subject = found[1], " ".join(found[2].split())

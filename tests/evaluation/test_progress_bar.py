@@ -1,4 +1,4 @@
-"""The progress of long work where nobody sees a bar."""
+"""The progress of long work in a pipe."""
 
 import io
 

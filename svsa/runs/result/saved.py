@@ -31,7 +31,7 @@ def build_result_record(result: Result, **known: Any) -> Record:
 
     Raises:
         ParameterError: If a field of the header is out of range.
-        StateError: If the result is one lane of a run beside others, or has no samples.
+        StateError: If the result is one of several lanes of a run, or has no samples.
     """
     configuration = result.configuration
     if len(result.comparisons) != len(configuration.comparisons):
@@ -73,7 +73,7 @@ def save_run(
     Raises:
         ParameterError: If name, tags or notes are too long.
         RecordError: If the folder exists or cannot be written.
-        StateError: If the result is one lane of a run beside others, or has no samples.
+        StateError: If the result is one of several lanes of a run, or has no samples.
     """
     known: dict[str, Any] = {"name": name or result.name, "tags": tuple(tags), "notes": notes}
     if folder is None:

@@ -23,7 +23,7 @@ _NOT_FREE = ("comparisons", "effects")
 class OnBench(Checked):
     """What differs where an experiment is run on a bench; what is left out is as it is simulated.
 
-    by_hand: what whoever stands at the bench does at the times of its loads.
+    by_hand: what the user at the bench does at the times of its loads.
     """
 
     loads: tuple[Load, ...] | None = quantity("", "Loads, on the link alone", default=None)

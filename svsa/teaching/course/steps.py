@@ -105,7 +105,7 @@ class Experiment(_Step, Setup):
 
     def _check_bench(self, criteria: tuple[Criterion, ...] | None, is_silent: bool) -> None:
         if is_silent:
-            bound = "what whoever stands at the bench does at the times of its loads"
+            bound = "what the user at the bench does at the times of its loads"
             raise ParameterError(Violation("bench.by_hand", "", "", bound))
         if criteria is None:
             return

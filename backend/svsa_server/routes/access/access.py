@@ -116,7 +116,7 @@ async def rejoin(
     membership = await authentication.rejoin(wanted.code)
     if membership is None:
         await authentication.patience.wait(read_address(request.scope))
-        return answer_problem(401, "wrong_code", "That is nobody's rejoin code in this class.")
+        return answer_problem(401, "wrong_code", "No member of this class has this rejoin code.")
     if membership.is_ended:
         return answer_problem(401, "removed", REMOVED)
     set_cookie(request, response, authentication.keys.sign(membership.person))
@@ -126,7 +126,7 @@ async def rejoin(
 @router.post("/rejoin-code", status_code=201, responses={409: REFUSALS[409]})
 @allow(OBSERVER)
 async def renew_rejoin_code(request: Request, person: NamedPerson) -> RejoinCode:
-    """A new rejoin code, told once; the one before lets nobody back in any more."""
+    """Create a rejoin code, reported once. The former one becomes invalid."""
     code = await find_class(request).renew_rejoin_code(person)
     if code is None:
         raise StateError(
@@ -155,7 +155,7 @@ async def create_token(
     person: NamedPerson,
     wanted: Annotated[TokenRequest, Body(examples=[{"role": "operator"}])],
 ) -> TokenState:
-    """A bearer token, told once, with which a script comes in as oneself, or as an observer.
+    """Create a bearer token, reported once: a script logs in as its owner, or as an observer.
 
     It asks for control like a person. An instructor's scripts are operators, too.
     """

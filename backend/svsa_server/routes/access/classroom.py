@@ -85,7 +85,7 @@ async def restore_person(request: Request, name: Member) -> MemberState:
 @router.post("/code", status_code=201)
 @allow(INSTRUCTOR_ONLY)
 async def renew_code(request: Request) -> ClassCode:
-    """A new class code, told once, also as a QR code; who has joined stays."""
+    """Create a class code, reported once, also as a QR code. Members stay."""
     code = await asyncio.to_thread(find_class(request).keys.renew_code)
     base = choose_join_address(request.base_url, request.app.state.host)
     address = f"{str(base).rstrip('/')}/#join={code}"

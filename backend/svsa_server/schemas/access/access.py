@@ -49,7 +49,7 @@ class TokenRequest(Checked):
 
 
 class TokenState(BaseModel):
-    """A bearer token, which is told once."""
+    """A bearer token, reported once."""
 
     token: str
     name: str = Field(description="As whom a script with it comes in")
@@ -76,7 +76,7 @@ class AccessState(BaseModel):
 
 
 class RejoinCode(BaseModel):
-    """A code by which a person comes back to their work from any browser; told once."""
+    """A code by which a person comes back to their work from any browser; reported once."""
 
     rejoin_code: str
 

@@ -43,7 +43,7 @@ class ClassState(BaseModel):
 
 
 class ClassCode(BaseModel):
-    """A new class code, told once."""
+    """A new class code, reported once."""
 
     code: str
     address: str = Field(description="Where one joins with it; what follows # stays in the browser")

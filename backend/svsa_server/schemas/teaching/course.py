@@ -72,7 +72,7 @@ class BenchStepState(BaseModel):
     """An experiment as it is run on a bench."""
 
     criteria: list[str] = Field(description="What is asked of its run")
-    manual_load: str = Field(description="What whoever stands at the bench does with its loads")
+    manual_load: str = Field(description="What the user at the bench does with its loads")
     manual_loads: list[ManualLoadState] = Field(description="When, in the order of time")
 
 

@@ -16,7 +16,7 @@ const MAX_EVENTS = 200;
 type Over = { end_tick: number | null };
 
 /**
- * The state after a message, which tells events, ended windows and ended segments of lanes from
+ * The state after a message, which reports events, ended windows and ended segments of lanes from
  * its `sinceTick` on: those before are as they were known.
  */
 export function joinPast(known: SessionState, progress: Progress, sinceTick: number): SessionState {
