@@ -35,7 +35,10 @@ _GUIDE_HEADERS = _HEADERS | {
 
 
 class _Guide(StaticFiles):
-    """The built documentation site."""
+    """The built documentation site, which may be missing."""
+
+    async def check_config(self) -> None:
+        """Accept a folder that does not exist: each request answers what to do."""
 
     async def get_response(self, path: str, scope: Scope) -> Response:
         if not (GUIDE / "index.html").is_file():

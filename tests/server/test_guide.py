@@ -10,12 +10,12 @@ from tests.lab_in_process import run_lab_in_process
 
 @pytest.fixture
 def guide(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.setattr(page, "GUIDE", tmp_path)
-    return tmp_path
+    monkeypatch.setattr(page, "GUIDE", tmp_path / "guide")
+    return tmp_path / "guide"
 
 
 def test_the_built_guide_is_served_with_a_policy_that_loads_nothing_from_elsewhere(guide: Path):
-    (guide / "howto").mkdir()
+    (guide / "howto").mkdir(parents=True)
     (guide / "index.html").write_text("<h1>SVSA Lab</h1>")
     (guide / "howto/add_friction.html").write_text("<h1>Add friction</h1>")
     with run_lab_in_process() as lab:
