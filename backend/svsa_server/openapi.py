@@ -28,8 +28,6 @@ _PROBLEM = {"schema": {"$ref": "#/components/schemas/Problem"}}
 
 _LINKS = {
     "SessionState": {"read_session": ("session", "/session")},
-    "FalsificationState": {"read_falsification": ("falsification", "/id")},
-    "TuningState": {"read_tuning": ("tuning", "/id")},
     "StudyState": {"read_study": ("study", "/name"), "read_job": ("job", "/job/id")},
     "JobState": {"read_job": ("job", "/id")},
     "SubmissionState": {"read_job": ("job", "/job/id")},

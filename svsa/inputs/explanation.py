@@ -82,7 +82,7 @@ def _join(path: tuple[Any, ...], violations: list[Violation]) -> list[Violation]
 def _explain_problem(path: tuple[Any, ...], problem: Any, field: FieldInfo | None) -> Violation:
     kind, context = problem["type"], problem.get("ctx", {})
     if kind.startswith("union_tag"):
-        tag = context["discriminator"].strip("'")
+        tag = context["discriminator"].rpartition(" | ")[2].strip("'")  # of 'name' | 'alias'
         bound = f"one of {context['expected_tags']}" if "expected_tags" in context else "given"
         return Violation(tag, context.get("tag"), "", bound).within(_write(path))
     extra = field.json_schema_extra if field else None

@@ -27,7 +27,7 @@ def open_tuning(page: Page) -> Locator:
 
 
 def begins_tuning(response: Response) -> bool:
-    return response.request.method == "POST" and response.url.endswith("/tunings")
+    return response.request.method == "POST" and response.url.endswith("/jobs")
 
 
 def tune(panel: Locator) -> dict[str, Any]:

@@ -73,7 +73,7 @@ SERIES = "times must grow, one row of torques for each"
 COURSE = "times must grow, tapers fit into the duration, and speeds stay below a bound"
 STEP = "the step is one of the exercise, and the answer one of those that it asks for"
 MAY_BE_REFUSED = {
-    "POST /api/v1/sessions": HURWITZ,
+    "POST /api/v1/sessions": f"{HURWITZ}; {PAIRS}; {SCENARIO}; the row is of GET /ranking",
     "POST /api/v1/sessions/{session}/experiment": HURWITZ,
     "PUT /api/v1/sessions/{session}/lanes": HURWITZ,
     "PUT /api/v1/sessions/{session}/lanes/{lane}": f"{HURWITZ}; {INSTALLED}; the lane exists",
@@ -85,7 +85,6 @@ MAY_BE_REFUSED = {
     "POST /api/v1/sessions/{session}/design/stability": f"{PAIRS}; {RANGE}",
     "POST /api/v1/sessions/{session}/design/margins": f"{PAIRS}; {RANGE}",
     "POST /api/v1/sessions/{session}/design/region": f"{PAIRS}; {RANGE}",
-    "POST /api/v1/sessions/{session}/design/simulation": f"{PAIRS}; {RANGE}",
     "PUT /api/v1/sessions/{session}/position": COURSE,
     "PUT /api/v1/sessions/{session}/stiffness": f"{RANGE}; {COURSE}",
     "POST /api/v1/references/position/preview": COURSE,
@@ -94,10 +93,8 @@ MAY_BE_REFUSED = {
     "POST /api/v1/sessions/{session}/bench/endurance": SERIES,
     "POST /api/v1/references/csv": "the text must be a CSV of numbers with known columns",
     "PUT /api/v1/sessions/{session}/nominal": "the text must be a TOML parameter file",
-    "POST /api/v1/tunings": INSTALLED,
-    "POST /api/v1/falsifications": f"{INSTALLED}; one of GET …, a text, a definition",
+    "POST /api/v1/jobs": f"{INSTALLED}; one of GET /adversaries, a text, a definition",
     "POST /api/v1/scenarios/runs": SCENARIO,
-    "POST /api/v1/scenarios/sessions": SCENARIO,
     "PUT /api/v1/scenarios/{scenario}": SCENARIO,
     "POST /api/v1/studies": STUDY,
     "POST /api/v1/studies/check": STUDY,
@@ -106,7 +103,6 @@ MAY_BE_REFUSED = {
     "POST /api/v1/course/{exercise}/steps/{step}/check": STEP,
     "POST /api/v1/sessions/{session}/exercise": STEP,
     "POST /api/v1/leaderboard/submissions": "a name is letters on one line",
-    "POST /api/v1/ranking/sessions": "the row and the scenario are of GET /ranking",
     "PUT /api/v1/sessions/{session}/control": "a name must be printable characters of Unicode",
     "POST /api/v1/join": "a name must be printable characters of Unicode",
 }
@@ -130,7 +126,7 @@ def give_control_back(lab: Lab) -> None:
 
 def end_jobs(lab: Lab) -> None:
     """End the jobs that the requests started: the pages of later tests would show them."""
-    for job in lab.client.get("/api/v1/jobs").raise_for_status().json():
+    for job in lab.client.get("/api/v1/jobs").raise_for_status().json()["jobs"]:
         lab.client.delete(f"/api/v1/jobs/{job['id']}")
 
 

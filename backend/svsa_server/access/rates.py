@@ -17,8 +17,6 @@ _KINDS: dict[str, Kind] = {
     "POST /lti/login": "joins",
     "POST /lti/launch": "joins",
     "POST /sessions": "sessions",
-    "POST /simulation": "sessions",
-    "POST /branch": "sessions",
     "POST /recording": "runs",
     "POST /excitation": "runs",
 }

@@ -52,8 +52,7 @@ def read_candidates(folder: Path) -> list[dict[str, Any]]:
     return []
 
 
-def read_file(folder: Path) -> str | None:
+def find_file(folder: Path) -> Path | None:
     """The parameter file of the best, once the search has ended with one."""
-    with contextlib.suppress(FileNotFoundError):
-        return (folder / _FILE).read_text(encoding="utf-8")
-    return None
+    path = folder / _FILE
+    return path if path.exists() else None

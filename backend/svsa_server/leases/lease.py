@@ -30,7 +30,7 @@ STOPS = frozenset({("POST", "/pause"), ("POST", "/quick-stop")})
 ASKING = (
     "/predict",
     "/bench/endurance",
-    *map("/design/".__add__, ("response", "stability", "region", "simulation")),
+    *map("/design/".__add__, ("response", "stability", "margins", "region")),
 )
 OPEN_TO_ALL = (
     STOPS

@@ -197,8 +197,8 @@ def test_a_private_session_and_its_runs_are_their_makers_and_the_instructors(
         assert bool(listed["facets"]["plant"]) is sees
         sessions = [one["session"] for one in browser.get("/api/v1/sessions").json()]
         assert (state["session"] in sessions) is sees
-    tuning = {"law": "fl_integral", "budget": 5, "session": state["session"]}
-    assert bob.post("/api/v1/tunings", json=tuning).status_code == 404
+    tuning = {"kind": "tuning", "law": "fl_integral", "budget": 5, "session": state["session"]}
+    assert bob.post("/api/v1/jobs", json=tuning).status_code == 404
     assert bob.patch(run, json={"name": "his"}).status_code == 404
     assert ada.patch(run, json={"name": "hers"}).json()["name"] == "hers"
     assert instructor.delete(run).status_code == 200

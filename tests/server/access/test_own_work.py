@@ -15,10 +15,11 @@ from svsa.evaluation.studies.store import (
     open_study,
     read_owner,
 )
-from tests.server.access.classroom import SHARED, Classroom, read_kind, read_person, run_class
+from tests.server.access.classroom import Classroom, read_kind, read_person, run_class
 
-SESSIONS, JOBS, TUNINGS = "/api/v1/sessions", "/api/v1/jobs", "/api/v1/tunings"
-STUDIES, FALSIFICATIONS = "/api/v1/studies", "/api/v1/falsifications"
+SESSIONS, JOBS, STUDIES = "/api/v1/sessions", "/api/v1/jobs", "/api/v1/studies"
+DESIGN = {"from": "session", "id": "lab"}
+RANKED = {"from": "ranking", "scenario": "rig_4a.positive.0", "row": "fl"}
 
 
 @pytest.fixture(scope="module")
@@ -30,17 +31,15 @@ def classroom(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Classroom]:
 def test_each_person_has_so_many_private_sessions_and_no_more(classroom: Classroom) -> None:
     ada, bob, instructor = classroom.join("Ada"), classroom.join("Bob"), classroom.log_in()
     first, second = (ada.post(SESSIONS, json={}).raise_for_status().json() for _ in range(2))
-    others = (SESSIONS, "/api/v1/ranking/sessions", SHARED + "/design/simulation")
-    for path in others:
-        body = {"scenario": "rig_4a.positive.0", "row": "fl"} if "ranking" in path else {}
-        refused = ada.post(path, json=body)
-        assert refused.status_code == 429, path
+    for body in ({}, RANKED, DESIGN):
+        refused = ada.post(SESSIONS, json=body)
+        assert refused.status_code == 429, body
         assert read_kind(refused) == "too_many"
         assert "each person may have 2: end one first" in refused.json()["detail"]
     assert bob.post(SESSIONS, json={}).status_code == 201
     assert [instructor.post(SESSIONS, json={}).status_code for _ in range(3)] == [201] * 3
     ada.delete(f"{SESSIONS}/{first['session']}").raise_for_status()
-    shown = ada.post(SHARED + "/design/simulation", json={})
+    shown = ada.post(SESSIONS, json=DESIGN)
     assert shown.status_code == 201
     assert bob.get(f"{SESSIONS}/{shown.json()['session']}").status_code == 404
     assert second["session"] in {one["session"] for one in ada.get(SESSIONS).json()}
@@ -58,24 +57,28 @@ def test_a_full_lab_has_a_place_for_the_instructor(tmp_path: Path) -> None:
 
 def test_an_observer_makes_no_session(classroom: Classroom) -> None:
     watching = classroom.join("Ola", role="observer")
-    assert watching.post(SHARED + "/design/simulation", json={}).status_code == 403
+    assert watching.post(SESSIONS, json=DESIGN).status_code == 403
 
 
 def test_long_work_is_its_makers_and_the_instructors(classroom: Classroom) -> None:
     ada, bob, instructor = classroom.join("Ada"), classroom.join("Bob"), classroom.log_in()
-    asked = {"law": "fl_integral", "budget": 200}
-    job = ada.post(TUNINGS, json=asked).raise_for_status().json()["id"]
-    assert [one["id"] for one in ada.get(JOBS).json()] == [job]
-    assert [one["id"] for one in ada.get(TUNINGS).json()] == [job]
-    assert bob.get(JOBS).json() == bob.get(TUNINGS).json() == []
-    for path in (f"{JOBS}/{job}", f"{TUNINGS}/{job}", f"{TUNINGS}/{job}/file"):
+    asked = {"kind": "tuning", "law": "fl_integral", "budget": 200}
+    job = ada.post(JOBS, json=asked).raise_for_status().json()["id"]
+    assert list_jobs(ada) == [job]
+    assert list_jobs(bob) == []
+    for path in (f"{JOBS}/{job}", f"{JOBS}/{job}/file"):
         assert read_kind(bob.get(path)) == "not_found", path
-    for path in (f"{JOBS}/{job}", f"{TUNINGS}/{job}"):
-        assert read_kind(bob.delete(path)) == "not_found", path
-        assert ada.get(path).json()["status"] in ("waiting", "running")
+    assert read_kind(bob.delete(f"{JOBS}/{job}")) == "not_found"
+    assert ada.get(f"{JOBS}/{job}").json()["status"] in ("waiting", "running")
     assert bob.get(f"{JOBS}/none").status_code == 404
-    assert [one["id"] for one in instructor.get(JOBS).json()] == [job]
+    assert list_jobs(instructor) == [job]
     instructor.delete(f"{JOBS}/{job}").raise_for_status()
+
+
+def list_jobs(browser: httpx.Client, kind: str = "tuning") -> list[str]:
+    """Ids of the jobs of a kind that this person sees."""
+    listed = browser.get(JOBS, params={"kind": kind}).raise_for_status().json()
+    return [job["id"] for job in listed["jobs"]]
 
 
 def test_a_kept_study_is_seen_by_its_maker_and_the_instructor(tmp_path: Path) -> None:
@@ -178,20 +181,20 @@ def test_a_study_that_cannot_be_read_has_no_owner(tmp_path: Path, content: str) 
 
 def test_a_search_and_what_it_found_is_its_makers_and_the_instructors(classroom: Classroom) -> None:
     ada, bob, instructor = classroom.join("Ada"), classroom.join("Bob"), classroom.log_in()
-    asked = {"adversary": "impulse", "runs": 2000}
-    search = ada.post(FALSIFICATIONS, json=asked).raise_for_status().json()["id"]
-    path = f"{FALSIFICATIONS}/{search}"
+    asked = {"kind": "falsification", "adversary": "impulse", "runs": 2000}
+    search = ada.post(JOBS, json=asked).raise_for_status().json()["id"]
+    path = f"{JOBS}/{search}"
     for answer in (bob.get(path), bob.get(path + "/file"), bob.delete(path)):
         assert read_kind(answer) == "not_found"
-    assert read_kind(bob.post(path + "/sessions")) == "not_found"
+    opening = {"from": "falsification", "id": search}
+    assert read_kind(bob.post(SESSIONS, json=opening)) == "not_found"
     for one, sees in ((ada, [search]), (bob, []), (instructor, [search])):
-        assert [each["id"] for each in one.get(FALSIFICATIONS).json()] == sees
+        assert list_jobs(one, "falsification") == sees
     instructor.delete(path).raise_for_status()
 
 
 def test_a_session_of_the_ranking_is_its_makers_and_the_instructors(classroom: Classroom) -> None:
     ada, bob, instructor = classroom.join("Ada"), classroom.join("Bob"), classroom.log_in()
-    body = {"scenario": "rig_4a.positive.0", "row": "fl"}
-    state = ada.post("/api/v1/ranking/sessions", json=body).raise_for_status().json()
+    state = ada.post(SESSIONS, json=RANKED).raise_for_status().json()
     path = f"{SESSIONS}/{state['session']}"
     assert [one.get(path).status_code for one in (ada, bob, instructor)] == [200, 404, 200]

@@ -10,7 +10,7 @@ from svsa.evaluation.falsifier.file import read_adversary
 from tests.lab_in_process import run_lab_in_process
 from tests.waiting import follow
 
-SEARCHES = "/api/v1/falsifications"
+JOBS = "/api/v1/jobs"
 PULL = """\
 title = "A pull on the link"
 cost = "peak"
@@ -27,6 +27,7 @@ start_s = [0.2, 0.6]
 duration_s = [0.05, 0.3]
 """
 OWN = tomllib.loads(PULL)
+KIND = {"kind": "falsification"}
 
 
 @pytest.fixture(scope="module")
@@ -36,18 +37,20 @@ def lab():
 
 
 def test_a_search_is_followed_to_what_it_found_and_seen_in_a_session(lab, tmp_path):
-    asked = {"text": PULL, "law": "fl", "runs": 96, "seed": 3}
-    begun = lab.post(SEARCHES, json=asked)
+    asked = KIND | {"text": PULL, "law": "fl", "runs": 96, "seed": 3}
+    begun = lab.post(JOBS, json=asked)
     assert begun.status_code == 201
-    assert begun.json()["adversary"]["law"] == "fl"
+    assert begun.json()["result"]["adversary"]["law"] == "fl"
     name = begun.json()["id"]
-    state = follow(lab, f"{SEARCHES}/{name}")
-    assert (state["status"], state["problem"], state["law"]) == ("done", None, "fl")
+    state = follow(lab, f"{JOBS}/{name}")
+    assert (state["status"], state["problem"]) == ("done", None)
+    state = state["result"]
+    assert state["law"] == "fl"
     assert [one["law"] for one in state["outcomes"]] == ["fl", "ndobc"]
 
     (tmp_path / "pull.toml").write_text(PULL)
     here = falsify(read_adversary(tmp_path / "pull.toml", law="fl"), runs=96, seed=3)
-    file = lab.get(f"{SEARCHES}/{name}/file").raise_for_status()
+    file = lab.get(f"{JOBS}/{name}/file").raise_for_status()
     kept = here.scenario.model_dump(mode="json", exclude_none=True)
     assert tomllib.loads(file.text) == state["scenario"] == kept
     assert state["worst"] == here.as_found.model_dump(mode="json", exclude_none=True)
@@ -55,7 +58,7 @@ def test_a_search_is_followed_to_what_it_found_and_seen_in_a_session(lab, tmp_pa
     peaks = [one["metrics"]["peak_position_error_rad"] for one in state["outcomes"]]
     assert peaks[0] > peaks[1], "NDOBC holds what hurts FL"
 
-    seen = lab.post(f"{SEARCHES}/{name}/sessions")
+    seen = lab.post("/api/v1/sessions", json={"from": "falsification", "id": name})
     assert seen.status_code == 201
     assert [lane["law"] for lane in seen.json()["lanes"]] == ["fl", "ndobc"]
     loads = [one["load"]["kind"] for one in seen.json()["loads"]]
@@ -64,16 +67,20 @@ def test_a_search_is_followed_to_what_it_found_and_seen_in_a_session(lab, tmp_pa
 
 
 def test_a_search_is_broken_off_and_keeps_its_worst(lab):
-    name = lab.post(SEARCHES, json={"text": PULL, "runs": 100_000}).json()["id"]
-    refused = lab.get(f"{SEARCHES}/{name}/file")
+    name = lab.post(JOBS, json=KIND | {"text": PULL, "runs": 100_000}).json()["id"]
+    refused = lab.get(f"{JOBS}/{name}/file")
     assert refused.status_code == 409
-    going = follow(lab, f"{SEARCHES}/{name}", lambda state: state["done"] >= 32 and state["worst"])
-    assert 1 <= going["worst"]["found"]["at_run"] <= going["total"]
-    assert lab.delete(f"{SEARCHES}/{name}").is_success
-    state = follow(lab, f"{SEARCHES}/{name}")
+    opened = lab.post("/api/v1/sessions", json={"from": "falsification", "id": name})
+    assert opened.status_code == 409
+    going = follow(
+        lab, f"{JOBS}/{name}", lambda state: state["done"] >= 32 and state["result"]["worst"]
+    )
+    assert 1 <= going["result"]["worst"]["found"]["at_run"] <= going["total"]
+    assert lab.delete(f"{JOBS}/{name}").is_success
+    state = follow(lab, f"{JOBS}/{name}")
     assert state["status"] == "cancelled"
-    assert state["scenario"]["found"]["runs"] < 100_000
-    assert name in [job["id"] for job in lab.get("/api/v1/jobs").json()]
+    assert state["result"]["scenario"]["found"]["runs"] < 100_000
+    assert name in [job["id"] for job in lab.get(JOBS).json()["jobs"]]
 
 
 def test_a_wrong_adversary_is_refused_with_line_and_bound(lab):
@@ -86,7 +93,7 @@ def test_a_wrong_adversary_is_refused_with_line_and_bound(lab):
         ({"definition": OWN, "law": "nobody"}, "nobody"),
         ({"text": PULL, "runs": 0}, "runs is 0"),
     ):
-        refused = lab.post(SEARCHES, json=asked)
+        refused = lab.post(JOBS, json=KIND | asked)
         assert refused.status_code == 422, asked
         assert reported in refused.json()["detail"]
 
@@ -94,13 +101,13 @@ def test_a_wrong_adversary_is_refused_with_line_and_bound(lab):
 def test_one_of_one_s_own_is_searched_as_its_text_is(lab):
     states = []
     for asked in ({"definition": OWN}, {"text": PULL}):
-        name = lab.post(SEARCHES, json=asked | {"runs": 64}).raise_for_status().json()["id"]
-        states.append(follow(lab, f"{SEARCHES}/{name}"))
+        name = lab.post(JOBS, json=KIND | asked | {"runs": 64}).raise_for_status().json()["id"]
+        states.append(follow(lab, f"{JOBS}/{name}")["result"])
     assert states[0]["adversary"] == states[1]["adversary"]
     assert states[0]["scenario"] == states[1]["scenario"] is not None
 
 
 def test_those_of_the_lab_can_be_read_and_sent_back(lab):
-    for one in lab.get(f"{SEARCHES}/adversaries").json():
+    for one in lab.get("/api/v1/adversaries").json():
         assert tomllib.loads(one["text"])["title"] == one["title"]
         assert Adversary(**one["definition"]) == read_adversary(one["name"])

@@ -8,7 +8,7 @@ from svsa_server.jobs.heavy_work import RETRY_AFTER_S
 from tests.lab_in_process import run_lab_in_process
 from tests.waiting import follow
 
-TUNINGS = "/api/v1/tunings"
+JOBS = "/api/v1/jobs"
 
 
 @pytest.fixture(scope="module")
@@ -18,25 +18,27 @@ def lab():
 
 
 def test_a_tuning_is_followed_to_its_end_and_put_into_a_session(lab):
-    asked = {"law": "fl_integral", "budget": 2, "seed": 1}
-    begun = lab.post(TUNINGS, json=asked)
+    asked = {"kind": "tuning", "law": "fl_integral", "budget": 2, "seed": 1}
+    begun = lab.post(JOBS, json=asked)
     assert begun.status_code == 201
     name = begun.json()["id"]
-    refused = lab.get(f"{TUNINGS}/{name}/file")
+    refused = lab.get(f"{JOBS}/{name}/file")
     assert (refused.status_code, begun.json()["status"]) == (409, "waiting")
-    done = follow(lab, f"{TUNINGS}/{name}")
-    assert (done["status"], done["tried"], done["problem"]) == ("done", 3, None)
+    done = follow(lab, f"{JOBS}/{name}")
+    assert (done["status"], done["done"], done["problem"]) == ("done", 3, None)
+    done = done["result"]
+    assert done["tried"] == 3
     assert [one["stage"] for one in done["candidates"]] == ["present", "search", "search"]
     assert done["present"]["values"] == [54.6, 32.9]
     assert done["best"] == min(done["finals"], key=lambda one: one["cost"])
     assert done["best"]["torque_variation_nm_per_s"] <= done["noise_limit_nm_per_s"]
-    rest = lab.get(f"{TUNINGS}/{name}", params={"first": 2}).json()["candidates"]
+    rest = lab.get(f"{JOBS}/{name}", params={"first": 2}).json()["result"]["candidates"]
     assert rest == done["candidates"][2:]
 
     here = svsa.tune("fl_integral", budget=2, seed=1)
     costs = [one.judgment.cost for one in here.candidates]
     assert [one["cost"] for one in done["candidates"]] == costs
-    file = lab.get(f"{TUNINGS}/{name}/file")
+    file = lab.get(f"{JOBS}/{name}/file")
     assert 'filename="fl_integral.toml"' in file.headers["Content-Disposition"]
     assert parse_design(file.text) == here.design
 
@@ -45,7 +47,8 @@ def test_a_tuning_is_followed_to_its_end_and_put_into_a_session(lab):
     assert put.json()["configuration"]["parameters"]["fl_integral"] == setting["parameters"]
     found = dict(zip((axis["name"] for axis in done["axes"]), done["best"]["values"], strict=True))
     assert setting["parameters"] == found
-    assert [one["id"] for one in lab.get(TUNINGS).json()] == [name]
+    (listed,) = lab.get(JOBS, params={"kind": "tuning"}).json()["jobs"]
+    assert (listed["id"], listed["result"]["candidates"]) == (name, [])
 
 
 @pytest.mark.exhaustive
@@ -53,17 +56,18 @@ def test_a_tuning_is_broken_off_and_keeps_its_best(lab):
     """It begins from the session's own design where that is asked for."""
     beta = {"bandwidth_rad_per_s": [44.0, 44.0, 44.0]}
     lab.put("/api/v1/sessions/lab/observer", json=beta)
-    asked = {"law": "ndobc", "budget": 2000, "session": "lab"}
-    name = lab.post(TUNINGS, json=asked).json()["id"]
-    follow(lab, f"{TUNINGS}/{name}", lambda state: state["tried"] >= 2)
-    lab.delete(f"{TUNINGS}/{name}")
-    state = follow(lab, f"{TUNINGS}/{name}", lambda state: state["status"] == "cancelled")
+    asked = {"kind": "tuning", "law": "ndobc", "budget": 2000, "session": "lab"}
+    name = lab.post(JOBS, json=asked).json()["id"]
+    follow(lab, f"{JOBS}/{name}", lambda state: state["result"]["tried"] >= 2)
+    lab.delete(f"{JOBS}/{name}")
+    state = follow(lab, f"{JOBS}/{name}", lambda state: state["status"] == "cancelled")
+    state = state["result"]
     assert 2 <= state["tried"] < 2000
     assert state["present"]["values"] == pytest.approx([60.0, 40.0, 44.0])
     setting = state["best_setting"]
     assert setting["parameters"] is None
     assert setting["observer"]["bandwidth_rad_per_s"] == [state["best"]["values"][2]] * 3
-    text = lab.get(f"{TUNINGS}/{name}/file").text
+    text = lab.get(f"{JOBS}/{name}/file").text
     assert f"{state['tried'] - 1} of 2000 candidates" in text
 
 
@@ -73,23 +77,27 @@ def test_what_cannot_be_tuned_and_one_too_many_are_refused(lab):
         ({"law": "esp", "held": {"no_name": 1.0}}, "no_name"),
         ({"law": "esp", "budget": 0}, "budget is 0"),
     ):
-        refused = lab.post(TUNINGS, json=asked)
+        refused = lab.post(JOBS, json={"kind": "tuning"} | asked)
         assert refused.status_code == 422
         assert reported in refused.json()["detail"]
-    missing = lab.post(TUNINGS, json={"law": "esp", "session": "nowhere"})
-    assert missing.status_code == lab.get(f"{TUNINGS}/nothing").status_code == 404
-    names = [lab.post(TUNINGS, json={"law": "pd"}).json()["id"] for _ in range(2)]
-    full = lab.post(TUNINGS, json={"law": "pd"})
+    missing = lab.post(JOBS, json={"kind": "tuning", "law": "esp", "session": "nowhere"})
+    assert missing.status_code == lab.get(f"{JOBS}/nothing").status_code == 404
+    names = [lab.post(JOBS, json={"kind": "tuning", "law": "pd"}).json()["id"] for _ in range(2)]
+    full = lab.post(JOBS, json={"kind": "tuning", "law": "pd"})
     assert full.status_code == 503
     assert "2 tunings run or wait" in full.json()["detail"]
     assert full.headers["Retry-After"] == str(RETRY_AFTER_S)
-    jobs = lab.get("/api/v1/jobs").json()
-    assert {job["id"]: job["kind"] for job in jobs[:2]} == dict.fromkeys(names, "tuning")
+    page = lab.get(JOBS, params={"page_size": 1, "page": 2}).json()
+    assert ([job["id"] for job in page["jobs"]], page["page"]) == ([names[0]], 2)
+    assert page["total"] >= 2
+    listed = lab.get(JOBS).json()["jobs"][:2]
+    assert {job["id"]: job["kind"] for job in listed} == dict.fromkeys(names, "tuning")
     begun, queued = names
-    assert lab.delete(f"/api/v1/jobs/{queued}").json()["status"] == "cancelled"
-    assert lab.get(f"{TUNINGS}/{queued}/file").status_code == 409, "nothing was tried"
-    assert lab.get("/api/v1/jobs/nothing").status_code == 404
-    follow(lab, f"{TUNINGS}/{begun}", lambda state: state["status"] == "running")
-    lab.delete(f"{TUNINGS}/{begun}")
-    state = follow(lab, f"{TUNINGS}/{begun}", lambda state: state["status"] == "cancelled")
-    assert f"{state['tried'] - 1} of 128 candidates" in lab.get(f"{TUNINGS}/{begun}/file").text
+    assert lab.delete(f"{JOBS}/{queued}").json()["status"] == "cancelled"
+    assert lab.get(f"{JOBS}/{queued}/file").status_code == 409, "nothing was tried"
+    assert lab.get(f"{JOBS}/nothing").status_code == 404
+    follow(lab, f"{JOBS}/{begun}", lambda state: state["status"] == "running")
+    lab.delete(f"{JOBS}/{begun}")
+    state = follow(lab, f"{JOBS}/{begun}", lambda state: state["status"] == "cancelled")
+    tried = state["result"]["tried"]
+    assert f"{tried - 1} of 128 candidates" in lab.get(f"{JOBS}/{begun}/file").text

@@ -47,7 +47,8 @@ def test_a_recorded_run_is_its_own_simulation_bit_for_bit(lab: Lab) -> None:
 def test_a_run_is_opened_again_at_a_tick_and_goes_on_as_a_branch(lab: Lab) -> None:
     run = follow_recording(lab.client, record(lab))
     tick = run["first_tick"] + 1000
-    state = lab.client.post(f"/api/v1/runs/{run['id']}/branch", json={"tick": tick}).json()
+    opening = {"from": "run", "id": run["id"]}
+    state = lab.client.post("/api/v1/sessions", json=opening | {"tick": tick}).json()
     assert state["status"] == "paused"
     assert state["tick"] == tick
     assert state["configuration"]["law"] == "fl"
@@ -57,7 +58,7 @@ def test_a_run_is_opened_again_at_a_tick_and_goes_on_as_a_branch(lab: Lab) -> No
     assert abs(after["sample"]["position_error_rad"]) < 1e-3
     assert abs(lab.read()["sample"]["position_error_rad"]) > 0.1
     lab.client.delete(branch)
-    refused = lab.client.post(f"/api/v1/runs/{run['id']}/branch", json={"tick": -1})
+    refused = lab.client.post("/api/v1/sessions", json=opening | {"tick": -1})
     assert refused.status_code == 422
 
 

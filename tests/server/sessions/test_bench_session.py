@@ -102,8 +102,9 @@ def check_recording(bench: BenchLab, run_id: str) -> None:
     assert kinds[:3] == ["position", "stiffness", "gains"]
     assert ticks == sorted(ticks)
     assert 0 < ticks[0] < ticks[-1] <= run["ticks"]
-    for path, body in (("/compare", None), ("/branch", {"tick": 10})):
-        answer = client.post(runs + path, json=body)
+    opening = {"from": "run", "id": run["id"], "tick": 10}
+    for path, body in ((runs + "/compare", None), ("/api/v1/sessions", opening)):
+        answer = client.post(path, json=body)
         assert answer.status_code == 409, answer.text
         assert "emulated" in answer.json()["detail"]
 

@@ -1,9 +1,8 @@
 """Scenarios: keep one by a name, put any laws through it, see it in a session."""
 
-import asyncio
 from typing import Annotated
 
-from fastapi import Body, Path, Request
+from fastapi import Body, Path
 from fastapi.responses import Response
 
 from svsa.evaluation.falsifier.file import (
@@ -18,17 +17,15 @@ from svsa.evaluation.falsifier.scenario import LoadScenario
 from svsa_server.access.permissions import INSTRUCTOR_ONLY, OBSERVER, OPERATOR, allow
 from svsa_server.jobs.falsifications import run_laws
 from svsa_server.problems import UnknownError
-from svsa_server.routes.depends import BUSY, REFUSALS, NamedClient, NamedPerson, Work
+from svsa_server.routes.depends import BUSY, REFUSALS, Work
 from svsa_server.routing import build_router
 from svsa_server.schemas.evaluation.scenario import (
+    SCENARIO_EXAMPLE,
     SavedScenario,
     ScenarioRuns,
-    ScenarioSession,
     ScenarioTraceState,
     describe_kept,
 )
-from svsa_server.schemas.lab.session import SessionState
-from svsa_server.sessions.state import build_state
 
 router = build_router("/scenarios", tags=["falsifier"], responses=REFUSALS)
 Name = Annotated[
@@ -40,10 +37,6 @@ Name = Annotated[
         examples=["impulse-ndobc"],
     ),
 ]
-_EXAMPLE = {
-    "title": "An impulse on the link",
-    "loads": [{"kind": "pulse", "torque_nm": [1.5, 0.0, 0.0], "start_s": 2.0, "duration_s": 0.02}],
-}
 _TOML = {"application/toml": {"schema": {"type": "string"}}}
 
 
@@ -58,31 +51,18 @@ def list_saved_scenarios() -> list[SavedScenario]:
 @allow(OPERATOR)
 async def run_scenario(
     work: Work,
-    wanted: Annotated[ScenarioRuns, Body(examples=[{"scenario": _EXAMPLE, "laws": ["ndobc"]}])],
+    wanted: Annotated[
+        ScenarioRuns, Body(examples=[{"scenario": SCENARIO_EXAMPLE, "laws": ["ndobc"]}])
+    ],
 ) -> ScenarioTraceState:
     """Put laws through a scenario: what came of each, and its errors over time."""
     return ScenarioTraceState(**await work.run(run_laws, wanted.scenario, wanted.laws))
 
 
-@router.post("/sessions", status_code=201)
-@allow(OPERATOR)
-async def open_scenario_session(
-    request: Request,
-    _: NamedClient,
-    person: NamedPerson,
-    wanted: Annotated[
-        ScenarioSession, Body(examples=[{"scenario": _EXAMPLE, "laws": ["ndobc", "fl"]}])
-    ],
-) -> SessionState:
-    """A private session, running, of laws beside each other in a scenario."""
-    configuration = await asyncio.to_thread(wanted.build_configuration)
-    return build_state(request.app.state.laboratory.create(configuration, person.id))
-
-
 @router.put("/{scenario}")
 @allow(OPERATOR)
 def save_scenario(
-    name: Name, wanted: Annotated[LoadScenario, Body(examples=[_EXAMPLE])]
+    name: Name, wanted: Annotated[LoadScenario, Body(examples=[SCENARIO_EXAMPLE])]
 ) -> SavedScenario:
     """Keep a scenario by a name, which no other one may have."""
     keep_scenario(name, wanted)

@@ -9,7 +9,7 @@ from svsa.evaluation.statistics import estimate_share
 from svsa_server.access.permissions import OBSERVER, allow
 from svsa_server.routes.depends import REFUSALS
 from svsa_server.routing import build_router
-from svsa_server.schemas.evaluation.study import Estimate
+from svsa_server.schemas.evaluation.estimate import Estimate
 
 MAX_SHARES = 256
 router = build_router("/shares", tags=["studies"], responses={422: REFUSALS[422]})

@@ -10,9 +10,10 @@ from svsa_server.openapi import UPGRADED
 from svsa_server.problems import Problem, answer_problem
 from svsa_server.routes.depends import REFUSALS, NamedClient, NamedPerson, NamedSession
 from svsa_server.routing import build_router
+from svsa_server.schemas.evaluation.scenario import SCENARIO_EXAMPLE
+from svsa_server.schemas.lab.opening import SessionRequest
 from svsa_server.schemas.lab.session import (
     ExperimentRequest,
-    SessionRequest,
     SessionState,
     SpeedRequest,
     StepRequest,
@@ -20,6 +21,7 @@ from svsa_server.schemas.lab.session import (
 from svsa_server.schemas.lab.stream import StreamMessage, describe_stream, list_stream_parameters
 from svsa_server.sessions.cursor import BATCH_PERIOD_S
 from svsa_server.sessions.lock import TurnRoute
+from svsa_server.sessions.opening import open_session
 from svsa_server.sessions.state import build_state
 from svsa_server.sessions.stream import stream_session
 
@@ -40,14 +42,27 @@ async def list_sessions(
 @allow(OPERATOR)
 async def create_session(
     request: Request,
+    _: NamedClient,
     person: NamedPerson,
     wanted: Annotated[
-        SessionRequest, Body(examples=[{"figure": "4a", "comparisons": [{"law": "fl"}]}])
+        SessionRequest,
+        Body(
+            examples=[
+                {"figure": "4a", "comparisons": [{"law": "fl"}]},
+                {"from": "run", "id": "20260102-030405-9f8e7d6c", "tick": 500},
+                {"from": "session", "id": "lab", "law": "fl"},
+                {"from": "falsification", "id": "3f2a9c01b7de"},
+                {"from": "scenario", "scenario": SCENARIO_EXAMPLE, "laws": ["ndobc", "fl"]},
+                {"from": "ranking", "row": "ndobc_w", "scenario": "rig_4a.negative.0"},
+            ]
+        ),
     ],
 ) -> SessionState:
-    """A private simulated session, running; it ends by itself when nobody uses it."""
-    configuration = wanted.build_configuration(request.app.state.design)
-    return build_state(request.app.state.laboratory.create(configuration, person.id))
+    """Open a private simulated session from a figure, run, session or scenario.
+
+    The lab ends it automatically when nobody uses it. It runs, but from a run it is paused.
+    """
+    return build_state(await open_session(request.app, wanted, person.id))
 
 
 @router.delete("/{session}", status_code=204)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Annotated, Literal
 
 import numpy as np
-from fastapi import Body, Request
+from fastapi import Body
 
 from svsa.analysis.design.attraction import (
     Cell,
@@ -28,12 +28,10 @@ from svsa.analysis.design.sampled_loop import (
 from svsa.analysis.design.stability import Stability, assess
 from svsa.control.installed import get_law
 from svsa.runs.configuration import Configuration
-from svsa.simulation.plant.loads.paper import PaperLoad
-from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
-from svsa_server.routes.depends import BUSY, REFUSALS, NamedPerson, NamedSession, Work
+from svsa_server.access.permissions import OBSERVER, allow
+from svsa_server.routes.depends import BUSY, REFUSALS, NamedSession, Work
 from svsa_server.routing import build_router
 from svsa_server.schemas.lab.gain import Root
-from svsa_server.schemas.lab.session import SessionState
 from svsa_server.schemas.lab.stability import (
     DesignRequest,
     FrequencyResponseState,
@@ -46,11 +44,9 @@ from svsa_server.schemas.lab.stability import (
     StableRangeState,
     StartOutcomeState,
 )
-from svsa_server.sessions.state import build_state
 from svsa_server.sessions.tried_design import build_tried
 
 LOAD_POINTS = 250
-FAILURE_LOAD_S = 1.0
 
 router = build_router("/sessions/{session}/design", tags=["settings"], responses=REFUSALS | BUSY)
 _POLES = {"gains": {"position_poles_rad_per_s": [-60, -60, -60, -60]}}
@@ -141,21 +137,6 @@ async def map_attraction(
         ],
         next=end if end < request.starts**2 else None,
     )
-
-
-@router.post("/simulation", status_code=201)
-@allow(OPERATOR)
-async def simulate_design(
-    asked: Request, hosted: NamedSession, person: NamedPerson, request: Tried
-) -> SessionState:
-    """A private simulated session with this design, stable or not; the 3 kg come after 1 s.
-
-    It is a simulation also where a bench is asked about, and the session asked stays as it is.
-    """
-    configuration, _ = build_tried(hosted.session, request)
-    load = PaperLoad(start_s=FAILURE_LOAD_S)
-    shown = configuration.changed(loads=(load,), comparisons=())
-    return build_state(asked.app.state.laboratory.create(shown, person.id))
 
 
 def _assess(configuration: Configuration, sigma: float) -> tuple[Stability, float]:

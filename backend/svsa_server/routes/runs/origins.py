@@ -12,7 +12,7 @@ from svsa.runs.records.header import BranchPoint, PlantKind
 from svsa_server.access.permissions import OBSERVER, allow
 from svsa_server.routes.depends import REFUSALS, NamedSession, RunId, Runs
 from svsa_server.routing import build_router
-from svsa_server.schemas.lab.session import SessionRequest
+from svsa_server.schemas.lab.opening import FromFigure
 from svsa_server.schemas.runs.run import BranchOrigin, GivenCommand, RunOrigin
 
 router = build_router(tags=["runs"], responses=REFUSALS)
@@ -81,4 +81,4 @@ def _tell(
 
 
 def _build_defaults(design: Design) -> dict[str, Any]:
-    return SessionRequest(load=False).build_configuration(design).model_dump(mode="json")
+    return FromFigure(load=False).build_configuration(design).model_dump(mode="json")

@@ -1,6 +1,6 @@
 """Searches for what hurts a law on the wire: what is asked, how far one is, what it found."""
 
-from typing import Annotated, Any, Self
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, Field, model_validator
 
@@ -9,8 +9,9 @@ from svsa.errors import ParameterError, Violation
 from svsa.evaluation.falsifier.adversary import Adversary
 from svsa.evaluation.falsifier.file import list_adversaries, parse_adversary, read_adversary
 from svsa.inputs.checked import Checked, Whole, quantity
-from svsa_server.schemas.evaluation.job import JobState
-from svsa_server.schemas.evaluation.scenario import LawOutcomeState
+from svsa_server.jobs.falsifications import read_found, read_worst
+from svsa_server.jobs.queue import Job
+from svsa_server.schemas.evaluation.scenario import LawOutcomeState, dump_scenario
 
 MAX_RUNS = 100_000
 LONGEST_TEXT = 100_000
@@ -19,6 +20,7 @@ LONGEST_TEXT = 100_000
 class FalsificationRequest(Checked):
     """A search: an adversary of the package or one of one's own, and the law to be hurt."""
 
+    kind: Literal["falsification"] = quantity("", "Search for the load that hurts a law most")
     adversary: Annotated[str, Field(min_length=1, max_length=64)] | None = quantity(
         "", "Name of one that comes with the lab", default=None
     )
@@ -62,8 +64,8 @@ class AdversaryState(BaseModel):
     definition: dict[str, Any] = Field(description="The same as JSON")
 
 
-class FalsificationState(JobState):
-    """A search, and what it found."""
+class FalsificationResult(BaseModel):
+    """What a falsification searches, and what it has found so far."""
 
     law: str
     cost: str
@@ -77,3 +79,25 @@ class FalsificationState(JobState):
     )
     steps: list[str] = Field(description="How it was made simple, step by step")
     outcomes: list[LawOutcomeState] = Field(description="Of the law, and of another one beside it")
+
+
+def describe_falsification(job: Job, is_under_way: bool) -> FalsificationResult:
+    """Describe what a falsification found.
+
+    Args:
+        job: The job.
+        is_under_way: As it was before its files are read, which may be finished meanwhile.
+    """
+    asked = job.asked
+    found = None if is_under_way else read_found(job.folder)
+    worst = read_worst(job.folder)
+    return FalsificationResult(
+        law=asked.adversary.law,
+        cost=asked.adversary.cost,
+        seed=asked.seed,
+        adversary=asked.adversary.model_dump(mode="json"),
+        worst=worst and dump_scenario(worst),
+        scenario=found and dump_scenario(found.scenario),
+        steps=found.steps if found else [],
+        outcomes=[LawOutcomeState(**one) for one in found.outcomes] if found else [],
+    )

@@ -1,43 +1,82 @@
-"""Long work on the wire: what it is, where it stands, and how far it is."""
+"""Long work on the wire: what it is, how far it is, and what it has found."""
+
+from typing import Annotated
 
 from pydantic import BaseModel, Field
 
+from svsa.inputs.checked import BY_KIND
 from svsa_server.jobs.queue import Job, Kind, Status
+from svsa_server.schemas.evaluation.falsification import (
+    FalsificationRequest,
+    FalsificationResult,
+    describe_falsification,
+)
+from svsa_server.schemas.evaluation.tuning import TuningRequest, TuningResult, describe_tuning
+
+JobRequest = Annotated[TuningRequest | FalsificationRequest, BY_KIND]
 
 
 class JobState(BaseModel):
-    """A tuning, a study, a search, a law for the leaderboard, grades: work of minutes or hours."""
+    """A tuning, a study, a falsification, a law for the leaderboard, grades: minutes or hours."""
 
     id: str
     kind: Kind
     title: str = Field(description="What it is about")
-    created: str = Field(description="When it was asked for, ISO 8601 in UTC")
-    status: Status = Field(description="cancelled: stopped before its end, what is done is kept")
+    created: str = Field(description="When it was started, ISO 8601 in UTC")
+    status: Status = Field(
+        description="cancelled: stopped before its end; what is finished is saved"
+    )
     done: int = Field(
         description="How much is done, in what it counts: candidates, runs, submissions"
     )
-    total: int = Field(description="Of how much; 0 before it is begun")
+    total: int = Field(description="Of how much; 0 before it runs")
     rate_per_s: float | None = Field(
-        description="How much a second lately; null while nobody can say"
+        description="Recent rate of `done`, 1/s; null while it is not known"
     )
     left_s: float | None = Field(
-        description="How long it still takes at this rate, s; null while nobody can say"
+        description="Remaining time at this rate, s; null while it is not known"
     )
     problem: str | None = Field(description="Why it failed")
+    result: TuningResult | FalsificationResult | None = Field(
+        description="Of a tuning or falsification; null of other kinds, whose results have their"
+        " own routes: studies, leaderboard, grades"
+    )
 
 
-def describe_job(job: Job) -> JobState:
-    """How a job is."""
+class JobList(BaseModel):
+    """A page of jobs, the newest first."""
+
+    jobs: list[JobState]
+    total: int = Field(description="Jobs on all pages")
+    page: int
+    page_size: int
+
+
+def describe_job(job: Job, first: int | None = None) -> JobState:
+    """Describe a job.
+
+    Args:
+        job: The job.
+        first: Number of the first candidate of a tuning to list; None for none.
+    """
+    # The status before the files: a job that ends in between has not ended in this answer.
+    status, is_under_way = job.status, job.is_under_way
     progress = job.progress
+    result: TuningResult | FalsificationResult | None = None
+    if job.kind == "tuning":
+        result = describe_tuning(job, is_under_way, first)
+    elif job.kind == "falsification":
+        result = describe_falsification(job, is_under_way)
     return JobState(
         id=job.id,
         kind=job.kind,
         title=job.title,
         created=job.created,
-        status=job.status,
+        status=status,
         done=progress.done,
         total=progress.total,
-        rate_per_s=progress.rate_per_s if job.is_under_way else None,
-        left_s=progress.left_s if job.is_under_way else None,
+        rate_per_s=progress.rate_per_s if is_under_way else None,
+        left_s=progress.left_s if is_under_way else None,
         problem=job.problem,
+        result=result,
     )

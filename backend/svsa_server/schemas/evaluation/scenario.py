@@ -8,10 +8,13 @@ from svsa.control.installed import InstalledLaw
 from svsa.errors import ParameterError, Violation
 from svsa.evaluation.falsifier.scenario import LoadScenario
 from svsa.inputs.checked import Checked, quantity
-from svsa.runs.configuration import MAX_LANES, Configuration, Lane
-from svsa_server.schemas.evaluation.study import Estimate
+from svsa_server.schemas.evaluation.estimate import Estimate
 
 MAX_LAWS, MAX_DURATION_S = 32, 60.0
+SCENARIO_EXAMPLE: dict[str, Any] = {
+    "title": "An impulse on the link",
+    "loads": [{"kind": "pulse", "torque_nm": [1.5, 0.0, 0.0], "start_s": 2.0, "duration_s": 0.02}],
+}
 
 
 class ScenarioRuns(Checked):
@@ -29,21 +32,6 @@ class ScenarioRuns(Checked):
             bound = f"at most {MAX_DURATION_S:g} s here; `svsa falsify run` takes more"
             raise ParameterError(Violation("scenario.duration_s", duration, "s", bound))
         return self
-
-
-class ScenarioSession(Checked):
-    """Laws beside each other in a scenario, to be seen."""
-
-    scenario: LoadScenario = quantity("", "Loads, and settings")
-    laws: Annotated[tuple[InstalledLaw, ...], Field(min_length=1, max_length=MAX_LANES)] = quantity(
-        "", "Laws, the first one's the run's own"
-    )
-
-    def build_configuration(self) -> Configuration:
-        """The run; raises `ParameterError`."""
-        law, *others = self.laws
-        comparisons = tuple(Lane(law=other) for other in others)
-        return self.scenario.build_configuration(law).changed(comparisons=comparisons)
 
 
 class LawOutcomeState(BaseModel):

@@ -22,6 +22,7 @@ from svsa_server.access.owned import Owned
 from svsa_server.access.roles import Person
 from svsa_server.jobs.queue import Job
 from svsa_server.jobs.studies import MAX_ROWS
+from svsa_server.schemas.evaluation.estimate import Estimate
 from svsa_server.schemas.evaluation.job import JobState, describe_job
 
 LONGEST_TEXT = 100_000
@@ -151,14 +152,6 @@ class StudyList(BaseModel):
     built_in: list[BuiltInStudy]
     saved: list[StudyState] = Field(description="The last begun first")
     metrics: list[StudyMetric]
-
-
-class Estimate(BaseModel):
-    """An estimate with the ends of its 95 % interval; null ends: the data support no interval."""
-
-    value: float | None
-    low: float | None
-    high: float | None
 
 
 class LawOutcome(BaseModel):

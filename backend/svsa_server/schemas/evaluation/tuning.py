@@ -1,15 +1,18 @@
 """Tunings on the wire: what is searched, what was tried, and what came of it."""
 
-from typing import Annotated
+from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, Field
 
-from svsa.control.installed import InstalledLaw
+from svsa.control.installed import InstalledLaw, has_own_parameters
+from svsa.evaluation.tuning.judge import find_noise_limit
+from svsa.evaluation.tuning.search_space import build_space
 from svsa.evaluation.tuning.tuner import BUDGET, Stage
 from svsa.inputs.checked import Checked, Number, Whole, quantity
 from svsa.runs.configuration import Lane
 from svsa_server.access.owned import Owned
-from svsa_server.jobs.queue import Status
+from svsa_server.jobs.queue import Job
+from svsa_server.jobs.tunings import read_candidates
 
 MAX_BUDGET = 2000
 
@@ -17,6 +20,7 @@ MAX_BUDGET = 2000
 class TuningRequest(Checked):
     """A law to be tuned on the training trials."""
 
+    kind: Literal["tuning"] = quantity("", "Search by CMA-ES, on training trials")
     law: InstalledLaw = quantity("", "Name of a law that is installed")
     budget: Whole = quantity("", "Candidates to be tried", ge=1, le=MAX_BUDGET, default=BUDGET)
     seed: Whole = quantity("", "Seed of search and trials", ge=0, le=2**53 - 1, default=0)
@@ -54,12 +58,10 @@ class CandidateState(BaseModel):
     )
 
 
-class TuningState(BaseModel):
-    """A search, and what it has found so far."""
+class TuningResult(BaseModel):
+    """What a tuning searches, and what it has found so far."""
 
-    id: str
     law: str
-    status: Status = Field(description="cancelled: broken off, the best so far is kept")
     budget: int
     seed: int
     held: dict[str, float]
@@ -68,7 +70,9 @@ class TuningState(BaseModel):
         description="Limit of the torque variation at rest; null before the first candidate"
     )
     tried: int = Field(description="How many were tried so far, the design as it was among them")
-    candidates: list[CandidateState] = Field(description="From the number asked for on")
+    candidates: list[CandidateState] = Field(
+        description="From the number `first` on; a list of jobs has none"
+    )
     finals: list[CandidateState] = Field(
         description="The design as it was and the best candidates on the validation trials"
     )
@@ -78,7 +82,47 @@ class TuningState(BaseModel):
         description="The best as a lane's setting, to be sent to PUT …/lanes/{lane} or, in parts,"
         " to PUT …/parameters, …/gains and …/observer"
     )
-    problem: str | None = Field(description="Why it failed")
 
 
-FirstCandidate = Annotated[int, Field(ge=0, description="Number of the first candidate sent")]
+def describe_tuning(tuning: Job, is_under_way: bool, first: int | None) -> TuningResult:
+    """Describe what a tuning found.
+
+    Args:
+        tuning: The job.
+        is_under_way: As it was before its candidates are read, which may come meanwhile.
+        first: Number of the first candidate to list; None for none of them.
+    """
+    asked, tried = tuning.asked, read_candidates(tuning.folder)
+    space = build_space(asked.law, asked.held)
+    candidates = [one for one in tried if one["stage"] != "validation"]
+    finals = [one for one in tried if one["stage"] == "validation"]
+    is_final = bool(finals) and not is_under_way
+    best: dict[str, Any] | None = min(
+        finals if is_final else candidates, key=lambda one: one["cost"], default=None
+    )
+    setting = None
+    if best is not None:
+        design = space.set_design(asked.present, best["values"])
+        setting = (
+            Lane(law=asked.law, parameters=design.parameters[asked.law])
+            if has_own_parameters(asked.law)
+            else Lane(law=asked.law, gains=design.gains, observer=design.observer)
+        )
+    reported = [] if first is None else candidates[first:]
+    return TuningResult(
+        law=asked.law,
+        budget=asked.budget,
+        seed=asked.seed,
+        held=asked.held,
+        axes=[
+            AxisState(name=one.label, symbol=one.symbol, unit=one.unit, low=one.low, high=one.high)
+            for one in space.axes
+        ],
+        tried=len(candidates),
+        noise_limit_nm_per_s=find_noise_limit() if candidates else None,
+        candidates=[CandidateState(**one) for one in reported],
+        finals=[CandidateState(**one) for one in finals],
+        present=CandidateState(**candidates[0]) if candidates else None,
+        best=CandidateState(**best) if best else None,
+        best_setting=setting,
+    )

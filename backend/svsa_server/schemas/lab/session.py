@@ -59,23 +59,6 @@ class ExperimentRequest(FigureRequest):
     start: Flag = quantity("", "Begins at once; else it is at rest at t = 0", default=True)
 
 
-class SessionRequest(FigureRequest):
-    """A private session: a figure of the paper to start from, and the seed of its noise."""
-
-    figure: Literal["4a", "4b", "5"] = quantity("", "Figure of the paper", default="4a")
-    seed: Whole = quantity("", "Seed of the sensor noise", ge=0, le=2**63 - 1, default=0)
-
-    def build_configuration(self, design: Design) -> Configuration:
-        """What the session is set to, with the lab's design; raises `ParameterError`."""
-        return super().build_configuration(design).changed(seed=self.seed)
-
-
-class BranchRequest(Checked):
-    """Where to go on from."""
-
-    tick: Whole = quantity("ticks", "Tick of the recorded run, from its t = 0", ge=0, le=10**9)
-
-
 class LoadState(BaseModel):
     """A load of the session; `end_s` is null for one that stays."""
 

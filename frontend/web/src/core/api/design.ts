@@ -37,7 +37,11 @@ export const askRegion = (wanted: RegionRequest) =>
   request("post", `${SESSION}/design/region`, wanted, LONGEST_WORK_MS) as Promise<Region>;
 /** A private simulated session with this design, stable or not. */
 export const simulateDesign = (wanted: DesignRequest) =>
-  request("post", `${SESSION}/design/simulation`, wanted) as Promise<SessionState>;
+  request("post", "sessions", {
+    from: "session",
+    id: sessionName,
+    ...wanted,
+  }) as Promise<SessionState>;
 
 // References before they are followed: read from a CSV, and looked at; nothing is changed.
 

@@ -1,11 +1,13 @@
 /** Searches for the load that hurts a law most, and the scenarios that are kept of them. */
+import { type Job, jobFileOf, listJobs, readJob, startJob, stopJob } from "./jobs";
 import { API, request } from "./request";
 import type { components } from "./schema";
 import type { Law, SessionState } from "./types";
 
 type Schemas = components["schemas"];
 
-export type Search = Schemas["FalsificationState"];
+/** A job, with its result next to its progress. */
+export type Search = Job & Schemas["FalsificationResult"];
 export type AdversaryState = Schemas["AdversaryState"];
 export type Adversary = Schemas["Adversary"];
 export type Term = Adversary["terms"][number];
@@ -27,19 +29,19 @@ export interface SearchWish {
 
 /** Many laws, some of which have to be compiled first. */
 const LONG_WAIT_MS = 180_000;
-const searchPath = (id: string, rest = ""): string =>
-  `falsifications/${encodeURIComponent(id)}${rest}`;
+const readResult = (job: Job): Search => ({
+  ...job,
+  ...(job.result as Schemas["FalsificationResult"]),
+});
 const scenarioPath = (name: string, rest = ""): string =>
   `scenarios/${encodeURIComponent(name)}${rest}`;
 
-export const listAdversaries = () =>
-  request("get", "falsifications/adversaries") as Promise<AdversaryState[]>;
-export const listSearches = () => request("get", "falsifications") as Promise<Search[]>;
-export const startSearch = (wish: SearchWish) =>
-  request("post", "falsifications", wish) as Promise<Search>;
-export const readSearch = (id: string) => request("get", searchPath(id)) as Promise<Search>;
-export const stopSearch = (id: string) => request("delete", searchPath(id)) as Promise<Search>;
-export const searchFileOf = (id: string): string => new URL(searchPath(id, "/file"), API).href;
+export const listAdversaries = () => request("get", "adversaries") as Promise<AdversaryState[]>;
+export const listSearches = async () => (await listJobs("falsification")).map(readResult);
+export const startSearch = async (wish: SearchWish) =>
+  readResult(await startJob({ kind: "falsification", ...wish }));
+export const readSearch = async (id: string) => readResult(await readJob(id));
+export { jobFileOf as searchFileOf, stopJob as stopSearch };
 
 export const listScenarios = () => request("get", "scenarios") as Promise<SavedScenario[]>;
 export const keepScenario = (name: string, scenario: Scenario) =>
@@ -51,4 +53,4 @@ export const runLaws = (scenario: Scenario, laws: readonly Law[]) =>
   request("post", "scenarios/runs", { scenario, laws }, LONG_WAIT_MS) as Promise<Trace>;
 /** A private session of laws beside each other. */
 export const seeLaws = (scenario: Scenario, laws: readonly Law[]) =>
-  request("post", "scenarios/sessions", { scenario, laws }) as Promise<SessionState>;
+  request("post", "sessions", { from: "scenario", scenario, laws }) as Promise<SessionState>;

@@ -3,29 +3,33 @@ import { API, request, sessionName } from "./request";
 import type { components } from "./schema";
 import type { Law } from "./types";
 
-export type Job = components["schemas"]["JobState"];
+type Schemas = components["schemas"];
+
+export type Job = Schemas["JobState"];
 
 const pathOf = (id: string): string => `jobs/${encodeURIComponent(id)}`;
 
-export const listJobs = () => request("get", "jobs") as Promise<Job[]>;
+/** Of this kind if one is given, the newest first: at most 50, which are all that a server stores. */
+export const listJobs = async (kind?: Job["kind"]) =>
+  ((await request("get", kind ? `jobs?kind=${kind}` : "jobs")) as Schemas["JobList"]).jobs;
+export const startJob = (wish: object) => request("post", "jobs", wish) as Promise<Job>;
 export const readJob = (id: string) => request("get", pathOf(id)) as Promise<Job>;
+export const jobFileOf = (id: string): string => new URL(`${pathOf(id)}/file`, API).href;
 export const stopJob = (id: string) => request("delete", pathOf(id)) as Promise<Job>;
 
 // Tune a law on the server: start, follow, break off.
 
-type Schemas = components["schemas"];
-
-export type Tuning = Schemas["TuningState"];
+/** A job, with its result next to its progress. */
+export type Tuning = Job & Schemas["TuningResult"];
 export type Candidate = Schemas["CandidateState"];
 
-const tuningPathOf = (id: string) => `tunings/${encodeURIComponent(id)}`;
+const readResult = (job: Job): Tuning => ({ ...job, ...(job.result as Schemas["TuningResult"]) });
 
 /** It begins from what the law is set to in this session. */
-export const startTuning = (law: Law, budget: number) =>
-  request("post", "tunings", { law, budget, session: sessionName }) as Promise<Tuning>;
+export const startTuning = async (law: Law, budget: number) =>
+  readResult(await startJob({ kind: "tuning", law, budget, session: sessionName }));
 /** first: from which trial on they are told. */
-export const readTuning = (id: string, first: number) =>
-  request("get", `${tuningPathOf(id)}?first=${first}`) as Promise<Tuning>;
-export const listTunings = () => request("get", "tunings") as Promise<Tuning[]>;
-export const stopTuning = (id: string) => request("delete", tuningPathOf(id)) as Promise<Tuning>;
-export const tunedFileOf = (id: string): string => new URL(`${tuningPathOf(id)}/file`, API).href;
+export const readTuning = async (id: string, first: number) =>
+  readResult((await request("get", `${pathOf(id)}?first=${first}`)) as Job);
+export const listTunings = async () => (await listJobs("tuning")).map(readResult);
+export { jobFileOf as tunedFileOf, stopJob as stopTuning };

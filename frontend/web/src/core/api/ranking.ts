@@ -15,7 +15,7 @@ export type Family = Schemas["FamilyOutcome"];
 export const readRanking = () => request("get", "ranking") as Promise<Results>;
 /** A private session of a row in a scenario, with NDOBC as comparison. */
 export const seeScenario = (row: string, scenario: string) =>
-  request("post", "ranking/sessions", { row, scenario }) as Promise<SessionState>;
+  request("post", "sessions", { from: "ranking", row, scenario }) as Promise<SessionState>;
 
 // The leaderboard: laws on a season that nobody knows, and their worst runs.
 

@@ -58,7 +58,12 @@ export const judgeRun = (run: string, wanted: VerdictRequest) =>
   request("post", pathOf(run, "/verdict"), wanted, LONG_WAIT_MS) as Promise<RunVerdict>;
 
 export const branchRun = (run: string, tick: number) =>
-  request("post", pathOf(run, "/branch"), { tick }, LONG_WAIT_MS) as Promise<SessionState>;
+  request(
+    "post",
+    "sessions",
+    { from: "run", id: run, tick },
+    LONG_WAIT_MS,
+  ) as Promise<SessionState>;
 
 export function readSamples(
   run: string,

@@ -24,6 +24,14 @@ const state = (
   more: Partial<Tuning> = {},
 ): Tuning => ({
   id: "abc",
+  kind: "tuning",
+  title: "FL + I",
+  created: "2026-01-02T03:04:05+00:00",
+  done: tried.length,
+  total: 4,
+  rate_per_s: null,
+  left_s: null,
+  result: null,
   law: "fl_integral",
   status,
   budget: 3,
@@ -39,6 +47,14 @@ const state = (
   best_setting: null,
   problem: null,
   ...more,
+});
+
+/** A job as the server sends it: what a tuning found is its result. */
+const sent = ({ id, status, problem: why, ...result }: Tuning) => ({
+  id,
+  status,
+  problem: why,
+  result,
 });
 
 type Call = { method: string; path: string; body: unknown };
@@ -68,25 +84,25 @@ afterEach(() => vi.useRealTimers());
 describe("a tuning that is followed", () => {
   it("asks for what it has not got, over a lost answer, until it has ended", async () => {
     answers = [
-      state("waiting", []),
-      state("running", [trial(0, 3), trial(1, 2)]),
+      sent(state("waiting", [])),
+      sent(state("running", [trial(0, 3), trial(1, 2)])),
       "lost",
-      state("done", [trial(2, 1), trial(3, 4)], { tried: 4 }),
+      sent(state("done", [trial(2, 1), trial(3, 4)], { tried: 4 })),
     ];
     await start("fl_integral", 3);
     expect(calls[0]).toEqual({
       method: "POST",
-      path: "tunings",
-      body: { law: "fl_integral", budget: 3, session: "lab" },
+      path: "jobs",
+      body: { kind: "tuning", law: "fl_integral", budget: 3, session: "lab" },
     });
     expect(isUnderWay.value).toBe(true);
     await vi.advanceTimersByTimeAsync(1000);
     expect(problem.value).not.toBeNull();
     await vi.advanceTimersByTimeAsync(5000);
     expect(calls.slice(1).map(({ path }) => path)).toEqual([
-      "tunings/abc?first=0",
-      "tunings/abc?first=2",
-      "tunings/abc?first=2",
+      "jobs/abc?first=0",
+      "jobs/abc?first=2",
+      "jobs/abc?first=2",
     ]);
     expect(candidates.value.map(({ number }) => number)).toEqual([0, 1, 2, 3]);
     expect([isUnderWay.value, problem.value]).toEqual([false, null]);

@@ -190,7 +190,9 @@ describe("what the page does", () => {
   test("after a reload a submission under way is taken up, and one that is left is not", async () => {
     answers = {
       "GET leaderboard": [{ ...season, entries: ENTRIES }],
-      "GET jobs": [[{ ...jobOf("running", 0), kind: "study", id: "s" }, jobOf("running", 1)]],
+      "GET jobs": [
+        { jobs: [{ ...jobOf("running", 0), kind: "study", id: "s" }, jobOf("running", 1)] },
+      ],
       "GET jobs/j": [jobOf("running", 2), jobOf("cancelled", 2)],
     };
     const opened = openBoard();

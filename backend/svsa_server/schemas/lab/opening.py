@@ -1,0 +1,97 @@
+"""What a private session is opened from: a figure, run, session, falsification or scenario."""
+
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, Field
+from typing_extensions import TypeAliasType
+
+from svsa.control.installed import InstalledLaw
+from svsa.evaluation.falsifier.scenario import LoadScenario
+from svsa.inputs.checked import Checked, Whole, quantity
+from svsa.runs.configuration import MAX_LANES, Configuration, Design, Lane
+from svsa_server.access.owned import Owned
+from svsa_server.schemas.lab.session import FigureRequest
+from svsa_server.schemas.lab.stability import DesignRequest
+
+
+class FromFigure(FigureRequest):
+    """A figure of the paper, running; also what `from` is if it is left out."""
+
+    source: Literal["figure"] = quantity("", "A figure", alias="from", default="figure")
+    figure: Literal["4a", "4b", "5"] = quantity("", "Figure of the paper", default="4a")
+    seed: Whole = quantity("", "Seed of the sensor noise", ge=0, le=2**63 - 1, default=0)
+
+    def build_configuration(self, design: Design) -> Configuration:
+        """What the session is set to, with the lab's design; raises `ParameterError`."""
+        return super().build_configuration(design).changed(seed=self.seed)
+
+
+class FromRun(Checked):
+    """A recorded run at a tick, paused: the session continues it."""
+
+    source: Literal["run"] = quantity("", "A recorded run", alias="from")
+    id: Annotated[str, Owned("run")] = quantity("", "Id of the run")
+    tick: Whole = quantity("ticks", "Tick of the recorded run, from its t = 0", ge=0, le=10**9)
+
+
+class FromSession(DesignRequest):
+    """Another session's settings with this design, stable or not; the 3 kg come after 1 s.
+
+    It is a simulation also if the other session has a bench; the other session stays as it is.
+    """
+
+    source: Literal["session"] = quantity("", "Another session", alias="from")
+    id: Annotated[str, Owned("session")] = quantity("", "Name of the session")
+
+
+class FromFalsification(Checked):
+    """The scenario that a falsification found, running, of its law and another one."""
+
+    source: Literal["falsification"] = quantity("", "A falsification", alias="from")
+    id: Annotated[str, Owned("job")] = quantity("", "Id of its job, which has ended")
+
+
+class FromScenario(Checked):
+    """A scenario, running, with up to four laws in parallel."""
+
+    source: Literal["scenario"] = quantity("", "A scenario", alias="from")
+    scenario: LoadScenario = quantity("", "Loads, and settings")
+    laws: Annotated[tuple[InstalledLaw, ...], Field(min_length=1, max_length=MAX_LANES)] = quantity(
+        "", "Laws; the first is lane 1"
+    )
+
+    def build_configuration(self) -> Configuration:
+        """The run; raises `ParameterError`."""
+        law, *others = self.laws
+        comparisons = tuple(Lane(law=other) for other in others)
+        return self.scenario.build_configuration(law).changed(comparisons=comparisons)
+
+
+class FromRanking(Checked):
+    """A row of the ranking in a scenario, running, with NDOBC, declared gains, as comparison.
+
+    NDOBC itself is compared with FL. Without comparison if that would end earlier; `note` says why.
+    """
+
+    source: Literal["ranking"] = quantity("", "The ranking", alias="from")
+    row: Annotated[str, Field(max_length=64)] = quantity(
+        "", "Key of a row: a law's name, or ndobc_declared"
+    )
+    scenario: Annotated[str, Field(max_length=60)] = quantity(
+        "", "Name of the run: rig_4a.negative.0, or trial_A_12"
+    )
+
+
+def _add_source(wanted: Any) -> Any:
+    return {"from": "figure", **wanted} if isinstance(wanted, dict) else wanted
+
+
+SessionRequest = TypeAliasType(
+    "SessionRequest",
+    Annotated[
+        FromFigure | FromRun | FromSession | FromFalsification | FromScenario | FromRanking,
+        Field(discriminator="source"),
+        BeforeValidator(_add_source),
+    ],
+)
+"""A type of its own: of a plain `Annotated` FastAPI applies the discriminator first."""

@@ -1,0 +1,78 @@
+"""Open a private session from what a request names."""
+
+import asyncio
+
+from fastapi import FastAPI
+
+from svsa.errors import StateError
+from svsa.evaluation.falsifier.measure import list_baselines
+from svsa.evaluation.ranking.scenarios import find_scenario
+from svsa.evaluation.ranking.single_run import build_shown_run
+from svsa.runs.configuration import Configuration, Lane
+from svsa.runs.records.resimulation import check_simulated, read_origin
+from svsa.simulation.plant.loads.paper import PaperLoad
+from svsa_server.jobs.falsifications import read_found
+from svsa_server.jobs.queue import Job
+from svsa_server.schemas.lab.opening import (
+    FromFalsification,
+    FromFigure,
+    FromRanking,
+    FromRun,
+    FromScenario,
+    FromSession,
+    SessionRequest,
+)
+from svsa_server.sessions.hosted import HostedSession
+from svsa_server.sessions.laboratory import Laboratory
+from svsa_server.sessions.tried_design import build_tried
+
+LOAD_S = 1.0
+"""When the load comes in a session that shows a design, s."""
+
+
+async def open_session(app: FastAPI, wanted: SessionRequest, owner: str) -> HostedSession:
+    """Open a session.
+
+    Args:
+        app: The application.
+        wanted: What it is opened from.
+        owner: Id of the person; empty in a lab without a class.
+
+    Raises:
+        ParameterError: A value is rejected.
+        StateError: A falsification has no scenario yet, or the lab has no room for a session.
+        UnknownError: There is no such session, run or job.
+    """
+    laboratory: Laboratory = app.state.laboratory
+    match wanted:
+        case FromRun():
+            record = await asyncio.to_thread(app.state.catalogue.open, wanted.id)
+            check_simulated(record)
+            configuration, commands = read_origin(record)
+            return await laboratory.branch(configuration, commands, wanted.tick, wanted.id, owner)
+        case FromRanking():
+            scenario = find_scenario(wanted.scenario)
+            shown = await asyncio.to_thread(build_shown_run, scenario, wanted.row)
+            return laboratory.create(shown.configuration, owner, shown.alone)
+        case FromFigure():
+            configuration = wanted.build_configuration(app.state.design)
+        case FromScenario():
+            configuration = await asyncio.to_thread(wanted.build_configuration)
+        case FromSession():
+            tried, _ = build_tried(laboratory.get(wanted.id).session, wanted)
+            load = PaperLoad(start_s=LOAD_S)
+            configuration = tried.changed(loads=(load,), comparisons=())
+        case FromFalsification():
+            configuration = _build_found(app.state.jobs.get(wanted.id, "falsification"))
+    return laboratory.create(configuration, owner)
+
+
+def _build_found(job: Job) -> Configuration:
+    found = None if job.is_under_way else read_found(job.folder)
+    if found is None:
+        raise StateError(
+            f"The falsification {job.id} is {job.status} and has no scenario: it writes one at its"
+            " end."
+        )
+    law, baseline = list_baselines(job.asked.adversary.law)
+    return found.scenario.build_configuration(law).changed(comparisons=(Lane(law=baseline),))
