@@ -47,7 +47,7 @@ def tune(panel: Locator) -> dict[str, Any]:
         panel.page.wait_for_timeout(200)
     end = panel.get_by_text(f"FL + I: {CANDIDATES} of {CANDIDATES} candidates. Done.")
     expect(end).to_be_visible(timeout=PATIENCE_MS)
-    return found
+    return found["result"]
 
 
 def test_a_law_is_tuned_and_the_best_is_put_to_use_and_saved(page: Page, lab: Lab) -> None:
