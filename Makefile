@@ -6,7 +6,7 @@ PAGE := backend/svsa_server/page/index.html
 GUIDE := backend/svsa_server/guide
 PAGE_SOURCES := $(shell find frontend/web -path '*/node_modules' -prune -o -type f -print) \
   frontend/scene/svsa_scene/cameras.json
-LOCKED_EXTRAS := server client bench plot nidaqmx xarray cluster lti gym
+LOCKED_EXTRAS := server client bench plot nidaqmx pandas xarray cluster lti gym
 # Each module in one process, in the order of tests/conftest.py: the browser tests are last.
 # Four processes on two cores, because many tests wait for a server or a browser.
 BY_MODULE := --dist loadfile --no-loadscope-reorder

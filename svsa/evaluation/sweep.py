@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Unpack
 from svsa.errors import ParameterError, Violation
 from svsa.evaluation.studies.setting import change_settings
 from svsa.inputs.checked import Checked, check_number
+from svsa.inputs.extras import require_extra
 from svsa.runs.configuration import Configuration, Design
 from svsa.runs.experiment import build_experiment
 from svsa.runs.metrics import Metrics
@@ -69,8 +70,10 @@ def sweep(
 
     Raises:
         ParameterError: A setting does not exist or a value is out of range; nothing is simulated.
+        MissingExtraError: pandas, of the extra of that name, is not installed.
     """
-    import pandas  # late: it takes a while
+    require_extra("pandas")
+    import pandas  # late: it takes half a second
 
     named = {} if law is None or callable(law) else {"law": law}
     configuration = build_experiment(experiment, parameters, {**changes, **named}, sweep)

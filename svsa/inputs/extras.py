@@ -8,7 +8,9 @@ from typing import Literal
 from svsa.errors import SvsaError
 
 DISTRIBUTION = "svsa-lab"
-Extra = Literal["server", "client", "bench", "plot", "nidaqmx", "xarray", "cluster", "lti", "gym"]
+Extra = Literal[
+    "server", "client", "bench", "plot", "nidaqmx", "pandas", "xarray", "cluster", "lti", "gym"
+]
 MODULES: dict[Extra, tuple[str, ...]] = {
     "server": (
         *("fastapi", "pydantic_settings", "uvicorn", "websockets", "httpx"),
@@ -18,6 +20,7 @@ MODULES: dict[Extra, tuple[str, ...]] = {
     "bench": ("can", "serial", "cantools"),
     "plot": ("matplotlib",),
     "nidaqmx": ("nidaqmx",),
+    "pandas": ("pandas",),
     "xarray": ("xarray",),
     "cluster": ("distributed",),
     "lti": ("joserfc",),

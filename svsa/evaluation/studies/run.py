@@ -13,6 +13,7 @@ from svsa.evaluation.studies.file import read_study
 from svsa.evaluation.studies.store import keep_study, read_rows
 from svsa.evaluation.studies.study import Study
 from svsa.inputs.checked import check_number
+from svsa.inputs.extras import require_extra
 
 if TYPE_CHECKING:
     import pandas
@@ -44,7 +45,9 @@ def run_study(
     Raises:
         ParameterError: For a file that cannot be read, a wrong value, or a `Study` without a name.
         StudyError: If another study has the name, or another process works at it.
+        MissingExtraError: If pandas, of the extra of that name, is not installed.
     """
+    require_extra("pandas")
     check_number("workers", workers, "", 0, 256)
     if isinstance(source, Study):
         if name is None:

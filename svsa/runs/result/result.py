@@ -93,7 +93,10 @@ class Result(Channels):
         return [(law, slice(at, end)) for (at, law), end in zip(begins, ends, strict=True)]
 
     def to_dataframe(self) -> "pandas.DataFrame":
-        """All channels as a pandas DataFrame, one row a tick; its `attrs` have the units."""
+        """All channels as a pandas DataFrame, one row for each tick; needs the extra `pandas`.
+
+        Its `attrs` have the units.
+        """
         from svsa.runs.result.tables import build_dataframe
 
         return build_dataframe(self.samples, self._tell())

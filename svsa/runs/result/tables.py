@@ -4,19 +4,33 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas
 
 from svsa.actuators.signals import CHANNEL_NAMES, CHANNELS
 from svsa.inputs.extras import require_extra
 
 if TYPE_CHECKING:
+    import pandas
     import xarray
 
 TIME = "time_s"
 
 
-def build_dataframe(samples: np.ndarray, reported: Mapping[str, str]) -> pandas.DataFrame:
-    """A row a tick, a column a channel; `attrs` has the units and what is told of the run."""
+def build_dataframe(samples: np.ndarray, reported: Mapping[str, str]) -> "pandas.DataFrame":
+    """A row for each tick and a column for each channel.
+
+    Args:
+        samples: All channels of a run, shape (ticks, channels).
+        reported: Law, fault and other facts of the run, for the attributes.
+
+    Returns:
+        The frame; its `attrs` have `reported` and the unit of each channel.
+
+    Raises:
+        MissingExtraError: pandas, of the extra of that name, is not installed.
+    """
+    require_extra("pandas")
+    import pandas
+
     table = pandas.DataFrame(samples, columns=list(CHANNEL_NAMES))
     table.attrs.update(reported, units={channel.name: channel.unit for channel in CHANNELS})
     return table
