@@ -81,9 +81,10 @@ $(PAGE): .venv/installed $(PAGE_SOURCES)
 	@$(BIN)/python frontend/web/hatch_build.py
 	@touch $@
 
-schema: .venv/installed  ## docs/openapi.json, docs/permissions.txt, and the page's types of the API (not in git)
+schema: .venv/installed  ## docs/openapi.json, docs/permissions.txt, docs/deploy/lab.env, the page's types of the API
 	$(BIN)/svsa openapi > docs/openapi.json
 	$(BIN)/svsa openapi --permissions > docs/permissions.txt
+	$(BIN)/svsa openapi --settings > docs/deploy/lab.env
 	$(WEB) run schema
 
 docs: .venv/installed  ## the documentation site, which the lab serves at /docs/guide/

@@ -2,6 +2,7 @@
 
 import ipaddress
 import re
+import textwrap
 from pathlib import Path
 from typing import Annotated
 
@@ -200,3 +201,18 @@ def is_loopback(host: str) -> bool:
         return ipaddress.ip_address(host.strip("[]")).is_loopback
     except ValueError:
         return False
+
+
+def write_example() -> str:
+    """A file of environment variables with every setting, its meaning and its default."""
+    lines = ["# Settings of the lab. Remove the # before a setting to change it."]
+    for name, field in Settings.model_fields.items():
+        default = "" if field.default is None else field.default
+        lines += [
+            "",
+            *textwrap.wrap(
+                field.description or "", 98, initial_indent="# ", subsequent_indent="# "
+            ),
+        ]
+        lines.append(f"#SVSA_{name.upper()}={str(default).lower()}")
+    return "\n".join(lines) + "\n"

@@ -74,9 +74,18 @@ def openapi(
         bool,
         typer.Option("--permissions", help="Print the table of permissions instead, as text."),
     ] = False,
+    settings: Annotated[
+        bool,
+        typer.Option("--settings", help="Print a commented example of the settings instead."),
+    ] = False,
 ) -> None:
     """Print the OpenAPI schema of the server."""
     require_extra("server")
+    if settings:
+        from svsa_server.config import write_example
+
+        print(write_example(), end="")
+        return
     from svsa_server.app import build_app
 
     app = build_app()

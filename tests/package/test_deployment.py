@@ -1,0 +1,77 @@
+"""Image, compose files and unit of docs/deploy."""
+
+import re
+import shutil
+import subprocess
+import tomllib
+from pathlib import Path
+
+import pytest
+import yaml
+
+from svsa_server.config import Settings, write_example
+
+ROOT = Path(__file__).parents[2]
+DEPLOY = ROOT / "docs" / "deploy"
+LABS = ("simulated", "class", "bench")
+
+
+def read_compose(name: str) -> dict:
+    return yaml.safe_load((DEPLOY / f"{name}.yaml").read_text(encoding="utf-8"))
+
+
+def test_the_example_has_every_setting_with_its_default() -> None:
+    assert (DEPLOY / "lab.env").read_text(encoding="utf-8") == write_example(), "run `make schema`"
+
+
+@pytest.mark.parametrize("name", LABS)
+def test_each_lab_extends_the_service_without_rights(name: str) -> None:
+    lab = read_compose(name)["services"]["lab"]
+    assert lab["extends"] == {"file": "lab.yaml", "service": "lab"}
+    common = read_compose("lab")["services"]["lab"]
+    assert common["read_only"]
+    assert common["cap_drop"] == ["ALL"]
+    assert (DEPLOY / common["build"] / "Dockerfile").is_file()
+    volumes = {volume.partition(":")[0] for volume in common["volumes"]}
+    assert volumes <= {*read_compose(name)["volumes"]}
+
+
+@pytest.mark.parametrize("name", LABS)
+def test_the_documented_command_sets_what_a_lab_requires(name: str) -> None:
+    text = (DEPLOY / f"{name}.yaml").read_text(encoding="utf-8")
+    required = set(re.findall(r"\$\{(\w+):\?", text))
+    documented = (ROOT / "docs" / "howto" / "deploy.md").read_text(encoding="utf-8")
+    command = f"docker compose -f {name}.yaml up"
+    for source in (text, documented):
+        (given,) = re.findall(rf"[#`] *([^#`]*){re.escape(command)}", source)
+        assert set(re.findall(r"(\w+)=", given)) == required
+
+
+@pytest.mark.parametrize("name", ["lab", *LABS])
+def test_compose_files_set_settings_that_exist(name: str) -> None:
+    known = {f"SVSA_{field.upper()}" for field in Settings.model_fields}
+    text = (DEPLOY / f"{name}.yaml").read_text(encoding="utf-8")
+    assert set(re.findall(r"SVSA_\w+", text)) <= known
+
+
+def test_the_image_installs_extras_that_exist() -> None:
+    (extras,) = re.findall(r"^ARG EXTRAS=(.*)$", (ROOT / "Dockerfile").read_text(), re.MULTILINE)
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    assert {*extras.split(",")} <= {*project["optional-dependencies"]}
+
+
+@pytest.mark.skipif(shutil.which("caddy") is None, reason="caddy is not installed")
+def test_caddy_accepts_the_file_of_the_class() -> None:
+    command = ["caddy", "adapt", "--config", str(DEPLOY / "Caddyfile"), "--adapter", "caddyfile"]
+    done = subprocess.run(command, capture_output=True, text=True, env={"SVSA_HOSTS": "lab.test"})
+    assert done.returncode == 0, done.stderr
+    assert "lab.test" in done.stdout
+    assert "lab:8000" in done.stdout
+
+
+@pytest.mark.skipif(shutil.which("systemd-analyze") is None, reason="systemd is not installed")
+def test_systemd_accepts_the_unit() -> None:
+    unit = DEPLOY / "svsa.service"
+    done = subprocess.run(["systemd-analyze", "verify", unit], capture_output=True, text=True)
+    problems = [line for line in done.stderr.splitlines() if "svsa.service" in line]
+    assert all("is not executable" in line for line in problems), done.stderr
