@@ -37,6 +37,7 @@ from svsa_server.jobs.heavy_work import HeavyWork
 from svsa_server.jobs.queue import Jobs, Share
 from svsa_server.leases.outcomes import OutcomeKeeper, Outcomes
 from svsa_server.leases.queue import ControlQueue
+from svsa_server.monitoring import DiskWatch, build_metrics_route
 from svsa_server.openapi import install_openapi
 from svsa_server.page import build_page_routes
 from svsa_server.routes import build_routes
@@ -99,6 +100,7 @@ def build_app(
     install_openapi(app, build_routes, needs_secret=authentication.kind != "open")
     app.state.viser = ViserProxy(lambda session: app.state.scenes.open(session))
     app.router.routes.extend((*build_routes(), *build_page_routes(), *app.state.viser.routes))
+    app.router.routes.append(build_metrics_route(app))
     app.state.rates = build_rates(config) if config.classroom else None
     app.state.permissions = PermissionTable(app.router.routes)
     # The last one that is added is the first to see a request: the audit log also sees what the
@@ -188,6 +190,7 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
     app.state.recordings = Recordings(app.state.catalogue)
     quota = DiskQuota(app.state.catalogue, laboratory, config.quota_mb * 1e6)
     app.state.quota = quota
+    app.state.disk = DiskWatch(find_data_folder(), config.disk_low_gb * 1e9)
     app.state.heavy_work = HeavyWork(config.max_exports)
     app.state.jobs = Jobs(
         {
@@ -205,6 +208,7 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
         asyncio.create_task(scenes.run()),
         asyncio.create_task(open_bench(shared)),
         asyncio.create_task(quota.run()),
+        asyncio.create_task(app.state.disk.run()),
     ]
     if app.state.lti is not None:
         from svsa_server.lti.scores import ScoreSender

@@ -4,7 +4,7 @@ import ipaddress
 import re
 import textwrap
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 from limits import parse
 from pydantic import AfterValidator, Field, SecretStr
@@ -133,6 +133,12 @@ class Settings(BaseSettings):
     )
     quota_mb: float = Field(
         default=500.0, ge=0, description="Disk space for the runs and studies of one student, MB"
+    )
+    disk_low_gb: float = Field(
+        default=2.0, ge=0, description="Free disk space below which the lab reports a problem, GB"
+    )
+    log: Literal["text", "json"] = Field(
+        default="text", description="Format of the log on standard error: text, or JSON lines"
     )
     joins: Rate = Field(
         default="300/minute", description="Joins of one address (a class behind one router has one)"

@@ -14,7 +14,7 @@ Extra = Literal[
 MODULES: dict[Extra, tuple[str, ...]] = {
     "server": (
         *("fastapi", "pydantic_settings", "uvicorn", "websockets", "httpx"),
-        *("viser", "trimesh", "zstandard"),
+        *("viser", "trimesh", "zstandard", "prometheus_client", "pythonjsonlogger"),
     ),
     "client": ("httpx", "websockets"),
     "bench": ("can", "serial", "cantools"),

@@ -1,6 +1,7 @@
 """Listen, print the address, and serve until a signal ends the server."""
 
 import gc
+import logging
 import os
 import socket
 import sys
@@ -9,7 +10,9 @@ from pathlib import Path
 from typing import IO
 
 import uvicorn
+from pythonjsonlogger.json import JsonFormatter
 from rich.console import Console
+from uvicorn.config import LOGGING_CONFIG
 
 from svsa.cli import prepare
 from svsa.control.installed import BASELINE, PAPERS_LAW
@@ -107,6 +110,8 @@ def run_server(
     if bench is not None and config.parameters is not None:
         bound = "left out with a bench: its own file names it, as [design] file"
         raise ParameterError(Violation("--parameters", str(config.parameters), "", bound))
+    if config.log == "json":
+        write_json_logs()
     config.check_root_path()
     check_shared_memory()
     design = read_design(config.parameters) if config.parameters else None
@@ -134,6 +139,8 @@ def run_server(
         uvicorn.Config(
             lab,
             log_level="warning",
+            # In JSON all loggers write through the same handler.
+            log_config=None if config.log == "json" else LOGGING_CONFIG,
             http=BoundHttp,
             ws=BoundWebSocket,
             ws_max_size=65536,
@@ -191,6 +198,16 @@ def claim_data_folder(folder: Path) -> IO[str] | None:
     file.write(f"{os.getpid()}\n")
     file.flush()
     return file
+
+
+def write_json_logs() -> None:
+    """Have all logs written to standard error as JSON, one object a line."""
+    fields = {"asctime": "time", "levelname": "level", "name": "logger"}
+    handler = logging.StreamHandler()
+    handler.setFormatter(
+        JsonFormatter("%(asctime)s %(levelname)s %(name)s %(message)s", rename_fields=fields)
+    )
+    logging.basicConfig(handlers=[handler], level=logging.INFO, force=True)
 
 
 def print_line(line: str) -> None:

@@ -39,7 +39,7 @@ def build_bench_state(session: BenchSession) -> BenchState:
         supervised=session.loop.supervised,
         operator_required=bench.safety.needs_watcher,
         dead_man=bench.safety.dead_man,
-        loop=_build_loop(session),
+        loop=build_loop(session),
     )
 
 
@@ -63,7 +63,8 @@ def _build_homing(next_step: Axis | None) -> HomingState:
     return HomingState(done=done, next_step=next_step, instruction=get_instruction(next_step))
 
 
-def _build_loop(session: BenchSession) -> LoopState:
+def build_loop(session: BenchSession) -> LoopState:
+    """State and lateness of the loop of a bench, from its shared memory."""
     fields, loss = session.loop.memory.fields, session.loop.loss
     lateness = fields["lateness"].copy()
     p50, p99, p999 = (read_quantile(lateness, share) for share in (0.5, 0.99, 0.999))

@@ -6,11 +6,12 @@ import svsa
 from svsa.runs.paper import FIGURES
 from svsa_server.access.guard import PERSON
 from svsa_server.access.permissions import ANYBODY, OBSERVER, allow
+from svsa_server.monitoring import list_problems
 from svsa_server.problems import Problem, answer_problem
 from svsa_server.routes.depends import needs_no_login_to_stop
 from svsa_server.routing import build_router
 from svsa_server.schemas.lab.kind import Kinds, list_kinds
-from svsa_server.schemas.lab.lab import FigureState, Health
+from svsa_server.schemas.lab.lab import FigureState, Health, Readiness
 from svsa_server.schemas.lab.law import LawState, list_laws
 from svsa_server.schemas.runs.fault import FaultKindState, list_faults
 from svsa_server.sessions.laboratory import SHARED_SESSION
@@ -24,6 +25,15 @@ router = build_router(tags=["lab"], route_class=TurnRoute)
 async def read_health() -> Health:
     """That the server lives, and its version."""
     return Health(version=svsa.__version__)
+
+
+@router.get("/ready", responses={503: {"model": Readiness, "description": "With the problems"}})
+@allow(ANYBODY)
+async def read_readiness(request: Request, response: Response) -> Readiness:
+    """Report whether all functions of the lab are available, for a load balancer or an alarm."""
+    problems = list_problems(request.app)
+    response.status_code = 503 if problems else 200
+    return Readiness(ready=not problems, problems=problems)
 
 
 @router.post(

@@ -94,6 +94,7 @@ def list_runs(
         tags=facets["tag"],
         facets=facets,
         indexing=request.app.state.indexing.progress,
+        problem=request.app.state.disk.problem or None,
     )
 
 

@@ -25,3 +25,10 @@ class Health(BaseModel):
     sessions_silent_s: float = Field(
         default=0.0, description="For how long no session has responded, s; 0 while they do"
     )
+
+
+class Readiness(BaseModel):
+    """Whether all functions of the lab are available."""
+
+    ready: bool
+    problems: list[str] = Field(description="What is missing and what to do, one sentence each")

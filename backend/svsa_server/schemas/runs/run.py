@@ -120,6 +120,9 @@ class RunList(BaseModel):
     indexing: IndexProgress | None = Field(
         description="While runs are still being added to the list after a start; else null"
     )
+    problem: str | None = Field(
+        description="Why the next recordings may fail: the disk is nearly full; else null"
+    )
 
 
 class RunCommand(BaseModel):

@@ -125,6 +125,11 @@ export function ListPage() {
         {list && <Pages total={list.total} />}
         <Overlayer />
       </div>
+      {list?.problem && (
+        <p class="note is-bad" role="alert">
+          {list.problem}
+        </p>
+      )}
       {indexing !== null && <Indexing progress={indexing} />}
       {list === null && <p class="empty">{words.loading}</p>}
       {list?.runs.length === 0 && <Empty />}
