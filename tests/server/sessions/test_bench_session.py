@@ -5,6 +5,7 @@ from collections.abc import Iterator
 import pytest
 
 from tests.server.sessions.bench_lab import BenchLab, run_bench_lab
+from tests.server.test_monitoring import read_metrics
 from tests.waiting import wait_until
 
 pytestmark = pytest.mark.wall_clock
@@ -174,3 +175,11 @@ def test_a_push_is_one_load_from_the_first_time_it_is_told_to_its_end(bench: Ben
     for estimates in (bench_lane, twin):
         assert estimates[0] == pytest.approx(1.2, abs=0.3)
         assert estimates[-1] == pytest.approx(0.0, abs=0.3)
+
+
+def test_metrics_report_the_ticks_of_the_loop_and_their_lateness(bench: BenchLab) -> None:
+    metrics = read_metrics(bench.lab.client)
+    assert metrics["svsa_bench_loop_alive",] == 1
+    assert metrics["svsa_bench_ticks_total",] > 0
+    late = "svsa_bench_tick_lateness_seconds"
+    assert metrics[late, "1"] >= metrics[late, "0.99"] >= metrics[late, "0.5"] > 0
