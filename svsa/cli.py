@@ -30,6 +30,7 @@ from svsa.hardware.cli import bench_check, bench_home
 from svsa.hardware.emulator.cli import emulator
 from svsa.inputs.extras import require_extra
 from svsa.numerics.compilation import is_compiled_before
+from svsa.runs.records.catalogue.runs import find_data_folder
 from svsa.runs.result.cli import compare
 from svsa.runs.result.progress import hide_progress
 from svsa.teaching.course.cli import course
@@ -168,6 +169,32 @@ def print_dbc(file: Annotated[Path, typer.Argument(help="Bench file (TOML).")]) 
     from svsa.hardware.file import read_bench
 
     print(describe_bench(read_bench(file)))
+
+
+@app.command("backup")
+def write_backup(
+    archive: Annotated[Path, typer.Argument(help="File to write, such as lab.tar.gz.")],
+) -> None:
+    """Write the data folder (runs, studies, class, grades) to an archive; the lab may run."""
+    from svsa.runs.records.backup import back_up
+
+    folder = find_data_folder()
+    with _messages.status(f"Copying {folder} …"):
+        number = back_up(folder, archive)
+    print(f"{archive}: {number} files of {folder}. It contains the secrets of a class.")
+
+
+@app.command("restore")
+def restore_backup(
+    archive: Annotated[Path, typer.Argument(help="Archive of `svsa backup`.")],
+) -> None:
+    """Extract an archive of `svsa backup` into the data folder, which must be empty."""
+    from svsa.runs.records.backup import restore
+
+    folder = find_data_folder()
+    with _messages.status(f"Extracting to {folder} …"):
+        version = restore(archive, folder)
+    print(f"{folder}: restored from an archive of svsa {version}.")
 
 
 @app.command("compile")
