@@ -21,7 +21,7 @@ RUN /opt/tools/bin/uv build --quiet --wheel --out-dir /dist . \
 # numpy's and SciPy's own libraries are not stripped: that breaks their alignment.
 RUN cd /opt/svsa/lib/python3*/site-packages \
  && find . -depth -type d \( -name tests -o -name include \) -not -path './svsa*' -exec rm -r {} + \
- && rm -r pyarrow/*flight* pyarrow/_s3fs* pyarrow/libarrow_s3* pyarrow/_gcsfs* pyarrow/_azurefs* \
+ && rm -rf pyarrow/*flight* pyarrow/_s3fs* pyarrow/libarrow_s3* pyarrow/_gcsfs* pyarrow/_azurefs* \
       pyarrow/_hdfs* pyarrow/*_cpp_tests* pyarrow/*.pyx pyarrow/*.pxi \
  && find . -name '*.so*' -type f -size +100k -not -path './numpy*' -not -path './scipy*' \
       -exec strip --strip-unneeded {} +
