@@ -10,8 +10,8 @@ import tempfile
 from datetime import UTC, datetime
 from pathlib import Path
 
-import svsa
 from svsa.errors import StateError, SvsaError
+from svsa.inputs.extras import __version__
 
 MANIFEST = "svsa-backup.json"
 FORMAT = 1
@@ -65,7 +65,7 @@ def back_up(folder: Path, archive: Path) -> int:
 
 def _add_all(folder: Path, tar: tarfile.TarFile) -> int:
     now = datetime.now(UTC).isoformat(timespec="seconds")
-    manifest = {"format": FORMAT, "svsa": svsa.__version__, "time": now}
+    manifest = {"format": FORMAT, "svsa": __version__, "time": now}
     _add_bytes(tar, MANIFEST, json.dumps(manifest).encode())
     number = 0
     for path in sorted(folder.rglob("*")):
