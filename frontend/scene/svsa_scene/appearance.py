@@ -71,7 +71,7 @@ def get_stiffness_color(step: int) -> Rgb:
 
 
 def get_line_color(line_style: int) -> Rgb:
-    """Colour of the curves of this ink."""
+    """Color of the curves of this line style."""
     return INKS[line_style % len(INKS)]
 
 

@@ -1,4 +1,4 @@
-"""The other lanes, live: their links as outlines, with ink and name of who controls them."""
+"""The comparison lanes, live: their links as outlines, with line style and controller name."""
 
 import viser
 
@@ -51,7 +51,7 @@ class Comparisons:
                 frame.wxyz = turn(comparison.position_rad)
 
     def _paint(self, number: int) -> None:
-        """The outline in its ink, in place of the one before."""
+        """Draw the outline in its line style, in place of the previous one."""
         finish = look.Finish(look.get_line_color(self._line_styles[number]), 0.0, 0.7, 0.75)
         solid = mechanism.export(mechanism.build_comparison, finish, number)
         self._scene.add_glb(f"/a/r{number}/solid", solid)

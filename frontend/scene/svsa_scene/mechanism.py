@@ -189,7 +189,7 @@ def build_load() -> Group:
 
 
 def build_limit_mark() -> Group:
-    """Mark at −x beside the pointers, turned to the largest deflection allowed."""
+    """Mark at −x next to the pointers, turned to the largest deflection allowed."""
     outline = [(-1.2, -0.015), (-0.96, -0.015), (-0.96, 0.015), (-1.2, 0.015)]
     return [look.paint(join([make_plate(outline, (SECTOR_Z - 0.02, SECTOR_Z + 0.02))]), look.LIMIT)]
 

@@ -163,7 +163,7 @@ def _check(
 
 
 def _read_template() -> str:
-    """The page beside the lab's own, found without importing the server."""
+    """The folder of the built replay page, found without importing the server."""
     server = find_spec("svsa_server")
     folders = server.submodule_search_locations if server else None
     for folder in folders or ():

@@ -1,5 +1,5 @@
 /**
- * `window.svsa`, a door for the console and for tests: the samples that the plots draw, in SI units.
+ * `window.svsa`, an interface for the console and for tests: the samples that the plots draw, in SI units.
  *
  *     svsa.channels()                          names of the channels in the stream
  *     svsa.series("position_error_rad")        { time: [s …], value: [rad …] }, oldest first

@@ -28,13 +28,13 @@ const RESTART: Action = {
   send: restartBench,
 };
 
-/** Where the loop is lost there is nothing to clear: it is started anew. */
+/** A lost loop has no fault to clear: it is restarted. */
 const actionsOn = (bench: BenchState): readonly Action[] =>
   isLoopLost(bench)
     ? ACTIONS.map((action) => (action.name === "clear" ? RESTART : action))
     : ACTIONS;
 
-/** What moves the bench from one state to the next; the next step stands out. Anybody may stop. */
+/** Commands from one state of the bench to the next; the next step is highlighted. Any user may stop. */
 export function BenchButtons({ bench }: { bench: BenchState }) {
   const allowed = allowedOn(bench, isHeld.value);
   return (

@@ -9,7 +9,7 @@ import { isLoopLost } from "./status";
 const { endurance: words } = text.bench;
 const PAUSE_MS = 400;
 
-/** What the answer depends on: another load, another setting, another load beside it. */
+/** What the answer depends on: the load, the settings, the other loads. */
 function questionOf(load: Load | null): string | null {
   const state = session.value;
   if (load === null || !isLive.value || !state?.bench || isLoopLost(state.bench)) return null;
@@ -17,7 +17,7 @@ function questionOf(load: Load | null): string | null {
   return JSON.stringify([load, state.configuration, on]);
 }
 
-/** Beside the button that hangs a load on a bench: which motor bears it for how long, and why. */
+/** Next to the load button of a bench: which motor overheats, after which time, and why. */
 export function EnduranceNote({ load }: { load: Load | null }) {
   const question = questionOf(load);
   const [found, find] = useState<{ question: string; answer: Endurance | null } | null>(null);

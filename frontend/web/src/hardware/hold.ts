@@ -1,4 +1,4 @@
-/** The dead-man's switch: held by a pointer, a key on its button, or the key D, and how it is told. */
+/** The dead-man's switch: held by a pointer, a key on its button, or the key D, and its messages. */
 import { computed, effect, signal } from "@preact/signals";
 import type { BenchState } from "../core/api/types";
 import { mayCommand } from "../core/state/control";

@@ -24,7 +24,7 @@ function pressKey(event: KeyboardEvent): void {
 
 const letGoOf = (grip: Grip) => () => letGo(grip);
 
-/** On a bench that asks for it: the switch that somebody holds while it runs. */
+/** On a bench that requires it: the switch that a user holds while the bench runs. */
 export function HoldRow({ bench: { status } }: { bench: BenchState }) {
   const id = useId();
   const held = isHeld.value;

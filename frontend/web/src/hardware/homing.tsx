@@ -59,7 +59,7 @@ function Confirmation({ axis, isAllowed }: { axis: Axis; isAllowed: boolean }) {
   );
 }
 
-/** The guided zero: somebody looks at each mark and puts a name to it. */
+/** Guided homing: the operator checks each mark and confirms it by name. */
 export function Homing({ bench }: { bench: BenchState }) {
   const { next_step: next, instruction } = bench.homing;
   return (

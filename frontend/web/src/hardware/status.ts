@@ -5,7 +5,7 @@ export const STAGES = ["off", "reset", "config", "mode", "ready", "run"] as cons
 type Stage = (typeof STAGES)[number];
 type Place = "done" | "here" | "ahead";
 
-/** A ramp is the end of a run; a fault is nowhere on the way; null: nobody knows where it is. */
+/** A ramp is the end of a run; a fault is nowhere on the way; null: unknown. */
 export function placeOf(stage: Stage, status: BenchStatus | null): Place {
   if (status === "fault" || status === null) return "ahead";
   const here = STAGES.indexOf(status === "ramp" ? "run" : status);
@@ -16,7 +16,7 @@ export function placeOf(stage: Stage, status: BenchStatus | null): Place {
 
 const isHomed = (bench: BenchState): boolean => bench.homing.next_step === null;
 
-/** Whether its loop does not tick: nothing can be asked of it but to be started anew. */
+/** Whether its loop does not tick: the only command it accepts is a restart. */
 export const isLoopLost = ({ loop }: BenchState): boolean => loop.state !== "ticking";
 
 /** Whether its loop has never ticked: there is nothing that could have been lost. */

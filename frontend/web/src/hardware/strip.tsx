@@ -10,7 +10,7 @@ import { isHeld } from "./hold";
 import { HoldRow } from "./holdrow";
 import { adviceFor, isStarting, needsDetails, placeOf, STAGES } from "./status";
 
-/** OFF → RUN as one line; the place is told by sign and word, not by colour alone. */
+/** OFF → RUN as one line; the state is shown by sign and word, not by color alone. */
 function Progress({ status }: { status: BenchState["status"] | null }) {
   return (
     <ol class={`stages is-${status ?? "unknown"}`} aria-label={text.bench.stages}>

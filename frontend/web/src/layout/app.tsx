@@ -68,7 +68,7 @@ function Here() {
   );
 }
 
-/** Whoever comes in begins the page anew: what it asked before was refused, or another's. */
+/** A login reloads the page: earlier requests were rejected, or made as another user. */
 export function App() {
   const state = session.value;
   const at = place.value;

@@ -9,7 +9,7 @@ import { FaultAdvice, StopBanners } from "../lab/safety/stopbanner";
 import { RejoinCodeBanner } from "../teaching/classroom/join";
 import { SavedNote } from "./savednote";
 
-/** Of a command whose answer was lost: that nobody knows yet, or that it was carried out. */
+/** For a command whose answer was lost: not known yet, or executed. */
 function CommandStatus({ now }: { now: NonNullable<typeof commandStatus.value> }) {
   const words = text.connection;
   const isAsking = now === "asking";

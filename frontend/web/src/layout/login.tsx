@@ -29,8 +29,8 @@ export function Login() {
       setProblem(error instanceof RefusedError ? error.message : text.connection.unreachable);
     }
   };
-  const door = access.value?.authentication;
-  const isJoined = door === "class";
+  const method = access.value?.authentication;
+  const isJoined = method === "class";
   return (
     <dialog
       ref={dialog}

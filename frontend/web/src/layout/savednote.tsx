@@ -17,7 +17,7 @@ function describeSaved({
   return [words.savedPartly, `${title} · ${formatDuration(durationS)}. ${message}`];
 }
 
-/** A step's run is told of beside the step, unless something is wrong with its record. */
+/** The run of a step is reported next to the step, unless its record is incomplete. */
 const isShownThere = (now: Saved): boolean =>
   isOfLesson(now.run) &&
   (now.stage === "saving" || (now.stage === "saved" && now.details.state === "complete"));

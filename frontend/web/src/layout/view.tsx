@@ -16,7 +16,7 @@ function load(frame: HTMLIFrameElement): void {
   frame.src = `viser/${sessionName}/?${first}${theme.peek() === "dark" ? "&darkMode" : ""}`;
 }
 
-/** The actuator in 3D, served by viser; made anew after each lost connection. */
+/** The actuator in 3D, served by viser; created again after each lost connection. */
 export function View() {
   const connection = connectionCount.value;
   const frame = useRef<HTMLIFrameElement | null>(null);

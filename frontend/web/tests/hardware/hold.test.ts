@@ -90,7 +90,7 @@ describe("the dead-man's switch", () => {
     expect(ended.value).toBeNull();
   });
 
-  it("is told by what the bench does", async () => {
+  it("is described by the state of the bench", async () => {
     const { wordsFor } = await load();
     expect(wordsFor("off", false, null)).toBe("idle");
     expect(wordsFor("ready", false, null)).toBe("ready");

@@ -55,7 +55,7 @@ describe("the states of a bench", () => {
     expect(allowed({ status: "ramp" })).toEqual([]);
     expect(allowed({ status: "fault", homing: UNHOMED })).toEqual(["clear"]);
     const lost = { status: "fault", loop: { state: "gone" } };
-    expect(allowed(lost), "a lost loop is started anew, not cleared").toEqual(["restart"]);
+    expect(allowed(lost), "a lost loop is restarted, not cleared").toEqual(["restart"]);
     expect(allowed({ ...lost, loop: { state: "not_opened" } })).toEqual(["restart"]);
     expect(allowed({ ...lost, loop: { state: "starting" } })).toEqual([]);
     expect(allowed({ loop: { state: "starting" } }), "it takes no command yet").toEqual([]);
@@ -87,7 +87,7 @@ describe("the states of a bench", () => {
 });
 
 describe("what stands behind a bench", () => {
-  it("is said once the bus has told, and before that nothing is claimed", () => {
+  it("is shown once the bus has reported it, not before", () => {
     const marks = [true, false, null].map((emulated) => markOfBench(bench({ emulated })));
     expect(marks).toEqual(["emulated", "real", "unknown"]);
   });
@@ -112,7 +112,7 @@ describe("a quick stop of a simulation", () => {
       ...change,
     }) as unknown as SessionState;
 
-  it("is told until it goes on", () => {
+  it("is shown until it continues", () => {
     expect(isStoppedSimulation(state({}))).toBe(true);
     expect(isStoppedSimulation(state({ status: "running" }))).toBe(false);
     expect(isStoppedSimulation(state({ tick: 710 }))).toBe(false);
@@ -121,7 +121,7 @@ describe("a quick stop of a simulation", () => {
 });
 
 describe("lateness", () => {
-  it("shows one late tick beside a million punctual ones", () => {
+  it("shows one late tick among a million punctual ones", () => {
     const bars = barsOf([1e-5, 1e-4], [1_000_000, 1, 0]);
     expect(bars.map((bar) => bar.edgeS)).toEqual([1e-5, 1e-4, null]);
     expect(bars[0]?.height).toBe(1);
@@ -137,7 +137,7 @@ describe("lateness", () => {
 
   it("calls what need not speak yet silent, never lost", () => {
     expect(freshnessOf(1000, BOUNDS, false)).toBe("silent");
-    expect(freshnessOf(1000, BOUNDS), "nobody knows since when").toBe("unheard");
+    expect(freshnessOf(1000, BOUNDS), "unknown since when").toBe("unheard");
     expect(freshnessOf(0.001, BOUNDS, false)).toBe("fresh");
     const patient = { stale_zero_s: 0.05, stale_fault_s: 0.2 };
     const levels = [0.04, 0.06, 0.21].map((age) => freshnessOf(age, patient));

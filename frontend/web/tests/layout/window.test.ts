@@ -97,8 +97,8 @@ describe("the recovery time", () => {
     };
     const recovery = recoveryOf(grown, load);
     expect(recovery.seconds).toBeNull();
-    expect(recovery.words).toBe("not now");
-    expect(recovery.hint).toContain("0.00 s from series torque at 5.00 s on");
+    expect(recovery.words).toBe("not recovered");
+    expect(recovery.hint).toContain("0.00 s after series torque at 5.00 s");
     const small = { ...grown, steady_state_position_error_rad: 0.01 };
     expect(recoveryOf(small, load).words).toBe("0.00");
   });

@@ -11,7 +11,7 @@ export type AuditPage = Schemas["AuditPage"];
 export type AuditLine = Schemas["AuditLine"];
 type Broadcast = Schemas["BroadcastState"];
 
-/** Whoever gave up on an answer that was under way would be somebody twice. */
+/** Without it, a client that gives up early would join the class twice. */
 const COMING_IN_MS = 30_000;
 const comeIn = (path: string, body: object) => request("post", path, body, COMING_IN_MS);
 

@@ -18,7 +18,7 @@ const MAX_CALLS = 200;
 const SECRET_PATHS = ["login", "join"];
 /** What is only looked at, at every key that is pressed: where its path begins, or ends. */
 const LOOKED_AT = "references/";
-const FORETOLD = "/bench/endurance";
+const PREDICTION = "/bench/endurance";
 
 export const calls = signal<readonly Call[]>([]);
 let lastId = 0;
@@ -37,7 +37,7 @@ export function noteCall(
   answer: unknown = null,
 ): number | null {
   if (method === "get" || SECRET_PATHS.includes(path) || path.startsWith(LOOKED_AT)) return null;
-  if (path.endsWith(FORETOLD)) return null;
+  if (path.endsWith(PREDICTION)) return null;
   return addCall({ method, path, body, status, timeS: readTime(answer) });
 }
 
@@ -46,7 +46,7 @@ export function answerCall(id: number, status: number | null): void {
   calls.value = calls.peek().map((call) => (call.id === id ? { ...call, status } : call));
 }
 
-/** Notes a file that the browser fetches by itself. */
+/** Records a file that the browser downloads without `fetch`. */
 export function noteDownload(path: string): void {
   addCall({ method: "get", path, body: undefined, status: 200, timeS: null });
 }

@@ -1,4 +1,4 @@
-/** The public REST API, one function a call. The page has no other door to the server. */
+/** The public REST API, one function per call. The page uses no other interface of the server. */
 import { ChangedError, RefusedError, UnansweredError } from "./errors";
 import { learnOutcome } from "./outcome";
 import { API, client, LONGEST_WAIT_MS, request, sessionName } from "./request";
@@ -89,7 +89,7 @@ export const putStiffness = (reference: Sent<StiffnessReference>) =>
 /** Begins the one that is followed again, faded over. */
 export const repeatPosition = () => call("post", "/position/repeat");
 export const repeatStiffness = () => call("post", "/stiffness/repeat");
-/** comparisons: laws of the lanes beside, from the first on; those left out keep theirs. */
+/** comparisons: laws of the comparison lanes in order; lanes left out keep their laws. */
 export const putLaw = (law: Law, comparisons: readonly Law[]) =>
   call(
     "put",
@@ -116,7 +116,7 @@ export const patchNominal = (patch: ActuatorPatch) => call("patch", "/nominal", 
 export const putNominal = (toml: string) => call("put", "/nominal", { toml });
 export const excite = (name: string) => call("post", "/excitation", { name });
 export const stopExcitation = () => call("delete", "/excitation");
-/** The run is called by its settings until somebody names it. */
+/** The run is named after its settings until a user renames it. */
 export const startRecording = () => call("post", "/recording", { name: "", tags: [], notes: "" });
 export const stopRecording = () => call("delete", "/recording");
 export const putSpeed = (factor: Speed) => call("put", "/speed", { factor });
@@ -132,7 +132,7 @@ export const clearBench = () => call("post", "/bench/clear");
 export const restartBench = () => call("post", "/bench/restart");
 export const reset = () => call("post", "/reset");
 export const step = (ticks: number) => call("post", "/step", { ticks });
-/** kept: lanes and effects that the figure by itself has not. */
+/** kept: lanes and effects that the figure itself does not define. */
 export const runFigure = (
   figure: Figure,
   law: Law,
@@ -144,7 +144,7 @@ export const removeAllLoads = () => call("delete", "/loads");
 export const takeControl = (by: string, takeOver: boolean) =>
   call("put", "/control", { by, take_over: takeOver });
 export const giveControlBack = () => call("delete", "/control");
-/** Gives control to somebody who waits for it; the instructor may, and who has it. */
+/** Passes control to a user in the queue; for the holder and the instructor. */
 export const handControlOver = (to: string) => call("post", "/control/handover", { to });
 export const lockControl = (locked: boolean) => call("put", "/control/lock", { locked });
 

@@ -14,7 +14,7 @@ export class RefusedError extends Error {
   }
 }
 
-/** Somebody has changed the session since its revision was read (HTTP 412); nothing was set. */
+/** Another client changed the session after its revision was read (HTTP 412); nothing was set. */
 export class ChangedError extends RefusedError {
   constructor(
     message: string,

@@ -51,6 +51,6 @@ export const scenarioFileOf = (name: string): string =>
 /** What came of each law, and its errors over time. */
 export const runLaws = (scenario: Scenario, laws: readonly Law[]) =>
   request("post", "scenarios/runs", { scenario, laws }, LONG_WAIT_MS) as Promise<Trace>;
-/** A private session of laws beside each other. */
+/** A private session with several laws in lanes. */
 export const seeLaws = (scenario: Scenario, laws: readonly Law[]) =>
   request("post", "sessions", { from: "scenario", scenario, laws }) as Promise<SessionState>;

@@ -28,7 +28,7 @@ const readResult = (job: Job): Tuning => ({ ...job, ...(job.result as Schemas["T
 /** It begins from what the law is set to in this session. */
 export const startTuning = async (law: Law, budget: number) =>
   readResult(await startJob({ kind: "tuning", law, budget, session: sessionName }));
-/** first: from which trial on they are told. */
+/** first: index of the first trial to return. */
 export const readTuning = async (id: string, first: number) =>
   readResult((await request("get", `${pathOf(id)}?first=${first}`)) as Job);
 export const listTunings = async () => (await listJobs("tuning")).map(readResult);

@@ -5,7 +5,7 @@ import { NotCarriedOutError, RefusedError, type UnansweredError } from "./errors
 import { request } from "./request";
 import type { OutcomeState } from "./types";
 
-/** asking: nobody knows yet whether it was carried out; carriedOut: it was, as the server says. */
+/** asking: not known yet whether it was executed; carriedOut: executed, as the server reports. */
 type CommandStatus = "asking" | "carriedOut" | null;
 export const commandStatus = signal<CommandStatus>(null);
 

@@ -17,7 +17,7 @@ export const readRanking = () => request("get", "ranking") as Promise<Results>;
 export const seeScenario = (row: string, scenario: string) =>
   request("post", "sessions", { from: "ranking", row, scenario }) as Promise<SessionState>;
 
-// The leaderboard: laws on a season that nobody knows, and their worst runs.
+// The leaderboard: laws on the hidden trials of a season, and their worst runs.
 
 type Board = Schemas["LeaderboardState"];
 export type BoardEntry = Board["entries"][number];

@@ -39,7 +39,7 @@ export function listRuns(wanted: RunsWanted): Promise<RunList> {
 }
 
 export const readRun = (run: string) => request("get", pathOf(run)) as Promise<RunDetails>;
-/** Refused with 412 where somebody else has changed the run since this was read of it. */
+/** Rejected with 412 if another client has changed the run since this revision was read. */
 export const changeRun = (run: Pick<RunSummary, "id" | "revision">, patch: RunPatch) =>
   request("patch", pathOf(run.id), patch, undefined, {
     "If-Match": `"${run.revision}"`,

@@ -15,7 +15,7 @@ export type EffectsRequest = {
     : Effects[K];
 };
 export type ActuatorParameters = Configuration["actuator"];
-/** A controller beside the first; null or left out: as the session's. */
+/** The controller of a comparison lane; null or left out: as the session's. */
 export type Lane = Schemas["Lane"];
 export type Gains = Schemas["Gains"];
 export type SessionFault = NonNullable<SessionState["fault"]>;

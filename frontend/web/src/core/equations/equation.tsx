@@ -39,7 +39,7 @@ function EquationRow({ equation }: { equation: Equation }) {
   );
 }
 
-/** Beside the paper's two laws, those that control lanes now: in their own words. */
+/** In addition to the paper's two laws, the laws of the present lanes with their own equations. */
 export function equationsOf(topic: Topic, controlling: readonly LawRow[]): readonly Equation[] {
   const printed = EQUATIONS[topic];
   if (topic !== "controller") return printed;

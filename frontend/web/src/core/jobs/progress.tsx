@@ -25,10 +25,10 @@ interface JobProgressProps {
   /** How much is done, in words. */
   done: string;
   total: number;
-  /** What the bar is of, for whoever does not see where it stands. */
+  /** Label of the bar for screen readers. */
   label: string;
   onCancel: () => void;
-  /** What can be done with it while nobody works at it. */
+  /** Commands that are available while the job is not running. */
   children?: ComponentChildren;
 }
 

@@ -77,7 +77,7 @@ const BETWEEN_WORDS_PX = 16;
 const MIN_BETWEEN_PX = 64;
 const MIN_GAP_PX = 6;
 
-/** The step of a time axis so wide, CSS pixels, on which its numbers have room beside each other. */
+/** The step of a time axis so wide, CSS pixels, on which its numbers have room next to each other. */
 export function timeStep({ from, to }: Span, width: number): number {
   const hasRoom = (step: number) => {
     const last = Math.floor(to / step);

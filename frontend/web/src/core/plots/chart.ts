@@ -21,7 +21,7 @@ export class Chart {
   #shown: readonly Curve[];
   #bounds: readonly Bound[] = [];
   #perBucketS = 0;
-  /** What the curves were taken from: where the plot is drawn again by itself, they are no newer. */
+  /** Source of the curves: a plot that redraws on its own gets no newer samples. */
   #taken: Pick<Frame, "ring" | "span" | "newest"> | null = null;
 
   constructor(

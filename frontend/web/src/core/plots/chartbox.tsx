@@ -20,7 +20,7 @@ interface ChartBoxProps {
   hidden: ReadonlySignal<ReadonlySet<string>>;
 }
 
-/** A chart in its host: made anew for other curves, drawn by the clock of all plots. */
+/** A chart in its host: created again for other curves, drawn by the clock of all plots. */
 export function ChartBox({ class: look, make, setup, traces, hidden }: ChartBoxProps) {
   const host = useRef<HTMLDivElement>(null);
   useEffect(() => {

@@ -39,7 +39,7 @@ export class Curve {
     return perBucket;
   }
 
-  /** Dashes begin anew. */
+  /** The dash pattern restarts. */
   forget(): void {
     this.#anchor = { time: Number.NaN, length: 0 };
   }

@@ -36,7 +36,7 @@ export function drawEventLines(plot: uPlot, events: readonly RunEvent[]): void {
   context.restore();
 }
 
-// Which of the marks above the plots have their names beside them, and on which side.
+// Which of the marks above the plots have their names next to them, and on which side.
 
 export interface PlacedMark {
   x: number;

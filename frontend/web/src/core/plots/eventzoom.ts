@@ -1,4 +1,4 @@
-/** The second around the last event, which stands still beside the plots while they go on. */
+/** The second around the last event, fixed next to the scrolling plots. */
 import { computed, effect, signal } from "@preact/signals";
 import type { SessionEvent } from "../api/types";
 import type { Cast } from "../state/lanes";

@@ -16,7 +16,7 @@ import { held, isHeld, shownSpan } from "./span";
 interface Drawing {
   /** Draws it again. */
   renew(): void;
-  /** Nobody sees what is scrolled out of sight: it waits. */
+  /** A plot scrolled out of view is not drawn. */
   see(isSeen: boolean): void;
   remove(): void;
 }

@@ -73,7 +73,7 @@ export function shareLineStyles(own: readonly (number | null)[]): LineStyle[] {
   return own.map((_, index) => lineStyleOf(shared.get(index) as number));
 }
 
-/** Of who controlled a lane at a time; null where nobody is known. */
+/** Of the controller of a lane at a time; null if unknown. */
 export const lineStyleAt = (
   segments: readonly { line_style: number; start_s: number }[] | undefined,
   timeS: number,

@@ -75,7 +75,7 @@ export const behindS = (): number => {
   return span === null ? 0 : samples.ring.newestTime - span.ring.newestTime;
 };
 
-/** A run that begins anew has no past to stand still on; new channels get theirs there too. */
+/** A restarted run has no past to pause on; new channels get their past there, too. */
 export function followSession(): () => void {
   let run = session.peek()?.run_number;
   const stopRun = effect(() => {

@@ -34,7 +34,7 @@ export function fillHost(
   if (width > 0 && height > 0) plot.setSize({ width, height });
 }
 
-/** A chart that stands still: made anew for another one, which its owner keeps. */
+/** A chart without live samples: created again for other curves, which its owner stores. */
 export interface StillChart {
   look: Look;
   data: uPlot.AlignedData;
@@ -109,7 +109,7 @@ export interface TimeChart {
   /** Below the curves, and above them. */
   drawBelow?: (plot: uPlot) => void;
   drawAbove?: (plot: uPlot) => void;
-  /** The pointer has moved; where nobody reads the values there, they have no marks. */
+  /** The pointer has moved; without a reader of the values there are no marks. */
   onCursor?: (plot: uPlot) => void;
   watch?: (plot: uPlot) => () => void;
 }

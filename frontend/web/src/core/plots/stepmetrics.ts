@@ -1,4 +1,4 @@
-/** How well a lane did after an event, in the numbers that the table beside the plots has too. */
+/** Metrics of a lane after an event, as in the table next to the plots. */
 import type { SessionEvent, SessionState } from "../api/types";
 import { type Cast, controllerAt } from "../state/lanes";
 import type { SampleRing } from "../stream/ring";
@@ -44,7 +44,7 @@ function findWindow(state: SessionState, tick: number) {
 
 /**
  * What an event began: the session's window, measured on every sample by the server. Of an event that
- * began none, as a load that ends by itself, peak and rms of the samples held up to the next event.
+ * began none, such as a load that ends, peak and rms of the samples held up to the next event.
  *
  * shown: who controlled the lanes that the plots show, of which `ring` holds the samples; present:
  * those of the session. nextS: when the next event comes, s.

@@ -112,7 +112,7 @@ export function TimeAxis() {
   );
 }
 
-/** What the zoom beside the plots is of. */
+/** The event of the zoom next to the plots. */
 export function ZoomTitle() {
   void session.value;
   const event = zoomedEvent.value;

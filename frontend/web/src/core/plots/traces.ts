@@ -108,7 +108,7 @@ function sort(channels: readonly ChannelName[]): Sorted {
 const withMirror = (one: Trace): Trace[] =>
   CHANNELS[one.channel as ChannelName].limitOf === undefined ? [one] : [one, mirror(one)];
 
-/** A truth or a limit beside the pieces of what it belongs to. */
+/** A true value or a limit, drawn with the curve it belongs to. */
 function compose(companion: ChannelName, own: readonly Trace[], cast: Cast): Trace[] {
   const isAlone = cast.length <= 1;
   const [leader] = own;
@@ -159,8 +159,8 @@ export function composeContent(channels: readonly ChannelName[], cast: Cast): Pl
         label: isByChannel || isOneName ? label(channel) : one.name,
       }),
     ).map((one): Trace => ({ ...one, sign }));
-    const beside = companions.flatMap((name) => compose(name, own, cast).flatMap(withMirror));
-    return { key: channel, label: label(channel), traces: [...own, ...beside] };
+    const added = companions.flatMap((name) => compose(name, own, cast).flatMap(withMirror));
+    return { key: channel, label: label(channel), traces: [...own, ...added] };
   });
   const common = references.map((name) => trace(name, 1, REFERENCE, label(name)));
   return { groups, common };

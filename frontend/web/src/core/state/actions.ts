@@ -44,7 +44,7 @@ export const describeError = (error: unknown): string =>
 
 /**
  * Sends for as long as only other things than this one were changed since `seen`; throws the
- * `ChangedError` where somebody else has set the very same.
+ * `ChangedError` if another client has set the same value.
  */
 async function sendUnlessChanged(
   request: () => Promise<SessionState>,
@@ -93,11 +93,11 @@ export async function perform(
   }
 }
 
-// A wish whose refusal is told where a page shows it.
+// A request whose rejection is shown at a place of the page.
 
 type Attempt = <T>(wish: () => Promise<T>) => Promise<T | null>;
 
-/** Makes what asks by the way: null for what was refused, and what was refused before stays told. */
+/** Wraps a background request: null if rejected; an earlier error message stays. */
 export const asking =
   (problem: Signal<string>): Attempt =>
   async (wish) => {
@@ -114,7 +114,7 @@ export const showErrorIn = (problem: Signal<string>) => (error: unknown) => {
   problem.value = error === null ? "" : describeError(error);
 };
 
-/** Makes what carries out wishes: null for one that was refused, with its reason alone told. */
+/** Wraps a request of the user: null if rejected, with its reason shown. */
 export const attempting = (problem: Signal<string>): Attempt => {
   const ask = asking(problem);
   return (wish) => {

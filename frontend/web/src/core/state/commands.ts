@@ -36,7 +36,7 @@ export function toggleCompare(state: SessionState): Promise<boolean> {
   return perform(CONTROL.compare, () => putLanes(isOn ? [] : comparedWith(state)));
 }
 
-/** One more beside; the session's own law with settings of its own, which are those of now. */
+/** Adds a comparison lane; the session's own law gets a copy of the present settings. */
 export function addLane(state: SessionState, law: Law): Promise<boolean> {
   const { configuration } = state;
   const lane: Lane = { law };
@@ -58,7 +58,7 @@ async function removeWeights(state: SessionState): Promise<SessionState> {
 /** A press waits for what the one before has done: of a button and its key at once both would hang 3 kg. */
 let answered: Promise<boolean> = Promise.resolve(true);
 
-/** Hangs 3 kg or takes them off; on a real bench it marks that somebody did. */
+/** Adds or removes the 3 kg; on a real bench it marks that the operator did. */
 export function toggleWeight(): Promise<boolean> {
   answered = answered.then(() => {
     const state = session.peek();

@@ -6,17 +6,17 @@ import { perform } from "./actions";
 import { nameForControl, personName, rememberPerson } from "./preferences";
 import { isLive, session } from "./session";
 
-/** Null before the lab has told it. */
+/** Null before the lab has reported it. */
 export const access = signal<Access | null>(null);
 
-/** How often somebody has come in here, by a secret, a code or a token. */
+/** Number of logins on this page, by a secret, a code or a token. */
 export const comings = signal(0);
 
 export const isClass = computed(() => access.value?.authentication === "class");
 export const isInstructor = computed(() => isClass.value && access.value?.role === "instructor");
 export const isObserver = computed(() => isClass.value && access.value?.role === "observer");
 
-/** Asks the lab; what it told before stays where it does not answer. */
+/** Asks the lab; without an answer the previous one stays. */
 export async function learnAccess(): Promise<void> {
   try {
     access.value = await readAccess();
@@ -25,14 +25,14 @@ export async function learnAccess(): Promise<void> {
   }
 }
 
-// Who is in control of the session: everybody, this page, or somebody else.
+// Who is in control of the session: every user, this page, or another client.
 
 /** Also the control that shows why it was refused. */
 export const CONTROL_OF_SESSION = "control";
 
 export const control = computed(() => session.value?.control ?? null);
 
-/** Their name, where somebody else is in control. */
+/** The holder's name if another client is in control. */
 export const otherHolder = computed(() =>
   control.value === null || control.value.mine ? null : control.value.holder,
 );
@@ -40,14 +40,14 @@ export const otherHolder = computed(() =>
 /** Who waits for control, in a class; null elsewhere. */
 export const queue = computed(() => session.value?.queue ?? null);
 
-/** Nobody else is in control; in a class one must be oneself, or the instructor. */
+/** No other client is in control; in a class the user must be the holder, or the instructor. */
 export const hasControl = computed(() => {
   if (isObserver.value) return false;
   if (queue.value === null || isInstructor.value) return otherHolder.value === null;
   return control.value?.mine === true;
 });
 
-/** Whether what this page sends is taken: it is connected, and nobody else is in control. */
+/** Whether the server accepts commands of this page: connected, and no other client in control. */
 export const mayCommand = computed(() => isLive.value && hasControl.value);
 
 /** Whether the session takes a command: the loop of a bench answers to none before it ticks. */

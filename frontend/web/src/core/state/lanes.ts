@@ -4,11 +4,11 @@ import type { Gains, Lane, LaneRow, Law, SessionState } from "../api/types";
 import { otherLaw } from "./laws";
 import { session } from "./session";
 
-/** The controllers set beside the session's own; a bench's simulated twin is none of them. */
+/** The comparison lanes; a bench's simulated twin is not one of them. */
 export const comparisonsOf = ({ configuration: { comparisons }, bench }: SessionState) =>
   bench === null ? comparisons : comparisons.slice(1);
 
-/** A controller beside the session's own, on the lane of this number. */
+/** The comparison lane of this number. */
 export interface ComparisonLane {
   lane: number;
   /** The lane's own in the whole run. */
@@ -39,7 +39,7 @@ export const hasOwnSettings = ({ gains, parameters, observer }: Lane): boolean =
   [gains, parameters, observer].some((own) => own !== null && own !== undefined);
 
 /**
- * The laws of the lanes beside when the session takes a law: the lane that has it takes the
+ * The laws of the comparison lanes when the session takes a law: the lane that has it takes the
  * session's in exchange, each from where its actuator is. None where no lane has it, or where it
  * is set there otherwise: that is another controller, which stays.
  */
@@ -69,7 +69,7 @@ export interface Segment {
 /** Of lane 1, 2, … who controlled it when, the present one last. */
 export type Cast = readonly (readonly Segment[])[];
 
-/** A string, so that what depends on it is made anew only when a lane changes. */
+/** A string, so that its dependents are computed again only when a lane changes. */
 const castKey = computed(() =>
   JSON.stringify((session.value?.lanes ?? []).map(({ segments }) => segments)),
 );
@@ -93,7 +93,7 @@ export const controllerAt = (lane: readonly Segment[], timeS: number): Segment |
 /** Names of lane 1, 2, … as they are now. */
 export const laneNames = computed(() => cast.value.map((lane) => presentOf(lane)?.name ?? ""));
 
-// What *Compare* switches on: the controllers that stood beside last, or the first other law.
+// What *Compare* switches on: the last comparison lanes, or the first other law.
 
 const last = signal<readonly Lane[]>([]);
 

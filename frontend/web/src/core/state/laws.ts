@@ -26,7 +26,7 @@ export function describeLaw(name: Law): string {
   return law?.title ?? (laws.value.length > 0 ? text.laws.notInstalled(name) : name);
 }
 
-/** The law to set beside this one where nobody has chosen: the first other one. */
+/** The default comparison law of a law: the first other one. */
 export const otherLaw = (law: Law): Law | undefined =>
   usableLaws.value.find(({ name }) => name !== law)?.name;
 

@@ -8,7 +8,7 @@ import { BatchDecoder } from "../stream/decoder";
 import { HISTORY_S, LONGEST_WINDOW_S, RATE_HZ, SampleRing } from "../stream/ring";
 import { type Mark, markOfBench } from "./plant";
 
-/** After a change the whole state; between changes only the fields that move by themselves. */
+/** After a change the whole state; between changes only the fields that change with time. */
 export type Progress = Pick<SessionState, "run_number" | "tick"> & Partial<SessionState>;
 
 const MAX_EVENTS = 200;
@@ -51,7 +51,7 @@ export const phase = signal<Phase>("connecting");
 export const missedSamples = signal(0);
 /** Counts the connections: what must start afresh after a lost one is keyed by it. */
 export const connectionCount = signal(0);
-/** Another session has the name of the one that was shown, until somebody has seen that. */
+/** A new session has the name of the one that was shown, until the user dismisses the message. */
 export const isAnother = signal(false);
 /** Counts what was received: a plot whose count is behind has something to draw. */
 export const received = signal(0);

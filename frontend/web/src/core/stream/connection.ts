@@ -1,4 +1,4 @@
-/** A WebSocket that stays: it notices silence, and comes back by itself. */
+/** A WebSocket that detects silence and reconnects automatically. */
 
 /** What an ordinary request finds where the stream was lost. */
 /** ended: the server lives, but what was streamed is there no more. */

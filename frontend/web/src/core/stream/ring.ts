@@ -32,11 +32,11 @@ export function sourcesOf(channel: string): string[] {
 }
 
 // The newest samples of a session, one column a channel and lane, in arrays that are never
-// reallocated. Which lanes there are, and in which order, `arrange` is told; whose samples a batch
+// reallocated. `arrange` sets the lanes and their order; whose samples a batch
 // has, the batch says, by the ids of the lanes: a lane takes its past along wherever it stands, has
 // no number where it was not there, and goes with its past.
 //
-// Channels that are derived from others stand beside them.
+// Derived channels are stored with the channels they come from.
 //
 // Samples that a slow client was not sent are a gap: the first and the last of them stand in their
 // places as samples without numbers, and nothing between them, so that no reader of the ring joins
@@ -84,7 +84,7 @@ export class SampleRing extends TimeRing {
     this.#lanes = ids.map((id) => ({ id, columns: held.get(id) ?? blank() }));
   }
 
-  /** Takes the newest samples; what is held of the same time and later gives way to them. */
+  /** Adds the newest samples; stored samples of the same time and later are replaced. */
   append(batch: Batch, periodS: number): void {
     this.dropFrom(batch.firstTick * periodS);
     this.#markGap(batch, periodS);

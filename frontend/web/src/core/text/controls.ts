@@ -7,11 +7,11 @@ export const controlsText = {
   },
   refusal: {
     outOfRange: (name: string, value: string, bound: string) =>
-      `${name}: ${value} is out of range, ${bound}. It stays as it was.`,
+      `${name}: ${value} is out of range (${bound}). The value is unchanged.`,
     missing: (name: string) => `${name} is missing.`,
     finding: (name: string, finding: string) => `${name}: ${finding}.`,
     wrong: (name: string, bound: string) => `${name} must be ${bound}.`,
-    noNumber: "This is no number. It stays as it was.",
+    noNumber: "Not a number. The value is unchanged.",
     between: (least: string, most: string) => `from ${least} to ${most}`,
     atLeast: (bound: string) => `at least ${bound}`,
     moreThan: (bound: string) => `more than ${bound}`,
@@ -58,14 +58,14 @@ export const controlsText = {
     },
     openCsv: "Open CSV…",
     pasteCsv: "Time series as CSV",
-    csvHint: "The head names the unit. 2 to 2000 rows; a bench that moves takes 200.",
+    csvHint: "The header names the unit. 2 to 2000 rows; at most 200 while a bench moves.",
     levels: (unit: string) => `Steps: time in s, level in ${unit}`,
     levelsHint: (unit: string, most: number) =>
-      `A line each: time s, level ${unit}. Up to ${most}; a bench that moves takes ${most / 2}.`,
+      `One line per step: time in s, level in ${unit}. At most ${most}; ${most / 2} while a bench moves.`,
     noLevel: (line: number, written: string) =>
-      `Line ${line} is “${written}”: it must be a time and a level.`,
+      `Line ${line} is “${written}”; expected a time and a level.`,
     levelCount: (count: number, most: number) =>
-      `The list has ${count} lines: it must have 1 to ${most}.`,
+      `The list has ${count} lines; expected 1 to ${most}.`,
     example: {
       position: "time_s,position_deg\n0,0\n1,30\n2,-30\n3,0\n",
       stiffness: "time_s,stiffness_nm_per_rad\n0,15\n1,30\n3,15\n",
@@ -77,11 +77,11 @@ export const controlsText = {
     course: (least: string, greatest: string, unit: string, end: string, rate: string) =>
       `${least} to ${greatest} ${unit} in ${end} s, at most ${rate} ${unit}/s`,
     apply: "Apply",
-    again: "Begin again",
-    againHint: "What is followed now, from its beginning",
-    notApplied: (kind: string) => `Following now: ${kind}. What stands here is not applied yet.`,
+    again: "Restart",
+    againHint: "Restart the present reference from its beginning",
+    notApplied: (kind: string) => `Active: ${kind}. The settings shown here are not applied yet.`,
     following: (kind: string, fadeS: number) =>
-      `Following now: ${kind}. It fades in for ${fadeS} s, then begins; its end is held.`,
+      `Active: ${kind}. It fades in over ${fadeS} s, then starts; its last value is held.`,
   },
   controller: {
     title: "Controller",
@@ -98,36 +98,36 @@ export const controlsText = {
   observer: {
     title: "Observer",
     all: "Bandwidth β",
-    each: "Each channel by itself",
+    each: "Each channel separately",
     spread: "The channels differ; the slider sets all three.",
-    unused: (law: string) => `${law} does not use this estimate; the observer runs beside it.`,
+    unused: (law: string) => `${law} does not use this estimate; the observer runs in parallel.`,
   },
   load: {
     title: "Load",
     weight: "3 kg",
     hang: "Hang 3 kg",
     remove: "Remove 3 kg",
-    hangs: "3 kg on the link now",
-    acts: "2 N·m on link and motors now",
+    hangs: "3 kg hang on the link",
+    acts: "2 N·m act on link and motors",
     markHung: "I hung 3 kg",
     markRemoved: "I took 3 kg off",
     mark: "marks it in the data",
     marked: "marked as hanging",
-    markDoes: "Hang 3 kg on the link by hand, then press the button: it marks the moment.",
-    comesAt: (time: number) => `comes by itself at ${Number(time.toFixed(2))} s`,
+    markDoes: "Hang 3 kg on the link by hand, then press the button to mark the time.",
+    comesAt: (time: number) => `added automatically at ${Number(time.toFixed(2))} s`,
     paperShort: "2 N·m on link and motors",
     massShort: "a mass on a 68 mm arm",
-    form: "What 3 kg are",
+    form: "Model of the 3 kg load",
     paper: "Paper’s torques",
     torque2: "2 N·m",
-    mass: "Hung mass",
-    paperDoes: "The button adds 2 N·m to the link and to both motors, as the paper prints it.",
+    mass: "Hanging mass",
+    paperDoes: "The button adds 2 N·m to the link and to both motors, as published.",
     massDoes: "The button hangs 3 kg on a 68 mm arm: gravity turns with the link, inertia grows.",
     removeThis: (what: string) => `Remove ${what}`,
     removeAll: "Remove all loads",
-    custom: "A torque of your own",
+    custom: "Custom torque",
     customKind: "Shape of the torque",
-    customChannel: "Where it acts",
+    customChannel: "Acts on",
     torque: "Torque",
     duration: "Duration",
     frequency: "Frequency",
@@ -135,14 +135,14 @@ export const controlsText = {
   },
 } as const;
 
-/** The laws to choose from, and the controllers that run beside the session's own. */
+/** The control laws, and the comparison lanes. */
 export const lawsText = {
   laws: {
     choose: "Choose the law that controls",
     search: "Search laws",
     presentSign: "✓",
     found: (count: number) => (count === 1 ? "1 law" : `${count} laws`),
-    none: "No law has these words.",
+    none: "No law matches.",
     notInstalled: (name: string) => `${name} (not installed)`,
     broken: (name: string) => `${name} (does not load)`,
     groups: {
@@ -151,28 +151,28 @@ export const lawsText = {
       own: "With an estimate of their own",
     },
   },
-  beside: {
-    list: "Beside it",
+  comparisons: {
+    list: "Compared with",
     add: "Add",
-    addHint: "Run one more law beside, or the same one with other settings",
-    full: (most: number) => `${most} run already: remove one first.`,
+    addHint: "Add a comparison lane: another law, or the same law with other settings",
+    full: (most: number) => `At most ${most} lanes: remove one first.`,
     law: (name: string) => `Law of ${name}`,
-    lawHint: "Another law for this actuator, from where it is",
+    lawHint: "Change the law of this lane; its plant keeps its state",
     set: (name: string) => `Settings of ${name}`,
-    setHint: "What it is set to",
+    setHint: "Settings of this lane",
     remove: (name: string) => `Remove ${name}`,
     own: "own settings",
-    ownHint: "It has settings of its own. ",
-    sharedHint: "Set as the session's. What is changed here becomes its own.",
-    share: "As the session's",
+    ownHint: "This lane has its own settings. ",
+    sharedHint: "Uses the session's settings. A change here applies to this lane only.",
+    share: "Use the session's settings",
     poles: (group: string) => `${group} bandwidth, all poles`,
-    apart: (symbol: string) => `The poles lie apart; ${symbol} sets all of them.`,
+    apart: (symbol: string) => `The poles differ; ${symbol} sets all of them.`,
   },
   lawText: {
     file: "A Python file",
     text: "Its text, or paste it here",
     most: (bytes: number) => `At most ${bytes} bytes.`,
-    tooLong: (bytes: number, most: number) => `It has ${bytes} bytes; at most ${most} are taken.`,
+    tooLong: (bytes: number, most: number) => `The text has ${bytes} bytes; the limit is ${most}.`,
     unreadable: "This file cannot be read as text.",
   },
 } as const;
@@ -183,16 +183,16 @@ export const identificationText = {
     title: "Identification",
     runName: "Identification",
     explanation:
-      "Plays 32 s of motion, slow and fast, soft and stiff, and records it. Estimate the" +
+      "Runs and records 32 s of slow and fast motion at low and high stiffness. Estimate the" +
       " parameters from that run with",
     command: "svsa identify RUN --output mine-design.toml",
     excite: "Excite and record",
     exciting: (elapsed: string, all: string) => `Exciting: ${elapsed} of ${all}`,
-    stop: "Break off",
+    stop: "Cancel",
     file: "Parameter file as the model …",
     fileHint:
-      "Takes the nominal model, in which controller and observer believe from then on, and the" +
-      " parameters of laws. Gains, observer, the true plant and limits stay as they are.",
-    bench: "A bench takes the file at its start: [design] file in the bench file.",
+      "Loads the nominal model that controller and observer use, and the" +
+      " parameters of laws. Gains, observer, true plant and limits are unchanged.",
+    bench: "For a bench, set [design] file in the bench file and restart.",
   },
 } as const;

@@ -1,11 +1,11 @@
-/** Long work on the server: how it stands, and what is asked of it. */
+/** Jobs on the server: state, progress and commands. */
 export const jobsText = {
   jobs: {
     status: {
-      waiting: "waits for another one",
+      waiting: "queued",
       running: "running",
       done: "done",
-      cancelled: "cancelled; what is done is kept",
+      cancelled: "cancelled; completed runs are kept",
       failed: "failed",
     },
     rate: (rate: number) =>
@@ -13,7 +13,7 @@ export const jobsText = {
     compiling: "compiling …",
     left: (time: string) => `${time} left`,
     cancel: "Cancel",
-    cancelHint: "Stop after the runs that are being worked at; what is done is kept",
+    cancelHint: "Stop after the present runs; completed runs are kept",
   },
 };
 
@@ -24,24 +24,24 @@ export const tuningText = {
     open: "Tune …",
     openHint: "Search this law's parameters on training trials",
     about:
-      "CMA-ES from the present parameters on 128 training trials, then the ten best candidates on 512 validation trials. Loads, models, stiffness and noise are drawn as for the ranking's test trials, which are others.",
+      "CMA-ES from the present parameters on 128 training trials, then the ten best candidates on 512 validation trials. Loads, models, stiffness and noise are drawn as for the ranking's test trials, which are different ones.",
     cost: "cost = mean over the trials of log10(rms error, °) + log10(rms stiffness error over σ_d) + 2 if not held; 3 to 4 for a fault; 5 and more above the noise limit",
     law: "Law",
     budget: "Candidates",
     budgetHint: "1 to 2000",
     start: "Start",
     stop: "Stop",
-    stopHint: "Keeps the best so far",
+    stopHint: "Keeps the best result so far",
     status: {
-      waiting: "Waits for its turn.",
+      waiting: "Queued.",
       running: "Searching.",
       done: "Done.",
-      cancelled: "Stopped; this is the best so far.",
-      failed: "It failed.",
+      cancelled: "Stopped; best result so far.",
+      failed: "Failed.",
     },
     progress: (law: string, tried: number, budget: number) =>
       `${law}: ${Math.max(0, tried - 1)} of ${budget} candidates`,
-    first: "The first runs compile the law; that takes a few seconds.",
+    first: "Compiling the law takes a few seconds.",
     curve: "Best cost",
     curveSummary: (first: string, best: string, tried: number) =>
       `Best cost over ${tried} candidates: from ${first} down to ${best}`,
@@ -62,12 +62,12 @@ export const tuningText = {
     before: "before",
     tuned: "best",
     range: "searched",
-    use: "Use these",
-    useHint: "Sets this session to the best parameters of the law",
-    used: "This session is set to them.",
-    notBetter: "Nothing better than what was set has been found.",
-    otherLaw: (law: string) => `${law} does not control here now; they are kept for when it does.`,
+    use: "Apply best",
+    useHint: "Applies the best parameters of the law to this session",
+    used: "Applied to this session.",
+    notBetter: "No better parameters than the present ones were found.",
+    otherLaw: (law: string) => `They take effect when ${law} controls this session.`,
     save: "Save as file",
-    saveHint: "A parameter file (TOML) that says what it was measured on",
+    saveHint: "A parameter file (TOML) with its measured results",
   },
 } as const;

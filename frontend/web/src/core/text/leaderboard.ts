@@ -1,22 +1,25 @@
-/** The leaderboard: laws that were submitted, on a season that nobody knows. */
+/** The leaderboard: submitted laws on the hidden trials of a season. */
 export const leaderboardText = {
   leaderboard: {
     title: "Leaderboard",
-    lead: "Submit a law as a Python file and get a number that can be trusted: it goes through hidden trials drawn as those of the ranking.",
+    lead: "Submit a control law as a Python file. It runs on hidden trials that are sampled like those of the ranking.",
     season: (began: string, suite: string) => `This season began on ${began}, protocol ${suite}.`,
-    loading: "The board is on its way …",
+    loading: "Loading the leaderboard …",
     empty: "No law has been submitted in this season yet",
     emptyHint:
-      "Yours can be the first: paste it into the form or choose its file there, or use the command below it. Writing one takes a dozen lines; the form's example is a whole law to begin with.",
+      "Paste a law into the form, choose a file, or use the command below. A law takes a dozen lines; the form contains a complete example.",
     entries: "Entries",
     table: "Rank, success rate, cost and worst run, a law a row",
     tableHint:
-      "A press on a heading sorts by it, on a worst run shows it in 3D beside NDOBC. Rank is always by the success rate.",
+      "Select a heading to sort by it, or a worst run to see it in 3D, compared with NDOBC. The rank is always by success rate.",
     columns: {
-      rank: { name: "Rank", hint: "By the share of trials that held; equal shares share a place" },
+      rank: {
+        name: "Rank",
+        hint: "By the share of trials that held; equal shares have equal rank",
+      },
       law: {
         name: "Law",
-        hint: "A law of the lab by its title, marked as a baseline; a submitted one as it was called, and by whom",
+        hint: "Title of an installed law (marked baseline), or name and author of a submitted one",
       },
       success: {
         name: "Held",
@@ -51,46 +54,46 @@ export const leaderboardText = {
     degrees: (error: string) => `${error}°`,
     rms: (error: string) => `${error}° rms`,
     see: (name: string) => `${name}, worst run in 3D:`,
-    seeHint: (name: string) => `${name}: see this run in 3D beside NDOBC`,
-    note: "Two laws had the same trials, so the difference between them is surer than their intervals. µs/tick compares entries of one kind only. Who submits often learns something of a season from the results.",
+    seeHint: (name: string) => `${name}: see this run in 3D, compared with NDOBC`,
+    note: "All laws run on the same trials, so a difference between two laws is more certain than their intervals suggest. Compare µs/tick within one kind of entry only. Repeated submissions reveal something about a season's trials.",
     submit: "Submit a law",
     submitHint: (runs: number) =>
-      `${runs} runs in a process of its own that has nothing but its task: some minutes. The same text has one entry, which stays.`,
-    name: "What it is called",
-    author: "Who submits it (may be left empty)",
-    law: "It defines law(time_s, reference, x, w), or build(model) that makes one, and answers with u1 and u2 in N·m. By name it may also take measured and applied.",
+      `${runs} runs in an isolated process; takes some minutes. The same text has one permanent entry.`,
+    name: "Name of the law",
+    author: "Author (optional)",
+    law: "Defines law(time_s, reference, x, w), or build(model) that returns one; returns u1 and u2 in N·m. The parameters measured and applied are optional.",
     send: "Submit",
-    example: "Begin with an example",
+    example: "Insert an example",
     known: (name: string | undefined) =>
       name === undefined
-        ? "This text has its entry already."
-        : `This text has its entry already, and keeps it: ${name}.`,
+        ? "This text already has an entry."
+        : `This text already has an entry: ${name}.`,
     measuring: (title: string) => `Measuring: ${title}`,
     measured: (title: string) => `Measured: ${title}`,
-    labFollows: "It has its entry; now the lab's own laws are measured on the same season.",
+    labFollows: "The entry is saved. The installed laws are now measured on the same season.",
     runs: (done: number, total: number) => `${done} of ${total || "…"} runs`,
-    failed: "It did not get onto the board.",
-    failedHint: "Mend it, and submit it again: nothing was kept.",
-    notIsolated: "This lab takes no law: it cannot be isolated on this machine.",
-    observer: "Who only watches does not submit: join as a student to.",
-    lab: "The lab's own laws",
+    failed: "The submission failed.",
+    failedHint: "Fix the law and submit it again: no entry was saved.",
+    notIsolated: "Submission is disabled: this machine cannot isolate submitted laws.",
+    observer: "Observers cannot submit: join as a student.",
+    lab: "Installed laws",
     missing: (count: number) =>
       count === 1
-        ? "One of them is not measured in this season yet."
-        : `${count} of them are not measured in this season yet. A submission measures them after it.`,
+        ? "One installed law is not measured in this season yet."
+        : `${count} installed laws are not measured in this season yet. They are measured after the next submission.`,
     measureLab: "Measure them now",
-    script: "With a command",
-    scriptHint: "The same on the machine that the lab runs on, or at home for practice:",
+    script: "From the command line",
+    scriptHint: "On the machine that runs the lab, or at home for practice:",
     command: "svsa ranking submit law.py\nsvsa ranking submit law.py --practice",
     back: "Leaderboard",
-    unknown: "There is no such entry in this season.",
+    unknown: "Entry not found in this season.",
     worstOf: (name: string) => `Worst run of ${name}`,
     standing: (rank: number, success: string) => `rank ${rank}, ${success} of the trials held`,
-    beside: (law: string, isInstalled: boolean) =>
-      `Worst of the public scenarios, beside ${law} on the same; the season's hidden trials are not shown. ${
+    comparison: (law: string, isInstalled: boolean) =>
+      `Worst of the public scenarios, compared with ${law} on the same one; the season's hidden trials are not shown. ${
         isInstalled
           ? "Simulated again for this view."
-          : "The law does not run again: its torques were kept when it was measured."
+          : "The law does not run again: the torques recorded at the measurement are replayed."
       }`,
   },
 };

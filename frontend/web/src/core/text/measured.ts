@@ -1,6 +1,6 @@
 /** Numbers of errors, and the window of a run in which they were measured: on every page alike. */
 export const measuredText = {
-  names: { rms: "rms", peak: "Peak", settled: "Settled", recovered: "Recovered" },
+  names: { rms: "rms", peak: "Peak", settled: "Steady-state error", recovered: "Recovery time" },
   whole: "Whole run",
   start: "From the start",
   /** From in seconds, of a window that goes on. */
@@ -8,8 +8,7 @@ export const measuredText = {
   /** From and to in seconds. */
   during: (what: string, from: string, to: string) => `${what}, ${from}–${to} s`,
   controlled: (lanes: readonly string[], what: string) => `${lanes.join(" / ")}: ${what}`,
-  steadyStateHint:
-    "rms position error over the last 0.5 s of the window: what is left when it has settled",
-  loadEnded: "The load ended by itself before, so there is no steady error under it.",
+  steadyStateHint: "rms position error over the last 0.5 s of the window",
+  loadEnded: "No steady-state error under load: the load ended before.",
   tooShort: "The window is shorter than 1 s.",
 } as const;

@@ -2,13 +2,13 @@
 export const realismText = {
   realism: {
     title: "Realism",
-    choose: "How real the simulation is",
+    choose: "Non-ideal effects",
     presets: { ideal: "Ideal", rig: "Rig", full: "Full" },
-    mixture: "A mixture of your own.",
-    each: "Each effect by itself",
+    mixture: "Custom set of effects.",
+    each: "Individual effects",
     parameters: "Parameters, true and in the model",
     parametersHint:
-      "The controller knows only the model. A figure of the paper brings its values back.",
+      "The controller uses only the model. Starting a figure of the paper restores its values.",
     parameter: "Parameter",
     actuator: "True",
     nominal: "Model",

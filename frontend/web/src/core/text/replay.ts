@@ -6,10 +6,10 @@ export const text = {
   channelLabels: plotsText.channelLabels,
   name: "SVSA Lab",
   recorded: "recorded run",
-  broken: "This file is damaged or was cut off: the run in it cannot be read.",
+  broken: "This file is damaged or incomplete: the run in it cannot be read.",
   view: "The actuator in 3D",
   noView: "The 3D view cannot start in this browser: it needs WebGL. The plots work without it.",
-  drawn: { lane: "actuator", ghost: "link in outline", reference: "reference q_d" },
+  drawn: { lane: "actuator", ghost: "link in outline", reference: "reference angle" },
   transport: {
     heading: "Playback",
     play: "Play",
@@ -27,7 +27,7 @@ export const text = {
   },
   numbers: {
     heading: (window: string) => `Errors · ${window}`,
-    hint: "From every sample of this window, in which nothing was changed",
+    hint: "Computed from every sample of this window, in which no setting changed",
     lane: "Lane",
     rms: measuredText.names.rms,
     peak: measuredText.names.peak,
@@ -49,7 +49,7 @@ export const text = {
     drawn: (stride: number) =>
       stride === 1
         ? "The curves have every sample of the run."
-        : `The curves have one sample of ${stride}, and the peaks between.`,
+        : `The curves show one of ${stride} samples, and the peaks in between.`,
     empty: "none",
     more: (count: number) => `and ${count} more`,
   },

@@ -1,4 +1,4 @@
-/** Points by criterion, with what was told of each. */
+/** Points and feedback by criterion. */
 import type { Grade } from "../api/course";
 import { text } from "../text/en";
 import { Table } from "./tables";

@@ -26,13 +26,13 @@ interface PanelProps {
   title: string;
   class: string;
   /** Stands between the title and the button that closes. */
-  beside?: ComponentChildren;
+  aside?: ComponentChildren;
   onClose: () => void;
   children: ComponentChildren;
 }
 
 /** Lies over the page and leaves it in reach; gives the focus back when it closes. */
-export function Panel({ title, class: look, beside, onClose, children }: PanelProps) {
+export function Panel({ title, class: look, aside, onClose, children }: PanelProps) {
   const id = useId();
   const panel = useRef<HTMLDialogElement>(null);
   useLayoutEffect(() => {
@@ -55,7 +55,7 @@ export function Panel({ title, class: look, beside, onClose, children }: PanelPr
     >
       <div class="panel-head">
         <h2 id={id}>{title}</h2>
-        {beside}
+        {aside}
         <button type="button" class="button end" onClick={onClose}>
           {text.panel.close}
         </button>

@@ -1,4 +1,4 @@
-/** EMULATED or REAL BENCH, in words, beside what came from there. */
+/** The label EMULATED or REAL BENCH next to data of a bench. */
 import type { Mark } from "../state/plant";
 import { benchText as text } from "../text/bench";
 

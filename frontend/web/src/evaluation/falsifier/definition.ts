@@ -11,7 +11,7 @@ export type Kind = (typeof KINDS)[number];
 type Body = (typeof BODIES)[number];
 type Ends = readonly [number, number];
 
-/** A load of the family, its own range beside the onset: length or frequency. */
+/** A load of the family; its own range, in addition to the onset, is length or frequency. */
 export interface TermForm {
   kind: Kind;
   bodies: readonly Body[];

@@ -64,14 +64,14 @@ interface Finding {
 }
 export const findingOf = (one: Scenario): Finding | null => (one.found as Finding) ?? null;
 
-/** A law, and NDOBC beside it; beside NDOBC what the paper compares it with. */
+/** A law and its comparison: NDOBC, or FL for NDOBC itself. */
 export const baselinesOf = (law: Law): readonly [Law, Law] => [
   law,
   law === PAPERS_LAW ? BASELINE : PAPERS_LAW,
 ];
 
 /** The laws that are put through it: those that are asked for; else the one that it hurts, and
- * another one beside it once the search has ended. */
+ * another one once the search has ended. */
 export const laws = computed((): readonly Law[] => {
   if (chosen.value.laws.length > 0) return chosen.value.laws;
   const hurt = (scenario.value && findingOf(scenario.value)?.law) ?? PAPERS_LAW;
@@ -168,7 +168,7 @@ export async function keep(name: string): Promise<void> {
   isBusy.value = "";
 }
 
-/** Opens a private session of a law in it, beside the one that it was found for. */
+/** Opens a private session of a law under it, compared with the searched law. */
 export async function see(law: Law): Promise<void> {
   const one = scenario.peek();
   if (one === null) return;

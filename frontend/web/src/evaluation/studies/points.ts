@@ -41,7 +41,7 @@ export function spreadsByRatios(values: Float64Array): boolean {
 
 const LOT = 0.618033988749895;
 
-/** Names stand beside each other; dots of one name are spread about it, the same whenever drawn. */
+/** Categories are equally spaced; dots of a category are jittered, always in the same way. */
 export function spreadNames(codes: Float64Array): Float64Array {
   return codes.map((code, index) => code + 0.6 * (((index * LOT) % 1) - 0.5));
 }

@@ -12,7 +12,7 @@ const words = text.studies;
 const OWN = "";
 const FIRST = "load";
 
-/** Choose, change, check and begin a study; a wrong one is told with its line, name and bound. */
+/** Choose, change, check and start a study; an invalid one is reported with line, name and bound. */
 export function Start() {
   const [source, setSource] = useState(FIRST);
   const [own, setOwn] = useState("");

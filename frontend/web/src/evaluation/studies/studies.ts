@@ -151,7 +151,7 @@ export async function remove(name: string): Promise<boolean> {
   return true;
 }
 
-/** The row that is told of; the one before it stays beside it, to be overlaid. */
+/** The selected row; the previously selected one is kept for an overlay. */
 export async function pick(row: number): Promise<void> {
   const name = chosenName.peek();
   const known = picked.peek();

@@ -1,4 +1,4 @@
-/** The design that is being tried: what it is, what it would do, and what is in use beside it. */
+/** The draft design: its settings, its predicted effect, and the settings in use. */
 import { computed, signal } from "@preact/signals";
 import { putGains, putObserver } from "../../core/api/client";
 import { type Prediction, predict } from "../../core/api/design";

@@ -1,4 +1,4 @@
-/** What gains, observer and parameters of laws were before: a step for every change, whoever made it. */
+/** Previous gains, observer and law parameters: one step per change, of any user. */
 import { effect, signal } from "@preact/signals";
 import { putGains, putLane, putLanes, putObserver, putParameters } from "../../core/api/client";
 import type { Lane, SessionState } from "../../core/api/types";
@@ -8,13 +8,13 @@ import { session } from "../../core/state/session";
 
 const MAX_STEPS = 50;
 
-/** parameters: by law. beside: by the identity of the lane. */
+/** parameters: by law. comparisons: by the identity of the lane. */
 interface Design {
   position: readonly number[];
   stiffness: readonly number[];
   observer: readonly [number, number, number];
   parameters: Readonly<Record<string, Record<string, unknown>>>;
-  beside: Readonly<Record<string, Lane>>;
+  comparisons: Readonly<Record<string, Lane>>;
 }
 
 export const steps = signal<readonly Design[]>([]);
@@ -29,7 +29,7 @@ export function designOf(state: SessionState): Design {
     stiffness: gains.stiffness_coefficients,
     observer: observer.bandwidth_rad_per_s,
     parameters,
-    beside: Object.fromEntries(
+    comparisons: Object.fromEntries(
       comparisonLanes(state).map(({ id, controller }) => [id, controller]),
     ),
   };
@@ -46,16 +46,16 @@ const changedLaws = (one: Design, other: Design): string[] =>
 
 /** The lanes that both designs have, set differently; under another law if settings went. */
 const changedLanes = (one: Design, other: Design): string[] =>
-  Object.keys(one.beside).filter((id) => {
-    const [held, now] = [one.beside[id], other.beside[id]];
+  Object.keys(one.comparisons).filter((id) => {
+    const [held, now] = [one.comparisons[id], other.comparisons[id]];
     if (held === undefined || now === undefined || isEqual(held, now)) return false;
     return held.law === now.law || hasOwnSettings(held);
   });
 
 /** The lanes with settings of their own that are no more. */
 const lostLanes = (one: Design, other: Design): string[] =>
-  Object.keys(one.beside).filter(
-    (id) => other.beside[id] === undefined && hasOwnSettings(one.beside[id] as Lane),
+  Object.keys(one.comparisons).filter(
+    (id) => other.comparisons[id] === undefined && hasOwnSettings(one.comparisons[id] as Lane),
   );
 
 const isOther = (key: "position" | "stiffness" | "observer", one: Design, other: Design) =>
@@ -89,7 +89,7 @@ export function watchDesign(): void {
 export function callsBack(design: Design, state: SessionState): (() => Promise<SessionState>)[] {
   const now = designOf(state);
   const calls: (() => Promise<SessionState>)[] = [];
-  const lost = lostLanes(design, now).map((id) => design.beside[id] as Lane);
+  const lost = lostLanes(design, now).map((id) => design.comparisons[id] as Lane);
   if (lost.length > 0) calls.push(() => putLanes([...comparisonsOf(state), ...lost]));
   if (isOther("position", design, now) || isOther("stiffness", design, now)) {
     const [c0, c1, c2, c3] = design.position as [number, number, number, number];
@@ -104,15 +104,18 @@ export function callsBack(design: Design, state: SessionState): (() => Promise<S
   }
   for (const id of changedLanes(design, now)) {
     const lane = comparisonLanes(state).find((one) => String(one.id) === id)?.lane;
-    if (lane !== undefined) calls.push(() => putLane(lane, design.beside[id] as Lane));
+    if (lane !== undefined) calls.push(() => putLane(lane, design.comparisons[id] as Lane));
   }
   return calls;
 }
 
 /** A lane that is brought back is another one to the server: earlier steps learn its identity. */
 function renameLanes(design: Design, names: ReadonlyMap<string, string>): Design {
-  const beside = Object.entries(design.beside).map(([id, lane]) => [names.get(id) ?? id, lane]);
-  return { ...design, beside: Object.fromEntries(beside) };
+  const comparisons = Object.entries(design.comparisons).map(([id, lane]) => [
+    names.get(id) ?? id,
+    lane,
+  ]);
+  return { ...design, comparisons: Object.fromEntries(comparisons) };
 }
 
 /** Back by one step, past those that have nothing left; resolves false where the server refused. */
@@ -128,7 +131,7 @@ export async function undo(): Promise<boolean> {
   const isDone = await perform("design.undo", async () => {
     let reached = state;
     for (const call of callsBack(last, state)) reached = await call();
-    if (lost.length > 0) back = Object.keys(designOf(reached).beside).slice(-lost.length);
+    if (lost.length > 0) back = Object.keys(designOf(reached).comparisons).slice(-lost.length);
     return reached;
   });
   isUndoing = false;

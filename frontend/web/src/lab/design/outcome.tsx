@@ -112,7 +112,7 @@ function Judgement({ found }: { found: Prediction }) {
   );
 }
 
-/** What the design would do, beside what is in use. */
+/** The predicted effect of the design, next to the values in use. */
 export function Outcome() {
   const found = expected.value;
   const now = present.value;

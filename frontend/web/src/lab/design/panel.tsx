@@ -72,7 +72,7 @@ function Roots() {
   );
 }
 
-/** Gains without fear: place the poles, see what they would do, then apply. */
+/** Pole placement: place the poles, see the predicted effect, then apply. */
 export function DesignPanel() {
   const law = lawOf(session.value?.configuration.law ?? "");
   return isOpen.value && law?.takes_gains !== false ? <Design /> : null;
@@ -87,7 +87,7 @@ function Design() {
       title={words.title}
       class="design"
       onClose={close}
-      beside={
+      aside={
         <p class="row hint" aria-hidden="true">
           <span class="is-position">✕ {words.legend.position}</span>
           <span class="is-stiffness">◇ {words.legend.stiffness}</span>

@@ -23,7 +23,7 @@ const QUICK_PAUSE_MS = 120;
 const LONG_PAUSE_MS = 450;
 const RETRY_MS = 2500;
 
-/** Everything that the answers depend on: told anew only where it is another. */
+/** Everything that the answers depend on: changes only if a value changes. */
 const question = computed(() => {
   const configuration = session.value?.configuration;
   return JSON.stringify([configuration?.actuator, configuration?.nominal, surroundings.value]);

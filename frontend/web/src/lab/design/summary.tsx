@@ -34,7 +34,7 @@ export function UndoButton() {
   );
 }
 
-/** The button by itself, with why a step back was refused. */
+/** The button alone, with the reason of a rejected undo. */
 export function Undo() {
   return (
     <div class="row">

@@ -57,7 +57,7 @@ export function answerKey(event: KeyboardEvent): void {
   if (endsHold(event, focus)) letGo(HOLD_GRIP);
   const command = findCommand(event, focus, areKeysOn.peek());
   if (command === null || (command === "close" && !closeNewest())) return;
-  // Inside the 3D view nobody would hear the key being let go.
+  // Inside the 3D view the page would not receive the release of the key.
   if (command === "hold" && !(canHold() && event.view === window)) return;
   event.preventDefault();
   event.stopPropagation();

@@ -15,7 +15,7 @@ import { InTurn } from "./inturn";
 
 const words = text.control;
 
-/** Asks for a name where none is known, and before control is taken from somebody. */
+/** Asks for a name if none is known, and before control is taken from its holder. */
 function Question({ other }: { other: string | null }) {
   const id = useId();
   const [name, setName] = useState(personName.peek().trim() || defaultName());
@@ -76,7 +76,7 @@ function Held({ other }: { other: string }) {
   );
 }
 
-/** Says that somebody else is in control, and asks before this page takes it. */
+/** Reports that another user is in control, and asks before this page takes it. */
 export function ControlBanner() {
   const other = otherHolder.value;
   return (

@@ -46,8 +46,8 @@ export function ControlCell() {
   const now = control.value;
   if (now === null) return null;
   const inTurn = queue.value;
-  const nobody = inTurn === null ? words.everyone : inTurn.locked ? words.locked : words.nobody;
-  const holder = now.mine ? words.you : (now.holder ?? nobody);
+  const free = inTurn === null ? words.everyone : inTurn.locked ? words.locked : words.free;
+  const holder = now.mine ? words.you : (now.holder ?? free);
   const who = isLive.value ? holder : text.status.notKnown;
   const sign = now.holder === null || !isLive.value ? "○" : now.mine ? "●" : "▪";
   return (

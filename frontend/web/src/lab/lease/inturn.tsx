@@ -65,7 +65,7 @@ function Act({ queue }: { queue: Queue }) {
   );
 }
 
-/** Says whose turn it is; nothing before the lab has told as whom one is in. */
+/** Shows who is next in the queue; nothing before the lab has reported the user's identity. */
 export function InTurn({ queue }: { queue: Queue }) {
   const turn = access.value === null ? null : describeTurn(queue);
   if (turn === null) return null;

@@ -5,21 +5,21 @@ import { comparedWith, comparisonLanes } from "../../core/state/lanes";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { Problem } from "../../core/widgets/form";
-import { Beside } from "./comparisonlanes";
+import { ComparisonRow } from "./comparisonlanes";
 import { LawPicker } from "./lawpicker";
 
 const MAX_LANES = 4;
-const words = text.beside;
+const words = text.comparisons;
 
-/** Other controllers beside the session's own: switched on and off, added, set, removed. */
+/** Comparison lanes in addition to the session's own: switched on and off, added, set, removed. */
 export function Compare({ state }: { state: SessionState }) {
-  const beside = comparisonLanes(state);
+  const others = comparisonLanes(state);
   const id = useId();
-  const isOn = beside.length > 0;
+  const isOn = others.length > 0;
   const isRecording = state.recording !== null;
   const isFull = state.lanes.length >= MAX_LANES;
-  const most = beside.length;
-  const compared = isOn ? beside.map(({ controller }) => controller) : comparedWith(state);
+  const most = others.length;
+  const compared = isOn ? others.map(({ controller }) => controller) : comparedWith(state);
   if (compared.length === 0) return null;
   const names = [...new Set(compared.map(({ law }) => law))].map(titleOf).join(", ");
   const whyNotAdded = isFull ? words.full(most) : words.addHint;
@@ -51,9 +51,9 @@ export function Compare({ state }: { state: SessionState }) {
         />
       </div>
       {isOn && (
-        <ul class="besides" aria-label={words.list}>
-          {beside.map((one) => (
-            <Beside key={one.id} state={state} beside={one} isRecording={isRecording} />
+        <ul class="comparisons" aria-label={words.list}>
+          {others.map((one) => (
+            <ComparisonRow key={one.id} state={state} comparison={one} isRecording={isRecording} />
           ))}
         </ul>
       )}

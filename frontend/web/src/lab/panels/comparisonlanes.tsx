@@ -11,25 +11,25 @@ import { text } from "../../core/text/en";
 import { LaneForm } from "./laneform";
 import { LawPicker } from "./lawpicker";
 
-const words = text.beside;
+const words = text.comparisons;
 
 interface ComparisonLanesProps {
   state: SessionState;
-  beside: ComparisonLane;
+  comparison: ComparisonLane;
   isRecording: boolean;
 }
 
-/** A controller beside the session's own: its law, what it is set to, and its end. */
-export function Beside({ state, beside, isRecording }: ComparisonLanesProps) {
-  const { lane, name, lineStyle, controller } = beside;
+/** A comparison lane: its law, its settings, and its removal. */
+export function ComparisonRow({ state, comparison, isRecording }: ComparisonLanesProps) {
+  const { lane, name, lineStyle, controller } = comparison;
   const [isOpen, setOpen] = useState(false);
   const id = useId();
   const law = lawOf(controller.law);
   const title = titleOf(controller.law);
   const label = name.startsWith(title) ? name.slice(title.length).trim() : name;
   return (
-    <li class="beside">
-      <div class="beside-row">
+    <li>
+      <div class="comparison-row">
         <Swatch look={lineStyleOfLane(lineStyle, false)} />
         <LawPicker
           label={words.law(name)}
@@ -66,7 +66,7 @@ export function Beside({ state, beside, isRecording }: ComparisonLanesProps) {
         </button>
       </div>
       <div id={id} hidden={!isOpen}>
-        {isOpen && law && <LaneForm law={law} state={state} beside={beside} />}
+        {isOpen && law && <LaneForm law={law} state={state} comparison={comparison} />}
       </div>
     </li>
   );

@@ -10,19 +10,19 @@ import { coefficientsOf } from "../design/poles";
 import { Field } from "./field";
 import { ParameterFields } from "./law";
 
-const words = text.beside;
+const words = text.comparisons;
 const POLES: SliderRange = { min: 5, max: 200, logarithmic: true };
 const OBSERVER: SliderRange = { min: 2, max: 300, logarithmic: true };
 
 interface LaneFormProps {
   law: LawRow;
   state: SessionState;
-  beside: ComparisonLane;
+  comparison: ComparisonLane;
 }
 
 /** One bandwidth for all poles of a polynomial, as c₀ = ωⁿ says it. */
-function Bandwidths({ state, beside }: Omit<LaneFormProps, "law">) {
-  const { lane, id, controller } = beside;
+function Bandwidths({ state, comparison }: Omit<LaneFormProps, "law">) {
+  const { lane, id, controller } = comparison;
   const gains = gainsOf(controller, state);
   const put = (changed: Partial<Gains>) =>
     putLane(lane, { ...controller, gains: { ...gains, ...changed } });
@@ -54,9 +54,9 @@ function Bandwidths({ state, beside }: Omit<LaneFormProps, "law">) {
   );
 }
 
-/** What one controller beside is set to; the first change gives it settings of its own. */
-export function LaneForm({ law, state, beside }: LaneFormProps) {
-  const { lane, id, controller } = beside;
+/** Settings of a comparison lane; the first change gives it settings of its own. */
+export function LaneForm({ law, state, comparison }: LaneFormProps) {
+  const { lane, id, controller } = comparison;
   const { configuration } = state;
   const observer = controller.observer ?? configuration.observer;
   const held = controller.parameters ?? configuration.parameters[law.name] ?? {};
@@ -78,7 +78,7 @@ export function LaneForm({ law, state, beside }: LaneFormProps) {
         )}
       </p>
       <Problem control={`lanes.${id}`} />
-      {law.takes_gains && <Bandwidths state={state} beside={beside} />}
+      {law.takes_gains && <Bandwidths state={state} comparison={comparison} />}
       <ParameterFields
         law={law}
         name={`lanes.${id}`}

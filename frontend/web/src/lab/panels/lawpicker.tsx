@@ -109,7 +109,7 @@ function LawList({ value, onChoose }: LawListProps) {
 }
 
 interface LawPickerProps {
-  /** What is chosen here, for whoever does not see where it stands. */
+  /** Label of the choice for screen readers. */
   label: string;
   button: ComponentChildren;
   /** Which law is in use; null: none yet. */

@@ -38,7 +38,7 @@ function StopNotice({ title, words, isSimulation = false, children }: StopNotice
   );
 }
 
-/** Stays until somebody clears the fault: why it stopped, and how to go on. */
+/** Shown until the fault is cleared: why the bench stopped, and how to continue. */
 function LatchedBench({ state, bench }: { state: SessionState; bench: BenchState }) {
   const isLost = isLoopLost(bench);
   const isClosed = isNeverOpened(bench);

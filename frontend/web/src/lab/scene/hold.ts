@@ -1,4 +1,4 @@
-/** A push is one load: begun, told again while it is held, ended. The server ends it by itself when
+/** A push is one load: started, sent again while it is held, ended. The server ends it when
  * it hears no more of it. */
 import { signal } from "@preact/signals";
 import { addLoad, removeLoad } from "../../core/api/client";
@@ -6,7 +6,7 @@ import type { Load, SessionState } from "../../core/api/types";
 import { perform } from "../../core/state/actions";
 import { acceptState, session } from "../../core/state/session";
 
-/** The torque that is held on the link now, N·m; null while nobody pushes. */
+/** The torque that is held on the link now, N·m; null without a push. */
 export const heldTorque = signal<number | null>(null);
 
 const MIN_NM = 0.05;
@@ -25,7 +25,7 @@ export function holdOf({ speed, real_time_factor: factor }: Pace): number {
   return Math.min(MAX_HOLD_S, Math.max(MIN_HOLD_S, SILENCE_S * pace));
 }
 
-/** Whether a torque is told: it begins a push, it differs, or it is time to be heard of. */
+/** Whether a torque is sent: it starts a push, it differs, or a repetition is due. */
 export function isUpdateDue(torque: number, sent: number | null, sinceMs: number): boolean {
   if (sent === null) return Math.abs(torque) > MIN_NM;
   return Math.abs(torque - sent) > CHANGE_NM || sinceMs >= UPDATE_MS;
@@ -37,7 +37,7 @@ const numberOf = ({ loads }: SessionState): number | null =>
 
 let isKept = false;
 
-/** Keeps the server told of `heldTorque` until it is null, never two calls at once. */
+/** Sends `heldTorque` to the server until it is null, never two calls at once. */
 export async function keepPush(): Promise<void> {
   if (isKept) return;
   isKept = true;
@@ -56,7 +56,7 @@ export async function keepPush(): Promise<void> {
     }
     await wait(LOOK_MS);
   }
-  // A push that had ended by itself is not there any more: what was wished has come.
+  // The server has already ended this push: nothing is left to do.
   if (id !== null) await removeLoad(id).then(acceptState, () => undefined);
   isKept = false;
   if (heldTorque.peek() !== null) await keepPush();

@@ -47,7 +47,7 @@ const LOOK_EVERY = 8;
 
 const parentOf = (name: string): string => name.slice(0, name.lastIndexOf("/"));
 
-/** Labels whose part is there; viser is told to leave all of them to the page. */
+/** Labels of the visible parts; viser draws none of them. */
 function readLabels(viser: LabelledViser, tree: Record<string, LabelNode | undefined>): Shown[] {
   const shown: Shown[] = [];
   for (const [key, node] of Object.entries(tree)) {

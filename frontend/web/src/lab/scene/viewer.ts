@@ -25,7 +25,7 @@ const PATIENCE = 300;
 const UNMOVED = 0.01;
 
 export const isLow = signal(remembered(STORE) === "low");
-/** Whether this page names the parts; that of nobody else does. */
+/** Whether this page shows the names of the parts; other pages are not affected. */
 export const areNamesOn = signal(false);
 const viser = signal<Viser | null>(null);
 
@@ -69,7 +69,7 @@ export function setCamera(name: CameraName): void {
   viser.peek()?.requestRender();
 }
 
-/** Fits the preset to a picture of another shape, unless somebody has moved the camera since. */
+/** Fits the preset to a picture of another shape, unless the user has moved the camera since. */
 export function fitCamera(): void {
   const camera = cameraNow();
   if (sent === null || camera === null) return;

@@ -77,7 +77,7 @@ async function saveExperiment(): Promise<void> {
   if (script !== null) saveText(script, words.fileName);
 }
 
-/** What was done on this page, as code: under the lab, in nobody's way. */
+/** The calls of this page as code, in a drawer below the lab. */
 export function CallsDrawer() {
   const [language, setLanguage] = useState<Language>("python");
   if (!isDrawerOpen.value) return null;

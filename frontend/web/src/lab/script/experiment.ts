@@ -20,7 +20,7 @@ function prune(value: unknown): unknown {
 
 const pruned = (value: unknown) => prune(value) as Fields;
 
-/** A value that is told apart by its kind: "minimum_jerk" of Position is svsa.MinimumJerkPosition. */
+/** A value with a `kind`: "minimum_jerk" of Position is svsa.MinimumJerkPosition. */
 function buildKind(value: unknown, of: string): string {
   const { kind, ...fields } = pruned(value);
   const words = String(kind).split("_");
@@ -127,7 +127,7 @@ export function writeExperiment(origin: RunOrigin, title: string, lab: string): 
   return `"""${inDocstring(title)}: an experiment of SVSA Lab, 0 to ${end} s, to be run again.
 
 It needs the library (pip install 'svsa-lab[client]') and a running lab; with a secret or the token
-of a class, set SVSA_SECRET. It works in a private session, so it disturbs nobody, and as fast as it
+of a class, set SVSA_SECRET. It uses a private session, so it affects no other user, and runs as fast as it
 goes; every change comes at its time. With --shared it works in the lab's shared session, a
 simulation or a bench that is armed and at home: it asks for control, and waits for its turn.
 """

@@ -70,7 +70,7 @@ export async function stop(): Promise<void> {
   }
 }
 
-/** A page that was opened anew finds the newest search of this lab again. */
+/** After a reload the page finds the newest search of this lab again. */
 export async function findNewest(): Promise<void> {
   if (tuning.peek() !== null) return;
   try {

@@ -22,7 +22,7 @@ export interface Column {
   /** Whether the first press shows the greatest first. */
   isDownFirst?: boolean;
   isNumber?: boolean;
-  /** Whether the name that the run has by itself says it too. */
+  /** Whether the automatic name of the run contains it, too. */
   isInName?: boolean;
   show: (run: RunSummary) => ComponentChildren;
   hintOf?: (run: RunSummary) => string | undefined;

@@ -25,7 +25,7 @@ export function describeMeasured(window: Measured, isNamed = false): string {
   return isNamed ? words.controlled(lanes, what) : what;
 }
 
-/** Why there is no settled error, or what it is. */
+/** The steady-state error, or why there is none. */
 export function explainSteadyState({ load_ended: hasEnded, start_s: start, end_s: end }: Measured) {
   if (hasEnded) return words.loadEnded;
   return end - start < 1 ? words.tooShort : words.steadyStateHint;

@@ -44,7 +44,7 @@ export interface Overlaid {
   lane: string;
   /** Who controlled it in the window. */
   measuredLane: string;
-  /** What it ran on: beside a bench, its twin and others are simulated. */
+  /** The plant of the lane: next to a bench, its twin and other lanes are simulated. */
   plant: RunDetails["plant"];
   isAlone: boolean;
   hasOnset: boolean;
@@ -149,7 +149,7 @@ export async function readOverlaid(runs: readonly string[]): Promise<Overlaid[]>
   return lanes.map((lane, index) => ({ ...lane, lineStyle: lineStyles[index] as LineStyle }));
 }
 
-// Whether numbers of runs may be held against each other: only of what was asked of all alike.
+// Whether metrics of runs may be compared: only if all had the same task.
 
 const words = text.overlay.unlike;
 

@@ -14,7 +14,7 @@ interface Column {
   name: string;
   unit: string;
   read: (metrics: Metrics) => number | null;
-  /** What the smallest value needs to be the best, beside runs that are alike; null: it is not. */
+  /** Condition for marking the smallest value as the best among equal runs; null: not marked. */
   isBest: "always" | "in one length" | null;
 }
 

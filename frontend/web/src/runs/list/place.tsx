@@ -1,4 +1,4 @@
-/** Where the reader is: the lab, an exercise beside it, the ranking, the leaderboard, the grades, a study, a search, the runs, one at a moment, several laid over. */
+/** The present page: lab, exercise, ranking, leaderboard, grades, study, search, runs, one run at a time, overlay. */
 import { signal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 
@@ -115,7 +115,7 @@ export function writePlace(place: Place, query: string): string {
 export const isOfRuns = (at: Place): at is RunsPlace =>
   at.kind === "list" || at.kind === "run" || at.kind === "overlay";
 
-/** The live session is shown: alone, or beside an exercise. */
+/** The live session is shown: alone, or next to an exercise. */
 export const isOfLab = (at: Place): boolean =>
   at.kind === "lab" || (at.kind === "learn" && at.exercise !== "");
 

@@ -14,7 +14,7 @@ function Inside({ at }: { at: RunsPlace }) {
   return <RunPage key={at.run} run={at.run} timeS={at.timeS} />;
 }
 
-/** The last deletion, as long as nobody dismisses it. */
+/** The last deletion, until the user dismisses it. */
 function Undo() {
   const run = deleted.value;
   return (

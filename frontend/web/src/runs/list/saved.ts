@@ -13,7 +13,7 @@ export const saved = signal<Saved | null>(null);
 
 const ASK_MS = 400;
 const PATIENCE_MS = 60_000;
-/** So long a run that is saved whole is told of: it stays in the list of runs. */
+/** How long the message about a completely saved run is shown: the run stays in the list. */
 const SHOWN_MS = 20_000;
 
 const wait = (ms: number): Promise<void> => new Promise((done) => setTimeout(done, ms));
@@ -40,7 +40,7 @@ export async function followSaved(run: string, patienceMs = PATIENCE_MS): Promis
   if (isStill()) saved.value = { stage: "unknown", run };
 }
 
-/** Whoever ended it, and however: what was recorded until now and is not any more is saved. */
+/** A recording that has ended, for any reason, is saved. */
 export function watchRecording(): void {
   let recorded: string | null = null;
   effect(() => {

@@ -62,7 +62,7 @@ export interface Recording {
   endS: number;
 }
 
-/** What stands beside the picture; nothing for a simulation. */
+/** The label next to the picture; empty for a simulation. */
 export function findMark({ details: { plant } }: Run): Mark | null {
   return plant === "emulated" || plant === "bench" ? markOf(plant) : null;
 }

@@ -1,7 +1,7 @@
 /**
  * The 3D view: viser's own page in a frame, which shares this page's origin, also in a file.
  *
- * Its player has no door for a time from outside and plays everything again to go back. The frame
+ * Its player has no interface to set a time and plays everything again to go back. The frame
  * holds the scene standing still, and this puts into viser's queue of messages what the live lab
  * would send: for any time, the properties that differ from those shown.
  */

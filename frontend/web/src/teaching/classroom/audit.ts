@@ -56,7 +56,7 @@ export function formatTime(time: string, now: Date): string {
   return `${at.toLocaleDateString("en-GB", { day: "numeric", month: "short" })} ${clock}`;
 }
 
-/** What came of it: done, refused and with which status, or why it went on by itself. */
+/** The result: done, rejected with a status, or the reason of an automatic action. */
 export function describeEnd({ refused, status, why }: AuditLine): string {
   const end = refused ? words.refused(status) : status === null ? "" : words.done;
   return [end, why].filter((part) => part).join(": ");

@@ -54,7 +54,7 @@ function StudentForm({ enter }: EnterProps) {
 
 const WAYS = ["student", "back", "instructor"] as const;
 
-/** How one comes into a class: as somebody new, as who one was, or as the instructor. */
+/** How a user enters a class: as a new student, with a rejoin code, or as the instructor. */
 export function Join({ enter }: EnterProps) {
   const [chosen, choose] = useState<(typeof WAYS)[number]>("student");
   const comeIn = async (code: string) => {
@@ -121,7 +121,7 @@ export function SecretForm({ label, enter, send }: SecretProps) {
 
 const FRAGMENT = "#join=";
 
-/** Takes the code out of the address, so that nobody reads it there; "" where there is none. */
+/** Removes the code from the address, where it would be visible; "" without a code. */
 export function takeCode(): string {
   if (!location.hash.startsWith(FRAGMENT)) return "";
   const code = decodeURIComponent(location.hash.slice(FRAGMENT.length));
@@ -129,9 +129,9 @@ export function takeCode(): string {
   return code;
 }
 
-// One's own code to come back by: told when one has joined, until it is put away.
+// The user's rejoin code: shown after joining, until it is dismissed.
 
-/** Empty where none is to be told. */
+/** Empty if none is to be shown. */
 export const rejoinCode = signal("");
 
 export function RejoinCodeBanner() {

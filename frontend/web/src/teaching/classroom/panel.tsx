@@ -195,7 +195,7 @@ export function ClassButton() {
   );
 }
 
-// Whether the panel of the class is open, and how often it is read anew then.
+// Whether the panel of the class is open, and how often it is reloaded then.
 
 const isOpen = signal(false);
 const READ_MS = 2000;

@@ -94,7 +94,7 @@ export function Waiting() {
   return (
     <section>
       <h3>{words.queue}</h3>
-      {waiting.length === 0 && <p class="hint">{words.nobodyWaits}</p>}
+      {waiting.length === 0 && <p class="hint">{words.queueEmpty}</p>}
       <ol class="bullets">
         {waiting.map((one) => (
           <li key={one.id}>

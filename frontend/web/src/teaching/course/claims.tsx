@@ -97,7 +97,7 @@ function Result({ figure, tried }: { figure: Figure; tried: Tried }) {
   );
 }
 
-/** The paper's figures as experiments of one press, laid beside what the paper says. */
+/** The paper's figures as experiments of one press, compared with the paper's claims. */
 export function Claims() {
   const now = trial.value;
   const isRunning = now !== null && now.tried === null && now.problem === "";

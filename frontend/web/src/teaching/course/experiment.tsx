@@ -25,7 +25,7 @@ import { Results } from "./results";
 
 const words = text.lesson;
 
-/** When somebody hangs a load or takes it off; an emulator does it by itself. */
+/** When the operator adds or removes a load; an emulator does it automatically. */
 function Hands({ of }: { of: Step }) {
   const now = bench.value;
   const state = session.value;

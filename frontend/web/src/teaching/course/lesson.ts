@@ -68,7 +68,7 @@ export const step = computed<Step | null>(() => {
 /** Whether the step leaves anything to be set by hand. */
 export const hasFreeSettings = computed(() => (step.value?.free.length ?? 0) > 0);
 
-/** What is shown beside a step: the newest judgement of its run, else what is kept. */
+/** What is shown next to a step: the newest assessment of its run, else the saved one. */
 export const resultsOf = (one: Step): readonly CriterionResult[] => {
   const newest = judged.value;
   if (newest?.step === one.name && one.kind === "experiment") {
@@ -230,7 +230,7 @@ export async function submit(student: string): Promise<void> {
   show(await attempt(() => readExercise(name)));
 }
 
-/** Goes on in a session that nobody else commands; the page is loaded anew on it. */
+/** Continues in a session that no other user commands; the page is reloaded with it. */
 export async function workApart(): Promise<void> {
   const name = await attempt(openOwnSession);
   if (name === null) return;

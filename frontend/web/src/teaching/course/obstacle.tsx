@@ -35,7 +35,7 @@ function Turn() {
   return (
     <>
       <p role="status">
-        {other === null ? words.nobody : words.held(other)}{" "}
+        {other === null ? words.unheld : words.held(other)}{" "}
         {place !== null && text.classroom.placeText(place, inTurn?.waiting.length ?? 0)}
       </p>
       {!isObserver.value && (

@@ -1,4 +1,4 @@
-/** A number is foretold before the run that judges it. */
+/** A number is predicted before the run that it is compared with. */
 import { useState } from "preact/hooks";
 import { text } from "../../core/text/en";
 import { answer, type Task } from "./lesson";

@@ -8,7 +8,7 @@ const STORE = "svsa.tour";
 const GAP_PX = 12;
 const words = text.tour;
 
-/** Each step and the part of the page that it speaks of; the first stands by itself. */
+/** Each step and the part of the page that it speaks of; the first has none. */
 const STEPS = [
   { key: "welcome", target: ".view" },
   { key: "view", target: ".view" },
@@ -18,7 +18,7 @@ const STEPS = [
   { key: "gains", target: ".design-open" },
 ] as const;
 
-/** The step shown; null when nobody is on the tour. */
+/** The step shown; null without a tour. */
 const step = signal<number | null>(remembered(STORE) === "done" ? null : 0);
 
 export function startTour(): void {
@@ -45,7 +45,7 @@ interface Box {
 
 const clamp = (value: number, most: number) => Math.max(GAP_PX, Math.min(value, most));
 
-/** Beside what it speaks of, where there is room; the first at the foot of the 3D view. */
+/** Next to the part it describes, if there is room; the first below the 3D view. */
 function place(card: HTMLElement, target: Box, isFirst: boolean): void {
   const { offsetWidth: width, offsetHeight: height } = card;
   const mostX = window.innerWidth - width - GAP_PX;

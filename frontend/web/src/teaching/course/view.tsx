@@ -36,7 +36,7 @@ function Steps({ found, at }: { found: Exercise; at: Step }) {
   );
 }
 
-/** Where a form gives way to what came of it, the focus that was in the form goes there. */
+/** If a result replaces a form, the focus moves from the form to the result. */
 function Task({ found, at }: { found: Exercise; at: Step }) {
   const box = useRef<HTMLDivElement>(null);
   const onDone = () => {
@@ -75,7 +75,7 @@ function Turn({ found, at }: { found: Exercise; at: Step }) {
 
 const asLoaded = place.peek();
 
-/** An exercise at a step, beside the live lab. */
+/** An exercise at a step, next to the live lab. */
 export function Lesson({ name }: { name: string }) {
   const found = exercise.value;
   const at = step.value;

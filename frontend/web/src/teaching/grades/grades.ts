@@ -18,7 +18,7 @@ export const shown = computed(() => {
   return student && submission ? { student, submission } : null;
 });
 
-/** Exercises that somebody submitted, in their order. */
+/** Exercises with a submission, in their order. */
 export const columns = computed(() =>
   (grades.value?.exercises ?? []).filter(({ name }) =>
     grades.value?.students.some((student) => submissionOf(student, name) !== undefined),

@@ -70,7 +70,7 @@ function Row({ entry }: { entry: BoardEntry }) {
   );
 }
 
-/** A law of the lab that nobody has measured in this season yet. */
+/** An installed law that is not measured in this season yet. */
 const Missing = ({ law }: { law: string }) => (
   <tr class="is-baseline muted">
     <td class="number">–</td>

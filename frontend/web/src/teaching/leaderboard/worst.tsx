@@ -10,7 +10,7 @@ const words = text.leaderboard;
 const PAPERS_LAW = "ndobc";
 const stay = () => {};
 
-/** An entry's worst run in 3D beside NDOBC. */
+/** An entry's worst run in 3D, compared with NDOBC. */
 export function Worst() {
   const entry = looked.value;
   const back = (
@@ -41,7 +41,7 @@ export function Worst() {
             {words.standing(entry.rank, text.leaderboard.percent(success))}
           </p>
           <p class="hint">
-            {words.beside(entry.key === PAPERS_LAW ? "FL" : "NDOBC", entry.is_installed)}
+            {words.comparison(entry.key === PAPERS_LAW ? "FL" : "NDOBC", entry.is_installed)}
           </p>
         </div>
       </div>

@@ -7,7 +7,7 @@ type Server = (method: string, path: string, name: string | null) => Answer;
 
 const asked: string[] = [];
 
-/** A browser whose server answers as told; what is lost was carried out or not, nobody hears. */
+/** A browser with a scripted server; a lost call was executed or not, without a response. */
 async function load(server: Server) {
   stubBrowser();
   vi.stubGlobal("fetch", async (url: URL, init: RequestInit) => {
@@ -45,7 +45,7 @@ afterEach(() => {
 });
 
 describe("a command whose answer was lost", () => {
-  it("is asked for by its name, and told as carried out with the state that it gave", async () => {
+  it("is queried by its key, and reported as executed with the state that it returned", async () => {
     let sent: string | null = null;
     let isUp = false;
     const page = await load((method, path, name) => {
@@ -59,7 +59,7 @@ describe("a command whose answer was lost", () => {
     });
     const pressed = page.press();
     await vi.advanceTimersByTimeAsync(2000);
-    expect(page.commandStatus.value, "nobody knows yet").toBe("asking");
+    expect(page.commandStatus.value, "not known yet").toBe("asking");
     expect(page.problem.value).toBeNull();
     isUp = true;
     await vi.advanceTimersByTimeAsync(1000);
@@ -76,7 +76,7 @@ describe("a command whose answer was lost", () => {
     expect(page.commandStatus.value).toBeNull();
   });
 
-  it("is told as not carried out only where the server says twice that it never came", async () => {
+  it("is reported as not executed only if the server reports twice that it never arrived", async () => {
     const page = await load((method) => (method === "POST" ? "lost" : outcome("unknown", null)));
     const pressed = page.press();
     await vi.advanceTimersByTimeAsync(100);
@@ -88,7 +88,7 @@ describe("a command whose answer was lost", () => {
     expect(page.calls.value.map((call) => call.status)).toEqual([null]);
   });
 
-  it("is told as refused where the server refused it", async () => {
+  it("is reported as rejected if the server rejected it", async () => {
     const page = await load((method) => (method === "POST" ? "lost" : outcome("refused", 409)));
     const pressed = page.press();
     await vi.advanceTimersByTimeAsync(1000);
@@ -111,7 +111,7 @@ describe("a command whose answer was lost", () => {
 });
 
 describe("a change of a run whose answer was lost", () => {
-  it("is told as done where it was done, and is not done again", async () => {
+  it("is reported as executed if it was, and is not repeated", async () => {
     const page = await load((method) =>
       method === "PATCH" ? "lost" : outcome("carried_out", 200),
     );
@@ -133,7 +133,7 @@ describe("a change of a run whose answer was lost", () => {
 });
 
 describe("an answer that came", () => {
-  it("is taken, or its refusal is told, and nothing is asked", async () => {
+  it("is accepted, or its rejection is reported, without a query", async () => {
     const page = await load(() => ({ status: 200, body: STATE }));
     expect(await page.press()).toBe(true);
     expect(asked).toEqual(["POST sessions/lab/start"]);

@@ -19,7 +19,7 @@ afterEach(() => {
   vi.unstubAllGlobals();
 });
 
-it("lets a slow lab let somebody in, who would else be there twice", async () => {
+it("waits for a slow lab during login, which would else create a second user", async () => {
   const { comeBack, join, login } = await import("../../../src/core/api/access");
   await Promise.all([join("Ada", "ABCD-EFGH"), comeBack("IJKL"), login("secret")]);
   expect(waits).toHaveLength(3);

@@ -27,7 +27,7 @@ beforeEach(() => {
 });
 afterEach(() => vi.useRealTimers());
 
-test("a server that does not answer for a minute is asked on, and it is told until it does", async () => {
+test("a server that is silent for a minute is polled on, with a message until it answers", async () => {
   const { job, follow } = followed();
   api.readJob.mockRejectedValue(unanswered);
   const ended = follow(stateOf("waiting") as never);
@@ -41,14 +41,14 @@ test("a server that does not answer for a minute is asked on, and it is told unt
   expect([job.value?.status, ends]).toEqual(["done", 1]);
 });
 
-test("a job that the server does not know any more is none, and why is told", async () => {
+test("a job that the server does not know any more is removed, with the reason", async () => {
   const { job, follow } = followed();
   api.readJob.mockRejectedValue(gone);
   await follow(stateOf("running") as never);
   expect([job.value, errors, ends]).toEqual([null, [gone], 0]);
 });
 
-test("what else was refused meanwhile stays told", async () => {
+test("another error message of the meantime stays", async () => {
   const { follow } = followed();
   api.readJob.mockResolvedValueOnce(stateOf("running")).mockResolvedValue(stateOf("done"));
   const ended = follow(stateOf("running") as never);

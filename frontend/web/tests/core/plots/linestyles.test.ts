@@ -166,11 +166,16 @@ describe.each(themes)("the lineStyles of curves, $theme", ({ surface, lineStyles
       expect(contrast(lineStyle, surface), lineStyle).toBeGreaterThan(3);
   });
 
-  it.each(Object.keys(SIGHTS))("are told apart with %s, for dashes may be the same", (sight) => {
-    for (const [at, one] of lineStyles.entries()) {
-      for (const other of lineStyles.slice(at + 1)) {
-        expect(difference(SIGHTS[sight] ?? [], one, other), `${one} ${other}`).toBeGreaterThan(14);
+  it.each(Object.keys(SIGHTS))(
+    "are distinguishable with %s, for dashes may be the same",
+    (sight) => {
+      for (const [at, one] of lineStyles.entries()) {
+        for (const other of lineStyles.slice(at + 1)) {
+          expect(difference(SIGHTS[sight] ?? [], one, other), `${one} ${other}`).toBeGreaterThan(
+            14,
+          );
+        }
       }
-    }
-  });
+    },
+  );
 });

@@ -56,7 +56,7 @@ const segment = (
 ): Segment => {
   return { number, name, lineStyle: number - 1, from, to };
 };
-/** Lanes that nobody changed. */
+/** Unchanged lanes. */
 const castOf = (...names: string[]): Cast => names.map((name, index) => [segment(index + 1, name)]);
 
 describe("the curves of a switch", () => {
@@ -143,7 +143,7 @@ describe("the curves of a plot", () => {
     expect(motor?.colour).not.toBe(link?.colour);
   });
 
-  it("are an lineStyle a lane for several, of the quantities chosen, told apart by signs", () => {
+  it("have one line style per lane, for the chosen quantities, distinguished by symbols", () => {
     const lanes = ["NDOBC", "FL"];
     const cast = castOf(...lanes);
     const content = composeContent(["torque1_nm", "torque2_nm"], cast);

@@ -46,7 +46,7 @@ beforeEach(() => {
   });
 });
 
-it("the session's own law is set beside it with the settings of now, another law with none", async () => {
+it("the session's own law is added with a copy of the settings, another law without", async () => {
   const { laws } = await import("../../../src/core/state/laws");
   const { addLane } = await import("../../../src/core/state/commands");
   laws.value = [law("ndobc", { takes_gains: true }), law("fl_integral")];
@@ -60,7 +60,7 @@ it("the session's own law is set beside it with the settings of now, another law
   ]);
 });
 
-it("a controller is taken away by its lane, and a bench's twin is none of those beside", async () => {
+it("a controller is taken away by its lane, and a bench's twin is no comparison lane", async () => {
   const { comparisonLanes } = await import("../../../src/core/state/lanes");
   const { removeLane } = await import("../../../src/core/state/commands");
   const comparisons = [{ law: "ndobc" }, { law: "fl" }, { law: "fl_integral", parameters: POLE }];
@@ -127,7 +127,7 @@ it("a tuned lane that was removed is brought back, and what it was before that a
   expect(steps.value).toEqual([]);
 });
 
-it("the comparison is switched on again with those that stood beside last", async () => {
+it("the comparison is switched on again with the last comparison lanes", async () => {
   const { laws } = await import("../../../src/core/state/laws");
   const { session } = await import("../../../src/core/state/session");
   const { watchComparisons } = await import("../../../src/core/state/lanes");
@@ -135,8 +135,8 @@ it("the comparison is switched on again with those that stood beside last", asyn
   laws.value = [law("ndobc"), law("fl"), law("fl_integral")];
   watchComparisons();
   await toggleCompare(stateOf("ndobc", []));
-  const beside = [{ law: "fl_integral", parameters: POLE }, { law: "fl" }];
-  session.value = stateOf("ndobc", beside);
+  const lanes = [{ law: "fl_integral", parameters: POLE }, { law: "fl" }];
+  session.value = stateOf("ndobc", lanes);
   await toggleCompare(session.value);
   session.value = stateOf("ndobc", []);
   await toggleCompare(session.value);
@@ -144,8 +144,8 @@ it("the comparison is switched on again with those that stood beside last", asyn
   expect(sent.map(({ body }) => body)).toEqual([
     { comparisons: [{ law: "fl" }] },
     { comparisons: [] },
-    { comparisons: beside },
-    { comparisons: beside.slice(0, 1) },
+    { comparisons: lanes },
+    { comparisons: lanes.slice(0, 1) },
   ]);
 });
 

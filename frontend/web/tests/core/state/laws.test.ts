@@ -15,7 +15,7 @@ beforeEach(() => {
   vi.stubGlobal("location", { search: "" });
 });
 
-it("any number of laws: the one beside is the first other one that works", async () => {
+it("any number of laws: the comparison law is the first other one that works", async () => {
   const { laws, otherLaw, titleOf, usableLaws } = await import("../../../src/core/state/laws");
   expect(otherLaw("ndobc")).toBeUndefined();
   laws.value = [law("broken", { problem: "no" }), law("a"), law("b"), law("c")];
@@ -62,7 +62,7 @@ it("a refused parameter has the name of its field, a lane's where all laws call 
       ...{ finding: "", message: "as the server says" },
     });
   const out = (name: string) =>
-    `${name}: 5000 rad/s is out of range, at most 100 rad/s. It stays as it was.`;
+    `${name}: 5000 rad/s is out of range (at most 100 rad/s). The value is unchanged.`;
   const rate = { ...RATE, default: 2, low: 1, high: 100 };
   const wordy = {
     ...rate,

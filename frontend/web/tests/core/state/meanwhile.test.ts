@@ -76,7 +76,7 @@ describe("a setting that another person changes meanwhile", () => {
     server.change({ amplitude_rad: Math.PI / 4 });
     expect(await page.set({ frequency_hz: 0.5 })).toBe(false);
     expect(page.problem.value?.message).toBe(
-      "Somebody else changed this meanwhile; yours was not taken. It is now: Amplitude 45 deg.",
+      "Another user changed this value; your change was not applied. Present value: Amplitude 45 deg.",
     );
     expect(page.session.value?.configuration.position).toEqual(server.held.configuration.position);
     expect(server.held.configuration.position.frequency_hz).toBe(0.2);
@@ -91,7 +91,7 @@ describe("a setting that another person changes meanwhile", () => {
     const both = { ...SINE, amplitude_rad: Math.PI / 4, frequency_hz: 0.5 };
     expect(server.held.configuration.position).toEqual(both);
     server.change({ amplitude_rad: 0.1 });
-    expect(await page.set({ frequency_hz: 0.4 }), "asked anew each time").toBe(false);
+    expect(await page.set({ frequency_hz: 0.4 }), "asked again each time").toBe(false);
   });
 
   it("is sent whole where what the other has set has no such part", async () => {
@@ -113,8 +113,8 @@ describe("a setting that another person changes meanwhile", () => {
   });
 });
 
-describe("a setting beside which something else was changed", () => {
-  it("is sent once more under the new revision, and nobody is told", async () => {
+describe("a setting after a change of another setting", () => {
+  it("is sent once more under the new revision, without a message", async () => {
     const page = await load(server);
     server.change({}, "fl");
     expect(await page.set({ amplitude_rad: 0.5 })).toBe(true);
@@ -133,7 +133,7 @@ describe("a setting beside which something else was changed", () => {
     expect(server.held.configuration.position.amplitude_rad).toBe(0.6);
   });
 
-  it("is told after some tries where the others never rest", async () => {
+  it("is reported after some tries if others keep changing settings", async () => {
     const page = await load(server);
     const answer = server.answer.bind(server);
     server.answer = (...asked) => {
@@ -152,7 +152,7 @@ describe("a law that another person has set", () => {
     const { describeChange, isSame } = await import("../../../src/core/state/meanwhile");
     const before = stateAt("1.0") as never;
     const now = stateAt("1.1", SINE, "fl") as never;
-    expect(describeChange("/law", before, now)).toContain("It is now: law fl.");
+    expect(describeChange("/law", before, now)).toContain("Present value: law fl.");
     expect(isSame("/law", before, now)).toBe(false);
     expect(isSame("/lanes/2", before, now)).toBe(true);
   });

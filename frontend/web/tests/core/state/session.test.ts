@@ -36,7 +36,7 @@ it("keeps what was over before, and takes what a message tells from its tick on"
   ]);
 });
 
-it("takes nothing twice where an answer has told it already", () => {
+it("applies nothing twice that a response has already reported", () => {
   const progress = stateAt(500, {
     events: [{ tick: 400 }],
     ended_windows: [ended(100, 400)],

@@ -57,7 +57,7 @@ describe("a stream that is slow to come", () => {
 });
 
 describe("a stream whose session has ended", () => {
-  it("says so and does not come back by itself, while one that only broke does", async () => {
+  it("reports it and does not reconnect automatically, unlike a broken one", async () => {
     vi.useFakeTimers();
     const sockets = stubSockets();
     const findings: Finding[] = ["up", "ended"];

@@ -139,7 +139,7 @@ describe("the lanes of a SampleRing", () => {
     expect(ring.segment("a", 2, 0, 2)?.values.slice(0, 2)).toEqual(new Float32Array([300, 301]));
   });
 
-  it("are told apart by the batch, where it was sent before lanes changed", () => {
+  it("are distinguished by the batch, if it was sent before lanes changed", () => {
     const ring = new SampleRing(10, ["a"], [1, 2, 3]);
     ring.arrange([1, 3, 4]);
     ring.append(tick(0, { 1: 1, 2: 20, 3: 300 }), 1);

@@ -26,7 +26,7 @@ beforeEach(() => {
 });
 afterEach(() => vi.unstubAllGlobals());
 
-it("a study that was deleted is left, and the list is read anew", async () => {
+it("a deleted study is left, and the list is reloaded", async () => {
   const studies = await load();
   expect(studies.chosenName.value).toBe("mine");
   expect(await studies.remove("mine")).toBe(true);

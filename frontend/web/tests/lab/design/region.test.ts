@@ -56,7 +56,7 @@ it("a map that is left asks for nothing more, and takes no answer that comes lat
   expect([asked.length, outcomes.value.length, isFilling.value]).toEqual([1, 0, false]);
 });
 
-it("why it cannot be filled is told", async () => {
+it("reports why it cannot be filled", async () => {
   const { fillRegion, isFilling, problem } = await import("../../../src/lab/design/region");
   answer = () => Promise.reject(new Error("Too busy."));
   await fillRegion("ndobc", "rigid", 10);

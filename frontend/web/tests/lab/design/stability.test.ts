@@ -12,12 +12,12 @@ describe("curves of a loop that is unstable", () => {
     const caveat = caveatOf({ largest_pole: 1.0312, encoders: "rig" });
     expect(caveat?.short).toBe("unstable on the rig");
     expect(caveat?.summary).toContain("|z| = 1.0312");
-    expect(caveat?.summary).toContain("without the encoders' counts and delay");
+    expect(caveat?.summary).toContain("without the rig's quantization and delay");
   });
 
   test("a session with encoders of its own is spoken of itself, also at the edge", () => {
     const caveat = caveatOf({ largest_pole: 1, encoders: "session" });
-    expect(caveat?.short).toContain("does not come to rest");
+    expect(caveat?.short).toContain("unstable: no steady state");
     expect(caveat?.summary).not.toContain("rig");
   });
 });

@@ -21,7 +21,7 @@ describe("steps", () => {
     expect(() => readLevels("position", "0, 0\n1, two\n")).toThrow("Line 2 is “1, two”");
     expect(() => readLevels("position", "0, 0\n\n3")).toThrow("Line 3 is “3”");
     expect(() => readLevels("position", "0, 0, 1")).toThrow("a time and a level");
-    expect(() => readLevels("position", " \n")).toThrow("0 lines: it must have 1 to 200");
+    expect(() => readLevels("position", " \n")).toThrow("0 lines; expected 1 to 200");
     expect(() => readLevels("position", writeLevels(0, 1, 1, 200))).toThrow("201 lines");
   });
 });

@@ -51,7 +51,7 @@ describe("a push", () => {
     expect(asked).toEqual(["push 1", "push 1.5", "remove 7"]);
   });
 
-  it("that stands still is told again before the server ends it", async () => {
+  it("that does not change is sent again before the server ends it", async () => {
     heldTorque.value = 1;
     const kept = keepPush();
     await vi.advanceTimersByTimeAsync(1000);
@@ -78,7 +78,7 @@ describe("a push", () => {
     expect(holdOf({ speed: "max", real_time_factor: 1e4 })).toBe(60);
   });
 
-  it("is told when it begins, differs, or has been silent", () => {
+  it("is sent when it begins, differs, or has been silent", () => {
     expect(isUpdateDue(0.04, null, 0)).toBe(false);
     expect(isUpdateDue(0.06, null, 0)).toBe(true);
     expect(isUpdateDue(1, 1.01, 100)).toBe(false);

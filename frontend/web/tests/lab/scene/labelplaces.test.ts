@@ -98,7 +98,7 @@ describe("labels on a picture", () => {
     expect(kept / (40 * 12)).toBeGreaterThan(0.8);
   });
 
-  it("is beside its part where nothing is in the way", () => {
+  it("is next to its part where nothing is in the way", () => {
     const [field] = FIELDS as [Box];
     const wanted = { key: "q", x: 150, y: 100, width: 17, height: 16 };
     const [placed] = new LabelPlaces().place([wanted], field);

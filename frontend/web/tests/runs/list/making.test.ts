@@ -21,7 +21,7 @@ async function load(answer: () => Promise<Response>) {
 }
 
 describe("a file that the server makes for long", () => {
-  it("is told to be in the making, asked for once, and saved under its name", async () => {
+  it("is shown as in progress, requested once, and saved under its name", async () => {
     let answer: (response: Response) => void = () => undefined;
     let asked = 0;
     const { makeFile, making } = await load(() => {

@@ -92,7 +92,7 @@ describe("the best of an overlay", () => {
   const marked = (curves: Overlaid[], isAlike = true) =>
     COLUMNS.filter((column) => findBest(curves, column, isAlike) === 0).map(({ name }) => name);
 
-  it("is told where runs differ in who controls, and in nothing that was asked of it", () => {
+  it("is shown where runs differ in the controller only", () => {
     const pair = [curveOf("a", 0.07), curveOf("b", 0.2)];
     const controllers = differing(
       ["Controller", "Law"],
@@ -102,12 +102,12 @@ describe("the best of an overlay", () => {
     expect(whyUnlike(pair, controllers)).toBe("");
     for (const group of ["Motion", "Stiffness", "Realism", "Plant", "Record"]) {
       expect(whyUnlike(pair, differing([group, "x"]))).toBe(
-        `more than the controllers differs: ${group}`,
+        `other settings differ: ${group}`,
       );
     }
     const changed = differing(["Changed while it was recorded", "Motion"], ["Stiffness", "σ_d"]);
-    expect(whyUnlike(pair, changed)).toBe("more than the controllers differs: Motion, Stiffness");
-    expect(whyUnlike(pair, null)).toMatch(/not known/);
+    expect(whyUnlike(pair, changed)).toBe("other settings differ: Motion, Stiffness");
+    expect(whyUnlike(pair, null)).toMatch(/unknown/);
   });
 
   it("needs the same loads at the same time of the run, whenever the recording began", () => {
@@ -117,14 +117,14 @@ describe("the best of an overlay", () => {
     const many = { command_count: 2000 };
     for (const change of [{ commands: [heavy] }, many, { commands: [{ ...PAPER, tick: 1999 }] }]) {
       const other = curveOf("b", 0.2, change);
-      expect(whyUnlike([curveOf("a", 0.07), other], differing())).toMatch(/^the loads differ/);
+      expect(whyUnlike([curveOf("a", 0.07), other], differing())).toMatch(/^the loads or their times differ/);
     }
   });
 
   it("is none between a bench and its twin, nor between a bench and a simulation", () => {
     const bench = curveOf("a", 0.07, { lanes: ["lane1", "lane2"], plant: "emulated" });
     const simulated = curveOf("b", 0.2);
-    const why = "a bench and a simulation are not one plant";
+    const why = "bench and simulation are different plants";
     expect(whyUnlike([bench, { ...bench, plant: "simulated" }], differing())).toBe(why);
     expect(whyUnlike([bench, simulated], differing(["Record", "Recorded on"]))).toBe(why);
     expect(whyUnlike([bench, { ...bench, run: "c" }], differing())).toBe("");
@@ -132,7 +132,7 @@ describe("the best of an overlay", () => {
 
   it("is no smallest torque, and of rms none where the windows are of different length", () => {
     const [small, large] = [curveOf("a", 0.07), curveOf("b", 0.2)];
-    const errors = ["Peak error", "Settled"];
+    const errors = ["Peak error", "Steady-state error"];
     expect(marked([small, large])).toEqual(["rms error", ...errors, "rms stiffness"]);
     expect(marked([small, large], false)).toEqual([]);
     const longer = { ...large, window: { ...large.window, end_tick: 5001 } } as Overlaid;

@@ -112,10 +112,10 @@ describe("the window of a run's numbers", () => {
     );
   });
 
-  it("has a steady error where its load stays, and is long enough", () => {
+  it("has a steady-state error where its load stays, and is long enough", () => {
     const measured = { ...window, lanes: [] };
     expect(explainSteadyState(measured)).toMatch(/last 0.5 s/);
-    expect(explainSteadyState({ ...measured, load_ended: true })).toMatch(/ended by itself/);
+    expect(explainSteadyState({ ...measured, load_ended: true })).toMatch(/the load ended before/);
     expect(explainSteadyState({ ...measured, end_s: 2.9 })).toMatch(/shorter than 1 s/);
   });
 
@@ -136,7 +136,7 @@ describe("the window of a run's numbers", () => {
     expect(later[0]?.window).toMatchObject({ start_s: 0.5, end_s: 3.5 });
     const [other] = overlay(details({ ...run, window: whole }), samples);
     expect(other).toMatchObject({ hasOnset: false, changedS: null });
-    expect(whyUnlike([curve, other] as never, null)).toMatch(/did not begin in the same way/);
+    expect(whyUnlike([curve, other] as never, null)).toMatch(/start with different events/);
     expect(whyUnlike([curve, curve] as never, null)).toBe("");
   });
 });
@@ -193,7 +193,7 @@ describe("what a search has found", () => {
 });
 
 describe("a setting that differs", () => {
-  it("is told in the units that people read", () => {
+  it("is shown in the units that people read", () => {
     const angle = { group: "Motion", name: "Amplitude", unit: "rad", values: [Math.PI / 3, null] };
     expect(formatSetting(angle)).toEqual({ unit: "deg", values: ["60", "–"] });
     const others = { group: "Realism", name: "x", unit: "N·m", values: [-0.25, "on", true] };

@@ -54,7 +54,7 @@ describe("a verdict in an overlay", () => {
     expect(wanted).toMatchObject({ other: "a", rest: null, align: "start" });
   });
 
-  it("is told in the time of the axis, whose 0 is another moment of each run", () => {
+  it("is given in the time of the axis, whose 0 is another time of each run", () => {
     const [one, ...rest] = listJudged(curves, judged);
     expect(rest).toEqual([]);
     expect(one).toMatchObject({ isHeld: false, worstS: 2.25, outside: [[2, 2.5]], low: null });

@@ -6,6 +6,6 @@ it("a record that began within a session says in whose time its files are", asyn
   const run = { duration_s: 31.498, first_tick: 0, period_s: 0.001 };
   expect(formatLength(run)).toBe("31.5 s");
   expect(formatLength({ ...run, first_tick: 16_168 })).toBe(
-    "31.5 s, from 16.17 s of its session on",
+    "31.5 s, from session time 16.17 s",
   );
 });

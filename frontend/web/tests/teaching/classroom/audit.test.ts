@@ -112,13 +112,13 @@ describe("a line of it", () => {
     expect(formatTime(line.time, next)).toMatch(new RegExp(`^\\d+ Jan ${clock}$`));
   });
 
-  it("says what came of it, and why of what failed or went on by itself", async () => {
+  it("shows the result, and the reason of failures and automatic actions", async () => {
     const { nameKind, describeEnd } = await load();
     expect(describeEnd(line)).toBe("done");
-    expect(describeEnd({ ...line, refused: true, status: 409 })).toBe("refused (409)");
+    expect(describeEnd({ ...line, refused: true, status: 409 })).toBe("rejected (409)");
     expect(describeEnd({ ...line, status: null, why: "idle" })).toBe("idle");
     expect(describeEnd({ ...line, refused: true, status: null, why: "No key." })).toBe(
-      "refused: No key.",
+      "rejected: No key.",
     );
     expect(nameKind("settings")).toBe("Settings");
     expect(nameKind("toString")).toBe("toString");

@@ -39,7 +39,7 @@ describe("what a bench may be asked for by a step", () => {
     expect(readinessOf(null, false)).toEqual(all);
   });
 
-  it("is no start before what is to be done, which is told by name", () => {
+  it("is no start before the required actions, which are named", () => {
     const ready = (change: object, held = false) => readinessOf(bench(change), held);
     expect(ready({ status: "ready", homing: { next_step: "link" } })).toMatchObject({
       mayRun: false,

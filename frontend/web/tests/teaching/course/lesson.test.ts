@@ -204,7 +204,7 @@ describe("a step's run", () => {
     expect(lesson.trial.value).toBeNull();
   });
 
-  it("that ends in a fault, or that somebody else stopped, is judged as far as it went", async () => {
+  it("that ends in a fault, or that another user stopped, is assessed up to its end", async () => {
     calls.readRun.mockResolvedValue({ state: "complete" });
     for (const ended of [{ status: "fault", recording }, { recording: null }]) {
       session.value = state({ recording });

@@ -34,7 +34,7 @@ beforeEach(() => {
 });
 
 describe("the table", () => {
-  test("has the exercises that somebody submitted, in their order", () => {
+  test("has the exercises with a submission, in their order", () => {
     expect(columns.value.map(({ name }) => name)).toEqual(["one", "three"]);
   });
 

@@ -171,7 +171,7 @@ describe("what the page does", () => {
     expect(job.value?.problem).toBe("line 2: NameError");
   });
 
-  test("a text that has its entry is told, and no job is followed", async () => {
+  test("a text that has its entry is reported, and no job is followed", async () => {
     answers = {
       "POST leaderboard/submissions": [{ key: "b", job: null }],
       "GET leaderboard": [{ ...season, entries: ENTRIES }],
