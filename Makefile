@@ -16,6 +16,8 @@ BY_TWO := -n 2 $(BY_MODULE)
 # A search at less depth than `make test-all`'s (tests/conftest.py).
 SHOWN := --hypothesis-profile=shown
 SERVED := package docs hardware scene server client browser
+# What has to be written in the terms of .ci/replaced_terms.txt.
+WRITTEN := CHANGELOG.md CONTRIBUTING.md README.md docs frontend ':!docs/laws'
 WEB := PATH="$(CURDIR)/$(BIN):$$PATH" npm --prefix frontend/web
 WALL_CLOCK = $$(grep -rl --include='test_*.py' 'mark\.wall_clock' tests)
 export PYTHONDONTWRITEBYTECODE =
@@ -54,9 +56,10 @@ quick: .venv/installed  ## the tests that are soon done and need no server, benc
 	@$(COMPILE_AND_TEST_PAGE)
 	$(BIN)/pytest $(BY_TWO) $(SHOWN) -q -m "not long and not exhaustive" $(SERVED:%=--ignore=tests/%)
 
-check: .venv/installed $(PAGE)  ## format, lint, types, import layers, generated files
+check: .venv/installed $(PAGE)  ## format, lint, terms, types, import layers, generated files
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
+	git ls-files -z -- $(WRITTEN) | xargs -0 $(BIN)/codespell
 	@echo $(BIN)/basedpyright; $(BIN)/basedpyright > .venv/types 2>&1 & \
 	  $(MAKE) --no-print-directory check-beside-types; beside=$$?; \
 	  wait $$!; types=$$?; cat .venv/types; exit $$((types | beside))

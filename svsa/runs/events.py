@@ -70,11 +70,11 @@ def describe_change(command: Command, law: LawName) -> str:
         return f"{get_title(law)} → {get_title(given)}"
     match command:
         case Set(kind="lane", argument=argument):
-            return f"{get_title(argument.setting.law)} set beside"
+            return f"{get_title(argument.setting.law)} set"
         case Set(kind="comparisons", argument=()):
-            return "Nothing beside"
+            return "Comparison off"
         case Set(kind="comparisons", argument=comparisons):
-            return f"{', '.join(get_title(lane.law) for lane in comparisons)} beside"
+            return f"{', '.join(get_title(lane.law) for lane in comparisons)} added"
     return command.label
 
 

@@ -54,8 +54,8 @@ def show_design(page: Page, lab: Lab) -> None:
     page.get_by_role("button", name="Place poles").click()
     page.get_by_role("spinbutton", name=re.compile("^Position")).first.fill("45")
     page.keyboard.press("Enter")
-    page.get_by_text("What this would do").wait_for(timeout=LONGEST_MS)
-    expect(page.get_by_text("Working it out…")).to_have_count(0, timeout=LONGEST_MS)
+    page.get_by_text("Predicted effect").wait_for(timeout=LONGEST_MS)
+    expect(page.get_by_text("Computing…")).to_have_count(0, timeout=LONGEST_MS)
 
 
 def show_overlay(page: Page, lab: Lab) -> None:

@@ -87,7 +87,7 @@ def open_button(name: str) -> Callable[[Page, Lab], None]:
 
 def open_learn(page: Page, lab: Lab) -> None:
     page.goto(f"{lab.url}/?learn=all")
-    expect(page.get_by_role("link", name=re.compile("Begin.*The real thing"))).to_be_visible()
+    expect(page.get_by_role("link", name=re.compile("Start.*The real thing"))).to_be_visible()
 
 
 def open_exercise(page: Page, lab: Lab) -> None:
@@ -147,12 +147,12 @@ def open_overlay(page: Page, lab: Lab) -> None:
     for choice in choices.all():
         choice.check()
     page.get_by_role("button", name="Overlay 2 runs").click()
-    expect(page.get_by_role("table", name="Each in the window named")).to_be_visible()
+    expect(page.get_by_role("table", name="Metrics of each run in the window named")).to_be_visible()
     expect(page.get_by_role("table", name="Settings that differ")).to_be_visible()
-    page.get_by_role("button", name="Judge").click()
+    page.get_by_role("button", name="Compare").click()
     verdict = page.get_by_role("region", name="Verdict")
-    expect(verdict.get_by_role("status")).to_contain_text(re.compile("held"))
-    expect(verdict.get_by_role("cell", name=re.compile("^(not )?held$"))).to_have_count(2)
+    expect(verdict.get_by_role("status")).to_contain_text(re.compile("tolerance"))
+    expect(verdict.get_by_role("cell", name=re.compile("^(within|outside)$"))).to_have_count(2)
 
 
 def open_trash(page: Page, lab: Lab) -> None:

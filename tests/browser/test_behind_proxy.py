@@ -58,7 +58,7 @@ def test_the_page_its_stream_and_the_3d_view_come_through(
             break
         page.wait_for_timeout(200)
     assert wanted == set(received), received
-    status.get_by_role("button", name="Ask for control").click()
+    status.get_by_role("button", name="Request control").click()
     expect(status).to_contain_text("You")
     page.get_by_role("button", name="Pause", exact=True).click()
     expect(page.get_by_role("button", name="Run", exact=True)).to_be_enabled()

@@ -29,14 +29,14 @@ def test_heat_that_holds_a_motor_back_is_told_in_band_and_table(page: Page, stil
     find_details(page).click()
     row = page.get_by_role("row", name=re.compile("^Motor 2"))
     expect(row).to_contain_text("31 %")
-    expect(page.get_by_text("is held back by heat")).to_have_count(0)
+    expect(page.get_by_text("torque limited by winding heat")).to_have_count(0)
     motors[1] |= {"heat": 0.985, "allowed_torque_nm": 1.83, "held_back": True}
     bench.change(motors=motors)
-    expect(row).to_contain_text("held to 1.83 N·m")
-    expect(find_bench(page).get_by_role("alert")).to_have_text("Motor 2 is held back by heat.")
+    expect(row).to_contain_text("limited to 1.83 N·m")
+    expect(find_bench(page).get_by_role("alert")).to_have_text("Motor 2 torque limited by winding heat.")
     expect(find_bench(page)).to_contain_text("it gives 1.83 N·m at most (1.22 N·m for ever)")
     bench.change(status="fault")
-    page.get_by_text("Why this happens, and what to try").press("Enter")
+    page.get_by_text("Causes and remedies").press("Enter")
     expect(page.get_by_text("Let the motor cool")).to_be_visible()
 
 
@@ -53,7 +53,7 @@ def test_beside_the_load_stands_which_motor_bears_it_for_how_long(
     open_page(page, still_lab)
     expect(page.get_by_text("Motor 2 bears this for about 4 s from cold")).to_be_visible()
     bench.endurance |= {"motor": "motor1", "seconds": 0.4}
-    page.get_by_role("radio", name="Hung mass").press("Space")
+    page.get_by_role("radio", name="Hanging mass").press("Space")
     expect(page.get_by_text("Motor 2 bears this")).to_have_count(0)
     expect(page.get_by_text("Motor 1 bears this for less than a second")).to_be_visible()
     asked = [body for call, body in bench.calls if call == "bench/endurance"]

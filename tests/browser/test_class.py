@@ -79,12 +79,12 @@ def test_two_students_join_wait_and_hand_over(open_page, room: Room) -> None:
     assert "#" not in bob.url
     join(bob, "Bob")
 
-    expect(find_banner(bob, "Nobody is in control.")).to_be_visible()
+    expect(find_banner(bob, "No user is in control.")).to_be_visible()
     expect(bob.get_by_role("button", name="Fig. 4B")).to_be_disabled()
-    find_control(ada).get_by_role("button", name="Ask for control").click()
+    find_control(ada).get_by_role("button", name="Request control").click()
     expect(find_control(ada)).to_contain_text("You")
     expect(ada.get_by_role("button", name="Fig. 4B")).to_be_enabled()
-    find_banner(bob, "Ada is in control.").get_by_role("button", name="Ask for control").click()
+    find_banner(bob, "Ada is in control.").get_by_role("button", name="Request control").click()
     expect(find_banner(bob, "You are next.")).to_be_visible()
     expect(find_control(bob)).to_contain_text("your place: 1")
 
@@ -127,8 +127,8 @@ def test_the_instructor_sees_who_is_here_locks_and_shows_a_code(open_page, room:
     expect(panel.get_by_role("img", name="QR code")).to_be_visible()
     expect(panel).to_contain_text("Only this machine reaches the lab")
     expect_no_violation(teacher, WIDE, PHONE)
-    panel.get_by_role("button", name="What was done").click()
-    log = panel.get_by_role("table").filter(has_text="Came of it")
+    panel.get_by_role("button", name="Audit log").click()
+    log = panel.get_by_role("table").filter(has_text="Result")
     expect(log.get_by_role("row", name="Renew code").first).to_contain_text("Instructor")
     panel.get_by_label("Kind").select_option(label="Control")
     expect(log.get_by_role("row", name="Lock control").first).to_contain_text("done")

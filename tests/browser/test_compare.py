@@ -45,7 +45,7 @@ def test_fl_beside_ndobc_keeps_the_error_that_ndobc_takes_away(page: Page, still
     expect(switch).to_be_checked()
     still_lab.jump(1)
     page.wait_for_function(HAS_LANE_2)
-    table = page.get_by_role("table", name=re.compile("controller does better"))
+    table = page.get_by_role("table", name=re.compile("Comparison of controllers"))
     expect(table.get_by_role("rowheader")).to_have_text(["NDOBC", "FL"])
 
     page.get_by_role("button", name=re.compile("Hang 3 kg")).click()
@@ -77,7 +77,7 @@ def test_everything_for_the_work_is_seen_while_comparing(page: Page, still_lab: 
     find_switch(page).click()
     parts = [
         page.get_by_role("button", name=re.compile("Hang 3 kg")),
-        page.get_by_role("table", name=re.compile("controller does better")),
+        page.get_by_role("table", name=re.compile("Comparison of controllers")),
         page.get_by_role("region", name="Position plot", exact=True),
         find_switch(page),
         page.locator("iframe"),
@@ -105,7 +105,7 @@ def test_the_same_law_twice_is_told_apart_by_what_it_is_set_to(page: Page, still
     page.keyboard.press("ArrowDown")
     expect(laws.get_by_role("button", name=re.compile("^NDOBC "))).to_be_focused()
     page.keyboard.press("Enter")
-    lanes = page.get_by_role("list", name="Beside it")
+    lanes = page.get_by_role("list", name="Compared with")
     settings = lanes.get_by_role("button", name="Settings of NDOBC (2)", exact=True)
     settings.press("Enter")
     expect(settings).to_have_attribute("aria-expanded", "true")

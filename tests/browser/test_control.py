@@ -85,7 +85,7 @@ def test_one_takes_control_and_the_other_watches_pauses_and_takes_over(
     expect(find_control(ada)).to_contain_text("Bob")
     expect(ada.get_by_role("button", name="Fig. 4B")).to_be_disabled()
 
-    find_control(other).get_by_role("button", name="Give back").click()
+    find_control(other).get_by_role("button", name="Release control").click()
     for page in two_pages:
         expect(find_control(page)).to_contain_text("Everyone")
         expect(page.get_by_role("button", name="Fig. 4B")).to_be_enabled()
@@ -93,7 +93,7 @@ def test_one_takes_control_and_the_other_watches_pauses_and_takes_over(
     find_control(ada).get_by_role("button", name="Take control").click()
     expect(find_control(ada), "her name is asked once").to_contain_text("You")
     expect(find_control(other)).to_contain_text("Ada")
-    find_control(ada).get_by_role("button", name="Give back").click()
+    find_control(ada).get_by_role("button", name="Release control").click()
     expect(find_control(other)).to_contain_text("Everyone")
 
 
@@ -129,7 +129,7 @@ def open_bench(context: BrowserContext, bench: BenchLab) -> Page:
     page.goto(bench.lab.url)
     bench.make_ready()
     go_to_page(page, "Runs")
-    expect(page.get_by_text("Nothing is recorded yet")).to_be_visible()
+    expect(page.get_by_text("No recorded runs yet")).to_be_visible()
     return page
 
 
@@ -181,13 +181,13 @@ def test_the_bench_runs_only_while_the_switch_is_held(
     expect(find_run(page)).to_be_disabled()
 
     assert any(hold_through(page, bench) for _ in range(ATTEMPTS))
-    expect(row).to_contain_text("It runs. Let go")
+    expect(row).to_contain_text("Running. On release")
     page.mouse.up()
     expect(row).to_contain_text("Not held")
     bench.wait_for("ready")
     assert bench.is_at_zero()
     assert bench.read()["fault"] is None
-    expect(row).to_contain_text("You let go")
+    expect(row).to_contain_text("Released")
 
     button.focus()
     page.keyboard.down("Enter")
@@ -203,12 +203,12 @@ def test_only_the_switch_of_who_is_in_control_counts(
     context: BrowserContext, bench: BenchLab
 ) -> None:
     page = open_bench(context, bench)
-    client = {"SVSA-Client": "somebody else"}
+    client = {"SVSA-Client": "another client"}
     bench.lab.client.put(
         bench.lab.session + "/control", json={"by": "Ada"}, headers=client
     ).raise_for_status()
     row = page.get_by_role("region", name="Dead-man's switch")
-    expect(row).to_contain_text("only what Ada holds counts")
+    expect(row).to_contain_text("only Ada can hold the switch")
     expect(row.get_by_role("button", name="Hold to run")).to_be_disabled()
     page.keyboard.down("d")
     expect(row).to_contain_text("Not held")

@@ -1,4 +1,4 @@
-"""Gains without fear: poles placed on the page, judged before they are applied, and undone."""
+"""Gains: poles placed on the page, judged before they are applied, and undone."""
 
 import re
 
@@ -141,7 +141,7 @@ def test_an_unstable_design_fails_in_a_simulation_of_its_own(
 ) -> None:
     panel.get_by_role("spinbutton", name="Observer bandwidth β").fill("900")
     panel.get_by_role("spinbutton", name="Position bandwidth").fill("190")
-    expect(panel.get_by_text("It ends in a fault.")).to_be_visible(timeout=WORKER_MS)
+    expect(panel.get_by_text("The run ends in a fault.")).to_be_visible(timeout=WORKER_MS)
     unstable = panel.get_by_text("On the rig this loop is unstable")
     expect(unstable).to_be_visible(timeout=WORKER_MS)
     after_load, under_sine = (
@@ -149,7 +149,7 @@ def test_an_unstable_design_fails_in_a_simulation_of_its_own(
         for name in ("^Position error after the 3 kg", "^Error for a sine")
     )
     until(page, lambda: abs(get_box(after_load)["y"] - get_box(under_sine)["y"]) <= 2)
-    panel.get_by_role("button", name="Fail it in simulation").click()
+    panel.get_by_role("button", name="Run the failure in simulation").click()
     page.wait_for_url(re.compile(r"session=private-"))
     expect(page.get_by_text("Private session.")).to_be_visible()
     assert real_parts(still_lab) == pytest.approx([-60.0] * 4, abs=0.1)

@@ -39,7 +39,7 @@ def grade(page: Page, lab: Lab) -> Locator:
     page.get_by_role("button", name=re.compile("^Grade [0-9]")).press("Enter")
     points = table.get_by_role("row", name="Ada").get_by_role("button", name="0 of 14")
     expect(points).to_be_visible(timeout=WORKER_MS)
-    expect(page.get_by_role("button", name="All is graded")).to_be_disabled()
+    expect(page.get_by_role("button", name="All submissions are graded")).to_be_disabled()
     points.press("Enter")
     expect(points).to_have_attribute("aria-pressed", "true")
     reported = page.get_by_role("table", name="Points by criterion")

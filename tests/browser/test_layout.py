@@ -74,7 +74,7 @@ def test_four_controllers_and_the_last_event_are_read_whole_on_a_phone(
     zoom.click()
     compare(visited, still_lab, True, ("prescribed_performance", "super_twisting", "fl_integral"))
     title = visited.locator(".zoom-title")
-    expect(title).to_contain_text("beside")
+    expect(title).to_contain_text("added")
 
     def are_read_whole() -> bool:
         table, plots = (get_box(visited.locator(one)) for one in (".comparison", ".plots"))

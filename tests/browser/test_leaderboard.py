@@ -77,12 +77,12 @@ def test_the_board_has_no_violation(page: Page, lab_with_board: Lab) -> None:
 
 def test_a_law_that_fails_is_told_where(page: Page, lab_with_board: Lab) -> None:
     page.goto(lab_with_board.url + "/?leaderboard=all")
-    page.get_by_role("textbox", name="What it is called").fill("Broken")
+    page.get_by_role("textbox", name="Name of the law").fill("Broken")
     page.get_by_role("textbox", name=re.compile("^Its text")).fill(
         "def law(*given):\n    return spring\n"
     )
     page.get_by_role("button", name="Submit", exact=True).press("Enter")
     expect(page.get_by_role("heading", name=re.compile("^Measur.*: Broken"))).to_be_in_viewport()
-    reported = page.get_by_role("alert").filter(has_text="It did not get onto the board.")
+    reported = page.get_by_role("alert").filter(has_text="The submission failed.")
     expect(reported).to_contain_text("NameError: name 'spring' is not defined", timeout=WORKER_MS)
     expect(reported).to_contain_text("line 2, in law")

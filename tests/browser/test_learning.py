@@ -30,7 +30,7 @@ def test_the_tour_is_offered_once_goes_by_keyboard_and_is_taken_again(page: Page
     tour = page.get_by_role("region", name="Tour of the lab")
     expect(tour.get_by_role("heading")).to_have_text("Welcome to the lab")
     tour.get_by_role("button", name="Take the tour").press("Enter")
-    titles = ["The actuator", "What happens", "The 3 kg load", "FL or NDOBC", "Gains without fear"]
+    titles = ["The actuator", "The plots", "The 3 kg load", "FL or NDOBC", "Gains"]
     for title in titles:
         expect(tour.get_by_role("heading")).to_have_text(title)
         page.keyboard.press("ArrowRight")
@@ -61,7 +61,7 @@ def test_an_equation_stands_behind_its_symbol_with_the_papers_error(page: Page, 
     card = page.get_by_role("dialog", name=name)
     expect(card.locator("math").first).to_be_attached(timeout=LONG_MS)
     expect(card).to_contain_text("Eq 24")
-    expect(card.get_by_text("as printed").first).to_be_visible()
+    expect(card.get_by_text("as published").first).to_be_visible()
     page.wait_for_function(LOADED, arg="KaTeX_Math")
     page.keyboard.press("Escape")
     expect(card).to_be_hidden()

@@ -74,8 +74,8 @@ class Hand:
 
     def submit(self) -> None:
         if self.exercise.takes_law:
-            self.go_on("Begin with the law above")
-            self.go_on("Try it and keep it")
+            self.go_on("Insert the law above")
+            self.go_on("Test and save")
             tried = self.page.get_by_text(re.compile("^(It holds|Kept, not tried)")).first
             expect(tried).to_be_visible(timeout=LONG_MS)
         self.page.keyboard.press("Tab")

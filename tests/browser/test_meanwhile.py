@@ -23,12 +23,12 @@ def test_what_a_script_sets_while_somebody_types_is_told_and_not_undone(
     theirs = lab.read()["configuration"]["position"] | {"frequency_hz": 0.25}
     lab.client.put(lab.session + "/position", json=theirs).raise_for_status()
     field.press("Enter")
-    reported = motion.get_by_role("alert").filter(has_text="Somebody else changed this meanwhile")
+    reported = motion.get_by_role("alert").filter(has_text="Another user changed this value")
     expect(reported).to_contain_text("It is now: Frequency 0.25 Hz.")
     expect(field).to_have_value("0.25")
     assert lab.read()["configuration"]["position"]["frequency_hz"] == 0.25
     with page.expect_response("**/position"):
-        reported.get_by_role("button", name="Set mine all the same").click()
+        reported.get_by_role("button", name="Apply mine anyway").click()
     expect(reported).to_be_hidden()
     expect(field).to_have_value("0.3")
     assert lab.read()["configuration"]["position"]["frequency_hz"] == 0.3
@@ -47,13 +47,13 @@ def test_set_mine_all_the_same_leaves_what_the_other_set_beside_it(page: Page, l
 
     set_in_parallel(offset_rad=0.1)
     field.press("Enter")
-    reported = motion.get_by_role("alert").filter(has_text="Somebody else changed this meanwhile")
+    reported = motion.get_by_role("alert").filter(has_text="Another user changed this value")
     expect(reported).to_be_visible()
     set_in_parallel(amplitude_rad=0.5)
     amplitude = motion.get_by_role("spinbutton", name=re.compile("Amplitude"))
     expect(amplitude).to_have_value(re.compile(r"^28\.6"))
     with page.expect_response("**/position"):
-        reported.get_by_role("button", name="Set mine all the same").click()
+        reported.get_by_role("button", name="Apply mine anyway").click()
     expect(reported).to_be_hidden()
     held = lab.read()["configuration"]["position"]
     assert (held["frequency_hz"], held["amplitude_rad"], held["offset_rad"]) == (0.3, 0.5, 0.1)

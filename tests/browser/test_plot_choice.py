@@ -45,7 +45,7 @@ def test_plots_are_added_removed_kept_and_reset(page: Page, lab: Lab) -> None:
     page.get_by_role("button", name="Remove plot").click()
     expect(find_plot(page, "Lever ratio μ")).to_have_count(0)
     page.get_by_role("button", name="Plots", exact=True).click()
-    page.get_by_role("button", name="First plots again").click()
+    page.get_by_role("button", name="Restore default plots").click()
     expect(find_plot(page, "Stiffness")).to_be_visible()
     expect(find_plot(page, "Deflection")).to_have_count(0)
 

@@ -33,7 +33,7 @@ def test_the_rig_is_one_choice_and_a_figure_keeps_it(
     expect(realism.get_by_text("torque one sample late")).to_be_visible()
     assert Effects.model_validate(read(lab)["effects"]) == RIG
     page.get_by_role("switch", name=re.compile("^Compare")).click()
-    expect(page.get_by_role("table", name=re.compile("controller does better"))).to_be_visible()
+    expect(page.get_by_role("table", name=re.compile("Comparison of controllers"))).to_be_visible()
     with page.expect_response("**/experiment"):
         page.get_by_role("button", name="Fig. 4B").click()
     assert Effects.model_validate(read(lab)["effects"]) == RIG
@@ -49,7 +49,7 @@ def test_an_effect_by_itself_and_the_model_made_wrong_and_exact(
     choose(noise)
     deviation = realism.get_by_label("Deflection, std. dev.")
     expect(deviation).to_have_value("0.2")
-    expect(realism.get_by_text("A mixture of your own.")).to_be_visible()
+    expect(realism.get_by_text("Custom set of effects.")).to_be_visible()
     deviation.fill("0.5")
     with page.expect_response("**/effects"):
         deviation.press("Enter")

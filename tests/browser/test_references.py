@@ -27,8 +27,8 @@ def test_a_csv_of_stiffness_is_seen_then_applied(page: Page, lab: Lab) -> None:
     picture = stiffness.get_by_role("img", name="15.0 to 25.0 N·m/rad in 2.00 s")
     expect(picture).to_be_visible()
     assert lab.read()["configuration"]["stiffness"]["kind"] == "constant", "nothing is changed yet"
-    expect(stiffness.get_by_text("Following now: Constant.")).to_be_visible()
+    expect(stiffness.get_by_text("Active: Constant.")).to_be_visible()
     apply.click()
-    expect(stiffness.get_by_text("Following now: CSV")).to_be_visible()
+    expect(stiffness.get_by_text("Active: CSV")).to_be_visible()
     held = lab.read()["configuration"]["stiffness"]
     assert (held["kind"], held["stiffness_nm_per_rad"]) == ("series", [15, 25, 15])

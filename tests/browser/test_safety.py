@@ -82,7 +82,7 @@ def test_a_fault_of_a_simulation_and_of_a_bench_tells_what_to_try(
     wait_for_status(page, lab, "fault")
     assert lab.read()["fault"]["code"] == code
     open_page(page, lab)
-    page.get_by_text("Why this happens, and what to try").press("Enter")
+    page.get_by_text("Causes and remedies").press("Enter")
     expect(page.get_by_text("Try a stiffer setting")).to_be_visible()
 
 
@@ -171,7 +171,7 @@ def test_keys_typed_into_a_field_stay_there_and_single_keys_are_switched_off(
     sheet = page.get_by_role("dialog", name="Keyboard")
     expect(sheet).to_be_visible()
     expect(page.locator(".stop-button")).to_be_in_viewport(ratio=1)
-    sheet.get_by_role("checkbox", name="Single keys").uncheck()
+    sheet.get_by_role("checkbox", name="Enable single-key shortcuts").uncheck()
     page.keyboard.press("Escape")
     expect(sheet).to_have_count(0)
     expect(opener).to_be_focused()

@@ -46,7 +46,7 @@ def clipboard(page: Page) -> None:
 def test_every_action_shows_its_call_in_python_and_curl(page: Page, lab: Lab) -> None:
     open_page(page, lab)
     drawer = open_drawer(page)
-    expect(drawer).to_contain_text("Press anything")
+    expect(drawer).to_contain_text("Use any control")
     page.get_by_role("button", name=re.compile("Hang 3 kg")).click()
     calls = drawer.get_by_role("listitem")
     expect(calls).to_have_count(1)
@@ -84,7 +84,7 @@ def test_the_experiment_as_a_script_repeats_it_and_disturbs_nobody(
     expect(page.get_by_role("button", name=re.compile("Remove 3 kg"))).to_be_visible()
     lab.jump(1)
     page.get_by_role("switch", name=re.compile("^Compare with")).click()
-    expect(page.get_by_role("table", name=re.compile("controller does better"))).to_be_visible()
+    expect(page.get_by_role("table", name=re.compile("Comparison of controllers"))).to_be_visible()
     page.get_by_role("button", name=re.compile("Remove 3 kg")).click()
     expect(page.get_by_role("button", name=re.compile("Hang 3 kg"))).to_be_visible()
     lab.jump(1)

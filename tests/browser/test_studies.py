@@ -49,7 +49,7 @@ def test_a_study_is_brushed_picked_from_and_left_for_a_run(
     plane.get_by_role("application").press("ArrowRight")
     expect(page.get_by_role("columnheader", name=re.compile("^Run "))).to_have_count(1)
     plane.get_by_role("application").press("ArrowRight")
-    expect(page.get_by_role("button", name="Lay both over each other")).to_be_visible()
+    expect(page.get_by_role("button", name="Overlay both runs")).to_be_visible()
     expect_no_violation(page, WIDE)
     page.get_by_role("button", name="Open in 3D").last.press("Enter")
     page.wait_for_url(re.compile(r"run="), timeout=WORKER_MS)
@@ -64,10 +64,10 @@ def test_a_study_is_brushed_picked_from_and_left_for_a_run(
 
 def test_a_wrong_text_is_told_with_its_line_and_nothing_is_begun(page: Page, studied: Lab) -> None:
     page.goto(studied.url + "/?studies=all")
-    page.get_by_role("combobox", name="Study", exact=True).select_option(label="Own text (TOML) …")
-    text = page.get_by_label("Text of the study")
+    page.get_by_role("combobox", name="Study", exact=True).select_option(label="Custom (TOML) …")
+    text = page.get_by_label("Definition (TOML)")
     text.fill('title = "Mine"\nruns = 0\n')
-    page.get_by_role("button", name="Begin", exact=True).press("Enter")
+    page.get_by_role("button", name="Start", exact=True).press("Enter")
     expect(page.get_by_role("alert").first).to_contain_text("line 2: runs is 0")
     text.fill('title = "Mine"\nruns = 2\n')
     page.get_by_role("button", name="Check").press("Enter")
@@ -91,7 +91,7 @@ def test_the_bars_of_what_decides_it_are_as_long_as_its_sobol_indices(
     expected = [min(1.0, max(0.0, of[name]["value"])) for name in names for of in (own, total)]
     assert max(expected) > 0.3
     page.goto(studied.url + "/?studies=decided")
-    panel = page.get_by_role("region", name="What decides it")
+    panel = page.get_by_role("region", name="Sensitivity of the success")
     expect(panel).to_be_visible(timeout=WORKER_MS)
     drawn = [share for row in panel.evaluate(SHARES_SHOWN) for share in row]
     assert drawn == pytest.approx(expected, abs=0.01)

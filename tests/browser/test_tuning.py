@@ -68,8 +68,8 @@ def test_a_law_is_tuned_and_the_best_is_put_to_use_and_saved(page: Page, lab: La
     for row, tried in zip(values.all()[1:], best["values"], strict=True):
         assert float(row.get_by_role("cell").nth(1).inner_text()) == pytest.approx(tried, rel=1e-3)
 
-    panel.get_by_role("button", name="Use these").press("Enter")
-    expect(panel.get_by_text("This session is set to them.")).to_be_visible()
+    panel.get_by_role("button", name="Apply best").press("Enter")
+    expect(panel.get_by_text("Applied to this session.")).to_be_visible()
     setting = found["best_setting"]["parameters"]
     assert lab.read()["configuration"]["parameters"]["fl_integral"] == setting
     address = panel.get_by_role("link", name="Save as file").get_attribute("href")

@@ -272,4 +272,4 @@ def test_a_lane_set_otherwise_keeps_its_past_and_gets_a_name_of_its_own():
         [("FL + I a 54.6 (2)", 0, 60), ("FL + I a 40", 60, None)],
     ]
     assert len({s.line_style for lane in lanes for s in lane}) == 3
-    assert session.journal.timeline.window.label == "FL + I set beside"
+    assert session.journal.timeline.window.label == "FL + I set"

@@ -134,8 +134,8 @@ CHANGES = [
     ("actuator", svsa.load_prototype().actuator, "Plant changed"),
     ("nominal", svsa.load_prototype().nominal, "Nominal model changed"),
     ("effects", svsa.RIG, "Effects changed"),
-    ("comparisons", (FL,), "FL beside"),
-    ("comparisons", (FL, svsa.Lane(law="adrc")), "FL, ADRC beside"),
+    ("comparisons", (FL,), "FL added"),
+    ("comparisons", (FL, svsa.Lane(law="adrc")), "FL, ADRC added"),
 ]
 
 

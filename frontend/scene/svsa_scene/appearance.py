@@ -35,7 +35,7 @@ GHOST = Finish((24, 168, 156), 0.0, 0.8, 0.32)
 DEFLECTION: Rgb = (214, 62, 14)
 LIMIT = Finish((205, 52, 58), 0.1, 0.6)
 DISTURBANCE: Rgb = (226, 88, 12)
-INKS: tuple[Rgb, ...] = (
+COLORS: tuple[Rgb, ...] = (
     (0, 114, 178),
     (213, 94, 0),
     (0, 158, 115),
@@ -72,7 +72,7 @@ def get_stiffness_color(step: int) -> Rgb:
 
 def get_line_color(line_style: int) -> Rgb:
     """Color of the curves of this line style."""
-    return INKS[line_style % len(INKS)]
+    return COLORS[line_style % len(COLORS)]
 
 
 def make_material(finish: Finish) -> PBRMaterial:

@@ -96,7 +96,7 @@ def _flatten(setting: str, value: Any) -> Iterator[tuple[tuple[str, str], Value]
     elif setting == "law":
         yield ("Law", ""), describe_law(value)
     elif setting == "comparisons":
-        yield ("Beside it", ""), describe_lanes(value) or "nothing"
+        yield ("Comparison lanes", ""), describe_lanes(value) or "nothing"
         for number, lane in enumerate(value, 2):
             if lane.gains is not None:
                 yield from _flatten_gains(lane.gains, f"lane {number}, ")

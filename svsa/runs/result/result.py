@@ -159,7 +159,7 @@ class Result(Channels):
         """The run in two lines: what it is, and how it went."""
         period = self.configuration.sampling.period_s
         comparison = (
-            f" beside {', '.join(name_law(r.law) for r in self.comparisons)}"
+            f" compared with {', '.join(name_law(r.law) for r in self.comparisons)}"
             if self.comparisons
             else ""
         )

@@ -23,7 +23,7 @@ def test_on_a_phone_the_numbers_of_an_overlay_come_beside_the_whole_names(
     lab.client.patch(f"/api/v1/runs/{runs[1]}", json={"name": long}).raise_for_status()
     page.set_viewport_size({"width": 390, "height": 844})
     page.goto(f"{lab.url}/?overlay={','.join(runs)}")
-    table = page.get_by_role("region", name="Each in the window named")
+    table = page.get_by_role("region", name="Metrics of each run in the window named")
     name = table.get_by_role("rowheader").filter(has_text=long)
     name.scroll_into_view_if_needed()
     whole = table.bounding_box()
@@ -52,7 +52,7 @@ def test_runs_are_laid_over_one_another_from_their_load_on(
     for title in ("Position error", "Stiffness error"):
         plot = page.get_by_role("region", name=title, exact=True)
         expect(plot.locator("canvas")).to_be_visible()
-    rows = page.get_by_role("table", name="Each in the window named").get_by_role("rowheader")
+    rows = page.get_by_role("table", name="Metrics of each run in the window named").get_by_role("rowheader")
     expect(rows).to_have_text([f"{BOTH} · NDOBC", f"{BOTH} · FL", STIFF])
     metrics = lab.client.get(f"/api/v1/runs/{runs[0]}/metrics?start_s=5").json()["lanes"]
     peak = metrics["lane2"]["peak_position_error_rad"] * 57.29578
@@ -61,7 +61,7 @@ def test_runs_are_laid_over_one_another_from_their_load_on(
     expect(row.get_by_role("cell").nth(0)).to_have_text(re.compile(r"3 kg load, 5\.00–"))
     differing = page.get_by_role("table", name="Settings that differ")
     expect(differing.get_by_role("row", name="σ_d")).to_contain_text("N·m/rad1560")
-    expect(differing.get_by_role("row", name="Beside it")).to_contain_text("FLnothing")
+    expect(differing.get_by_role("row", name="Comparison lanes")).to_contain_text("FLnothing")
     entry = page.get_by_role("button", name=f"{BOTH} · FL")
     entry.click()
     expect(entry).to_have_attribute("aria-pressed", "false")

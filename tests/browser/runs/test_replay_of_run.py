@@ -28,7 +28,7 @@ def test_a_replay_that_takes_its_time_is_told_of(
     held: list[Route] = []
     page.route("**/replay", lambda route: held.append(route))
     page.goto(f"{lab.url}/?run={runs[1]}", wait_until="commit")
-    waiting = page.get_by_role("status").filter(has_text="Making the replay…")
+    waiting = page.get_by_role("status").filter(has_text="Preparing the replay…")
     expect(waiting).to_be_visible()
     expect(find_replay(page).get_by_role("button", name="Play")).to_have_count(0)
     held[0].continue_()

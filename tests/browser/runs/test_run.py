@@ -80,7 +80,7 @@ def test_a_run_of_a_bench_cannot_be_branched_and_the_page_says_why(
 
     page.route(f"**/api/v1/runs/{runs[0]}", report_bench)
     page.goto(f"{lab.url}/?run={runs[0]}")
-    expect(page.get_by_text("this one was recorded on a bench")).to_be_visible()
+    expect(page.get_by_text("this run was recorded on a bench")).to_be_visible()
     expect(page.get_by_role("button", name=re.compile("^Branch"))).to_have_count(0)
 
 

@@ -83,7 +83,7 @@ def test_gains_are_told_as_poles_and_lanes_by_their_laws() -> None:
     one, other = record(gains=faster), record(comparisons=(Lane(law="fl"),))
     assert compare(one, other) == {
         ("Controller", "Stiffness poles, rad/s", ""): ("−50 (2×)", "−40 (2×)"),
-        ("Controller", "Beside it", ""): ("nothing", "FL"),
+        ("Controller", "Comparison lanes", ""): ("nothing", "FL"),
     }
 
 

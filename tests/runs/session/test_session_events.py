@@ -151,7 +151,7 @@ def test_a_record_tells_what_was_told_live():
         "Gains changed",
         "Pulse 1 N·m on",
         "Pulse 1 N·m off",
-        "NDOBC beside",
+        "NDOBC added",
         "3 kg load on",
         "FL → NDOBC",
         "Push on",
@@ -168,7 +168,7 @@ def test_what_runs_beside_is_told_by_its_laws():
     for laws in (("fl",), ("fl", "adrc"), ()):
         session.change(Set("comparisons", tuple(svsa.Lane(law=law) for law in laws)))
     labels = [event.label for event in session.journal.events]
-    assert labels == ["FL beside", "FL, ADRC beside", "Nothing beside"]
+    assert labels == ["FL added", "FL, ADRC added", "Comparison off"]
     assert events.list_events(session.journal.initial, session.journal.commands) == list(
         session.journal.events
     )

@@ -21,7 +21,7 @@ const window = (kind: WindowState["kind"], label: string): WindowState => ({
 /** Lanes under a load of 5 s, whose present controllers began at these ticks. */
 const lanesFrom = (...ticks: number[]): Pick<SessionState, "bench" | "lanes" | "window"> => ({
   bench: null,
-  window: window("change", "FL beside"),
+  window: window("change", "FL added"),
   lanes: ticks.map((start_tick) => ({ segments: [{ start_tick }] }) as LaneRow),
 });
 const metrics = (seconds: number | null) => ({ recovery_time_s: seconds }) as Metrics;

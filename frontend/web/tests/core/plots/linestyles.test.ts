@@ -12,7 +12,7 @@ import css from "../../../src/theme.css?raw";
 const colours = (own: readonly (number | null)[]) =>
   shareLineStyles(own).map(({ colour }) => colour);
 
-describe("inks that curves share out", () => {
+describe("line styles that curves share", () => {
   it("are each its own where no two have the same colour", () => {
     expect(shareLineStyles([8, 0, 6, 12])).toEqual([8, 0, 6, 12].map(lineStyleOf));
   });

@@ -58,7 +58,9 @@ describe("a refusal on the page", () => {
       value: 0.2,
       limits: { le: 0.05 },
     });
-    expect(explainViolation(lag)).toContain("Time constant: 200 ms is out of range (at most 50 ms)");
+    expect(explainViolation(lag)).toContain(
+      "Time constant: 200 ms is out of range (at most 50 ms)",
+    );
     const stiffness = violation({ name: "stiffness", value: 151, limits: { ge: 1.7, le: 150.56 } });
     expect(explainViolation(stiffness)).toContain(
       "151 N·m/rad is out of range (from 1.7 to 150.56 N·m/rad)",

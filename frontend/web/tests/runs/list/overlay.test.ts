@@ -101,9 +101,7 @@ describe("the best of an overlay", () => {
     );
     expect(whyUnlike(pair, controllers)).toBe("");
     for (const group of ["Motion", "Stiffness", "Realism", "Plant", "Record"]) {
-      expect(whyUnlike(pair, differing([group, "x"]))).toBe(
-        `other settings differ: ${group}`,
-      );
+      expect(whyUnlike(pair, differing([group, "x"]))).toBe(`other settings differ: ${group}`);
     }
     const changed = differing(["Changed while it was recorded", "Motion"], ["Stiffness", "σ_d"]);
     expect(whyUnlike(pair, changed)).toBe("other settings differ: Motion, Stiffness");
@@ -117,7 +115,9 @@ describe("the best of an overlay", () => {
     const many = { command_count: 2000 };
     for (const change of [{ commands: [heavy] }, many, { commands: [{ ...PAPER, tick: 1999 }] }]) {
       const other = curveOf("b", 0.2, change);
-      expect(whyUnlike([curveOf("a", 0.07), other], differing())).toMatch(/^the loads or their times differ/);
+      expect(whyUnlike([curveOf("a", 0.07), other], differing())).toMatch(
+        /^the loads or their times differ/,
+      );
     }
   });
 

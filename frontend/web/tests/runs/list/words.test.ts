@@ -5,7 +5,5 @@ it("a record that began within a session says in whose time its files are", asyn
   const { formatLength } = await import("../../../src/runs/list/words");
   const run = { duration_s: 31.498, first_tick: 0, period_s: 0.001 };
   expect(formatLength(run)).toBe("31.5 s");
-  expect(formatLength({ ...run, first_tick: 16_168 })).toBe(
-    "31.5 s, from session time 16.17 s",
-  );
+  expect(formatLength({ ...run, first_tick: 16_168 })).toBe("31.5 s, from session time 16.17 s");
 });
