@@ -147,7 +147,9 @@ def open_overlay(page: Page, lab: Lab) -> None:
     for choice in choices.all():
         choice.check()
     page.get_by_role("button", name="Overlay 2 runs").click()
-    expect(page.get_by_role("table", name="Metrics of each run in the window named")).to_be_visible()
+    expect(
+        page.get_by_role("table", name="Metrics of each run in the window named")
+    ).to_be_visible()
     expect(page.get_by_role("table", name="Settings that differ")).to_be_visible()
     page.get_by_role("button", name="Compare").click()
     verdict = page.get_by_role("region", name="Verdict")

@@ -33,7 +33,9 @@ def test_heat_that_holds_a_motor_back_is_told_in_band_and_table(page: Page, stil
     motors[1] |= {"heat": 0.985, "allowed_torque_nm": 1.83, "held_back": True}
     bench.change(motors=motors)
     expect(row).to_contain_text("limited to 1.83 N·m")
-    expect(find_bench(page).get_by_role("alert")).to_have_text("Motor 2 torque limited by winding heat.")
+    expect(find_bench(page).get_by_role("alert")).to_have_text(
+        "Motor 2 torque limited by winding heat."
+    )
     expect(find_bench(page)).to_contain_text("it gives 1.83 N·m at most (1.22 N·m for ever)")
     bench.change(status="fault")
     page.get_by_text("Causes and remedies").press("Enter")

@@ -33,7 +33,9 @@ def test_two_pages_show_one_session_and_keep_their_own_look(
     expect(second.get_by_role("button", name=re.compile("Remove 3 kg"))).to_be_visible()
     second.get_by_role("switch", name=re.compile("^Compare with")).click()
     expect(first.get_by_role("switch", name=re.compile("^Compare with"))).to_be_checked()
-    expect(second.get_by_role("table", name=re.compile("Comparison of controllers"))).to_be_visible()
+    expect(
+        second.get_by_role("table", name=re.compile("Comparison of controllers"))
+    ).to_be_visible()
     choose(second.get_by_role("radio", name="5 s"))
     expect(first.get_by_role("radio", name="20 s")).to_be_checked()
     first.get_by_role("button", name="Run", exact=True).click()

@@ -52,7 +52,9 @@ def test_runs_are_laid_over_one_another_from_their_load_on(
     for title in ("Position error", "Stiffness error"):
         plot = page.get_by_role("region", name=title, exact=True)
         expect(plot.locator("canvas")).to_be_visible()
-    rows = page.get_by_role("table", name="Metrics of each run in the window named").get_by_role("rowheader")
+    rows = page.get_by_role("table", name="Metrics of each run in the window named").get_by_role(
+        "rowheader"
+    )
     expect(rows).to_have_text([f"{BOTH} · NDOBC", f"{BOTH} · FL", STIFF])
     metrics = lab.client.get(f"/api/v1/runs/{runs[0]}/metrics?start_s=5").json()["lanes"]
     peak = metrics["lane2"]["peak_position_error_rad"] * 57.29578
