@@ -126,10 +126,10 @@ def measure_costs(
         bool, typer.Option("--laws", help="A tick under each law, and nothing else.")
     ] = False,
     start: Annotated[
-        bool, typer.Option(help="Compile everything anew too, to measure it (a minute).")
+        bool, typer.Option(help="Also compile everything again, to measure it (a minute).")
     ] = True,
 ) -> None:
-    """Measure what the loop costs, beside a C loop of the same work (CPU time)."""
+    """Measure the cost of the loop next to a C loop of the same work (CPU time)."""
     from svsa.evaluation.timing.bench_tick import TickCost, measure_laws
     from svsa.evaluation.timing.benchmark import measure, measure_start
 

@@ -1,7 +1,7 @@
 """What can go wrong, each with name, value, unit and bound.
 
 One root, `SvsaError`. Bad input is a `ParameterError`; a run that leaves the domain of
-the model ends in a `Fault`, which is data, and a `FaultError` where nobody looks at it.
+the model ends in a `Fault`, which is data, and a `FaultError` where the caller does not read it.
 """
 
 from collections.abc import Callable

@@ -26,7 +26,7 @@ class AccessError(LabError):
 
 
 class ControlError(StateError):
-    """Somebody else is in control of the session; nothing was changed."""
+    """Another client is in control of the session; nothing was changed."""
 
 
 class LostAnswerError(LabError):
@@ -79,7 +79,7 @@ class Connection:
 
     token: of its class, or the lab's secret, or None where it has neither. client: what the
     script is known by; the lab gives control to it. timeout_s: for how long a lab that does not
-    answer, is busy or starts again is asked anew, s.
+    answer, is busy or starts again is asked again, s.
     """
 
     def __init__(
@@ -107,7 +107,7 @@ class Connection:
         self.close()
 
     def close(self) -> None:
-        """End it; the lab is told nothing."""
+        """Close the connection; the lab is not notified."""
         self._http.close()
 
     def read(self, path: str, **query: Any) -> Any:

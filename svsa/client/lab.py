@@ -86,7 +86,7 @@ class Lab(Remote):
     def create_session(
         self, figure: str = "4a", law: LawChoice = "ndobc", **settings: Any
     ) -> RemoteSession:
-        """A private simulated session, running; it ends by itself when nobody uses it.
+        """Open a private simulated session, running; it ends automatically when unused.
 
         settings: load, comparisons, effects, seed, as of `POST /sessions`; an effect's preset and a
         law may be given by name.
@@ -114,7 +114,7 @@ class Lab(Remote):
 
         Asks for control of it, and in a class waits for its turn as a person does. A bench stays
         armed and at home, is watched by this script while the block lasts, and moves from the first
-        `run_until` on: somebody has to stand beside it. settings: load, comparisons, effects.
+        `run_until` on: an operator has to watch it on site. settings: load, comparisons, effects.
         """
         session = self.session
         session.take_control()

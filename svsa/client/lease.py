@@ -18,8 +18,8 @@ class ControlledConnection(SessionConnection):
     ) -> None:
         """Only this script may command from now on; everybody may pause and stop it.
 
-        by: as whom everybody is told; in a class it is the person whose token the script has.
-        Raises `ControlError` where somebody else is in control, unless `take_over`; in a class,
+        by: Name that other users see; in a class it is the person whose token the script has.
+        Raises `ControlError` where another client is in control, unless `take_over`; in a class,
         where it is not this script's turn within `wait_s`, and then it waits no longer.
         """
         state = self.call("PUT", "/control", {"by": by, "take_over": take_over})
@@ -29,7 +29,7 @@ class ControlledConnection(SessionConnection):
                 place = state["queue"] and state["queue"]["place"]
                 self.give_control_back()
                 raise ControlError(
-                    f"{state['control']['holder'] or 'Nobody'} is in control of session"
+                    f"{state['control']['holder'] or 'No user'} is in control of session"
                     f" {self.name}: place {place} in the queue after {wait_s:g} s."
                 )
             time.sleep(WAIT_S)
@@ -39,7 +39,7 @@ class ControlledConnection(SessionConnection):
         """Give control to one of `waiting`, by name; raises `ParameterError` for another."""
         ids = {one["name"]: one["id"] for one in self._read_waiting()}
         if to not in ids:
-            raise ParameterError(Violation("to", to, "", "one of " + (", ".join(ids) or "nobody")))
+            raise ParameterError(Violation("to", to, "", "one of " + (", ".join(ids) or "none: the queue is empty")))
         self.call("POST", "/control/handover", {"to": ids[to]})
 
     @property

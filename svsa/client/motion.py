@@ -12,7 +12,7 @@ LOOK_S = 0.05
 
 
 class RunningConnection(ControlledConnection):
-    """A session whose time goes on when it is told to: a simulation, or a bench in real time."""
+    """A session whose time advances on command: a simulation, or a bench in real time."""
 
     __slots__ = ()
 

@@ -117,7 +117,7 @@ class Recording(Remote):
         self.stop()
 
     def stop(self) -> None:
-        """End it, and wait until its file is finished; harmless where it has ended by itself."""
+        """Stop the recording and wait until its file is complete; no effect if it has already ended."""
         recording = self._session.read_state()["recording"]
         if recording is not None and recording["run_id"] == self.run_id:
             self._session.call("DELETE", "/recording")

@@ -200,7 +200,7 @@ class RemoteSession(RunningConnection):
 
     @property
     def comparisons(self) -> tuple[Lane, ...]:
-        """The controllers beside the first, each on a plant of its own."""
+        """The controllers of the comparison lanes, each on its own plant."""
         return tuple(Lane.model_validate(lane) for lane in self._read("comparisons"))
 
     @comparisons.setter
@@ -209,7 +209,7 @@ class RemoteSession(RunningConnection):
         self.call("PUT", "/lanes", {"comparisons": [dump_lane(lane) for lane in lanes]})
 
     def set_lane(self, number: int, lane: Lane | LawChoice) -> None:
-        """Control one lane beside the first otherwise; number: 2 is the first beside."""
+        """Change the controller of one comparison lane; number: 2 is the first of them."""
         self.call("PUT", f"/lanes/{number}", dump_lane(read_lane(lane, "lane")))
 
     def set_laws(self, law: LawChoice, *comparison_laws: LawChoice) -> None:
@@ -241,8 +241,8 @@ class RemoteSession(RunningConnection):
     ) -> BlockStream:
         """Samples as they come; channels: those of the plots if none is named.
 
-        duration_s: session time to be told. rate_hz: samples a second at speed 1. lanes: their
-        numbers, from 1; None is all there are. history_s: past to be told first, up to 20 s.
+        duration_s: session time to return. rate_hz: samples a second at speed 1. lanes: their
+        numbers, from 1; None is all there are. history_s: past to return first, up to 20 s.
         """
         query = {"rate_hz": f"{rate_hz:g}", "history_s": f"{history_s:g}"}
         query["lanes"] = "all" if lanes is None else ",".join(map(str, lanes))
@@ -260,7 +260,7 @@ class RemoteSession(RunningConnection):
 
 
 class RemoteBench(Remote):
-    """What only a bench can be told; a simulated session raises `StateError`."""
+    """Commands of a bench; a simulated session raises `StateError`."""
 
     __slots__ = ("_session",)
 
@@ -285,7 +285,7 @@ class RemoteBench(Remote):
         self._session.call("POST", "/bench/clear")
 
     def restart(self) -> None:
-        """End loop and supervisor, and start both anew."""
+        """Restart loop and supervisor."""
         self._session.call("POST", "/bench/restart")
 
 

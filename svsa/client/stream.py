@@ -26,7 +26,7 @@ _BROKEN = (OSError, ConnectionClosedError, InvalidHandshake)
 class Block:
     """Samples that came together.
 
-    run: number of the session's run, which counts up when it begins anew at t = 0. ticks:
+    run: number of the session's run, which counts up when it restarts at t = 0. ticks:
     (count,), those of the samples. missed: samples left out before it, for a reader that was too
     slow. lanes: numbers of the lanes, from 1. values: (count, lanes, channels), float32, SI.
     """
@@ -60,7 +60,7 @@ class Block:
 
 
 class BlockStream:
-    """The blocks of a session until so much session time has been told, or it has ended.
+    """The blocks of a session until this much session time is received, or it has ended.
 
     Iterate over it with `for` or `async for`. A connection that breaks is made again for as long
     as the patience of `connection`; what came meanwhile is missing, which the ticks show. Raises
@@ -156,7 +156,7 @@ def _let_go(socket: synchronous.ClientConnection) -> None:
 
 
 class BlockReader:
-    """What one connection has told: its hello, and the numbers of its lanes."""
+    """What one connection has received: its hello, and the numbers of its lanes."""
 
     def __init__(self) -> None:
         self._hello: dict[str, Any] = {}

@@ -37,7 +37,7 @@ class BoundLaw(NamedTuple):
     """A compiled law with its constants.
 
     function: its address. nominal, constants: packed, as words of 64 bits. is_own: whether it
-    brings an estimate of its own. is_measuring: whether it is told what was measured.
+    brings an estimate of its own. is_measuring: whether it receives the measurements.
     """
 
     function: int

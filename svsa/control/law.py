@@ -65,8 +65,8 @@ class Law:
     of the nominal model (`Actuator`), the constants, the memory, x̂ (`State`), `Reference`, ŵ
     (`Disturbance`, N·m), the mean torque that really acted in the last period (`Torque`, N·m) and
     T (s); nominal, constants and memory are read by name, and memory is written. One that takes a
-    ninth argument, `measured`, is told what the encoders said (`Positions`). It keeps nothing
-    elsewhere. Of a tick that a bench's loop missed it is told what the model expects, and what it
+    ninth argument, `measured`, receives the encoder readings (`Positions`). It stores nothing
+    elsewhere. For a tick that a bench's loop missed it receives what the model expects, and what it
     asks for then is not sent. memory: a named tuple of numbers with defaults, which are what it
     remembers at the start of a run and after another law. estimate: whether it acts on no ŵ, on
     that of the loop's observer, or brings its own, which stands in w2, w4, w6 at the front of its

@@ -1,4 +1,4 @@
-"""What a law in plain Python is told: time, reference, x̂ and ŵ, and by name what else it takes.
+"""Inputs of a law in plain Python: time, reference, x̂ and ŵ, and by name what else it takes.
 
 Imports nothing of the lab: the law's side reads this file too.
 """

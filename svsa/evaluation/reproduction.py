@@ -37,7 +37,7 @@ def reproduce(
 ) -> list[Reproduction]:
     """Run figures of the paper with FL and NDOBC, with the figure's load at 5 s.
 
-    Figures 6A, 6B and 7 run on the emulator, through CAN, in lockstep. progress: told
+    Figures 6A, 6B and 7 run on the emulator, through CAN, in lockstep. progress: called with
     the share done. Raises `FaultError` if a run leaves the domain of the model,
     `ParameterError` for a figure that does not exist.
     """

@@ -1,4 +1,4 @@
-"""Processes that work for another one, and are in nobody's way."""
+"""Worker processes of low priority."""
 
 import multiprocessing
 import os
@@ -15,7 +15,7 @@ would not get on for minutes."""
 
 
 def start_workers(most: int, jobs_each: int | None = None) -> ProcessPoolExecutor:
-    """At most so many, each begun when it is needed first, and anew after `jobs_each` jobs."""
+    """At most so many, each started when first needed, and restarted after `jobs_each` jobs."""
     return ProcessPoolExecutor(
         most, choose_start(), _begin, (dict(os.environ),), max_tasks_per_child=jobs_each
     )

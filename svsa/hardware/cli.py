@@ -103,7 +103,7 @@ def bench_home(
 def _interrupted_once() -> Iterator[None]:
     """A terminated check leaves the bench as one ended by Ctrl-C does.
 
-    Whoever asks again while the currents are taken off does not stop that.
+    A second Ctrl-C does not interrupt the ramp-down of the currents.
     """
 
     def interrupt(number: int, frame: FrameType | None) -> NoReturn:

@@ -52,7 +52,7 @@ def _describe_encoder(node: CanNodeSettings) -> Message:
         "deflection",
         node.offset + node.width // 8,
         [counts],
-        comment="Counts of the deflection encoder, by itself.",
+        comment="Counts of the deflection encoder alone.",
         senders=[ENCODER],
         is_extended_frame=node.extended,
     )

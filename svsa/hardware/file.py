@@ -45,7 +45,7 @@ class TimingSettings(Checked):
 
 
 class SafetySettings(Checked):
-    """Limits beside those of the motors; see `svsa.hardware.safety.guard`."""
+    """Limits in addition to those of the motors; see `svsa.hardware.safety.guard`."""
 
     torque_rate_nm_per_s: Number = quantity("N·m/s", "Fastest change of torque", gt=0, le=1e6)
     disturbance_max_nm: Number = quantity(
@@ -83,7 +83,7 @@ class DesignSettings(Checked):
 
 
 class EmulatorSettings(Checked):
-    """Where an emulator is told what happens to it, and whose time it has."""
+    """Control interface and time base of an emulator."""
 
     control_port: Whole = quantity("", "Its control port", ge=1, le=65535)
     lockstep: Flag = quantity(

@@ -14,7 +14,7 @@ from svsa.inputs.nearest import suggest
 def explain(error: ValidationError, model: type[BaseModel] | None = None) -> list[Violation]:
     """What is wrong with the fields of `model`, each called by its path from there.
 
-    model: left out where the error is about a value by itself.
+    model: left out where the error is about a single value.
     """
     return explain_problems(error.errors(include_url=False), model and model.model_fields)
 
@@ -25,7 +25,7 @@ def explain_problems(
     """Pydantic's problems (dicts with loc, type, ctx, msg, input) as violations.
 
     fields: one of them begins each loc; None where all is about one value. Of a value that fits
-    none of several types, only what is wrong with the type it comes nearest to is told.
+    none of several types, only the error of the nearest type is reported.
     """
     named = 0 if fields is None else 1
     paths = [_find_path(problem["loc"], named) for problem in problems]

@@ -31,14 +31,14 @@ if sys.platform == "win32":
         """Without such locks one process at a time may write in a folder of ours."""
 
     def try_lock(descriptor: int) -> bool:
-        """Without such locks nobody is ever in the way."""
+        """Without such locks there is no waiting."""
         return True
 
 else:
     import fcntl
 
     def take_lock(descriptor: int) -> None:
-        """Wait until nobody else has it, and hold it until this is closed or its process killed."""
+        """Wait for the lock, and hold it until this is closed or its process is killed."""
         fcntl.flock(descriptor, fcntl.LOCK_EX)
 
     def try_lock(descriptor: int) -> bool:

@@ -2,7 +2,7 @@
 
 What a processor's multiply-add gives and LLVM's `llvm.fma` promises: the exact a·b + c, rounded
 once. A machine without the instruction calls libm's `fma`, slower and with the same bits. numba
-without fast-math emits no `contract` flag, and LLVM fuses nothing by itself, on aarch64 neither.
+without fast-math emits no `contract` flag, and LLVM fuses nothing on its own, on aarch64 neither.
 
 `FusingCompiler` reads `a * b + c` of a compiled function as `fma(a, b, c)`, the product being
 the last thing that was computed for this sum alone. It looks at one function as it is written,

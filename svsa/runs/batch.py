@@ -27,7 +27,7 @@ def run_configurations(
 ) -> np.ndarray:
     """Every configuration's first lane from t = 0; an array (runs,) of `SUMMARY`, in their order.
 
-    The same bits as a run of each by itself. begin_s: when measuring begins. steps: Runge–Kutta
+    The same bits as a separate run of each. begin_s: when measuring begins. steps: Runge–Kutta
     steps a period.
     """
     summaries = np.empty(len(configurations), dtype=SUMMARY)

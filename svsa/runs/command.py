@@ -50,7 +50,7 @@ COMMANDS: dict[str, str] = {
     "comparisons": "Lanes changed",
     "lane": "A lane changed",
     "load": "Load applied",
-    "unload": "Load taken off",
+    "unload": "Load removed",
     "stop": "Stop",
 }
 """Every kind of command, and the label of its event."""

@@ -100,7 +100,7 @@ class Lane(Checked):
 
 
 class LaneSetting(Checked):
-    """What controls a lane beside the first."""
+    """The controller of a comparison lane."""
 
     lane: Whole = quantity("", "Number of the lane; 1 is the run's own", ge=2, le=MAX_LANES)
     setting: Lane
@@ -112,7 +112,7 @@ class Configuration(Design):
     law: LawName = quantity("", "Name of a law that is installed", default=PAPERS_LAW)
     comparisons: tuple[Lane, ...] = quantity(
         "",
-        "Controllers that run beside the first, each on a plant of its own",
+        "Controllers of the comparison lanes, each on a plant of its own",
         default=(),
         max_length=MAX_LANES - 1,
     )

@@ -1,4 +1,4 @@
-"""Who controls a lane: a law with its gains and its observer, told apart and named."""
+"""The controller of a lane, a law with its gains and its observer: identity and name."""
 
 from collections import Counter
 from collections.abc import Iterable, Sequence
@@ -16,7 +16,7 @@ class Controller(NamedTuple):
     """What a curve is drawn of and named by.
 
     place: "Bench" or "Twin" on a bench, else "". observer: None where the law does not act on
-    it. copy: 1, and more for a lane beside another one with all of this the same.
+    it. copy: 1, and more for a lane with the same controller as another one.
     """
 
     place: str

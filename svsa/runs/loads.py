@@ -13,7 +13,7 @@ def give_load(
 ) -> tuple[ScheduledLoad, Loads]:
     """One more load at a tick: as it is on then, and all loads with it.
 
-    number: the one that it gets. A push told while one is on changes that one instead. period: s.
+    number: the one that it gets. A push sent while one is on changes that one instead. period: s.
     """
     held = continue_push(loads, load, tick, period)
     if held is not None:
@@ -28,7 +28,7 @@ def follow_loads(
     """Every load of a run, with the ticks at which it came and went.
 
     planned: those of its configuration. changes: tick, and the load applied or the number of
-    the one taken off. A push that was told again is one load, as it was told last.
+    the one removed. A push that was sent again is one load, as it was sent last.
     """
     loads: Loads = ()
     number = 0

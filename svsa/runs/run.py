@@ -190,7 +190,7 @@ class Run:
     def add_load(self, load: Load) -> ScheduledLoad:
         """Apply a load now or at its `start_s`; raises `StateError` when there are too many.
 
-        A push told while one is on changes that one, which is returned. Each command counts,
+        A push sent while one is on changes that one, which is returned. Each command counts,
         so that a load's number is that of its command.
         """
         scheduled = self._schedule(load)

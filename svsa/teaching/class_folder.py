@@ -66,7 +66,7 @@ class ClassFolder(Generic[T]):
 
 
 def keep_secret(path: Path) -> bytes:
-    """Return the secret in this file; draw one if there is none yet. Nobody else can read it.
+    """Return the secret in this file; draw one if there is none yet. Other accounts cannot read it.
 
     A file without content is what an earlier version left on a full disk: it is drawn again.
 

@@ -104,7 +104,7 @@ def _read_law_in(folder: Path, name: str) -> bytes:
     """The text of a law's file in a folder, which it cannot leave; raises `ParameterError`."""
     path = (folder / name).resolve()
     if not path.is_relative_to(folder.resolve()):
-        raise ParameterError(Violation("law_file", name, "", "a file beside the submission"))
+        raise ParameterError(Violation("law_file", name, "", "a file next to the submission"))
     return read_law(path)
 
 

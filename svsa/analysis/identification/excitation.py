@@ -1,4 +1,4 @@
-"""A motion from which the parameters can be told apart: slow, fast, soft and stiff.
+"""A motion that makes all parameters identifiable: slow, fast, soft and stiff.
 
 Slow sines cross the Stribeck velocity, where friction shows; long strokes at speed show the
 dampings; fast ones the inertias and the delay of the torque, which at one frequency alone

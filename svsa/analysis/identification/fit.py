@@ -51,7 +51,7 @@ class Fit(NamedTuple):
 
 
 def fit(evidence: Evidence, progress: Progress = lambda _: None) -> Fit:
-    """The parameters of a record; `progress` is told the share of the work that is done.
+    """The parameters of a record; `progress` receives the share of the work that is done.
 
     A rough pass over some of the segments, then passes over all, each of which weighs the
     angles by what the last one left of them. Raises `IdentificationError` where the model
@@ -129,7 +129,7 @@ def _minimize(
 
 
 def _build_teller(progress: Progress, step: int) -> Callable[[int], None]:
-    """Progress for the iterations of a pass: nobody knows how many there will be of either."""
+    """Progress over the iterations of a pass; the number of both is not known in advance."""
     return lambda iterations: progress(1.0 - 0.5**step * (0.5 + 0.5 * 0.85**iterations))
 
 

@@ -61,7 +61,7 @@ class Identification(NamedTuple):
     and delay of the recorded torque, which are found on the way. residual_rad: rms of θ1,
     θ2 and φ that the model leaves unexplained. used_s, loaded_s, dropped_s: of the record;
     left out under a load, and for being explained far worse than the rest. misfit: by how
-    much the residual exceeds what the sensors do by themselves; some 1 where the model is
+    much the residual exceeds the noise of the sensors alone; about 1 where the model is
     right. undetermined: parameters of Table 1 that the run did not excite enough.
     """
 

@@ -51,7 +51,7 @@ class Parameters(NamedTuple):
 
     M … K: see `Actuator`. coulomb, static_ratio, stribeck, creep: of `compute_friction`.
     gravity_moment: m g r of the link, N·m. delay1, delay2: from a recorded torque to the
-    motor's, s: drives that are told one after the other act one after the other.
+    motor's, s: drives that are commanded one after the other act one after the other.
     """
 
     M: float

@@ -54,18 +54,18 @@ class ScheduledPoles(YieldingPoles):
         symbol="a₀", ge=20, le=200, default=123.0,
     )  # fmt: skip
     loud_pole_rad_per_s: Number = quantity(
-        "rad/s", "The a to which it gives way to shaking and swinging", symbol="a_s", ge=10,
+        "rad/s", "Lower bound of a under chattering and oscillation", symbol="a_s", ge=10,
         le=150, default=34.7,
     )  # fmt: skip
     least_pole_rad_per_s: Number = quantity(
-        "rad/s", "The a down to which it gives way to saturation", symbol="a_min", ge=10, le=150,
+        "rad/s", "Lower bound of a under saturation", symbol="a_min", ge=10, le=150,
         default=50.9,
     )  # fmt: skip
     return_rad_per_s2: Number = quantity(
         "rad/s²", "How fast a comes back", symbol="ȧ", ge=10, le=1e5, default=1160.0
     )
     stiffness_pole_rad_per_s: Number = quantity(
-        "rad/s", "p of (s + p)² at a₀; it gives way in proportion", symbol="p", ge=5, le=150,
+        "rad/s", "p of (s + p)² at a₀; it is reduced in proportion", symbol="p", ge=5, le=150,
         default=46.3,
     )  # fmt: skip
     observer_rad_per_s: Number = quantity(
@@ -77,7 +77,7 @@ class ScheduledPoles(YieldingPoles):
         le=300, default=20.6,
     )  # fmt: skip
     loud_observer_rad_per_s: Number = quantity(
-        "rad/s", "The ω to which it gives way to shaking and swinging", symbol="ω_s", ge=5, le=300,
+        "rad/s", "Lower bound of ω under chattering and oscillation", symbol="ω_s", ge=5, le=300,
         default=5.43,
     )  # fmt: skip
     rate_share: Number = quantity(
@@ -101,10 +101,10 @@ class ScheduledPoles(YieldingPoles):
         default=81.0,
     )  # fmt: skip
     shaking_nm: Number = quantity(
-        "N·m", "s₀: shaking at which half is given way", symbol="s₀", ge=0.01, le=20, default=1.82
+        "N·m", "s₀: chattering at which the reduction is half", symbol="s₀", ge=0.01, le=20, default=1.82
     )
     swinging_nm: Number = quantity(
-        "N·m", "n₀: swinging at which half is given way", symbol="n₀", ge=0.01, le=20, default=0.619
+        "N·m", "n₀: oscillation at which the reduction is half", symbol="n₀", ge=0.01, le=20, default=0.619
     )
     shaking_time_s: Number = quantity(
         "s", "t_s: over how long shaking and swinging are felt", symbol="t_s", ge=0.001, le=10,
@@ -184,7 +184,7 @@ class Memory(NamedTuple):
 
 
 def build(parameters: ScheduledPoles, setting: Setting) -> Constants:
-    """The ends between which it gives way, and the limits that it may count on."""
+    """The ends between which the bandwidth is reduced, and the limits that it may count on."""
     p, period = parameters, setting.period
     a, omega = p.position_pole_rad_per_s, p.observer_rad_per_s
     omega_calm = min(omega, p.calm_observer_rad_per_s)

@@ -45,7 +45,7 @@ MAX_GOVERNED, GOVERNED_UP, GOVERNED_DOWN = 145.0, 80.0, 12.0
 
 
 class YieldingPoles(LawParameters):
-    """How fast the loop is, how far it gives way, and when the spring is stiffened."""
+    """Bandwidth of the loop, its lower bound, and the onset of stiffening."""
 
     position_pole_rad_per_s: Number = quantity(
         "rad/s",
@@ -56,14 +56,14 @@ class YieldingPoles(LawParameters):
         default=70.0,
     )
     least_pole_rad_per_s: Number = quantity(
-        "rad/s", "The a down to which it gives way", symbol="a_min", ge=10, le=150, default=48.0
+        "rad/s", "Lower bound of a", symbol="a_min", ge=10, le=150, default=48.0
     )
     return_rad_per_s2: Number = quantity(
         "rad/s²", "How fast a comes back", symbol="ȧ", ge=10, le=1e5, default=2000.0
     )
     stiffness_pole_rad_per_s: Number = quantity(
         "rad/s",
-        "p of (s + p)² at that a; it gives way in proportion",
+        "p of (s + p)² at that a; it is reduced in proportion",
         symbol="p",
         ge=5,
         le=150,
@@ -118,7 +118,7 @@ class Constants(NamedTuple):
 
 
 class Memory(NamedTuple):
-    """yielded: how far a has given way, rad/s. sigma, dsigma: what the governor adds to σ_d."""
+    """yielded: reduction of a, rad/s. sigma, dsigma: what the governor adds to σ_d."""
 
     observed: Observed = Observed()
     yielded: float = 0.0
@@ -281,7 +281,7 @@ def control(
     applied: Torque,
     period: float,
 ) -> Torque:
-    """u = A⁻¹(y − drift under ŵ), N·m, of poles that give way; constants: `Constants`.
+    """u = A⁻¹(y − drift under ŵ), N·m, of poles with reduced bandwidth; constants: `Constants`.
 
     memory: `Memory`. Else as `Law` says.
     """

@@ -1,6 +1,6 @@
 """PD on both motors about the flat motion: `svsa.control.laws.pid` without integrals.
 
-Tomei's PD of elastic joints. A load on the link bends the spring and nobody looks: its error is
+Tomei's PD of elastic joints. A load on the link bends the spring unobserved: its error is
 that of the spring, w2/σ and more.
 """
 

@@ -2,7 +2,7 @@
 
 Each body is predicted by the nominal model under ŵ and the torque that acted, then position,
 velocity and ŵ are corrected with three poles at ω; the law is Eq 24 on that x̂ and ŵ. It needs no
-velocity, and does without the lag of an estimator before an observer: it is told what the encoders
+velocity, and does without the lag of an estimator before an observer: it receives what the encoders
 said.
 """
 

@@ -1,6 +1,6 @@
 """Observers that a law brings itself: they stand at the front of its memory.
 
-They see what the law is told, x̂ and the torque that really acted, and so do not wind up.
+They use the inputs of the law, x̂ and the actual torque, and so do not wind up.
 """
 
 from typing import NamedTuple

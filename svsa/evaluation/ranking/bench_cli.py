@@ -23,14 +23,14 @@ def bench(
     laws: Annotated[
         list[str] | None, typer.Argument(help="Names of laws; all that are installed if left out.")
     ] = None,
-    comparison: Annotated[str, typer.Option(help="Name of the law beside them.")] = PAPERS_LAW,
+    comparison: Annotated[str, typer.Option(help="Name of the law to compare with.")] = PAPERS_LAW,
     figure: Annotated[
         list[str] | None, typer.Option(help="6a, 6b or 7; all three if left out.")
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
     markdown: Annotated[bool, typer.Option("--markdown", help="Print Markdown.")] = False,
     save: Annotated[
-        Path | None, typer.Option(help="Keep the runs in this file, beside the others there.")
+        Path | None, typer.Option(help="Save the runs in this file; other laws there are kept.")
     ] = None,
     results: Annotated[
         Path | None, typer.Option(help="Show what was kept there, and measure nothing.")

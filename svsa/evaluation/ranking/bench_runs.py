@@ -1,4 +1,4 @@
-"""The paper's bench figures under any law, on the emulator, as a file and beside a comparison.
+"""The paper's bench figures under any law, on the emulator, as a file and next to a comparison.
 
 Through CAN, in lockstep: twelve numbers a law, which are the same every time.
 """

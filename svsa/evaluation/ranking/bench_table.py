@@ -72,7 +72,7 @@ def format_bench(runs: BenchRuns, comparison: str) -> str:
 
 
 def build_section(runs: BenchRuns, law: str) -> list[str]:
-    """Lines of a law's page: its numbers beside NDOBC's; none where it was not measured."""
+    """Lines of a law's page: its numbers next to NDOBC's; none where it was not measured."""
     if law not in runs.laws:
         return []
     lines = [

@@ -56,7 +56,7 @@ def save_pareto(results: Results, path: Path) -> None:
 
 
 def save_losses(path: Path) -> None:
-    """Where NDOBC with the declared gains loses: its errors beside those of FL and NDOBC-W."""
+    """Where NDOBC with the declared gains loses: its errors next to those of FL and NDOBC-W."""
     runs = (
         Shown("The load comes off", find_scenario("load_removal.positive.0"), (4.8, 6.5)),
         Shown("2.5 N·m on the link", find_scenario("link_step_2.5.positive.0"), (4.8, 6.5)),

@@ -35,7 +35,7 @@ def run_study(
         source: File (.toml or .py), name of a built-in study, or a `Study`.
         name: Name to save it by, in the folder of studies; that of the file if left out.
         runs: Samples, instead of the file's.
-        workers: Processes; 0 runs it in this one. On platforms that start processes anew, the
+        workers: Processes; 0 runs it in this one. On platforms that spawn processes, the
             calling script needs `if __name__ == "__main__":`.
 
     Returns:

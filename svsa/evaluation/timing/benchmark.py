@@ -1,4 +1,4 @@
-"""`svsa benchmark`: what the loop costs, beside a C loop of the same work in the same minute.
+"""`svsa benchmark`: the cost of the loop next to a C loop of the same work in the same minute.
 
 Times are CPU times, the least of many, ours and C's one after the other in turns, so that only
 their ratio speaks: it is hardly moved by what else the machine does, nor by how fast it is.

@@ -176,7 +176,7 @@ def _check_calibration(bench: BenchFile, signs: bool | None) -> CheckStep:
         calibration = find_calibration(bench)
     except (ParameterError, OSError) as error:
         return CheckStep(
-            "calibration", Result.FAIL, str(error), "Run `svsa bench-home` to write it anew."
+            "calibration", Result.FAIL, str(error), "Run `svsa bench-home` to write it again."
         )
     problems = list_problems(bench, calibration)
     if problems:

@@ -96,7 +96,7 @@ def check_rest(probe: Probe, traffic: Traffic) -> CheckStep:
     if moving:
         advice = (
             f"{' and '.join(moving)} is not still: hold the mechanism still and run the check"
-            " again; counts that run by themselves are interference (shield, ground, 5 V of the"
+            " again; counts that change without motion are interference (shield, ground, 5 V of the"
             " encoder)."
         )
         return CheckStep("at rest", Result.WARN, measured, advice)

@@ -93,7 +93,7 @@ class Probe:
             self._take(message, discarded)
 
     def _query(self) -> float:
-        """Keep feedback coming, once in a period, of the drives that send none by themselves.
+        """Keep feedback coming, once in a period, of the drives that send none automatically.
 
         Returns:
             The time until the next query, s.

@@ -33,7 +33,7 @@ def emulator(
         float,
         typer.Option(
             min=0,
-            help="In lockstep: time goes on by itself where nobody asks any more for so long, as"
+            help="In lockstep: time continues automatically if no loop asks for so long, as"
             " on a machine whose loop is gone; 0: never.",
         ),
     ] = 0.0,

@@ -108,7 +108,7 @@ class Emulator:
             self.add_load(load)
 
     def home(self) -> None:
-        """Somebody sets the mechanism to its marks by hand, and lets go of it."""
+        """Set the mechanism to its marks, as an operator does by hand, and release it."""
         self.mechanics.home(self.now_us)
 
     def inject(self, fault: EmulatorFault) -> None:

@@ -4,7 +4,7 @@ Source: github.com/linux-can/socketcand, its protocol and `state_raw.c`. An iden
 digits is extended, of three standard; `< frame ID s.µs DATA >` has its data in one word, where
 `< send ID LENGTH D0 D1 … >` has a word a byte; a `send` that makes no sense is passed over.
 
-`< hi >`, then `< ok >` for open and for rawmode, each written by itself: python-can reads each
+`< hi >`, then `< ok >` for open and for rawmode, each written separately: python-can reads each
 answer with one call and takes anything more for an error. A client is therefore said frames
 only after its first frame, or a moment after rawmode.
 

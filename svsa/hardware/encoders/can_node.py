@@ -18,7 +18,7 @@ class CanNodeSettings(Checked):
 
 
 class CanNode:
-    """Counts from frames that come by themselves."""
+    """Counts from frames that the encoder sends automatically."""
 
     def __init__(self, settings: CanNodeSettings) -> None:
         if settings.width % 8 or settings.offset + settings.width // 8 > 8:

@@ -188,7 +188,7 @@ class BenchProcesses:
         what = "is silent" if self.alive else "is gone"
         return (
             f"The loop of the bench {what} since {self.silence_s:.1f} s: nothing can be asked of"
-            " it. Start it anew."
+            " it. Restart it."
         )
 
     def _send(self, wanted: str, argument: Any, until: float) -> int:

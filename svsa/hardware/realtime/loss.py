@@ -37,14 +37,14 @@ def is_supervised(processes: BenchProcesses) -> bool:
 def find_loss(processes: BenchProcesses) -> Loss | None:
     """What is lost, as far as the server knows; None while the loop ticks."""
     if processes.failure is not None:
-        return Loss("bench_not_opened", f"{processes.failure} Start the loop anew.", None, None)
+        return Loss("bench_not_opened", f"{processes.failure} Restart the loop.", None, None)
     if processes.listens:
         return None
     intervention = processes.third_line.intervention
     after_s, problem = intervention or (None, None)
     code = "loop_silent" if processes.alive else "loop_lost"
     stopped_by: Stopper | None = None
-    done = "Nobody has stopped the drives yet: be ready to pull the motors' supply."
+    done = "The drives are not stopped yet: be ready to disconnect the motors' supply."
     ended_in_order = not processes.alive and math.isinf(processes.beats.age_s("loop"))
     both_gone = not (processes.alive or processes.supervisor_alive or ended_in_order)
     if intervention is not None or both_gone:
@@ -65,5 +65,5 @@ def find_loss(processes: BenchProcesses) -> Loss | None:
     elif processes.beats.age_s("stopping") < STOPPING_S:
         stopped_by = "supervisor"
         done = "The supervisor keeps both drives at zero current and resets them."
-    words = f"{_WHAT[code]} {done} Start the loop anew."
+    words = f"{_WHAT[code]} {done} Restart the loop."
     return Loss(code, words, stopped_by, problem)

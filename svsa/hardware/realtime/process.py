@@ -54,7 +54,7 @@ class LoopProcess:
         self._loop, self._plant, self._clock, self._laws = loop, plant, clock, laws
         self._link: Link | None = link
         self._fields, self._beats, self._server_s = memory.fields, beats, server_s
-        self._told: tuple[Any, ...] = ()
+        self._reported: tuple[Any, ...] = ()
         for motor, heat in zip(self._plant.motors, memory.fields["heat"], strict=True):
             motor.winding.heat = float(heat)
         self._ending = False
@@ -185,9 +185,9 @@ class LoopProcess:
             plant.homing_step,
             tuple(held_back),
         )
-        if self._link is None or state == self._told:
+        if self._link is None or state == self._reported:
             return
-        self._told = state
+        self._reported = state
         fault = dataclasses.asdict(plant.fault) if plant.fault else None
         status = {"status": plant.status, "fault": fault, "problems": list(plant.problems)}
         status |= {"homing_step": plant.homing_step, "held_back": held_back}

@@ -49,7 +49,7 @@ class Supervisor:
         if self.listen():
             self._heard_s = now
         if now - self._heard_s <= DEAF_S:
-            # Only while the bus is heard: the loop then ends a run that nobody could stop.
+            # Only while the bus is heard: the loop then ends a run that no process could stop.
             self._beats.beat("supervisor")
         age = self._beats.age_s("loop")
         if age == math.inf or age <= self._loop_s:

@@ -42,8 +42,8 @@ class Verified(NamedTuple):
     def description(self) -> str:
         """The same in words."""
         what = "an emulator" if self.plant == "emulated" else "a bench"
-        with_lane = {0: "", 1: ", and the simulated lane beside it"}.get(
-            self.lanes, f", and the {self.lanes} simulated lanes beside it"
+        with_lane = {0: "", 1: ", and the simulated lane"}.get(
+            self.lanes, f", and the {self.lanes} simulated lanes"
         )
         late = f" ({self.missed} of them were missed)" if self.missed else ""
         return (

@@ -170,7 +170,7 @@ class BenchSession:
         if self.loop.starting:
             raise StateError("The loop of the bench is being started already.")
         if self.bench_status in MOVING:
-            raise StateError("The bench is moving: stop it before its loop is started anew.")
+            raise StateError("The bench is moving: stop it before you restart its loop.")
         self.journal.version += 1
         try:
             self.loop.restart(self._restart)
@@ -204,7 +204,7 @@ class BenchSession:
     def start(self) -> None:
         """Begin a run; raises `StateError` unless READY, at home and watched."""
         if self.bench.safety.needs_watcher and not self.watched:
-            raise StateError("Nobody watches this bench: open the page or a stream of it first.")
+            raise StateError("No client watches this bench: open the page or a stream of it first.")
         answer = self._ask("start")
         start = Start(answer["mu0"], State(*answer["x"]))
         recorder = self.journal.recorder
@@ -269,7 +269,7 @@ class BenchSession:
             self._unwatched_since = now
         elif self.bench.safety.needs_watcher and now - self._unwatched_since > UNWATCHED_S:
             self._unwatched_since = now
-            self.loop.processes.report("stop", "nobody watches")
+            self.loop.processes.report("stop", "no client watches")
 
     def _ask(self, wanted: str, argument: object = None) -> dict[str, Any]:
         """Have the loop do it; what it says of its state is known when this returns."""

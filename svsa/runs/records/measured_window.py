@@ -18,7 +18,7 @@ class MeasuredWindow:
 
     kind, label: what began it, as of a `Window`. is_whole: nothing was changed in all of the
     record, and no load came on. lanes: who controlled each lane. load_ended: the load that began
-    it ended by itself, so that what is left of the error in the end is not that under the load.
+    it ended, so that the error at the end is no steady-state error under the load.
     """
 
     kind: WindowKind

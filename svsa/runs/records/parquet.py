@@ -125,7 +125,7 @@ def unpack_parquet(content: bytes, folder: Path) -> None:
     for key, name in names.items():
         if key in inside:
             (draft / name).write_bytes(inside[key])
-    # In one step: whoever lists the runs sees the whole folder, or none.
+    # In one step: a list of the runs has the whole folder, or none.
     draft.rename(folder)
 
 

@@ -41,7 +41,7 @@ _OWN = {
 class RunSettings:
     """What a run was set to while it was recorded, as people say it; "" where it is not known.
 
-    name: all that matters, joined, for a run that nobody named. figure: key of the paper's
+    name: the settings joined, for a run without a name of its own. figure: key of the paper's
     figure with its references, from the first sample on; figure_held: to the last one too.
     laws: lane by lane; law_kinds: every law that controlled a lane at some time. stiffness: σ_d,
     N·m/rad; stiffness_nm_per_rad: its mean at the first sample. loads that were on; load_kinds:

@@ -103,7 +103,7 @@ def compare_runs(
 ) -> Verdict:
     """Compare a run with another within tolerances, channel by channel and lane by lane.
 
-    A value a is held against b, any value that the other run has within `time_s` of that moment:
+    A value a is compared with b, any value of the other run within `time_s` of that time:
     |a − b| ≤ absolute + relative · |b|.
 
     Args:

@@ -24,11 +24,11 @@ MAX_EVENTS = 200
 MAX_COMMANDS = 100_000
 
 HangLoads = Callable[[tuple[Load, ...]], None]
-"""Told of the loads that are on whenever they change."""
+"""Called with the active loads whenever they change."""
 
 
 def hang_nothing(loads: tuple[Load, ...]) -> None:
-    """A simulation needs nobody to hang its loads."""
+    """A simulation needs no operator to hang its loads."""
 
 
 class Journal:
@@ -36,7 +36,7 @@ class Journal:
 
     `initial` and `commands` say everything that decides the run's samples. `version` grows
     with every change, not with time. `timeline` says who controlled which lane from when on, and
-    which window this is, `metrics` how well the lanes do. `on_recorded` is told of every recording
+    which window this is, `metrics` how well the lanes do. `on_recorded` is called for every recording
     that ends. `branch_of` is the recorded run that this one goes on from.
     """
 
@@ -58,7 +58,7 @@ class Journal:
         self.run_number += 1
         self.history.clear()
         self.events: deque[Event] = deque(maxlen=MAX_EVENTS)
-        self._told: deque[Event] = deque(maxlen=MAX_EVENTS)
+        self._reported: deque[Event] = deque(maxlen=MAX_EVENTS)
         self.timeline = Timeline(run.configuration, self._is_bench, KEPT_S / run.period_s)
         self.metrics = WindowMetrics(len(run.lanes), run.period_s)
         self.version += 1
@@ -73,11 +73,11 @@ class Journal:
             raise StateError("The session is being recorded already: stop that recording first.")
 
     def start_recording(self, recorder: Recorder) -> None:
-        """Give the recorder all commands and what was told so far, and every sample from now on."""
+        """Give the recorder all commands and reported events so far, and every sample from now on."""
         self.check_recordable()
         for command in self.commands:
             recorder.write_command(command.tick, command.to_json())
-        for event in self._told:
+        for event in self._reported:
             recorder.write_event(event)
         self.recorder = recorder
         self.version += 1
@@ -122,7 +122,7 @@ class Journal:
                 self.log(command.kind, describe_change(command, before.law))
 
     def _follow(self, command: Command) -> None:
-        """Lanes have the past of those that they continue; in a new window metrics begin anew."""
+        """Lanes have the past of those that they continue; in a new window metrics restart."""
         window = self.timeline.window
         origins = self.timeline.take(command)
         if origins is not None:
@@ -139,7 +139,7 @@ class Journal:
     def report(self, kind: str, label: str) -> None:
         """Enter what a bench says of itself at the present tick: a record keeps it too."""
         self.log(kind, label)
-        self._told.append(self.events[-1])
+        self._reported.append(self.events[-1])
         if self.recorder is not None:
             self.recorder.write_event(self.events[-1])
 
@@ -155,7 +155,7 @@ class Journal:
         self.log("fault", label_fault(fault.code))
 
     def refine_fault(self, fault: Fault) -> None:
-        """More has come to be known of the fault that was told; a record that has it says so."""
+        """Extend the description of the reported fault, also in a record that has it."""
         written = self.recorder.fault if self.recorder is not None else None
         if self.recorder is not None and written is not None and written.code == fault.code:
             self.recorder.write_fault(fault)

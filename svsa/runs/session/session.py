@@ -21,7 +21,7 @@ Status = Literal["running", "paused", "fault"]
 class Session(Protocol):
     """A run with a journal of it. Not safe across threads.
 
-    `journal`: what is kept of the run. `watched`: told by its host, whether anybody looks at it.
+    `journal`: what is kept of the run. `watched`: set by its host, whether any client watches it.
     `closed`: ended for good.
     """
 
@@ -47,7 +47,7 @@ class Session(Protocol):
 
     @property
     def status(self) -> Status:
-        """running, paused, or fault, which it leaves only when told to."""
+        """running, paused, or fault, which it leaves only by a command."""
         ...
 
     @property
@@ -89,7 +89,7 @@ class Session(Protocol):
         ...
 
     def hear_operator(self) -> None:
-        """Whoever watches holds the dead-man's switch."""
+        """The watching client holds the dead-man's switch."""
         ...
 
     def step(self, ticks: int) -> None:
@@ -140,7 +140,7 @@ class Session(Protocol):
         ...
 
     def close(self) -> None:
-        """End it for good, its recording first; whoever watches it is told."""
+        """End it permanently, its recording first, and notify its clients."""
         ...
 
 
@@ -151,7 +151,7 @@ def take_loads_off(session: Session) -> None:
 
 
 class Hands:
-    """A person, who needs no telling; a stand-in does what it is told."""
+    """An operator, who gets no commands; a simulated one follows them."""
 
     def hang(self, loads: tuple[Load, ...]) -> None:
         """These loads and no others are on."""

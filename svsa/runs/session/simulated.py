@@ -37,7 +37,7 @@ class SimulatedSession:
     ) -> Self:
         """A session, paused, that goes on from a recorded run as it stood at `tick`.
 
-        The run is simulated again from its start. run_id: which run it is, for whoever asks
+        The run is simulated again from its start. run_id: id of the run, for clients that ask
         where the session comes from. Raises `StateError` where it had ended before.
         """
         session = cls(name, configuration)

@@ -14,16 +14,16 @@ FeedbackText = Annotated[str, Field(max_length=1000)]
 
 
 class Criterion(Checked):
-    """A measure and the range in which it has the points, with what is told beyond each end."""
+    """A measure and the range in which it has the points, with the feedback beyond each end."""
 
     title: str = quantity("", "What is asked", min_length=1, max_length=200)
     measure: StepName
     low: Number | None = quantity("", "Least value, in its unit", default=None)
     high: Number | None = quantity("", "Greatest value, in its unit", default=None)
     points: Number = quantity("", "Points", gt=0, le=MAX_POINTS, default=1.0)
-    right: FeedbackText = quantity("", "Told where it is right", default="")
-    too_low: FeedbackText = quantity("", "Told below", default="")
-    too_high: FeedbackText = quantity("", "Told above", default="")
+    right: FeedbackText = quantity("", "Feedback if it is right", default="")
+    too_low: FeedbackText = quantity("", "Feedback below the range", default="")
+    too_high: FeedbackText = quantity("", "Feedback above the range", default="")
 
     @model_validator(mode="after")
     def _check(self) -> Self:

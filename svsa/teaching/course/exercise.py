@@ -12,7 +12,7 @@ from svsa.teaching.submission import MAX_STEPS, StepName
 
 
 class Exercise(Checked):
-    """Predict, experiment, explain, hand in. Raises `ParameterError` where steps do not fit.
+    """Predict, experiment, explain, submit. Raises `ParameterError` where steps do not fit.
 
     name: that of its file. number: its place in the course. goal: what one can do after it.
     """

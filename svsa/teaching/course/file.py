@@ -14,7 +14,7 @@ from svsa.teaching.course.exercise import Exercise
 EXERCISE_FILE = "exercise file"
 FENCE = "+++"
 MAX_KEPT = 64
-"""Exercises that are not read anew while their files stay as they are."""
+"""Cache of exercises, read again only when their files change."""
 FOLDER_VARIABLE = "SVSA_COURSE"
 _BUILT_IN = Path(__file__).parent / "exercises"
 _HEADING = re.compile(r"##\s+(\S+)\s*")
@@ -27,7 +27,7 @@ class _Section(NamedTuple):
 
 
 def find_course_folder() -> Path | None:
-    """The folder in SVSA_COURSE, whose exercises stand beside the package's; None where none is."""
+    """The folder in SVSA_COURSE, whose exercises are added to the package's; None if not set."""
     named = os.environ.get(FOLDER_VARIABLE)
     return Path(named) if named else None
 

@@ -165,7 +165,7 @@ def _build_take(reduce: _Reduce, find_row: _Reduce) -> _Take:
 
 
 def _take_crossing(measure: Measure, lane: Result, values: np.ndarray, rows: np.ndarray) -> Taken:
-    """Between the two samples beside the level, on the straight line through them."""
+    """Interpolate linearly between the two samples on both sides of the level."""
     assert measure.of is not None and measure.level is not None  # noqa: S101
     other = lane[measure.of][rows]
     above = np.flatnonzero((other[1:] >= measure.level) & (other[:-1] < measure.level))

@@ -46,7 +46,7 @@ def check_for_bench(
         if path.partition(".")[0] in _OWN:
             raise _refuse("base", path, f"without {path}: a bench has its own")
     if comparisons:
-        bound = "left out: beside a bench runs its simulated twin, and nothing else"
+        bound = "left out: a bench is compared with its simulated twin only"
         raise _refuse("comparisons", list(comparisons), bound)
     for name in free:
         if name in _NOT_FREE:
@@ -62,10 +62,10 @@ def check_for_bench(
 def _check_measure(where: str, measure: Measure) -> None:
     for field, channel in (("channel", measure.channel), ("of", measure.of)):
         if channel in UNMEASURED:
-            bound = "a channel that a bench has: nobody measures the true disturbance there"
+            bound = "a channel that a bench has: the true disturbance is not measured there"
             raise _refuse(f"{where}.{field}", channel, bound)
     if measure.lane != 1:
-        bound = "1: beside a bench runs its simulated twin, and nothing else"
+        bound = "1: a bench is compared with its simulated twin only"
         raise _refuse(f"{where}.lane", measure.lane, bound)
     part = measure.setting.partition(".")[0].partition("[")[0]
     if measure.setting and part not in SET_ON_BENCH:

@@ -1,4 +1,4 @@
-"""How far somebody is in an exercise: kept answers and runs, and what may still be changed.
+"""Progress of a student in an exercise: saved answers and runs, and what may still be changed.
 
 A prediction is asked for before the run that judges it, and is kept as it was once that run was
 set up; an answer to a question is kept as it was first given, since its feedback tells which is
@@ -214,7 +214,7 @@ def _translate(written: Any) -> Any:
 class ProgressStore:
     """Progress of people in a folder, a file each, whole or not at all. Thread-safe.
 
-    Whoever changes progress holds `lock` from reading to writing.
+    The caller that changes progress holds `lock` from reading to writing.
     """
 
     def __init__(self, folder: Path) -> None:

@@ -54,7 +54,7 @@ class Setup(Checked):
     base: dict[str, Any] = quantity("", "Settings of the run", default={FIGURE: "4a"})
     law: InstalledLaw = quantity("", "Law of lane 1", default=PAPERS_LAW)
     comparisons: tuple[InstalledLaw, ...] = quantity(
-        "", "Laws of the lanes beside", default=(), max_length=MAX_LANES - 1
+        "", "Laws of the comparison lanes", default=(), max_length=MAX_LANES - 1
     )
     duration_s: Number = quantity("s", "How long the run is", gt=0, le=LONGEST_S, default=20.0)
     free: tuple[Free, ...] = quantity("", "What the student may choose", default=())

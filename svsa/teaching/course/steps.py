@@ -1,4 +1,4 @@
-"""The steps of an exercise: read, predict, experiment, explain, hand in."""
+"""The steps of an exercise: read, predict, experiment, explain, submit."""
 
 from typing import Annotated, Literal, Self
 
@@ -47,7 +47,7 @@ class Predict(_Step):
     half_within: Number = quantity("1", "Share for half of them", gt=0, le=1000, default=0.5)
     by_factor: Flag = quantity("", "By how many times, not by how much", default=False)
     points: Number = quantity("", "Points", gt=0, le=MAX_POINTS, default=2.0)
-    feedback: FeedbackText = quantity("", "Why it is so, told with the judgement", default="")
+    feedback: FeedbackText = quantity("", "Explanation, shown with the assessment", default="")
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -126,12 +126,12 @@ class Experiment(_Step, Setup):
 
 
 class Option(Checked):
-    """An answer that can be chosen, and what is told of it."""
+    """An answer that can be chosen, and its feedback."""
 
     name: StepName
     text: str = quantity("", "The answer", min_length=1, max_length=500)
     right: Flag = quantity("", "Whether it is right", default=False)
-    feedback: FeedbackText = quantity("", "Told where it was chosen", default="")
+    feedback: FeedbackText = quantity("", "Shown if it was chosen", default="")
 
 
 class Explain(_Step):

@@ -1,1 +1,1 @@
-"""Grades: what was submitted, run again where nobody can peek."""
+"""Grading: submissions, run again in isolation."""

@@ -48,7 +48,7 @@ def verify_run(catalogue: Catalogue, run_id: str) -> VerifiedRun:
     """A recorded run that follows from itself, bit for bit; raises `RecordError` for another.
 
     A simulated one is simulated again. Of a bench's all is worked out again but what it measured
-    and sent, and what it sent is held against its law.
+    and sent, and what it sent is compared with its law.
     """
     record = catalogue.open(run_id)
     if record.header.plant != "simulated":
@@ -73,7 +73,7 @@ def grade(
     """The grade of a submission. runs: folder of the runs, None for this machine's.
 
     secret: the class's, from which and from the law's text come its trials, so that one law is
-    worth the same whoever submits it; None for practice: public trials, and the law runs without
+    worth the same for every author; None for practice: public trials, and the law runs without
     walls, as one's own. report: is given the share of the law's trials that is done. Raises
     `ParameterError` for a submission that does not fit the exercise, `NotIsolatedError` for a law
     where the machine cannot hold one.

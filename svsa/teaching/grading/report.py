@@ -41,7 +41,7 @@ def write_csv(grades: Sequence[Grade]) -> str:
 
 
 def write_page(grades: Sequence[Grade]) -> str:
-    """A page by itself: the class's table, then each student's criteria with what was told."""
+    """A self-contained page: the class's table, then each student's criteria with feedback."""
     parts = ["<h1>Grades</h1>", _write_summary(grades), _write_table(grades)]
     parts += [_write_grade(grade, f"grade-{at}") for at, grade in enumerate(grades)]
     return (
@@ -96,7 +96,7 @@ def _write_grade(grade: Grade, anchor: str) -> str:
         f"<p><small>Run {escape(one.run_id)}. {escape(one.description)}</small></p>"
         for one in grade.runs
     )
-    heads = '<th>Step</th><th>Asked</th><th class="number">Points</th><th>Told</th>'
+    heads = '<th>Step</th><th>Criterion</th><th class="number">Points</th><th>Feedback</th>'
     return (
         f'<h2 id="{anchor}">{head}</h2>\n{_write_rows(heads, rows)}{runs}'
         f"<p><small>Submission {grade.submission}{seed}; svsa {escape(grade.version)}{walls}."

@@ -60,7 +60,7 @@ class RunningLaw:
         self._length = ANSWER.size + self._runs * PAIR.size
         self.cost_s: list[float] = []
         with ExitStack() as opened:
-            # A file, bounded by `output_bytes`: a pipe that nobody empties would block a law that
+            # A file, bounded by `output_bytes`: a pipe without a reader would block a law that
             # prints.
             self._output = opened.enter_context(tempfile.TemporaryFile())
             asked, self._asking = os.pipe()

@@ -1,1 +1,1 @@
-"""The leaderboard: laws that were submitted, and the installed ones, on a season nobody knows."""
+"""The leaderboard: submitted and installed laws on the hidden trials of a season."""

@@ -59,7 +59,7 @@ class Entry(Checked):
 
 
 class Board(ClassFolder[Entry]):
-    """A season's folder: `secret`, for nobody's eyes, and `entries/`, a file each.
+    """A season's folder: `secret`, readable by the server only, and `entries/`, a file each.
 
     `torques/` has what submitted laws answered in their worst runs. folder: None for the one in
     this machine's data folder. The secret is drawn when the board is begun; a season ends when its

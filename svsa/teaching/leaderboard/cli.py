@@ -1,4 +1,4 @@
-"""`svsa ranking submit`, `svsa ranking leaderboard`: a law on the season that nobody knows."""
+"""`svsa ranking submit`, `svsa ranking leaderboard`: a law on a season's hidden trials."""
 
 import json
 from collections.abc import Iterator, Sequence

@@ -1,4 +1,4 @@
-"""The worst run of an entry, seen again beside NDOBC: nothing that was submitted runs for it.
+"""The worst run of an entry, shown next to NDOBC: nothing that was submitted runs for it.
 
 A law of the lab is simulated again. Of a submitted one its torques are kept, and the simulated
 plant gives the same samples for the same torques, bit for bit. The scenario is one of those that
@@ -48,7 +48,7 @@ class KeptTorques:
 
 
 def replay_worst(board: Board, entry: Entry) -> WorstReplay:
-    """The worst run of an entry beside NDOBC, NDOBC's beside FL, or alone where that ends first.
+    """The worst run of an entry next to NDOBC, NDOBC's next to FL, or alone where that ends first.
 
     Raises `StateError` where nothing is kept of a submitted law's.
     """

@@ -57,7 +57,7 @@ class RoboModuleDrive(Drive):
         self._error_id = build_id(address, Command.ERROR)
         self._online_id = build_id(address, Command.ONLINE)
         self.heard_ids = frozenset((self._feedback_id, self._error_id, self._online_id))
-        # All that it obeys: from reset to configuration, by itself or with its group.
+        # All that it obeys: from reset to configuration, alone or with its group.
         self.obeyed_ids = frozenset(
             build_id(Address(address.group, number), Command(command))
             for number in (BROADCAST, address.number)

@@ -134,7 +134,7 @@ class RunPage:
 
 
 class Reader(NamedTuple):
-    """For whom a list is, in a class: runs of theirs, of nobody, and of the session open to all."""
+    """The person a list is for, in a class: their runs, those without owner, and the shared ones."""
 
     person: str
     open_session: str

@@ -13,7 +13,7 @@ class PushLoad(TorqueLoad):
     """
 
     kind: Literal["push"] = "push"
-    hold_s: Number = quantity("s", "How long it lasts after it was told", gt=0, le=60, default=0.5)
+    hold_s: Number = quantity("s", "Duration after it was last sent", gt=0, le=60, default=0.5)
 
     def get_duration(self) -> float:
         """How long it lasts, s, unless it is sent again."""
