@@ -178,7 +178,7 @@ class Settings(BaseSettings):
         return "0.0.0.0" if self.secret_text or self.classroom else "127.0.0.1"  # noqa: S104
 
     def check_exposure(self, host: str) -> None:
-        """Raise `SecurityError` where strangers could reach a lab that keeps nobody out."""
+        """Raise `SecurityError` where other machines reach a lab without authentication."""
         if self.classroom:
             if self.secret_text is not None:
                 raise SecurityError(

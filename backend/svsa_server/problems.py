@@ -24,9 +24,9 @@ TITLES = {
     "not_found": "It does not exist",
     "method_not_allowed": "The method is not possible there",
     "not_now": "It does not fit what the session is doing",
-    "not_isolated": "This machine cannot hold a law that nobody has read",
-    "changed": "Somebody else has changed it meanwhile",
-    "held": "Somebody else is in control",
+    "not_isolated": "This machine cannot isolate an unread law",
+    "changed": "Another client has changed it meanwhile",
+    "held": "Another client is in control",
     "record": "The record cannot be read",
     "study": "It does not fit the study as it is",
     "storage": "It cannot be stored",
@@ -40,7 +40,7 @@ TITLES = {
     "removed": "Removed from the class",
     "too_many": "Too much at once",
     "not_allowed": "The role does not suffice",
-    "not_yours": "It belongs to somebody else",
+    "not_yours": "It belongs to another person",
     "other_origin": "From another site",
     "unknown_host": "For another host",
     "too_large": "The body is too large",
@@ -54,7 +54,7 @@ class UnknownError(SvsaError):
 
 
 class ChangedError(SvsaError):
-    """What was to be changed has been changed meanwhile; it stays as somebody else left it."""
+    """What was to be changed has been changed meanwhile; the other client's value stays."""
 
 
 class NotYoursError(SvsaError):
@@ -62,7 +62,7 @@ class NotYoursError(SvsaError):
 
 
 class TooManyError(SvsaError):
-    """Somebody has as many of something as each person may have; nothing was made."""
+    """A person has reached the limit of a quota; nothing was made."""
 
 
 class ViolationModel(BaseModel):

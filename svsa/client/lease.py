@@ -39,7 +39,9 @@ class ControlledConnection(SessionConnection):
         """Give control to one of `waiting`, by name; raises `ParameterError` for another."""
         ids = {one["name"]: one["id"] for one in self._read_waiting()}
         if to not in ids:
-            raise ParameterError(Violation("to", to, "", "one of " + (", ".join(ids) or "none: the queue is empty")))
+            raise ParameterError(
+                Violation("to", to, "", "one of " + (", ".join(ids) or "none: the queue is empty"))
+            )
         self.call("POST", "/control/handover", {"to": ids[to]})
 
     @property

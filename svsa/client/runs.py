@@ -117,7 +117,7 @@ class Recording(Remote):
         self.stop()
 
     def stop(self) -> None:
-        """Stop the recording and wait until its file is complete; no effect if it has already ended."""
+        """Stop the recording, if it still runs, and wait until its file is complete."""
         recording = self._session.read_state()["recording"]
         if recording is not None and recording["run_id"] == self.run_id:
             self._session.call("DELETE", "/recording")

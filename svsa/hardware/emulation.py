@@ -6,7 +6,7 @@ drive takes them for a command.
 Lockstep: a client sends `ADVANCE_ID` with a time; the emulator simulates up to it, sends every
 frame that is due until then and answers that client with the same identifier and the time that it
 is then: the time asked for, or, at once, a later one that it has reached already. `EMULATED_ID` is
-sent to each client when it begins to listen and then every 100 ms: a client that receives it knows that
+sent to each client when it begins to listen and then every 100 ms: its receiver knows that
 there is no machine behind the wire.
 """
 

@@ -68,7 +68,7 @@ class Timeline:
 
     kept_ticks: how long a segment that has ended is kept. `load_window`: of the newest load;
     it ends with the next change, when a load is taken off, or with another one; a load that ends
-    automatically ends no window, so that a push shows after it. `load_numbers`: which controller each
+    by time ends no window, so that a push shows after it. `load_numbers`: which controller each
     lane had when that load came, None for a lane that began later. `lane_ids`: of every lane an
     identity that it keeps where lanes before it go, and that no other lane of the run ever has.
     """

@@ -50,7 +50,7 @@ def test_a_script_waits_for_its_turn_and_gives_up_in_time(
 ) -> None:
     url, ada_s, bob_s, _ = tokens
     with svsa.connect(url, ada_s) as ada, svsa.connect(url, bob_s) as bob:
-        with pytest.raises(ControlError, match="Nobody is in control of session lab"):
+        with pytest.raises(ControlError, match="No user is in control of session lab"):
             ada.session.law = "fl"
         ada.session.take_control()
         ada.session.law = "fl"

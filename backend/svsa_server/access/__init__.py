@@ -1,1 +1,1 @@
-"""Who may do what: doors that tell who comes, the permissions, the guard before all."""
+"""Authentication, permissions, and the guard that checks every request."""

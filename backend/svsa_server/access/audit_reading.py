@@ -28,7 +28,7 @@ class Question(NamedTuple):
     """Which lines are asked for; empty or None is any.
 
     person: an id. kind: of an `Operation`. refused: whether it was. until: a time of the log, the
-    newest one to be told, so that pages stay the same while lines are added.
+    newest one to return, so that pages stay the same while lines are added.
     """
 
     person: str

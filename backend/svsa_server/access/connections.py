@@ -1,6 +1,6 @@
 """Connections of clients that stop in the middle: of a request, or of reading what they are sent.
 
-Nobody else waits for them, but each is a socket and what was to be sent, kept for as long as the
+They block no other client, but each is a socket and what was to be sent, kept for as long as the
 other machine says that it lives. uvicorn closes such a WebSocket only once all was sent.
 """
 

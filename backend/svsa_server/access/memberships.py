@@ -73,7 +73,7 @@ class Memberships:
             if person.id not in self._members and len(self._members) >= MAX_MEMBERS:
                 raise StateError(
                     f"{MAX_MEMBERS} people have joined, which is all that a class takes: delete"
-                    f" {self._path.name} while the lab is stopped, and everybody joins anew."
+                    f" {self._path.name} while the lab is stopped, and everyone joins again."
                 )
             with self._open() as file:
                 file.execute(
@@ -86,7 +86,7 @@ class Memberships:
         """End a membership, or take that back; raises `UnknownError` where there is none."""
         found = self._members.get(person_id)
         if found is None:
-            raise UnknownError(f"Nobody of the id {person_id[:80]!r} has joined this class.")
+            raise UnknownError(f"No member of this class has the id {person_id[:80]!r}.")
         if found.is_ended is not is_ended:
             self.keep(found._replace(is_ended=is_ended))
         return found.person
@@ -102,5 +102,5 @@ class Memberships:
         except (OSError, sqlite3.Error) as error:
             raise SecurityError(
                 f"The members of the class in {self._path} cannot be kept ({error}): delete the"
-                " file while the lab is stopped, and everybody joins anew."
+                " file while the lab is stopped, and everyone joins again."
             ) from None

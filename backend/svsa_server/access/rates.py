@@ -22,7 +22,7 @@ _KINDS: dict[str, Kind] = {
 }
 _STOPS = {f"{method} {path}" for method, path in STOPS}
 _COUNTED_WHEN_WRONG = frozenset({"POST /api/v1/login"})
-"""Only wrong instructor tokens count, so that nobody's guesses lock the instructor out."""
+"""Only wrong instructor tokens count, so that guesses do not lock the instructor out."""
 
 _WORDS: dict[Kind, str] = {"codes": "wrong class codes of a name", "logins": "wrong logins"}
 

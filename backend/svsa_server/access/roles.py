@@ -35,7 +35,7 @@ class Person(NamedTuple):
     """Who calls, as the server has proved it.
 
     id: what sessions and runs know their maker by; empty where the lab knows no persons. name: as
-    everybody is told.
+    all users see.
     """
 
     id: str
@@ -47,12 +47,12 @@ class Person(NamedTuple):
         return owner in ("", self.id) or self.role is Role.INSTRUCTOR
 
     def may_change(self, owner: str) -> bool:
-        """Whether what `owner` made may be changed; what nobody made is the instructor's."""
+        """Whether a thing of `owner` may be changed; things without owner are the instructor's."""
         return owner == self.id or self.role is Role.INSTRUCTOR
 
 
 EVERYBODY = Person("", "", Role.INSTRUCTOR)
-"""Whoever gets into a lab without a class."""
+"""A user of a lab without a class."""
 
 INSTRUCTOR = Person("instructor", "Instructor", Role.INSTRUCTOR)
-"""Whoever has the instructor token of a class."""
+"""A user with the instructor token of a class."""

@@ -37,7 +37,7 @@ def serve(
     ] = "",
     course: Annotated[
         Path | None,
-        typer.Option(help="Folder with exercises of one's own, beside those of the package."),
+        typer.Option(help="Folder with additional exercises."),
     ] = None,
 ) -> None:
     """Start the lab: the page, the REST interface, the streams and the 3D view.

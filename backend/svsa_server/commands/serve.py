@@ -229,7 +229,7 @@ def describe_class(reported: ShownOnce | None) -> str:
     if reported is None:
         return (
             "A class: its code and instructor token are those of its first start. The instructor's"
-            f" page makes a new code; without {FILE} in SVSA_DATA the next start makes both anew."
+            f" page makes a new code; without {FILE} in SVSA_DATA the next start makes new ones."
         )
     return (
         f"A class. Students join with their name and the code [bold]{reported.code}[/].\n"

@@ -10,7 +10,7 @@ from svsa.teaching.grading.gradebook import Book
 from svsa_server.jobs.progress import JobFolder
 
 WORKERS = min(4, os.cpu_count() or 1)
-"""All cores of a small machine: they give way to live sessions, by their low priority."""
+"""All cores of a small machine: live sessions have priority."""
 
 
 class Asked(NamedTuple):

@@ -33,17 +33,17 @@ class JobFolder:
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        self._told: deque[tuple[float, int]] = deque()
+        self._reported: deque[tuple[float, int]] = deque()
         self._written_s = -PERIOD_S
         self._progress = Progress()
 
     def report(self, done: int, total: int) -> None:
         """Say how far it is; as often as one likes, it is written five times a second."""
         now = time.monotonic()
-        self._told.append((now, done))
-        while len(self._told) > 2 and self._told[1][0] < now - RATED_S:
-            self._told.popleft()
-        since, before = self._told[0]
+        self._reported.append((now, done))
+        while len(self._reported) > 2 and self._reported[1][0] < now - RATED_S:
+            self._reported.popleft()
+        since, before = self._reported[0]
         rate = (done - before) / (now - since) if done > before and now > since else None
         self._progress = Progress(done, total, rate)
         if now >= self._written_s + PERIOD_S:

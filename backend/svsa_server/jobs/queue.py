@@ -157,7 +157,7 @@ class Job:
     async def _stop_late(self, queue: _Queue, worked: "asyncio.Future[bool]", share: Share) -> bool:
         """Stop a job that takes longer than its person's share; return whether it did.
 
-        It may stop by itself and keep what is done; a worker that does not is ended.
+        It may stop itself and keep what is done; a worker that does not is ended.
         """
         if (await asyncio.wait({worked}, timeout=share.longest_s))[0]:
             return False
@@ -171,7 +171,7 @@ class Job:
     def cancel(self) -> None:
         """Let it end as soon as it can, with what is done kept; at once where it waits."""
         ask_to_stop(self.folder)
-        # A job that runs ends by itself, with what is done kept; one that waits has nothing to
+        # A running job ends itself, with what is done kept; one that waits has nothing to
         # keep.
         if self.status == "waiting":
             self.drop()

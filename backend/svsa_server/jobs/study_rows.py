@@ -46,7 +46,7 @@ def read_row(stored: StoredStudy, row: int) -> dict[str, Any]:
 
 
 def thin_out(rows: pa.Table, laws: int, most: int) -> pa.Table:
-    """At most so many rows: samples by lot, the same whoever asks, each under every law."""
+    """At most so many rows: random samples, the same for every client, each under every law."""
     numbers = rows[DRAW].to_numpy()
     samples = np.unique(numbers)
     wanted = max(1, most // laws)

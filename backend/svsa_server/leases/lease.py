@@ -25,7 +25,7 @@ def check_printable(name: str) -> str:
 
 
 CLIENT_HEADER = "SVSA-Client"
-# What is open to all whoever holds the lease: it stops, it only asks, or it is the hand itself.
+# Calls without the lease: they stop, they only read, or they concern the lease itself.
 STOPS = frozenset({("POST", "/pause"), ("POST", "/quick-stop")})
 ASKING = (
     "/predict",
@@ -45,7 +45,7 @@ asking: ContextVar[str | None] = ContextVar("asking", default=None)
 
 
 class HeldError(SvsaError):
-    """Somebody else is in control; nothing was changed."""
+    """Another client is in control; nothing was changed."""
 
 
 class Holder(NamedTuple):
@@ -69,7 +69,7 @@ class Settled(NamedTuple):
 class ControlLease:
     """The lease of the session of this name. Times are monotonic, s.
 
-    rests_when_free: whether nobody may command it then, so that a bench comes to rest.
+    rests_when_free: whether no client may command it then, so that a bench comes to rest.
     """
 
     rests_when_free = False
@@ -102,7 +102,7 @@ class ControlLease:
         self.holder, self._heard = holder, now
 
     def give_back(self, client: str | None, now: float) -> None:
-        """Nobody in control; raises `HeldError` where another one is."""
+        """Release control; raises `HeldError` where another client is in control."""
         self.check(client)
         self.holder = None
 

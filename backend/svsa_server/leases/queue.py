@@ -42,7 +42,7 @@ class ControlQueue(ControlLease):
             return
         if self.is_locked and self.holder is None:
             raise HeldError(f"The instructor has locked control of session {self._session}.")
-        who = self.holder.name if self.holder else "Nobody"
+        who = self.holder.name if self.holder else "No user"
         raise HeldError(
             f"{who} is in control of session {self._session}: ask for control, and wait for your"
             " turn."
@@ -74,13 +74,15 @@ class ControlQueue(ControlLease):
             self.check(client)
         chosen = next((one for one in self.waiting if one.client == to), None)
         if chosen is None:
-            raise StateError("Control is handed to somebody who waits for it; they do not.")
+            raise StateError(
+                "Control can be passed only to a user in the queue; this one is not in it."
+            )
         self.is_locked = False
         self._leave_queue(to)
         self._give(chosen, now)
 
     def lock(self, is_locked: bool, now: float) -> None:
-        """Nobody but the instructor is in control until it is unlocked; who was is then first."""
+        """Lock control for the instructor; after unlocking, the previous holder is first."""
         self.is_locked = is_locked
         if is_locked and self.holder is not None and not self._is_instructor(self.holder.client):
             self._set_aside()
@@ -92,7 +94,7 @@ class ControlQueue(ControlLease):
         return next(places, None)
 
     def hear(self, client: str | None, now: float) -> None:
-        """Somebody has called, or has a stream open."""
+        """A user has called, or has a stream open."""
         super().hear(client, now)
         if client in self._waiting_heard:
             self._waiting_heard[client] = now

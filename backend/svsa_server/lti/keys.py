@@ -41,7 +41,7 @@ def open_key(path: Path) -> RSAKey:
 
 
 class PlatformKeys:
-    """The public keys of platforms by address; anew after an hour or for a new key."""
+    """The public keys of platforms by address; read again after an hour or for a new key."""
 
     def __init__(self, client: httpx.AsyncClient) -> None:
         self._client = client

@@ -48,7 +48,7 @@ class Platform(Checked):
 
 
 class LtiSettings(Checked):
-    """All platforms; key_file: the lab's private key (PEM), beside the file, made if missing."""
+    """All platforms; key_file: the lab's private key (PEM), next to the file, made if missing."""
 
     key_file: Path = quantity("", "Private key of the lab, PEM")
     platforms: tuple[Platform, ...] = quantity("", "Who may launch", min_length=1, max_length=100)

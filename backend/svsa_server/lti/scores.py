@@ -29,7 +29,7 @@ from svsa_server.lti.tool import LtiTool
 LOOK_S = 10.0
 FIRST_WAIT_S, LONGEST_WAIT_S = 30.0, 3600.0
 MAX_TRIES = 40
-"""A day and a half; then a person has to look, and a new launch begins anew."""
+"""A day and a half; then a person has to check, and a new launch starts again."""
 _ASSERTION_S = 60
 _ASSERTION = "urn:ietf:params:oauth:client-assertion-type:jwt-bearer"
 _SCORE_TYPE = "application/vnd.ims.lis.v1.score+json"

@@ -115,7 +115,7 @@ class LtiTool:
         return person
 
     def find_landing(self, launch: Launch, base: str, course: Collection[str]) -> str:
-        """The place of the page that is wanted, below the lab's address; the course by itself.
+        """The place of the page that is wanted, below the lab's address; by default the course.
 
         Raises `LaunchError` for an exercise that is not there.
         """

@@ -85,7 +85,7 @@ async def find_session(
     """The session that the path names; `UnknownError` where there is none.
 
     Every route gets its session here. Raises `HeldError` for a call that changes something
-    while somebody else is in control.
+    while another client is in control.
     """
     await settle_claims()
     found: HostedSession = connection.app.state.laboratory.get(session)
@@ -108,7 +108,7 @@ async def check_unchanged(
         Header(description="The session's `revision`: refused where it was changed meanwhile"),
     ] = None,
 ) -> None:
-    """Raise `ChangedError` where somebody has changed settings or loads since they were read."""
+    """Raise `ChangedError` where another client has since changed settings or loads."""
     if if_match is not None and if_match.strip('"') not in ("*", hosted.revision):
         raise ChangedError(
             f"Session {hosted.session.name} was changed meanwhile, it is at {hosted.revision}, not"
@@ -138,7 +138,7 @@ REFUSALS: dict[int | str, dict[str, Any]] = {
     404: {"model": Problem, "description": "No such session, load or run"},
     409: {
         "model": Problem,
-        "description": "Not while the session or run is as it is, or somebody else is in control",
+        "description": "Not in the present state, or another client is in control",
     },
     422: {"model": Problem, "description": "Refused values; nothing was changed"},
 }

@@ -35,7 +35,7 @@ MAX_BROWSER_MESSAGE_BYTES = 4096
 MAX_SCENE_MESSAGE_BYTES = 16 * 1024 * 1024
 _CONNECT_TIMEOUT_S = 5.0
 _SEND_TIMEOUT_S = 20.0
-_NOBODY = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
+_NO_PEER = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
 """Whom a connection to a port of this machine, which is not encrypted, has to trust."""
 _SUBPROTOCOL_PREFIX = "viser-v"
 _KEPT_HEADERS = ("content-type",)
@@ -188,7 +188,7 @@ class ViserProxy:
         address = httpx.URL(scheme="http", host="127.0.0.1", port=port, path=path)
         if self._http is None:
             self._http = httpx.AsyncClient(
-                verify=_NOBODY, trust_env=False, timeout=_CONNECT_TIMEOUT_S
+                verify=_NO_PEER, trust_env=False, timeout=_CONNECT_TIMEOUT_S
             )
         return await self._http.get(address, headers={"Accept-Encoding": "identity"})
 

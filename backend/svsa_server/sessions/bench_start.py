@@ -13,7 +13,7 @@ from svsa_server.sessions.lock import take_turn
 
 REPEAT_S = 10.0
 _WAY_BACK = (
-    "The lab is served without its bench. Mend what is wrong, then press Start loop anew on the"
+    "The lab is served without its bench. Fix the cause, then press Restart loop on the"
     " page, or POST /api/v1/sessions/{}/bench/restart."
 )
 

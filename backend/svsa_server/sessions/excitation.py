@@ -20,7 +20,7 @@ _log = logging.getLogger("svsa")
 class Excitation:
     """The excitation from this tick of a session's run on, which is being recorded.
 
-    It ends with the recording: when it has been played, or earlier where the run ends, somebody
+    It ends with the recording: when it has been played, or earlier where the run ends, a user
     gives a reference of his own, or the run refuses one. `broken_off`: it is not to go on.
     """
 

@@ -42,7 +42,7 @@ class HostedSession:
     what is being played on it, or None. `broadcast`, `progress`, `reported`, `batches`: what its
     streams are sent in each `round`, made once for all. `last_use`: time of the last request;
     infinite for one that does not end when idle. `owner`: the id of its person; empty for
-    everybody's. `note`: what whoever it was opened for is to know of it. `instance`: no other
+    everybody's. `note`: message for the user it was opened for. `instance`: no other
     session has it, also none of this name before or after.
     note_settled: is called when the lease ends without a request of its holder.
     """
@@ -157,7 +157,7 @@ class HostedSession:
     def find_queue(self) -> ControlQueue:
         """The lease of a class's session; raises `StateError` for any other."""
         if not isinstance(self.lease, ControlQueue):
-            raise StateError(f"Nobody waits for control of session {self.session.name}.")
+            raise StateError(f"The queue for control of session {self.session.name} is empty.")
         return self.lease
 
     def release_if_left(self, now: float, patience_s: float) -> None:

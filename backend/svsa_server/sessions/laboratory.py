@@ -227,7 +227,7 @@ class EmulatorOperator(Hands):
             with EmulatorControl(self._port, timeout_s=0.2) as control:
                 say(control)
         except EmulatorError as error:
-            _log.warning("The emulator was not told. %s", error)
+            _log.warning("The emulator was not notified. %s", error)
 
 
 def find_hands(bench: Path) -> Hands:

@@ -30,9 +30,9 @@ from svsa_server.sessions.hosted import HostedSession
 
 
 def build_progress(hosted: HostedSession, since_tick: int = 0) -> SessionProgress:
-    """What of the session moves by itself, at this instant.
+    """The fields of the session that change with time, at this instant.
 
-    since_tick: of what is over only what reaches to this tick is told.
+    since_tick: of ended items only those that reach to this tick are returned.
     """
     session = hosted.session
     run, pace = session.run, session.pace

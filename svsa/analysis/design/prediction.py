@@ -62,8 +62,8 @@ class Prediction:
     """A design judged. noise: infinite where unstable.
 
     steady: of the configuration's law; None where it finds no rest. adds_estimate: whether the law
-    takes the run's gains and adds an estimate to them; then fl is what the gains leave by
-    themselves, None without a rest point.
+    takes the run's gains and adds an estimate to them; then fl is what the gains leave alone,
+    None without a rest point.
     """
 
     steady: SteadyError | None

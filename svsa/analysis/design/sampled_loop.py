@@ -32,8 +32,8 @@ _NO_EFFECT = 1e-9
 class SampledLoop(NamedTuple):
     """z' = A z + B n + W w + X d, u = C z: a tick of the loop about rest.
 
-    z = (x, x̂, ŵ, torque now and of the last period, queue of the delay, memory of the law, what was
-    received last in addition to x), without what never changes; it begins with x. n: noise on θ1, θ2, φ, rad.
+    z = (x, x̂, ŵ, torque now and of the last period, queue of the delay, memory of the law, the last
+    messages), without what never changes; it begins with x. n: noise on θ1, θ2, φ, rad.
     w: torques on link, motor 1 and motor 2 during the tick, N·m, of which the controller is not
     informed. d: a change of the plant's x at the end of the tick, which its sensors see. u: mean
     torque of both motors during the tick, N·m.

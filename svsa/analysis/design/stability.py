@@ -66,7 +66,7 @@ def assess(configuration: Configuration, sigma: float) -> Stability:
 
 
 def _check_continuous(configuration: Configuration, sigma: float, loop: ClosedLoop) -> None:
-    """Validated against the loop itself at a short period: slow poles s = ln z / T, and e at rest."""
+    """Checked with the loop itself at a short period: slow poles s = ln z / T, and e at rest."""
     c = configuration
     short = c.changed(effects=IDEAL, sampling=c.sampling.changed(period_s=_SHORT_S))
     sampled = linearize_tick(short, sigma)

@@ -101,10 +101,20 @@ class ScheduledPoles(YieldingPoles):
         default=81.0,
     )  # fmt: skip
     shaking_nm: Number = quantity(
-        "N·m", "s₀: chattering at which the reduction is half", symbol="s₀", ge=0.01, le=20, default=1.82
+        "N·m",
+        "s₀: chattering at which the reduction is half",
+        symbol="s₀",
+        ge=0.01,
+        le=20,
+        default=1.82,
     )
     swinging_nm: Number = quantity(
-        "N·m", "n₀: oscillation at which the reduction is half", symbol="n₀", ge=0.01, le=20, default=0.619
+        "N·m",
+        "n₀: oscillation at which the reduction is half",
+        symbol="n₀",
+        ge=0.01,
+        le=20,
+        default=0.619,
     )
     shaking_time_s: Number = quantity(
         "s", "t_s: over how long shaking and swinging are felt", symbol="t_s", ge=0.001, le=10,

@@ -3,7 +3,7 @@
 numba compiles a function for the types that it is called with: an equation that is written for one
 actuator takes a float, or `VECTOR`, and an element gets the bits that the float would. Every
 operation is one of LLVM's on vectors; nothing depends on what a compiler finds out about a loop. A
-float combined with a vector is the same in all of it. Truths of vectors (`MASK`) are nothing that an `if`
+float next to a vector is the same in all of it. Truths of vectors (`MASK`) are nothing that an `if`
 takes: see `svsa.numerics.simd.choice`.
 """
 

@@ -39,7 +39,7 @@ class Result(Channels):
     configuration: at tick 0. samples: (ticks, channels), float64, SI, columns as
     `svsa.actuators.signals.CHANNELS`. A channel is also an attribute: `result.position_error_rad`.
     fault: why the run ended early, or None. comparisons: the results of the controllers that ran
-    in comparison lanes. law: what controlled first, "own" for a function of one's own. commands: what
+    in lanes 2 to 4. law: what controlled first, "own" for a function of one's own. commands: what
     was changed of this lane on the way. name: what a recorded run is called. plant: what the first
     lane was. steps: Runge–Kutta steps a control period.
     """

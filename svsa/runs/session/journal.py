@@ -36,7 +36,7 @@ class Journal:
 
     `initial` and `commands` say everything that decides the run's samples. `version` grows
     with every change, not with time. `timeline` says who controlled which lane from when on, and
-    which window this is, `metrics` how well the lanes do. `on_recorded` is called for every recording
+    which window this is, `metrics` how well the lanes do. `on_recorded` is called per recording
     that ends. `branch_of` is the recorded run that this one goes on from.
     """
 
@@ -73,7 +73,7 @@ class Journal:
             raise StateError("The session is being recorded already: stop that recording first.")
 
     def start_recording(self, recorder: Recorder) -> None:
-        """Give the recorder all commands and reported events so far, and every sample from now on."""
+        """Give the recorder the commands and events so far, and every sample from now on."""
         self.check_recordable()
         for command in self.commands:
             recorder.write_command(command.tick, command.to_json())

@@ -11,7 +11,7 @@ def build_fault(code: str, message: str = "") -> Fault:
 
 
 OVERLOAD, SILENT = build_fault("overload"), build_fault("drive_silent")
-LOST = build_fault("loop_lost", "Nobody has stopped the drives yet.")
+LOST = build_fault("loop_lost", "The drives are not stopped yet.")
 STOPPED = build_fault("loop_lost", "The supervisor has.")
 
 

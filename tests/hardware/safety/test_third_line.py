@@ -152,7 +152,7 @@ def test_a_loop_that_ended_in_order_is_lost_and_has_left_nothing_behind(watched:
     loss = watched.find_loss()
     assert (loss.code, loss.stopped_by) == ("loop_lost", None)
     assert "in order" in loss.message
-    assert "Nobody" not in loss.message
+    assert "not stopped" not in loss.message
 
 
 def test_a_bus_that_is_being_opened_without_end_is_not_waited_for(

@@ -58,7 +58,7 @@ def test_a_record_has_the_last_that_is_known_of_its_fault(
     recorder = catalogue.record(header)
     session.start_recording(recorder)
     session.step(10)
-    lost = Fault("loop_lost", 0, 10, 0.01, "Nobody has stopped the drives yet.")
+    lost = Fault("loop_lost", 0, 10, 0.01, "The drives are not stopped yet.")
     session.journal.log_fault(lost, ends_run)
     session.journal.refine_fault(replace(lost, message="The supervisor has stopped them."))
     session.journal.refine_fault(replace(lost, code="loop_silent", message="Another."))

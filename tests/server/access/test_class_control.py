@@ -43,7 +43,7 @@ People = tuple[httpx.Client, httpx.Client, httpx.Client]
 def test_who_is_in_control_is_who_joined_whatever_a_header_says(people: People) -> None:
     ada, bob, _ = people
     refused = ada.put(SHARED + "/speed", json=SPEED)
-    assert refused.json()["detail"].startswith("Nobody is in control of session lab: ask")
+    assert refused.json()["detail"].startswith("No user is in control of session lab: ask")
     state = ask(ada)
     assert (state["control"]["holder"], state["control"]["mine"]) == (
         read_person(ada)["name"],

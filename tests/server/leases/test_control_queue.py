@@ -33,7 +33,7 @@ def settle(queue: ControlQueue, now: float, here: tuple[Holder, ...] = (ADA, BOB
 
 def test_nobody_commands_a_free_session_but_the_instructor(queue: ControlQueue) -> None:
     assert [queue.admits(one) for one in (None, "p-1", TEACHER.client)] == [False, False, True]
-    with pytest.raises(HeldError, match="Nobody is in control of session lab: ask for control"):
+    with pytest.raises(HeldError, match="No user is in control of session lab: ask for control"):
         queue.check("p-1")
 
 

@@ -129,7 +129,7 @@ def test_what_comes_to_be_known_of_a_lost_loop_reaches_the_record(
     """That nobody has stopped the drives yet is not the last word on it."""
     written: list[Fault] = []
     recorder = SimpleNamespace(write_fault=written.append, fault=None)
-    words = ["Nobody has stopped the drives yet.", "The supervisor has.", "The supervisor has."]
+    words = ["The drives are not stopped yet.", "The supervisor has.", "The supervisor has."]
     losses = [Loss("loop_lost", message, None, None) for message in words]
     monkeypatch.setattr(session.loop, "find_lasting_loss", lambda: losses.pop(0))
     monkeypatch.setattr(session.report, "loop_status", BenchStatus.RUN)

@@ -87,7 +87,7 @@ def test_a_silent_loop_has_a_name_and_a_way_back_and_stops_nobody_else(bench: Be
     state = bench.read()
     loop = state["bench"]["loop"]
     assert state["fault"]["code"] == "loop_silent"
-    assert "Start the loop anew" in state["fault"]["message"]
+    assert "Restart the loop" in state["fault"]["message"]
     assert (state["status"], state["bench"]["status"]) == ("fault", "fault")
     assert (loop["alive"], loop["state"], loop["stopped_by"]) == (False, "silent", "supervisor")
     assert loop["silent_s"] > 0.5

@@ -42,7 +42,7 @@ def test_it_is_armed_and_homed_step_by_step_and_nothing_out_of_turn(bench: Bench
         homing = bench.ask("/bench/home", {"step": step, "by": "Ada"})["bench"]["homing"]
         assert homing["next_step"] == following
         assert homing["instruction"]
-    assert "Nobody watches" in bench.refuse("/start")
+    assert "No client watches" in bench.refuse("/start")
     assert [mode for mode, _ in bench.read_drives()] == [2, 2]
     assert bench.is_at_zero()
 

@@ -104,7 +104,7 @@ def test_a_bench_that_cannot_be_opened_is_a_fault_with_its_reason_and_a_way_back
     session.wake(0.0)
     state = build_state(HostedSession(session))
     assert state.fault is not None and state.bench is not None
-    assert "No adapter is plugged in. Start the loop anew." in state.fault.message
+    assert "No adapter is plugged in. Restart the loop." in state.fault.message
     assert state.fault.code == "bench_not_opened", "nothing was lost that never was there"
     assert [event.label for event in state.events] == ["Bench not opened"]
     assert state.bench.loop.state == "not_opened"
@@ -151,7 +151,7 @@ def test_a_lab_whose_bench_is_not_there_is_served_and_finds_it_again(tmp_path: P
                 assert answer.status_code == 409
             wait_until(lambda: lab.read()["fault"] is not None)
             message = lab.read()["fault"]["message"]
-            assert "cannot be opened" in message and "Start the loop anew" in message
+            assert "cannot be opened" in message and "Restart the loop" in message
             path.write_text(right, encoding="utf-8")
             restart: httpx.Response = lab.client.post(lab.session + "/bench/restart")
             assert restart.is_success, restart.text

@@ -135,11 +135,11 @@ def test_where_nothing_isolates_a_class_gets_no_grade_and_practice_says_so(tmp_p
 def test_a_law_stays_in_its_folder(tmp_path):
     (tmp_path / "other.py").write_bytes(GOOD)
     path = submit_law(tmp_path / "ada", LAZY, law_file="../other.py")
-    with pytest.raises(svsa.ParameterError, match="a file beside the submission"):
+    with pytest.raises(svsa.ParameterError, match="a file next to the submission"):
         read_submission(path)
     (tmp_path / "ada" / "link.py").symlink_to(tmp_path / "other.py")
     path = submit_law(tmp_path / "ada", LAZY, law_file="link.py")
-    with pytest.raises(svsa.ParameterError, match="a file beside the submission"):
+    with pytest.raises(svsa.ParameterError, match="a file next to the submission"):
         read_submission(path)
     path = submit_law(tmp_path / "ada", b"#" * (MAX_LAW_BYTES + 1))
     with pytest.raises(svsa.ParameterError, match="at most 65536 bytes"):

@@ -80,7 +80,7 @@ async def join(
 ) -> JoinState | JSONResponse:
     """Join the class with a name and its code; a cookie says from then on who one is.
 
-    A name that somebody here has already gets a number. `rejoin_code` is told once: by it one comes
+    A name that is already in use gets a number. `rejoin_code` is returned once: with it one comes
     back as the same person from any browser.
     """
     authentication = find_class(request)
@@ -111,7 +111,7 @@ async def rejoin(
     response: Response,
     wanted: Annotated[RejoinRequest, Body(examples=[{"code": "ABCD-2345-EFGH"}])],
 ) -> AccessState | JSONResponse:
-    """Come back as who one was, with one's runs and exercises, by the code that joining told."""
+    """Rejoin as the same person, with their runs and exercises, by the code returned on joining."""
     authentication = find_class(request)
     membership = await authentication.rejoin(wanted.code)
     if membership is None:

@@ -66,7 +66,7 @@ async def read_class(request: Request, person: NamedPerson) -> ClassState:
 async def remove_person(request: Request, name: Member) -> MemberState:
     """Remove a person at once: what they carry is worth nothing, and control and place are free.
 
-    What they made stays. Whoever knows the class code may join again as somebody else:
+    What they made stays. A person who knows the class code may join again under another name:
     `POST /class/code` makes a new one.
     """
     removed = await find_class(request).set_removed(name, True)
@@ -100,7 +100,7 @@ async def renew_code(request: Request) -> ClassCode:
 def choose_join_address(base: URL, host: str) -> URL:
     """Where the others of a class reach the page that is seen at `base`.
 
-    A name that means this machine only gives way to the machine's address, if the lab listens
+    A name that means this machine only is replaced by the machine's address, if the lab listens
     there. host: the address that is listened on.
     """
     if not is_loopback(base.hostname or ""):
@@ -141,7 +141,7 @@ def find_class(request: Request) -> ClassAuthentication:
     """The class of this lab; raises `StateError` where it is none."""
     authentication = request.app.state.authentication
     if not isinstance(authentication, ClassAuthentication):
-        raise StateError("This lab is no class: nobody joins it, and it knows no persons.")
+        raise StateError("This lab is no class: it cannot be joined, and it has no members.")
     return authentication
 
 

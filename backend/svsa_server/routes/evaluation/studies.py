@@ -63,7 +63,7 @@ _PARQUET = {"application/vnd.apache.parquet": {"schema": {"type": "string", "for
 def list_all_studies(request: Request, person: NamedPerson) -> StudyList:
     """The studies that come with the lab, and those that were begun here, the last one first.
 
-    In a class those that one began oneself, and those that nobody of it did.
+    In a class the caller's own, and those without an owner in the class.
     """
     seen = [stored for stored in list_studies() if person.may_see(stored.owner)]
     kept = sorted(seen, key=lambda stored: stored.created, reverse=True)

@@ -53,7 +53,7 @@ def clear_fault(hosted: NamedSession) -> SessionState:
 @router.post("/restart")
 @allow(OPERATOR)
 def restart_loop(hosted: NamedSession) -> SessionState:
-    """End loop and supervisor, by force where they do not listen, and start both anew, in seconds.
+    """Restart loop and supervisor, by force if they do not respond; takes a few seconds.
 
     The way back from a loop that is silent or gone; refused while the bench moves.
     """
@@ -69,7 +69,7 @@ async def predict_heat(
 ) -> EnduranceState | None:
     """The motor that is too warm for this load within 30 s, and when; null where neither is.
 
-    As the bench is set now, beside the loads that are on; worked out on its simulated twin with the
+    For the present settings, added to the active loads; computed on its simulated twin with the
     motors cold. Nothing is changed.
     """
     session = _find_bench(hosted.session)

@@ -45,7 +45,7 @@ async def predict_design(
 ) -> Prediction:
     """What these gains and this observer would do; nothing is changed.
 
-    The roots, the law's steady error under the 3 kg (and FL's, where the law adds an estimate to
+    The roots, the law's steady-state error under 3 kg (and FL's, where the law adds an estimate to
     the gains), the encoders' noise in the torques, the peak torque under the load, and a verdict
     with its reasons. Gains that PUT …/gains would refuse get the verdict refuse.
     """

@@ -37,8 +37,8 @@ async def excite(
 ) -> SessionState:
     """Play the identification excitation from now on and record it, 32 s; starts what is paused.
 
-    Slow and fast, soft and stiff: what `svsa identify` needs. Only without loads. It ends by
-    itself, and with it the recording; a reference of your own breaks it off.
+    Slow and fast, soft and stiff: what `svsa identify` needs. Only without loads. It ends
+    automatically, and with it the recording; a reference of your own breaks it off.
     """
     hosted.check_excitable()
     await request.app.state.quota.check(person.id)

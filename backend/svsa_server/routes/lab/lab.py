@@ -45,7 +45,7 @@ async def read_readiness(request: Request, response: Response) -> Readiness:
 def quick_stop_lab(request: Request) -> Response:
     """Stop the shared session at once.
 
-    A bench is stopped for every caller, without login. A simulation harms nobody: it is stopped
+    A bench is stopped for every caller, without login. A simulation is harmless: it is stopped
     only for callers whom the lab has admitted.
     """
     if request.scope.get(PERSON) is None and not needs_no_login_to_stop(request):

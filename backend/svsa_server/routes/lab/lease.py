@@ -26,7 +26,7 @@ async def take_control(
 ) -> SessionState:
     """Only the client that SVSA-Client names may command from now on; all may pause and stop.
 
-    Where another client is in control, only with `take_over`. Control ends by itself some time
+    Where another client is in control, only with `take_over`. Control ends automatically some time
     after its holder has closed its last stream and made its last call (SVSA_CONTROL_S, 15 s).
 
     In a class one asks for the shared session by it, under the name that one has joined with, and
@@ -65,6 +65,6 @@ async def hand_control_over(
 async def lock_control(
     hosted: NamedSession, request: Annotated[LockRequest, Body(examples=[{"locked": True}])]
 ) -> SessionState:
-    """The instructor locks control: whoever had it is first to get it back when it is unlocked."""
+    """The instructor locks control; after unlocking, the previous holder is first."""
     hosted.lock_control(request.locked)
     return build_state(hosted)

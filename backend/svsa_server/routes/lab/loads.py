@@ -48,7 +48,7 @@ def apply_load(
 ) -> SessionState:
     """Apply a load, now or at `start_s`; it is the last of `loads` in the answer.
 
-    A push ends by itself: sent again while it is on, it is changed and lasts on, as one load.
+    A push ends automatically: sent again while it is on, it is changed and lasts on, as one load.
     """
     hosted.session.change(ApplyLoad(argument=load))
     return build_state(hosted)

@@ -37,7 +37,7 @@ Series = Annotated[PositionSeries | StiffnessSeries, Field(discriminator="follow
 
 
 class ReferencePreview(BaseModel):
-    """A reference by itself, in SI units: its course, and the greatest of its derivatives."""
+    """Preview a reference, in SI units: its course, and its largest derivatives."""
 
     time_s: list[float]
     value: list[float] = Field(description="rad or N·m/rad")

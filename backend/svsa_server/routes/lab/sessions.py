@@ -60,7 +60,7 @@ async def create_session(
 ) -> SessionState:
     """Open a private simulated session from a figure, run, session or scenario.
 
-    The lab ends it automatically when nobody uses it. It runs, but from a run it is paused.
+    The lab ends it automatically when it is unused. It runs, but from a run it is paused.
     """
     return build_state(await open_session(request.app, wanted, person.id))
 
@@ -143,7 +143,7 @@ def load_experiment(
         ExperimentRequest, Body(examples=[{"figure": "4a", "law": "ndobc", "load": True}])
     ],
 ) -> SessionState:
-    """Begin one of the paper's figures at t = 0, with its load at 5 s unless told not to.
+    """Begin one of the paper's figures at t = 0, with its load at 5 s unless `load` is false.
 
     What is set comes from the figure; lanes and effects from the request. A bench has its own.
     """
@@ -168,7 +168,7 @@ def load_experiment(
 )
 @allow(OBSERVER)
 async def describe(_: NamedSession) -> JSONResponse:
-    """The stream beside REST: who asks without a WebSocket is told that it is one."""
+    """The stream; a request without a WebSocket receives 426 with an explanation."""
     headers = {"Upgrade": "websocket", "Connection": "Upgrade"}
     return answer_problem(426, "websocket", "This is a WebSocket; see /docs.", headers)
 

@@ -110,7 +110,7 @@ def set_law(
         LawRequest, Body(examples=[{"law": "fl"}, {"law": "fl", "comparison_laws": ["ndobc"]}])
     ],
 ) -> SessionState:
-    """Control with another law, and the lanes beside too, each from where its plant is."""
+    """Change the law of lane 1, and of the comparison lanes; every plant keeps its state."""
     if request.comparison_laws:
         hosted.session.set(Set("laws", (request.law, *request.comparison_laws)))
     else:
@@ -211,7 +211,7 @@ def set_lanes(
         LanesRequest, Body(examples=[{"comparisons": [{"law": "fl"}]}, {"comparisons": []}])
     ],
 ) -> SessionState:
-    """Run other controllers beside the session's own: same references, loads and noise."""
+    """Set the comparison lanes: other controllers with the same references, loads and noise."""
     hosted.session.set(Set("comparisons", request.comparisons))
     return build_state(hosted)
 
@@ -220,7 +220,7 @@ def set_lanes(
 @allow(OPERATOR)
 def set_lane(
     hosted: NamedSession,
-    lane: Annotated[int, Path(description="Number of a lane beside lane 1", examples=[2])],
+    lane: Annotated[int, Path(description="Number of a comparison lane, from 2", examples=[2])],
     request: Annotated[
         InstalledLane,
         Body(
@@ -231,7 +231,7 @@ def set_lane(
         ),
     ],
 ) -> SessionState:
-    """Control one lane beside the session's own otherwise; its plant stays where it is.
+    """Change the controller of one comparison lane; its plant keeps its state.
 
     What is left out is the session's. The same law goes on with what it remembers.
     """

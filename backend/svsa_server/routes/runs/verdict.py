@@ -37,7 +37,7 @@ def read_difference(
     run_id: RunId,
     other: Annotated[
         list[Annotated[str, Owned("run")]],
-        Query(min_length=1, max_length=MAX_OTHERS, description="Ids of the runs beside it"),
+        Query(min_length=1, max_length=MAX_OTHERS, description="Ids of the other runs"),
     ],
 ) -> RunDifference:
     """What of the settings differs between a run and others, and nothing that does not."""
@@ -84,7 +84,7 @@ def _align_windows(run: Record, other: Record) -> tuple[int, int]:
     for one in (run, other):
         window = find_measured_window(one)
         if window is None:
-            text = "has no window that could be told: align them at the start."
+            text = "has no window to align: align them at the start."
             raise RecordError(f"Run {one.header.run_id} {text}")
         starts.append(window.first_tick - one.first_tick)
     before = min(starts)

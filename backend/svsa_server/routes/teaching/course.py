@@ -203,7 +203,7 @@ def submit_exercise(
     exercise: ExerciseName,
     wanted: Annotated[SubmissionRequest, Body(examples=[{"student": "Ada"}])],
 ) -> Judgement:
-    """Hand in what is kept of an exercise, once; it is judged from its runs, and stands in a file.
+    """Submit the saved answers of an exercise, once; it is assessed and saved as a file.
 
     Refused while a step is not done, and while a law is missing that belongs to it.
     """
@@ -245,7 +245,7 @@ def _change(
     exercise: str,
     change: Callable[[Exercise, ExerciseProgress], ExerciseProgress],
 ) -> ExerciseState:
-    """Change and keep somebody's progress in an exercise."""
+    """Change and save a student's progress in an exercise."""
     found, store = _find_exercise(request, exercise), find_store(request)
     with store.lock:
         kept = store.read(person.id)

@@ -1,4 +1,4 @@
-"""The leaderboard: laws on a season of the ranking that nobody knows."""
+"""The leaderboard: laws on the hidden trials of a season of the ranking."""
 
 import asyncio
 from functools import partial
@@ -57,7 +57,7 @@ async def show_worst_run(
 ) -> StreamingResponse:
     """The entry's worst run in 3D as a page of its own; `?t=5` opens it at 5 s.
 
-    Beside NDOBC, and NDOBC beside FL, unless that one's run ends first: its notes say so then.
+    Compared with NDOBC, and NDOBC with FL, unless that run ends first; then its notes report it.
 
     Of a submitted law, what it answered then is played: it does not run again.
     """

@@ -46,7 +46,7 @@ async def read_lti_keys(request: Request) -> JSONResponse:
 @router.api_route("/login", methods=["GET", "POST"])
 @allow(ANYBODY)
 async def begin_login(request: Request) -> Response:
-    """The platform says that somebody comes: back to it, with a state and a nonce (OIDC)."""
+    """Start of a login by the platform: redirect back to it, with a state and a nonce (OIDC)."""
     tool = _find_tool(request)
     asked = dict(request.query_params) | await _read_form(request)
     try:
@@ -72,7 +72,7 @@ async def begin_login(request: Request) -> Response:
 @router.post("/launch")
 @allow(ANYBODY)
 async def launch(request: Request) -> Response:
-    """Somebody comes, as a token of the platform says: into the class, to an exercise."""
+    """Launch of a person by a token of the platform: into the class, to an exercise."""
     tool, authentication, base = _find_tool(request), find_class(request), str(request.base_url)
     given, cookie = await _read_form(request), request.cookies.get(COOKIE, "")
     course = request.app.state.course
@@ -102,7 +102,7 @@ async def _read_form(request: Request) -> dict[str, str]:
 def _find_tool(request: Request) -> "LtiTool":
     tool = request.app.state.lti
     if tool is None:
-        raise UnknownError("This lab takes no launches: it is not told of any platform (SVSA_LTI).")
+        raise UnknownError("This lab accepts no launches: no learning platform is set (SVSA_LTI).")
     return tool
 
 

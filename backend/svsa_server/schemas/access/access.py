@@ -27,7 +27,7 @@ class LoginRequest(Checked):
 class JoinRequest(Checked):
     """Joins the class."""
 
-    name: PersonName = quantity("", "What everybody is told, in printable characters")
+    name: PersonName = quantity("", "Name that all users see, in printable characters")
     code: Annotated[str, Field(max_length=100)] = quantity("", "The class code")
     role: Literal["observer", "operator"] = quantity(
         "", "An observer only watches, and stops", default="operator"
@@ -35,7 +35,7 @@ class JoinRequest(Checked):
 
 
 class RejoinRequest(Checked):
-    """Comes back as somebody who has joined before."""
+    """Rejoins as a person who has joined before."""
 
     code: Annotated[str, Field(max_length=100)] = quantity("", "One's own rejoin code")
 
@@ -68,7 +68,7 @@ class AccessState(BaseModel):
     name: str = Field(description="Of the person, in a class; empty elsewhere")
     role: RoleName | None = Field(description="null: not inside")
     removed: bool = Field(
-        default=False, description="The instructor has removed whoever this is from the class"
+        default=False, description="The instructor has removed this person from the class"
     )
     stops_without_login: bool = Field(
         description="Whether the quick stop needs no login: the shared session drives a bench"

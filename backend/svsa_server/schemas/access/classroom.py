@@ -6,7 +6,7 @@ from svsa_server.access.roles import RoleName
 
 
 class MemberState(BaseModel):
-    """Somebody who has joined."""
+    """A person who has joined."""
 
     id: str
     name: str
@@ -14,7 +14,7 @@ class MemberState(BaseModel):
 
 
 class PersonState(MemberState):
-    """Somebody who was heard within a minute, or has a stream open."""
+    """A person with a request within the last minute, or an open stream."""
 
     sees: list[str] = Field(
         description="Sessions that they have a stream of; of private ones only the instructor's to"
@@ -37,7 +37,7 @@ class ClassState(BaseModel):
 
     people: list[PersonState]
     removed: list[MemberState] = Field(
-        description="Whom the instructor has removed; for nobody else to know"
+        description="Persons whom the instructor has removed; visible to the instructor only"
     )
     sessions: list[ClassSession]
 
@@ -59,25 +59,27 @@ class BroadcastState(BaseModel):
 
 
 class AuditLine(BaseModel):
-    """One thing that was done or refused, or that went on by itself."""
+    """One entry of the audit log: an executed, rejected or automatic action."""
 
     time: str = Field(description="UTC, ISO 8601")
-    person: str | None = Field(description="Id of who did it; null for somebody who was not let in")
+    person: str | None = Field(description="Id of the person; null without a login")
     name: str | None
     role: RoleName | None
     kind: str = Field(description="What it is about: the tag of its operation")
     did: str = Field(description="The operation in words")
-    path: str | None = Field(description="Null for what nobody called for")
+    path: str | None = Field(description="Null for an automatic action")
     status: int | None
     refused: bool
-    why: str | None = Field(description="Of what went on by itself, and of what failed elsewhere")
+    why: str | None = Field(
+        description="Reason of an automatic action or of a failure outside the server"
+    )
     session: str | None
     run_number: int | None = Field(description="That of the session then")
     tick: int | None = Field(description="Tick of the session when it was answered")
 
 
 class AuditedPerson(BaseModel):
-    """Somebody of whom the log knows."""
+    """A person in the log."""
 
     id: str
     name: str = Field(description="By which they were known last")

@@ -78,7 +78,9 @@ class FalsificationResult(BaseModel):
         description="The simplest load that still does it; null before the end"
     )
     steps: list[str] = Field(description="How it was made simple, step by step")
-    outcomes: list[LawOutcomeState] = Field(description="Of the law, and of another one beside it")
+    outcomes: list[LawOutcomeState] = Field(
+        description="Of the law, and of another one for comparison"
+    )
 
 
 def describe_falsification(job: Job, is_under_way: bool) -> FalsificationResult:

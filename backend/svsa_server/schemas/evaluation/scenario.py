@@ -22,7 +22,7 @@ class ScenarioRuns(Checked):
 
     scenario: LoadScenario = quantity("", "Loads, and settings")
     laws: Annotated[tuple[InstalledLaw, ...], Field(min_length=1, max_length=MAX_LAWS)] = quantity(
-        "", "Laws, each by itself"
+        "", "Laws, each in a separate run"
     )
 
     @model_validator(mode="after")

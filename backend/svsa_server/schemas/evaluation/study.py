@@ -89,7 +89,7 @@ def _find(source: str) -> Study:
 
 
 def _find_free(name: str, person: Person) -> str:
-    """The name, or with the first number under which nobody else keeps a study."""
+    """The name, with a number if another person has a study of this name."""
     numbered = (f"{name}-{number}" for number in itertools.count(2))
     for one in itertools.chain([name], numbered):
         owner = read_owner(one)

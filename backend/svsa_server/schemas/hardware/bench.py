@@ -1,4 +1,4 @@
-"""How a bench is told on the wire: its drives, its loop, and what may be done next."""
+"""The state of a bench in the API: its drives, its loop, and the allowed commands."""
 
 from typing import Annotated, Literal
 
@@ -43,7 +43,7 @@ class LoopState(BaseModel):
     )
     stopped_by: Stopper | None = Field(
         description="Who keeps the drives at zero current in its place; null while it ticks, and"
-        " where nobody does"
+        " if neither does"
     )
     unreachable: str | None = Field(
         description="Why the server cannot stop the drives: pull the motors' supply; else null"
@@ -106,9 +106,9 @@ class BenchState(BaseModel):
     stale_zero_s: float = Field(description="An age above it: zero torque")
     stale_fault_s: float = Field(description="An age above it: a fault")
     supervised: bool = Field(description="The supervisor's heartbeat is fresh")
-    operator_required: bool = Field(description="Somebody must watch while it runs")
+    operator_required: bool = Field(description="A user must watch while it runs")
     dead_man: bool = Field(
-        description="It runs only while somebody holds the switch: any message on the stream of"
-        " whoever may command, every 0.1 s or as the bench file says"
+        description="It runs only while a user holds the switch: any message on the stream of"
+        " the user in control, every 0.1 s or as the bench file says"
     )
     loop: LoopState

@@ -69,7 +69,7 @@ class Prediction(BaseModel):
     )
     adds_estimate: bool = Field(
         description="Whether the law takes these gains and adds an estimate to them; then `fl` is"
-        " what the gains leave by themselves"
+        " the error of the gains alone"
     )
     fl: SteadyStateErrorState | None = Field(description="Null where FL finds no rest")
     noise: LoopNoiseState | None

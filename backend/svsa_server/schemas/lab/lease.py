@@ -1,4 +1,4 @@
-"""How the control of a session is asked for, and told."""
+"""Requests for the control lease of a session, and its state."""
 
 from typing import Annotated
 
@@ -15,12 +15,12 @@ class ControlRequest(Checked):
         str,
         Field(max_length=LONGEST_NAME, json_schema_extra={"pattern": READABLE}),
         AfterValidator(check_printable),
-    ] = quantity("", "Who is in control, as everybody is told, in printable characters")
-    take_over: Flag = quantity("", "Whoever is in control loses it", default=False)
+    ] = quantity("", "Name of the holder that all users see, in printable characters")
+    take_over: Flag = quantity("", "Take control from its present holder", default=False)
 
 
 class HandoverRequest(Checked):
-    """Gives control to somebody who waits for it."""
+    """Passes control to a user in the queue."""
 
     to: Annotated[str, Field(max_length=LONGEST_NAME)] = quantity(
         "", "Id of the person, as `queue.waiting` names it"
@@ -30,11 +30,11 @@ class HandoverRequest(Checked):
 class LockRequest(Checked):
     """Locks control of a session, or unlocks it."""
 
-    locked: Flag = quantity("", "Whether nobody but the instructor is in control")
+    locked: Flag = quantity("", "Whether only the instructor may be in control")
 
 
 class WaitingState(BaseModel):
-    """Somebody who waits for control."""
+    """A user in the queue for control."""
 
     id: str
     name: str
@@ -45,11 +45,11 @@ class QueueState(BaseModel):
 
     waiting: list[WaitingState] = Field(description="Who gets it next stands first")
     place: int | None = Field(
-        description="Of whoever this answer is for, 1 is next; null: does not wait"
+        description="Place of the caller in the queue, 1 is next; null: not in the queue"
     )
-    locked: bool = Field(description="Nobody but the instructor is in control")
+    locked: bool = Field(description="Only the instructor may be in control")
     idle_s: float = Field(
-        description="For how long a holder may give no command while somebody waits"
+        description="How long a holder may send no command while the queue is not empty"
     )
 
 

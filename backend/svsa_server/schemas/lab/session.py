@@ -71,10 +71,10 @@ class LoadState(BaseModel):
 
 
 class SessionProgress(BaseModel):
-    """What of a session moves by itself: where it is and how well it does."""
+    """The fields of a session that change with time: its time and its metrics."""
 
     status: Literal["running", "paused", "fault"]
-    run_number: int = Field(description="Counts up whenever a run begins anew at t = 0")
+    run_number: int = Field(description="Counts up whenever a run starts at t = 0")
     tick: int
     time_s: float
     speed: float | Literal["max"]
@@ -106,17 +106,17 @@ class SessionState(SessionProgress):
     session: str
     instance: str = Field(
         description="Another one for every session, also of the same name: after a server was"
-        " started anew, or a session was ended and opened again"
+        " restarted, or a session was ended and opened again"
     )
     revision: str = Field(description="Of settings and loads: for If-Match of a change of them")
     branch_of: BranchState | None = Field(description="null unless its run is a branch")
     note: str = Field(
-        description="What it was opened with to be known: why a law of the ranking has none beside"
+        description="Note given when it was opened: why a law of the ranking has no comparison"
         " it; empty where nothing is"
     )
     control: ControlState
     queue: QueueState | None = Field(
-        description="null where nobody waits in turn: in a lab without a class, and in private"
+        description="null where there is no queue: in a lab without a class, and in private"
         " sessions"
     )
     rate_hz: float

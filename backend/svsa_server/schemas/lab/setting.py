@@ -20,12 +20,12 @@ LONGEST_PARAMETER_FILE = 100_000
 
 
 class LawRequest(Checked):
-    """Which law controls, and which the lanes beside; every plant stays where it is."""
+    """The law of lane 1, and those of the comparison lanes; every plant keeps its state."""
 
     law: InstalledLaw = quantity("", "Name of a law that is installed: see GET /laws")
     comparison_laws: tuple[InstalledLaw, ...] = quantity(
         "",
-        "Laws of the lanes beside, from the first on; those left out keep theirs",
+        "Laws of the comparison lanes in order; lanes left out keep theirs",
         max_length=MAX_LANES - 1,
         default=(),
     )
@@ -58,7 +58,7 @@ def build_patch(section: str, model: type[ActuatorParameters]) -> type[Checked]:
 
 
 class LanesRequest(Checked):
-    """The controllers beside the session's own."""
+    """The controllers of the comparison lanes."""
 
     comparisons: tuple[InstalledLane, ...] = quantity("", "Up to three", max_length=MAX_LANES - 1)
 

@@ -1,4 +1,4 @@
-"""What the design page asks about stability, and what it is told, on the wire."""
+"""Requests and responses of the design page about stability."""
 
 from typing import Literal
 
@@ -54,7 +54,7 @@ class FrequencyResponseState(BaseModel):
 
 
 class ResponseState(BaseModel):
-    """What a design does, quickly told."""
+    """The effect of a design, from quick computations."""
 
     law: str
     stiffness_nm_per_rad: float

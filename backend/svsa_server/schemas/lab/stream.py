@@ -72,13 +72,13 @@ class Hello(BaseModel):
 
 
 class StateMessage(BaseModel):
-    """The state after every change; without one what moves by itself, 1 or 5 times a second."""
+    """The state after every change, else the fields that change with time, at 1 or 5 Hz."""
 
     type: Literal["state"] = "state"
     since_tick: int = Field(
         description="Of `events`, of `ended_windows` and of the lanes' `segments` that have ended"
-        " only those at or after this tick are told, or that ended then; what was told of the time"
-        " before holds. 0: all are told, and nothing else holds"
+        " only those at or after this tick are listed, or that ended then; earlier ones"
+        " stay valid. 0: the list is complete"
     )
     state: SessionState | SessionProgress
 
@@ -115,12 +115,12 @@ def describe_stream(batch_period_s: float) -> str:
             "Samples as they come, over a **WebSocket** at this address (`ws://` or `wss://`); a"
             " plain GET is answered with 426.",
             "",
-            "Text messages are JSON, told apart by `type`: `hello` first, `state` after every"
-            " change, and with the fields that move by themselves five times a second in the first"
+            "Text messages are JSON, distinguished by `type`: `hello` first, `state` after every"
+            " change, and with the fields that change with time five times a second in the first"
             " seconds of a window and once a second later, `error` before the stream is closed for"
-            " a wrong address. Their schema is that of the answer 101. What is over is told once: a"
+            " a wrong address. Their schema is that of the answer 101. Ended items are sent once: a"
             " `state` has events, windows and segments that have ended from its `since_tick` on,"
-            " and those before stay as they were told.",
+            " and those before stay valid.",
             "",
             f"Binary messages are batches of samples, about {1 / batch_period_s:.0f} a second,"
             f" little-endian: a header of {HEADER.size} bytes,",
@@ -131,7 +131,7 @@ def describe_stream(batch_period_s: float) -> str:
             "",
             f"then `{LANE_ID}[lanes]` from byte {HEADER.size} on: of every lane the `id`"
             " that it has in `state.lanes`. A lane keeps its id for the whole run, where lanes come"
-            " and go beside it; its place among them, which `hello.lanes` tells of the first batch,"
+            " and refer to it; its place among them, which `hello.lanes` gives for the first batch,"
             " may change.",
             "",
             f"Then `{VALUE}[count][lanes][channels]` from byte {HEADER.size} + 4 · lanes on, in the"

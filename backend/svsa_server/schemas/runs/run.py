@@ -62,8 +62,8 @@ class RunSummary(BaseModel):
     """A run in the list."""
 
     id: str
-    name: str = Field(description="What people call it; empty where nobody named it")
-    title: str = Field(description="Its name, or where nobody gave one that of its settings")
+    name: str = Field(description="Name given by a user; empty without one")
+    title: str = Field(description="Its name, or without one a title made of its settings")
     settings: RunSettings | None = Field(
         description="What it was set to, in words; null while it is recorded"
     )
@@ -92,7 +92,7 @@ class RunSummary(BaseModel):
         description="What `metrics` are of: the window of the last load, or the last window; in it"
         " nothing was changed. Null as long as the run is recorded, and where that is not known"
     )
-    fault: RunFault | None = Field(description="What the run ended in; null where nobody wrote it")
+    fault: RunFault | None = Field(description="What the run ended in; null if not recorded")
     deleted: str | None = Field(description="When it went into the trash, UTC")
 
 
@@ -181,7 +181,7 @@ class RunSamples(BaseModel):
     """Samples of a run, thinned out for a plot.
 
     Where stride is greater than 1, every two points are least and greatest of `stride`
-    ticks, in the order in which they came, each channel by itself.
+    ticks, in the order in which they came, each channel separately.
     """
 
     stride: int

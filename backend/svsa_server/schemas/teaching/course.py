@@ -62,7 +62,7 @@ class OptionState(BaseModel):
 
 
 class ManualLoadState(BaseModel):
-    """A time at which somebody hangs or takes off a load of a bench by hand."""
+    """A time at which the operator adds or removes a load of a bench by hand."""
 
     time_s: float = Field(description="Of the run")
     is_on: bool = Field(description="Whether it is hung then, or taken off")
@@ -158,7 +158,7 @@ def describe_summary(exercise: Exercise, progress: ExerciseProgress) -> Exercise
 
 
 def describe_exercise(exercise: Exercise, progress: ExerciseProgress) -> ExerciseState:
-    """An exercise with its steps; which answers are right is not told."""
+    """An exercise with its steps; the correct answers are not included."""
     return ExerciseState(
         **describe_summary(exercise, progress).model_dump(),
         html=render_text(exercise.text),

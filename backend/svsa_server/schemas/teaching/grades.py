@@ -15,7 +15,7 @@ class GradingRequest(Checked):
 
 
 class GradedSubmissionState(BaseModel):
-    """What somebody submitted of an exercise."""
+    """A student's submission of an exercise."""
 
     exercise: str
     grade: Grade | None = Field(description="Null where it is not graded yet")

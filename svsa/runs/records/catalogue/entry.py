@@ -134,7 +134,7 @@ class RunPage:
 
 
 class Reader(NamedTuple):
-    """The person a list is for, in a class: their runs, those without owner, and the shared ones."""
+    """The person a list is for, in a class: own runs, shared ones, those without owner."""
 
     person: str
     open_session: str
