@@ -76,7 +76,7 @@ def test_its_holder_hands_it_to_one_who_waits_and_nobody_else_does(queue: Contro
 def test_an_idle_holder_loses_it_to_who_waits_and_to_nobody_else(queue: ControlQueue) -> None:
     ask(queue, ADA)
     assert not settle(queue, 1000.0)
-    assert queue.holder == ADA, "nobody waits"
+    assert queue.holder == ADA, "the queue is empty"
     ask(queue, ADA, now=1000.0)
     queue.note_command("p-1", 1000.0)
     ask(queue, BOB, now=1001.0)

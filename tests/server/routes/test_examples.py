@@ -29,7 +29,7 @@ NOT_HERE = {
     "POST /api/v1/join": "no class",
     "POST /api/v1/rejoin": "no class",
     "POST /api/v1/tokens": "no class",
-    "POST /api/v1/sessions/{session}/control/handover": "nobody waits",
+    "POST /api/v1/sessions/{session}/control/handover": "the queue is empty",
     "PUT /api/v1/sessions/{session}/control/lock": "no class",
     "POST /api/v1/sessions/{session}/bench/home": "no bench",
     "POST /api/v1/sessions/{session}/bench/endurance": "no bench",

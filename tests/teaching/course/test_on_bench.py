@@ -65,15 +65,15 @@ def test_the_lecturer_s_bench_in_the_docs_can_be_read() -> None:
 
 
 WRONG = {
-    "a disturbance that nobody measures": (
+    "a disturbance without a sensor": (
         'channel = "position_error_rad"\nstatistic = "rms"',
         'channel = "disturbance_link_nm"\nstatistic = "rms"',
-        "nobody measures the true disturbance",
+        "the true disturbance is not measured there",
     ),
     "a level of one": (
         'statistic = "rms"',
         'statistic = "crossing"\nof = "disturbance_link_nm"\nlevel = 1.0',
-        "nobody measures the true disturbance",
+        "the true disturbance is not measured there",
     ),
     "its twin's samples": ('statistic = "rms"', 'statistic = "rms"\nlane = 2', "lane"),
     "a setting that is the bench's own": (
@@ -106,7 +106,7 @@ def test_what_no_bench_can_do_is_refused_with_its_reason(case: str) -> None:
     assert old in ON_BENCH
     text = ON_BENCH.replace(old, new, 1)
     if case in (
-        "a disturbance that nobody measures",
+        "a disturbance without a sensor",
         "a level of one",
         "a setting that is the bench's own",
     ):
