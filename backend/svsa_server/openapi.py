@@ -27,6 +27,7 @@ _PROBLEM = {"schema": {"$ref": "#/components/schemas/Problem"}}
 
 
 _LINKS = {
+    "AddedLoad": {"read_load": ("load_id", "/id")},
     "SessionState": {"read_session": ("session", "/session")},
     "StudyState": {"read_study": ("study", "/name"), "read_job": ("job", "/job/id")},
     "JobState": {"read_job": ("job", "/id")},

@@ -253,9 +253,12 @@ class SessionConnection(Remote):
         return self.connection.read(self.path)
 
     def call(self, method: str, path: str, body: Any = None) -> dict[str, Any]:
-        """A call below its own path that answers with its state; notes when it was applied."""
+        """A call below its own path; notes when it was applied.
+
+        Returns the session's state, or a load with the tick at which it was added.
+        """
         state = self.connection.call(method, self.path + path, body)
-        past = [event for event in state["events"] if event["tick"] <= state["tick"]]
+        past = [one for one in state.get("events", ()) if one["tick"] <= state["tick"]]
         newest = past[-1] if past else state
         self.applied_at = AppliedAt(newest["tick"], newest["time_s"])
         return state

@@ -33,15 +33,18 @@ class Loads(Remote):
         self._session = session
 
     def __iter__(self) -> Iterator[AppliedLoad]:
-        return iter([_read(reported) for reported in self._session.read_state()["loads"]])
+        return iter([_read(reported) for reported in self._list()])
 
     def __len__(self) -> int:
-        return len(self._session.read_state()["loads"])
+        return len(self._list())
+
+    def _list(self) -> list[dict[str, Any]]:
+        return self._session.connection.read(self._session.path + "/loads")
 
     def add(self, load: Load | Part) -> AppliedLoad:
         """Apply a load, now or at its `start_s`; where it stands among those of the session."""
-        state = self._session.call("POST", "/loads", read_load(load).model_dump(mode="json"))
-        return _read(state["loads"][-1])
+        added = self._session.call("POST", "/loads", read_load(load).model_dump(mode="json"))
+        return _read(added)
 
     def remove(self, load: AppliedLoad | int) -> None:
         """Take one off; raises `LabError` where there is none of this number."""

@@ -137,11 +137,11 @@ class RemoteSession(RunningConnection):
 
     def repeat_position(self) -> None:
         """Begin the position reference again, faded over; set to what it is, it just goes on."""
-        self.call("POST", "/position/repeat")
+        self.call("PUT", "/position?restart=true", self._read("position"))
 
     def repeat_stiffness(self) -> None:
         """Begin the stiffness reference again, faded over."""
-        self.call("POST", "/stiffness/repeat")
+        self.call("PUT", "/stiffness?restart=true", self._read("stiffness"))
 
     @property
     def law(self) -> AnyLaw:

@@ -215,7 +215,7 @@ def vanish(plain: socket.socket) -> None:
 
 def ask_for_replays(lab: Lab, run_id: str, count: int) -> list[httpx.Response]:
     """The answers to so many replays of a run, asked for at once."""
-    path = f"/api/v1/runs/{run_id}/replay.html"
+    path = f"/api/v1/runs/{run_id}/export?kind=html"
     with ThreadPoolExecutor(count) as pool:
         return list(pool.map(lambda _: lab.client.get(path, timeout=300), range(count)))
 

@@ -101,13 +101,17 @@ def test_a_script_whose_maker_is_removed_is_told_so(
     with svsa.connect(url, ada_s) as ada:
         stream = iter(ada.session.stream(duration_s=1e6))
         next(stream)
-        httpx.delete(person, headers=headers, trust_env=False).raise_for_status()
+        httpx.patch(
+            person, json={"removed": True}, headers=headers, trust_env=False
+        ).raise_for_status()
         with pytest.raises(AccessError, match="The instructor has removed you from the class"):
             for _ in stream:
                 pass
         with pytest.raises(AccessError, match="has removed you"):
             ada.session.law = "fl"
-        httpx.post(person + "/restore", headers=headers, trust_env=False).raise_for_status()
+        httpx.patch(
+            person, json={"removed": False}, headers=headers, trust_env=False
+        ).raise_for_status()
         assert ada.session.law
 
 

@@ -27,11 +27,7 @@ def check_printable(name: str) -> str:
 CLIENT_HEADER = "SVSA-Client"
 # Calls without the lease: they stop, they only read, or they concern the lease itself.
 STOPS = frozenset({("POST", "/pause"), ("POST", "/quick-stop")})
-ASKING = (
-    "/predict",
-    "/bench/endurance",
-    *map("/design/".__add__, ("response", "stability", "margins", "region")),
-)
+ASKING = ("/design", "/bench/endurance")
 OPEN_TO_ALL = (
     STOPS
     | {("POST", path) for path in ASKING}

@@ -36,7 +36,7 @@ def runs(lab: Lab, recorded: tuple[str, str]) -> Iterator[tuple[str, str]]:
     for run, name, tags in zip(recorded, (BOTH, STIFF), (["class"], []), strict=True):
         path = f"/api/v1/runs/{run}"
         if lab.client.get(path).json()["deleted"] is not None:
-            lab.client.post(path + "/restore").raise_for_status()
+            lab.client.patch(path, json={"deleted": False}).raise_for_status()
         wanted = {"name": name, "tags": tags, "notes": ""}
         lab.client.patch(path, json=wanted).raise_for_status()
 

@@ -21,6 +21,7 @@ from svsa_server.access.roles import Person, Role
 from svsa_server.app import build_app
 from tests.server.access.classroom import SHARED, Classroom, read_kind, read_person, run_class
 
+OUT = {"removed": True}
 PEOPLE, CONTROL = "/api/v1/class/people", SHARED + "/control"
 ADA = Person("p-1", "Ada", Role.OPERATOR)
 
@@ -51,8 +52,8 @@ def test_who_is_removed_is_out_at_once_and_has_neither_control_nor_a_place(
     ids = [read_person(one)["id"] for one in (ada, bob)]
     for one in (ada, bob):
         one.put(CONTROL, json={"by": "x"}).raise_for_status()
-    assert read_kind(bob.delete(f"{PEOPLE}/{ids[0]}")) == "not_allowed"
-    removed = instructor.delete(f"{PEOPLE}/{ids[0]}").raise_for_status().json()
+    assert read_kind(bob.patch(f"{PEOPLE}/{ids[0]}", json=OUT)) == "not_allowed"
+    removed = instructor.patch(f"{PEOPLE}/{ids[0]}", json=OUT).raise_for_status().json()
     assert removed == {"id": ids[0], "name": "Ada", "role": "operator"}
     for one in (ada, script):
         refused = one.get(SHARED)
@@ -62,19 +63,19 @@ def test_who_is_removed_is_out_at_once_and_has_neither_control_nor_a_place(
     assert (reported["inside"], reported["removed"]) == (False, True)
     state = bob.get(SHARED).json()
     assert (state["control"]["mine"], state["queue"]["waiting"]) == (True, [])
-    instructor.delete(f"{PEOPLE}/{ids[1]}").raise_for_status()
+    instructor.patch(f"{PEOPLE}/{ids[1]}", json=OUT).raise_for_status()
     assert instructor.get(SHARED).json()["control"]["holder"] is None
     reported = instructor.get("/api/v1/class").json()
     assert [one["name"] for one in reported["removed"]] == ["Ada", "Bob"]
     assert [one["name"] for one in reported["people"]] == ["Instructor"]
     for one in ids:
-        restored = instructor.post(f"{PEOPLE}/{one}/restore").raise_for_status()
+        restored = instructor.patch(f"{PEOPLE}/{one}", json={"removed": False}).raise_for_status()
         assert restored.json()["id"] == one
     for one in (ada, bob, script):
         assert one.get(SHARED).status_code == 200
     assert instructor.get("/api/v1/class").json()["removed"] == []
-    assert instructor.delete(f"{PEOPLE}/p-none").status_code == 404
-    assert instructor.delete(f"{PEOPLE}/instructor").status_code == 404
+    assert instructor.patch(f"{PEOPLE}/p-none", json=OUT).status_code == 404
+    assert instructor.patch(f"{PEOPLE}/instructor", json=OUT).status_code == 404
 
 
 def test_a_place_in_the_queue_is_left_and_who_else_is_removed_is_for_no_student_to_know(
@@ -85,7 +86,7 @@ def test_a_place_in_the_queue_is_left_and_who_else_is_removed_is_for_no_student_
         one.put(CONTROL, json={"by": "x"}).raise_for_status()
     person = read_person(bob)["id"]
     for _ in range(2):
-        instructor.delete(f"{PEOPLE}/{person}").raise_for_status()
+        instructor.patch(f"{PEOPLE}/{person}", json=OUT).raise_for_status()
     state = ada.get(SHARED).json()
     assert (state["control"]["mine"], state["queue"]["waiting"]) == (True, [])
     assert ada.get("/api/v1/class").json()["removed"] == []
@@ -180,7 +181,7 @@ def test_a_rejoin_code_gives_nobody_more_than_they_have(classroom: Classroom) ->
     token = ada.post("/api/v1/tokens", json={"role": "observer"}).json()["token"]
     for one in (classroom.open_browser(token), instructor):
         assert one.post("/api/v1/rejoin-code").status_code == 409
-    instructor.delete(f"{PEOPLE}/{read_person(ada)['id']}").raise_for_status()
+    instructor.patch(f"{PEOPLE}/{read_person(ada)['id']}", json=OUT).raise_for_status()
     refused = rejoin(classroom.open_browser(), code)
     assert (refused.status_code, read_kind(refused)) == (401, "removed")
 

@@ -88,7 +88,7 @@ def test_a_kept_study_is_seen_by_its_maker_and_the_instructor(tmp_path: Path) ->
         keep_study("load", study, tmp_path / "studies", read_person(ada)["id"])
         for one, sees in ((ada, ["load"]), (bob, []), (instructor, ["load"])):
             assert [kept["name"] for kept in one.get(STUDIES).json()["saved"]] == sees
-        for below in ("", "/summary", "/rows?column=succeeded", "/rows.parquet", "/rows/0"):
+        for below in ("", "/summary", "/rows?column=succeeded", "/rows?format=parquet", "/rows/0"):
             assert read_kind(bob.get(f"{STUDIES}/load{below}")) == "not_found", below
         assert read_kind(bob.delete(f"{STUDIES}/load")) == "not_found"
         assert ada.delete(f"{STUDIES}/load").status_code == 204
@@ -109,7 +109,7 @@ def test_a_kept_study_is_its_makers_and_the_instructors(classroom: Classroom) ->
         assert [kept["name"] for kept in one.get(STUDIES).json()["saved"]] == sees
     kept = instructor.get(STUDIES).json()["saved"]
     assert {one["name"] for one in kept} == {"load", "load-2"}
-    for below in ("", "/summary", "/sensitivity", "/rows?column=succeeded", "/rows.parquet"):
+    for below in ("", "/summary", "/sensitivity", "/rows?column=succeeded", "/rows?format=parquet"):
         for other in (bob, watching):
             assert read_kind(other.get(f"{STUDIES}/load{below}")) == "not_found", below
     assert read_kind(bob.get(f"{STUDIES}/load/rows/0")) == "not_found"

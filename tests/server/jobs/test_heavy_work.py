@@ -125,8 +125,8 @@ def test_a_full_queue_is_a_503_that_says_when_to_come_again(busy_lab: Lab) -> No
     for method, path in (
         ("GET", "export?kind=csv"),
         ("GET", "replay"),
-        ("GET", "replay.html"),
-        ("POST", "compare"),
+        ("GET", "export?kind=html"),
+        ("POST", "verify"),
     ):
         answer = busy_lab.client.request(method, f"/api/v1/runs/{run_id}/{path}")
         assert answer.status_code == 503, path
@@ -140,7 +140,7 @@ def test_live_sessions_are_not_late_while_a_replay_is_built(shared_lab: Lab) -> 
     shared_lab.load_figure()
     before = shared_lab.read()
     began = time.monotonic()
-    path = f"/api/v1/runs/{run_id}/replay.html"
+    path = f"/api/v1/runs/{run_id}/export?kind=html"
     page = shared_lab.client.get(path, timeout=300)
     while page.status_code == 503 and time.monotonic() - began < 120:
         time.sleep(float(page.headers["Retry-After"]))  # what tests before asked for goes first

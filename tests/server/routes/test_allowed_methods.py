@@ -10,7 +10,7 @@ from tests.lab import Lab
     [
         ("", "DELETE, GET"),
         ("/recording", "DELETE, POST"),
-        ("/loads", "DELETE, POST"),
+        ("/loads", "DELETE, GET, POST"),
         ("/control", "DELETE, PUT"),
         ("/pause", "POST"),
     ],

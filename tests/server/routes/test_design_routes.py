@@ -6,7 +6,11 @@ from tests.lab import Lab
 
 
 def predict(lab: Lab, **request: dict) -> dict:
-    return lab.client.post(lab.session + "/predict", json=request).raise_for_status().json()
+    return (
+        lab.client.post(lab.session + "/design", json=request | {"kind": "prediction"})
+        .raise_for_status()
+        .json()
+    )
 
 
 def test_the_present_design_is_judged_without_changing_anything(lab: Lab) -> None:
@@ -54,7 +58,7 @@ def test_unstable_gains_come_with_their_roots_and_the_page_can_show_them(lab: La
 
 def test_poles_that_make_no_real_polynomial_are_refused_by_name(lab: Lab) -> None:
     request = {"gains": {"position_poles_rad_per_s": [-60, -60, -60, [-30, 5]]}}
-    answer = lab.client.post(lab.session + "/predict", json=request)
+    answer = lab.client.post(lab.session + "/design", json=request | {"kind": "prediction"})
     assert answer.status_code == 422
     assert answer.json()["violations"][0]["name"] == "position_poles_rad_per_s"
 

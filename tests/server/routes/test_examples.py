@@ -15,9 +15,7 @@ WORKERS = {
     "POST /api/v1/jobs",
     "POST /api/v1/studies",
     "POST /api/v1/leaderboard/submissions",
-    "POST /api/v1/sessions/{session}/design/stability",
-    "POST /api/v1/sessions/{session}/design/margins",
-    "POST /api/v1/sessions/{session}/design/region",
+    "POST /api/v1/sessions/{session}/design",
     "POST /api/v1/scenarios/runs",
     "POST /api/v1/grades",
 }
@@ -33,7 +31,6 @@ NOT_HERE = {
     "PUT /api/v1/sessions/{session}/control/lock": "no class",
     "POST /api/v1/sessions/{session}/bench/home": "no bench",
     "POST /api/v1/sessions/{session}/bench/endurance": "no bench",
-    "POST /api/v1/sessions/{session}/exercise": "a prediction is asked for first",
     f"POST {COURSE}/steps/{{step}}/check": "the run is of another lab",
     f"PUT {COURSE}/law": "the exercise asks for no law",
     f"POST {COURSE}/submission": "the exercise is not done",

@@ -90,7 +90,11 @@ def test_a_motion_begins_again_where_that_is_asked_for(lab: httpx.Client, name: 
     reference = f"{name}_reference_{unit}"
     lab.put(f"{path}/{name}", json=REPEATED[name]).raise_for_status()
     ended = step(lab, path, 1100)
-    again = lab.post(f"{path}/{name}/repeat").raise_for_status().json()
+    again = (
+        lab.put(f"{path}/{name}", json=REPEATED[name], params={"restart": True})
+        .raise_for_status()
+        .json()
+    )
     assert again["configuration"] == ended["configuration"]
     assert (again["events"][-1]["kind"], again["window"]["start_tick"]) == (name, 1100)
     assert [one["command"]["kind"] for one in read_commands(lab, path)] == [name, name]

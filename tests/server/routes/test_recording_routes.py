@@ -40,7 +40,7 @@ def test_a_recorded_run_is_its_own_simulation_bit_for_bit(lab: Lab) -> None:
     assert run["name"] == "A run"
     assert run["state"] == "complete"
     assert run["ticks"] == 3000
-    compared = lab.client.post(f"/api/v1/runs/{run['id']}/compare").raise_for_status().json()
+    compared = lab.client.post(f"/api/v1/runs/{run['id']}/verify").raise_for_status().json()
     assert compared == {"identical": True, "ticks": 3000, "first_difference": None}
 
 
@@ -64,7 +64,7 @@ def test_a_run_is_opened_again_at_a_tick_and_goes_on_as_a_branch(lab: Lab) -> No
 
 def test_the_replay_page_needs_nothing_else(lab: Lab) -> None:
     run = follow_recording(lab.client, record(lab, name="<script>alert(1)</script>"))
-    answer = lab.client.get(f"/api/v1/runs/{run['id']}/replay.html")
+    answer = lab.client.get(f"/api/v1/runs/{run['id']}/export?kind=html")
     assert answer.status_code == 200
     assert "attachment" in answer.headers["content-disposition"]
     assert "<script>alert(1)" not in answer.text
@@ -87,7 +87,7 @@ def test_what_cannot_be_done_while_recording_is_told(lab: Lab) -> None:
 
 @pytest.mark.parametrize("run_id", ["nothing", "..%2F..%2Fetc", "%00", "a" * 500])
 def test_unknown_runs_are_told(lab: Lab, run_id: str) -> None:
-    answer = lab.client.post(f"/api/v1/runs/{run_id}/compare")
+    answer = lab.client.post(f"/api/v1/runs/{run_id}/verify")
     assert answer.status_code == 404
 
 
@@ -104,7 +104,7 @@ def test_a_killed_lab_finishes_the_run_at_its_next_start(tmp_path: Path) -> None
         runs = listed["runs"]
         assert [run["name"] for run in runs] == ["cut off"]
         assert runs[0]["first_tick"] + runs[0]["ticks"] > ticks - 600
-        compared = lab.client.post(f"/api/v1/runs/{runs[0]['id']}/compare").json()
+        compared = lab.client.post(f"/api/v1/runs/{runs[0]['id']}/verify").json()
         assert compared["identical"], json.dumps(compared)
 
 

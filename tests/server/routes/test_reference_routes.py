@@ -25,8 +25,8 @@ def test_a_csv_becomes_what_a_session_is_given_and_is_looked_at(client: TestClie
     series = read(client, CSV)
     assert series["follows"] == "position"
     assert series["reference"]["position_rad"] == pytest.approx([0.0, math.radians(10.0), 0.0])
-    path = "/api/v1/references/position/preview"
-    preview = client.post(path, json=series["reference"]).raise_for_status().json()
+    path = "/api/v1/references/preview"
+    preview = client.post(path, json=series).raise_for_status().json()
     assert (preview["time_s"][0], preview["time_s"][-1]) == (0.0, 1.0)
     assert preview["high"] == pytest.approx(math.radians(10.0), rel=1e-3)
     assert max(preview["value"]) == pytest.approx(preview["high"], rel=1e-3)
@@ -64,8 +64,12 @@ def test_every_kind_is_looked_at(
     client: TestClient, reference: dict, duration: float, low: float, high: float
 ) -> None:
     numbers = {key: _floats(value) for key, value in reference.items()}
-    path = "/api/v1/references/stiffness/preview"
-    preview = client.post(path, json=numbers).raise_for_status().json()
+    path = "/api/v1/references/preview"
+    preview = (
+        client.post(path, json={"follows": "stiffness", "reference": numbers})
+        .raise_for_status()
+        .json()
+    )
     assert preview["time_s"][-1] == pytest.approx(duration)
     assert (preview["low"], preview["high"]) == (low, high)
 

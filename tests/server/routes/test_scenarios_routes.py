@@ -59,7 +59,7 @@ def test_one_is_kept_read_and_forgotten_and_no_other_takes_its_name(lab):
     kept = lab.put(f"{SCENARIOS}/impulse", json=BLOW).raise_for_status().json()
     assert kept == lab.get(f"{SCENARIOS}/impulse").json() == lab.get(SCENARIOS).json()[0]
     assert LoadScenario(**kept["scenario"]) == LoadScenario(**BLOW)
-    file = lab.get(f"{SCENARIOS}/impulse/file").raise_for_status()
+    file = lab.get(f"{SCENARIOS}/impulse?format=toml").raise_for_status()
     assert tomllib.loads(file.text) == kept["scenario"]
     other = lab.put(f"{SCENARIOS}/impulse", json=BLOW | {"duration_s": 3.0})
     assert other.status_code == 422

@@ -106,7 +106,7 @@ def test_unknown_names_are_told(lab: Lab) -> None:
 
 
 def test_figures_health_and_documentation(lab: Lab) -> None:
-    assert [figure["key"] for figure in lab.client.get("/api/v1/figures").json()] == [
+    assert [figure["key"] for figure in lab.client.get("/api/v1/kinds").json()["figures"]] == [
         "4a",
         "4b",
         "5",

@@ -184,7 +184,10 @@ def test_too_many_loads_and_too_many_fades_are_told(lab: Lab) -> None:
     assert [answer.status_code for answer in answers[-2:]] == [201, 409]
     body = {"kind": "constant", "position_rad": 0.1, "transition_s": 60}
     lab.client.put(lab.session + "/position", json=body).raise_for_status()
-    codes = [lab.client.post(lab.session + "/position/repeat").status_code for _ in range(32)]
+    codes = [
+        lab.client.put(lab.session + "/position?restart=true", json=body).status_code
+        for _ in range(32)
+    ]
     assert codes[0] == 200
     assert codes[-1] == 409
 

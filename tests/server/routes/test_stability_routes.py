@@ -163,6 +163,6 @@ def test_an_unstable_design_fails_in_a_private_simulation_only(lab: Lab) -> None
     ],
 )
 def test_what_is_no_design_is_refused(lab: Lab, request_: dict, said: str) -> None:
-    answer = lab.client.post(f"{lab.session}/design/response", json=request_)
+    answer = lab.client.post(f"{lab.session}/design", json=request_ | {"kind": "response"})
     assert answer.status_code == 422
     assert said in answer.json()["detail"]

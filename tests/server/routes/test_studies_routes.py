@@ -91,7 +91,7 @@ def test_a_study_is_run_to_its_end_and_its_rows_are_those_of_the_table(lab, whol
     ended = [tick is not None for tick in table["fault_tick"].to_pylist()]
     assert np.isfinite(columns["fault_tick"]).tolist() == ended
     assert 0 < sum(ended) < 48
-    file = lab.get(f"{STUDIES}/whole/rows.parquet")
+    file = lab.get(f"{STUDIES}/whole/rows?format=parquet")
     assert file.content == (open_study("whole").folder / "rows.parquet").read_bytes()
     assert file.headers["cache-control"] == "no-cache"
 

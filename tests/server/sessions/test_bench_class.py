@@ -85,7 +85,7 @@ def lock(ada: Lab, instructor: Lab) -> None:
 
 
 def remove(ada: Lab, instructor: Lab) -> None:
-    instructor.connection.call("DELETE", f"/class/people/{ADA.id}")
+    instructor.connection.call("PATCH", f"/class/people/{ADA.id}", {"removed": True})
 
 
 CHANGES = [hand_over, give_back, take_over, lock, remove]
@@ -116,7 +116,7 @@ def test_the_bench_ramps_down_before_anybody_else_has_it(
             time.sleep(0.05)
         expect_ramp(svsa.open_run(room.folder / "runs" / recording.run_id))
         instructor.session.call("PUT", "/control/lock", {"locked": False})
-        instructor.connection.call("POST", f"/class/people/{ADA.id}/restore")
+        instructor.connection.call("PATCH", f"/class/people/{ADA.id}", {"removed": False})
         for one in (ada, bob, instructor):
             one.session.give_control_back()
 

@@ -93,7 +93,9 @@ class Room(NamedTuple):
 
     def set_up(self, step: str) -> Any:
         wanted = {"exercise": "held", "step": step}
-        return self.bench.lab.client.post(self.bench.lab.session + "/exercise", json=wanted)
+        return self.bench.lab.client.post(
+            self.bench.lab.session + "/experiment", json={"from": "exercise"} | wanted
+        )
 
     def call(self, method: str, path: str, body: Any = None) -> Any:
         answer = self.bench.lab.client.request(method, COURSE + path, json=body)

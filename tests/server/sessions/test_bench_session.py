@@ -104,7 +104,7 @@ def check_recording(bench: BenchLab, run_id: str) -> None:
     assert ticks == sorted(ticks)
     assert 0 < ticks[0] < ticks[-1] <= run["ticks"]
     opening = {"from": "run", "id": run["id"], "tick": 10}
-    for path, body in ((runs + "/compare", None), ("/api/v1/sessions", opening)):
+    for path, body in ((runs + "/verify", None), ("/api/v1/sessions", opening)):
         answer = client.post(path, json=body)
         assert answer.status_code == 409, answer.text
         assert "emulated" in answer.json()["detail"]
@@ -146,7 +146,7 @@ def test_a_push_is_one_load_from_the_first_time_it_is_told_to_its_end(bench: Ben
         for torque, hold_s in ((0.4, LASTING_S), (0.8, LASTING_S), (1.2, 2.0)):
             assert bench.emulator.control.read_state()["loads"] == (0 if torque == 0.4 else 1)
             push = {"kind": "push", "torque_nm": [torque, 0.0, 0.0], "hold_s": hold_s}
-            (load,) = bench.ask("/loads", push)["loads"]
+            load = bench.ask("/loads", push)
             assert load["id"] == 1, "told again it is the same"
             if hold_s == LASTING_S:
                 state = bench.wait_for_ticks(500)

@@ -30,7 +30,7 @@ class Student:
 
     def set_up(self, step: str):
         wanted = {"exercise": self.exercise.name, "step": step}
-        return self.client.post(f"{self.session}/exercise", json=wanted)
+        return self.client.post(f"{self.session}/experiment", json={"from": "exercise"} | wanted)
 
     def run(self, step: str, duration_s: float) -> str:
         """Reset, as the page does, record and run; the id of the run."""

@@ -4,7 +4,7 @@ import asyncio
 from typing import Annotated
 
 import segno
-from fastapi import Path, Request
+from fastapi import Body, Path, Request
 from starlette.datastructures import URL
 
 from svsa.errors import StateError, SvsaError
@@ -24,6 +24,7 @@ from svsa_server.schemas.access.classroom import (
     ClassSession,
     ClassState,
     MemberState,
+    PersonPatch,
     PersonState,
 )
 from svsa_server.sessions.hosted import HostedSession
@@ -61,25 +62,24 @@ async def read_class(request: Request, person: NamedPerson) -> ClassState:
     )
 
 
-@router.delete("/people/{person}", responses={404: REFUSALS[404]})
+@router.patch("/people/{person}", responses={404: REFUSALS[404]})
 @allow(INSTRUCTOR_ONLY)
-async def remove_person(request: Request, name: Member) -> MemberState:
-    """Remove a person at once: what they carry is worth nothing, and control and place are free.
+async def change_person(
+    request: Request,
+    name: Member,
+    patch: Annotated[PersonPatch, Body(examples=[{"removed": False}])],
+) -> MemberState:
+    """Remove a person from the class, or restore a removed one.
 
-    What they made stays. A person who knows the class code may join again under another name:
-    `POST /class/code` makes a new one.
+    A removed person's cookie, tokens and streams end at once; control and place are free. Their
+    runs remain. Every holder of the class code may join again as another person:
+    `POST /class/code` creates a new code.
     """
-    removed = await find_class(request).set_removed(name, True)
-    for hosted in _find_laboratory(request).sessions.values():
-        hosted.let_go(removed.id)
-    return _build_member(removed)
-
-
-@router.post("/people/{person}/restore", responses={404: REFUSALS[404]})
-@allow(INSTRUCTOR_ONLY)
-async def restore_person(request: Request, name: Member) -> MemberState:
-    """Let a person in again who was removed: what they carry is as good as before."""
-    return _build_member(await find_class(request).set_removed(name, False))
+    changed = await find_class(request).set_removed(name, patch.removed)
+    if patch.removed:
+        for hosted in _find_laboratory(request).sessions.values():
+            hosted.let_go(changed.id)
+    return _build_member(changed)
 
 
 @router.post("/code", status_code=201)

@@ -1,8 +1,8 @@
 """Scenarios: keep one by a name, put any laws through it, see it in a session."""
 
-from typing import Annotated
+from typing import Annotated, Literal
 
-from fastapi import Body, Path
+from fastapi import Body, Path, Query
 from fastapi.responses import Response
 
 from svsa.evaluation.falsifier.file import (
@@ -69,24 +69,25 @@ def save_scenario(
     return describe_kept(name, wanted)
 
 
-@router.get("/{scenario}")
-@allow(OBSERVER)
-def read_scenario(name: Name) -> SavedScenario:
-    """One that is kept."""
-    return describe_kept(name, _open(name))
-
-
 @router.get(
-    "/{scenario}/file",
-    response_class=Response,
-    responses={200: {"content": _TOML, "description": "The file"}},
+    "/{scenario}",
+    response_model=SavedScenario,
+    responses={200: {"content": _TOML, "description": "The scenario, or its file"}},
 )
 @allow(OBSERVER)
-def download_scenario(name: Name) -> Response:
-    """Its file (TOML), through which `svsa falsify run` puts any law."""
-    text = format_scenario(_open(name))
+def read_scenario(
+    name: Name,
+    written: Annotated[
+        Literal["json", "toml"],
+        Query(alias="format", description="toml: the file, which `svsa falsify run` takes"),
+    ] = "json",
+) -> SavedScenario | Response:
+    """Read a saved scenario, as JSON or as its TOML file."""
+    scenario = _open(name)
+    if written == "json":
+        return describe_kept(name, scenario)
     named = {"Content-Disposition": f'attachment; filename="{name}.toml"'}
-    return Response(text, media_type="application/toml", headers=named)
+    return Response(format_scenario(scenario), media_type="application/toml", headers=named)
 
 
 @router.delete("/{scenario}", status_code=204)

@@ -1,7 +1,7 @@
 """Studies: check one, run it as a job, look at its rows, and see any of them as a run."""
 
 import asyncio
-from typing import Annotated
+from typing import Annotated, Literal
 
 from fastapi import Body, Path, Query, Request
 from fastapi.responses import FileResponse, Response
@@ -157,20 +157,26 @@ async def read_sensitivity(
 @router.get(
     "/{study}/rows",
     response_class=Response,
-    responses={200: {"content": _BINARY, "description": "Columns, see the description"}},
+    responses={200: {"content": _BINARY | _PARQUET, "description": "Columns, or the table"}},
 )
 @allow(OBSERVER)
 def read_rows(
     study: Study,
-    column: Annotated[list[str], Query(max_length=40, description="Names of columns")],
+    column: Annotated[list[str], Query(max_length=40, description="Names of columns")] = [],  # noqa: B006
     most: Annotated[int, Query(ge=1, le=MAX_ROWS, description="Rows at most")] = MAX_ROWS,
+    written: Annotated[
+        Literal["binary", "parquet"],
+        Query(alias="format", description="parquet: the whole table, once a job of it has ended"),
+    ] = "binary",
 ) -> Response:
-    """Columns of the rows that are done; of more than `most` so many samples by lot.
+    """Read columns of the rows that are done; of more than `most` a random sample of that size.
 
-    uint32 length of a header of JSON, filled up to 8 bytes (`rows`, `total`, `columns` with `name`
-    and `labels`), then each column as float64, little-endian, `row` first.
+    binary: uint32 length of a header of JSON, filled up to 8 bytes (`rows`, `total`, `columns` with
+    `name` and `labels`), then each column as float64, little-endian, `row` first.
     """
     stored = _open(study)
+    if written == "parquet":
+        return _send_table(study, stored)
     known = build_schema(stored.study).names
     for name in column:
         if name not in known:
@@ -185,26 +191,6 @@ def read_row(study: Study, row: Row) -> dict[str, str | bool | int | float | Non
     return find_row(_open(study), row)
 
 
-@router.get(
-    "/{study}/rows.parquet",
-    response_class=FileResponse,
-    responses={200: {"content": _PARQUET, "description": "The table"}},
-)
-@allow(OBSERVER)
-def download_rows(study: Study) -> FileResponse:
-    """The whole table as Parquet, once the study was ended or cancelled."""
-    stored = _open(study)
-    table = stored.folder / TABLE_FILE
-    if not table.exists():
-        raise StateError(f"Study {study} has no table yet: it is made when a job of it ends.")
-    # A browser that several people use must ask again: the file has a date and would be kept.
-    asked_again = {"Cache-Control": "no-cache"}
-    media_type = next(iter(_PARQUET))
-    return FileResponse(
-        table, media_type=media_type, filename=f"{study}.parquet", headers=asked_again
-    )
-
-
 @router.post("/{study}/rows/{row}/replay", status_code=201, responses=BUSY)
 @allow(OPERATOR)
 async def replay_row(
@@ -214,6 +200,18 @@ async def replay_row(
     await request.app.state.quota.check(person.id)
     stored = await asyncio.to_thread(_open, study)
     return RowReplay(**await work.run(replay, stored, row, person.id))
+
+
+def _send_table(study: str, stored: StoredStudy) -> FileResponse:
+    table = stored.folder / TABLE_FILE
+    if not table.exists():
+        raise StateError(f"Study {study} has no table yet: it is made when a job of it ends.")
+    # A browser that several people use must ask again: the file has a date and would be kept.
+    asked_again = {"Cache-Control": "no-cache"}
+    media_type = next(iter(_PARQUET))
+    return FileResponse(
+        table, media_type=media_type, filename=f"{study}.parquet", headers=asked_again
+    )
 
 
 def _open(name: str) -> StoredStudy:

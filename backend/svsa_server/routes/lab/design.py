@@ -1,4 +1,4 @@
-"""Ask what gains and observer would do, before they are applied."""
+"""Analyze a design before it is applied: predictions, stability, margins, starts."""
 
 import asyncio
 import math
@@ -11,45 +11,93 @@ from svsa.analysis.design.steady_error import SteadyError
 from svsa.control.gains import Gains, compute_roots
 from svsa.control.installed import get_title
 from svsa.errors import ParameterError
+from svsa.inputs.checked import BY_KIND
 from svsa.runs.configuration import Configuration
+from svsa.runs.session.session import Session
 from svsa_server.access.permissions import OBSERVER, allow
-from svsa_server.routes.depends import REFUSALS, NamedSession
+from svsa_server.routes.depends import BUSY, REFUSALS, NamedSession, Work
 from svsa_server.routing import build_router
 from svsa_server.schemas.lab.design import (
     LoopNoiseState,
     Prediction,
-    PredictRequest,
+    PredictionRequest,
     ReasonState,
     SteadyStateErrorState,
     TorqueDemandState,
 )
 from svsa_server.schemas.lab.gain import Root
-from svsa_server.sessions.tried_design import read_stiffness
+from svsa_server.schemas.lab.stability import (
+    AnalysisRequest,
+    MarginsState,
+    RegionRequest,
+    RegionState,
+    ResponseState,
+    StabilityState,
+)
+from svsa_server.sessions.design import (
+    compute_load_response,
+    compute_stability,
+    map_attraction,
+    measure_margins,
+)
+from svsa_server.sessions.tried_design import build_tried, read_stiffness
 
-router = build_router("/sessions/{session}", tags=["settings"], responses=REFUSALS)
+router = build_router("/sessions/{session}", tags=["settings"], responses=REFUSALS | BUSY)
+_POLES = {"position_poles_rad_per_s": [-60, -60, -60, -60]}
+DesignAnalysis = Annotated[PredictionRequest | AnalysisRequest | RegionRequest, BY_KIND]
 
 
-@router.post("/predict")
+@router.post("/design")
 @allow(OBSERVER)
-async def predict_design(
+async def analyze_design(
     hosted: NamedSession,
-    request: Annotated[
-        PredictRequest,
+    work: Work,
+    wanted: Annotated[
+        DesignAnalysis,
         Body(
             examples=[
-                {"gains": {"position_poles_rad_per_s": [-60, -60, [-40, 30], [-40, -30]]}},
-                {"observer": {"bandwidth_rad_per_s": [60.0, 60.0, 60.0]}},
+                {
+                    "kind": "prediction",
+                    "gains": {"position_poles_rad_per_s": [-60, -60, [-40, 30], [-40, -30]]},
+                },
+                {
+                    "kind": "prediction",
+                    "observer": {"bandwidth_rad_per_s": [60.0, 60.0, 60.0]},
+                },
+                {"kind": "response", "gains": _POLES},
+                {"kind": "stability", "gains": _POLES},
+                {"kind": "margins", "gains": _POLES},
+                {"kind": "region", "starts": 31, "first": 0, "count": 100},
             ]
         ),
     ],
-) -> Prediction:
-    """What these gains and this observer would do; nothing is changed.
+) -> Prediction | ResponseState | StabilityState | MarginsState | RegionState:
+    """Analyze gains, observer and law before they are applied; the session is not changed.
 
-    The roots, the law's steady-state error under 3 kg (and FL's, where the law adds an estimate to
-    the gains), the encoders' noise in the torques, the peak torque under the load, and a verdict
-    with its reasons. Gains that PUT …/gains would refuse get the verdict refuse.
+    * `prediction`: the roots, the law's steady-state error under the 3 kg (and FL's, if the law
+      adds an estimate to the gains), the encoders' noise in the torques, the peak torque under the
+      load, and a verdict with its reasons. Gains that PUT …/gains rejects get the verdict refuse.
+    * `response`: position error after the 3 kg, and for a sine on the link.
+    * `stability`: the closed loop's poles with the true plant, the model errors up to which it
+      stays stable, the error that a disturbance of bounded rate causes, the fastest observer.
+    * `margins`: of any law; the tick of the sampled loop about rest is linearized numerically.
+    * `region`: a part of a map of sampled starts, a slice of the state space: no proof for any
+      other start. The starts come from coarse to fine; the first parts show the shape.
     """
-    configuration, sigma = hosted.session.run.configuration, read_stiffness(hosted.session)
+    if isinstance(wanted, PredictionRequest):
+        return await _predict(hosted.session, wanted)
+    configuration, sigma = build_tried(hosted.session, wanted)
+    if isinstance(wanted, RegionRequest):
+        return await map_attraction(work, configuration, sigma, wanted)
+    if wanted.kind == "response":
+        return await compute_load_response(configuration, sigma)
+    if wanted.kind == "stability":
+        return await compute_stability(work, configuration, sigma)
+    return await measure_margins(work, configuration, sigma)
+
+
+async def _predict(session: Session, request: PredictionRequest) -> Prediction:
+    configuration, sigma = session.run.configuration, read_stiffness(session)
     if request.observer is not None:
         configuration = configuration.changed(observer=request.observer)
     if request.gains is not None:

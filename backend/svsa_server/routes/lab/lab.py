@@ -1,9 +1,8 @@
-"""The lab itself: health, the laws, what else varies, the faults, the paper's figures."""
+"""The lab itself: health, the laws, and the kinds of everything else that varies."""
 
 from fastapi import Request, Response
 
 import svsa
-from svsa.runs.paper import FIGURES
 from svsa_server.access.guard import PERSON
 from svsa_server.access.permissions import ANYBODY, OBSERVER, allow
 from svsa_server.monitoring import list_problems
@@ -11,9 +10,8 @@ from svsa_server.problems import Problem, answer_problem
 from svsa_server.routes.depends import needs_no_login_to_stop
 from svsa_server.routing import build_router
 from svsa_server.schemas.lab.kind import Kinds, list_kinds
-from svsa_server.schemas.lab.lab import FigureState, Health, Readiness
+from svsa_server.schemas.lab.lab import Health, Readiness
 from svsa_server.schemas.lab.law import LawState, list_laws
-from svsa_server.schemas.runs.fault import FaultKindState, list_faults
 from svsa_server.sessions.laboratory import SHARED_SESSION
 from svsa_server.sessions.lock import TurnRoute
 
@@ -63,31 +61,8 @@ async def read_laws() -> list[LawState]:
     return list_laws()
 
 
-@router.get("/faults")
-@allow(OBSERVER)
-async def read_faults() -> list[FaultKindState]:
-    """The table of faults: what can end a run, why, and what to try."""
-    return list_faults()
-
-
 @router.get("/kinds")
 @allow(OBSERVER)
 async def read_kinds() -> Kinds:
-    """The effects, loads and references that are found here, each as it describes itself."""
+    """List the effects, loads, references, figures and faults of this lab with their parameters."""
     return list_kinds()
-
-
-@router.get("/figures")
-@allow(OBSERVER)
-async def list_figures() -> list[FigureState]:
-    """The paper's simulated figures as data."""
-    return [
-        FigureState(
-            key=figure.key,
-            title=figure.title,
-            position=figure.position,
-            stiffness=figure.stiffness,
-            claim=figure.claim,
-        )
-        for figure in FIGURES.values()
-    ]

@@ -1,18 +1,19 @@
-"""Apply loads and take them off."""
+"""The loads of a session: list, add, read, remove."""
 
 from typing import Annotated
 
-from fastapi import Body
+from fastapi import Body, Response
 
+from svsa.errors import StateError
 from svsa.runs.command import ApplyLoad, RemoveLoad
 from svsa.runs.session.session import take_loads_off
 from svsa.simulation.plant.loads import Load
 from svsa.simulation.plant.loads.mass import PAPER_ARM_M, PAPER_MASS_KG
-from svsa_server.access.permissions import OPERATOR, allow
+from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
 from svsa_server.problems import UnknownError
 from svsa_server.routes.depends import REFUSALS, NamedSession
-from svsa_server.routing import build_router
-from svsa_server.schemas.lab.session import SessionState
+from svsa_server.routing import API, build_router
+from svsa_server.schemas.lab.session import AddedLoad, LoadState, SessionState
 from svsa_server.sessions.lock import TurnRoute
 from svsa_server.sessions.state import build_state
 
@@ -40,24 +41,52 @@ GivenLoad = Annotated[
 ]
 
 
-@router.post("", status_code=201)
-@allow(OPERATOR)
-def apply_load(
-    hosted: NamedSession,
-    load: GivenLoad,
-) -> SessionState:
-    """Apply a load, now or at `start_s`; it is the last of `loads` in the answer.
+_LOCATION = {"Location": {"description": "Address of the load", "schema": {"type": "string"}}}
 
-    A push ends automatically: sent again while it is on, it is changed and lasts on, as one load.
+
+@router.get("")
+@allow(OBSERVER)
+def list_loads(hosted: NamedSession) -> list[LoadState]:
+    """List the loads of a session, in the order in which they were added."""
+    return build_state(hosted).loads
+
+
+@router.post("", status_code=201, responses={201: {"headers": _LOCATION}})
+@allow(OPERATOR)
+def apply_load(hosted: NamedSession, response: Response, load: GivenLoad) -> AddedLoad:
+    """Add a load, now or at `start_s`; the answer has its `id`, and `Location` its address.
+
+    A push ends automatically: sent again while it is on, it is changed and extended, as one load.
     """
-    hosted.session.change(ApplyLoad(argument=load))
-    return build_state(hosted)
+    session = hosted.session
+    if session.status == "fault":
+        raise StateError(
+            f"Session {session.name} is in a fault and takes no load: reset it, or clear the fault"
+            " of a bench, and add the load then."
+        )
+    session.change(ApplyLoad(argument=load))
+    state = build_state(hosted)
+    added = state.loads[-1]
+    past = [event for event in state.events if event.tick <= state.tick]
+    newest = past[-1] if past else state
+    response.headers["Location"] = f"{API}/sessions/{session.name}/loads/{added.id}"
+    return AddedLoad(**dict(added), tick=newest.tick, time_s=newest.time_s)
+
+
+@router.get("/{load_id}")
+@allow(OBSERVER)
+def read_load(hosted: NamedSession, load_id: int) -> LoadState:
+    """Read a load of a session."""
+    found = [load for load in build_state(hosted).loads if load.id == load_id]
+    if not found:
+        raise _refuse(load_id)
+    return found[0]
 
 
 @router.delete("")
 @allow(OPERATOR)
 def clear_loads(hosted: NamedSession) -> SessionState:
-    """Take every load off."""
+    """Remove all loads from a session."""
     take_loads_off(hosted.session)
     return build_state(hosted)
 
@@ -65,8 +94,12 @@ def clear_loads(hosted: NamedSession) -> SessionState:
 @router.delete("/{load_id}")
 @allow(OPERATOR)
 def remove_load(hosted: NamedSession, load_id: int) -> SessionState:
-    """Take one load off."""
+    """Remove a load from a session."""
     if load_id not in (load.number for load in hosted.session.run.loads):
-        raise UnknownError(f"There is no load {load_id} in this session.")
+        raise _refuse(load_id)
     hosted.session.change(RemoveLoad(argument=load_id))
     return build_state(hosted)
+
+
+def _refuse(load_id: int) -> UnknownError:
+    return UnknownError(f"There is no load {load_id} in this session.")

@@ -7,6 +7,7 @@ import numpy as np
 from fastapi import Body
 from pydantic import BaseModel, Field
 
+from svsa.inputs.checked import Checked, quantity
 from svsa.simulation.reference.kinds import PositionReference, StiffnessReference, get_range
 from svsa.simulation.reference.kinds.reference import AnyReference
 from svsa.simulation.reference.kinds.series import MAX_ROWS, SeriesPosition, SeriesStiffness
@@ -34,6 +35,23 @@ class StiffnessSeries(BaseModel):
 
 
 Series = Annotated[PositionSeries | StiffnessSeries, Field(discriminator="follows")]
+
+
+class PositionPreview(Checked):
+    """A position reference, as PUT …/position takes it."""
+
+    follows: Literal["position"] = quantity("", "Angles")
+    reference: PositionReference = quantity("", "The reference")
+
+
+class StiffnessPreview(Checked):
+    """A stiffness reference, as PUT …/stiffness takes it."""
+
+    follows: Literal["stiffness"] = quantity("", "Stiffness")
+    reference: StiffnessReference = quantity("", "The reference")
+
+
+PreviewRequest = Annotated[PositionPreview | StiffnessPreview, Field(discriminator="follows")]
 
 
 class ReferencePreview(BaseModel):
@@ -66,30 +84,31 @@ async def read_csv(
     return StiffnessSeries(reference=series)
 
 
-@router.post("/position/preview")
+@router.post("/preview")
 @allow(OBSERVER)
-async def preview_position(
-    reference: Annotated[
-        PositionReference,
-        Body(examples=[{"kind": "minimum_jerk", "end_rad": 0.5, "duration_s": 1.0}]),
-    ],
-) -> ReferencePreview:
-    """What a reference of position would ask for, before it is followed."""
-    return await asyncio.to_thread(_preview, reference)
-
-
-@router.post("/stiffness/preview")
-@allow(OBSERVER)
-async def preview_stiffness(
-    reference: Annotated[
-        StiffnessReference,
+async def preview_reference(
+    wanted: Annotated[
+        PreviewRequest,
         Body(
-            examples=[{"kind": "steps", "time_s": [0.0, 2.0], "stiffness_nm_per_rad": [15.0, 60.0]}]
+            examples=[
+                {
+                    "follows": "position",
+                    "reference": {"kind": "minimum_jerk", "end_rad": 0.5, "duration_s": 1.0},
+                },
+                {
+                    "follows": "stiffness",
+                    "reference": {
+                        "kind": "steps",
+                        "time_s": [0.0, 2.0],
+                        "stiffness_nm_per_rad": [15.0, 60.0],
+                    },
+                },
+            ]
         ),
     ],
 ) -> ReferencePreview:
-    """What a reference of stiffness would ask for, before it is followed."""
-    return await asyncio.to_thread(_preview, reference)
+    """Compute the course of a reference of position or stiffness, before it is followed."""
+    return await asyncio.to_thread(_preview, wanted.reference)
 
 
 def _preview(reference: AnyReference) -> ReferencePreview:

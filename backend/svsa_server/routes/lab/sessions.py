@@ -9,18 +9,18 @@ from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
 from svsa_server.openapi import UPGRADED
 from svsa_server.problems import Problem, answer_problem
 from svsa_server.routes.depends import REFUSALS, NamedClient, NamedPerson, NamedSession
+from svsa_server.routes.teaching.course import set_up_step
 from svsa_server.routing import build_router
 from svsa_server.schemas.evaluation.scenario import SCENARIO_EXAMPLE
-from svsa_server.schemas.lab.opening import SessionRequest
+from svsa_server.schemas.lab.opening import ExerciseExperiment, ExperimentRequest, SessionRequest
 from svsa_server.schemas.lab.session import (
-    ExperimentRequest,
     SessionState,
     SpeedRequest,
     StepRequest,
 )
 from svsa_server.schemas.lab.stream import StreamMessage, describe_stream, list_stream_parameters
 from svsa_server.sessions.cursor import BATCH_PERIOD_S
-from svsa_server.sessions.lock import TurnRoute
+from svsa_server.sessions.lock import TurnRoute, take_turn
 from svsa_server.sessions.opening import open_session
 from svsa_server.sessions.state import build_state
 from svsa_server.sessions.stream import stream_session
@@ -136,22 +136,27 @@ def set_speed(
 
 @router.post("/{session}/experiment")
 @allow(OPERATOR)
-def load_experiment(
+async def load_experiment(
     request: Request,
     hosted: NamedSession,
+    person: NamedPerson,
     wanted: Annotated[
-        ExperimentRequest, Body(examples=[{"figure": "4a", "law": "ndobc", "load": True}])
+        ExperimentRequest,
+        Body(
+            examples=[
+                {"figure": "4a", "law": "ndobc", "load": True},
+                {"from": "exercise", "exercise": "feedback-linearization", "step": "load"},
+            ]
+        ),
     ],
 ) -> SessionState:
-    """Begin one of the paper's figures at t = 0, with its load at 5 s unless `load` is false.
-
-    What is set comes from the figure; lanes and effects from the request. A bench has its own.
-    """
-    hosted.session.load(wanted.build_configuration(request.app.state.design))
-    if wanted.start:
-        hosted.session.start()
-    else:
-        hosted.session.pause()
+    """Set a session to a figure of the paper or an experiment of the course, at t = 0."""
+    if isinstance(wanted, ExerciseExperiment):
+        await set_up_step(request, hosted, person, wanted.exercise, wanted.step)
+        return build_state(hosted)
+    session = hosted.session
+    await take_turn(session.load, wanted.build_configuration(request.app.state.design))
+    await take_turn(session.start if wanted.start else session.pause)
     return build_state(hosted)
 
 

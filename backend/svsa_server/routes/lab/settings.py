@@ -5,7 +5,7 @@ What is set already changes nothing when it is sent again: no fade, no event, no
 
 from typing import TYPE_CHECKING, Annotated, Any
 
-from fastapi import Body, Depends, Path
+from fastapi import Body, Depends, Path, Query
 
 from svsa.actuators.parameters import ActuatorParameters
 from svsa.control.installed import check_installed, read_parameters
@@ -13,17 +13,23 @@ from svsa.control.observers.disturbance import ObserverBandwidth
 from svsa.control.parameters import LawParameters
 from svsa.errors import ParameterError
 from svsa.inputs.checked import Checked
-from svsa.runs.command import Set
+from svsa.runs.command import Command, Set
 from svsa.runs.configuration import LaneSetting
 from svsa.simulation.plant.effects import Effects
 from svsa.simulation.reference.kinds import PositionReference, StiffnessReference
-from svsa_server.access.permissions import OPERATOR, allow
+from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
 from svsa_server.routes.depends import CHANGED, REFUSALS, NamedSession, check_unchanged
 from svsa_server.routing import build_router
 from svsa_server.schemas.lab.gain import GainsRequest
 from svsa_server.schemas.lab.law import InstalledLane
 from svsa_server.schemas.lab.session import SessionState
-from svsa_server.schemas.lab.setting import LanesRequest, LawRequest, build_patch
+from svsa_server.schemas.lab.setting import (
+    ConfigurationState,
+    LanesRequest,
+    LawRequest,
+    build_patch,
+)
+from svsa_server.sessions.hosted import HostedSession
 from svsa_server.sessions.lock import TurnRoute
 from svsa_server.sessions.state import build_state
 
@@ -35,12 +41,24 @@ router = build_router(
     dependencies=[Depends(check_unchanged)],
 )
 
+Restart = Annotated[
+    bool,
+    Query(description="Start the reference again, faded over, even if it is followed already"),
+]
+
 if TYPE_CHECKING:
     ActuatorPatch = Checked
     NominalPatch = Checked
 else:
     ActuatorPatch = build_patch("actuator", ActuatorParameters)
     NominalPatch = build_patch("nominal", ActuatorParameters)
+
+
+@router.get("/settings")
+@allow(OBSERVER)
+def read_settings(hosted: NamedSession) -> ConfigurationState:
+    """Read the settings of a session: references, law, gains, observer, lanes, plant, effects."""
+    return build_state(hosted).configuration
 
 
 @router.put("/position")
@@ -56,17 +74,10 @@ def set_position(
             ]
         ),
     ],
+    restart: Restart = False,
 ) -> SessionState:
-    """Follow another position reference, faded over without a jump in any derivative."""
-    hosted.session.set(Set("position", reference))
-    return build_state(hosted)
-
-
-@router.post("/position/repeat")
-@allow(OPERATOR)
-def repeat_position(hosted: NamedSession) -> SessionState:
-    """Begin the present position reference again, faded over as another one would be."""
-    hosted.session.change(Set("position", hosted.session.run.configuration.position))
+    """Set the position reference, faded over without a jump in any derivative."""
+    _follow(hosted, Set("position", reference), restart)
     return build_state(hosted)
 
 
@@ -88,17 +99,10 @@ def set_stiffness(
             ]
         ),
     ],
+    restart: Restart = False,
 ) -> SessionState:
-    """Follow another stiffness reference, inside 1.7 … 150.56 N·m/rad."""
-    hosted.session.set(Set("stiffness", reference))
-    return build_state(hosted)
-
-
-@router.post("/stiffness/repeat")
-@allow(OPERATOR)
-def repeat_stiffness(hosted: NamedSession) -> SessionState:
-    """Begin the present stiffness reference again, faded over as another one would be."""
-    hosted.session.change(Set("stiffness", hosted.session.run.configuration.stiffness))
+    """Set the stiffness reference, inside 1.7 … 150.56 N·m/rad."""
+    _follow(hosted, Set("stiffness", reference), restart)
     return build_state(hosted)
 
 
@@ -237,6 +241,13 @@ def set_lane(
     """
     hosted.session.set(Set("lane", LaneSetting(lane=lane, setting=request)))
     return build_state(hosted)
+
+
+def _follow(hosted: HostedSession, command: Command, restart: bool) -> None:
+    if restart:
+        hosted.session.change(command)
+    else:
+        hosted.session.set(command)
 
 
 def _apply(patch: Checked, actuator: ActuatorParameters) -> ActuatorParameters:

@@ -42,7 +42,10 @@ async def export_run(
     run_id: RunId,
     kind: Annotated[ExportName, Query(description="Format of the file")],
 ) -> StreamingResponse:
-    """The run as a file of another program."""
+    """Export a run as a file of another program, or as one page with 3D replay and plots.
+
+    The page (`html`) opens from a file, offline.
+    """
     record = await asyncio.to_thread(runs.open, run_id)
     file = await work.write(partial(write_export, kind), runs.find_folder(run_id))
     name = build_file_name(record, kind)
@@ -54,25 +57,15 @@ async def export_run(
 @router.get("/runs/{run_id}/replay", response_class=StreamingResponse, responses=PAGE)
 @allow(OBSERVER)
 async def show_replay(runs: Runs, work: Work, run_id: RunId) -> StreamingResponse:
-    """The page of `replay.html` to be looked at in place; `?t=12.3` opens it at 12.3 s."""
+    """Show the page of the export `html` in place; `?t=12.3` opens it at 12.3 s."""
     file = await work.write(_write_page, await asyncio.to_thread(runs.find_folder, run_id))
     return send_page(file)
 
 
-@router.get("/runs/{run_id}/replay.html", response_class=StreamingResponse, responses=PAGE)
+@router.post("/runs/{run_id}/verify")
 @allow(OBSERVER)
-async def download_replay(runs: Runs, work: Work, run_id: RunId) -> StreamingResponse:
-    """The run as one page with 3D replay and plots together; opens from a file, offline."""
-    record = await asyncio.to_thread(runs.open, run_id)
-    file = await work.write(_write_page, runs.find_folder(run_id))
-    name = f"{record.header.run_id}.html"
-    return _send(file, "text/html", {"Content-Disposition": f'attachment; filename="{name}"'})
-
-
-@router.post("/runs/{run_id}/compare")
-@allow(OBSERVER)
-async def compare_run(runs: Runs, work: Work, run_id: RunId) -> Comparison:
-    """Simulate a run again from its record alone and compare every bit."""
+async def verify_run(runs: Runs, work: Work, run_id: RunId) -> Comparison:
+    """Verify a run: simulate it again from its record alone, and compare every bit."""
     check_simulated(await asyncio.to_thread(runs.open, run_id))
     return await work.run(compare, runs.find_folder(run_id))
 

@@ -130,8 +130,10 @@ def change_run(
         Header(description="The run's `revision`: refused where it was changed meanwhile"),
     ] = None,
 ) -> RunSummary:
-    """Rename a run, tag it, write notes."""
+    """Rename a run, tag it, write notes, or restore it from the trash."""
     expected = if_match and if_match.strip('"')
+    if patch.deleted is False:
+        runs.restore(run_id)
     entry = runs.update(
         run_id, name=patch.name, tags=patch.tags, notes=patch.notes, expected=expected
     )
@@ -141,15 +143,8 @@ def change_run(
 @router.delete("/runs/{run_id}")
 @allow(OPERATOR)
 def delete_run(runs: Runs, run_id: ChangedRunId) -> RunSummary:
-    """Put a run into the trash, from which `restore` takes it back."""
+    """Delete a run: it is in the trash, until `PATCH` with `"deleted": false` restores it."""
     return RunSummary(**_tell(runs, runs.delete(run_id)))
-
-
-@router.post("/runs/{run_id}/restore")
-@allow(OPERATOR)
-def restore_run(runs: Runs, run_id: ChangedRunId) -> RunSummary:
-    """Take a run out of the trash."""
-    return RunSummary(**_tell(runs, runs.restore(run_id)))
 
 
 def _tell(runs: Catalogue, entry: RunEntry) -> dict[str, Any]:

@@ -32,9 +32,8 @@ from svsa.teaching.grading import law_trial
 from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
 from svsa_server.access.roles import Person
 from svsa_server.problems import UnknownError
-from svsa_server.routes.depends import BUSY, REFUSALS, NamedPerson, NamedSession, Runs, Work
+from svsa_server.routes.depends import BUSY, REFUSALS, NamedPerson, Runs, Work
 from svsa_server.routing import build_router
-from svsa_server.schemas.lab.session import SessionState
 from svsa_server.schemas.teaching.course import (
     AnswerRequest,
     CourseLawRequest,
@@ -42,14 +41,13 @@ from svsa_server.schemas.teaching.course import (
     ExerciseState,
     PlaceRequest,
     RunRequest,
-    SetupRequest,
     SubmissionRequest,
     describe_exercise,
     describe_summary,
 )
 from svsa_server.sessions.bench_start import check_for_step, set_up_bench
+from svsa_server.sessions.hosted import HostedSession
 from svsa_server.sessions.lock import take_turn
-from svsa_server.sessions.state import build_state
 
 router = build_router(tags=["course"], responses=REFUSALS)
 ExerciseName = Annotated[
@@ -110,38 +108,6 @@ def answer_step(
         return progress.with_step(step, results=tuple(results))
 
     return _change(request, person, exercise, keep)
-
-
-@router.post("/sessions/{session}/exercise")
-@allow(OPERATOR)
-async def set_up_experiment(
-    request: Request,
-    hosted: NamedSession,
-    person: NamedPerson,
-    wanted: Annotated[
-        SetupRequest, Body(examples=[{"exercise": "feedback-linearization", "step": "load"}])
-    ],
-) -> SessionState:
-    """Set a session as an experiment asks, at t = 0 and paused; its predictions are kept now.
-
-    A bench has plant, effects and limits of its own: it gets law, references, loads, gains and
-    observer. Refused where a prediction is missing, and on a bench that moves, or for a step that
-    is simulated and nothing else.
-    """
-    found = _find_exercise(request, wanted.exercise)
-    step, session = found.find_step(wanted.step), hosted.session
-    if isinstance(session, BenchSession) and isinstance(step, Experiment):
-        check_for_step(session, step)
-    await asyncio.to_thread(
-        _change, request, person, found.name, lambda e, p: begin_step(e, p, wanted.step)
-    )
-    assert isinstance(step, Experiment)  # noqa: S101
-    if isinstance(session, BenchSession):
-        await take_turn(set_up_bench, session, step)
-    else:
-        await take_turn(session.pause)
-        await take_turn(session.load, step.configuration)
-    return build_state(hosted)
 
 
 @router.post("/course/{exercise}/steps/{step}/check")
@@ -254,6 +220,32 @@ def _change(
         exercises = {**kept.exercises, exercise: progress}
         store.write(person.id, kept.changed(exercises=exercises))
     return describe_exercise(found, progress)
+
+
+async def set_up_step(
+    request: Request, hosted: HostedSession, person: Person, exercise: str, name: str
+) -> None:
+    """Set a session as an experiment of the course asks, at t = 0 and paused.
+
+    Its predictions are saved now. A bench has plant, effects and limits of its own: it gets law,
+    references, loads, gains and observer.
+
+    Raises:
+        StateError: A prediction is missing, the bench moves, or the step is a simulation only.
+    """
+    found = _find_exercise(request, exercise)
+    step, session = found.find_step(name), hosted.session
+    if isinstance(session, BenchSession) and isinstance(step, Experiment):
+        check_for_step(session, step)
+    await asyncio.to_thread(
+        _change, request, person, found.name, lambda e, p: begin_step(e, p, name)
+    )
+    assert isinstance(step, Experiment)  # noqa: S101
+    if isinstance(session, BenchSession):
+        await take_turn(set_up_bench, session, step)
+    else:
+        await take_turn(session.pause)
+        await take_turn(session.load, step.configuration)
 
 
 def _find_exercise(request: Request, name: str) -> Exercise:

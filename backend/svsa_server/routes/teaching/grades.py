@@ -1,7 +1,7 @@
 """Grades: a class's, for its instructor, and one's own."""
 
 import asyncio
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from fastapi import Body, Query, Request
 from fastapi.responses import HTMLResponse, Response
@@ -12,6 +12,7 @@ from svsa.teaching.grading.report import write_csv, write_page
 from svsa.teaching.isolation.probe import find_isolation_problem
 from svsa_server.access.owned import Owned
 from svsa_server.access.permissions import INSTRUCTOR_ONLY, OBSERVER, allow
+from svsa_server.access.roles import Role
 from svsa_server.jobs.gradings import Asked, grade_all
 from svsa_server.routes.depends import BUSY, REFUSALS, NamedPerson
 from svsa_server.routes.evaluation.jobs import find_jobs
@@ -19,18 +20,22 @@ from svsa_server.routes.teaching.course import find_store
 from svsa_server.routing import build_router
 from svsa_server.schemas.evaluation.job import JobState, describe_job
 from svsa_server.schemas.teaching.grades import (
-    GradedSubmissionState,
     GradesState,
     GradingRequest,
     describe_exercises,
     describe_students,
-    describe_submission,
 )
 
 KIND = "grading"
 router = build_router("/grades", tags=["course"], responses=REFUSALS)
-_CSV: dict[int | str, dict[str, Any]] = {
-    200: {"content": {"text/csv": {"schema": {"type": "string"}}}, "description": "The file"}
+_FILES: dict[int | str, dict[str, Any]] = {
+    200: {
+        "content": {
+            "text/csv": {"schema": {"type": "string"}},
+            "text/html": {"schema": {"type": "string"}},
+        },
+        "description": "The grades, or their file",
+    }
 }
 _POLICY = {"Content-Security-Policy": "default-src 'none'; style-src 'unsafe-inline'"}
 _Person = Annotated[
@@ -38,11 +43,29 @@ _Person = Annotated[
 ]
 
 
-@router.get("")
-@allow(INSTRUCTOR_ONLY)
-async def read_grades(request: Request) -> GradesState:
-    """Who submitted what, its points by criterion, and why something has no grade."""
-    submitted = await asyncio.to_thread(list_graded, find_store(request))
+@router.get("", response_model=GradesState, responses=_FILES)
+@allow(OBSERVER)
+async def read_grades(
+    request: Request,
+    caller: NamedPerson,
+    person: _Person = "",
+    written: Annotated[
+        Literal["json", "csv", "html"],
+        Query(alias="format", description="csv: a line each; html: a page to read or print"),
+    ] = "json",
+) -> GradesState | Response:
+    """Read the class's grades, or one person's: points by criterion, and why one has no grade.
+
+    The instructor reads the whole class; a student reads the own grades only.
+    """
+    wanted = person if caller.role is Role.INSTRUCTOR else caller.id
+    submitted = await asyncio.to_thread(list_graded, find_store(request), wanted or None)
+    if written == "csv":
+        named = {"Content-Disposition": 'attachment; filename="grades.csv"'}
+        table = write_csv(list(list_grades(submitted)))
+        return Response(table, media_type="text/csv", headers=named)
+    if written == "html":
+        return HTMLResponse(write_page(list(list_grades(submitted))), headers=_POLICY)
     return GradesState(
         not_isolated=await asyncio.to_thread(find_isolation_problem),
         exercises=describe_exercises(list(request.app.state.course.values())),
@@ -76,36 +99,3 @@ async def grade_class(
     )
     title = "Everything again" if wanted.again else "What has no grade"
     return describe_job(find_jobs(request).start(KIND, title, grade_all, asked, person.id))
-
-
-@router.get("/class.csv", response_class=Response, responses=_CSV)
-@allow(INSTRUCTOR_ONLY)
-async def download_grades(request: Request) -> Response:
-    """All grades, a line each, with a column for every criterion."""
-    submitted = await asyncio.to_thread(list_graded, find_store(request))
-    named = {"Content-Disposition": 'attachment; filename="grades.csv"'}
-    return Response(write_csv(list(list_grades(submitted))), media_type="text/csv", headers=named)
-
-
-@router.get("/class.html", response_class=HTMLResponse)
-@allow(INSTRUCTOR_ONLY)
-async def show_grades(request: Request, person: _Person = "") -> HTMLResponse:
-    """The same as a page to be read or printed, of the class or of one student."""
-    submitted = await asyncio.to_thread(list_graded, find_store(request), person or None)
-    return HTMLResponse(write_page(list(list_grades(submitted))), headers=_POLICY)
-
-
-@router.get("/mine")
-@allow(OBSERVER)
-async def read_own_grades(request: Request, person: NamedPerson) -> list[GradedSubmissionState]:
-    """What one submitted oneself, with points and reasons."""
-    submitted = await asyncio.to_thread(list_graded, find_store(request), person.id)
-    return [describe_submission(one) for one in submitted]
-
-
-@router.get("/mine.html", response_class=HTMLResponse)
-@allow(OBSERVER)
-async def show_own_grades(request: Request, person: NamedPerson) -> HTMLResponse:
-    """The same as a page."""
-    submitted = await asyncio.to_thread(list_graded, find_store(request), person.id)
-    return HTMLResponse(write_page(list(list_grades(submitted))), headers=_POLICY)

@@ -2,6 +2,7 @@
 
 from pydantic import BaseModel, Field
 
+from svsa.inputs.checked import Checked, Flag, quantity
 from svsa_server.access.roles import RoleName
 
 
@@ -11,6 +12,12 @@ class MemberState(BaseModel):
     id: str
     name: str
     role: RoleName
+
+
+class PersonPatch(Checked):
+    """What to change of a person."""
+
+    removed: Flag = quantity("", "Whether the person is removed from the class")
 
 
 class PersonState(MemberState):

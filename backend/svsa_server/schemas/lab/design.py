@@ -9,13 +9,19 @@ from svsa.inputs.checked import Checked, quantity
 from svsa_server.schemas.lab.gain import GainsRequest, Root
 
 
-class PredictRequest(Checked):
+class TriedDesign(Checked):
     """Gains and observer to try; what is left out is as it is set now."""
 
     gains: GainsRequest | None = quantity("", "New gains, as for PUT …/gains", default=None)
     observer: ObserverBandwidth | None = quantity(
         "", "New observer, as for PUT …/observer", default=None
     )
+
+
+class PredictionRequest(TriedDesign):
+    """Predict what gains and observer would do, before they are applied."""
+
+    kind: Literal["prediction"] = quantity("", "Steady-state errors, noise, torques, a verdict")
 
 
 class ReasonState(BaseModel):

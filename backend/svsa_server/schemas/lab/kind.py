@@ -5,11 +5,14 @@ from collections.abc import Mapping
 from pydantic import BaseModel, Field
 
 from svsa.inputs.checked import Checked
+from svsa.runs.paper import FIGURES
 from svsa.simulation.plant.effects import EFFECTS, PRESETS, Effects, describe_preset
 from svsa.simulation.plant.effects.effect import Effect, PresetName
 from svsa.simulation.plant.loads import LOADS
 from svsa.simulation.reference.kinds import POSITIONS, STIFFNESSES
+from svsa_server.schemas.lab.lab import FigureState
 from svsa_server.schemas.lab.parameter import ParameterState, describe_parameter, list_parameters
+from svsa_server.schemas.runs.fault import FaultKindState, list_faults
 
 
 class EffectState(BaseModel):
@@ -57,6 +60,8 @@ class Kinds(BaseModel):
     loads: list[KindState]
     position: list[KindState] = Field(description="References of q_d")
     stiffness: list[KindState] = Field(description="References of σ_d")
+    figures: list[FigureState] = Field(description="The paper's simulated figures")
+    faults: list[FaultKindState] = Field(description="What can end a run, why, and what to do")
 
 
 def list_kinds() -> Kinds:
@@ -70,6 +75,17 @@ def list_kinds() -> Kinds:
         loads=[_describe_kind(load, load.first) for load in LOADS],
         position=[_describe_kind(one, one.first, one.hint) for one in POSITIONS],
         stiffness=[_describe_kind(one, one.first, one.hint) for one in STIFFNESSES],
+        figures=[
+            FigureState(
+                key=figure.key,
+                title=figure.title,
+                position=figure.position,
+                stiffness=figure.stiffness,
+                claim=figure.claim,
+            )
+            for figure in FIGURES.values()
+        ],
+        faults=list_faults(),
     )
 
 

@@ -1,4 +1,4 @@
-"""What a private session is opened from: a figure, run, session, falsification or scenario."""
+"""What a session is opened from, or set to: a figure, run, falsification, exercise …"""
 
 from typing import Annotated, Any, Literal
 
@@ -7,11 +7,12 @@ from typing_extensions import TypeAliasType
 
 from svsa.control.installed import InstalledLaw
 from svsa.evaluation.falsifier.scenario import LoadScenario
-from svsa.inputs.checked import Checked, Whole, quantity
+from svsa.inputs.checked import Checked, Flag, Whole, quantity
 from svsa.runs.configuration import MAX_LANES, Configuration, Design, Lane
 from svsa_server.access.owned import Owned
 from svsa_server.schemas.lab.session import FigureRequest
 from svsa_server.schemas.lab.stability import DesignRequest
+from svsa_server.schemas.teaching.course import StepName
 
 
 class FromFigure(FigureRequest):
@@ -95,3 +96,36 @@ SessionRequest = TypeAliasType(
     ],
 )
 """A type of its own: of a plain `Annotated` FastAPI applies the discriminator first."""
+
+
+class FigureExperiment(FigureRequest):
+    """One of the paper's figures, from t = 0; also what `from` is if it is left out.
+
+    What is set comes from the figure; lanes and effects from the request. A bench has its own.
+    """
+
+    source: Literal["figure"] = quantity("", "A figure", alias="from", default="figure")
+    start: Flag = quantity("", "Runs at once; else it is paused at t = 0", default=True)
+
+
+class ExerciseExperiment(Checked):
+    """An experiment of the course, paused at t = 0; its predictions are saved now.
+
+    A bench has plant, effects and limits of its own: it gets law, references, loads, gains and
+    observer. Rejected if a prediction is missing, on a bench that moves, or on a bench for a step
+    that is a simulation only.
+    """
+
+    source: Literal["exercise"] = quantity("", "The course", alias="from")
+    exercise: StepName = quantity("", "Name of the exercise")
+    step: StepName = quantity("", "Name of the step")
+
+
+ExperimentRequest = TypeAliasType(
+    "ExperimentRequest",
+    Annotated[
+        FigureExperiment | ExerciseExperiment,
+        Field(discriminator="source"),
+        BeforeValidator(_add_source),
+    ],
+)

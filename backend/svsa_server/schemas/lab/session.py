@@ -53,12 +53,6 @@ class FigureRequest(Checked):
         return figure.changed(comparisons=self.comparisons, effects=self.effects)
 
 
-class ExperimentRequest(FigureRequest):
-    """One of the paper's figures, from t = 0."""
-
-    start: Flag = quantity("", "Begins at once; else it is at rest at t = 0", default=True)
-
-
 class LoadState(BaseModel):
     """A load of the session; `end_s` is null for one that stays."""
 
@@ -68,6 +62,13 @@ class LoadState(BaseModel):
     active: bool
     label: str = Field(description="The load in a few words")
     load: Load
+
+
+class AddedLoad(LoadState):
+    """A load, and when it was added."""
+
+    tick: int = Field(description="At whose beginning it was added")
+    time_s: float
 
 
 class SessionProgress(BaseModel):

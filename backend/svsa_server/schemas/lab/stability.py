@@ -7,14 +7,14 @@ from pydantic import BaseModel, Field
 from svsa.analysis.design.attraction import Slice
 from svsa.control.installed import InstalledLaw
 from svsa.inputs.checked import Number, Whole, quantity
-from svsa_server.schemas.lab.design import PredictRequest
+from svsa_server.schemas.lab.design import TriedDesign
 from svsa_server.schemas.lab.gain import Root
 
 MAX_STARTS = 61
 MAX_AT_ONCE = 400
 
 
-class DesignRequest(PredictRequest):
+class DesignRequest(TriedDesign):
     """A design to try, stable or not; what is left out is as it is set now."""
 
     law: InstalledLaw | None = quantity("", "Another law: see GET /laws", default=None)
@@ -23,8 +23,20 @@ class DesignRequest(PredictRequest):
     )
 
 
+class AnalysisRequest(DesignRequest):
+    """Analyze a design: one request for each kind."""
+
+    kind: Literal["response", "stability", "margins"] = quantity(
+        "",
+        "response: error after the 3 kg and for a sine on the link; stability: the linear loop"
+        " about rest, where Theorem 1 holds; margins: modulus, delay, gain and joint parameters",
+    )
+
+
 class RegionRequest(DesignRequest):
-    """A part of the map of starts, from coarse to fine: ask on until `next` is null."""
+    """A part of the map of starts, from coarse to fine: request on until `next` is null."""
+
+    kind: Literal["region"] = quantity("", "From which sampled starts the design comes to rest")
 
     chosen: Slice = quantity(
         "",

@@ -22,7 +22,7 @@ from svsa.runs.records.settings import RunSettings
 from svsa_server.schemas.runs.fault import RunFault
 from svsa_server.schemas.runs.lane import SegmentState, WindowState
 
-ExportName = Literal["csv", "parquet", "mat", "mcap"]
+ExportName = Literal["csv", "parquet", "mat", "mcap", "html"]
 RunName = Annotated[str, Field(max_length=LONGEST_NAME)]
 Notes = Annotated[str, Field(max_length=LONGEST_NOTES)]
 Tags = Annotated[
@@ -39,11 +39,12 @@ class RunPatch(Checked):
     name: RunName | None = quantity("", "Its name", default=None)
     tags: Tags | None = quantity("", "Words to find it by, each once", default=None)
     notes: Notes | None = quantity("", "Notes", default=None)
+    deleted: Literal[False] | None = quantity("", "false: restore it from the trash", default=None)
 
     @model_validator(mode="after")
     def _check_some(self) -> Self:
         if not self.model_fields_set:
-            raise ParameterError(Violation("change", {}, "", "of name, tags or notes"))
+            raise ParameterError(Violation("change", {}, "", "of name, tags, notes or deleted"))
         return self
 
 

@@ -15,13 +15,6 @@ from svsa.teaching.submission import LONGEST_NAME, Answer, LawText, SavedLaw, St
 from svsa_server.access.owned import Owned
 
 
-class SetupRequest(Checked):
-    """An experiment of the course."""
-
-    exercise: StepName = quantity("", "Name of the exercise")
-    step: StepName = quantity("", "Name of the step")
-
-
 class AnswerRequest(Checked):
     """What was predicted, in the step's unit, or the name of the option that was chosen."""
 

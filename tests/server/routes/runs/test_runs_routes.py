@@ -67,7 +67,10 @@ def test_delete_and_restore(client: httpx.Client) -> None:
     assert client.delete("runs/run-2").raise_for_status().json()["deleted"] is not None
     assert client.get("runs").json()["total"] == 2
     assert client.get("runs", params={"trash": True}).json()["runs"][0]["id"] == "run-2"
-    assert client.post("runs/run-2/restore").raise_for_status().json()["deleted"] is None
+    assert (
+        client.patch("runs/run-2", json={"deleted": False}).raise_for_status().json()["deleted"]
+        is None
+    )
     assert client.get("runs").json()["total"] == 3
 
 

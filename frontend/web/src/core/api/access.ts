@@ -44,8 +44,9 @@ export function readAudit({ person, kind, onlyRefused, page, until }: AuditWish)
   return request("get", `class/audit?${query}`, undefined, LONG_WAIT_MS) as Promise<AuditPage>;
 }
 const personPath = (id: string) => `class/people/${encodeURIComponent(id)}`;
-export const removePerson = (id: string) => request("delete", personPath(id));
-export const restorePerson = (id: string) => request("post", `${personPath(id)}/restore`);
+const setRemoved = (id: string, removed: boolean) => request("patch", personPath(id), { removed });
+export const removePerson = (id: string) => setRemoved(id, true);
+export const restorePerson = (id: string) => setRemoved(id, false);
 export const renewCode = () => request("post", "class/code") as Promise<ClassCode>;
 export const broadcast = () => request("post", "class/broadcast") as Promise<Broadcast>;
 export const endSession = (name: string) =>

@@ -7,7 +7,6 @@ import type {
   Body,
   Configuration,
   EffectsRequest,
-  FaultKind,
   Figure,
   Kinds,
   Lane,
@@ -87,8 +86,14 @@ export const putPosition = (reference: Sent<PositionReference>) =>
 export const putStiffness = (reference: Sent<StiffnessReference>) =>
   call("put", "/stiffness", reference);
 /** Begins the one that is followed again, faded over. */
-export const repeatPosition = () => call("post", "/position/repeat");
-export const repeatStiffness = () => call("post", "/stiffness/repeat");
+export const repeatPosition = async () => {
+  const { configuration } = await readState();
+  return send("put", "/position?restart=true", configuration.position);
+};
+export const repeatStiffness = async () => {
+  const { configuration } = await readState();
+  return send("put", "/stiffness?restart=true", configuration.stiffness);
+};
 /** comparisons: laws of the comparison lanes in order; lanes left out keep their laws. */
 export const putLaw = (law: Law, comparisons: readonly Law[]) =>
   call(
@@ -100,7 +105,7 @@ export const putGains = (gains: GainsRequest) => call("put", "/gains", gains);
 /** By the law's name; what is left out stays. */
 export const putParameters = (parameters: Body<"put", "/parameters">[0]) =>
   call("put", "/parameters", parameters);
-export const readFaults = () => request("get", "faults") as Promise<FaultKind[]>;
+export const readFaults = () => readKinds().then(({ faults }) => faults);
 export const readLaws = () => request("get", "laws") as Promise<LawRow[]>;
 export const putObserver = (link: number, motor1: number, motor2: number) =>
   call("put", "/observer", { bandwidth_rad_per_s: [link, motor1, motor2] });
@@ -138,7 +143,10 @@ export const runFigure = (
   law: Law,
   kept: { comparisons?: Configuration["comparisons"]; effects?: EffectsRequest },
 ) => send("post", "/experiment", { figure, law, load: true, ...kept });
-export const addLoad = (load: Load) => call("post", "/loads", load);
+export const addLoad = async (load: Load) => {
+  await send("post", "/loads", load);
+  return readState();
+};
 export const removeLoad = (id: number) => send("delete", `/loads/${id}`);
 export const removeAllLoads = () => call("delete", "/loads");
 export const takeControl = (by: string, takeOver: boolean) =>

@@ -36,7 +36,11 @@ export const submit = (exercise: string, student: string) =>
   request("post", pathOf(exercise, "/submission"), { student }, LONG_WAIT_MS) as Promise<Judgement>;
 /** Sets this page's session as an experiment asks, at t = 0 and paused. */
 export const setUpStep = (exercise: string, step: string) =>
-  request("post", `${SESSION}/exercise`, { exercise, step }) as Promise<SessionState>;
+  request("post", `${SESSION}/experiment`, {
+    from: "exercise",
+    exercise,
+    step,
+  }) as Promise<SessionState>;
 /** The run is called by its exercise and step. */
 export const recordStep = (name: string) =>
   request("post", `${SESSION}/recording`, {
@@ -59,11 +63,12 @@ export type Grade = NonNullable<Submission["grade"]>;
 export const readGrades = () =>
   request("get", "grades", undefined, LONG_WAIT_MS) as Promise<Grades>;
 export const gradeClass = (again: boolean) => request("post", "grades", { again }) as Promise<Job>;
-export const readOwnGrades = () => request("get", "grades/mine") as Promise<Submission[]>;
+export const readOwnGrades = async () =>
+  (await readGrades()).students.flatMap(({ submissions }) => submissions);
 
-const addressOf = (path: string): string => new URL(`grades/${path}`, API).href;
-export const GRADES_CSV = addressOf("class.csv");
-export const GRADES_PAGE = addressOf("class.html");
-export const OWN_PAGE = addressOf("mine.html");
+const addressOf = (format: string): string => new URL(`grades?format=${format}`, API).href;
+export const GRADES_CSV = addressOf("csv");
+/** Of the class for its instructor; of a student the own grades. */
+export const GRADES_PAGE = addressOf("html");
 export const pageOfStudent = (person: string): string =>
-  `${GRADES_PAGE}?person=${encodeURIComponent(person)}`;
+  `${GRADES_PAGE}&person=${encodeURIComponent(person)}`;

@@ -6,35 +6,37 @@ import type { Load, PositionReference, Sent, SessionState, StiffnessReference } 
 type Schemas = components["schemas"];
 
 export type Prediction = Schemas["Prediction"];
-export type DesignRequest = Partial<Schemas["DesignRequest"]>;
+export type DesignRequest = Omit<Partial<Schemas["AnalysisRequest"]>, "kind">;
 export type DesignResponse = Schemas["ResponseState"];
 export type Stability = Schemas["StabilityState"];
 export type Margins = Schemas["MarginsState"];
-type RegionRequest = Partial<Schemas["RegionRequest"]>;
+type RegionRequest = Omit<Partial<Schemas["RegionRequest"]>, "kind">;
 export type Region = Schemas["RegionState"];
 export type StartOutcome = Schemas["StartOutcomeState"];
 export type Endurance = Schemas["EnduranceState"];
-type PredictRequest = Partial<Schemas["PredictRequest"]>;
+type PredictRequest = Omit<Partial<Schemas["PredictionRequest"]>, "kind">;
 
 const SESSION = `sessions/${encodeURIComponent(sessionName)}`;
 /** A worker that has to begin first takes its time. */
 const LONGEST_WORK_MS = 30_000;
 
+const analyze = (wanted: object) => request("post", `${SESSION}/design`, wanted, LONGEST_WORK_MS);
+
 export const predict = (wanted: PredictRequest) =>
-  request("post", `${SESSION}/predict`, wanted, LONGEST_WORK_MS) as Promise<Prediction>;
+  analyze({ kind: "prediction", ...wanted }) as Promise<Prediction>;
 
 /** On a bench: the motor that heat holds back under this load, and when; null where neither is. */
 export const predictHeat = (load: Load) =>
   request("post", `${SESSION}/bench/endurance`, load, LONGEST_WORK_MS) as Promise<Endurance | null>;
 
 export const askResponse = (wanted: DesignRequest) =>
-  request("post", `${SESSION}/design/response`, wanted, LONGEST_WORK_MS) as Promise<DesignResponse>;
+  analyze({ kind: "response", ...wanted }) as Promise<DesignResponse>;
 export const askStability = (wanted: DesignRequest) =>
-  request("post", `${SESSION}/design/stability`, wanted, LONGEST_WORK_MS) as Promise<Stability>;
+  analyze({ kind: "stability", ...wanted }) as Promise<Stability>;
 export const askMargins = (wanted: DesignRequest) =>
-  request("post", `${SESSION}/design/margins`, wanted, LONGEST_WORK_MS) as Promise<Margins>;
+  analyze({ kind: "margins", ...wanted }) as Promise<Margins>;
 export const askRegion = (wanted: RegionRequest) =>
-  request("post", `${SESSION}/design/region`, wanted, LONGEST_WORK_MS) as Promise<Region>;
+  analyze({ kind: "region", ...wanted }) as Promise<Region>;
 /** A private simulated session with this design, stable or not. */
 export const simulateDesign = (wanted: DesignRequest) =>
   request("post", "sessions", {
@@ -53,4 +55,4 @@ type Series = Schemas["PositionSeries"] | Schemas["StiffnessSeries"];
 export const readSeries = (csv: string) =>
   request("post", "references/csv", csv) as Promise<Series>;
 export const previewReference = (follows: Follows, reference: Reference) =>
-  request("post", `references/${follows}/preview`, reference) as Promise<Preview>;
+  request("post", "references/preview", { follows, reference }) as Promise<Preview>;

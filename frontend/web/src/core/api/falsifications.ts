@@ -47,7 +47,7 @@ export const listScenarios = () => request("get", "scenarios") as Promise<SavedS
 export const keepScenario = (name: string, scenario: Scenario) =>
   request("put", scenarioPath(name), scenario) as Promise<SavedScenario>;
 export const scenarioFileOf = (name: string): string =>
-  new URL(scenarioPath(name, "/file"), API).href;
+  new URL(`${scenarioPath(name)}?format=toml`, API).href;
 /** What came of each law, and its errors over time. */
 export const runLaws = (scenario: Scenario, laws: readonly Law[]) =>
   request("post", "scenarios/runs", { scenario, laws }, LONG_WAIT_MS) as Promise<Trace>;

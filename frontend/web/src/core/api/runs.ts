@@ -46,7 +46,7 @@ export const changeRun = (run: Pick<RunSummary, "id" | "revision">, patch: RunPa
   }) as Promise<RunSummary>;
 export const deleteRun = (run: string) => request("delete", pathOf(run)) as Promise<RunSummary>;
 export const restoreRun = (run: string) =>
-  request("post", pathOf(run, "/restore")) as Promise<RunSummary>;
+  request("patch", pathOf(run), { deleted: false }) as Promise<RunSummary>;
 export const readRunOrigin = (run: string) =>
   request("get", pathOf(run, "/origin"), undefined, LONG_WAIT_MS) as Promise<RunOrigin>;
 export function readDifference(run: string, others: readonly string[]): Promise<RunDifference> {
@@ -83,8 +83,8 @@ export const readOrigin = () =>
     LONG_WAIT_MS,
   ) as Promise<RunOrigin>;
 
-export const exportPath = (run: string, kind: ExportName | "html"): string =>
-  pathOf(run, kind === "html" ? "/replay.html" : `/export?kind=${kind}`);
+export const exportPath = (run: string, kind: ExportName): string =>
+  pathOf(run, `/export?kind=${kind}`);
 /** What an export holds, once the server has made it; what takes minutes has not been made. */
 export async function fetchFile(path: string): Promise<{ name: string; content: Blob }> {
   const answer = await fetch(addressOf(path), { signal: AbortSignal.timeout(LONGEST_MAKING_MS) });

@@ -59,7 +59,8 @@ export const replayRow = (study: string, row: number) =>
     undefined,
     LONG_WAIT_MS,
   ) as Promise<RowReplay>;
-export const tableOf = (study: string): string => new URL(pathOf(study, "/rows.parquet"), API).href;
+export const tableOf = (study: string): string =>
+  new URL(pathOf(study, "/rows?format=parquet"), API).href;
 
 /** Shares with their intervals of 95 %; counts: how many of how many, at most 256 of them. */
 export const estimateShares = (counts: readonly (readonly [number, number])[]) => {

@@ -48,7 +48,7 @@ export type BenchState = NonNullable<SessionState["bench"]>;
 export type BenchStatus = BenchState["status"];
 export type LoopState = BenchState["loop"];
 export type Axis = Schemas["HomingRequest"]["step"];
-export type Figure = Schemas["ExperimentRequest"]["figure"];
+export type Figure = Schemas["FigureExperiment"]["figure"];
 export type Refusal = Schemas["Problem"];
 export type OutcomeState = Schemas["OutcomeState"];
 

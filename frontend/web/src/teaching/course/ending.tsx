@@ -1,6 +1,6 @@
 /** What was done is submitted. */
 import { useEffect, useState } from "preact/hooks";
-import { OWN_PAGE, readOwnGrades, type Submission } from "../../core/api/course";
+import { GRADES_PAGE, readOwnGrades, type Submission } from "../../core/api/course";
 import { explain } from "../../core/state/actions";
 import { isClass } from "../../core/state/control";
 import { personName } from "../../core/state/preferences";
@@ -117,7 +117,7 @@ function OwnGrade({ exercise }: { exercise: string }) {
         <>
           <Criteria grade={grade} />
           <VerifiedRuns grade={grade} />
-          <a href={OWN_PAGE} target="_blank" rel="noopener">
+          <a href={GRADES_PAGE} target="_blank" rel="noopener">
             {gradeWords.ownPage}
           </a>
         </>

@@ -19,6 +19,8 @@ const violation = (change: Partial<Violation>): Violation => ({
 
 const row = { symbol: "", kind: "number", default: 0, low: 0 } as const;
 const LAG: Kinds = {
+  figures: [],
+  faults: [],
   presets: [],
   loads: [],
   position: [],

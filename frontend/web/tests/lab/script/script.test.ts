@@ -13,7 +13,7 @@ describe("the calls of the page", () => {
 
   it("are those that change something, with the time that the answer tells", () => {
     noteCall("get", "sessions/lab", undefined, 200);
-    noteCall("post", "references/position/preview", { kind: "constant" }, 200, { time_s: [0] });
+    noteCall("post", "references/preview", { kind: "constant" }, 200, { time_s: [0] });
     noteCall("post", "sessions/lab/loads", { kind: "paper" }, 201, { time_s: 2.5 });
     noteCall("put", "sessions/lab/speed", { factor: 99 }, 422, { message: "no" });
     noteDownload("runs/a/export?kind=csv");

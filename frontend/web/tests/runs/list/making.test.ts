@@ -30,9 +30,9 @@ describe("a file that the server makes for long", () => {
         answer = resolve;
       });
     });
-    const first = makeFile("a run", "runs/a/replay.html");
+    const first = makeFile("a run", "runs/a/export?kind=html");
     expect(making.value).toMatchObject({ run: "a run", stage: "making" });
-    await makeFile("another", "runs/b/replay.html");
+    await makeFile("another", "runs/b/export?kind=html");
     expect([asked, making.value?.run]).toEqual([1, "a run"]);
     const headers = { "Content-Disposition": 'attachment; filename="fig-4a.html"' };
     answer(new Response("<html>", { headers }));
@@ -44,7 +44,7 @@ describe("a file that the server makes for long", () => {
   it("says why it was not made", async () => {
     const refusal = JSON.stringify({ detail: "Another replay is being made: ask again in 5 s." });
     const { makeFile, making } = await load(async () => new Response(refusal, { status: 503 }));
-    await makeFile("a run", "runs/a/replay.html");
+    await makeFile("a run", "runs/a/export?kind=html");
     expect(saved).toEqual([]);
     expect(making.value).toMatchObject({ stage: "failed" });
     expect(making.value?.message).toContain("ask again in 5 s");

@@ -62,7 +62,7 @@ describe("its addresses", () => {
     expect(readPlace("?grades=all")).toEqual({ kind: "grades" });
     expect(writePlace({ kind: "grades" }, "?leaderboard=fl")).toBe("?grades=all");
     expect(writePlace({ kind: "lab" }, "?grades=all")).toBe("");
-    expect(pageOfStudent("p-1&x")).toBe("http://lab/api/v1/grades/class.html?person=p-1%26x");
+    expect(pageOfStudent("p-1&x")).toBe("http://lab/api/v1/grades?format=html&person=p-1%26x");
   });
 });
 

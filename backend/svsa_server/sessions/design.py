@@ -1,12 +1,11 @@
-"""Theorem 1 for gains that are tried: nothing here changes the session that is asked about."""
+"""Responses, stability, margins and starts of a design, as `POST …/design` answers them."""
 
 import asyncio
 import math
 from collections.abc import Sequence
-from typing import Annotated, Literal
+from typing import Literal
 
 import numpy as np
-from fastapi import Body
 
 from svsa.analysis.design.attraction import (
     Cell,
@@ -28,12 +27,9 @@ from svsa.analysis.design.sampled_loop import (
 from svsa.analysis.design.stability import Stability, assess
 from svsa.control.installed import get_law
 from svsa.runs.configuration import Configuration
-from svsa_server.access.permissions import OBSERVER, allow
-from svsa_server.routes.depends import BUSY, REFUSALS, NamedSession, Work
-from svsa_server.routing import build_router
+from svsa_server.jobs.heavy_work import HeavyWork
 from svsa_server.schemas.lab.gain import Root
 from svsa_server.schemas.lab.stability import (
-    DesignRequest,
     FrequencyResponseState,
     LoadResponseState,
     MarginsState,
@@ -44,20 +40,12 @@ from svsa_server.schemas.lab.stability import (
     StableRangeState,
     StartOutcomeState,
 )
-from svsa_server.sessions.tried_design import build_tried
 
 LOAD_POINTS = 250
 
-router = build_router("/sessions/{session}/design", tags=["settings"], responses=REFUSALS | BUSY)
-_POLES = {"gains": {"position_poles_rad_per_s": [-60, -60, -60, -60]}}
-Tried = Annotated[DesignRequest, Body(examples=[_POLES])]
 
-
-@router.post("/response")
-@allow(OBSERVER)
-async def compute_load_response(hosted: NamedSession, request: Tried) -> ResponseState:
-    """What this design does when the 3 kg come, and to a sine on the link; nothing is changed."""
-    configuration, sigma = build_tried(hosted.session, request)
+async def compute_load_response(configuration: Configuration, sigma: float) -> ResponseState:
+    """Compute the error after the 3 kg, and for a sine on the link."""
     load = await asyncio.to_thread(simulate_load, configuration, sigma)
     found = await asyncio.to_thread(compute_disturbance_response, configuration, sigma)
     encoders = _name_encoders(configuration)
@@ -74,27 +62,18 @@ async def compute_load_response(hosted: NamedSession, request: Tried) -> Respons
     )
 
 
-@router.post("/stability")
-@allow(OBSERVER)
-async def show_stability(hosted: NamedSession, work: Work, request: Tried) -> StabilityState:
-    """The linear loop of this design about rest, where Theorem 1 holds; nothing is changed.
-
-    The closed loop's poles with the true plant, for how wrong a model it stays stable, the error
-    that a disturbance of bounded rate causes, and how fast the observer may be.
-    """
-    configuration, sigma = build_tried(hosted.session, request)
+async def compute_stability(
+    work: HeavyWork, configuration: Configuration, sigma: float
+) -> StabilityState:
+    """Assess the linear loop about rest, where Theorem 1 holds."""
     found, radius = await work.run(_assess, configuration, sigma)
     return _build_stability(configuration, sigma, found, radius)
 
 
-@router.post("/margins")
-@allow(OBSERVER)
-async def show_margins(hosted: NamedSession, work: Work, request: Tried) -> MarginsState:
-    """Modulus, delay, gain and joint parameter margins of this design; nothing is changed.
-
-    Of any law: the tick of the sampled loop about rest is linearized numerically.
-    """
-    configuration, sigma = build_tried(hosted.session, request)
+async def measure_margins(
+    work: HeavyWork, configuration: Configuration, sigma: float
+) -> MarginsState:
+    """Compute the margins of any law: the sampled loop's tick about rest, linearized."""
     sensing = configuration.changed(effects=choose_sensing(configuration.effects))
     margins = await work.run(compute_margins, sensing, sigma)
     return MarginsState(
@@ -105,19 +84,10 @@ async def show_margins(hosted: NamedSession, work: Work, request: Tried) -> Marg
     )
 
 
-@router.post("/region")
-@allow(OBSERVER)
 async def map_attraction(
-    hosted: NamedSession,
-    work: Work,
-    request: Annotated[RegionRequest, Body(examples=[{"starts": 31, "first": 0, "count": 100}])],
+    work: HeavyWork, configuration: Configuration, sigma: float, request: RegionRequest
 ) -> RegionState:
-    """From which sampled starts this design comes to rest, a part of the map at once.
-
-    The map is a slice of the state space, and a sample of it: no proof for any other start. The
-    starts come from coarse to fine, so that the first parts show the shape.
-    """
-    configuration, sigma = build_tried(hosted.session, request)
+    """Simulate a part of the map of starts."""
     sensing = configuration.changed(effects=choose_sensing(configuration.effects))
     starts, end = build_map(request.starts, request.chosen), request.first + request.count
     cells = order_cells(request.starts)[request.first : end]
