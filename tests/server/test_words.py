@@ -38,7 +38,7 @@ def test_the_ends_of_a_range_are_low_and_high_and_have_no_second_name() -> None:
 
 def test_a_figure_has_its_load_whatever_starts_it() -> None:
     schemas = SCHEMA["components"]["schemas"]
-    session, experiment = schemas["FromFigure"], schemas["ExperimentRequest"]
+    session, experiment = schemas["FromFigure"], schemas["FigureExperiment"]
     for name in ("law", "load", "comparisons", "effects"):
         default = experiment["properties"][name]["default"]
         assert session["properties"][name]["default"] == default, name

@@ -9,6 +9,7 @@ from tests.server.routes.writing import list_examples
 ANY_ITEM = "[]"
 ANY_KEY = "{}"
 Path = tuple[str, ...]
+Variant = tuple[tuple[str, str], ...]
 
 
 class Place(NamedTuple):
@@ -16,6 +17,7 @@ class Place(NamedTuple):
 
     place: path, query, header or body. keys: names on the way to it, `[]` for an item of a list
     and `{}` for the key of a mapping. owned: the kind of thing that it names, if it is marked.
+    variant: the constants of the kind of body that has it, as `from`: `run`.
     """
 
     method: str
@@ -23,6 +25,7 @@ class Place(NamedTuple):
     place: str
     keys: Path
     owned: str | None
+    variant: Variant = ()
 
     @property
     def operation(self) -> str:
@@ -55,11 +58,24 @@ def list_places(schema: dict[str, Any]) -> Iterator[Place]:
 def _walk(
     schema: dict[str, Any], part: Any, method: str, route: str, place: str, keys: Path
 ) -> Iterator[Place]:
-    found: dict[Path, str | None] = {}
-    for one, owned in _list_texts(schema, part, keys, frozenset(), place == "path"):
-        found[one] = owned if one not in found else found[one] and owned
-    for one, owned in found.items():
-        yield Place(method, route, place, one, owned)
+    for variant, kind in _list_variants(schema, part):
+        found: dict[Path, str | None] = {}
+        for one, owned in _list_texts(schema, kind, keys, frozenset(), place == "path"):
+            found[one] = owned if one not in found else found[one] and owned
+        for one, owned in found.items():
+            yield Place(method, route, place, one, owned, variant)
+
+
+def _list_variants(schema: dict[str, Any], part: Any) -> Iterator[tuple[Variant, Any]]:
+    """Each kind of a body of several kinds, with the constants that it is known by."""
+    while "$ref" in part:
+        part = schema["components"]["schemas"][part["$ref"].rpartition("/")[2]]
+    if "discriminator" in part:
+        for one in part["oneOf"]:
+            yield from _list_variants(schema, one)
+    else:
+        fields = part.get("properties", {})
+        yield tuple((n, one["const"]) for n, one in fields.items() if "const" in one), part
 
 
 def _list_texts(
@@ -114,10 +130,21 @@ def build_request(schema: dict[str, Any], place: Place, value: str, known: dict[
             path = path.replace(f"{{{one['name']}}}", str(given))
         elif one["in"] == "query" and (is_meant or one.get("required")):
             query[one["name"]] = given
-    body = copy.deepcopy(list_examples(operation)[0]) if "requestBody" in operation else None
+    body = _choose_example(operation, place.variant) if "requestBody" in operation else None
     if place.place == "body":
         body = _set(body, place.keys, value)
     return Asked(place.method, path, query, body)
+
+
+def _choose_example(operation: dict[str, Any], variant: Variant) -> Any:
+    """The first example of this kind of body."""
+    examples = list_examples(operation)
+    fitting = [
+        one
+        for one in examples
+        if isinstance(one, dict) and all(one.get(k) == v for k, v in variant)
+    ]
+    return copy.deepcopy((fitting or examples)[0])
 
 
 def _find_example(parameter: dict[str, Any]) -> Any:

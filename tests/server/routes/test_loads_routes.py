@@ -32,7 +32,7 @@ def test_a_push_that_is_sent_again_stays_one_load(lab: Lab) -> None:
 
 def test_no_load_is_added_during_a_fault(lab: Lab) -> None:
     lab.load_figure(load=False)
-    strong = {"kind": "constant", "torque_nm": [500.0, 0.0, 0.0]}
+    strong = {"kind": "constant", "torque_nm": [20.0, 0.0, 0.0]}
     lab.client.post(f"{lab.session}/loads", json=strong).raise_for_status()
     lab.client.post(f"{lab.session}/pause").raise_for_status()
     while lab.read()["status"] != "fault":

@@ -69,8 +69,11 @@ def test_one_is_kept_read_and_forgotten_and_no_other_takes_its_name(lab):
         assert call(f"{SCENARIOS}/impulse").status_code == 404
 
 
+OPENING = {"from": "scenario", "scenario": BLOW, "laws": LAWS}
+
+
 def test_it_is_seen_in_a_session_with_laws_beside_each_other(lab):
-    seen = lab.post(f"{SCENARIOS}/sessions", json={"scenario": BLOW, "laws": LAWS})
+    seen = lab.post("/api/v1/sessions", json=OPENING)
     assert seen.status_code == 201
     state = seen.json()
     assert [lane["law"] for lane in state["lanes"]] == LAWS
@@ -81,14 +84,22 @@ def test_it_is_seen_in_a_session_with_laws_beside_each_other(lab):
 @pytest.mark.parametrize(
     ("path", "wrong", "reported"),
     [
-        ("runs", {"laws": ["nobody"]}, "laws[0] is 'nobody'"),
-        ("runs", {"laws": []}, "laws"),
-        ("runs", {"scenario": BLOW | {"duration_s": 61.0}}, "scenario.duration_s is 61"),
-        ("runs", {"scenario": BLOW | {"settings": {"nothing": 1.0}}}, "nothing"),
-        ("sessions", {"scenario": BLOW | {"base": {"figure": "9"}}}, "base.figure is '9'"),
+        (f"{SCENARIOS}/runs", {"laws": ["nobody"]}, "laws[0] is 'nobody'"),
+        (f"{SCENARIOS}/runs", {"laws": []}, "laws"),
+        (
+            f"{SCENARIOS}/runs",
+            {"scenario": BLOW | {"duration_s": 61.0}},
+            "scenario.duration_s is 61",
+        ),
+        (f"{SCENARIOS}/runs", {"scenario": BLOW | {"settings": {"nothing": 1.0}}}, "nothing"),
+        (
+            "/api/v1/sessions",
+            {"from": "scenario", "scenario": BLOW | {"base": {"figure": "9"}}},
+            "base.figure is '9'",
+        ),
     ],
 )
 def test_a_wrong_one_is_refused_with_name_and_bound(lab, path, wrong, reported):
-    refused = lab.post(f"{SCENARIOS}/{path}", json={"scenario": BLOW, "laws": LAWS} | wrong)
+    refused = lab.post(path, json={"scenario": BLOW, "laws": LAWS} | wrong)
     assert refused.status_code == 422
     assert reported in refused.json()["detail"]

@@ -26,6 +26,7 @@ NEEDS_NONE = {
     f"DELETE {SESSION}/recording": ENDS,
     f"DELETE {SESSION}/loads": ENDS,
     f"DELETE {SESSION}/loads/{{load_id}}": "a load's number is never given to another",
+    "PATCH /api/v1/class/people/{person}": "the instructor's alone",
     "DELETE /api/v1/jobs/{job}": ENDS,
     "DELETE /api/v1/runs/{run_id}": "it is in the trash, from which it is taken back",
     "DELETE /api/v1/scenarios/{scenario}": "the instructor's alone",
