@@ -154,9 +154,16 @@ async def load_experiment(
     if isinstance(wanted, ExerciseExperiment):
         await set_up_step(request, hosted, person, wanted.exercise, wanted.step)
         return build_state(hosted)
-    session = hosted.session
-    await take_turn(session.load, wanted.build_configuration(request.app.state.design))
-    await take_turn(session.start if wanted.start else session.pause)
+    configuration, session = wanted.build_configuration(request.app.state.design), hosted.session
+
+    def begin() -> None:
+        session.load(configuration)
+        if wanted.start:
+            session.start()
+        else:
+            session.pause()
+
+    await take_turn(begin)
     return build_state(hosted)
 
 
