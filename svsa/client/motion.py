@@ -45,7 +45,7 @@ class RunningConnection(ControlledConnection):
 
     def set_speed(self, factor: float | Literal["max"]) -> None:
         """Session seconds a wall second, or as fast as it goes."""
-        self.call("PUT", "/speed", {"factor": factor})
+        self.call("PUT", "/speed", {"speed": factor})
 
     def run_until(self, time_s: float) -> None:
         """Run to this session time: a paused simulation as fast as it goes, a bench in real time.

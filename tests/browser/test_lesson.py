@@ -121,7 +121,7 @@ def is_as_wide_as_the_view(page: Page) -> bool:
 @pytest.mark.parametrize("name", exhaust([*RIGHT], ["mechanism"]))
 def test_an_exercise_is_done_and_submitted_by_keyboard(page: Page, lab: Lab, name: str) -> None:
     exercise = find_exercise(name)
-    lab.client.put(lab.session + "/speed", json={"factor": "max"}).raise_for_status()
+    lab.client.put(lab.session + "/speed", json={"speed": "max"}).raise_for_status()
     begin = {"step": exercise.steps[0].name}
     lab.client.put(f"/api/v1/course/{name}/place", json=begin).raise_for_status()
     page.goto(lab.url + "/learn")

@@ -131,7 +131,7 @@ def test_who_joins_has_a_cookie_of_that_path_for_tls_alone(proxied: Proxied) -> 
             assert word in cookie
         assert browser.get("/api/v1/access").json()["name"] == "Ada"
         browser.put("/api/v1/sessions/lab/control", json={"by": "Ada"}).raise_for_status()
-        answer = browser.put("/api/v1/sessions/lab/speed", json={"factor": 0.5})
+        answer = browser.put("/api/v1/sessions/lab/speed", json={"speed": 0.5})
         assert answer.raise_for_status().json()["speed"] == 0.5
         other = {"Origin": "https://elsewhere.example"}
         assert browser.post("/api/v1/sessions", json={}, headers=other).status_code == 403

@@ -29,7 +29,7 @@ def blocked(lab: Lab, factor: float = BLOCKING) -> Iterator[list[httpx.Response]
 
     def ask() -> None:
         with httpx.Client(base_url=lab.url, timeout=PATIENCE_S, trust_env=False) as client:
-            answers.append(client.put(lab.session + "/speed", json={"factor": factor}))
+            answers.append(client.put(lab.session + "/speed", json={"speed": factor}))
 
     thread = threading.Thread(target=ask)
     thread.start()

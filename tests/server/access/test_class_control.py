@@ -9,7 +9,7 @@ import pytest
 from tests.server.access.classroom import SHARED, Classroom, read_kind, read_person, run_class
 
 CONTROL = SHARED + "/control"
-SPEED = {"factor": 0.5}
+SPEED = {"speed": 0.5}
 
 
 @pytest.fixture(scope="module")

@@ -117,7 +117,7 @@ def test_it_is_taken_over_only_when_that_is_said_and_given_back_by_its_holder() 
             taken = await client.put(CONTROL, json=request, headers=BOB)
             assert taken.json()["control"]["holder"] == "Bob"
             assert (await client.delete(CONTROL, headers=ADA)).status_code == 409
-            speed = {"factor": 2.0}
+            speed = {"speed": 2.0}
             assert (
                 await client.put(SESSION + "/speed", json=speed, headers=ADA)
             ).status_code == 409

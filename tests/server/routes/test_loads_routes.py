@@ -1,4 +1,4 @@
-"""The loads of a session over REST: added, listed, read, removed; none during a fault."""
+"""The loads of a session over REST: added, listed, read, removed; none during a fault, nor a recording."""
 
 from tests.lab import Lab
 
@@ -30,7 +30,7 @@ def test_a_push_that_is_sent_again_stays_one_load(lab: Lab) -> None:
     assert len(lab.client.get(f"{lab.session}/loads").json()) == 1
 
 
-def test_no_load_is_added_during_a_fault(lab: Lab) -> None:
+def test_no_load_and_no_recording_is_started_during_a_fault(lab: Lab) -> None:
     lab.load_figure(load=False)
     strong = {"kind": "constant", "torque_nm": [20.0, 0.0, 0.0]}
     lab.client.post(f"{lab.session}/loads", json=strong).raise_for_status()
@@ -42,6 +42,10 @@ def test_no_load_is_added_during_a_fault(lab: Lab) -> None:
     assert refused.status_code == 409
     assert "is in a fault and takes no load: reset it" in refused.json()["detail"]
     assert lab.client.get(f"{lab.session}/loads").json() == before
+    recording = lab.client.post(f"{lab.session}/recording", json={})
+    assert recording.status_code == 409
+    assert "has no samples to record" in recording.json()["detail"]
+    assert lab.read()["recording"] is None
 
 
 def test_the_settings_of_a_session_are_read(lab: Lab) -> None:

@@ -113,7 +113,7 @@ def test_a_full_disk_is_told_in_the_state_while_control_goes_on(tmp_path: Path) 
         mount_small_disk(tmp_path / "disk", "600k") as disk,
         run_lab_in_process(data=str(disk)) as lab,
     ):
-        lab.client.put(lab.session + "/speed", json={"factor": 20}).raise_for_status()
+        lab.client.put(lab.session + "/speed", json={"speed": 20}).raise_for_status()
         lab.client.post(lab.session + "/recording", json={}).raise_for_status()
         for _ in range(300):
             state = lab.read()

@@ -21,7 +21,7 @@ def test_the_lab_starts_running_on_figure_4a(lab: Lab) -> None:
 
 
 def test_session_time_follows_wall_time_and_speed(lab: Lab) -> None:
-    lab.client.put(lab.session + "/speed", json={"factor": 4})
+    lab.client.put(lab.session + "/speed", json={"speed": 4})
     begin, wall = lab.read()["time_s"], time.monotonic()
     end = begin
     while end < begin + 1.0:  # on a busy machine later; it never ends where it stands still

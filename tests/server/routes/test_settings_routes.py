@@ -131,7 +131,7 @@ REFUSED = [
         "rad",
         "at least 0 rad",
     ),
-    ("PUT", "speed", {"factor": 1e9}, "factor", "1", "at most 20"),
+    ("PUT", "speed", {"speed": 1e9}, "speed", "1", "at most 20"),
     (
         "PUT",
         "gains",

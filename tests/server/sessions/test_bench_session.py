@@ -78,7 +78,7 @@ def test_a_run_takes_commands_at_a_tick_and_carries_its_twin(bench: BenchLab) ->
         assert sample["disturbance_link_nm"] is None
         assert sample["estimate_link_nm"] == pytest.approx(1.0, abs=0.4)
         assert 0.0 < abs(sample["position_residual_rad"]) < 0.1
-        for refused in (("/step", {"ticks": 1}, "POST"), ("/speed", {"factor": 2.0}, "PUT")):
+        for refused in (("/step", {"ticks": 1}, "POST"), ("/speed", {"speed": 2.0}, "PUT")):
             assert "real time" in bench.refuse(*refused)
         assert "stop it" in bench.refuse("/reset")
         bench.ask("/loads", method="DELETE")

@@ -29,7 +29,7 @@ def test_svsa_excite_records_what_svsa_identify_takes(tmp_path) -> None:
     with run_lab(data=str(tmp_path)) as lab:
         lab.load_figure("4b")
         lab.client.put(lab.session + "/effects", json=BENCH_LIKE).raise_for_status()
-        lab.client.put(lab.session + "/speed", json={"factor": 8}).raise_for_status()
+        lab.client.put(lab.session + "/speed", json={"speed": 8}).raise_for_status()
         printed = run_command("excite", "--url", lab.url)
         run_id = printed.split()[1].rstrip(":")
         assert f"svsa identify {run_id}" in printed

@@ -84,7 +84,7 @@ def test_ending_a_session_ends_its_streams(lab: Lab) -> None:
 def test_as_fast_as_it_goes_is_faster_than_the_clock(lab: Lab) -> None:
     name = create(lab)["session"]
     path = f"{SESSIONS}/{name}"
-    assert lab.client.put(path + "/speed", json={"factor": "max"}).json()["speed"] == "max"
+    assert lab.client.put(path + "/speed", json={"speed": "max"}).json()["speed"] == "max"
     begin = time.monotonic()
     time.sleep(0.5)
     state = lab.client.get(path).json()

@@ -4,6 +4,7 @@ from typing import Annotated
 
 from fastapi import Body, Request
 
+from svsa.errors import StateError
 from svsa_server.access.permissions import OPERATOR, allow
 from svsa_server.routes.depends import REFUSALS, NamedPerson, NamedSession
 from svsa_server.routing import build_router
@@ -22,7 +23,12 @@ async def start_recording(
     person: NamedPerson,
     wanted: Annotated[RecordingRequest, Body(examples=[{"name": "3 kg at 15 N·m/rad"}])],
 ) -> SessionState:
-    """Record every sample and command from now on, at full rate."""
+    """Start a recording of every sample and command, at full rate; rejected during a fault."""
+    if hosted.session.status == "fault":
+        raise StateError(
+            f"Session {hosted.session.name} is in a fault and has no samples to record: reset it, or"
+            " clear the fault of a bench, and start the recording then."
+        )
     await request.app.state.quota.check(person.id)
     await request.app.state.recordings.start(
         hosted.session, wanted.name, wanted.tags, wanted.notes, owner=person.id

@@ -127,10 +127,10 @@ def step(
 @router.put("/{session}/speed")
 @allow(OPERATOR)
 def set_speed(
-    hosted: NamedSession, request: Annotated[SpeedRequest, Body(examples=[{"factor": 0.5}])]
+    hosted: NamedSession, request: Annotated[SpeedRequest, Body(examples=[{"speed": 0.5}])]
 ) -> SessionState:
-    """Slow motion or fast forward."""
-    hosted.session.set_speed(float("inf") if request.factor == "max" else request.factor)
+    """Set the speed of session time: slow motion or fast forward."""
+    hosted.session.set_speed(float("inf") if request.speed == "max" else request.speed)
     return build_state(hosted)
 
 

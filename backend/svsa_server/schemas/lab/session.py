@@ -29,7 +29,7 @@ class StepRequest(Checked):
 class SpeedRequest(Checked):
     """How fast session time goes."""
 
-    factor: Annotated[Number, Field(ge=0.05, le=20)] | Literal["max"] = quantity(
+    speed: Annotated[Number, Field(ge=0.05, le=20)] | Literal["max"] = quantity(
         "1", "Session seconds a wall second, 0.05 to 20, or max for as fast as it goes"
     )
 

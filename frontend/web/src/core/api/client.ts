@@ -124,7 +124,7 @@ export const stopExcitation = () => call("delete", "/excitation");
 /** The run is named after its settings until a user renames it. */
 export const startRecording = () => call("post", "/recording", { name: "", tags: [], notes: "" });
 export const stopRecording = () => call("delete", "/recording");
-export const putSpeed = (factor: Speed) => call("put", "/speed", { factor });
+export const putSpeed = (speed: Speed) => call("put", "/speed", { speed });
 export const start = () => call("post", "/start");
 export const pause = () => call("post", "/pause");
 export const stopAtOnce = () =>

@@ -15,7 +15,7 @@ describe("the calls of the page", () => {
     noteCall("get", "sessions/lab", undefined, 200);
     noteCall("post", "references/preview", { kind: "constant" }, 200, { time_s: [0] });
     noteCall("post", "sessions/lab/loads", { kind: "paper" }, 201, { time_s: 2.5 });
-    noteCall("put", "sessions/lab/speed", { factor: 99 }, 422, { message: "no" });
+    noteCall("put", "sessions/lab/speed", { speed: 99 }, 422, { message: "no" });
     noteDownload("runs/a/export?kind=csv");
     expect(calls.value.map(({ path, status, timeS }) => [path, status, timeS])).toEqual([
       ["sessions/lab/loads", 201, 2.5],
