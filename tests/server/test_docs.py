@@ -77,6 +77,7 @@ def test_the_secret_is_asked_for_where_one_is_set_but_for_stop_and_login() -> No
     }
     assert asked == {
         "/api/v1/health",
+        "/api/v1/ready",
         "/api/v1/access",
         "/api/v1/login",
         "/api/v1/join",

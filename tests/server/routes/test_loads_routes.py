@@ -1,4 +1,4 @@
-"""The loads of a session over REST: added, listed, read, removed; none during a fault, nor a recording."""
+"""The loads of a session: added, listed, read, removed; no load or recording during a fault."""
 
 from tests.lab import Lab
 

@@ -26,8 +26,8 @@ async def start_recording(
     """Start a recording of every sample and command, at full rate; rejected during a fault."""
     if hosted.session.status == "fault":
         raise StateError(
-            f"Session {hosted.session.name} is in a fault and has no samples to record: reset it, or"
-            " clear the fault of a bench, and start the recording then."
+            f"Session {hosted.session.name} is in a fault and has no samples to record: reset it,"
+            " or clear the fault of a bench, and start the recording then."
         )
     await request.app.state.quota.check(person.id)
     await request.app.state.recordings.start(
