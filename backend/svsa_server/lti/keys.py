@@ -9,12 +9,8 @@ import httpx
 from joserfc.errors import JoseError
 from joserfc.jwk import KeySet, RSAKey
 
-from svsa.errors import ParameterError, SvsaError, Violation
-
-
-class LaunchError(SvsaError):
-    """Why a login or a launch was refused, for who launched and for the audit log."""
-
+from svsa.errors import ParameterError, Violation
+from svsa_server.lti.launch_error import LaunchError
 
 _USE: Any = {"use": "sig", "alg": "RS256"}
 _KEPT_S = 3600.0

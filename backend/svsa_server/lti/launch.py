@@ -6,7 +6,7 @@ from joserfc import jwt
 from joserfc.errors import JoseError
 from joserfc.jwk import KeySet
 
-from svsa_server.lti.keys import LaunchError
+from svsa_server.lti.launch_error import LaunchError
 from svsa_server.lti.platforms import Platform, check_address
 
 _CLAIM = "https://purl.imsglobal.org/spec/lti/claim/"

@@ -17,8 +17,9 @@ from joserfc.jws import extract_compact
 from svsa_server.access.authentication import REMOVED, ClassAuthentication
 from svsa_server.access.memberships import Membership
 from svsa_server.access.roles import Person, Role
-from svsa_server.lti.keys import LaunchError, PlatformKeys, open_key
+from svsa_server.lti.keys import PlatformKeys, open_key
 from svsa_server.lti.launch import Launch, read_launch
+from svsa_server.lti.launch_error import LaunchError
 from svsa_server.lti.links import Link, Links
 from svsa_server.lti.platforms import Logins, LtiSettings, Platform, read_lti_file
 

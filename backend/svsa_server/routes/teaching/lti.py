@@ -18,7 +18,7 @@ from fastapi.responses import (
 )
 
 from svsa_server.access.permissions import ANYBODY, allow
-from svsa_server.lti.keys import LaunchError
+from svsa_server.lti.launch_error import LaunchError
 from svsa_server.problems import UnknownError
 from svsa_server.routes.access.access import set_cookie
 from svsa_server.routes.access.classroom import find_class
