@@ -5,16 +5,26 @@ from typing import NamedTuple
 
 import numpy as np
 
-from svsa.actuators.dynamics import Actuator, compute_deflection
+from svsa.actuators.dynamics import build_actuator, compute_deflection
+from svsa.actuators.elasticity import (
+    Actuator,
+    AnyActuator,
+    ElasticActuator,
+    choose_kind,
+    compute_coordinate,
+    compute_coordinate_for_stiffness,
+    compute_determinant_of_energy,
+    compute_stiffness_of,
+)
 from svsa.actuators.faults import find_number
 from svsa.actuators.lever import (
-    compute_lever_ratio,
     compute_lever_ratio_for_stiffness,
     compute_zero_stiffness_deflection,
 )
-from svsa.actuators.parameters import ActuatorParameters, Limits
+from svsa.actuators.parameters import ActuatorParameters, Limits, MechanismParameters
 from svsa.actuators.signals import State
 from svsa.actuators.spring import compute_spring
+from svsa.errors import ParameterError, Violation
 from svsa.numerics.compilation import compiled
 from svsa.numerics.simd.choice import choose, least
 
@@ -25,10 +35,12 @@ DEFLECTION_LIMIT = find_number("deflection_limit")
 SINGULAR_DECOUPLING = find_number("singular_decoupling")
 
 SMALLEST_LEVER_RATIO = 0.005
+_TESTED = 65
+"""At how many values of s and of φ the deflection limit of an energy is searched."""
 
 
 class Domain(NamedTuple):
-    """The bounds of the domain. mu_min, mu_max: 1. deflection_max: rad; fractions: 1."""
+    """The bounds of the domain. mu_min, mu_max: of s. deflection_max: rad; fractions: 1."""
 
     mu_min: float
     mu_max: float
@@ -41,14 +53,18 @@ class Bounds(NamedTuple):
     """What `check_domain` needs of an actuator, to be packed (see `packed`)."""
 
     domain: Domain
-    actuator: Actuator
+    actuator: AnyActuator
 
 
-def build_domain(actuator: ActuatorParameters, limits: Limits) -> Domain:
-    """The domain of a plant: μ between its values at the ends of the stiffness range.
+def build_domain(actuator: MechanismParameters, limits: Limits) -> Domain:
+    """The domain of a plant: s between its values at the ends of the stiffness range.
 
-    Never at μ = 0, where A(x) is zero, nor at μ = 1, where the energy is infinite.
+    Of the SVSA never at μ = 0, where A(x) is zero, nor at μ = 1, where the energy is infinite. Of
+    an elastic energy never beyond the ends of s, nor beyond a share of the deflection at which the
+    stiffness is zero at any of these s.
     """
+    if not isinstance(actuator, ActuatorParameters):
+        return _build_domain_of_energy(build_actuator(actuator, 0.0), limits)
     K = actuator.rotational_stiffness_nm_per_rad
     mu_min = compute_lever_ratio_for_stiffness(limits.stiffness_min_nm_per_rad, K)
     mu_max = compute_lever_ratio_for_stiffness(limits.stiffness_max_nm_per_rad, K)
@@ -61,12 +77,65 @@ def build_domain(actuator: ActuatorParameters, limits: Limits) -> Domain:
     )
 
 
+def _build_domain_of_energy(actuator: ElasticActuator, limits: Limits) -> Domain:
+    ends = limits.stiffness_min_nm_per_rad, limits.stiffness_max_nm_per_rad
+    reached = sorted(_find_coordinate(actuator, sigma) for sigma in ends)
+    margin = limits.lever_ratio_margin * (reached[1] - reached[0])
+    low = max(reached[0] - margin, actuator.lowest)
+    high = min(reached[1] + margin, actuator.highest)
+    zero = _find_zero_stiffness_deflection(actuator, low, high, limits.deflection_max_rad)
+    return Domain(
+        mu_min=low,
+        mu_max=high,
+        deflection_max=min(limits.deflection_fraction * zero, limits.deflection_max_rad),
+        deflection_fraction=limits.deflection_fraction,
+        singularity_fraction=limits.singularity_fraction,
+    )
+
+
+def _find_coordinate(actuator: ElasticActuator, sigma: float) -> float:
+    """The s of an end of the stiffness range; raises `ParameterError` if the energy has none."""
+    s = compute_coordinate_for_stiffness(actuator, sigma)
+    found = compute_stiffness_of(actuator, s, 0.0)
+    if not math.isclose(found, sigma, rel_tol=1e-9):
+        bound = f"a stiffness that the energy gives; the nearest is {found:.4g} N·m/rad"
+        raise ParameterError(Violation("limits", sigma, "N·m/rad", bound))
+    return s
+
+
+def _find_zero_stiffness_deflection(
+    actuator: ElasticActuator, low: float, high: float, most: float
+) -> float:
+    """The least |φ| up to `most` at which σ is not positive at an s of the range; else infinite."""
+    for phi in np.linspace(0.0, most, _TESTED):
+        for s in np.linspace(low, high, _TESTED):
+            if any(not compute_stiffness_of(actuator, s, way * phi) > 0.0 for way in (1.0, -1.0)):
+                return float(phi)
+    return math.inf
+
+
 @compiled
-def compute_deflection_limit(domain: Domain, mu: float) -> float:
-    """The |φ| at which a run ends, rad: a share of the zero-stiffness angle of this μ."""
+def _limit_of_svsa(actuator: Actuator, domain: Domain, mu: float) -> float:
     return least(
         domain.deflection_max, domain.deflection_fraction * compute_zero_stiffness_deflection(mu)
     )
+
+
+@compiled
+def _limit_of_energy(actuator: ElasticActuator, domain: Domain, s: float) -> float:
+    return domain.deflection_max
+
+
+_limit = choose_kind(_limit_of_svsa, _limit_of_energy)
+
+
+@compiled
+def compute_deflection_limit(domain: Domain, actuator: AnyActuator, s: float) -> float:
+    """The |φ| at which a run ends, rad: of the SVSA a share of the zero-stiffness angle of this μ.
+
+    Of an elastic energy `build_domain` has found it for all s.
+    """
+    return _limit(actuator, domain, s)
 
 
 @compiled
@@ -83,17 +152,31 @@ def compute_relative_determinant(mu: float, phi: float) -> float:
 
 
 @compiled
-def check_domain(domain: Domain, actuator: Actuator, x: State) -> int:
+def _determinant_of_svsa(actuator: Actuator, mu: float, phi: float) -> float:
+    return compute_relative_determinant(mu, phi)
+
+
+_determinant = choose_kind(_determinant_of_svsa, compute_determinant_of_energy)
+
+
+@compiled
+def compute_relative_determinant_of(actuator: AnyActuator, s: float, phi: float) -> float:
+    """det A(x) over its value at φ = 0, at s and φ (rad)."""
+    return _determinant(actuator, s, phi)
+
+
+@compiled
+def check_domain(domain: Domain, actuator: AnyActuator, x: State) -> int:
     """`INSIDE`, or the code of the first bound that the state x breaks.
 
     domain: `Domain`. actuator: `Actuator`. x: `State`.
     """
     total = x.q + x.dq + x.theta1 + x.dtheta1 + x.theta2 + x.dtheta2
-    mu = compute_lever_ratio(x.theta2, actuator.mu0, actuator.gamma)
+    mu = compute_coordinate(actuator, x.theta2)
     phi = compute_deflection(x)
-    determinant = compute_relative_determinant(mu, phi)
+    determinant = compute_relative_determinant_of(actuator, mu, phi)
     code = choose(determinant >= domain.singularity_fraction, INSIDE, SINGULAR_DECOUPLING)
-    code = choose(abs(phi) > compute_deflection_limit(domain, mu), DEFLECTION_LIMIT, code)
+    code = choose(abs(phi) > compute_deflection_limit(domain, actuator, mu), DEFLECTION_LIMIT, code)
     code = choose((domain.mu_min <= mu) & (mu <= domain.mu_max), code, LEVER_END)
     return choose(abs(total) < math.inf, code, NOT_FINITE)
 

@@ -5,56 +5,65 @@ J = (M, B1, B2) and the internal torques F. The true plant and the nominal model
 same functions with other constants.
 """
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
-from svsa.actuators.lever import compute_lever_ratio
-from svsa.actuators.parameters import ActuatorParameters
-from svsa.actuators.signals import Disturbance, State, Torque
-from svsa.actuators.spring import (
-    REACTION_ENERGY,
-    REACTION_PRINTED,
-    compute_elastic_torque,
-    compute_printed_reaction_torque,
-    compute_reaction_torque,
+from svsa.actuators.elasticity import (
+    Actuator,
+    AnyActuator,
+    ElasticActuator,
+    compute_coordinate,
+    compute_torques,
 )
+from svsa.actuators.energy import compile_energy
+from svsa.actuators.installed import get_mechanism
+from svsa.actuators.mechanism import MAX_ELASTIC
+from svsa.actuators.parameters import ActuatorParameters, MechanismParameters, get_mechanism_name
+from svsa.actuators.signals import Disturbance, State, Torque
+from svsa.actuators.spring import REACTION_ENERGY, REACTION_PRINTED
 from svsa.numerics.compilation import compiled
 from svsa.numerics.simd.choice import choose, some
 from svsa.numerics.trigonometry import sin
 
 
-class Actuator(NamedTuple):
-    """The constants of Eq 1–5: Table 1 or the nominal model, SI, gear output side.
+def build_actuator(parameters: MechanismParameters, s0: float) -> Any:
+    """The constants of an actuator from checked parameters.
 
-    M, B1, B2: kg·m². D, D1, D2: N·m·s/rad. K = K_s R²: N·m/rad. gamma: 1. mu0: lever
-    ratio at θ2 = 0, 1. reaction: `REACTION_ENERGY` or `REACTION_PRINTED`.
+    Args:
+        parameters: Of the plant or of the nominal model.
+        s0: Stiffness coordinate at θ2 = 0; of the SVSA the lever ratio μ0.
+
+    Returns:
+        `Actuator` of the SVSA, else `ElasticActuator`.
     """
-
-    M: float
-    B1: float
-    B2: float
-    D: float
-    D1: float
-    D2: float
-    K: float
-    gamma: float
-    mu0: float
-    reaction: int
-
-
-def build_actuator(parameters: ActuatorParameters, mu0: float) -> Actuator:
-    """The constants of Eq 1–5 from checked parameters; mu0: lever ratio at θ2 = 0."""
-    printed = parameters.reaction_torque == "printed"
-    return Actuator(
-        M=parameters.link_inertia_kg_m2,
-        B1=parameters.motor1_inertia_kg_m2,
-        B2=parameters.motor2_inertia_kg_m2,
-        D=parameters.link_damping_nms_per_rad,
-        D1=parameters.motor1_damping_nms_per_rad,
-        D2=parameters.motor2_damping_nms_per_rad,
-        K=parameters.rotational_stiffness_nm_per_rad,
-        gamma=parameters.spiral_reduction,
-        mu0=float(mu0),
-        reaction=REACTION_PRINTED if printed else REACTION_ENERGY,
+    p = parameters
+    inertias = p.link_inertia_kg_m2, p.motor1_inertia_kg_m2, p.motor2_inertia_kg_m2
+    dampings = (
+        p.link_damping_nms_per_rad,
+        p.motor1_damping_nms_per_rad,
+        p.motor2_damping_nms_per_rad,
+    )
+    if isinstance(p, ActuatorParameters):
+        return Actuator(
+            *inertias,
+            *dampings,
+            K=p.rotational_stiffness_nm_per_rad,
+            gamma=p.spiral_reduction,
+            mu0=float(s0),
+            reaction=REACTION_PRINTED if p.reaction_torque == "printed" else REACTION_ENERGY,
+        )
+    mechanism = get_mechanism(get_mechanism_name(p))
+    addresses = compile_energy(mechanism).addresses
+    return ElasticActuator(
+        *inertias,
+        *dampings,
+        mechanism.compute_slope(p),
+        float(s0),
+        *mechanism.coordinate,
+        addresses["compute_torques"],
+        addresses["compute_stiffness"],
+        addresses["compute_derivatives"],
+        addresses["compute_determinant"],
+        *[*mechanism.list_elastic(p), *[0.0] * MAX_ELASTIC][:MAX_ELASTIC],
     )
 
 
@@ -95,19 +104,14 @@ def compute_deflection(x: State) -> float:
 
 
 @compiled
-def compute_internal_torque(actuator: Actuator, x: State) -> InternalTorque:
+def compute_internal_torque(actuator: AnyActuator, x: State) -> InternalTorque:
     """F = (−D q̇ − τ_e, −D1 θ̇1 + τ_e, −D2 θ̇2 − τ_r), N·m: Eq 1 without u and w.
 
     actuator: `Actuator`. x: `State`. Returns `InternalTorque`.
     """
     phi = compute_deflection(x)
-    mu = compute_lever_ratio(x.theta2, actuator.mu0, actuator.gamma)
-    torque = compute_elastic_torque(mu, phi, actuator.K)
-    reaction = compute_reaction_torque(mu, phi, actuator.K, actuator.gamma)
-    printed = actuator.reaction == REACTION_PRINTED
-    if some(printed):
-        torque_printed = compute_printed_reaction_torque(mu, phi, actuator.K)
-        reaction = choose(printed, torque_printed, reaction)
+    spring = compute_torques(actuator, compute_coordinate(actuator, x.theta2), phi)
+    torque, reaction = spring.torque, spring.reaction
     return InternalTorque(
         -actuator.D * x.dq - torque,
         -actuator.D1 * x.dtheta1 + torque,
@@ -117,7 +121,7 @@ def compute_internal_torque(actuator: Actuator, x: State) -> InternalTorque:
 
 @compiled
 def compute_acceleration(
-    actuator: Actuator, x: State, u: Torque, load: ExternalLoad
+    actuator: AnyActuator, x: State, u: Torque, load: ExternalLoad
 ) -> Acceleration:
     """q̈, θ̈1, θ̈2 of Eq 1 under the torques u and the external load, rad/s².
 
@@ -136,7 +140,7 @@ def compute_acceleration(
 
 
 @compiled
-def compute_rate(actuator: Actuator, x: State, u: Torque, load: ExternalLoad) -> State:
+def compute_rate(actuator: AnyActuator, x: State, u: Torque, load: ExternalLoad) -> State:
     """ẋ = f(x) + g(x)u + p(x)w of Eq 9, as a `State` of velocities and accelerations."""
     acceleration = compute_acceleration(actuator, x, u, load)
     return State(
@@ -164,7 +168,7 @@ def shift(x: State, rate: State, step: float) -> State:
 
 @compiled
 def compute_disturbance(
-    nominal: Actuator, x: State, u: Torque, acceleration: Acceleration
+    nominal: AnyActuator, x: State, u: Torque, acceleration: Acceleration
 ) -> Disturbance:
     """w = J_n q̈ − F_n(x) − u: the torque that the nominal model does not explain (Eq 6–9).
 
@@ -176,7 +180,7 @@ def compute_disturbance(
 
 @compiled
 def compute_unexplained_torque(
-    nominal: Actuator, F: InternalTorque, u: Torque, acceleration: Acceleration
+    nominal: AnyActuator, F: InternalTorque, u: Torque, acceleration: Acceleration
 ) -> Disturbance:
     """`compute_disturbance` where F = F_n(x), `InternalTorque`, N·m, is known."""
     return Disturbance(

@@ -2,10 +2,14 @@
 
 from typing import NamedTuple
 
-from svsa.actuators.dynamics import Actuator, compute_deflection, compute_internal_torque
-from svsa.actuators.lever import compute_lever_ratio, compute_lever_ratio_slope
+from svsa.actuators.dynamics import compute_deflection, compute_internal_torque
+from svsa.actuators.elasticity import (
+    AnyActuator,
+    compute_coordinate,
+    compute_coordinate_slope,
+    compute_derivatives,
+)
 from svsa.actuators.signals import State, Torque
-from svsa.actuators.spring import compute_spring_derivatives
 from svsa.numerics.compilation import compiled
 
 
@@ -32,7 +36,7 @@ class Linearization(NamedTuple):
 
 
 @compiled
-def compute_linearization(nominal: Actuator, x: State) -> Linearization:
+def compute_linearization(nominal: AnyActuator, x: State) -> Linearization:
     """L_f^k h1, L_f^k h2 and A(x) at the state x, with the constants of the nominal model.
 
     a = (−D q̇ − τ_e)/M, j = (−D a − τ̇_e)/M, L_f⁴h1 = (−D j − τ̈_e)/M, and σ̇, σ̈, all
@@ -43,9 +47,9 @@ def compute_linearization(nominal: Actuator, x: State) -> Linearization:
     """
     M, B1, B2, D = nominal.M, nominal.B1, nominal.B2, nominal.D
     rM, rB1, rB2 = 1.0 / M, 1.0 / B1, 1.0 / B2
-    slope = compute_lever_ratio_slope(nominal.gamma)
-    mu = compute_lever_ratio(x.theta2, nominal.mu0, nominal.gamma)
-    spring = compute_spring_derivatives(mu, compute_deflection(x), nominal.K)
+    slope = compute_coordinate_slope(nominal)
+    mu = compute_coordinate(nominal, x.theta2)
+    spring = compute_derivatives(nominal, mu, compute_deflection(x))
     F = compute_internal_torque(nominal, x)
     a = F.link * rM
     dphi = x.dq - x.dtheta1

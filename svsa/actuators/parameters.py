@@ -7,11 +7,23 @@ from pydantic import model_validator
 from svsa.errors import ParameterError, Violation
 from svsa.inputs.checked import Checked, Number, quantity
 
+SVSA = "svsa"
+"""The actuator of the paper, and of every record that names none."""
 ReactionLaw = Literal["energy", "printed"]
 
 
-class ActuatorParameters(Checked):
-    """The constants of Eq 1–5, of the true plant or of the nominal model."""
+class MechanismParameters(Checked):
+    """The inertias and dampings of Eq 1, which every actuator has.
+
+    A member of `svsa.actuators.installed` adds the parameters of its elastic energy, and
+    `mechanism`, its name.
+    """
+
+    @property
+    def rotational_stiffness_nm_per_rad(self) -> float:
+        """K of the SVSA; raises `ParameterError` for another actuator, which has none."""
+        require_svsa(self, "this analysis")
+        raise AssertionError
 
     link_inertia_kg_m2: Number = quantity("kg·m²", "Output link inertia M", ge=1e-6, le=10)
     motor1_inertia_kg_m2: Number = quantity("kg·m²", "Principal motor inertia B1", ge=1e-6, le=10)
@@ -19,10 +31,20 @@ class ActuatorParameters(Checked):
     link_damping_nms_per_rad: Number = quantity("N·m·s/rad", "Link damping D", ge=0, le=10)
     motor1_damping_nms_per_rad: Number = quantity("N·m·s/rad", "Motor 1 damping D1", ge=0, le=10)
     motor2_damping_nms_per_rad: Number = quantity("N·m·s/rad", "Motor 2 damping D2", ge=0, le=10)
+
+
+class ActuatorParameters(MechanismParameters):
+    """The constants of Eq 1–5, of the true plant or of the nominal model."""
+
     spring_stiffness_n_per_m: Number = quantity("N/m", "Spring stiffness K_s", ge=1, le=1e6)
     radius_m: Number = quantity("m", "Radius R", ge=1e-3, le=1)
     spiral_reduction: Number = quantity("1", "Reduction γ of the spiral", ge=0.1, le=1000)
     reaction_torque: ReactionLaw = quantity("", "τ_r: energy-consistent, or as printed in Eq 5")
+
+    @property
+    def mechanism(self) -> str:
+        """The name of the actuator; not a field, so that earlier records stay as they are."""
+        return SVSA
 
     @property
     def rotational_stiffness_nm_per_rad(self) -> float:
@@ -69,3 +91,21 @@ class Limits(Checked):
                 bound = f"from {least:g} to {greatest:g} N·m/rad at all times"
                 limits = {"ge": least, "le": greatest}
                 raise ParameterError(Violation(name, value, "N·m/rad", bound, limits))
+
+
+def require_svsa(parameters: MechanismParameters, user: str) -> None:
+    """Raise `ParameterError` unless the actuator is the SVSA.
+
+    Args:
+        parameters: Of the actuator.
+        user: What computes with the lever and the spring of the SVSA, as "a bench".
+    """
+    mechanism = get_mechanism_name(parameters)
+    if mechanism != SVSA:
+        bound = f"{SVSA}: {user} computes with the lever and the spring of the SVSA"
+        raise ParameterError(Violation("actuator.mechanism", mechanism, "", bound))
+
+
+def get_mechanism_name(parameters: MechanismParameters) -> str:
+    """The name of the actuator that parameters belong to."""
+    return getattr(parameters, "mechanism", SVSA)

@@ -33,6 +33,13 @@ class SpringDerivatives(NamedTuple):
     sigma_mumu: float
 
 
+class SpringTorques(NamedTuple):
+    """τ_e, N·m, and ∂U/∂s, J per unit of s; ∂U/∂θ2 = κ ∂U/∂s."""
+
+    torque: float
+    reaction: float
+
+
 class Spring(NamedTuple):
     """The lever and the spring as they stand: what all their functions are made of.
 

@@ -2,10 +2,14 @@
 
 from typing import NamedTuple
 
-from svsa.actuators.dynamics import Actuator
-from svsa.actuators.lever import compute_lever_ratio_for_stiffness, compute_lever_ratio_slope
+from svsa.actuators.dynamics import AnyActuator
+from svsa.actuators.elasticity import (
+    compute_coordinate_for_stiffness,
+    compute_coordinate_slope,
+    compute_derivatives,
+    compute_torques,
+)
 from svsa.actuators.signals import Reference
-from svsa.actuators.spring import compute_reaction_torque, compute_spring_derivatives
 from svsa.numerics.compilation import compiled
 
 NEWTON_STEPS = 4
@@ -14,7 +18,7 @@ NEWTON_STEPS = 4
 class Flat(NamedTuple):
     """Where both motors have to be for the reference, rad, rad/s; the torques for it, N·m.
 
-    mu: μ there.
+    mu: s there, of the SVSA μ.
     """
 
     theta1: float
@@ -27,24 +31,24 @@ class Flat(NamedTuple):
 
 
 @compiled
-def compute_flat(nominal: Actuator, reference: Reference) -> Flat:
+def compute_flat(nominal: AnyActuator, reference: Reference) -> Flat:
     """The motion and the torques of an undisturbed nominal actuator that follows the reference.
 
     τ_e = −M q̈_d − D q̇_d; Newton for (φ, μ) with τ_e(φ, μ) = τ_e and σ(φ, μ) = σ_d; their rates
     through J = [[σ, τ_μ], [σ_φ, σ_μ]]; u from Eq 1. Returns `Flat`.
     """
-    M, D, K, r = nominal.M, nominal.D, nominal.K, reference
+    M, D, r = nominal.M, nominal.D, reference
     torque = -M * r.ddq - D * r.dq
     dtorque, ddtorque = -M * r.dddq - D * r.ddq, -M * r.ddddq - D * r.dddq
-    mu = compute_lever_ratio_for_stiffness(r.sigma, K)
+    mu = compute_coordinate_for_stiffness(nominal, r.sigma)
     phi = torque / r.sigma
-    s = compute_spring_derivatives(mu, phi, K)
+    s = compute_derivatives(nominal, mu, phi)
     for _ in range(NEWTON_STEPS):
         scale = 1.0 / (s.sigma * s.sigma_mu - s.torque_mu * s.sigma_phi)
         miss1, miss2 = torque - s.torque, r.sigma - s.sigma
         phi = phi + (s.sigma_mu * miss1 - s.torque_mu * miss2) * scale
         mu = mu + (s.sigma * miss2 - s.sigma_phi * miss1) * scale
-        s = compute_spring_derivatives(mu, phi, K)
+        s = compute_derivatives(nominal, mu, phi)
     scale = 1.0 / (s.sigma * s.sigma_mu - s.torque_mu * s.sigma_phi)
     dphi = (s.sigma_mu * dtorque - s.torque_mu * r.dsigma) * scale
     dmu = (s.sigma * r.dsigma - s.sigma_phi * dtorque) * scale
@@ -55,8 +59,8 @@ def compute_flat(nominal: Actuator, reference: Reference) -> Flat:
     right1, right2 = ddtorque - bend1, r.ddsigma - bend2
     ddphi = (s.sigma_mu * right1 - s.torque_mu * right2) * scale
     ddmu = (s.sigma * right2 - s.sigma_phi * right1) * scale
-    slope = compute_lever_ratio_slope(nominal.gamma)
-    reaction = compute_reaction_torque(mu, phi, K, nominal.gamma)
+    slope = compute_coordinate_slope(nominal)
+    reaction = compute_torques(nominal, mu, phi).reaction
     dtheta1, dtheta2 = r.dq - dphi, dmu / slope
     return Flat(
         theta1=r.q - phi,

@@ -4,7 +4,7 @@ A distance d to a bound is approached no faster than d̈ = −2l ḋ − l² d, 
 """
 
 from svsa.actuators.dynamics import Actuator, InternalTorque, compute_deflection
-from svsa.actuators.lever import compute_lever_ratio_slope
+from svsa.actuators.elasticity import compute_coordinate_slope
 from svsa.actuators.signals import Disturbance, State
 from svsa.numerics.compilation import compiled
 from svsa.numerics.simd.choice import greatest, least
@@ -50,7 +50,7 @@ def guard_lever(
     −2l μ̇ − l²(μ − μ_min) ≤ μ̈ ≤ −2l μ̇ + l²(μ_max − μ) with μ̈ = μ'(F6 + ŵ6 + u2)/B2. mu: μ.
     rate: l, rad/s; slow enough for the motor to stop the lever. Else as `guard_deflection`.
     """
-    slope = compute_lever_ratio_slope(nominal.gamma)
+    slope = compute_coordinate_slope(nominal)
     damped, inertia = -2.0 * rate * slope * x.dtheta2, nominal.B2 / slope
     high = inertia * (damped + rate * rate * (mu_max - mu)) - F.motor2 - w.w6
     low = inertia * (damped - rate * rate * (mu - mu_min)) - F.motor2 - w.w6

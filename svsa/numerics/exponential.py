@@ -114,3 +114,12 @@ def tanh(x: float) -> float:
     t = expm1(-2.0 * abs(x))
     size = -t / (2.0 + t)
     return choose(x >= 0.0, size, -size)
+
+
+@compiled
+def sinh_cosh(x: float) -> tuple[float, float]:
+    """sinh x and cosh x from one eˣ − 1, so that nothing cancels at small x."""
+    less = expm1(abs(x))
+    rest = less / (less + 1.0)
+    size = 0.5 * (less + rest)
+    return choose(x >= 0.0, size, -size), fma(0.5 * less, rest, 1.0)

@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from svsa.actuators.parameters import MechanismParameters, get_mechanism_name
 from svsa.control.installed import get_law
 from svsa.control.observers.disturbance import compute_shares
 from svsa.numerics.simd.record import lay_out_record
@@ -69,10 +70,15 @@ def find_alike(configurations: Sequence[Configuration]) -> list[list[int]]:
     """The numbers of those that can run side by side."""
     alike: dict[tuple[object, ...], list[int]] = {}
     for number, c in enumerate(configurations):
-        reaction = c.actuator.reaction_torque, c.nominal.reaction_torque
-        switches = c.law, c.sampling.period_s, c.effects.delay_samples, *reaction
+        kinds = _find_kind(c.actuator), _find_kind(c.nominal)
+        switches = c.law, c.sampling.period_s, c.effects.delay_samples, *kinds
         alike.setdefault(switches, []).append(number)
     return list(alike.values())
+
+
+def _find_kind(actuator: MechanismParameters) -> tuple[str, str]:
+    """What of an actuator is part of the machine code."""
+    return get_mechanism_name(actuator), getattr(actuator, "reaction_torque", "")
 
 
 class RunSet:

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple, TypeAlias
 
 from svsa.actuators.domain import build_domain
 from svsa.actuators.dynamics import build_actuator
-from svsa.actuators.lever import compute_lever_ratio_for_stiffness
+from svsa.actuators.elasticity import compute_coordinate_for_stiffness
 from svsa.control.call import BoundLaw
 from svsa.control.installed import get_law
 from svsa.control.law import Setting
@@ -106,8 +106,6 @@ def build_setting(blocks: Blocks) -> Setting:
 
 
 def compute_start_ratio(configuration: Configuration) -> float:
-    """μ0 of a run that starts at rest: σ(0) = σ_d(0) at θ2 = 0."""
-    return compute_lever_ratio_for_stiffness(
-        compute_start_value(configuration.stiffness),
-        configuration.actuator.rotational_stiffness_nm_per_rad,
-    )
+    """s0 (μ0 of the SVSA) of a run that starts at rest: σ(0) = σ_d(0) at θ2 = 0."""
+    actuator, sigma = configuration.actuator, compute_start_value(configuration.stiffness)
+    return compute_coordinate_for_stiffness(build_actuator(actuator, 0.0), sigma)

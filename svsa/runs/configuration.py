@@ -8,7 +8,8 @@ from typing import Any, Self
 import tomli_w
 from pydantic import ValidationInfo, field_validator, model_validator
 
-from svsa.actuators.parameters import ActuatorParameters, Limits
+from svsa.actuators.installed import InstalledActuator
+from svsa.actuators.parameters import Limits, get_mechanism_name
 from svsa.control.gains import Gains
 from svsa.control.installed import (
     PAPERS_LAW,
@@ -23,7 +24,7 @@ from svsa.control.installed import (
 )
 from svsa.control.observers.disturbance import ObserverBandwidth
 from svsa.control.parameters import LawParameters
-from svsa.errors import ParameterError
+from svsa.errors import ParameterError, Violation
 from svsa.inputs.checked import Checked, Number, Whole, quantity
 from svsa.inputs.toml_file import parse_toml, read_toml
 from svsa.simulation.plant.effects import IDEAL, Effects
@@ -47,8 +48,8 @@ class Design(Checked):
     limits, sampling.
     """
 
-    actuator: ActuatorParameters
-    nominal: ActuatorParameters
+    actuator: InstalledActuator
+    nominal: InstalledActuator
     gains: Gains
     parameters: ParametersByLaw = quantity(
         "",
@@ -58,6 +59,14 @@ class Design(Checked):
     observer: ObserverBandwidth
     limits: Limits
     sampling: Sampling
+
+    @model_validator(mode="after")
+    def _check_mechanism(self) -> Self:
+        of_plant, of_model = map(get_mechanism_name, (self.actuator, self.nominal))
+        if of_plant != of_model:
+            bound = f"{of_plant}, as that of the actuator"
+            raise ParameterError(Violation("nominal.mechanism", of_model, "", bound))
+        return self
 
     def find_parameters(self, lane: "Lane") -> LawParameters | None:
         """What the law of a lane was set to: the lane's own, or the design's; None."""

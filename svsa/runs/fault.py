@@ -5,13 +5,13 @@ from svsa.actuators.domain import (
     LEVER_END,
     NOT_FINITE,
     compute_deflection_limit,
-    compute_relative_determinant,
+    compute_relative_determinant_of,
 )
 from svsa.actuators.dynamics import compute_deflection
+from svsa.actuators.elasticity import Actuator, compute_coordinate, compute_stiffness_of
 from svsa.actuators.faults import FAULT_CODES
-from svsa.actuators.lever import compute_lever_ratio, compute_zero_stiffness_deflection
+from svsa.actuators.lever import compute_zero_stiffness_deflection
 from svsa.actuators.signals import State
-from svsa.actuators.spring import compute_stiffness
 from svsa.errors import Fault
 from svsa.simulation.loop.lane import Blocks
 
@@ -39,28 +39,35 @@ def _describe(code: int, time: float, blocks: Blocks, x: State) -> tuple[dict[st
     if code == NOT_FINITE:
         message = f"At {time:.3f} s a torque or a state was not a finite number: the run ended."
         return _keep_finite(values), message
-    mu = compute_lever_ratio(x.theta2, blocks.plant.mu0, blocks.plant.gamma)
+    mu = compute_coordinate(blocks.plant, x.theta2)
     phi = compute_deflection(x)
     domain = blocks.domain
     values |= {"lever_ratio": mu, "deflection_rad": phi}
+    is_svsa = isinstance(blocks.plant, Actuator)
     if code == LEVER_END:
         values |= {"lever_ratio_min": domain.mu_min, "lever_ratio_max": domain.mu_max}
+        end = f"the lever ratio μ = {mu:.4f} reached the end of the spiral"
+        if not is_svsa:
+            end = f"the stiffness coordinate s = {mu:.4f} reached its end"
         message = (
-            f"At {time:.3f} s the lever ratio μ = {mu:.4f} reached the end of the spiral: it must"
+            f"At {time:.3f} s {end}: it must"
             f" stay between {domain.mu_min:.4f} and {domain.mu_max:.4f}."
         )
         return values, message
-    values["stiffness_nm_per_rad"] = compute_stiffness(mu, phi, blocks.plant.K)
+    values["stiffness_nm_per_rad"] = compute_stiffness_of(blocks.plant, mu, phi)
     if code == DEFLECTION_LIMIT:
-        limit = compute_deflection_limit(domain, mu)
-        zero = compute_zero_stiffness_deflection(mu)
-        values |= {"deflection_limit_rad": limit, "zero_stiffness_deflection_rad": zero}
+        limit = compute_deflection_limit(domain, blocks.plant, mu)
+        values["deflection_limit_rad"] = limit
         message = (
-            f"At {time:.3f} s the deflection φ = {phi:.4f} rad passed its limit of"
-            f" ±{limit:.4f} rad: at μ = {mu:.4f} the stiffness falls to zero at {zero:.4f} rad."
+            f"At {time:.3f} s the deflection φ = {phi:.4f} rad passed its limit of ±{limit:.4f} rad"
         )
+        if is_svsa:
+            zero = compute_zero_stiffness_deflection(mu)
+            values["zero_stiffness_deflection_rad"] = zero
+            message += f": at μ = {mu:.4f} the stiffness falls to zero at {zero:.4f} rad"
+        message += "."
     else:
-        share = compute_relative_determinant(mu, phi)
+        share = compute_relative_determinant_of(blocks.plant, mu, phi)
         values["relative_determinant"] = share
         message = (
             f"At {time:.3f} s the decoupling matrix A(x) came near singular: det A is"

@@ -6,9 +6,9 @@ from typing import NamedTuple
 import numpy as np
 
 from svsa.actuators.domain import INSIDE
-from svsa.actuators.lever import compute_lever_ratio
+from svsa.actuators.dynamics import build_actuator
+from svsa.actuators.elasticity import compute_coordinate, compute_stiffness_of
 from svsa.actuators.signals import State
-from svsa.actuators.spring import compute_stiffness
 from svsa.control.installed import check_installed, get_law
 from svsa.errors import Fault, ParameterError, StateError
 from svsa.runs.blocks import Bind, Connection, bind_law, compute_start_ratio, connect_lane
@@ -266,8 +266,8 @@ def _follow_law(lane: LaneState, before: str, law: str) -> LaneState:
 def _build_stacks(configuration: Configuration, start: Start) -> tuple[Stack, Stack]:
     """Both references, faded in from where the actuator stands; σ from inside its range."""
     c, x = configuration, start.x
-    mu = compute_lever_ratio(x.theta2, start.mu0, c.actuator.spiral_reduction)
-    sigma = compute_stiffness(mu, x.q - x.theta1, c.actuator.rotational_stiffness_nm_per_rad)
+    plant = build_actuator(c.actuator, start.mu0)
+    sigma = compute_stiffness_of(plant, compute_coordinate(plant, x.theta2), x.q - x.theta1)
     sigma = min(max(sigma, c.limits.stiffness_min_nm_per_rad), c.limits.stiffness_max_nm_per_rad)
     position = build_stack(ConstantPosition(position_rad=x.q))
     stiffness = build_stack(ConstantStiffness(stiffness_nm_per_rad=sigma))

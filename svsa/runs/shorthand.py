@@ -9,7 +9,8 @@ from typing import Any, TypeAlias, TypedDict
 
 from pydantic import TypeAdapter, ValidationError
 
-from svsa.actuators.parameters import ActuatorParameters, Limits
+from svsa.actuators.installed import get_mechanism
+from svsa.actuators.parameters import Limits, MechanismParameters
 from svsa.control.gains import Gains
 from svsa.control.law_names import AnyLaw, KnownLaw
 from svsa.control.observers.disturbance import ObserverBandwidth
@@ -33,7 +34,7 @@ GivenPosition: TypeAlias = PositionReference | Part | float
 GivenStiffness: TypeAlias = StiffnessReference | Part | float
 """A reference, or a stiffness that is held, N·m/rad."""
 GivenEffects: TypeAlias = Effects | Part | PresetName
-GivenActuator: TypeAlias = ActuatorParameters | Part
+GivenActuator: TypeAlias = MechanismParameters | Part
 GivenGains: TypeAlias = Gains | Part
 GivenObserver: TypeAlias = ObserverBandwidth | Part | float
 """Bandwidths, or one for all three channels, rad/s."""
@@ -49,7 +50,7 @@ class Settings(TypedDict, total=False):
     position: GivenPosition
     stiffness: GivenStiffness
     loads: Load | Part | Sequence[Load | Part]
-    actuator: GivenActuator
+    actuator: GivenActuator | str
     nominal: GivenActuator
     gains: GivenGains
     observer: GivenObserver
@@ -66,9 +67,9 @@ class _Form:
 
 
 _PLANT = _Form(
-    ActuatorParameters,
-    "svsa.ActuatorParameters, or a dict of the fields that are different, such as"
-    ' {"link_inertia_kg_m2": 0.05}',
+    MechanismParameters,
+    'the name of an actuator, such as "qbmove", svsa.ActuatorParameters, or a dict of the fields'
+    ' that are different, such as {"link_inertia_kg_m2": 0.05}',
     is_partial=True,
 )
 _FORMS = {
@@ -130,9 +131,22 @@ def change_configuration(
             )
         )
     present = dict(configuration)
+    if isinstance(name := given.get("actuator"), str):
+        mechanism = _read_mechanism(name)
+        present |= mechanism
+        given = mechanism | {key: value for key, value in given.items() if key != "actuator"}
     return configuration.changed(
         **{name: read_setting(name, value, present[name]) for name, value in given.items()}
     )
+
+
+def _read_mechanism(name: str) -> dict[str, Any]:
+    """Plant, nominal model and limits of an actuator."""
+    try:
+        found = get_mechanism(name)
+    except ParameterError as error:
+        raise error.within("actuator") from None
+    return {"actuator": found.prototype, "nominal": found.nominal, "limits": found.limits}
 
 
 def read_setting(name: str, given: Any, present: Any) -> Any:

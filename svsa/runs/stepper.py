@@ -7,7 +7,7 @@ from typing import Any, NamedTuple, Unpack
 import numpy as np
 
 from svsa.actuators.domain import INSIDE, check_domain
-from svsa.actuators.lever import compute_lever_ratio
+from svsa.actuators.elasticity import compute_coordinate, compute_stiffness_of
 from svsa.actuators.signals import (
     CHANNELS,
     Disturbance,
@@ -17,7 +17,6 @@ from svsa.actuators.signals import (
     State,
     Torque,
 )
-from svsa.actuators.spring import compute_stiffness
 from svsa.control.call import BoundLaw, bind
 from svsa.control.law import Nothing
 from svsa.errors import Fault, FaultError, ParameterError, Violation
@@ -178,8 +177,8 @@ class Stepper:
         """The true errors at this tick: q_d − q in rad, σ_d − σ in N·m/rad."""
         x, plant = self._run.lanes[0].x, self._run.blocks[0].plant
         reference = read_reference(self._run.inputs, self._run.time_s)
-        mu = compute_lever_ratio(x.theta2, plant.mu0, plant.gamma)
-        return reference.q - x.q, reference.sigma - compute_stiffness(mu, x.q - x.theta1, plant.K)
+        mu = compute_coordinate(plant, x.theta2)
+        return reference.q - x.q, reference.sigma - compute_stiffness_of(plant, mu, x.q - x.theta1)
 
     def _find_fault(self) -> Fault | None:
         """The fault that the next tick would begin with."""

@@ -114,7 +114,7 @@ def compute_fl_steady_error(
     mu = compute_lever_ratio(theta2, mu0, nominal.gamma)
     is_rest = math.hypot(torque, missing) < _CLOSE * max(1.0, sigma)
     is_inside = domain.mu_min <= mu <= domain.mu_max
-    if not (is_rest and is_inside and abs(phi) <= compute_deflection_limit(domain, mu)):
+    if not (is_rest and is_inside and abs(phi) <= compute_deflection_limit(domain, nominal, mu)):
         return None
     slope = compute_lever_ratio_slope(nominal.gamma)
     x = State(phi, 0.0, 0.0, 0.0, (mu - mu0) / slope, 0.0)

@@ -10,13 +10,13 @@ from typing import NamedTuple
 import numpy as np
 
 from svsa.actuators.dynamics import Actuator, compute_deflection
-from svsa.actuators.lever import (
-    compute_lever_ratio,
-    compute_lever_ratio_for_stiffness,
-    compute_lever_ratio_slope,
+from svsa.actuators.elasticity import (
+    compute_coordinate,
+    compute_coordinate_for_stiffness,
+    compute_stiffness_of,
+    compute_stiffness_slope_of,
 )
 from svsa.actuators.signals import Disturbance, Reference, State, Torque
-from svsa.actuators.spring import compute_stiffness, compute_stiffness_slope
 from svsa.control.law import Law, Setting
 from svsa.control.observers.extended import (
     Extended,
@@ -102,11 +102,10 @@ def control(
     c, sigma_d = constants, reference.sigma
     b = sigma_d / nominal.M
     twist = x.theta1 - x.q
-    slope = compute_lever_ratio_slope(nominal.gamma)
-    mu = compute_lever_ratio(x.theta2, nominal.mu0, nominal.gamma)
-    mu_d = compute_lever_ratio_for_stiffness(sigma_d, nominal.K)
-    g = compute_stiffness_slope(mu_d, nominal.K, slope)
-    sigma = compute_stiffness(mu, compute_deflection(x), nominal.K)
+    mu = compute_coordinate(nominal, x.theta2)
+    mu_d = compute_coordinate_for_stiffness(nominal, sigma_d)
+    g = compute_stiffness_slope_of(nominal, mu_d)
+    sigma = compute_stiffness_of(nominal, mu, compute_deflection(x))
     half = 0.5 * (memory.twist + twist)
     q, motor, stiffness = memory.link, memory.motor, memory.stiffness
     observe_extended(c.link, q, x.q, x.dq, b * half, period)

@@ -10,9 +10,12 @@ from typing import NamedTuple
 import numpy as np
 
 from svsa.actuators.dynamics import Actuator, compute_deflection, compute_internal_torque
-from svsa.actuators.lever import compute_lever_ratio, compute_lever_ratio_slope
+from svsa.actuators.elasticity import (
+    compute_coordinate,
+    compute_coordinate_slope,
+    compute_derivatives,
+)
 from svsa.actuators.signals import Disturbance, Reference, State, Torque
-from svsa.actuators.spring import compute_spring_derivatives
 from svsa.control.law import Law, Setting
 from svsa.control.observers.disturbance import compute_share
 from svsa.control.observers.own import Observed, observe_disturbance
@@ -141,9 +144,9 @@ def control(
     w = Disturbance(c.used * seen.w2, seen.w4, seen.w6)
     is_started = memory.is_started > 0.0
     memory.is_started = 1.0
-    slope = compute_lever_ratio_slope(nominal.gamma)
-    mu = compute_lever_ratio(x.theta2, nominal.mu0, nominal.gamma)
-    spring = compute_spring_derivatives(mu, compute_deflection(x), nominal.K)
+    slope = compute_coordinate_slope(nominal)
+    mu = compute_coordinate(nominal, x.theta2)
+    spring = compute_derivatives(nominal, mu, compute_deflection(x))
     F = compute_internal_torque(nominal, x)
     e1, de1 = x.q - reference.q, x.dq - reference.dq
     e2 = de1 + c.k1 * e1

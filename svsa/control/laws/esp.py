@@ -12,9 +12,13 @@ import numpy as np
 
 from svsa.actuators.domain import Domain, compute_deflection_limit
 from svsa.actuators.dynamics import Actuator, compute_deflection, compute_internal_torque
-from svsa.actuators.lever import compute_lever_ratio, compute_lever_ratio_slope
+from svsa.actuators.elasticity import (
+    compute_coordinate,
+    compute_coordinate_slope,
+    compute_derivatives,
+)
 from svsa.actuators.signals import Disturbance, Reference, State, Torque
-from svsa.actuators.spring import SpringDerivatives, compute_spring_derivatives
+from svsa.actuators.spring import SpringDerivatives
 from svsa.control.law import Law, Setting
 from svsa.control.observers.disturbance import compute_share
 from svsa.control.observers.own import Observed, observe_disturbance
@@ -120,10 +124,10 @@ def control(
     c, M, D = constants, nominal.M, nominal.D
     seen = observe_disturbance(nominal, c.share, 0.0, memory, x, applied, period)
     w = Disturbance(c.used * seen.w2, seen.w4, seen.w6)
-    slope = compute_lever_ratio_slope(nominal.gamma)
-    mu = compute_lever_ratio(x.theta2, nominal.mu0, nominal.gamma)
+    slope = compute_coordinate_slope(nominal)
+    mu = compute_coordinate(nominal, x.theta2)
     phi, dphi, dmu = compute_deflection(x), x.dq - x.dtheta1, slope * x.dtheta2
-    spring = compute_spring_derivatives(mu, phi, nominal.K)
+    spring = compute_derivatives(nominal, mu, phi)
     F = compute_internal_torque(nominal, x)
     ddq = (F.link + w.w2) / M
     dtorque = spring.sigma * dphi + spring.torque_mu * dmu
@@ -133,13 +137,13 @@ def control(
     wanted = spring.torque + M * reference.ddq + D * reference.dq - c.damping * de - w.w2
     dwanted = dtorque + M * reference.dddq + D * reference.ddq - c.damping * dde
 
-    most = SPRING_SHARE * compute_deflection_limit(c.domain, mu)
+    most = SPRING_SHARE * compute_deflection_limit(c.domain, nominal, mu)
     bent = least(greatest(phi, -most), most)
-    new = compute_spring_derivatives(mu, bent, nominal.K)
+    new = compute_derivatives(nominal, mu, bent)
     for _ in range(NEWTON_STEPS):
         bent = bent + (wanted - new.torque) / new.sigma
         bent = least(greatest(bent, -most), most)
-        new = compute_spring_derivatives(mu, bent, nominal.K)
+        new = compute_derivatives(nominal, mu, bent)
     dbent = (dwanted - new.torque_mu * dmu) / new.sigma
     eta, deta = e - bent, de - dbent
     ddeta = new.torque / nominal.B1 - c.omega * (2.0 * c.zeta * deta + c.omega * eta)

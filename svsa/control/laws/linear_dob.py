@@ -14,13 +14,13 @@ from typing import NamedTuple
 import numpy as np
 
 from svsa.actuators.dynamics import Actuator, InternalTorque, compute_deflection
-from svsa.actuators.lever import (
-    compute_lever_ratio,
-    compute_lever_ratio_for_stiffness,
-    compute_lever_ratio_slope,
+from svsa.actuators.elasticity import (
+    compute_coordinate,
+    compute_coordinate_for_stiffness,
+    compute_stiffness_of,
+    compute_stiffness_slope_of,
 )
 from svsa.actuators.signals import Disturbance, Reference, State, Torque
-from svsa.actuators.spring import compute_stiffness, compute_stiffness_slope
 from svsa.control.law import Law, Setting
 from svsa.control.observers.disturbance import compute_share
 from svsa.control.observers.own import Observed, observe_unexplained
@@ -100,12 +100,9 @@ def control(
     e, de = reference.q - x.q, reference.dq - x.dq
     dde, ddde = reference.ddq - ddq, reference.dddq - dddq
     y1 = reference.ddddq + a * (4.0 * ddde + a * (6.0 * dde + a * (4.0 * de + a * e)))
-    slope = compute_lever_ratio_slope(nominal.gamma)
-    g = compute_stiffness_slope(
-        compute_lever_ratio_for_stiffness(sigma, nominal.K), nominal.K, slope
-    )
-    mu = compute_lever_ratio(x.theta2, nominal.mu0, nominal.gamma)
-    e_sigma = sigma - compute_stiffness(mu, compute_deflection(x), nominal.K)
+    g = compute_stiffness_slope_of(nominal, compute_coordinate_for_stiffness(nominal, sigma))
+    mu = compute_coordinate(nominal, x.theta2)
+    e_sigma = sigma - compute_stiffness_of(nominal, mu, compute_deflection(x))
     y2 = reference.ddsigma + p * (2.0 * (reference.dsigma - g * x.dtheta2) + p * e_sigma)
     ddtheta1 = ddq + (nominal.M * y1 + nominal.D * dddq) / sigma
     return Torque(nominal.B1 * ddtheta1 - F.motor1 - w.w4, nominal.B2 * y2 / g - F.motor2 - w.w6)

@@ -10,13 +10,14 @@ from typing import NamedTuple
 import numpy as np
 
 from svsa.actuators.dynamics import Actuator, compute_deflection
-from svsa.actuators.lever import (
-    compute_lever_ratio,
-    compute_lever_ratio_for_stiffness,
-    compute_lever_ratio_slope,
+from svsa.actuators.elasticity import (
+    AnyActuator,
+    compute_coordinate,
+    compute_coordinate_for_stiffness,
+    compute_stiffness_of,
+    compute_stiffness_slope_of,
 )
 from svsa.actuators.signals import Disturbance, Reference, State, Torque
-from svsa.actuators.spring import compute_stiffness, compute_stiffness_slope
 from svsa.control.flat import compute_flat
 from svsa.control.law import Law, Setting
 from svsa.control.matrices import compute_exponential, multiply, solve, solve_riccati, weigh
@@ -103,23 +104,15 @@ def solve_regulator(
 
 
 class Chain(NamedTuple):
-    """What of the nominal model and the period decides the gains: not μ0."""
+    """What of the nominal model and the period decides the gains: not s0."""
 
-    M: float
-    B1: float
-    B2: float
-    D: float
-    D1: float
-    D2: float
-    K: float
-    gamma: float
+    actuator: AnyActuator
     period: float
 
 
 def build(parameters: Weights, setting: Setting) -> Constants:
     """The regulators of both halves at each stiffness."""
-    n = setting.nominal
-    chain = Chain(n.M, n.B1, n.B2, n.D, n.D1, n.D2, n.K, n.gamma, setting.period)
+    chain = Chain(setting.nominal._replace(mu0=0.0), setting.period)
     p = parameters
     weights = (
         p.position_rad,
@@ -150,7 +143,7 @@ def _solve_all(weights: tuple[float, ...], chain: Chain) -> tuple[Table, ...]:
 
 
 def _solve_at(sigma: float, weights: tuple[float, ...], chain: Chain) -> list[float]:
-    n, T = chain, chain.period
+    n, T = chain
     position, velocity, time, stiffness, stiffness_time = weights
     A = np.zeros((5, 5))
     A[0, 1] = A[2, 3] = 1.0
@@ -159,9 +152,8 @@ def _solve_at(sigma: float, weights: tuple[float, ...], chain: Chain) -> list[fl
     A[4, 0] = 1.0
     Q = np.diag([weigh(position), weigh(velocity), 0.0, 0.0, weigh(position * time)])
     first = solve_regulator(A, np.array([0, 0, 0, 1 / n.B1, 0]), Q, weigh(WEIGHT1_NM), T)
-    slope = float(compute_lever_ratio_slope(n.gamma))
-    mu = compute_lever_ratio_for_stiffness(sigma, n.K)
-    g = float(compute_stiffness_slope(mu, n.K, slope))
+    mu = compute_coordinate_for_stiffness(n, sigma)
+    g = float(compute_stiffness_slope_of(n, mu))
     A = np.array([[0.0, 1.0, 0.0], [0.0, -n.D2 / n.B2, 0.0], [g, 0.0, 0.0]])
     Q = np.diag([weigh(stiffness / g), 0.0, weigh(stiffness * stiffness_time)])
     second = solve_regulator(A, np.array([0.0, 1 / n.B2, 0.0]), Q, weigh(WEIGHT2_NM), T)
@@ -196,8 +188,8 @@ def control(
     c, d = constants, compute_flat(nominal, reference)
     place = (log(reference.sigma) - LOG_FIRST) / LOG_STEP
     e = reference.q - x.q
-    mu = compute_lever_ratio(x.theta2, nominal.mu0, nominal.gamma)
-    e_sigma = reference.sigma - compute_stiffness(mu, compute_deflection(x), nominal.K)
+    mu = compute_coordinate(nominal, x.theta2)
+    e_sigma = reference.sigma - compute_stiffness_of(nominal, mu, compute_deflection(x))
     u1 = (
         d.u1
         + interpolate(c.q, place) * e

@@ -23,10 +23,13 @@ import numpy as np
 
 from svsa.actuators.domain import Domain, compute_deflection_limit
 from svsa.actuators.dynamics import Actuator, compute_internal_torque
-from svsa.actuators.lever import compute_lever_ratio, compute_lever_ratio_for_stiffness
+from svsa.actuators.elasticity import (
+    compute_coordinate,
+    compute_coordinate_for_stiffness,
+    compute_torques,
+)
 from svsa.actuators.linearization import Linearization, compute_linearization, solve_decoupling
 from svsa.actuators.signals import Disturbance, Reference, State, Torque
-from svsa.actuators.spring import compute_elastic_torque
 from svsa.control.disturbed import Disturbed, compute_disturbed
 from svsa.control.guard import guard_deflection, guard_lever
 from svsa.control.law import Law, Setting
@@ -162,9 +165,9 @@ def govern_stiffness(
     Wanted is σ_d (n/c)^1.25, n = |ŵ2 − M q̈_d − D q̇_d| the torque that it has to give and c what
     it gives at a share of its limit of deflection; followed critically damped, up faster than down.
     """
-    mu = compute_lever_ratio_for_stiffness(reference.sigma, nominal.K)
-    deflection = constants.governed_share * compute_deflection_limit(constants.domain, mu)
-    most = compute_elastic_torque(mu, deflection, nominal.K)
+    mu = compute_coordinate_for_stiffness(nominal, reference.sigma)
+    deflection = constants.governed_share * compute_deflection_limit(constants.domain, nominal, mu)
+    most = compute_torques(nominal, mu, deflection).torque
     need = abs(w.w2 - nominal.M * reference.ddq - nominal.D * reference.dq)
     ratio = greatest(need / most, 1.0)
     wanted = least(reference.sigma * ratio * math.sqrt(math.sqrt(ratio)), MAX_GOVERNED)
@@ -249,9 +252,9 @@ def yield_poles(
     held = compute_disturbed(nominal, ξ, w)
     dddq = held.dddq + c.rate_used * observed.dw2 / nominal.M
     q = Disturbed(held.ddq, dddq, held.ddddq, held.ddsigma)
-    mu = compute_lever_ratio(x.theta2, nominal.mu0, nominal.gamma)
-    limit = compute_deflection_limit(c.domain, mu)
-    most = c.torque_ratio * compute_elastic_torque(mu, SPRING_SHARE * limit, nominal.K)
+    mu = compute_coordinate(nominal, x.theta2)
+    limit = compute_deflection_limit(c.domain, nominal, mu)
+    most = c.torque_ratio * compute_torques(nominal, mu, SPRING_SHARE * limit).torque
     e_sigma, de_sigma = reference.sigma + sigma - ξ.sigma, reference.dsigma + dsigma - ξ.dsigma
     a = least(a_most, c.a_max - memory.yielded + c.back)
     torque = place_poles(nominal, c, ξ, reference, x, q, e_sigma, de_sigma, ddsigma, w, most, a)

@@ -10,9 +10,12 @@ from typing import NamedTuple
 import numpy as np
 
 from svsa.actuators.dynamics import Actuator, compute_deflection
-from svsa.actuators.lever import compute_lever_ratio, compute_lever_ratio_slope
+from svsa.actuators.elasticity import (
+    compute_coordinate,
+    compute_stiffness_of,
+    compute_stiffness_slope_of,
+)
 from svsa.actuators.signals import Disturbance, Reference, State, Torque
-from svsa.actuators.spring import compute_stiffness, compute_stiffness_slope
 from svsa.control.flat import compute_flat
 from svsa.control.law import Law, Setting
 from svsa.control.parameters import LawParameters
@@ -107,9 +110,9 @@ def control(
     u2 = d.u2 + nominal.B2 * (
         c.kp2 * (d.theta2 + memory.motor2 - x.theta2) + c.kd2 * (d.dtheta2 - x.dtheta2)
     )
-    mu = compute_lever_ratio(x.theta2, nominal.mu0, nominal.gamma)
-    e_sigma = reference.sigma - compute_stiffness(mu, compute_deflection(x), nominal.K)
-    g = compute_stiffness_slope(d.mu, nominal.K, compute_lever_ratio_slope(nominal.gamma))
+    mu = compute_coordinate(nominal, x.theta2)
+    e_sigma = reference.sigma - compute_stiffness_of(nominal, mu, compute_deflection(x))
+    g = compute_stiffness_slope_of(nominal, d.mu)
     time1 = choose(abs(u1) <= c.torque1_max, period, 0.0)
     time2 = choose(abs(u2) <= c.torque2_max, period, 0.0)
     memory.motor1 = memory.motor1 + time1 * c.ki1 * e

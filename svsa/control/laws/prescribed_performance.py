@@ -27,9 +27,13 @@ from typing import NamedTuple
 import numpy as np
 
 from svsa.actuators.dynamics import Actuator, compute_deflection
-from svsa.actuators.lever import compute_lever_ratio, compute_lever_ratio_slope
+from svsa.actuators.elasticity import (
+    compute_coordinate,
+    compute_stiffness_of,
+    compute_stiffness_slope_of,
+    compute_torques,
+)
 from svsa.actuators.signals import Disturbance, Reference, State, Torque
-from svsa.actuators.spring import compute_elastic_torque, compute_stiffness, compute_stiffness_slope
 from svsa.control.law import Law, Setting
 from svsa.control.parameters import LawParameters
 from svsa.inputs.checked import Number, quantity
@@ -138,13 +142,13 @@ def control(
     wide = 1.0 + (c.ratio - 1.0) * memory.left
     memory.left *= c.kept
     phi = compute_deflection(x)
-    mu = compute_lever_ratio(x.theta2, nominal.mu0, nominal.gamma)
-    torque = compute_elastic_torque(mu, phi, nominal.K)
-    sigma = compute_stiffness(mu, phi, nominal.K)
+    mu = compute_coordinate(nominal, x.theta2)
+    torque = compute_torques(nominal, mu, phi).torque
+    sigma = compute_stiffness_of(nominal, mu, phi)
     velocity = reference.dq - c.k1 * push_inside(x.q - reference.q, wide * c.r1)
     wanted = c.k2 * push_inside(x.dq - velocity, wide * c.r2)
     dtheta1 = x.dq + c.k3 * push_inside(torque - wanted, wide * c.r3)
-    g = compute_stiffness_slope(mu, nominal.K, compute_lever_ratio_slope(nominal.gamma))
+    g = compute_stiffness_slope_of(nominal, mu)
     dsigma = reference.dsigma - c.k5 * push_inside(sigma - reference.sigma, wide * c.r5)
     return Torque(
         -c.k4 * push_inside(x.dtheta1 - dtheta1, wide * c.r4),

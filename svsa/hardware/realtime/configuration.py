@@ -4,6 +4,7 @@ from collections.abc import Iterable
 
 from svsa.actuators.domain import build_domain
 from svsa.actuators.dynamics import build_actuator
+from svsa.actuators.parameters import require_svsa
 from svsa.errors import StateError
 from svsa.hardware.file import BenchFile
 from svsa.hardware.safety.guard import Guard
@@ -103,6 +104,7 @@ def check_loads(loads: Iterable[Load]) -> None:
 def build_guard(bench: BenchFile) -> Guard:
     """The limits of a bench, with the torques and the domain of its design."""
     design = read_bench_design(bench)
+    require_svsa(design.nominal, "a bench")
     return Guard(
         bench,
         (design.limits.torque1_nm, design.limits.torque2_nm),

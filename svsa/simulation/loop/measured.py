@@ -11,7 +11,7 @@ import numpy as np
 
 from svsa.actuators.domain import compute_deflection_limit
 from svsa.actuators.dynamics import ExternalLoad, compute_acceleration
-from svsa.actuators.lever import compute_lever_ratio
+from svsa.actuators.elasticity import compute_coordinate, compute_stiffness_of
 from svsa.actuators.signals import (
     Disturbance,
     Measurement,
@@ -21,7 +21,6 @@ from svsa.actuators.signals import (
     State,
     Torque,
 )
-from svsa.actuators.spring import compute_stiffness
 from svsa.control.call import Call, read_estimate
 from svsa.control.observers.state import predict_state
 from svsa.numerics.compilation import compiled
@@ -208,8 +207,8 @@ def publish_measured(blocks: Blocks, carried: np.record, tick: int, row: np.ndar
     y, reference, torque = carried.measured, carried.reference, carried.sent
     known, estimate, nothing = carried.known, carried.believed, math.nan
     q = y.theta1 + y.phi
-    mu = compute_lever_ratio(y.theta2, blocks.nominal.mu0, blocks.nominal.gamma)
-    sigma = compute_stiffness(mu, y.phi, blocks.nominal.K)
+    mu = compute_coordinate(blocks.nominal, y.theta2)
+    sigma = compute_stiffness_of(blocks.nominal, mu, y.phi)
     values = Sample(
         time_s=tick * blocks.period,
         position_reference_rad=reference.q,
@@ -224,7 +223,7 @@ def publish_measured(blocks: Blocks, carried: np.record, tick: int, row: np.ndar
         motor2_position_rad=y.theta2,
         motor2_velocity_rad_per_s=known.dtheta2,
         deflection_rad=y.phi,
-        deflection_limit_rad=compute_deflection_limit(blocks.domain, mu),
+        deflection_limit_rad=compute_deflection_limit(blocks.domain, blocks.nominal, mu),
         lever_ratio=mu,
         stiffness_nm_per_rad=sigma,
         position_error_rad=reference.q - q,

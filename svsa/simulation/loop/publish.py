@@ -17,9 +17,8 @@ from svsa.actuators.dynamics import (
     compute_internal_torque,
     compute_unexplained_torque,
 )
-from svsa.actuators.lever import compute_lever_ratio
+from svsa.actuators.elasticity import compute_coordinate, compute_stiffness_of
 from svsa.actuators.signals import Reference, Sample
-from svsa.actuators.spring import compute_stiffness
 from svsa.control.call import Call, read_estimate
 from svsa.numerics.compilation import compiled
 from svsa.simulation.loop.lane import Action, Blocks, LaneState
@@ -84,8 +83,8 @@ def publish(
     estimate = read_estimate(call, lane.estimate)
     x, known = lane.x, lane.known
     phi = compute_deflection(x)
-    mu = compute_lever_ratio(x.theta2, blocks.plant.mu0, blocks.plant.gamma)
-    sigma = compute_stiffness(mu, phi, blocks.plant.K)
+    mu = compute_coordinate(blocks.plant, x.theta2)
+    sigma = compute_stiffness_of(blocks.plant, mu, phi)
     acceleration = Acceleration(rate.dq, rate.dtheta1, rate.dtheta2)
     F = compute_nominal_torque(blocks, lane, F)
     w = compute_unexplained_torque(blocks.nominal, F, torque, acceleration)
@@ -103,7 +102,7 @@ def publish(
         motor2_position_rad=x.theta2,
         motor2_velocity_rad_per_s=x.dtheta2,
         deflection_rad=phi,
-        deflection_limit_rad=compute_deflection_limit(blocks.domain, mu),
+        deflection_limit_rad=compute_deflection_limit(blocks.domain, blocks.plant, mu),
         lever_ratio=mu,
         stiffness_nm_per_rad=sigma,
         position_error_rad=reference.q - x.q,

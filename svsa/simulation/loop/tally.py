@@ -6,9 +6,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from svsa.actuators.dynamics import InternalTorque, compute_deflection
-from svsa.actuators.lever import compute_lever_ratio
+from svsa.actuators.elasticity import compute_coordinate, compute_stiffness_of
 from svsa.actuators.signals import Reference, State, Torque
-from svsa.actuators.spring import compute_stiffness
 from svsa.numerics.compilation import compiled
 from svsa.numerics.simd.choice import choose, greatest
 from svsa.simulation.loop.lane import Action, Blocks, LaneState
@@ -204,8 +203,8 @@ def measure(
     if tick < window.begin:
         return tally
     plant = blocks.plant
-    mu = compute_lever_ratio(x.theta2, plant.mu0, plant.gamma)
-    sigma = compute_stiffness(mu, compute_deflection(x), plant.K)
+    mu = compute_coordinate(plant, x.theta2)
+    sigma = compute_stiffness_of(plant, mu, compute_deflection(x))
     errors = reference.q - x.q, reference.sigma - sigma
     moment = Moment(*errors, reference.sigma, torque.u1, torque.u2, x.dtheta1, x.dtheta2)
     limits = blocks.torque1_max, blocks.torque2_max

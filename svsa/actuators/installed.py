@@ -1,0 +1,70 @@
+"""The actuators that are installed: found by the entry points `svsa.actuators` of packages."""
+
+from functools import cache
+from importlib.metadata import EntryPoint, entry_points
+from typing import Annotated, Any
+
+from pydantic import SerializerFunctionWrapHandler, ValidatorFunctionWrapHandler
+from pydantic.functional_serializers import WrapSerializer
+from pydantic.functional_validators import WrapValidator
+
+from svsa.actuators.mechanism import Mechanism
+from svsa.actuators.parameters import SVSA, ActuatorParameters, MechanismParameters
+from svsa.errors import ParameterError, Violation
+
+GROUP = "svsa.actuators"
+
+
+@cache
+def _find_entries() -> dict[str, EntryPoint]:
+    entries = entry_points(group=GROUP)
+    names = sorted(entries.names, key=lambda name: (name != SVSA, name))
+    return {name: next(iter(entries.select(name=name))) for name in names}
+
+
+def list_mechanism_names() -> tuple[str, ...]:
+    """The names of the actuators that are installed: the SVSA first."""
+    return tuple(_find_entries())
+
+
+@cache
+def get_mechanism(name: str) -> Mechanism:
+    """An actuator by its name.
+
+    Args:
+        name: Of its entry point.
+
+    Returns:
+        The actuator.
+
+    Raises:
+        ParameterError: If none of that name is installed, or its package brings another.
+    """
+    entry = _find_entries().get(name)
+    if entry is None:
+        bound = f"an actuator that is installed here: {', '.join(list_mechanism_names())}"
+        raise ParameterError(Violation("mechanism", name, "", bound))
+    found = entry.load()
+    if not isinstance(found, Mechanism) or found.name != name:
+        bound = f"the actuator {name}, as the entry point {entry.value} says"
+        raise ParameterError(Violation("mechanism", repr(found), "", bound))
+    return found
+
+
+def _read(given: Any, read_svsa: ValidatorFunctionWrapHandler) -> Any:
+    """Parameters of any actuator; those that name no mechanism are of the SVSA."""
+    if isinstance(given, MechanismParameters):
+        return given
+    if isinstance(given, dict) and isinstance(name := given.get("mechanism"), str):
+        values = {key: value for key, value in given.items() if key != "mechanism"}
+        return get_mechanism(name).parameters(**values)
+    return read_svsa(given)
+
+
+def _write(given: Any, write_svsa: SerializerFunctionWrapHandler, info: Any) -> Any:
+    is_svsa = isinstance(given, ActuatorParameters)
+    return write_svsa(given) if is_svsa else given.model_dump(mode=info.mode)
+
+
+InstalledActuator = Annotated[ActuatorParameters, WrapValidator(_read), WrapSerializer(_write)]
+"""Parameters of an actuator; a field `mechanism` names another one than the SVSA."""

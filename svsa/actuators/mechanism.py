@@ -1,0 +1,101 @@
+"""What an actuator is: parameters, an elastic energy U(φ, s) and a transmission s = s0 + κ θ2.
+
+    M q̈ + D q̇ + τ_e = τ_ext        τ_e = ∂U/∂φ, φ = q − θ1
+    B1 θ̈1 + D1 θ̇1 − τ_e = u1        σ   = ∂²U/∂φ²
+    B2 θ̈2 + D2 θ̇2 + τ_r = u2        τ_r = κ ∂U/∂s
+
+The SVSA of the paper is one of this class, with s = μ and κ = 1/(2πγ). Loop, control laws and
+observers compute with what `svsa.actuators.energy` derives from U.
+"""
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from svsa.actuators.parameters import Limits, MechanismParameters
+from svsa.errors import ParameterError, Violation
+
+NAME = re.compile(r"[a-z][a-z0-9_]{0,39}")
+MAX_ELASTIC = 6
+"""How many parameters an energy takes at most."""
+
+
+@dataclass(frozen=True, eq=False)
+class Mechanism:
+    """An actuator as one file describes it.
+
+    Attributes:
+        name: Of the entry point and in records.
+        title: For people.
+        source: Publication of the mechanism.
+        parameters: Class of its parameters; a field `mechanism` holds the name.
+        elastic: The fields of the parameters that the energy takes, at most `MAX_ELASTIC`.
+        energy: U in J, a function (φ, s, p, m) of symbols: p has the fields `elastic`, m is sympy.
+            Smooth, and zero or constant at φ = 0.
+        coordinate: Lower and upper end of s, where σ(0, s) is positive and monotonic.
+        compute_slope: κ = ds/dθ2 of parameters, 1/rad (or m/rad if s is a length).
+        prototype: Parameters of the true plant.
+        nominal: Parameters of the model that the control laws get.
+        limits: Torque limits, stiffness range and deflection limit.
+        sources: Of each field of `prototype` and `limits` the source, or "assumed: …".
+    """
+
+    name: str
+    title: str
+    source: str
+    parameters: type[MechanismParameters]
+    elastic: tuple[str, ...]
+    energy: Callable[[Any, Any, Any, Any], Any]
+    coordinate: tuple[float, float]
+    compute_slope: Callable[[Any], float]
+    prototype: MechanismParameters
+    nominal: MechanismParameters
+    limits: Limits
+    sources: Mapping[str, str]
+
+    def __post_init__(self) -> None:
+        if not NAME.fullmatch(self.name):
+            bound = "a small letter, then up to 39 small letters, digits or _"
+            raise ParameterError(Violation("name", self.name, "", bound))
+        if not 1 <= len(self.elastic) <= MAX_ELASTIC:
+            bound = f"1 to {MAX_ELASTIC} names of parameters"
+            raise ParameterError(Violation("elastic", list(self.elastic), "", bound))
+        fields = {*self.parameters.model_fields, *Limits.model_fields} - {"mechanism"}
+        missing = sorted(fields - {*self.sources})
+        if missing:
+            bound = f"a source of each value; missing: {', '.join(missing)}"
+            raise ParameterError(Violation("sources", sorted(self.sources), "", bound))
+
+    def list_elastic(self, parameters: MechanismParameters) -> list[float]:
+        """The values of the parameters that the energy takes."""
+        return [float(getattr(parameters, name)) for name in self.elastic]
+
+
+def perturb(
+    parameters: MechanismParameters, inertia: tuple[float, float, float], damping: float
+) -> Any:
+    """Parameters of a nominal model that differs from the plant as the paper's does.
+
+    Args:
+        parameters: Of the true plant.
+        inertia: Factors of M, B1 and B2.
+        damping: Added to D, D1 and D2, N·m·s/rad.
+
+    Returns:
+        Parameters of the same class.
+    """
+    p = parameters
+    return p.changed(
+        link_inertia_kg_m2=p.link_inertia_kg_m2 * inertia[0],
+        motor1_inertia_kg_m2=p.motor1_inertia_kg_m2 * inertia[1],
+        motor2_inertia_kg_m2=p.motor2_inertia_kg_m2 * inertia[2],
+        link_damping_nms_per_rad=p.link_damping_nms_per_rad + damping,
+        motor1_damping_nms_per_rad=p.motor1_damping_nms_per_rad + damping,
+        motor2_damping_nms_per_rad=p.motor2_damping_nms_per_rad + damping,
+    )
+
+
+PAPERS_INERTIA = (1.49, 1.21, 1.36)
+PAPERS_DAMPING_NMS_PER_RAD = 0.002
+"""How far the paper's nominal model is from its plant, rounded."""

@@ -1,0 +1,82 @@
+"""qbmove: two motors pull at the link through exponential springs, against each other.
+
+τ = k sinh a(q − θa) + k sinh a(q − θb). With θ1 = (θa + θb)/2 and θ2 = (θa − θb)/2 the motors
+decouple, B1 = B2 = 2B, u1 = ua + ub, u2 = ua − ub, and U(φ, s) = (2k/a) cosh(aφ) cosh(as), s = θ2.
+A stiffness σ_d is possible only for |τ_e| < σ_d/a: 0.17 N·m at 1.5 N·m/rad, 0.89 at 8.
+"""
+
+from typing import Any, Literal
+
+from svsa.actuators.mechanism import PAPERS_DAMPING_NMS_PER_RAD, PAPERS_INERTIA, Mechanism, perturb
+from svsa.actuators.parameters import Limits, MechanismParameters
+from svsa.inputs.checked import Number, quantity
+
+_MODELS = "public Gazebo models of the ViActors project"
+_TORQUE = f"{_MODELS}: 6 N·m a motor; |u1|, |u2| ≤ 6 N·m keep both motors within it"
+
+
+class QbmoveParameters(MechanismParameters):
+    """The constants of qbmove."""
+
+    mechanism: Literal["qbmove"] = "qbmove"
+    rate_per_rad: Number = quantity("1/rad", "Exponent a of the springs", gt=0, le=100)
+    spring_torque_nm: Number = quantity("N·m", "Torque k of the springs", gt=0, le=10)
+
+
+def compute_energy(phi: Any, s: Any, p: Any, m: Any) -> Any:
+    """U = (2k/a) cosh(aφ) cosh(as), J."""
+    a, k = p.rate_per_rad, p.spring_torque_nm
+    return 2 * k / a * m.cosh(a * phi) * m.cosh(a * s)
+
+
+_PROTOTYPE = QbmoveParameters(
+    link_inertia_kg_m2=0.02,
+    motor1_inertia_kg_m2=0.0466,
+    motor2_inertia_kg_m2=0.0466,
+    link_damping_nms_per_rad=0.002,
+    motor1_damping_nms_per_rad=0.0038,
+    motor2_damping_nms_per_rad=0.0038,
+    rate_per_rad=8.9992,
+    spring_torque_nm=0.0019,
+)
+
+QBMOVE = Mechanism(
+    name="qbmove",
+    title="qbmove",
+    source="M. G. Catalano et al., VSA-CubeBot, ICRA 2011; Natural Machine Motion Initiative",
+    parameters=QbmoveParameters,
+    elastic=("rate_per_rad", "spring_torque_nm"),
+    energy=compute_energy,
+    coordinate=(0.02, 0.8),
+    compute_slope=lambda p: 1.0,
+    prototype=_PROTOTYPE,
+    nominal=perturb(_PROTOTYPE, PAPERS_INERTIA, PAPERS_DAMPING_NMS_PER_RAD),
+    limits=Limits(
+        torque1_nm=6.0,
+        torque2_nm=6.0,
+        deflection_fraction=0.95,
+        deflection_max_rad=0.8,
+        singularity_fraction=0.05,
+        stiffness_min_nm_per_rad=0.2,
+        stiffness_max_nm_per_rad=15.0,
+        lever_ratio_margin=0.01,
+    ),
+    sources={
+        "link_inertia_kg_m2": "assumed",
+        "motor1_inertia_kg_m2": f"{_MODELS}: 0.0233 kg·m² a motor, twice",
+        "motor2_inertia_kg_m2": f"{_MODELS}: 0.0233 kg·m² a motor, twice",
+        "link_damping_nms_per_rad": "assumed",
+        "motor1_damping_nms_per_rad": f"{_MODELS}: 0.0019 N·m·s/rad a motor, twice",
+        "motor2_damping_nms_per_rad": f"{_MODELS}: 0.0019 N·m·s/rad a motor, twice",
+        "rate_per_rad": _MODELS,
+        "spring_torque_nm": _MODELS,
+        "torque1_nm": _TORQUE,
+        "torque2_nm": _TORQUE,
+        "deflection_fraction": "assumed",
+        "deflection_max_rad": _MODELS,
+        "singularity_fraction": "assumed",
+        "stiffness_min_nm_per_rad": "assumed",
+        "stiffness_max_nm_per_rad": "assumed",
+        "lever_ratio_margin": "assumed",
+    },
+)
