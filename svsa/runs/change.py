@@ -5,7 +5,7 @@ from typing import Self
 
 from pydantic import model_validator
 
-from svsa.actuators.parameters import ActuatorParameters
+from svsa.actuators.installed import InstalledActuator
 from svsa.control.gains import Gains
 from svsa.control.installed import LawName, ParametersByLaw
 from svsa.control.observers.disturbance import ObserverBandwidth
@@ -34,8 +34,8 @@ class Change(Checked):
     observer: ObserverBandwidth | None = None
     position: PositionReference | None = None
     stiffness: StiffnessReference | None = None
-    actuator: ActuatorParameters | None = None
-    nominal: ActuatorParameters | None = None
+    actuator: InstalledActuator | None = None
+    nominal: InstalledActuator | None = None
     effects: Effects | None = None
     load: Load | None = None
 

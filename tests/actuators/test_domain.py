@@ -119,7 +119,7 @@ def test_a_run_that_has_ended_stays_ended():
 def test_inside_the_deflection_limit_the_stiffness_is_positive(spring, sign):
     """The limit lies before the angle of zero stiffness and inside Table 1's 0.75 rad."""
     mu, _ = spring
-    limit = compute_deflection_limit(DOMAIN, mu)
+    limit = compute_deflection_limit(DOMAIN, PLANT, mu)
     assert 0.0 < limit < compute_zero_stiffness_deflection(mu) < 0.75
     inside = build_state(mu, sign * limit * 0.999)
     outside = build_state(mu, sign * limit * 1.001)

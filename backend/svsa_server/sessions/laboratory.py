@@ -10,6 +10,7 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+from svsa.actuators.parameters import require_svsa
 from svsa.errors import StateError
 from svsa.hardware.emulator.control import EmulatorControl, EmulatorError
 from svsa.hardware.file import read_bench
@@ -33,6 +34,8 @@ BURST_S = 0.5 * WAKE_PERIOD_S
 SHARED_SESSION = "lab"
 
 _log = logging.getLogger("svsa")
+
+SESSION = "a session of the server"
 
 
 class Laboratory:
@@ -75,7 +78,11 @@ class Laboratory:
     def create(
         self, configuration: Configuration, owner: str = "", note: str = ""
     ) -> HostedSession:
-        """A new private session, running; refused as by `check_room`."""
+        """A new private session, running; refused as by `check_room`.
+
+        Raises `ParameterError` for another actuator than the SVSA, which the page cannot show.
+        """
+        require_svsa(configuration.actuator, SESSION)
         self.check_room(owner)
         session = SimulatedSession(build_name(), configuration)
         session.start()
@@ -91,7 +98,11 @@ class Laboratory:
         run_id: str,
         owner: str = "",
     ) -> HostedSession:
-        """A private session, paused, that goes on from a recorded run at a tick."""
+        """A private session, paused, that goes on from a recorded run at a tick.
+
+        Raises `ParameterError` for another actuator than the SVSA.
+        """
+        require_svsa(configuration.actuator, SESSION)
         self.check_room(owner)
         session = await asyncio.to_thread(
             SimulatedSession.branch, build_name(), configuration, commands, tick, run_id

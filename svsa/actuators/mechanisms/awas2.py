@@ -66,7 +66,7 @@ AWAS2 = Mechanism(
         "link_damping_nms_per_rad": "assumed",
         "motor1_damping_nms_per_rad": "assumed",
         "motor2_damping_nms_per_rad": "assumed",
-        "lever_stiffness_nm_per_rad": "assumed: 2 K_s (L/r_t)² with L = 0.05 m, r_t = 0.015 m of the"
+        "lever_stiffness_nm_per_rad": "assumed: 2 K_s (L/r_t)² with L = 0.05, r_t = 0.015 m of the"
         " publication; K_s = 10 of a public model, whose unit is not stated",
         "pivot_slope_per_rad": "assumed",
         "torque1_nm": "assumed",
