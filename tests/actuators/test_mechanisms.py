@@ -37,6 +37,7 @@ from svsa.actuators.mechanism import (
 )
 from svsa.actuators.signals import CHANNEL_INDEX, State, Torque
 from svsa.actuators.spring import compute_elastic_energy, compute_spring_derivatives
+from svsa.analysis.design.linear_model import linearize
 from svsa.control.installed import list_law_names
 from svsa.runs.batch import RunSet
 from svsa_server.sessions.laboratory import Laboratory
@@ -357,7 +358,7 @@ def test_a_parameter_of_another_actuator_changes_while_it_runs():
 def test_what_computes_with_the_spring_of_the_svsa_rejects_another_actuator():
     configuration = follow("qbmove", "ndobc", 4.0, 0.0, 0.1, duration_s=0.01).configuration
     with pytest.raises(svsa.ParameterError, match="the lever and the spring of the SVSA"):
-        svsa.linear_model(4.0, design=configuration)
+        linearize(4.0, design=configuration)
     lab = Laboratory.__new__(Laboratory)
     with pytest.raises(svsa.ParameterError, match="a session of the server"):
         lab.create(configuration)
