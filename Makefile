@@ -17,7 +17,8 @@ BY_TWO := -n 2 $(BY_MODULE)
 SHOWN := --hypothesis-profile=shown
 SERVED := package docs hardware scene server client browser
 # What has to be written in the terms of .ci/replaced_terms.txt.
-WRITTEN := CHANGELOG.md CONTRIBUTING.md README.md backend docs frontend svsa
+WRITTEN := CHANGELOG.md CONTRIBUTING.md README.md backend docs frontend svsa \
+  tests ':!tests/data'
 WEB := PATH="$(CURDIR)/$(BIN):$$PATH" npm --prefix frontend/web
 WALL_CLOCK = $$(grep -rl --include='test_*.py' 'mark\.wall_clock' tests)
 export PYTHONDONTWRITEBYTECODE =

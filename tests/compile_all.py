@@ -1,7 +1,7 @@
 """Compile what the tests use, before they begin: `python -m tests.compile_all [--exhaustive]`.
 
-A compiler inside a test takes seconds that the test, or a rig beside it, may not have. What is
-still compiled inside a test is told at the end of the tests; what is compiled inside a server is
+A compiler inside a test takes seconds that the test, or a rig next to it, may not have. What is
+still compiled inside a test is listed at the end of the tests; what is compiled inside a server is
 not. --exhaustive: for `make test-all`, too: the batches of each law, and the loop for a processor
 without any extension.
 """
@@ -34,7 +34,7 @@ BATCHES, EXHAUSTIVE = "batches", "--exhaustive"
 
 
 def main() -> None:
-    """On two cores: the loop and what goes through it here, what shares nothing with it beside."""
+    """On two cores: the loop and what goes through it here, what shares nothing with it next to."""
     processes = [start("tests.compile_all", BATCHES, *sys.argv[1:])]
     if EXHAUSTIVE in sys.argv:
         processes.append(start("tests.runs.paper.golden", "--figures", **GENERIC))

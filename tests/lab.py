@@ -119,7 +119,7 @@ def run_lab(
 
 
 def end(process: subprocess.Popen[str]) -> None:
-    """As Ctrl-C does, where it has not ended yet: it has to end by itself, and soon."""
+    """As Ctrl-C does, where it has not ended yet: it has to end on its own, and soon."""
     if process.poll() is not None:
         return
     process.send_signal(signal.SIGINT)

@@ -81,7 +81,7 @@ def compute_quantities(answers, case):
 
 @pytest.mark.parametrize("index", CASES)
 def test_every_quantity_agrees_with_the_known_answer_entry_by_entry(index):
-    """Relative to each entry itself, so that a small one cannot hide beside a large one."""
+    """Relative to each entry itself, so that a small one cannot hide next to a large one."""
     case = ANSWERS["cases"][index]
     found = compute_quantities(ANSWERS, case)
     assert set(found) == set(case["expect"]), "the file lists a quantity that is not compared"

@@ -81,7 +81,7 @@ def open_socket(lab: Lab, receive_bytes: int | None = None) -> socket.socket:
 
 
 def build_head(lab: Lab, method: str, path: str, more: str = "") -> bytes:
-    """The head of a request of whoever the lab's client is."""
+    """The head of a request of the lab's client."""
     name = lab.client.headers.get("Authorization", "")
     authorization = f"Authorization: {name}\r\n" if name else ""
     host = lab.url.partition("//")[2]
@@ -125,7 +125,7 @@ def is_held(plain: socket.socket) -> bool:
 
 
 def stop_reading(lab: Lab, count: int) -> tuple[int, float]:
-    """Streams of every channel that nobody reads: how many are dropped, and the growth, MB."""
+    """Streams of every channel that no user reads: how many are dropped, and the growth, MB."""
     before, most = read_memory_mb(lab), 0.0
     query = EVERYTHING + ",".join(lab.read()["sample"])
     readers = [open_stream(lab, query, 4096) for _ in range(count)]

@@ -28,14 +28,14 @@ TIME_BRUSHES = """() => {
     window.brushed = [];
     addEventListener("mouseup", () => {
         const begun = performance.now();
-        const told = () => window.brushed.push(performance.now() - begun);
-        requestAnimationFrame(() => requestAnimationFrame(told));
+        const reported = () => window.brushed.push(performance.now() - begun);
+        requestAnimationFrame(() => requestAnimationFrame(reported));
     }, { capture: true });
 }"""
 
 
 def drag(page: Page, plane: Locator, number: int) -> None:
-    """Draw the brush anew, each time from another corner."""
+    """Draw the brush again, each time from another corner."""
     box = get_box(plane.get_by_role("application"))
     share = 0.2 + 0.4 * number / BRUSHES
     page.mouse.move(box["x"] + share * box["width"], box["y"] + 0.3 * box["height"])

@@ -1,4 +1,4 @@
-"""How punctual the loop of a bench is, beside a server that streams.
+"""How punctual the loop of a bench is, next to a server that streams.
 
     python -m tests.benchmarks.loop [SECONDS] [CLIENTS] [FIGURE] [LAW]
 

@@ -117,7 +117,7 @@ class PatchedBench:
         """Change the bench, and tell the page on its stream."""
         self.bench |= change
         if self._stream is not None:
-            self._stream.send(json.dumps({"type": "state", "state": self._told}))
+            self._stream.send(json.dumps({"type": "state", "state": self._reported}))
 
     def drop(self) -> None:
         """The page loses its stream, and nothing answers it any more."""
@@ -127,7 +127,7 @@ class PatchedBench:
             self._stream.close()
 
     @property
-    def _told(self) -> dict:
+    def _reported(self) -> dict:
         return self._patch(self._last)
 
     def _patch(self, state: dict) -> dict:

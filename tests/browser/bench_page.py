@@ -33,7 +33,7 @@ def switch_off(
     """A bench that is off, in the one page of these tests."""
     patched, page = opened_once, opened_once.page
     page.set_viewport_size(browser_context_args["viewport"])
-    # Nothing of a bench that runs opens the details by itself: if they are open, somebody did it.
+    # Nothing of a bench that runs opens the details on its own: if they are open, a user did it.
     patched.become(status="run", homing=HOMED)
     expect_stage(page, "Run")
     if find_details(page).get_attribute("aria-expanded") == "true":

@@ -23,7 +23,7 @@ ARGUMENTS = [
     "--disable-component-update",
     "--disable-sync",
     "--no-first-run",
-    "--renderer-process-limit=1",  # a process anew with every page that is opened costs more
+    "--renderer-process-limit=1",  # a process again with every page that is opened costs more
     # A browser's own pages, behind every window: they cost as much as the window itself.
     "--disable-features=WebUIOmniboxPopup,WebUIOmniboxAimPopup",
 ]

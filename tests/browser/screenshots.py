@@ -18,7 +18,7 @@ LONGEST_MS = 90_000
 
 
 def compare(lab: Lab, seconds: float = 9.0) -> None:
-    """FL beside NDOBC, so long into Figure 4A."""
+    """FL next to NDOBC, so long into Figure 4A."""
     lab.load_figure()
     lab.client.put(lab.session + "/lanes", json={"comparisons": [{"law": "fl"}]}).raise_for_status()
     lab.jump(seconds)
@@ -33,7 +33,7 @@ def hang_load(page: Page, before_ms: int, after_ms: int) -> None:
 
 
 def show_dashboard(page: Page, lab: Lab) -> None:
-    """FL beside NDOBC 4 s after the 3 kg load."""
+    """FL next to NDOBC 4 s after the 3 kg load."""
     compare(lab)
     page.goto(lab.url)
     hang_load(page, 6000, 4000)

@@ -40,7 +40,7 @@ IS_STILL = "() => !document.getAnimations().some((one) => one instanceof CSSTran
 
 @pytest.fixture(scope="module")
 def recorded(lab_without_runs: Lab) -> Lab:
-    """A lab with two runs and FL beside NDOBC under the load."""
+    """A lab with two runs and FL next to NDOBC under the load."""
     lab = lab_without_runs
     lab.client.put(lab.session + "/lanes", json={"comparisons": [{"law": "fl"}]}).raise_for_status()
     lab.load_figure()

@@ -110,7 +110,7 @@ def test_a_quick_stop_is_latched_until_the_fault_is_cleared(
     assert patched.commands == ["quick-stop", "bench/clear"]
 
 
-def test_why_it_does_not_arm_is_told_and_everything_else_is_in_the_details(
+def test_why_it_does_not_arm_is_reported_and_everything_else_is_in_the_details(
     page: Page, patched: PatchedBench
 ) -> None:
     patched.become(problems=["Calibration is 190 days old: at most 180."])
@@ -161,7 +161,7 @@ def test_what_takes_no_command_yet_offers_none(page: Page, patched: PatchedBench
     expect(page.get_by_role("button", name="Fig. 4A", exact=True)).to_be_enabled()
 
 
-def test_of_a_bench_that_was_never_opened_nobody_asks_who_stopped_it(
+def test_of_a_bench_that_was_never_opened_no_user_asks_who_stopped_it(
     page: Page, patched: PatchedBench
 ) -> None:
     lost = BENCH["loop"] | {"alive": False, "state": "gone", "silent_s": 3.0}

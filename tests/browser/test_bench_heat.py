@@ -21,7 +21,9 @@ HEAT_FAULT = describe_fault(
 )
 
 
-def test_heat_that_holds_a_motor_back_is_told_in_band_and_table(page: Page, still_lab: Lab) -> None:
+def test_heat_that_holds_a_motor_back_is_reported_in_band_and_table(
+    page: Page, still_lab: Lab
+) -> None:
     """And a fault that came of it has heat as the first thing to know, not the gains."""
     motors = copy.deepcopy(BENCH["motors"])
     bench = PatchedBench(page, status="run", homing=HOMED, fault=HEAT_FAULT)
@@ -42,7 +44,7 @@ def test_heat_that_holds_a_motor_back_is_told_in_band_and_table(page: Page, stil
     expect(page.get_by_text("Let the motor cool")).to_be_visible()
 
 
-def test_beside_the_load_stands_which_motor_bears_it_for_how_long(
+def test_next_to_the_load_stands_which_motor_bears_it_for_how_long(
     page: Page, still_lab: Lab
 ) -> None:
     bench = PatchedBench(page, status="run", homing=HOMED)

@@ -39,7 +39,7 @@ def test_a_fault_and_opened_details_leave_room_for_the_actuator(
         expect(clear).to_be_in_viewport(ratio=1)
 
 
-def test_a_fault_is_told_on_a_phone_with_the_details_opened(
+def test_a_fault_is_reported_on_a_phone_with_the_details_opened(
     page: Page, patched: PatchedBench
 ) -> None:
     resize(page, 390, 844)

@@ -37,7 +37,7 @@ def find_switch(page: Page) -> Locator:
 
 
 @pytest.mark.smoke
-def test_fl_beside_ndobc_keeps_the_error_that_ndobc_takes_away(page: Page, still_lab: Lab) -> None:
+def test_fl_next_to_ndobc_keeps_the_error_that_ndobc_takes_away(page: Page, still_lab: Lab) -> None:
     open_page(page, still_lab)
     switch = find_switch(page)
     expect(switch).to_have_accessible_name("Compare with FL")
@@ -96,7 +96,9 @@ def test_the_law_and_its_comparison_change_places(page: Page, still_lab: Lab) ->
     assert [lane["law"] for lane in still_lab.read()["lanes"]] == ["fl", "ndobc"]
 
 
-def test_the_same_law_twice_is_told_apart_by_what_it_is_set_to(page: Page, still_lab: Lab) -> None:
+def test_the_same_law_twice_is_distinguished_by_what_it_is_set_to(
+    page: Page, still_lab: Lab
+) -> None:
     """Chosen, set, taken back and removed by key; the actuator of the lane stays where it is."""
     open_page(page, still_lab)
     page.get_by_role("button", name="Add", exact=True).press("Enter")
@@ -130,7 +132,7 @@ def test_the_same_law_twice_is_told_apart_by_what_it_is_set_to(page: Page, still
     assert still_lab.read()["configuration"]["comparisons"] == []
 
 
-def test_a_recording_is_begun_told_and_ended(page: Page, still_lab: Lab) -> None:
+def test_a_recording_is_begun_reported_and_ended(page: Page, still_lab: Lab) -> None:
     open_page(page, still_lab)
     page.get_by_role("button", name="Record", exact=True).click()
     recording = page.get_by_role("button", name=re.compile("^Recording"))

@@ -20,7 +20,7 @@ ATTEMPTS = 3
 
 @pytest.fixture
 def two_pages(context: BrowserContext, still_lab: Lab) -> tuple[Page, Page]:
-    """Two tabs of one browser, with nobody in control."""
+    """Two tabs of one browser, with no user in control."""
     wait_for_holder(still_lab, None)
     pages = context.new_page(), context.new_page()
     for page in pages:

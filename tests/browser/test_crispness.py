@@ -117,9 +117,9 @@ def test_what_has_scrolled_is_as_if_drawn_just_now(
         entry.click()
         expect(entry).to_have_attribute("aria-pressed", is_shown)
         page.evaluate(PASS_FRAMES, FRAMES)
-    anew = read_plot(page)
+    again = read_plot(page)
     context.close()
-    strokes = anew < 200
+    strokes = again < 200
     assert strokes.sum() > 1000
-    different = np.abs(scrolled - anew)[strokes] > 64
+    different = np.abs(scrolled - again)[strokes] > 64
     assert different.mean() < MAX_DIFFERENT

@@ -14,7 +14,7 @@ pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without
 
 @pytest.fixture
 def panel(page: Page, still_lab: Lab) -> Locator:
-    """With all that it asks for: nothing of it moves after that by itself."""
+    """With all that it asks for: nothing of it moves after that on its own."""
     come_back(page, still_lab)
     open_page(page, still_lab)
     page.get_by_role("button", name="Place poles").click()
@@ -81,7 +81,7 @@ def test_a_map_fills(panel: Locator) -> None:
 
 
 @pytest.mark.exhaustive
-def test_too_fast_poles_are_told_to_end_in_a_fault(panel: Locator) -> None:
+def test_too_fast_poles_are_predicted_to_end_in_a_fault(panel: Locator) -> None:
     panel.get_by_role("spinbutton", name="Position bandwidth").fill("90")
     expect(panel.get_by_role("status", name="Verdict: Not this one")).to_contain_text("fault")
     expect(panel.get_by_role("row", name=re.compile("Peak u₁"))).to_contain_text("beyond the limit")
@@ -103,7 +103,7 @@ def test_a_pole_is_moved_with_the_keyboard_and_the_pair_goes_together(panel: Loc
 
 
 @pytest.mark.exhaustive
-def test_the_observer_is_set_beside_the_poles(still_lab: Lab, panel: Locator) -> None:
+def test_the_observer_is_set_next_to_the_poles(still_lab: Lab, panel: Locator) -> None:
     panel.get_by_role("spinbutton", name="Observer bandwidth").fill("40")
     panel.get_by_role("button", name=re.compile("^Apply")).click()
     expect(panel.get_by_role("button", name="Undo, 1 step kept")).to_be_visible()

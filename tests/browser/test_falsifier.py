@@ -59,7 +59,7 @@ def test_a_load_is_searched_kept_put_to_a_law_and_seen(page: Page, still_lab: La
     assert "mine" in [one["name"] for one in kept]
 
 
-def test_a_wrong_bound_is_told_with_its_name_and_nothing_is_begun(
+def test_a_wrong_bound_is_reported_with_its_name_and_nothing_is_begun(
     page: Page, still_lab: Lab
 ) -> None:
     page.goto(still_lab.url + "/?falsifier=all")

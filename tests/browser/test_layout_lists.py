@@ -1,4 +1,4 @@
-"""Plots and controls that have no room are told at the edge, and those in sight are whole."""
+"""Plots and controls that have no room are reported at the edge, and those in sight are whole."""
 
 import re
 

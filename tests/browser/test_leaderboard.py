@@ -53,7 +53,7 @@ def test_it_is_sorted_and_left_for_a_worst_run_and_survives_a_reload(
     head = table.get_by_role("columnheader", name="Held")
     head.get_by_role("button").press("Enter")
     expect(head).to_have_attribute("aria-sort", "descending")
-    # Else the document would be as long as the table, and the window scroll beside the page.
+    # Else the document would be as long as the table, and the window scroll next to the page.
     assert page.evaluate(ALL_WITHIN_THE_PAGE)
     table.get_by_role("link", name=re.compile("^Mine, worst run in 3D")).press("Enter")
     expect(page.get_by_role("heading", name="Worst run of Mine")).to_be_visible()
@@ -75,7 +75,7 @@ def test_the_board_has_no_violation(page: Page, lab_with_board: Lab) -> None:
     assert page.evaluate(ALL_WITHIN_THE_PAGE)
 
 
-def test_a_law_that_fails_is_told_where(page: Page, lab_with_board: Lab) -> None:
+def test_a_law_that_fails_is_reported_where(page: Page, lab_with_board: Lab) -> None:
     page.goto(lab_with_board.url + "/?leaderboard=all")
     page.get_by_role("textbox", name="Name of the law").fill("Broken")
     page.get_by_role("textbox", name=re.compile("^Its text")).fill(

@@ -70,7 +70,7 @@ def test_an_equation_stands_behind_its_symbol_with_the_papers_error(page: Page, 
 
 
 @pytest.mark.parametrize("figure", exhaust(["4A", "4B", "5"], ["4A"]))
-def test_a_figure_is_run_apart_and_laid_beside_the_papers_claim(
+def test_a_figure_is_run_apart_and_laid_next_to_the_papers_claim(
     page: Page, lab: Lab, figure: str
 ) -> None:
     before = lab.read()["run_number"]

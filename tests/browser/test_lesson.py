@@ -1,4 +1,4 @@
-"""An exercise beside the live lab, as a hand that has only a keyboard goes through it."""
+"""An exercise next to the live lab, as a hand that has only a keyboard goes through it."""
 
 import re
 from functools import partial
@@ -44,7 +44,7 @@ class Hand:
         self.go_on("Next")
         expect(self.page.get_by_role("heading", name=title)).to_be_focused()
 
-    def foretell(self, answer: float) -> None:
+    def predict(self, answer: float) -> None:
         number = f"{answer:.4g}"
         self.page.keyboard.press("Tab")
         self.page.keyboard.type(number)
@@ -91,7 +91,7 @@ def walk(hand: Hand) -> None:
     for step in others:
         hand.go_to_step(step.title)
         if isinstance(step, Predict):
-            hand.foretell(answers[step.name])
+            hand.predict(answers[step.name])
         elif isinstance(step, Explain):
             hand.choose(step, answers[step.name])
         elif isinstance(step, Experiment):

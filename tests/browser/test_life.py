@@ -114,7 +114,7 @@ def test_a_killed_server_that_comes_back_is_found_with_what_it_had_recorded(
         expect(row).to_contain_text("cut off")
         listed = follow(lab.client, "/api/v1/runs", lambda answer: answer["indexing"] is None)
         assert listed["runs"][0]["duration_s"] > 7
-    assert view.value.is_navigation_request(), "the 3D view is fetched anew"
+    assert view.value.is_navigation_request(), "the 3D view is fetched again"
 
 
 @pytest.mark.usefixtures("kept_page", "without_3d")

@@ -12,7 +12,7 @@ pytestmark = pytest.mark.browser
 
 
 @pytest.mark.usefixtures("kept_page", "without_3d", "still")
-def test_what_a_script_sets_while_somebody_types_is_told_and_not_undone(
+def test_what_a_script_sets_while_a_user_types_is_reported_and_not_undone(
     page: Page, lab: Lab
 ) -> None:
     open_page(page, lab)
@@ -35,7 +35,7 @@ def test_what_a_script_sets_while_somebody_types_is_told_and_not_undone(
 
 
 @pytest.mark.usefixtures("kept_page", "without_3d", "still")
-def test_set_mine_all_the_same_leaves_what_the_other_set_beside_it(page: Page, lab: Lab) -> None:
+def test_set_mine_all_the_same_leaves_what_the_other_set_next_to_it(page: Page, lab: Lab) -> None:
     open_page(page, lab)
     motion = page.get_by_role("region", name="Motion", exact=True)
     field = motion.get_by_role("spinbutton", name=re.compile("Frequency"))

@@ -28,15 +28,15 @@ IS_SO_BRIGHT = """brightness => {
     return shown.every((part) => Math.abs(Number(part) - brightness) <= 10);
 }"""
 LAST_TIME = """() => {
-    const door = window.svsa;
-    if (!door || !door.channels().includes("position_error_rad")) return 0;
-    const { time } = door.series("position_error_rad");
+    const page = window.svsa;
+    if (!page || !page.channels().includes("position_error_rad")) return 0;
+    const { time } = page.series("position_error_rad");
     return time.length ? time[time.length - 1] : 0;
 }"""
 
 
 def open_page(page: Page, lab: Lab) -> None:
-    """And wait until what it asks for as it opens has come: nothing moves after that by itself."""
+    """And wait until what it asks for as it opens has come: nothing moves after that on its own."""
     page.goto(lab.url)
     wait_for_samples(page)
     expect(page.get_by_role("button", name=KNOWN_LAW)).to_be_attached()
@@ -74,7 +74,7 @@ def choose(one: Locator) -> None:
 
 
 def come_back(page: Page, lab: Lab) -> None:
-    """As somebody who has been here before, to whom no tour is offered."""
+    """As a user who has been here before, to whom no tour is offered."""
     page.goto(lab.url + "/icon.svg")
     page.evaluate("localStorage.setItem('svsa.tour', 'done')")
 

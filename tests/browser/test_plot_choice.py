@@ -1,4 +1,4 @@
-"""Which plots there are, and what an event puts beside them, in a real browser."""
+"""Which plots there are, and what an event puts next to them, in a real browser."""
 
 import re
 
@@ -81,7 +81,7 @@ def test_eight_plots_do_not_scroll_the_page(page: Page, lab: Lab) -> None:
 
 
 @pytest.mark.exhaustive
-def test_the_last_event_stands_still_beside_the_plots(page: Page, lab: Lab) -> None:
+def test_the_last_event_stands_still_next_to_the_plots(page: Page, lab: Lab) -> None:
     open_page(page, lab)
     page.keyboard.press("z")
     expect(page.get_by_text("No event yet")).to_be_visible()

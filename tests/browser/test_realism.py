@@ -42,7 +42,7 @@ def test_the_rig_is_one_choice_and_a_figure_keeps_it(
     assert lab.read()["loads"][0]["start_s"] == 5.0
 
 
-def test_an_effect_by_itself_and_the_model_made_wrong_and_exact(
+def test_an_effect_on_its_own_and_the_model_made_wrong_and_exact(
     page: Page, lab: Lab, realism: Locator
 ) -> None:
     noise = realism.get_by_role("checkbox", name="Sensor noise")

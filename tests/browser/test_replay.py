@@ -24,7 +24,7 @@ NOW_LINES = """() => [...document.querySelectorAll(".now")]
     .map((line) => Number.parseFloat(line.style.translate) / line.parentElement.clientWidth)"""
 
 
-# The values beside the plot of the position, in degrees.
+# The values next to the plot of the position, in degrees.
 READ = """angles => {
     const shown = [...document.querySelectorAll('[data-plot="position"] output')];
     return shown.length === angles.length && shown.every(({ textContent }, index) =>

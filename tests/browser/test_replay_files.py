@@ -21,9 +21,9 @@ CURVE = """plot => {
         let weight = 0, sum = 0;
         for (let y = 0; y < height; y++) {
             const [red, , blue, alpha] = pixels.subarray(4 * (y * width + x));
-            const ink = blue - red > 60 ? alpha : 0;
-            weight += ink;
-            sum += ink * y;
+            const color = blue - red > 60 ? alpha : 0;
+            weight += color;
+            sum += color * y;
         }
         middles.push(sum / weight);
     }

@@ -72,7 +72,7 @@ def test_every_action_shows_its_call_in_python_and_curl(page: Page, lab: Lab) ->
     )
 
 
-def test_the_experiment_as_a_script_repeats_it_and_disturbs_nobody(
+def test_the_experiment_as_a_script_repeats_it_and_disturbs_no_user(
     page: Page, lab: Lab, tmp_path: Path
 ) -> None:
     open_page(page, lab)

@@ -62,7 +62,9 @@ def test_a_study_is_brushed_picked_from_and_left_for_a_run(
     assert (brush.bounding_box() or {"width": 0})["width"] > 100
 
 
-def test_a_wrong_text_is_told_with_its_line_and_nothing_is_begun(page: Page, studied: Lab) -> None:
+def test_a_wrong_text_is_reported_with_its_line_and_nothing_is_begun(
+    page: Page, studied: Lab
+) -> None:
     page.goto(studied.url + "/?studies=all")
     page.get_by_role("combobox", name="Study", exact=True).select_option(label="Custom (TOML) …")
     text = page.get_by_label("Definition (TOML)")

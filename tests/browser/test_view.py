@@ -82,7 +82,7 @@ def test_the_camera_goes_to_a_preset_of_this_page_only(view: Page) -> None:
     page.wait_for_function(f"() => ({CAMERA})()[2] < -8", timeout=LONG_MS)
 
 
-# What is wrong with the labels on the picture, once all that it shows has been laid out anew.
+# What is wrong with the labels on the picture, once all that it shows has been laid out again.
 FIND_LABEL_PROBLEMS = """async () => {
     for (let i = 0; i < 14; i++) await new Promise(requestAnimationFrame);
     const view = document.querySelector(".view");
@@ -163,7 +163,7 @@ def wait_for_push(page: Page, lab: Lab) -> None:
 
 
 def wait_for_end(page: Page, lab: Lab) -> int:
-    """Wait until nothing pushes and each push is told to be over; how many there were.
+    """Wait until nothing pushes and each push is known to be over; how many there were.
 
     A page that is not heard of in time has its push ended, and begins it again.
     """

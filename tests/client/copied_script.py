@@ -14,7 +14,7 @@ WRITE = """
 import {{ writeExperiment }} from "./experiment.js";
 import {{ readFileSync }} from "node:fs";
 const origin = JSON.parse(readFileSync("origin.json", "utf8"));
-process.stdout.write(writeExperiment(origin, "Held against a load", {lab!r}));
+process.stdout.write(writeExperiment(origin, "Compared with a load", {lab!r}));
 """
 END_S = 1.5
 LONGEST_S = 300.0
@@ -74,7 +74,7 @@ def _run_node(folder: Path, *arguments: str) -> bytes:
 
 
 def start_script(path: Path, token: str, *arguments: str) -> subprocess.Popen[str]:
-    """The script as a process of its own, as whoever has this token."""
+    """The script as a process of its own, as the owner of this token."""
     return subprocess.Popen(
         [sys.executable, str(path), *arguments],
         env={**os.environ, "SVSA_SECRET": token},
@@ -85,7 +85,7 @@ def start_script(path: Path, token: str, *arguments: str) -> subprocess.Popen[st
 
 
 def expect_done(script: subprocess.Popen[str], laws: tuple[str, ...]) -> float:
-    """Where it came to, s; of each lane it has told its error."""
+    """Where it came to, s; of each lane it has reported its error."""
     reported, _ = script.communicate(timeout=LONGEST_S)
     assert script.returncode == 0, reported
     *lanes, last = reported.splitlines()

@@ -1,4 +1,4 @@
-"""A line between a script and a lab that breaks when it is told to: TCP, on loopback."""
+"""A line between a script and a lab that breaks on command: TCP, on loopback."""
 
 import contextlib
 import socket

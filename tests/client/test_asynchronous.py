@@ -52,12 +52,12 @@ def test_several_go_on_side_by_side_and_give_the_library_s_runs(server: Server) 
         assert np.array_equal(there.samples, here.samples)
 
 
-def test_a_refusal_and_a_missing_lab_are_told_as_by_the_other(server: Server) -> None:
+def test_a_refusal_and_a_missing_lab_are_reported_as_by_the_other(server: Server) -> None:
     async def refuse() -> None:
         async with svsa.connect_async(server.url) as lab, lab.new_session(load=False) as session:
-            await session.set(law="nobody")
+            await session.set(law="missing")
 
-    with pytest.raises(svsa.ParameterError, match="nobody"):
+    with pytest.raises(svsa.ParameterError, match="missing"):
         asyncio.run(refuse())
 
     async def miss() -> None:

@@ -38,7 +38,7 @@ def tokens(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, str,
         yield lab.url, keys.sign(ADA), keys.sign(BOB), keys.sign(INSTRUCTOR)
 
 
-def test_a_script_without_a_token_is_told_how_one_comes_in(
+def test_a_script_without_a_token_learns_how_to_log_in(
     tokens: tuple[str, str, str, str],
 ) -> None:
     with pytest.raises(AccessError, match="join it with your name and the class code"):
@@ -92,7 +92,7 @@ def test_a_token_stands_in_no_address(tokens: tuple[str, str, str, str]) -> None
     assert refused.status_code == 401
 
 
-def test_a_script_whose_maker_is_removed_is_told_so(
+def test_a_script_whose_owner_is_removed_is_notified(
     tokens: tuple[str, str, str, str],
 ) -> None:
     url, ada_s, _, instructor_s = tokens
@@ -135,4 +135,4 @@ def test_a_copied_script_asks_for_control_like_a_person(
         assert (state["tick"], state["configuration"]["law"]) == (1500, "fl")
         private = start_script(path, ada_s)
         assert expect_done(private, ("FL",)) == END_S
-        assert bob.session.read_state() == state, "it disturbs nobody"
+        assert bob.session.read_state() == state, "it disturbs no user"

@@ -182,7 +182,7 @@ def test_control_is_taken_and_given_back(server: Server, lab: Lab) -> None:
 def test_a_secret_opens_the_lab() -> None:
     with run_lab(secret="of the class") as guarded:
         with pytest.raises(AccessError):
-            svsa.connect(guarded.url, token="of nobody")
+            svsa.connect(guarded.url, token="of no one")
         with svsa.connect(guarded.url, token="of the class") as lab:
             assert "ndobc" in lab.laws
             assert len(next(iter(lab.session.stream(duration_s=0.1))).ticks)

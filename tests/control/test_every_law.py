@@ -59,7 +59,7 @@ def test_a_recorded_session_is_simulated_again_to_the_bit(law: str, tmp_path: Pa
 
 @pytest.mark.parametrize("law", exhaust(list_law_names(), SHOWN_IN_BATCHES))
 def test_in_a_batch_a_law_ends_where_it_does_in_a_live_session(law: str) -> None:
-    """Beside a run of another stiffness of the plant, which is another run."""
+    """Next to a run of another stiffness of the plant, which is another run."""
     first = build_configuration(PULSE, law=law, effects=svsa.RIG)
     softer = first.actuator.changed(link_inertia_kg_m2=0.9 * first.actuator.link_inertia_kg_m2)
     both = [first, first.changed(actuator=softer)]

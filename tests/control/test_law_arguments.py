@@ -41,7 +41,7 @@ KP, KD = 30.0, 2.0
 
 
 class Heard(NamedTuple):
-    """What the law was told last, and θ1 the time before."""
+    """What the law was reported last, and θ1 the time before."""
 
     q: float = 0.0
     theta1: float = 0.0
@@ -134,7 +134,7 @@ def test_it_is_what_the_sensors_said_at_that_tick_with_their_counts_and_their_no
         pytest.param("hear_branching", "every", marks=pytest.mark.exhaustive),
     ],
 )
-def test_side_by_side_it_is_told_what_it_is_told_alone(law, effects):
+def test_side_by_side_it_receives_what_it_receives_alone(law, effects):
     configurations = [build(law, EFFECTS[effects]).changed(seed=seed) for seed in (3, 4, 5)]
     assert (build_run_batch(configurations).control is None) == (law == "hear_branching")
     summaries = run_configurations(configurations, 0.2)
@@ -145,7 +145,7 @@ def test_side_by_side_it_is_told_what_it_is_told_alone(law, effects):
 
 
 @pytest.mark.parametrize("effects", EFFECTS)
-def test_a_law_in_plain_python_is_told_the_same_where_it_names_it(effects):
+def test_a_law_in_plain_python_receives_the_same_where_it_names_it(effects):
     configuration = build(effects=EFFECTS[effects])
     compiled_samples = advance(Run(configuration), 200)[0]
     own = svsa.simulate(configuration, build_in_python(), duration_s=0.2)
@@ -153,7 +153,7 @@ def test_a_law_in_plain_python_is_told_the_same_where_it_names_it(effects):
     assert np.abs(own.torque1_nm).max() > 0.5
 
 
-def test_a_law_in_a_process_of_its_own_is_told_the_same():
+def test_a_law_in_a_process_of_its_own_receives_the_same():
     configuration = build()
     model = build_actuator(configuration.nominal, compute_start_ratio(configuration))
     with LawProcess(AS_A_FILE, model, place=leave_open) as law:
@@ -248,6 +248,6 @@ def test_a_law_in_a_process_of_another_signature_says_the_one_it_must_have():
         lambda t, r, x, w, gain=0.4: (gain, 0.0),
     ],
 )
-def test_what_was_a_law_before_is_one_and_is_told_no_more(law):
+def test_what_was_a_law_before_is_one_and_receives_no_more(law):
     samples = svsa.simulate("4b", law, duration_s=0.002, effects=svsa.IDEAL)
     np.testing.assert_allclose(samples.torque1_nm, 0.4)

@@ -31,7 +31,7 @@ U1 = CHANNEL_INDEX["torque1_nm"]
 
 
 class Seen(NamedTuple):
-    """An estimate of its own, and what it was told last."""
+    """An estimate of its own, and what it was reported last."""
 
     w2: float = 0.25
     w4: float = 0.0
@@ -77,9 +77,11 @@ def test_a_law_that_does_not_load_is_imported_once(monkeypatch, install):
     assert tried == ["absent"]
 
 
-def test_the_paper_s_laws_come_through_the_door_that_everybody_s_come_through():
+def test_the_paper_s_laws_are_found_like_all_others():
     names = list_law_names()
-    assert names[:2] == ("ndobc", "fl"), "so that FL is what NDOBC is set beside, in its own ink"
+    assert names[:2] == ("ndobc", "fl"), (
+        "so that FL is what NDOBC is compared with, in its own color"
+    )
     assert list(names[2:]) == sorted(names[2:])
     assert {get_law(name).title for name in ("fl", "ndobc")} == {"FL", "NDOBC"}
 
@@ -113,7 +115,7 @@ def test_another_law_needs_no_compilation_of_the_loop(install):
     assert set(names) <= {"watch"}
 
 
-def test_a_law_is_told_the_torque_that_acted_and_its_own_estimate_is_what_is_shown(install):
+def test_a_law_receives_the_torque_that_acted_and_its_own_estimate_is_what_is_shown(install):
     """Asked for 0.1, 0.2, … N·m; with two samples of delay it hears of them three later."""
     install(watch="WATCH")
     run = Run(build_configuration(law="watch", effects=svsa.Effects(delay_samples=2)))
@@ -269,7 +271,7 @@ def test_what_was_recorded_with_a_law_that_does_not_load_has_its_name(install):
     assert describe_law("broken") == "broken"
 
 
-def test_a_law_without_a_name_or_with_an_estimate_that_nobody_finds_is_none():
+def test_a_law_without_a_name_or_with_an_estimate_that_no_user_finds_is_none():
     with pytest.raises(svsa.ParameterError, match="small letter"):
         dataclasses.replace(WATCH, name="Watch!")
     with pytest.raises(svsa.ParameterError, match="w2, w4, w6"):

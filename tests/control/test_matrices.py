@@ -1,4 +1,4 @@
-"""The small matrices of a law's design, beside scipy's."""
+"""The small matrices of a law's design, next to scipy's."""
 
 import numpy as np
 import pytest
@@ -25,7 +25,7 @@ def test_products_powers_solutions_and_exponentials_are_the_librarys(n: int) -> 
     np.testing.assert_allclose(compute_exponential(4 * A), expm(4 * A), rtol=1e-9)
 
 
-def test_a_pivot_of_zero_is_passed_over_and_a_singular_matrix_told() -> None:
+def test_a_pivot_of_zero_is_passed_over_and_a_singular_matrix_reported() -> None:
     swap = np.array([[0.0, 1.0], [1.0, 0.0]])
     np.testing.assert_array_equal(solve(swap, np.eye(2)), swap)
     with pytest.raises(SvsaError, match="singular"):

@@ -81,7 +81,7 @@ def test_a_load_surprises_at_once_and_what_it_does_next_is_forgotten_in_time():
 
 
 def test_what_swings_on_is_no_surprise_and_slows_the_law_down():
-    """±3 N·m at 9 Hz, as after a load removal in saturation: the law gives way and stays so."""
+    """±3 N·m at 9 Hz, as after load removal in saturation: bandwidth is reduced and stays so."""
     parameters = begin()[0]
     time = np.arange(0.0, 8.0, 0.001)
     gate, a, omega = be_surprised(3.0 * np.sin(2.0 * math.pi * 9.0 * time))
@@ -114,7 +114,7 @@ def test_under_five_times_the_noise_it_errs_and_shakes_less_than_both():
 
 
 @pytest.mark.parametrize("phase", [0, 6, 12])
-def test_after_an_unloading_it_comes_to_rest_where_ndobc_w_swings_on(phase):
+def test_after_an_load_removal_it_comes_to_rest_where_ndobc_w_swings_on(phase):
     """σ = 12, 3 to 5 s later: 0.7° rms, of which a peak without a fault says nothing."""
     off_s = 8.0 + phase * 5.0 / 16.0
     load = svsa.PulseLoad(torque_nm=(2.0, 2.0, 2.0), start_s=off_s - 3.0, duration_s=3.0)

@@ -1,4 +1,4 @@
-"""NDOBC-W: what gives way, what is spared, and what comes back."""
+"""NDOBC-W: which bandwidth is reduced, which is not, and what is restored."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""A worker gives way once, however deep it stands, and begins with what has been read already."""
+"""A worker lowers its priority once, at any depth, and starts with modules already imported."""
 
 import os
 import sys

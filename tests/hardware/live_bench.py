@@ -14,17 +14,17 @@ from .wired_bench import EMULATOR_BENCH
 PATIENT = {"loop_s": 1.0, "supervisor_s": 2.0, "server_s": 60.0}
 """How long the processes of a bench wait for one another."""
 LATE = {"stale_zero_s": 0.9, "stale_fault_s": 1.0, "missed_ticks": 900}
-"""Beside these, against the clock only: an emulator that is not let run, or a loop. It has to stand
+"""Also these, against the clock only: an emulator that is not let run, or a loop. It has to stand
 still meanwhile: what moves on feedback this old is soon as fast as it may be."""
 
 START_SILENCE_S, IDLE_S = 300.0, 600.0
 """A loop may start later on a busy machine than on a bench, and an emulator waits longer."""
 STALL_S = PATIENT["loop_s"]
-"""The machine may stand still for so long: nobody misses a loop, and the emulator waits for it."""
+"""The machine may stand still for so long: no user misses a loop, and the emulator waits for it."""
 
 
 def start_live_emulator() -> contextlib.AbstractContextManager[RunningEmulator]:
-    """An emulator in lockstep beside a loop in real time, with the loop's own claim to the
+    """An emulator in lockstep next to a loop in real time, with the loop's own claim to the
     processor.
 
     It waits for the loop, so that nothing of it is late on a busy machine; without one its time
@@ -36,7 +36,7 @@ def start_live_emulator() -> contextlib.AbstractContextManager[RunningEmulator]:
 def write_bench(
     folder: Path, emulator: RunningEmulator, lockstep: bool = True, **safety: Any
 ) -> Path:
-    """The emulator's bench file with this emulator's ports, and its calibration record beside it.
+    """The emulator's bench file with this emulator's ports, and its calibration record next to it.
 
     lockstep: as the emulator was started. safety: what differs from the patience that it needs.
     """

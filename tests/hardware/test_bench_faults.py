@@ -1,7 +1,7 @@
 """Every fault that can be caused is caused, on the emulator while it runs Figure 4A.
 
 In lockstep, in this process. What counts is what the emulator's own drives
-were told, in the emulator's time, and where its true mechanism went; physics decides which of
+were reported, in the emulator's time, and where its true mechanism went; physics decides which of
 several faults comes first, so some causes name more than one.
 """
 
@@ -48,7 +48,7 @@ def emulator() -> Iterator[InProcessEmulator]:
 
 
 class Place:
-    """The one bench of this module: READY for each test, made anew after one that failed."""
+    """The one bench of this module: READY for each test, made again after one that failed."""
 
     def __init__(self, emulator: InProcessEmulator) -> None:
         self._rig = emulator
@@ -101,7 +101,7 @@ def test_a_fault_ends_the_run_and_is_cleared_by_hand_only(ready: Bench, name: st
 def test_an_encoder_that_is_wrong_from_the_start_lets_nothing_run_away(
     ready: Bench, fault: Any, node: str
 ) -> None:
-    """Worst where nobody has seen it right before: the run begins with it.
+    """Worst where no user has seen it right before: the run begins with it.
 
     A deflection that stays near zero may go on: it moves nothing wrong.
     """

@@ -106,17 +106,17 @@ def test_the_loop_tells_which_motor_is_held_back_before_the_fault(reported: Repo
     assert said[-1] == (BenchStatus.FAULT, ["motor2"])
 
 
-def test_it_is_foretold_from_the_twin(reported: Reported) -> None:
+def test_it_is_predicted_from_the_twin(reported: Reported) -> None:
     """The twin has no friction and less noise: the emulator's motor is warm a little earlier."""
-    foretold = foretell(PaperLoad())
-    assert foretold is not None
-    assert foretold.motor == "motor2"
-    assert foretold.lasting_torque_nm == pytest.approx(LASTING_NM)
-    assert foretold.torque_nm > 1.8
-    assert 0.6 * foretold.seconds < reported.seconds < 1.4 * foretold.seconds
+    predicted = predict(PaperLoad())
+    assert predicted is not None
+    assert predicted.motor == "motor2"
+    assert predicted.lasting_torque_nm == pytest.approx(LASTING_NM)
+    assert predicted.torque_nm > 1.8
+    assert 0.6 * predicted.seconds < reported.seconds < 1.4 * predicted.seconds
 
 
-def foretell(*loads: Load) -> Endurance | None:
+def predict(*loads: Load) -> Endurance | None:
     bench = read_bench(EMULATOR_BENCH)
     return find_endurance(bench, build_bench_configuration(bench, FIGURE), loads)
 
@@ -129,13 +129,13 @@ def foretell(*loads: Load) -> Endurance | None:
         PulseLoad(torque_nm=(0.0, 0.0, 2.0), duration_s=2.0),
     ],
 )
-def test_what_a_motor_bears_is_foretold_as_nothing(load: Load) -> None:
-    assert foretell(load) is None
+def test_what_a_motor_bears_is_predicted_as_nothing(load: Load) -> None:
+    assert predict(load) is None
 
 
 def test_two_loads_that_are_borne_alone_may_be_too_much_together() -> None:
     half = ConstantLoad(torque_nm=(0.0, 0.0, 1.0))
-    assert foretell(half) is None
-    both = foretell(half, half)
+    assert predict(half) is None
+    both = predict(half, half)
     assert both is not None
     assert both.torque_nm == pytest.approx(2.0, abs=0.05)

@@ -1,7 +1,7 @@
 """One contract for all plants behind read and write: a simulated one, and those on the wire.
 
 What a controller may rely on is the same wherever it runs: signs, limits, states, and the
-torque that it is told was sent.
+torque that it is reported was sent.
 """
 
 import math
@@ -78,7 +78,7 @@ def test_positive_torque_grows_the_angle_of_its_own_motor_first(stand: Stand, nu
         assert y.phi == pytest.approx(x.q - x.theta1, abs=0.004)
 
 
-def test_the_torque_told_is_the_torque_that_the_motors_aim_at(stand: Stand) -> None:
+def test_the_torque_reported_is_the_torque_that_the_motors_aim_at(stand: Stand) -> None:
     """To the last mA: what is rounded away or cut off at 15 and 5 N·m is known to the observer."""
     stand.start()
     sent = stand.push(Torque(0.123456, -0.0654321), 5)

@@ -145,7 +145,7 @@ def test_without_the_operators_switch_it_neither_starts_nor_goes_on() -> None:
         b.tick_until(BenchStatus.READY, 0.4, torque=PUSH)
 
 
-def test_a_dead_mans_switch_that_nobody_can_hold_keeps_it_still() -> None:
+def test_a_dead_mans_switch_that_no_user_can_hold_keeps_it_still() -> None:
     with WiredBench(dead_man=True) as b:
         b.make_ready()
         with pytest.raises(StateError, match="dead-man"):
@@ -198,7 +198,7 @@ def test_close_leaves_zero_current_and_drives_without_mode() -> None:
     b.wire.shutdown()
 
 
-def test_one_drive_that_cannot_be_told_zero_does_not_keep_the_other(
+def test_one_drive_that_cannot_receive_zero_does_not_keep_the_other(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     with WiredBench() as b:

@@ -92,12 +92,12 @@ def test_a_drifting_clock_is_followed() -> None:
     assert reported == pytest.approx(arrival, abs=1e-4)
 
 
-def test_late_frames_are_told_as_late_and_a_new_origin_is_found() -> None:
+def test_late_frames_are_reported_as_late_and_a_new_origin_is_found() -> None:
     clock = WallClock()
     clock.bind(None)  # pyright: ignore[reportArgumentType]
     clock.convert(1.0, 100.0)
     assert clock.convert(1.01, 100.04) == pytest.approx(100.01, abs=1e-4), "30 ms late"
-    assert clock.convert(0.0, 101.0) == pytest.approx(101.0), "the adapter has started anew"
+    assert clock.convert(0.0, 101.0) == pytest.approx(101.0), "the adapter has restarted"
     assert clock.convert(0.5, 101.5) == pytest.approx(101.5, abs=1e-3)
 
 
@@ -186,7 +186,7 @@ def test_the_bench_file_says_whether_the_rig_waits() -> None:
     assert isinstance(choose_clock(bench.changed(emulator=None)), WallClock)
 
 
-def test_a_rig_whose_time_goes_by_itself_is_no_lockstep() -> None:
+def test_a_rig_whose_time_goes_on_its_own_is_no_lockstep() -> None:
     bus = Adapter()
     clock = LockstepClock()
     clock.bind(bus)  # pyright: ignore[reportArgumentType]

@@ -1,4 +1,4 @@
-"""The guided zero: one mark after the other, each confirmed by somebody."""
+"""The guided zero: one mark after the other, each confirmed by a user."""
 
 import pytest
 
@@ -38,7 +38,7 @@ def test_a_mark_is_not_confirmed_twice_nor_after_the_last():
     assert homing.confirmed["link"] == "Ada"
 
 
-def test_an_unknown_mark_or_nobody_is_refused():
+def test_an_unknown_mark_or_no_user_is_refused():
     homing = Homing()
     with pytest.raises(ParameterError, match="one of link, motor1, motor2"):
         homing.confirm("elbow", "Ada")

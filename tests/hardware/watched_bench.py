@@ -31,7 +31,7 @@ class Bench(LockstepBench):
     """A bench on the emulator that has been brought to READY, and watched tick by tick.
 
     fastest, farthest: the true |dq|, |dθ1|, |dθ2| and |q| since `watch` began. last_current_s:
-    when a drive that hears was last told anything but zero, in the emulator's time.
+    when a drive that hears last received anything but zero, in the emulator's time.
     """
 
     def __init__(self, emulator: RunningEmulator | InProcessEmulator, **safety: Any) -> None:
@@ -78,12 +78,12 @@ class Bench(LockstepBench):
             self.last_current_s = state["time_s"]
 
     def read_currents(self, state: dict[str, Any] | None = None) -> list[int]:
-        """What both drives were told, mA; a drive without power makes none."""
+        """What both drives were reported, mA; a drive without power makes none."""
         drives = (state or self.emulator.control.read_state())["drives"].values()
         return [drive["commanded_ma"] if drive["powered"] else 0 for drive in drives]
 
     def recover(self) -> None:
-        """Clear the fault, mend the emulator, set it to its marks, and arm it again."""
+        """Clear the fault, repair the emulator, set it to its marks, and arm it again."""
         self.plant.clear(self.now())
         assert self.plant.status is BenchStatus.OFF
         assert self.plant.fault is None

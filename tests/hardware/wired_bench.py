@@ -204,7 +204,7 @@ class WiredBench:
         return [sent.time_s for sent in self.clock.sent if sent[1] == 0 and sent[0] >= since_s]
 
     def find_zero_time(self, since_s: float) -> float:
-        """When both drives had been told zero, and were told nothing else any more; s."""
+        """When both drives had received zero, and received nothing else any more; s."""
         last = [sent for sent in self.read_currents() if sent[2] != 0]
         after = max((sent[0] for sent in last), default=0.0)
         zeros = [

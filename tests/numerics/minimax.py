@@ -1,6 +1,6 @@
 """Where the coefficients of `svsa.numerics.trigonometry` and `exponential` come from.
 
-`find_coefficients(KERNELS["SINE"])` gives a table anew. Remez's exchange algorithm in 40 digits
+`find_coefficients(KERNELS["SINE"])` gives a table again. Remez's exchange algorithm in 40 digits
 finds the polynomial P of a degree whose greatest relative error of the function that it stands in
 is the least; each coefficient is then rounded to the nearest double.
 """

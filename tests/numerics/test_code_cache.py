@@ -1,4 +1,4 @@
-"""What of the compiled code goes: what nobody has opened for long, and nothing of anybody else.
+"""What of the compiled code goes: what no user has opened for long, and nothing of anybody else.
 
 And what several add at once is all there.
 """
@@ -38,7 +38,7 @@ def make(folder: Path, age_s: float) -> Path:
     return folder
 
 
-def test_code_of_earlier_versions_goes_when_nobody_has_opened_it_for_long(root: Path) -> None:
+def test_code_of_earlier_versions_goes_when_no_user_has_opened_it_for_long(root: Path) -> None:
     gone = [
         make(root / f"compiled-{OLD}", 1.1 * ABANDONED_S),
         make(root / "svsa.runtime.loop" / OLD, 1.1 * ABANDONED_S),

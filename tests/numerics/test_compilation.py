@@ -1,4 +1,4 @@
-"""What decides whether compiled code is made anew: for each file, it and what it is made of."""
+"""What decides whether compiled code is made again: for each file, it and what it is made of."""
 
 import os
 import subprocess
@@ -49,7 +49,7 @@ def test_a_law_is_no_part_of_the_loop() -> None:
     assert "control/laws/ndobc.py" not in find_names("control/laws/feedback_linearization.py")
 
 
-def test_files_beside_the_equations_compile_nothing_anew() -> None:
+def test_files_next_to_the_equations_compile_nothing_again() -> None:
     named = {
         "cli.py",
         "runs/session/journal.py",

@@ -67,7 +67,7 @@ def made(tmp_path_factory):
 
 
 @pytest.mark.exhaustive
-def test_an_installed_law_is_found_beside_the_others_and_controls(made):
+def test_an_installed_law_is_found_next_to_the_others_and_controls(made):
     (names, errors, *_), _ = made
     assert set(names.split(",")) == {*list_law_names(), "motor_pd"}
     fast, slow = map(float, errors.split())

@@ -104,7 +104,7 @@ def test_the_server_needs_no_other_extra_until_it_has_a_bench():
         "from svsa_server.app import build_app\n"
         "from svsa_server.sessions.laboratory import build_shared_session\n"
         "build_app()\n"
-        "assert 'viser' not in sys.modules, 'it is loaded when somebody looks'\n"
+        "assert 'viser' not in sys.modules, 'it is loaded when a user looks'\n"
         "try:\n    build_shared_session(Path('svsa/hardware/emulator/bench.toml'))\n"
         "except ImportError as error:\n    print(error)"
     )

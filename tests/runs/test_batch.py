@@ -1,4 +1,4 @@
-"""Many runs side by side: each has the bits of the same run alone, whatever runs beside it."""
+"""Many runs side by side: each has the bits of the same run alone, whatever runs next to it."""
 
 import numpy as np
 import pytest
@@ -131,7 +131,7 @@ def test_a_law_keeps_its_memory_in_each_run() -> None:
 
 
 def test_a_run_that_ends_stays_where_it_ended_and_stops_no_other() -> None:
-    """Each at its own tick; one that holds is no fault of those beside it."""
+    """Each at its own tick; one that holds is no fault of those next to it."""
     masses = np.linspace(0.6, 1.4, 8)
     design = svsa.load_prototype()
     plants = [

@@ -1,4 +1,4 @@
-"""A command is one frozen value: written and read, done to a run, and told of a configuration."""
+"""A command is one frozen value: written and read, applied to a run, made from a configuration."""
 
 import json
 
@@ -83,7 +83,7 @@ def test_every_change_known_before_is_a_command():
 @scripted
 @given(st.lists(loads, min_size=1, max_size=5), st.integers(1, 5), st.integers(1, 400))
 def test_the_loads_of_a_run_are_those_that_its_commands_tell(given_loads, number, taken_at):
-    """Two readers, the run itself and whoever has its commands, follow one rule."""
+    """Two readers, the run itself and a reader of its commands, follow one rule."""
     commands = [
         build_command(40 * position, "load", load) for position, load in enumerate(given_loads)
     ]
@@ -102,6 +102,6 @@ def test_the_loads_of_a_run_are_those_that_its_commands_tell(given_loads, number
         assert reported[load.number] == load
 
 
-def test_a_load_told_off_twice_ended_the_first_time():
+def test_a_load_reported_off_twice_ended_the_first_time():
     (load,) = follow_loads([svsa.PaperLoad()], [(5, 1), (9, 1)], 0.001)
     assert (load.start_tick, load.end_tick) == (0, 5)

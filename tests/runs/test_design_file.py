@@ -167,7 +167,7 @@ def test_a_file_that_is_not_there_or_not_text_is_refused(tmp_path):
 
 
 def test_all_wrong_values_are_named_at_once(tmp_path):
-    """A student mends a file once, not once for each mistake."""
+    """A student corrects a file once, not once for each mistake."""
     path = tmp_path / "broken.toml"
     wrong = GOOD.replace("0.0103", "-1.0").replace("0.0234", '"x"')
     path.write_text(wrong, encoding="utf-8")
@@ -184,7 +184,7 @@ def test_all_wrong_values_are_named_at_once(tmp_path):
 
 
 @pytest.mark.parametrize("section", ["actuator", "nominal"])
-def test_fields_of_one_name_are_told_apart_by_their_section(tmp_path, section):
+def test_fields_of_one_name_are_distinguished_by_their_section(tmp_path, section):
     """Plant and model have the same fields: only the path says which one is wrong."""
     design = svsa.load_prototype()
     path = tmp_path / "design.toml"

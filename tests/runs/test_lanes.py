@@ -46,8 +46,8 @@ def test_different_laws_share_time_reference_and_load():
 
 
 @pytest.mark.parametrize("effects", [svsa.IDEAL, EVERY_EFFECT], ids=["ideal", "every effect"])
-def test_fl_beside_ndobc_is_two_single_runs_bit_for_bit(effects):
-    """A lane beside changes nothing; Figure 4A through its load."""
+def test_fl_next_to_ndobc_is_two_single_runs_bit_for_bit(effects):
+    """A lane next to changes nothing; Figure 4A through its load."""
     both = svsa.simulate("4a", "ndobc", comparisons=(FL,), effects=effects, duration_s=6.0)
     (fl,) = both.comparisons
     for result in (both, fl):
@@ -85,7 +85,7 @@ def test_the_gains_of_the_run_are_those_of_lanes_without_their_own():
 
 @pytest.mark.parametrize("number", [0, 1, 2])
 def test_a_fault_in_one_lane_ends_all_at_its_tick_and_names_the_lane(number):
-    """Gains that the delay makes unstable, in the first lane or beside it."""
+    """Gains that the delay makes unstable, in the first lane or next to it."""
     lanes = [NDOBC, NDOBC, NDOBC]
     lanes[number] = FRAGILE
     changes = {"law": lanes[0].law, "comparisons": tuple(lanes[1:]), "effects": svsa.RIG}
@@ -122,7 +122,7 @@ def test_a_comparison_added_in_a_run_begins_where_the_first_is():
 
 
 def test_a_comparison_that_stays_goes_on_where_it_is():
-    """One more beside it, or one less behind it, does not set it back."""
+    """One more next to it, or one less behind it, does not set it back."""
     whole = advance(Run(build_configuration(PULSE, comparisons=(FL,))), 300)[1]
     run = Run(build_configuration(PULSE, comparisons=(FL,)))
     advance(run, 100)
@@ -256,7 +256,7 @@ def test_only_a_lane_that_runs_is_set_otherwise(comparisons, lane, bound):
 
 
 def test_a_lane_set_otherwise_keeps_its_past_and_gets_a_name_of_its_own():
-    """The curve before keeps the name and ink of the law that drew it."""
+    """The curve before keeps the name and color of the law that drew it."""
     session = build_session(PULSE, law="fl_integral", comparisons=(Lane(law="fl_integral"),))
     session.step(60)
     (second_id,) = session.journal.timeline.lane_ids[1:]

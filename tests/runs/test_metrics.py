@@ -138,7 +138,7 @@ def test_ticks_that_are_missed_neither_end_nor_begin_a_recovery(missed, recovere
 
 
 @pytest.mark.parametrize("known", [0, 1000])
-def test_of_a_lane_that_has_ended_nothing_is_told(known):
+def test_of_a_lane_that_has_ended_nothing_is_reported(known):
     """A twin beyond its deflection has no numbers from there on: what it had is no whole."""
     samples = build_samples(2000, position_error_rad=1.0)
     samples[known:] = np.nan

@@ -54,7 +54,7 @@ def test_a_comparison_begins_where_it_began_and_takes_nobodys_past():
     ]
 
 
-def test_one_law_with_other_gains_is_told_apart_by_them():
+def test_one_law_with_other_gains_is_distinguished_by_them():
     session = build_session()
     session.step(10)
     session.change(Set("observer", FASTER))

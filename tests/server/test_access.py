@@ -42,7 +42,7 @@ def test_a_short_secret_is_refused(monkeypatch, capsys) -> None:
     assert "at least 8" in refuse(monkeypatch, capsys, "--port", "0")
 
 
-def test_a_port_in_use_is_told(monkeypatch, capsys, tmp_path: Path) -> None:
+def test_a_port_in_use_is_reported(monkeypatch, capsys, tmp_path: Path) -> None:
     monkeypatch.setenv("SVSA_DATA", str(tmp_path))
     with socket.create_server(("127.0.0.1", 0)) as taken:
         reported = refuse(monkeypatch, capsys, "--port", str(taken.getsockname()[1]))
@@ -124,7 +124,7 @@ def test_a_browser_logs_in_once_and_keeps_a_cookie(guarded_lab: Lab) -> None:
 
 
 @pytest.mark.exhaustive  # every lab of the tests ends by Ctrl-C, so that it does is shown there
-def test_a_service_manager_ends_the_lab_quickly_though_somebody_looks_on() -> None:
+def test_a_service_manager_ends_the_lab_quickly_though_a_user_looks_on() -> None:
     with run_lab() as lab, connect(lab.stream_url, proxy=None) as stream:
         assert "hello" in str(stream.recv(timeout=10))
         lab.process.terminate()

@@ -1,4 +1,4 @@
-"""Clients that mean harm, or only their machine does: nobody else notices, and nothing is lost."""
+"""Clients that mean harm, or only their machine does: no one else notices, and nothing is lost."""
 
 import contextlib
 import time
@@ -113,7 +113,7 @@ def test_a_malformed_frame_ends_its_own_stream_alone(attacked: Lab) -> None:
 
 
 @pytest.mark.exhaustive
-def test_thirty_replays_at_once_are_bounded_and_told_when_to_come_again(attacked: Lab) -> None:
+def test_thirty_replays_at_once_are_bounded_and_reported_when_to_come_again(attacked: Lab) -> None:
     with unharmed(attacked) as shown:
         attacked.jump(2)
     with unharmed(attacked):

@@ -38,7 +38,7 @@ class Proxied(NamedTuple):
     root: Path
 
     def open_browser(self) -> httpx.Client:
-        """Of somebody who has not joined yet."""
+        """Of a user who has not joined yet."""
         return httpx.Client(base_url=self.url + ROOT, verify=self.trust, trust_env=False)
 
 

@@ -98,7 +98,7 @@ def test_the_schema_in_the_docs_is_the_server_s_and_names_every_operation_once()
     assert all(re.fullmatch(r"[a-z][a-z_]{2,24}", one) for one in ids)
 
 
-def test_the_stream_stands_beside_rest_as_it_is_packed() -> None:
+def test_the_stream_stands_next_to_rest_as_it_is_packed() -> None:
     operation = SCHEMA["paths"][STREAM]["get"]
     text = operation["description"]
     assert f"a header of {HEADER.size} bytes" in text

@@ -11,7 +11,7 @@ import pytest
 from svsa.teaching.class_folder import SECRET_BYTES, keep_secret
 from tests.lab_in_process import run_lab_in_process
 from tests.server.access.classroom import read_kind
-from tests.server.routes.test_scenarios_routes import BLOW
+from tests.server.routes.test_scenarios_routes import IMPULSE
 from tests.waiting import wait_until
 
 SCENARIO = "/api/v1/scenarios/mine"
@@ -49,12 +49,12 @@ def test_what_a_full_disk_cannot_take_is_rejected_and_done_once_there_is_room(di
         path = f"/api/v1/course/{name}/place"
         lab.put(path, json={"step": first}).raise_for_status()
         with filled(disk):
-            rejected = [lab.put(SCENARIO, json=BLOW), lab.put(path, json={"step": second})]
+            rejected = [lab.put(SCENARIO, json=IMPULSE), lab.put(path, json={"step": second})]
             for answer in rejected:
                 assert (answer.status_code, read_kind(answer)) == (507, "storage")
                 assert "No space left" in answer.json()["detail"]
             assert lab.get(f"/api/v1/course/{name}").json()["at"] == first
-        lab.put(SCENARIO, json=BLOW).raise_for_status()
+        lab.put(SCENARIO, json=IMPULSE).raise_for_status()
         lab.put(path, json={"step": second}).raise_for_status()
         assert [*disk.rglob("*.tmp"), *disk.rglob("*.part")] == []
 

@@ -19,11 +19,11 @@ from tests.server.test_schema_fuzz import SETTINGS, probe
 
 SECRET = "correct horse battery"
 ONE_EACH = settings(SETTINGS, max_examples=1)
-"""Of each operation: how wide a request may be is tried where nobody is asked who comes."""
+"""Of each operation: how wide a request may be is tried where no user is asked who comes."""
 ENDLESS = dict.fromkeys(
     ("joins", "codes", "logins", "commands", "sessions", "runs"), "1000000/second"
 )
-"""Of a class: that somebody does too much at once has tests of its own."""
+"""Of a class: that a user does too much at once has tests of its own."""
 PEOPLE = {
     Role.OBSERVER: Person("p-1", "Ola", Role.OBSERVER),
     Role.OPERATOR: Person("p-2", "Ada", Role.OPERATOR),
@@ -62,7 +62,7 @@ def read_operations(lab: Lab) -> list[schemathesis.APIOperation]:
 
 
 @pytest.mark.exhaustive
-def test_a_lab_with_a_secret_keeps_to_its_schema_and_lets_nobody_in_without() -> None:
+def test_a_lab_with_a_secret_keeps_to_its_schema_and_lets_no_user_in_without() -> None:
     with run_lab(secret=SECRET) as lab:
         operations = read_operations(lab)
         tried = sum(probe(lab, one, GenerationMode.POSITIVE, ONE_EACH) for one in operations)
@@ -73,7 +73,7 @@ def test_a_lab_with_a_secret_keeps_to_its_schema_and_lets_nobody_in_without() ->
 @pytest.mark.parametrize(
     "role", [None, *PEOPLE], ids=lambda role: role.word if role else "stranger"
 )
-def test_a_class_keeps_to_its_schema_whoever_comes(classroom: Class, role: Role | None) -> None:
+def test_a_class_keeps_to_its_schema_for_every_role(classroom: Class, role: Role | None) -> None:
     lab = classroom.come_as(role)
     permissions = build_app().state.permissions
     tried = 0

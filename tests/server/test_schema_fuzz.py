@@ -60,7 +60,7 @@ LONGEST_ANSWER_S = 120.0
 CLIENT = {"SVSA-Client": "fuzz"}
 """Known to the server, which asks of the text what percent-encoding hides from a schema."""
 
-NOBODY_ELSE = {"If-Match": "*"}
+ABSENT_ELSE = {"If-Match": "*"}
 """Whatever the state: what another is answered, `test_two_writers` says."""
 
 HURWITZ = "gains must be Hurwitz: every root of their polynomial left of the imaginary axis"
@@ -110,7 +110,7 @@ WEBSOCKET = "GET /api/v1/sessions/{session}/stream"
 
 
 def give_control_back(lab: Lab) -> None:
-    """Whoever has it; where taking over is the instructor's, what this client has."""
+    """Its holder; where taking over is the instructor's, what this client has."""
     taken = lab.client.put(
         lab.session + "/control", json={"by": "fuzz", "take_over": True}, headers=CLIENT
     )
@@ -157,7 +157,7 @@ def probe(
 ) -> int:
     """Send the operation what its schema allows, or forbids; returns how many requests.
 
-    As who the lab's client is. is_let_in: whether that is somebody who may call it; of a request by
+    As who the lab's client is. is_let_in: whether that is a user who may call it; of a request by
     anybody else nothing is read but who comes.
     """
     checks = [*CHECKS]
@@ -170,7 +170,7 @@ def probe(
     cases = operation.as_strategy(
         generation_mode=mode,
         path_parameters={"session": "lab"} if exists else None,
-        headers=CLIENT | NOBODY_ELSE,
+        headers=CLIENT | ABSENT_ELSE,
     )
     tried = 0
 

@@ -139,7 +139,7 @@ def test_a_motor_that_did_not_move_is_not_determined():
 
 @pytest.mark.exhaustive
 @pytest.mark.long
-def test_a_load_that_nobody_announced_is_refused(excited):
+def test_a_load_that_no_user_announced_is_refused(excited):
     configuration, _ = excited
     loaded, _ = play(configuration.changed(loads=(PUSH.changed(start_s=4.0),)), None, 7.0)
     with pytest.raises(IdentificationError, match="was there a load"):

@@ -71,7 +71,7 @@ NAMES_CUT = """() => [...document.querySelectorAll(".run-title > :first-child")]
     .filter((one) => one.scrollWidth > one.clientWidth + 1).map((one) => one.innerText)"""
 
 
-def test_a_run_is_named_whole_beside_its_tags(page: Page, lab: Lab, runs: tuple[str, str]) -> None:
+def test_a_run_is_named_whole_next_to_its_tags(page: Page, lab: Lab, runs: tuple[str, str]) -> None:
     tags = {"name": "", "tags": ["stiff", "before the holidays", "group 3"]}
     lab.client.patch(f"/api/v1/runs/{runs[0]}", json=tags).raise_for_status()
     open_list(page, lab)

@@ -16,10 +16,10 @@ NUMBERS_CUT = """() => [...document.querySelectorAll(".overlay-table td, .overla
 
 
 @pytest.mark.exhaustive
-def test_on_a_phone_the_numbers_of_an_overlay_come_beside_the_whole_names(
+def test_on_a_phone_the_numbers_of_an_overlay_come_next_to_the_whole_names(
     page: Page, lab: Lab, runs: tuple[str, str]
 ) -> None:
-    long = "A name as long as somebody types it who does not think of tables, not even of one"
+    long = "A name as long as a user types it who does not think of tables, not even of one"
     lab.client.patch(f"/api/v1/runs/{runs[1]}", json={"name": long}).raise_for_status()
     page.set_viewport_size({"width": 390, "height": 844})
     page.goto(f"{lab.url}/?overlay={','.join(runs)}")
@@ -35,7 +35,7 @@ def test_on_a_phone_the_numbers_of_an_overlay_come_beside_the_whole_names(
     table.evaluate("one => one.scrollTo({ left: 400 })")
     moved = name.bounding_box()
     assert moved is not None
-    assert moved["x"] == pytest.approx(first["x"], abs=1), "the name stays beside its numbers"
+    assert moved["x"] == pytest.approx(first["x"], abs=1), "the name stays next to its numbers"
 
 
 @pytest.mark.smoke

@@ -22,7 +22,7 @@ def read_moment(page: Page) -> float:
 
 
 @pytest.mark.exhaustive
-def test_a_replay_that_takes_its_time_is_told_of(
+def test_a_replay_that_takes_its_time_is_reported(
     page: Page, lab: Lab, runs: tuple[str, str]
 ) -> None:
     held: list[Route] = []

@@ -113,7 +113,7 @@ def test_the_estimation_error_of_a_constant_disturbance_decays_at_beta():
 
 
 def test_the_true_disturbance_of_a_load_on_an_exact_model_is_that_load():
-    """What is plotted beside ŵ: Eq 6–9 with nothing unmodelled but the load."""
+    """What is plotted next to ŵ: Eq 6–9 with nothing unmodelled but the load."""
     w = (0.4, -0.5, 0.3)
     result = simulate_exact_model((60.0,) * 3, w, 0.05)
     for part, torque in zip(("link", "motor1", "motor2"), w, strict=True):

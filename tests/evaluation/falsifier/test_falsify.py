@@ -65,7 +65,7 @@ def test_a_planted_weakness_is_found_and_made_simple():
     assert (alone.fault.code, alone.fault.time_s) == (weak.fault, pytest.approx(weak.fault_s))
 
 
-def test_each_worse_run_is_told_as_a_scenario_that_is_as_bad():
+def test_each_worse_run_is_reported_as_a_scenario_that_is_as_bad():
     adversary = build_adversary(cost="peak", law="fl")
     reported = []
     found = falsify(adversary, runs=320, on_worse=reported.append, is_shrunk=False)
@@ -82,7 +82,7 @@ def test_each_worse_run_is_told_as_a_scenario_that_is_as_bad():
 
 
 def test_every_step_of_shrinking_still_hurts():
-    """What is told last is what is kept; and it is within what the adversary may do."""
+    """What is reported last is what is kept; and it is within what the adversary may do."""
     adversary = build_adversary()
     found = falsify(adversary, runs=4000)
     assert found.shrunk.runs > len(found.shrunk.steps) > 3
@@ -156,7 +156,7 @@ def test_what_does_not_recover_hurts_more_than_what_does_and_a_fault_most():
     assert severity.tolist() == [0.2, 2.1, 2.2, np.inf, -np.inf]
 
 
-def test_a_setting_that_is_refused_hurts_nobody():
+def test_a_setting_that_is_refused_hurts_no_user():
     adversary = build_adversary()
     wrong = Attack((), {"actuator.link_inertia_kg_m2": -1.0})
     measured = measure_attacks(adversary, adversary.build_base(), [wrong, Attack((), {})], 0.5)
@@ -164,7 +164,7 @@ def test_a_setting_that_is_refused_hurts_nobody():
     assert np.isfinite(measured.severity[1])
 
 
-def test_a_law_that_ends_in_a_fault_by_itself_needs_no_adversary():
+def test_a_law_that_ends_in_a_fault_on_its_own_needs_no_adversary():
     base = {
         "figure": "4a",
         "loads": [{"kind": "constant", "torque_nm": [40, 0, 0], "start_s": 0.1}],
@@ -186,7 +186,7 @@ def test_an_axis_stays_within_its_ends():
     assert axis.compute_value(0.5) == pytest.approx(np.sqrt(axis.low * axis.high), rel=1e-5)
 
 
-def test_ndobc_on_the_rig_faults_by_a_blow_that_random_draws_do_not_find_so_soon():
+def test_ndobc_on_the_rig_faults_by_an_impulse_that_random_draws_do_not_find_so_soon():
     """`svsa falsify compare impulse` does ten seeds."""
     adversary = read_adversary("impulse")
     assert max(term.torque_nm for term in adversary.terms) <= 2.0

@@ -88,8 +88,8 @@ def test_where_no_file_can_be_written_nothing_is_searched(tmp_path, monkeypatch,
 
 def test_a_law_that_was_asked_for_is_not_said_to_stand_in_the_file(tmp_path):
     (tmp_path / "pulse.toml").write_text(GOOD)
-    with pytest.raises(ParameterError, match=r"^law is 'nobody': it must be a law"):
-        search("--law", "nobody")
+    with pytest.raises(ParameterError, match=r"^law is 'missing': it must be a law"):
+        search("--law", "missing")
 
 
 def test_what_was_kept_of_another_search_is_left_alone(tmp_path):
@@ -116,5 +116,5 @@ def test_those_that_come_with_the_package_are_listed():
     assert {"impulse", "everything"} <= set(names)
     listed = " ".join(run("list").stdout.split())
     assert all(name in listed for name in names)
-    with pytest.raises(ParameterError, match=r"adversary is 'nobody': .*impulse"):
-        read_adversary("nobody")
+    with pytest.raises(ParameterError, match=r"adversary is 'missing': .*impulse"):
+        read_adversary("missing")

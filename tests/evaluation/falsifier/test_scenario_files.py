@@ -116,7 +116,11 @@ def test_a_scenario_s_loads_come_besides_those_of_its_base():
 @pytest.mark.parametrize(
     ("old", "new", "reported"),
     [
-        ('"weak"', '"nobody"', r"line 2: law is 'nobody': it must be a law that is installed here"),
+        (
+            '"weak"',
+            '"missing"',
+            r"line 2: law is 'missing': it must be a law that is installed here",
+        ),
         (
             "duration_s = 2.0",
             "duration_s = 0.5",
@@ -205,6 +209,6 @@ def test_a_scenario_is_kept_by_a_name_that_no_other_one_has(monkeypatch, tmp_pat
         with pytest.raises(ParameterError, match="1 to 64 letters"):
             keep_scenario(name, scenario)
     with pytest.raises(ParameterError, match="kept by its name: mine"):
-        open_scenario("nobody")
+        open_scenario("missing")
     assert forget_scenario("mine")
     assert not forget_scenario("mine")

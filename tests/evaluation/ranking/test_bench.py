@@ -55,7 +55,7 @@ def played(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, str]]:
     return asked
 
 
-def test_a_law_is_told_beside_its_comparison_in_every_figure(played):
+def test_a_law_is_reported_next_to_its_comparison_in_every_figure(played):
     """FL settles in none; the numbers are those of the run, and a fault has its name and none."""
     reported = json.loads(call("fl", "pd", "--json"))
     assert played == [(law, key) for law in ("ndobc", "fl", "pd") for key in BENCH_FIGURES]
@@ -102,8 +102,8 @@ def test_what_was_kept_is_renewed_and_shown_again(played, tmp_path):
 
 @pytest.mark.parametrize(
     ("arguments", "reported"),
-    [(["fl", "--figure", "4a"], "one of 6a, 6b, 7"), (["nobody"], "installed here"),
-     (["fl", "--comparison", "nobody"], "installed here")],
+    [(["fl", "--figure", "4a"], "one of 6a, 6b, 7"), (["missing"], "installed here"),
+     (["fl", "--comparison", "missing"], "installed here")],
 )  # fmt: skip
 def test_what_there_is_not_is_refused_before_anything_runs(played, arguments, reported):
     with pytest.raises(svsa.ParameterError, match=reported):

@@ -108,7 +108,7 @@ def test_a_study_of_another_version_is_not_mixed_with_runs_of_this_one(tmp_path,
         keep_study("one", build_study(runs=9), tmp_path)
 
 
-def test_settings_that_do_not_go_together_are_told_and_the_others_are_run(tmp_path):
+def test_settings_that_do_not_go_together_are_reported_and_the_others_are_run(tmp_path):
     """An upper limit of the stiffness below the reference's in some samples: nothing is run."""
     limit = {
         "kind": "uniform",

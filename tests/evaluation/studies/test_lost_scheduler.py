@@ -1,4 +1,4 @@
-"""A scheduler that is lost is told from an error of the work: one in this process, whose calls fail
+"""A lost scheduler differs from an error of the work: one in this process, whose calls fail
 as those over a broken connection do, before its client has seen that it broke."""
 
 import concurrent.futures
@@ -86,7 +86,7 @@ def test_a_client_that_gave_its_scheduler_up_is_too(client, parts):
 
 
 @pytest.mark.parametrize("error", BROKEN[:2], ids=lambda error: type(error).__name__)
-def test_an_error_of_the_work_is_told_as_it_is(parts, monkeypatch, error):
+def test_an_error_of_the_work_is_reported_as_it_is(parts, monkeypatch, error):
     def fail(study, first, count):
         raise error
 

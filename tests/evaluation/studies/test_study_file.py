@@ -32,8 +32,8 @@ values = [0, 1]
         ("runs = 10", "runs = 0", r"line 2: runs is 0: it must be at least 1"),
         (
             '"ndobc"',
-            '"nobody"',
-            r"line 3: laws\[0\] is 'nobody': it must be a law that is installed here",
+            '"missing"',
+            r"line 3: laws\[0\] is 'missing': it must be a law that is installed here",
         ),
         ('"4a"', '"9"', r"line 6: base\.figure is '9'"),
         (
@@ -62,7 +62,7 @@ values = [0, 1]
         ("runs = 10", "runs =", r"it must be a readable TOML file .*line 2"),
     ],
 )
-def test_a_wrong_value_is_told_with_its_line(tmp_path, old, new, reported):
+def test_a_wrong_value_is_reported_with_its_line(tmp_path, old, new, reported):
     path = tmp_path / "wrong.toml"
     path.write_text(GOOD.replace(old, new, 1))
     with pytest.raises(ParameterError, match=r"(?s)wrong\.toml.*" + reported):
@@ -101,12 +101,12 @@ def test_a_study_in_python_is_the_same_as_in_toml(tmp_path):
         read_study(tmp_path / "b.py")
 
 
-def test_a_value_that_was_given_beside_the_file_is_not_said_to_stand_in_it(tmp_path):
+def test_a_value_that_was_given_next_to_the_file_is_not_said_to_stand_in_it(tmp_path):
     path = tmp_path / "good.toml"
     path.write_text(GOOD)
     with pytest.raises(ParameterError, match=r"^runs is 0: it must be at least 1"):
         read_study(path, runs=0)
-    path.write_text(GOOD.replace('"ndobc"', '"nobody"'))
+    path.write_text(GOOD.replace('"ndobc"', '"missing"'))
     with pytest.raises(ParameterError, match=r"good\.toml, line 3: laws\[0\] .*runs is 0"):
         read_study(path, runs=0)
 

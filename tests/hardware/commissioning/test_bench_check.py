@@ -179,7 +179,7 @@ def test_a_drive_at_another_address_is_found(tmp_path, bus):
     assert "A drive answers at group 0 number 2" in steps["motor2: drive group 0 number 3"].advice
 
 
-def test_a_drive_that_answers_nowhere_beside_one_that_does(path, bus):
+def test_a_drive_that_answers_nowhere_next_to_one_that_does(path, bus):
     bus.emulator.inject(Silence(node="motor1"))
     assert "factory address" in check(path, bus)["motor1: drive group 0 number 1"].advice
 

@@ -55,7 +55,7 @@ def test_an_interrupted_pulse_leaves_zero_current(path, bus):
 
 @pytest.mark.parametrize("count", exhaust(range(1, 14), [4, 9, 13]))
 def test_a_check_that_is_left_at_any_step_leaves_zero_current(path, bus, count):
-    """Whoever reads the steps may stop reading after any of them."""
+    """The reader of the steps may stop after any of them."""
     with contextlib.closing(check_bench(path, True, None, bus.open, bus.now)) as steps:
         for _ in range(count):
             next(steps)

@@ -71,7 +71,7 @@ def test_every_combination_of_wrong_signs_is_named(turns, signs):
 @pytest.mark.parametrize("sign1", [1, -1])
 @pytest.mark.parametrize("leads", WRONG)
 @pytest.mark.parametrize("channels", WRONG)
-def test_leads_and_channels_are_told_apart_by_the_direction_seen(
+def test_leads_and_channels_are_distinguished_by_the_direction_seen(
     turns, channels, leads, sign1, sign3
 ):
     """Swapped leads with a wrong sign are as swapped channels, and the other way round."""

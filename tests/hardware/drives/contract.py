@@ -212,7 +212,7 @@ class DriveContract:
         found = {place for message in rig.heard if (place := family.find_place(message))}
         assert found == {drive.place for drive in rig.drives}
 
-    def test_what_it_sends_and_what_it_obeys_are_told_apart(self, rig: Rig) -> None:
+    def test_what_it_sends_and_what_it_obeys_are_distinguished(self, rig: Rig) -> None:
         one, two = rig.drives
         assert not one.heard_ids & two.heard_ids
         assert not (one.heard_ids | two.heard_ids) & (one.obeyed_ids | two.obeyed_ids)

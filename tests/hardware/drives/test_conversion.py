@@ -75,7 +75,7 @@ def test_a_counter_that_wraps_goes_on(bits: int, start: int, steps: list[int]) -
 
 
 def test_the_first_reading_is_the_nearest_to_the_start() -> None:
-    """A 16-bit encoder whose zero lies beside its wrap: −32 760 is 8 counts past 32 768."""
+    """A 16-bit encoder whose zero lies next to its wrap: −32 760 is 8 counts past 32 768."""
     unwrapped = Unwrapped(16, 32_760)
     assert unwrapped.update(-32_760) == 32_776
     unwrapped.reset()

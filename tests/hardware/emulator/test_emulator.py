@@ -96,7 +96,7 @@ def test_the_emulation_says_so_every_100_ms():
     assert times == [100_000 * k for k in range(1, 11)]
 
 
-def test_a_current_turns_the_motor_and_is_told_with_its_lag():
+def test_a_current_turns_the_motor_and_is_reported_with_its_lag():
     """0.5 ms is the time constant; the first B comes 0.1 ms after the first torque."""
     said = run(bring_up(), 40, lambda _: (1000, 0))
     currents = [

@@ -98,7 +98,7 @@ def test_a_reversed_encoder_counts_the_other_way(node, can_id):
 
 
 @pytest.mark.parametrize("node, can_id, number", MOTORS)
-def test_a_reversed_motor_turns_the_other_way_and_says_the_current_it_was_told(
+def test_a_reversed_motor_turns_the_other_way_and_says_the_current_it_was_reported(
     node, can_id, number
 ):
     emulator = bring_up()

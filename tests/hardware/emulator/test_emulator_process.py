@@ -132,7 +132,7 @@ def test_a_client_is_greeted_before_its_first_frame_acts(emulator, together):
     wire.close()
 
 
-def test_a_client_is_told_that_this_is_an_emulation(emulator):
+def test_a_client_is_notified_that_this_is_an_emulation(emulator):
     wire = Wire(emulator.port)
     assert f"{EMULATED_ID:08X}" in {
         words[1] for words in wire.advance(read_time_us(emulator) + 150_000)
@@ -140,7 +140,7 @@ def test_a_client_is_told_that_this_is_an_emulation(emulator):
     wire.close()
 
 
-def test_loads_and_faults_are_told_over_the_control_port(emulator):
+def test_loads_and_faults_are_reported_over_the_control_port(emulator):
     begin = read_time_us(emulator)
     emulator.control.load(MassLoad())
     emulator.control.load(ConstantLoad(torque_nm=(2.0, 0.0, 0.0)), at_s=1e-6 * begin + 0.05)
@@ -181,7 +181,7 @@ def test_what_the_control_port_does_not_understand_is_answered_with_why(emulator
     assert read_time_us(emulator) == begin
 
 
-def test_against_the_clock_time_goes_on_by_itself():
+def test_against_the_clock_time_goes_on_on_its_own():
     with start_emulator(lockstep=False) as running:
         deadline = time.monotonic() + HANG_S
         while running.control.read_state()["time_s"] < 0.1:
@@ -191,7 +191,7 @@ def test_against_the_clock_time_goes_on_by_itself():
 def test_in_lockstep_time_goes_on_where_its_loop_is_gone_until_there_is_another():
     with start_emulator(True, 120.0, "--alone-s", "0.2") as running:
         loop = Wire(running.port)
-        assert read_time_us(running) == 0, "nobody has asked yet"
+        assert read_time_us(running) == 0, "no user has asked yet"
         loop.advance(5_000)
         deadline = time.monotonic() + HANG_S
         while read_time_us(running) < 100_000:
@@ -203,7 +203,7 @@ def test_in_lockstep_time_goes_on_where_its_loop_is_gone_until_there_is_another(
         loop.close()
 
 
-def test_it_ends_when_told_and_when_idle():
+def test_it_ends_when_reported_and_when_idle():
     with start_emulator(lockstep=True) as running:
         process = running.process
     assert process.returncode == 0

@@ -118,7 +118,7 @@ def test_the_adapter_stamps_frames_where_it_is_asked_to(terminal):
     assert terminal.read() == b"t7FF10004D2\r"
 
 
-def test_an_adapter_that_nobody_reads_closes_and_opens_fresh(terminal, monkeypatch):
+def test_an_adapter_that_no_user_reads_closes_and_opens_fresh(terminal, monkeypatch):
     monkeypatch.setattr("svsa.hardware.emulator.frame.MAX_BYTES", 100_000)
     terminal.ask(b"O\r")
     for _ in range(20_000):

@@ -62,9 +62,9 @@ class Rehearsal:
         wired.skip(EMULATOR_S)
         warm_up(self.loop, self.laws, lambda step: None)
         wired.plant.catch_up()
-        nobody: Any = SimpleNamespace(beat=lambda slot: None)
+        absent: Any = SimpleNamespace(beat=lambda slot: None)
         self.process = LoopProcess(
-            self.loop, wired.plant, wired.clock, 1.0, nobody, memory, nobody, self.laws
+            self.loop, wired.plant, wired.clock, 1.0, absent, memory, absent, self.laws
         )
         self.counter = LoadCounter()
         event.register("numba:compiler_lock", self.counter)

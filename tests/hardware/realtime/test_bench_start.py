@@ -16,7 +16,7 @@ from svsa_server.sessions.bench_start import show_steps
 
 
 class ScriptedLink:
-    """Says each message at its time. is_gone: the loop has ended before it is told anything."""
+    """Says each message at its time. is_gone: the loop has ended before it receives anything."""
 
     is_gone = False
 
@@ -44,7 +44,7 @@ class ScriptedLink:
 
 @pytest.fixture
 def start(monkeypatch):
-    """Starts a bench whose loop says these messages, and gives what was told of it."""
+    """Starts a bench whose loop says these messages, and gives what was reported of it."""
 
     def begin(messages, silence_s):
         link, reported = ScriptedLink(messages), []
@@ -54,8 +54,8 @@ def start(monkeypatch):
         )
         monkeypatch.setattr(launch, "build_links", lambda: (link, theirs))
         monkeypatch.setattr(launch, "_start", lambda *_: process)
-        nobody = types.SimpleNamespace(stop=lambda _: None)
-        monkeypatch.setattr(launch, "_watch", lambda *_: nobody)
+        absent = types.SimpleNamespace(stop=lambda _: None)
+        monkeypatch.setattr(launch, "_watch", lambda *_: absent)
         monkeypatch.setattr(launch, "time", types.SimpleNamespace(monotonic=lambda: link.now))
         configuration = get_figure("4a").build_configuration()
         processes = BenchProcesses("bench.toml", configuration, link.rest)
@@ -63,7 +63,7 @@ def start(monkeypatch):
         try:
             processes.wait_until_ready(silence_s, lambda *what: reported.append(what))
         except BenchError as error:
-            assert processes.failure == str(error), "whoever asks later is told, too"
+            assert processes.failure == str(error), "a later request gets the reason, too"
             raise
         return processes, reported
 
@@ -102,13 +102,13 @@ def test_a_bench_that_cannot_be_opened_says_why(start):
         start([(1.0, {"event": "failed", "message": "no adapter"})], 60.0)
 
 
-def test_a_loop_that_ended_before_it_was_told_anything_has_said_why(start, monkeypatch):
+def test_a_loop_that_ended_before_it_received_anything_has_said_why(start, monkeypatch):
     monkeypatch.setattr(ScriptedLink, "is_gone", True)
     with pytest.raises(BenchError, match="no adapter"):
         start([(0.0, {"event": "failed", "message": "no adapter"})], 60.0)
 
 
-def test_every_compiled_function_is_told_once():
+def test_every_compiled_function_is_reported_once():
     @numba.njit
     def double(x):
         return 2.0 * x

@@ -40,8 +40,8 @@ def test_the_first_tick_is_due_after_that() -> None:
     clock: Any = SimpleNamespace(now=now)
     memory = LoopMemory.create()
     try:
-        nobody: Any = None
-        process = LoopProcess(loop, plant, clock, 1.0, nobody, memory, nobody, nobody)
+        absent: Any = None
+        process = LoopProcess(loop, plant, clock, 1.0, absent, memory, absent, absent)
         process._ending = True
         process.run()
     finally:

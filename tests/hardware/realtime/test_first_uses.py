@@ -1,4 +1,4 @@
-"""Nothing that a bench is told while its loop runs imports, compiles or loads code in a tick."""
+"""No command to a bench whose loop runs imports, compiles or loads code in a tick."""
 
 import json
 import subprocess

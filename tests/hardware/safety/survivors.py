@@ -1,4 +1,4 @@
-"""What the drives are told when processes of a bench are killed or stopped, by the emulator's
+"""What the drives are reported when processes of a bench are killed or stopped, by the emulator's
 clock.
 """
 
@@ -25,7 +25,7 @@ SAID = "bench: "
 
 
 class Outcome(NamedTuple):
-    """before_ma: what both drives were told as they came to hold.
+    """before_ma: the last command of both drives as they came to hold.
 
     zero_s: from the signal to zero, the emulator's time. modes: what the drives are in at the end,
     None after a reset.

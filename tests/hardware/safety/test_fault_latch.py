@@ -1,4 +1,4 @@
-"""The latch of the loop and of the server: the first fault counts, the loss of a loop gives way."""
+"""The latch of the loop and of the server: the first fault counts, a lost loop yields to it."""
 
 import pytest
 
@@ -28,7 +28,9 @@ def test_the_first_fault_of_the_loop_counts_until_the_loop_clears_it(latch: Faul
     assert latch.fault is None
 
 
-def test_a_lost_loop_is_told_once_and_what_was_done_comes_to_be_known(latch: FaultLatch) -> None:
+def test_a_lost_loop_is_reported_once_and_what_was_done_comes_to_be_known(
+    latch: FaultLatch,
+) -> None:
     assert latch.take(LOST)
     assert not latch.take(build_fault("loop_lost", LOST.message))
     assert latch.fault is LOST, "nothing is new"

@@ -115,7 +115,7 @@ def test_arming_again_asks_for_the_marks_again() -> None:
 
 
 @pytest.mark.parametrize("by", ["", "  "])
-def test_a_mark_is_confirmed_by_somebody(by: str) -> None:
+def test_a_mark_is_confirmed_by_a_user(by: str) -> None:
     with pytest.raises(ParameterError, match="by"):
         bring(BenchStatus.READY).confirm_home("link", by)
 
@@ -165,7 +165,7 @@ def test_just_within_the_bounds_it_goes_on(conditions: Any, torque: bool) -> Non
     assert machine.status is BenchStatus.RUN
 
 
-def test_an_axis_never_heard_of_is_a_fault_and_no_infinity_is_told() -> None:
+def test_an_axis_never_heard_of_is_a_fault_and_no_infinity_is_reported() -> None:
     machine = bring(BenchStatus.READY)
     update(machine, ages_s=(0.001, 0.001, math.inf))
     assert machine.fault is not None

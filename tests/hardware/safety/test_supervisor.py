@@ -90,7 +90,7 @@ def test_stops_the_drives_after_20_ms_and_until_the_loop_beats_again(
     for times in (1, 2, 3):
         supervisor.watch()
         assert bus.sent == [(0x013, ZERO), (0x023, ZERO), (0x000, RESET)] * times
-        assert (ages.stops, ages.beats[-1]) == (1, "stopping"), "once, and told whenever it acts"
+        assert (ages.stops, ages.beats[-1]) == (1, "stopping"), "once, and reported at each action"
     assert capsys.readouterr().out.count("the loop is silent") == 1
     ages.loop_s = 0.001
     supervisor.watch()
@@ -229,7 +229,9 @@ def test_a_loop_killed_with_kill_9_leaves_drives_at_zero(
         assert "the loop is silent" in supervisor.stdout.read()
 
 
-def test_told_to_end_it_leaves_a_last_zero(wire: Wire, beats: Heartbeats, tmp_path: Path) -> None:
+def test_on_command_to_end_it_leaves_a_last_zero(
+    wire: Wire, beats: Heartbeats, tmp_path: Path
+) -> None:
     bench = write_bench(tmp_path, wire.server.port)
     with run("-m", "svsa.hardware.safety.supervisor", str(bench), beats.name) as supervisor:
         wire.serve_until(lambda: beats.age_s("supervisor") < 0.1)

@@ -1,7 +1,7 @@
-"""Two of three are enough: whoever of loop, supervisor and server is left stops the drives.
+"""Two of three are enough: what is left of loop, supervisor and server stops the drives.
 
-Real processes, signals that nobody can refuse, and the emulator's own clock. How long it took is
-told (`pytest -rP`); that it comes is asserted.
+Real processes, signals that no user can refuse, and the emulator's own clock. How long it took is
+reported (`pytest -rP`); that it comes is asserted.
 """
 
 import signal
@@ -51,7 +51,7 @@ def emulator() -> Iterator[RunningEmulator]:
 @pytest.mark.parametrize(
     "case", exhaust(CASES, SHOWN), ids=lambda case: f"{case[0].name}-{'-'.join(case[1])}"
 )
-def test_whoever_is_left_stops_the_drives(
+def test_the_remaining_processes_stop_the_drives(
     emulator: RunningEmulator,
     tmp_path: Path,
     case: tuple[signal.Signals, tuple[str, ...], tuple[str, ...]],
@@ -64,4 +64,4 @@ def test_whoever_is_left_stops_the_drives(
     assert all(outcome.before_ma), "both drives held a current"
     assert 0.0 < outcome.zero_s < PATIENCE_S
     if (number, victims) == (KILL, ("server",)):
-        assert outcome.modes == [None, None], "reset, where nobody is left"
+        assert outcome.modes == [None, None], "reset, where no user is left"

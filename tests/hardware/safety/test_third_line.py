@@ -104,7 +104,7 @@ def test_it_does_nothing_while_one_is_left_or_none_has_begun(watched: Watched) -
     assert watched.bus.sent == []
 
 
-def test_where_both_have_ended_it_stops_the_drives_until_told_to_stop(watched: Watched) -> None:
+def test_where_both_have_ended_it_stops_the_drives_until_stopped(watched: Watched) -> None:
     watched.beats.beat("loop")
     watched.loop.kill()
     watched.supervisor.kill()
@@ -128,7 +128,7 @@ def test_where_both_stand_still_it_ends_them_first(watched: Watched) -> None:
     assert (watched.loop.returncode, watched.supervisor.returncode) == (-9, -9)
 
 
-def test_a_bus_that_cannot_be_opened_is_told_and_tried_again(watched: Watched) -> None:
+def test_a_bus_that_cannot_be_opened_is_reported_and_tried_again(watched: Watched) -> None:
     watched.refusals = 10**9
     watched.beats.beat("loop")
     watched.loop.kill()

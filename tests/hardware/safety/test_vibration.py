@@ -1,4 +1,4 @@
-"""A motor that shakes is told from one that moves as fast as any reference asks."""
+"""A motor that shakes is reported from one that moves as fast as any reference asks."""
 
 import math
 

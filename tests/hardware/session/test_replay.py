@@ -1,4 +1,4 @@
-"""A bench's record says by itself whether it follows from what was measured and sent."""
+"""A bench's record says on its own whether it follows from what was measured and sent."""
 
 import dataclasses
 import math
@@ -108,7 +108,7 @@ def test_gains_that_were_not_those_that_controlled_are_found(tmp_path: Path) -> 
         verify(tmp_path / "other", (reported.changed(gains=gains), alone, start), ())
 
 
-def test_a_law_that_is_told_what_was_measured_follows_from_it_too(tmp_path: Path) -> None:
+def test_a_law_that_receives_what_was_measured_follows_from_it_too(tmp_path: Path) -> None:
     wanted = get_figure("4a").build_configuration("pi_observer", load=False)
     run = run_bench(wanted, 300, later=[], late={100: 3})
     assert verify(tmp_path, run, ()).share_as_limited > 0.9

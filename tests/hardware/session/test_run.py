@@ -1,4 +1,4 @@
-"""What the server reads of a bench's run: its samples, those it missed, and the twin beside it."""
+"""What the server reads of a bench's run: its samples, those it missed, and the twin next to it."""
 
 from collections.abc import Iterator
 
@@ -36,7 +36,7 @@ def build_run(memory: LoopMemory) -> BenchRun:
 def test_ticks_that_the_loop_missed_have_a_time_and_no_numbers(memory: LoopMemory) -> None:
     write(memory, 0, 10)
     memory.skip(10, 5)
-    assert memory.fields["end_tick"] == 10, "nothing is told of them before there is a sample"
+    assert memory.fields["end_tick"] == 10, "nothing is reported before there is a sample"
     write(memory, 15, 3)
     run, rows = build_run(memory), np.zeros((2, 18, len(CHANNELS)))
     assert run.advance(rows) == 18

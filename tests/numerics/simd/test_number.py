@@ -1,4 +1,4 @@
-"""Eight doubles side by side: each element has the bits that the float by itself has.
+"""Eight doubles side by side: each element has the bits that the float on its own has.
 
 These tests pin what is used of numba's inside: a release that changes it fails here.
 """

@@ -10,7 +10,7 @@ import pytest
 from svsa.errors import StateError
 from svsa.runs.records.backup import MANIFEST, BackupError, back_up, restore
 from tests.lab_in_process import run_lab_in_process
-from tests.server.routes.test_scenarios_routes import BLOW
+from tests.server.routes.test_scenarios_routes import IMPULSE
 from tests.waiting import wait_until
 
 
@@ -23,7 +23,7 @@ def test_a_backup_made_while_recording_loses_nothing(tmp_path: Path) -> None:
     data, archive, again = tmp_path / "data", tmp_path / "lab.tar.gz", tmp_path / "again"
     with run_lab_in_process(data=str(data)) as running:
         lab = running.client
-        lab.put("/api/v1/scenarios/mine", json=BLOW).raise_for_status()
+        lab.put("/api/v1/scenarios/mine", json=IMPULSE).raise_for_status()
         for name in ("finished", "running"):
             lab.post("/api/v1/sessions/lab/recording", json={"name": name}).raise_for_status()
             wait_until(lambda: lab.get("/api/v1/sessions/lab").json()["recording"]["ticks"] > 500)

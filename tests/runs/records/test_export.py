@@ -52,7 +52,7 @@ def test_csv_has_units_in_its_header_and_every_digit(record: Record, tmp_path: P
         np.testing.assert_array_equal(read, expected)
 
 
-def test_parquet_holds_the_run_by_itself(record: Record) -> None:
+def test_parquet_holds_the_run_on_its_own(record: Record) -> None:
     stream = io.BytesIO()
     export(record, "parquet", stream)
     table = pq.read_table(io.BytesIO(stream.getvalue()))

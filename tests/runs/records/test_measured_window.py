@@ -95,7 +95,7 @@ def test_no_number_mixes_two_laws() -> None:
         assert metrics != compute_metrics(made.samples[:, lane], PERIOD_S)
 
 
-def test_what_is_left_after_a_load_that_ended_by_itself_is_no_error_under_load() -> None:
+def test_what_is_left_after_a_load_that_ended_on_its_own_is_no_error_under_load() -> None:
     pulse = PulseLoad(torque_nm=(5.0, 0.0, 0.0), duration_s=0.05).model_dump(mode="json")
     ended = record([(300, "load", pulse)], ticks=2000)
     lasting = record([(300, "load", MASS)], ticks=2000)

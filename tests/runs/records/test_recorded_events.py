@@ -38,7 +38,7 @@ def session() -> SimulatedSession:
 
 @pytest.fixture
 def folder(tmp_path: Path, session: SimulatedSession) -> Path:
-    """A record that begins after the first was told, and ends with the last."""
+    """A record that begins after the first was reported, and ends with the last."""
     heat = HeatEvents()
     written = session.journal.initial.model_dump(mode="json")
     session.step(10)
@@ -69,7 +69,9 @@ def test_a_replay_tells_the_events_of_the_live_page(
     assert [event.tick for event in reported] == [10, 30, 30, 50]
 
 
-def test_a_run_that_begins_anew_has_told_nothing(session: SimulatedSession, tmp_path: Path) -> None:
+def test_a_run_that_restarts_has_reported_nothing(
+    session: SimulatedSession, tmp_path: Path
+) -> None:
     HeatEvents().log(["motor2"], True, session.journal)
     session.reset()
     recorder = svsa.Catalogue(tmp_path).record(build_header("run-1", lanes=("lane1",)))

@@ -68,7 +68,7 @@ def test_a_record_has_the_last_that_is_known_of_its_fault(
     assert (fault.message if fault else "") == (ends_run * "The supervisor has stopped them.")
 
 
-def test_the_list_has_it_again_when_it_is_built_anew(catalogue: Catalogue) -> None:
+def test_the_list_has_it_again_when_it_is_built_again(catalogue: Catalogue) -> None:
     fault = record_crash(catalogue)
     for path in catalogue.folder.glob("catalogue.sqlite*"):
         path.unlink()
@@ -83,7 +83,7 @@ def test_a_record_without_it_is_read_as_before(catalogue: Catalogue) -> None:
     assert open_record(catalogue.find_folder("run-1")).fault is None
 
 
-def test_a_damaged_one_is_told_and_not_left_out(catalogue: Catalogue) -> None:
+def test_a_damaged_one_is_reported_and_not_left_out(catalogue: Catalogue) -> None:
     record_crash(catalogue)
     (catalogue.find_folder("run-1") / FAULT_FILE).write_text('{"code": 7}')
     with pytest.raises(RecordError, match=r"fault\.json of record run-1 is damaged"):

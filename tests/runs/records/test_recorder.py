@@ -1,4 +1,4 @@
-"""The recorder: what was recorded comes back bit for bit, and what cannot be recorded is told."""
+"""The recorder: recordings read back bit for bit, and errors are reported."""
 
 import contextlib
 import json
@@ -53,7 +53,7 @@ def test_samples_and_commands_come_back_bit_for_bit(tmp_path: Path) -> None:
     assert status.bytes == sum(path.stat().st_size for path in (tmp_path / "run-1").iterdir())
 
 
-def test_the_finished_file_says_by_itself_what_it_holds(tmp_path: Path) -> None:
+def test_the_finished_file_says_on_its_own_what_it_holds(tmp_path: Path) -> None:
     header = build_header()
     write_record(tmp_path / "run-1", header, [(5, {"kind": "load"})], 0, build_samples(50))
     table = pq.read_table(tmp_path / "run-1" / "samples.parquet")

@@ -1,4 +1,4 @@
-"""Records that were cut off or damaged: what can be read is kept, what cannot is told."""
+"""Records that were cut off or damaged: what can be read is kept, what cannot is reported."""
 
 import contextlib
 import multiprocessing
@@ -59,7 +59,7 @@ def record_until_killed(folder: Path, reported: Connection) -> None:
 
 
 def read_reported(reported: Connection) -> list[int]:
-    """What the other end told before it was gone."""
+    """What the other end reported before it was gone."""
     ticks = [0]
     with contextlib.suppress(EOFError):
         while True:
@@ -70,7 +70,7 @@ def read_reported(reported: Connection) -> list[int]:
 @pytest.mark.parametrize("rounds", exhaust(ROUNDS_OF_KILLING, ROUNDS_OF_KILLING[:1]))
 def test_kill_9_loses_less_than_half_a_second_and_recovers(tmp_path: Path, rounds: int) -> None:
     """As many processes, each killed at a moment of its own; a time at which the machine did not
-    let one run, which is seen by what it told, was not its to use.
+    let one run, which is seen by what it reported, was not its to use.
     """
     forks = multiprocessing.get_context("forkserver")
     forks.set_forkserver_preload([__name__])
@@ -172,7 +172,7 @@ def damage(path: Path, where: float, count: int = 64) -> bytes:
 
 
 @pytest.mark.parametrize("where", [0.0, 0.35])
-def test_a_damaged_stream_is_told_and_kept(tmp_path: Path, where: float) -> None:
+def test_a_damaged_stream_is_reported_and_kept(tmp_path: Path, where: float) -> None:
     folder = make_stream(tmp_path / "run-1")
     stream = folder / "samples.arrows"
     content = bytearray(stream.read_bytes())
@@ -186,7 +186,7 @@ def test_a_damaged_stream_is_told_and_kept(tmp_path: Path, where: float) -> None
     assert not (folder / "samples.parquet").exists()
 
 
-def test_a_stream_with_a_gap_is_told(tmp_path: Path) -> None:
+def test_a_stream_with_a_gap_is_reported(tmp_path: Path) -> None:
     folder = make_stream(tmp_path / "run-1", ticks=100)
     stream = folder / "samples.arrows"
     content = stream.read_bytes()
@@ -199,7 +199,7 @@ def test_a_stream_with_a_gap_is_told(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("where", [0.0, 0.4, 0.7, 0.999])
-def test_a_damaged_parquet_file_is_told_and_kept(tmp_path: Path, where: float) -> None:
+def test_a_damaged_parquet_file_is_reported_and_kept(tmp_path: Path, where: float) -> None:
     folder = tmp_path / "run-1"
     write_record(folder, build_header(), [], 0, build_samples(5000))
     content = damage(folder / "samples.parquet", where)
@@ -208,7 +208,7 @@ def test_a_damaged_parquet_file_is_told_and_kept(tmp_path: Path, where: float) -
     assert (folder / "samples.parquet").read_bytes() == content
 
 
-def test_damaged_commands_and_headers_are_told(tmp_path: Path) -> None:
+def test_damaged_commands_and_headers_are_reported(tmp_path: Path) -> None:
     folder = tmp_path / "run-1"
     write_record(folder, build_header(), [(0, {"a": 1}), (1, {"a": 2})], 0, build_samples(5))
     commands = (folder / "commands.jsonl").read_text()

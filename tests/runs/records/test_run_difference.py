@@ -41,7 +41,7 @@ def test_runs_that_were_set_alike_differ_in_nothing() -> None:
     assert compare(record(), record(*back)) == {}
 
 
-def test_a_number_is_told_with_its_unit_and_a_law_by_its_name() -> None:
+def test_a_number_is_reported_with_its_unit_and_a_law_by_its_name() -> None:
     assert compare(record(), record(figure="4b", law="fl")) == {
         ("Stiffness", "σ_d", "N·m/rad"): (15.0, 60.0),
         ("Controller", "Law", ""): ("NDOBC", "FL"),
@@ -77,7 +77,7 @@ def test_an_effect_is_on_or_off_with_its_values_and_the_seed_of_its_noise() -> N
     }
 
 
-def test_gains_are_told_as_poles_and_lanes_by_their_laws() -> None:
+def test_gains_are_reported_as_poles_and_lanes_by_their_laws() -> None:
     gains = record().header.configuration["gains"]
     faster = dict(gains, stiffness_coefficients=(2500.0, 100.0))
     one, other = record(gains=faster), record(comparisons=(Lane(law="fl"),))
@@ -87,7 +87,7 @@ def test_gains_are_told_as_poles_and_lanes_by_their_laws() -> None:
     }
 
 
-def test_loads_and_changes_are_told_with_their_times() -> None:
+def test_loads_and_changes_are_reported_with_their_times() -> None:
     loaded = record((10, "load", PaperLoad()), (20, "law", "fl"))
     assert compare(record(), loaded) == {
         ("Loads", "Loads", ""): ("no load", "3 kg after 0.01 s"),
@@ -97,7 +97,7 @@ def test_loads_and_changes_are_told_with_their_times() -> None:
     assert compare(record(), unreached) == {}
 
 
-def test_the_same_value_of_plant_and_model_is_told_apart() -> None:
+def test_the_same_value_of_plant_and_model_is_distinguished() -> None:
     names = compare(record(), record((0, "effects", RIG), (0, "nominal", record_actuator())))
     groups = {group for group, _, _ in names}
     assert groups == {"Realism", "Model of the controller"}
@@ -107,6 +107,6 @@ def record_actuator() -> dict[str, Any]:
     return record().header.configuration["actuator"]
 
 
-def test_poles_are_told_to_three_digits() -> None:
+def test_poles_are_reported_to_three_digits() -> None:
     assert format_poles([-59.991, -60 - 0.0086j, -60 + 0.0086j, -60.0086]) == "−60 (4×)"
     assert format_poles([-24.41 - 24.4j, -24.41 + 24.4j]) == "−24.4 ± 24.4j"

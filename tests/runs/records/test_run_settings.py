@@ -84,7 +84,7 @@ def test_a_load_that_was_taken_off_before_the_record_is_not_named() -> None:
     assert describe((0, "load", pulse), first_tick=199).load == "pulse 5 N·m"
 
 
-def test_loads_are_told_apart_and_those_in_turn_are_counted() -> None:
+def test_loads_are_distinguished_and_those_in_turn_are_counted() -> None:
     again = ((0, "load", PaperLoad()), (100, "unload", 1), (200, "load", PaperLoad()))
     assert describe(*again).load == "3 kg (2×)"
     mass = MassLoad(mass_kg=1.5, arm_m=0.1)
@@ -93,7 +93,7 @@ def test_loads_are_told_apart_and_those_in_turn_are_counted() -> None:
     )
 
 
-def test_a_push_that_was_told_again_is_one_load() -> None:
+def test_a_push_that_was_reported_again_is_one_load() -> None:
     """Held from 1 s to 1.3 s; a second one is another."""
     reported = [
         (tick, "load", PushLoad(torque_nm=(tick / 1000, 0.0, 0.0), hold_s=0.2))
@@ -139,7 +139,7 @@ def test_how_a_figure_is_faded_in_makes_no_other_figure_of_it() -> None:
     assert describe(stiffness=slowly).figure == "4a"
 
 
-def test_realism_and_a_design_of_ones_own_are_told() -> None:
+def test_realism_and_a_design_of_ones_own_are_reported() -> None:
     assert describe(effects=RIG).name == "Fig. 4A · NDOBC · σ 15 · no load · rig"
     rough = RIG.changed(friction=Friction())
     assert describe(effects=rough).effects == "encoders, estimated velocities, friction, delay 1"
@@ -174,13 +174,13 @@ def test_a_change_that_cannot_be_read_is_a_question_mark() -> None:
     assert (settings.stiffness, settings.figure_held) == ("15 → ?", False)
 
 
-def test_laws_that_changed_places_are_told_of_every_lane() -> None:
+def test_laws_that_changed_places_are_reported_of_every_lane() -> None:
     settings = describe((3000, "laws", ("fl", "ndobc")), comparisons=(Lane(law="fl"),))
     assert settings.name.split(" · ")[1] == "NDOBC → FL vs FL → NDOBC"
     assert settings.law_kinds == ("ndobc", "fl")
 
 
-def test_a_lane_that_was_set_otherwise_is_told_as_one_beside() -> None:
+def test_a_lane_that_was_set_otherwise_is_reported_as_a_comparison() -> None:
     setting = LaneSetting(lane=2, setting=Lane(law="fl_integral"))
     assert (
         describe((3000, "lane", setting), comparisons=(Lane(law="fl"),)).laws

@@ -1,4 +1,4 @@
-"""A run is another within tolerances of value and time, or the moment is told where it is not."""
+"""A run matches another within tolerances of value and time, or the first mismatch is reported."""
 
 import json
 
@@ -39,7 +39,7 @@ def test_a_run_is_itself_without_any_tolerance():
     assert {one.excess for one in verdict.channels} == {0.0}
 
 
-def test_one_bit_is_told_with_its_lane_channel_and_moment():
+def test_one_bit_is_reported_with_its_lane_channel_and_moment():
     values = np.linspace(1.0, 2.0, TICKS)
     nudged = values.copy()
     nudged[120] = np.nextafter(values[120], np.inf)
@@ -61,7 +61,7 @@ def test_one_bit_is_told_with_its_lane_channel_and_moment():
     ],
 )
 def test_tolerances_of_the_value_add_up(tolerance, held):
-    """2.1 beside 2.0."""
+    """2.1 next to 2.0."""
     verdict = judge(build(**{ERROR: 2.1}), build(**{ERROR: 2.0}), {ERROR: tolerance})
     assert find(verdict, "lane2", ERROR).held is held
     assert verdict.held is held
@@ -91,7 +91,7 @@ def test_what_is_not_known_on_one_side_is_not_held_and_on_both_it_is():
     assert judge(build(**{TORQUE: unknown}), build(**{TORQUE: unknown}), loose, None).held
 
 
-def test_one_value_that_is_not_known_does_not_take_the_band_from_those_beside_it():
+def test_one_value_that_is_not_known_does_not_take_the_band_from_those_next_to_it():
     unknown = np.where(np.arange(TICKS) == 7, np.nan, 1.0)
     near = {TORQUE: Tolerance(time_s=3 * PERIOD_S)}
     assert judge(build(**{TORQUE: 1.0}), build(**{TORQUE: unknown}), near, None).held
@@ -108,7 +108,7 @@ def test_a_shorter_run_is_not_held_though_all_it_has_is():
     assert (verdict.held, verdict.ticks) == (False, 150)
 
 
-def test_the_stretches_outside_are_told_and_how_long_they_are_in_all():
+def test_the_stretches_outside_are_reported_and_how_long_they_are_in_all():
     """Two of 5 ticks; those that are a tick apart are one stretch, but the tick between counts."""
     values = np.zeros(TICKS)
     values[[20, 21, 22, 24, 25, 100, 101, 102, 103, 104]] = 2.0
@@ -122,7 +122,7 @@ def test_the_stretches_outside_are_told_and_how_long_they_are_in_all():
     assert find(verdict, "lane1", ERROR).outside == ()
 
 
-def test_of_many_stretches_near_each_other_not_more_are_told_than_can_be_looked_at():
+def test_of_many_stretches_near_each_other_not_more_are_reported_than_can_be_looked_at():
     ticks = 40 * MAX_OUTSIDE
     values = np.where(np.arange(ticks) % 2, 2.0, 0.0)
     long, flat = build(ticks=ticks, **{ERROR: values}), build(ticks=ticks, **{ERROR: 0.0})

@@ -1,4 +1,4 @@
-"""How laws are told apart in the pictures of runs."""
+"""How laws are distinguished in the pictures of runs."""
 
 import itertools
 
@@ -13,7 +13,7 @@ def test_no_two_installed_laws_look_the_same_nor_does_another_controller() -> No
     assert len(set(looks)) == len(laws)
 
 
-def test_laws_that_stand_beside_one_another_differ_in_colour_and_in_dash() -> None:
+def test_laws_that_stand_next_to_one_another_differ_in_colour_and_in_dash() -> None:
     looks = [style_law(law) for law in list_law_names()]
     for one, other in itertools.pairwise(looks):
         assert one["color"] != other["color"]

@@ -12,7 +12,7 @@ from .sessions import PULSE, build_session, list_events, read_samples
 
 
 def test_a_window_that_has_ended_keeps_its_numbers_of_the_lanes_that_are_left():
-    """What a mark tells of an event is what the table told of it when it was the newest."""
+    """What a mark tells of an event is what the table reported of it when it was the newest."""
     session = build_session()
     session.step(10)
     session.change(Set("comparisons", (svsa.Lane(law="fl"), svsa.Lane(law="fl_integral"))))
@@ -128,7 +128,7 @@ def test_the_version_grows_with_every_change_and_not_with_time():
     assert session.version == before
 
 
-def test_a_record_tells_what_was_told_live():
+def test_a_record_tells_what_was_reported_live():
     """Of the same commands the same events: laws by name, loads that were planned or not."""
     session = build_session(PULSE)
     session.step(20)
@@ -162,7 +162,7 @@ def test_a_record_tells_what_was_told_live():
     assert events.list_events(session.journal.initial, session.journal.commands) == reported
 
 
-def test_what_runs_beside_is_told_by_its_laws():
+def test_comparison_lanes_are_reported_by_their_laws():
     session = build_session()
     session.step(10)
     for laws in (("fl",), ("fl", "adrc"), ()):

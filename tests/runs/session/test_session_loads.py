@@ -1,4 +1,4 @@
-"""Loads of a session: when they come and go, what is told of it, and metrics since."""
+"""Loads of a session: when they come and go, what is reported of them, and metrics since."""
 
 import numpy as np
 import pytest
@@ -37,7 +37,7 @@ def test_the_metrics_since_the_load_begin_at_its_onset():
 
 
 def test_the_metrics_of_a_load_end_when_it_is_taken_off():
-    """The error of load removal is none of the load's; the next load begins anew."""
+    """The error of load removal is none of the load's; the next load restarts."""
     session = build_session()
     session.step(10)
     session.change(ApplyLoad(argument=svsa.PaperLoad()))
@@ -48,12 +48,12 @@ def test_the_metrics_of_a_load_end_when_it_is_taken_off():
     assert [metrics.summarize() for metrics in session.journal.metrics.since_load] == [loaded]
     session.change(ApplyLoad(argument=svsa.PaperLoad()))
     session.step(5)
-    (anew,) = [metrics.summarize() for metrics in session.journal.metrics.since_load]
-    assert anew.duration_s == pytest.approx(0.005)
+    (again,) = [metrics.summarize() for metrics in session.journal.metrics.since_load]
+    assert again.duration_s == pytest.approx(0.005)
     session.change(RemoveLoad(argument=2))
     session.change(Set("comparisons", (svsa.Lane(law="fl"),)))
     first, comparison = session.journal.metrics.since_load
-    assert first.summarize() == anew
+    assert first.summarize() == again
     assert comparison is None, "the load was on before this lane began"
 
 
@@ -74,7 +74,7 @@ def test_taking_a_load_off_is_logged_and_ends_it():
     assert kinds == [(0, "load"), (10, "unload"), (20, "load"), (20, "unload")]
 
 
-def test_a_push_is_one_mark_however_often_it_is_told():
+def test_a_push_is_one_mark_however_often_it_is_reported():
     session = build_session()
     for torque in np.linspace(0.1, 1.5, 15):
         session.change(ApplyLoad(argument=svsa.PushLoad(torque_nm=(torque, 0.0, 0.0), hold_s=0.05)))
@@ -89,7 +89,7 @@ def test_a_push_is_one_mark_however_often_it_is_told():
     assert since.duration_s == pytest.approx(0.3)
 
 
-def test_a_push_that_nobody_holds_any_more_ends_by_itself():
+def test_a_push_that_no_user_holds_any_more_ends_on_its_own():
     session = build_session()
     session.change(ApplyLoad(argument=svsa.PushLoad(torque_nm=(1.0, 0.0, 0.0), hold_s=0.05)))
     session.step(30)
@@ -120,7 +120,7 @@ def test_a_load_that_ends_is_logged_even_when_another_is_added_at_that_tick():
 
 
 def test_a_load_taken_off_before_its_first_tick_is_not_logged_as_off():
-    """It never acted: an event off without an event on would be told to the page."""
+    """It never acted: an event off without an event on would be reported to the page."""
     session = build_session()
     session.change(ApplyLoad(argument=svsa.PaperLoad()))
     session.change(RemoveLoad(argument=1))

@@ -23,7 +23,7 @@ class Classroom(NamedTuple):
     reported: ShownOnce
 
     def join(self, name: str, role: str = "operator") -> httpx.Client:
-        """A browser of somebody who has joined."""
+        """A browser of a user who has joined."""
         browser = self.open_browser()
         body = {"name": name, "code": self.reported.code, "role": role}
         browser.post("/api/v1/join", json=body).raise_for_status()

@@ -57,7 +57,7 @@ def test_what_changed_something_is_written_down_without_a_secret(tmp_path: Path)
         assert secret not in text
 
 
-def test_control_that_goes_on_by_itself_is_written_down_with_why_and_tick(tmp_path: Path) -> None:
+def test_control_that_goes_on_on_its_own_is_written_down_with_why_and_tick(tmp_path: Path) -> None:
     session = SimulatedSession("lab", get_figure("4a").build_configuration())
     log = audit.AuditLog(tmp_path)
     lease = ControlQueue("lab", lambda client: client == "instructor", 90.0)

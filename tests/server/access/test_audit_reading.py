@@ -1,4 +1,4 @@
-"""The audit log on the instructor's page: filtered, paged, the newest first; for nobody else."""
+"""The audit log on the instructor's page: filtered, paged, the newest first; for no one else."""
 
 import json
 import time
@@ -20,7 +20,7 @@ OPERATIONS = list_operations(SCHEMA)
 
 @pytest.fixture
 def classroom(tmp_path: Path) -> Iterator[Classroom]:
-    with run_class(tmp_path, control_s="1000") as room:  # nobody is gone, however slow it is
+    with run_class(tmp_path, control_s="1000") as room:  # no user is gone, however slow it is
         yield room
 
 
@@ -108,7 +108,9 @@ def test_a_line_that_is_none_and_a_folder_without_a_log_are_no_obstacle(tmp_path
     assert read_audit(tmp_path, OPERATIONS, ask())["total"] == 1
 
 
-def test_what_nobody_called_for_and_what_a_platform_did_are_told_in_words(tmp_path: Path) -> None:
+def test_what_no_user_called_for_and_what_a_platform_did_are_reported_in_words(
+    tmp_path: Path,
+) -> None:
     time = "2026-01-02T03:04:05.000+00:00"
     idle = {"time": time, "event": "control", "why": "gone_from_queue", "person": "p-1"}
     launch = {"time": time, "action": "lti launch", "person": None, "problem": "No such key."}

@@ -32,7 +32,7 @@ def classroom(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Classroom]:
         yield room
 
 
-def test_keys_are_told_once_and_kept_as_hashes_that_others_cannot_read(tmp_path: Path) -> None:
+def test_keys_are_reported_once_and_kept_as_hashes_that_others_cannot_read(tmp_path: Path) -> None:
     keys, reported = ClassKeys.open(tmp_path)
     assert reported is not None
     path = tmp_path / class_keys.FILE
@@ -51,7 +51,7 @@ def test_keys_are_told_once_and_kept_as_hashes_that_others_cannot_read(tmp_path:
     assert again.read_person(keys.sign(ADA)) == ADA
 
 
-def test_a_new_code_lets_nobody_in_by_the_old_one(tmp_path: Path) -> None:
+def test_a_new_code_lets_no_user_in_by_the_old_one(tmp_path: Path) -> None:
     keys, reported = ClassKeys.open(tmp_path)
     assert reported is not None
     carried = keys.sign(ADA)
@@ -63,7 +63,7 @@ def test_a_new_code_lets_nobody_in_by_the_old_one(tmp_path: Path) -> None:
         assert opened.read_person(carried) == ADA
 
 
-def test_what_nobody_signed_or_long_ago_is_nobody(
+def test_what_no_user_signed_or_long_ago_is_no_user(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     keys, _ = ClassKeys.open(tmp_path / "one")
@@ -84,7 +84,7 @@ def test_damaged_keys_say_what_to_do(tmp_path: Path) -> None:
         ClassKeys.open(tmp_path)
 
 
-def test_who_is_here_was_heard_within_a_minute_and_names_are_told_apart() -> None:
+def test_who_is_here_was_heard_within_a_minute_and_names_are_distinguished() -> None:
     now = [0.0]
     people = People(lambda: now[0])
     ada = people.join("Ada", Role.OPERATOR)
@@ -100,7 +100,7 @@ def test_who_is_here_was_heard_within_a_minute_and_names_are_told_apart() -> Non
     assert people.find(other.id) is None
 
 
-def test_a_stranger_is_told_to_join_and_cannot_stop_a_simulation(classroom: Classroom) -> None:
+def test_a_stranger_is_asked_to_join_and_cannot_stop_a_simulation(classroom: Classroom) -> None:
     stranger = classroom.lab.client
     assert read_person(stranger) == {
         "authentication": "class",

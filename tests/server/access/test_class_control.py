@@ -20,7 +20,7 @@ def classroom(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Classroom]:
 
 @pytest.fixture
 def people(classroom: Classroom) -> Iterator[tuple[httpx.Client, httpx.Client, httpx.Client]]:
-    """Ada, Bob and the instructor; nobody in control before or after."""
+    """Ada, Bob and the instructor; no user in control before or after."""
     ada, bob, instructor = classroom.join("Ada"), classroom.join("Bob"), classroom.log_in()
     yield ada, bob, instructor
     for one in (ada, bob, instructor):

@@ -42,7 +42,7 @@ def test_who_is_here_and_which_sessions_are_for_the_instructor_to_see(
     assert [one["name"] for one in ada.get(CLASS).json()["people"]] == ["Ada", "Instructor"]
 
 
-def test_a_new_code_is_told_once_with_a_qr_code_of_where_one_joins(
+def test_a_new_code_is_reported_once_with_a_qr_code_of_where_one_joins(
     classroom: Classroom, tmp_path: Path
 ) -> None:
     ada, instructor = classroom.join("Ada"), classroom.log_in()

@@ -37,7 +37,7 @@ def rejoin(browser: httpx.Client, code: str) -> httpx.Response:
 
 
 def join(classroom: Classroom, name: str) -> tuple[httpx.Client, str]:
-    """A browser of somebody who has joined, and their rejoin code."""
+    """A browser of a user who has joined, and their rejoin code."""
     browser = classroom.open_browser()
     body = {"name": name, "code": classroom.reported.code}
     reported = browser.post("/api/v1/join", json=body).raise_for_status().json()
@@ -175,7 +175,7 @@ def test_a_person_comes_back_by_their_code_from_another_browser_as_who_they_were
     assert rejoin(classroom.open_browser(), new).status_code == 200
 
 
-def test_a_rejoin_code_gives_nobody_more_than_they_have(classroom: Classroom) -> None:
+def test_a_rejoin_code_gives_no_user_more_than_they_have(classroom: Classroom) -> None:
     ada, code = join(classroom, "Noether")
     instructor = classroom.log_in()
     token = ada.post("/api/v1/tokens", json={"role": "observer"}).json()["token"]
@@ -214,7 +214,7 @@ def test_the_members_are_kept_as_hashes_that_others_cannot_read(tmp_path: Path) 
         Memberships(path)
 
 
-def test_a_class_that_is_full_takes_nobody_more(
+def test_a_class_that_is_full_takes_no_user_more(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(memberships, "MAX_MEMBERS", 1)

@@ -134,7 +134,7 @@ def wait_for_study(browser: httpx.Client, name: str) -> None:
         time.sleep(0.05)
 
 
-def test_what_somebody_else_keeps_is_no_source(classroom: Classroom) -> None:
+def test_what_a_user_else_keeps_is_no_source(classroom: Classroom) -> None:
     ada, bob = classroom.join("Ada"), classroom.join("Bob")
     begun = ada.post(STUDIES, json={"source": "load", "runs": 4, "name": "mine"})
     ada.delete(f"{JOBS}/{begun.json()['job']['id']}").raise_for_status()

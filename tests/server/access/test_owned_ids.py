@@ -239,7 +239,7 @@ def test_the_outcome_of_a_request_is_for_its_sender_only(things: Things) -> None
         assert [(one["outcome"], one["status"]) for one in found] == [("unknown", None)] * 2
 
 
-def test_control_is_handed_to_another_person_as_to_nobody(things: Things) -> None:
+def test_control_is_handed_to_another_person_as_to_no_user(things: Things) -> None:
     found = [
         describe(
             things.others[Role.OPERATOR].post(SHARED + "/control/handover", json={"to": one}), one

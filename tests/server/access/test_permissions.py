@@ -170,7 +170,7 @@ def build_identities(
     members.keep(Membership(people["lowered"]._replace(role=Role.OBSERVER)))
     signed = {name: keys.sign(person) for name, person in people.items()}
     forged = ClassKeys.open(folder)[0].sign(INSTRUCTOR)
-    unknown = keys.sign(Person("p-9", "Nobody", Role.OPERATOR))
+    unknown = keys.sign(Person("p-9", "No user", Role.OPERATOR))
     altered = signed["student"][:-2] + ("AA" if signed["student"][-2:] != "AA" else "BB")
     return {
         "no login": Identity([], None),

@@ -1,4 +1,4 @@
-"""How often one may: counted by address or person, told when again, and never a stop."""
+"""How often one may: counted by address or person, reported when again, and never a stop."""
 
 import asyncio
 import time
@@ -15,7 +15,7 @@ from tests.server.access.classroom import SHARED, read_kind, run_class
 SESSION = "/api/v1/sessions/private-1"
 
 
-def test_one_too_many_is_told_when_it_is_not(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_one_too_many_is_reported_when_it_is_not(monkeypatch: pytest.MonkeyPatch) -> None:
     now = [1000.0]
     monkeypatch.setattr(time, "time", lambda: now[0])
     others = dict.fromkeys(("codes", "logins", "sessions", "runs"), "1/day")
@@ -23,7 +23,7 @@ def test_one_too_many_is_told_when_it_is_not(monkeypatch: pytest.MonkeyPatch) ->
     assert [rates.count("joins", "a") for _ in range(2)] == [None, None]
     now[0] += 45.0
     assert rates.check("joins", "a") == rates.count("joins", "a") == 15
-    assert rates.count("joins", "b") is None, "each is counted by themselves"
+    assert rates.count("joins", "b") is None, "each is counted on their own"
     assert rates.count("commands", "a") is None, "and each kind"
     now[0] += 15.1
     assert rates.check("joins", "a") is rates.count("joins", "a") is None
@@ -75,7 +75,7 @@ def test_over_rest_it_is_429_with_retry_after_and_everybody_still_stops(tmp_path
 def test_wrong_codes_and_tokens_of_an_address_lock_out_neither_instructor_nor_class(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A class behind one router shares an address with whoever mistypes or guesses."""
+    """A class behind one router shares an address with clients that mistype or guess."""
     monkeypatch.setattr(authentication, "REFUSAL_DELAY_S", 0.0)
     with run_class(tmp_path) as room:
         stranger = room.lab.client

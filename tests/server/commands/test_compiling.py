@@ -1,4 +1,4 @@
-"""Laws that nobody has used yet are compiled beside the server."""
+"""Laws that no user has used yet are compiled next to the server."""
 
 import signal
 import subprocess

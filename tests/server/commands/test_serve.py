@@ -77,7 +77,7 @@ def test_a_data_folder_that_cannot_be_written_is_not_claimed(tmp_path: Path) -> 
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no such locks and modes")
-def test_nobody_else_reads_the_files_of_a_class(tmp_path: Path) -> None:
+def test_no_user_else_reads_the_files_of_a_class(tmp_path: Path) -> None:
     with run_lab("--class", data=str(tmp_path)):
         written = [path for path in tmp_path.rglob("*") if path.is_file()]
         assert {"catalogue.sqlite", "class.json", "members.sqlite"} <= {one.name for one in written}
@@ -92,6 +92,6 @@ def test_a_server_without_shared_memory_says_so_at_its_start() -> None:
     command = [*before, str(Path(sys.executable).with_name("svsa")), "serve", "--port", "0"]
     ran = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
     assert ran.returncode != 0
-    told = " ".join((ran.stdout + ran.stderr).split())
-    assert "A block of shared memory of 1 bytes cannot be created" in told
-    assert "mount a tmpfs there" in told
+    reported = " ".join((ran.stdout + ran.stderr).split())
+    assert "A block of shared memory of 1 bytes cannot be created" in reported
+    assert "mount a tmpfs there" in reported

@@ -85,12 +85,12 @@ def test_a_search_is_broken_off_and_keeps_its_worst(lab):
 
 def test_a_wrong_adversary_is_refused_with_line_and_bound(lab):
     for asked, reported in (
-        ({"adversary": "nobody"}, "impulse"),
+        ({"adversary": "missing"}, "impulse"),
         ({"text": PULL.replace("2.0", "-2.0")}, "line 11"),
         ({"text": PULL, "adversary": "impulse"}, "one of the three"),
         ({}, "one of the three"),
         ({"definition": OWN | {"terms": []}}, "definition.terms"),
-        ({"definition": OWN, "law": "nobody"}, "nobody"),
+        ({"definition": OWN, "law": "missing"}, "missing"),
         ({"text": PULL, "runs": 0}, "runs is 0"),
     ):
         refused = lab.post(JOBS, json=KIND | asked)

@@ -31,7 +31,7 @@ def test_a_job_is_done_by_another_process_of_the_lowest_priority(work):
     assert niceness == 10
 
 
-def test_who_finds_the_queue_full_is_told_and_the_others_are_done(work, tmp_path):
+def test_who_finds_the_queue_full_is_reported_and_the_others_are_done(work, tmp_path):
     async def crowd():
         first = [asyncio.create_task(work.run(wait_for, tmp_path / "go")) for _ in range(2)]
         await asyncio.sleep(0)

@@ -1,4 +1,4 @@
-"""Long work: followed, cancelled, bounded, in nobody's way, and ended with the server."""
+"""Long work: followed, cancelled, bounded, in no user's way, and ended with the server."""
 
 import asyncio
 import contextlib

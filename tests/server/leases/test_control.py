@@ -94,7 +94,7 @@ def test_others_are_refused_whatever_they_change_and_may_stop_and_read() -> None
                     )
             state = (await client.get(SESSION, headers=BOB)).json()
             assert state["control"] == {"holder": "Ada", "mine": False, "watching": 0}
-            assert state["status"] == "paused", "a pause of somebody else counts"
+            assert state["status"] == "paused", "a pause of another client counts"
             assert state["configuration"] == before
             started = await client.post(SESSION + "/start", headers=ADA)
             assert (started.json()["status"], started.json()["control"]["mine"]) == (
@@ -139,7 +139,7 @@ def test_the_server_frees_it_when_its_holder_is_gone() -> None:
             assert laboratory.sessions["lab"].lease.is_held_by("0123-ada")
             laboratory.free_leases(time.monotonic() + 16.0)
             assert (await client.get(SESSION)).json()["control"]["holder"] is None
-            assert laboratory.sessions["lab"].version == version + 2, "everybody is told"
+            assert laboratory.sessions["lab"].version == version + 2, "everybody is reported"
 
     asyncio.run(try_all())
 
@@ -194,7 +194,7 @@ def test_a_hand_is_free_15_s_after_the_last_call_and_stream() -> None:
         version = hosted.version
         hosted.release_if_left(200.0, 15.0)
     assert (hosted.streams, hosted.session.watched) == (0, False)
-    assert hosted.version > version, "everybody is told how many watch"
+    assert hosted.version > version, "all are notified how many watch"
     hosted.release_if_left(214.0, 15.0)
     lease.hear("2", 214.0)
     lease.hear("1", 210.0)

@@ -1,4 +1,4 @@
-"""Control in a class: asked for, waited for, handed over, locked, left; at times that are told."""
+"""Control in a class: requested, queued for, handed over, locked, released; with given times."""
 
 import asyncio
 from types import SimpleNamespace
@@ -31,7 +31,7 @@ def settle(queue: ControlQueue, now: float, here: tuple[Holder, ...] = (ADA, BOB
     return queue.settle(now, GONE_S)
 
 
-def test_nobody_commands_a_free_session_but_the_instructor(queue: ControlQueue) -> None:
+def test_no_user_commands_a_free_session_but_the_instructor(queue: ControlQueue) -> None:
     assert [queue.admits(one) for one in (None, "p-1", TEACHER.client)] == [False, False, True]
     with pytest.raises(HeldError, match="No user is in control of session lab: ask for control"):
         queue.check("p-1")
@@ -60,7 +60,7 @@ def test_it_goes_on_when_it_is_given_back_and_who_leaves_the_queue_is_out(
     assert queue.holder is None
 
 
-def test_its_holder_hands_it_to_one_who_waits_and_nobody_else_does(queue: ControlQueue) -> None:
+def test_its_holder_hands_it_to_one_who_waits_and_no_user_else_does(queue: ControlQueue) -> None:
     ask(queue, ADA, BOB, EVE)
     for other in ("p-2", None):
         with pytest.raises(HeldError):
@@ -73,7 +73,7 @@ def test_its_holder_hands_it_to_one_who_waits_and_nobody_else_does(queue: Contro
     assert (queue.holder, queue.waiting) == (BOB, [])
 
 
-def test_an_idle_holder_loses_it_to_who_waits_and_to_nobody_else(queue: ControlQueue) -> None:
+def test_an_idle_holder_loses_it_to_who_waits_and_to_no_user_else(queue: ControlQueue) -> None:
     ask(queue, ADA)
     assert not settle(queue, 1000.0)
     assert queue.holder == ADA, "the queue is empty"
@@ -106,7 +106,7 @@ def test_who_is_gone_loses_it_and_their_place(queue: ControlQueue) -> None:
     assert queue.holder is None
 
 
-def test_the_instructor_takes_it_and_whoever_had_it_is_first_to_get_it_back(
+def test_the_instructor_takes_it_and_the_former_holder_is_first_to_get_it_back(
     queue: ControlQueue,
 ) -> None:
     ask(queue, ADA, BOB)

@@ -33,7 +33,7 @@ def read_outcome(lab: Lab, name: str) -> dict:
     return found
 
 
-def test_a_request_whose_client_left_is_told_as_carried_out(lab: Lab) -> None:
+def test_a_request_whose_client_left_is_reported_as_carried_out(lab: Lab) -> None:
     """As when the connection breaks after Run: the session runs, and the page must know."""
     lab.client.post(lab.session + "/pause").raise_for_status()
     address = urlsplit(lab.url)
@@ -54,7 +54,7 @@ def test_a_request_whose_client_left_is_told_as_carried_out(lab: Lab) -> None:
     ("method", "path", "body", "status"),
     [("PUT", "law", {"law": "no_law"}, 422), ("DELETE", "loads/999", None, 404)],
 )
-def test_a_refused_request_is_told_as_refused(
+def test_a_refused_request_is_reported_as_refused(
     lab: Lab, method: str, path: str, body: dict | None, status: int
 ) -> None:
     name = f"refused-{status}"
@@ -160,7 +160,9 @@ def test_what_is_not_stored(app: ASGIApp, statuses: list[int], outcome: str) -> 
     assert outcomes.find("", "k")[0] == outcome
 
 
-def test_a_repeat_of_what_takes_long_is_told_to_come_later(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_repeat_of_what_takes_long_gets_a_time_to_retry(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     monkeypatch.setattr("svsa_server.leases.outcomes.LONGEST_WAIT_S", 0.0)
     begun, release = asyncio.Event(), asyncio.Event()
 

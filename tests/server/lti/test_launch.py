@@ -39,7 +39,7 @@ def lab(platform, data):
 
 
 class Launcher:
-    """The browser of somebody whom the platform launches."""
+    """The browser of a user whom the platform launches."""
 
     def __init__(self, lab, platform) -> None:
         self.client, self.platform = lab.client, platform
@@ -101,8 +101,8 @@ def test_in_a_frame_no_login_begins_but_a_link_opens_one_in_a_window(launcher):
     assert "script" not in answer.headers["content-security-policy"]
     refused = launcher.client.get("/lti/login", params=asked | {"iss": "x"}, headers=framed)
     assert refused.status_code == 401
-    nobody = launcher.client.get("/lti/login", params={"iss": ISSUER}, headers=framed)
-    assert "who comes" in nobody.text
+    absent = launcher.client.get("/lti/login", params={"iss": ISSUER}, headers=framed)
+    assert "who comes" in absent.text
 
 
 def test_a_learner_is_a_student_at_the_exercise_and_the_same_one_again(launcher, data):
@@ -169,7 +169,7 @@ def test_a_launch_that_is_not_as_it_must_be_is_refused(launcher, changes, report
 def test_another_signature_is_refused(launcher, platform):
     forged = make_key("platform-1")
     assert launcher.launch(key=forged).status_code == 401
-    unknown = make_key("nobody's")
+    unknown = make_key("missing's")
     assert launcher.launch(key=unknown).status_code == 401
     asked = read_query(launcher.begin().headers["location"])
     header, body, _ = platform.sign(platform.build_claims(asked["nonce"])).split(".")

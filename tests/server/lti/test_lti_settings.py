@@ -8,7 +8,7 @@ from tests.lab_in_process import run_lab_in_process
 from tests.server.lti.platform import DEPLOYMENT, run_platform
 
 
-def test_without_a_file_nobody_launches():
+def test_without_a_file_no_user_launches():
     with run_lab_in_process(classroom="true") as lab:
         assert lab.client.get("/lti/keys").status_code == 404
         assert lab.client.get("/lti/login").status_code == 404

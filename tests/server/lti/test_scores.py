@@ -29,7 +29,7 @@ def platform():
 
 
 class Log:
-    """What the audit log would be told."""
+    """What the audit log would be reported."""
 
     def __init__(self) -> None:
         self.lines: list[dict] = []
@@ -39,7 +39,7 @@ class Log:
 
 
 class Clock:
-    """A time that goes on when it is told."""
+    """A time that goes on when it is reported."""
 
     def __init__(self) -> None:
         self.now = time.time()
@@ -128,7 +128,7 @@ def test_a_platform_that_does_not_answer_is_asked_again_later_and_after_a_restar
     assert class_.log.lines[-1]["problem"] is None
 
 
-def test_it_is_given_up_at_last_and_what_is_graded_anew_goes_again(class_, platform, monkeypatch):
+def test_it_is_given_up_at_last_and_what_is_graded_again_goes_again(class_, platform, monkeypatch):
     monkeypatch.setattr(scores, "MAX_TRIES", 3)
     class_.grade(3.0)
     platform.failures = 3
@@ -142,7 +142,7 @@ def test_it_is_given_up_at_last_and_what_is_graded_anew_goes_again(class_, platf
     assert [score["scoreGiven"] for _, score in platform.scores] == [12.0]
 
 
-def test_a_token_that_is_worth_nothing_any_more_is_asked_for_anew(class_, platform):
+def test_a_token_that_is_worth_nothing_any_more_is_asked_for_again(class_, platform):
     async def look():
         tool = LtiTool(class_.settings, class_.folder)
         platform.read_keys = tool.list_keys

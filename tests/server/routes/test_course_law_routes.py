@@ -47,7 +47,7 @@ def test_a_law_is_tried_and_kept_for_another_browser(student, lab, own_law):
     assert again["law_points"] == 10
 
 
-def test_a_law_that_fails_is_told_why_and_the_next_one_takes_its_place(student):
+def test_a_law_that_fails_gets_the_reason_and_the_next_one_takes_its_place(student):
     law = student.try_law("def law(*given): return 1 / 0").json()["law"]
     assert law["verdict"] == "failed"
     assert "ZeroDivisionError" in law["output"]

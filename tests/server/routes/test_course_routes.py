@@ -182,7 +182,7 @@ def test_a_lecturer_s_folder_is_served(tmp_path):
 
 
 def test_progress_with_former_words_is_kept(student, data):
-    """Of an exercise that was handed in before the words changed, with criteria as lists."""
+    """Of an exercise that was submitted before the words changed, with criteria as lists."""
     folder = data / "course"
     (folder / "people").mkdir(parents=True, exist_ok=True)
     result = ["load", "It stays", 1.0, 1.0, "Right.", "position_error_rad", 2.0]

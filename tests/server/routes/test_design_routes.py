@@ -36,7 +36,7 @@ def test_the_present_design_is_judged_without_changing_anything(lab: Lab) -> Non
         ({"observer": {"bandwidth_rad_per_s": [900, 900, 900]}}, "warn", "unstable_loop"),
     ],
 )
-def test_a_bad_choice_is_told_with_its_reason(
+def test_a_bad_choice_is_reported_with_its_reason(
     lab: Lab, request_: dict, verdict: str, code: str
 ) -> None:
     lab.load_figure(law="ndobc")

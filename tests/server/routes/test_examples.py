@@ -86,7 +86,7 @@ def run(lab: httpx.Client) -> str:
 
 @pytest.fixture
 def session(lab: httpx.Client) -> Iterator[str]:
-    """A private session, paused, with a lane beside its first and no load."""
+    """A private session, paused, with a lane next to its first and no load."""
     asked = {"comparisons": [{"law": "pd"}], "load": False}
     name = lab.post("/api/v1/sessions", json=asked).raise_for_status().json()["session"]
     lab.post(f"/api/v1/sessions/{name}/pause").raise_for_status()

@@ -26,7 +26,7 @@ def lab() -> Iterator[httpx.Client]:
 
 
 def open_session(lab: httpx.Client) -> str:
-    """The path of a private session, paused, with a lane beside its first."""
+    """The path of a private session, paused, with a lane next to its first."""
     asked = {"comparisons": [{"law": "pd"}], "load": False}
     name = lab.post("/api/v1/sessions", json=asked).raise_for_status().json()["session"]
     path = f"/api/v1/sessions/{name}"

@@ -69,7 +69,7 @@ def test_a_body_that_was_not_sent_as_json_is_named_as_such(
 
 
 def test_a_body_that_is_no_json_by_right_is_not_asked_for_as_json(lab: Lab) -> None:
-    """A CSV that is no text is a wrong value; one that was sent as something else is told so."""
+    """A CSV that is no text is a wrong value; one sent as another type is reported as such."""
     for header, kind in (("text/csv", "out_of_range"), ("image/png", "content_type")):
         answer = lab.client.post(
             "/api/v1/references/csv", content=b"\xff\xfe", headers={"Content-Type": header}

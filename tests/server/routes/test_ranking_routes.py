@@ -16,7 +16,7 @@ def test_the_table_is_the_published_one_with_its_provenance(shared_lab: Lab) -> 
 
 
 @pytest.mark.parametrize(("row", "baselines"), [("ndobc_w", ["ndobc"]), ("ndobc_declared", ["fl"])])
-def test_a_run_of_the_suite_is_seen_beside_the_papers_law(
+def test_a_run_of_the_suite_is_seen_next_to_the_papers_law(
     lab: Lab, row: str, baselines: list[str]
 ) -> None:
     wanted = {"row": row, "scenario": "mass.negative.4"}
@@ -47,5 +47,5 @@ def test_a_run_that_there_is_not_is_refused_by_name(shared_lab: Lab) -> None:
     answer = shared_lab.client.post(f"{RANKING}/sessions", json=wanted)
     assert answer.status_code == 422
     assert "moon" in answer.json()["detail"]
-    wanted = {"row": "nobody", "scenario": "mass.negative.4"}
+    wanted = {"row": "missing", "scenario": "mass.negative.4"}
     assert shared_lab.client.post(f"{RANKING}/sessions", json=wanted).status_code == 422

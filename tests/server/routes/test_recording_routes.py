@@ -71,7 +71,7 @@ def test_the_replay_page_needs_nothing_else(lab: Lab) -> None:
     assert re.search(r'(?:src|href)="https?://', answer.text) is None
 
 
-def test_what_cannot_be_done_while_recording_is_told(lab: Lab) -> None:
+def test_what_cannot_be_done_while_recording_is_reported(lab: Lab) -> None:
     lab.client.post(lab.session + "/recording", json={}).raise_for_status()
     before = lab.client.get("/api/v1/runs").json()["total"]
     again = lab.client.post(lab.session + "/recording", json={})
@@ -108,7 +108,7 @@ def test_a_killed_lab_finishes_the_run_at_its_next_start(tmp_path: Path) -> None
         assert compared["identical"], json.dumps(compared)
 
 
-def test_a_full_disk_is_told_in_the_state_while_control_goes_on(tmp_path: Path) -> None:
+def test_a_full_disk_is_reported_in_the_state_while_control_goes_on(tmp_path: Path) -> None:
     with (
         mount_small_disk(tmp_path / "disk", "600k") as disk,
         run_lab_in_process(data=str(disk)) as lab,

@@ -14,7 +14,7 @@ ONSET_S = 2.0
 
 
 def record(lab: Lab) -> tuple[str, dict]:
-    """A run of 4 s from t = 0, FL beside NDOBC, a load at 2 s; its id and the live origin."""
+    """A run of 4 s from t = 0, FL next to NDOBC, a load at 2 s; its id and the live origin."""
     lab.load_figure()
     lab.client.post(lab.session + "/pause").raise_for_status()
     lab.client.post(lab.session + "/reset").raise_for_status()

@@ -10,7 +10,7 @@ from svsa.evaluation.falsifier.trace import trace_scenario
 from tests.lab_in_process import run_lab_in_process
 
 SCENARIOS = "/api/v1/scenarios"
-BLOW = {
+IMPULSE = {
     "title": "An impulse that ends NDOBC on the rig, and not FL",
     "base": {"figure": "4a", "effects": "rig", "loads": []},
     "duration_s": 4.5,
@@ -33,9 +33,9 @@ def lab():
 
 
 def test_laws_are_put_through_and_their_peaks_are_in_the_picture(lab):
-    answer = lab.post(f"{SCENARIOS}/runs", json={"scenario": BLOW, "laws": LAWS})
+    answer = lab.post(f"{SCENARIOS}/runs", json={"scenario": IMPULSE, "laws": LAWS})
     reported = answer.raise_for_status().json()
-    scenario = LoadScenario(**BLOW)
+    scenario = LoadScenario(**IMPULSE)
     trace = trace_scenario(scenario, LAWS)
     assert reported["description"] == [
         "pulse of −1.42642 N·m on the link, from 3.264 s, 0.022 s long"
@@ -56,12 +56,12 @@ def test_laws_are_put_through_and_their_peaks_are_in_the_picture(lab):
 
 def test_one_is_kept_read_and_forgotten_and_no_other_takes_its_name(lab):
     assert lab.get(SCENARIOS).json() == []
-    kept = lab.put(f"{SCENARIOS}/impulse", json=BLOW).raise_for_status().json()
+    kept = lab.put(f"{SCENARIOS}/impulse", json=IMPULSE).raise_for_status().json()
     assert kept == lab.get(f"{SCENARIOS}/impulse").json() == lab.get(SCENARIOS).json()[0]
     assert LoadScenario(**kept["scenario"]) == LoadScenario(**BLOW)
     file = lab.get(f"{SCENARIOS}/impulse?format=toml").raise_for_status()
     assert tomllib.loads(file.text) == kept["scenario"]
-    other = lab.put(f"{SCENARIOS}/impulse", json=BLOW | {"duration_s": 3.0})
+    other = lab.put(f"{SCENARIOS}/impulse", json=IMPULSE | {"duration_s": 3.0})
     assert other.status_code == 422
     assert "another scenario is kept by it" in other.json()["detail"]
     assert lab.delete(f"{SCENARIOS}/impulse").status_code == 204

@@ -98,7 +98,7 @@ def test_a_fault_is_named_with_its_values_and_reset_leaves_it(lab: Lab) -> None:
     assert lab.client.post(lab.session + "/reset").json()["fault"] is None
 
 
-def test_unknown_names_are_told(lab: Lab) -> None:
+def test_unknown_names_are_reported(lab: Lab) -> None:
     answer = lab.client.get("/api/v1/sessions/nowhere")
     assert answer.status_code == 404
     assert "lab" in answer.json()["detail"]

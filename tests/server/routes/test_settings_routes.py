@@ -178,7 +178,7 @@ def test_wrong_input_names_field_unit_and_bound_and_changes_nothing(
     assert lab.read() == before
 
 
-def test_too_many_loads_and_too_many_fades_are_told(lab: Lab) -> None:
+def test_too_many_loads_and_too_many_fades_are_reported(lab: Lab) -> None:
     lab.client.post(lab.session + "/pause")
     answers = [lab.client.post(lab.session + "/loads", json={"kind": "paper"}) for _ in range(17)]
     assert [answer.status_code for answer in answers[-2:]] == [201, 409]

@@ -60,7 +60,7 @@ def test_a_response_says_that_on_the_rig_the_loop_is_unstable(lab: Lab) -> None:
     )
 
 
-def test_a_session_with_encoders_is_told_of_its_own_loop(lab: Lab) -> None:
+def test_a_session_with_encoders_is_judged_by_its_own_loop(lab: Lab) -> None:
     lab.load_figure(law="ndobc")
     rig = svsa.RIG.model_dump(mode="json")
     lab.client.put(f"{lab.session}/effects", json=rig).raise_for_status()

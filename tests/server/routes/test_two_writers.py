@@ -57,7 +57,7 @@ def lab() -> Iterator[httpx.Client]:
 
 @pytest.fixture
 def path(lab: httpx.Client) -> Iterator[str]:
-    """A private session, paused, with a lane beside its first, and nothing as in an example."""
+    """A private session, paused, with a lane next to its first, and nothing as in an example."""
     asked = {"comparisons": [{"law": "pd"}], "load": False}
     name = lab.post("/api/v1/sessions", json=asked).raise_for_status().json()["session"]
     path = f"/api/v1/sessions/{name}"
@@ -81,7 +81,7 @@ def test_who_has_read_an_older_state_changes_nothing(
     assert write(lab, path, label, "*").is_success
 
 
-def test_a_state_of_a_server_before_is_older_than_any_of_the_one_that_was_started_anew(
+def test_a_state_of_a_server_before_is_older_than_any_of_the_one_that_was_started_again(
     tmp_path: Path,
 ) -> None:
     with run_lab_in_process(data=str(tmp_path)) as lab:

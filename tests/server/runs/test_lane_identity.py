@@ -1,4 +1,4 @@
-"""Which lane a sample on the wire is of: a lane keeps its id while lanes beside it come and go."""
+"""Which lane a sample on the wire is of: a lane keeps its id while lanes next to it come and go."""
 
 import numpy as np
 
@@ -74,7 +74,7 @@ def test_a_lane_that_comes_has_an_id_that_no_lane_had() -> None:
     assert list(read_batch(session, open_cursor(session, lanes=(2,)))) == [4]
 
 
-def test_a_new_run_counts_its_lanes_anew() -> None:
+def test_a_new_run_counts_its_lanes_again() -> None:
     session = open_session()
     session.change(Set("comparisons", (FASTER,)))
     session.reset()

@@ -62,7 +62,7 @@ def test_lanes_are_called_by_the_laws_while_the_recording_went_on(
     assert name_lanes(list_record_segments(record, trace_record(record))) == names
 
 
-def test_a_bench_and_its_twin_are_told_apart() -> None:
+def test_a_bench_and_its_twin_are_distinguished() -> None:
     record = record_lanes(3, [NDOBC, FL], [(205, "law", "fl")], plant="emulated")
     assert list_segments(record) == [
         [("Bench NDOBC", 0, 0, 205), ("Bench FL", 6, 205, None)],
@@ -71,7 +71,7 @@ def test_a_bench_and_its_twin_are_told_apart() -> None:
     ]
 
 
-def test_what_was_tried_before_the_recording_takes_no_ink_from_what_is_in_it() -> None:
+def test_what_was_tried_before_the_recording_takes_no_color_from_what_is_in_it() -> None:
     record = record_lanes(1, [], [(100, "observer", FASTER), (150, "law", "fl")])
     assert list_segments(record) == [[("FL", 1, 150, None)]]
     again = record_lanes(1, [], [(100, "observer", FASTER), (205, "law", "fl")])

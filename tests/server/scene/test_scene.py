@@ -1,4 +1,4 @@
-"""The 3D view: it follows the session that it is of, while somebody looks."""
+"""The 3D view: it follows the session that it is of, while a user looks."""
 
 import asyncio
 import math
@@ -65,7 +65,7 @@ def test_a_private_session_has_a_view_of_its_own_that_ends_with_it() -> None:
     run_in_lab(check)
 
 
-def test_a_private_view_that_nobody_looks_at_ends(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_private_view_that_no_user_looks_at_ends(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("svsa_server.scene.scenes.IDLE_S", 0.2)
 
     async def check(lab: Lab) -> None:
@@ -80,7 +80,7 @@ def test_a_private_view_that_nobody_looks_at_ends(monkeypatch: pytest.MonkeyPatc
     run_in_lab(check)
 
 
-def test_nothing_is_begun_or_read_while_nobody_watches() -> None:
+def test_nothing_is_begun_or_read_while_no_user_watches() -> None:
     async def check(lab: Lab) -> None:
         await asyncio.sleep(0.15)
         assert not lab.scenes.views

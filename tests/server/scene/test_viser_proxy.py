@@ -94,7 +94,7 @@ def test_filter_drops_everything_but_a_whole_camera(forged: dict[str, Any]) -> N
     assert filter_browser_message(msgspec.msgpack.encode(forged)) is None
 
 
-def test_filter_writes_the_camera_anew() -> None:
+def test_filter_writes_the_camera_again() -> None:
     smuggled = b"\x8b" + msgspec.msgpack.encode({"type": "ShareUrlRequest"})[1:]
     smuggled += msgspec.msgpack.encode(CAMERA)[1:]
     kept = filter_browser_message(smuggled)
@@ -133,7 +133,7 @@ def test_too_long_a_message_ends_the_connection() -> None:
     run_in_lab(check)
 
 
-def test_browser_is_told_when_viser_goes_away() -> None:
+def test_browser_is_reported_when_viser_goes_away() -> None:
     async def check(lab: Lab) -> None:
         async with lab.connect() as browser:
             await receive_until(browser, lambda m: m.get("name") == LINK)

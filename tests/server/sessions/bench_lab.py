@@ -1,6 +1,6 @@
 """A lab with a bench: `svsa serve --bench` and an emulator, as processes.
 
-What the rig's drives were told is read from the rig itself, and every wait is generous.
+What the rig's drives were reported is read from the rig itself, and every wait is generous.
 """
 
 import contextlib
@@ -88,7 +88,7 @@ class BenchLab:
 
     @contextlib.contextmanager
     def watched(self) -> Iterator[None]:
-        """Somebody has a stream of it open, and reads it."""
+        """A user has a stream of it open, and reads it."""
         with connect(self.lab.stream_url, proxy=None, max_size=None) as stream:
             stream.recv(timeout=PATIENCE_S)
             thread = threading.Thread(target=read_stream, args=(stream,))

@@ -91,7 +91,7 @@ def test_the_twin_has_the_law_that_is_on_its_way(session: BenchSession) -> None:
     assert [lane.law for lane in configuration.lanes] == ["fl", "fl", "ndobc"]
 
 
-def test_what_is_set_already_is_not_told_to_the_loop_again(session: BenchSession) -> None:
+def test_what_is_set_already_is_not_reported_to_the_loop_again(session: BenchSession) -> None:
     settings = [
         Set("law", "fl"),
         Set("comparisons", (Lane(law="ndobc"),)),
@@ -114,7 +114,7 @@ def test_what_is_set_already_is_not_told_to_the_loop_again(session: BenchSession
     assert len(journal.events) == before + 1, "begun again where that is asked for"
 
 
-def test_the_twin_is_not_set_by_itself(session: BenchSession) -> None:
+def test_the_twin_is_not_set_on_its_own(session: BenchSession) -> None:
     """Refused before the loop hears of it: it would control its own twin otherwise."""
     reported = len(session.loop.processes.reported)  # pyright: ignore[reportAttributeAccessIssue]
     setting = {"lane": 2, "setting": {"law": "ndobc", "observer": None}}
@@ -126,7 +126,7 @@ def test_the_twin_is_not_set_by_itself(session: BenchSession) -> None:
 def test_what_comes_to_be_known_of_a_lost_loop_reaches_the_record(
     session: BenchSession, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """That nobody has stopped the drives yet is not the last word on it."""
+    """That no user has stopped the drives yet is not the last word on it."""
     written: list[Fault] = []
     recorder = SimpleNamespace(write_fault=written.append, fault=None)
     words = ["The drives are not stopped yet.", "The supervisor has.", "The supervisor has."]

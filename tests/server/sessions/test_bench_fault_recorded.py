@@ -1,4 +1,4 @@
-"""A recording at a bench is told of the fault that ended its run, and of no other."""
+"""A recording at a bench receives the fault that ended its run, and of no other."""
 
 from collections.abc import Iterator
 
@@ -11,7 +11,7 @@ from tests.server.sessions.scripted_bench import build_bench_session, hear, say
 
 
 class Recording:
-    """Keeps what it is told."""
+    """Keeps what it is reported."""
 
     def __init__(self) -> None:
         self.faults: list[Fault | None] = []

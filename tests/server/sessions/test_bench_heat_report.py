@@ -69,7 +69,7 @@ def test_the_state_has_the_heat_of_both_motors_while_the_loop_ticks(session: Ben
     assert (bench.loop.skipped_ticks, bench.loop.skipped_in_run) == (64, 3)
 
 
-def test_nobody_knows_the_heat_while_no_loop_ticks(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_no_user_knows_the_heat_while_no_loop_ticks(monkeypatch: pytest.MonkeyPatch) -> None:
     starting = build_bench_session(monkeypatch)
     bench = build_state(HostedSession(starting)).bench
     starting.close()
@@ -77,7 +77,7 @@ def test_nobody_knows_the_heat_while_no_loop_ticks(monkeypatch: pytest.MonkeyPat
     assert bench.motors is None
 
 
-def test_before_a_load_hangs_it_is_told_which_motor_bears_it_for_how_long(
+def test_before_a_load_hangs_it_is_reported_which_motor_bears_it_for_how_long(
     session: BenchSession,
 ) -> None:
     hosted = HostedSession(session)

@@ -54,7 +54,7 @@ def wait_until_reported(bench: BenchLab, words: str) -> dict[str, Any]:
     return read()
 
 
-def test_a_killed_loop_leaves_zero_current_and_is_started_anew(bench: BenchLab) -> None:
+def test_a_killed_loop_leaves_zero_current_and_is_started_again(bench: BenchLab) -> None:
     with holding(bench):
         os.kill(bench.find_process(LOOP), signal.SIGKILL)
         wait_until(bench.is_at_zero, bench.describe)
@@ -64,7 +64,7 @@ def test_a_killed_loop_leaves_zero_current_and_is_started_anew(bench: BenchLab) 
 
 
 @pytest.mark.exhaustive
-def test_a_killed_supervisor_ends_the_run_and_is_started_anew(bench: BenchLab) -> None:
+def test_a_killed_supervisor_ends_the_run_and_is_started_again(bench: BenchLab) -> None:
     with holding(bench):
         os.kill(bench.find_process(SUPERVISOR), signal.SIGKILL)
         fault = wait_until_reported(bench, "supervisor")
@@ -75,8 +75,8 @@ def test_a_killed_supervisor_ends_the_run_and_is_started_anew(bench: BenchLab) -
     bench.ask("/bench/clear")
 
 
-def test_a_silent_loop_has_a_name_and_a_way_back_and_stops_nobody_else(bench: BenchLab) -> None:
-    """Nobody watches any more, so that the server has a reason to ask it at every wake."""
+def test_a_silent_loop_has_a_name_and_a_way_back_and_stops_no_user_else(bench: BenchLab) -> None:
+    """No user watches any more, so that the server has a reason to ask it at every wake."""
     client = bench.lab.client
     private = client.post("/api/v1/sessions", json={"figure": "4a"}).raise_for_status().json()
     path = f"/api/v1/sessions/{private['session']}"
@@ -91,7 +91,7 @@ def test_a_silent_loop_has_a_name_and_a_way_back_and_stops_nobody_else(bench: Be
     assert (state["status"], state["bench"]["status"]) == ("fault", "fault")
     assert (loop["alive"], loop["state"], loop["stopped_by"]) == (False, "silent", "supervisor")
     assert loop["silent_s"] > 0.5
-    assert state["bench"]["current_a"] is None, "nobody hears what they make"
+    assert state["bench"]["current_a"] is None, "no user hears what they make"
     assert min(state["bench"]["ages_s"]) > 0.5, "what was heard is as old as the last tick"
     before = client.get(path).json()["tick"]
     assert "silent" in bench.refuse("/bench/arm")

@@ -136,7 +136,7 @@ def test_losing_the_last_watcher_stops_it(bench: BenchLab) -> None:
     assert bench.read()["fault"] is None
 
 
-def test_a_push_is_one_load_from_the_first_time_it_is_told_to_its_end(bench: BenchLab) -> None:
+def test_a_push_is_one_load_from_the_first_time_it_is_reported_to_its_end(bench: BenchLab) -> None:
     bench.make_ready()
     run_id = bench.ask("/recording", {"name": "A push"})["recording"]["run_id"]
     with bench.watched():

@@ -51,7 +51,7 @@ def test_until_it_is_ready_it_takes_no_command_and_says_why(
     assert starting.loop.processes.reported == [], "nothing of it comes later"
 
 
-def test_what_is_told_of_a_bench_that_starts_is_known(starting: BenchSession) -> None:
+def test_what_is_reported_a_bench_that_starts_is_known(starting: BenchSession) -> None:
     """No mark is confirmed, nothing is heard, and its twin stands at rest."""
     starting.wake(0.0)
     state = build_state(HostedSession(starting))
@@ -108,7 +108,7 @@ def test_a_bench_that_cannot_be_opened_is_a_fault_with_its_reason_and_a_way_back
     assert state.fault.code == "bench_not_opened", "nothing was lost that never was there"
     assert [event.label for event in state.events] == ["Bench not opened"]
     assert state.bench.loop.state == "not_opened"
-    assert state.bench.emulated is None, "nobody knows what is behind a bus that was not heard"
+    assert state.bench.emulated is None, "no user knows what is behind a bus that was not heard"
     with pytest.raises(StateError, match="No adapter"):
         session.restart()
     Processes.script.refusal = None
@@ -138,7 +138,7 @@ def test_whether_it_is_emulated_is_known_once_the_bus_was_listened_to(
 @pytest.mark.exhaustive
 @pytest.mark.wall_clock
 def test_a_lab_whose_bench_is_not_there_is_served_and_finds_it_again(tmp_path: Path) -> None:
-    """Nobody listens at the port in the bench file, until it is corrected."""
+    """No user listens at the port in the bench file, until it is corrected."""
     with start_live_emulator() as emulator:
         path = write_bench(tmp_path, emulator)
         right = path.read_text(encoding="utf-8")

@@ -1,4 +1,4 @@
-"""What streams are told of a change: once for all who are told the same, and what is over once."""
+"""What streams receive of a change: one message for equal content, ended items once."""
 
 import json
 import random
@@ -33,7 +33,7 @@ def read(reported: Broadcast) -> dict:
     return json.loads(reported.text)
 
 
-def test_a_change_is_written_once_for_all_who_are_told_the_same(hosted, monkeypatch):
+def test_a_change_is_written_once_for_all_with_the_same_content(hosted, monkeypatch):
     written = []
     build = broadcast.build_state
     monkeypatch.setattr(broadcast, "build_state", lambda *of: written.append(of) or build(*of))
@@ -45,7 +45,7 @@ def test_a_change_is_written_once_for_all_who_are_told_the_same(hosted, monkeypa
     assert len(written) == 2
 
 
-def test_who_came_at_different_times_is_told_the_same_from_the_first_change_on(hosted):
+def test_clients_of_different_age_receive_the_same_from_the_first_change_on(hosted):
     came = []
     for _ in range(5):
         hosted.session.step(10)
@@ -56,7 +56,7 @@ def test_who_came_at_different_times_is_told_the_same_from_the_first_change_on(h
     assert len({message.reported for message in then}) == 1
 
 
-def test_who_is_in_control_is_told_so_and_nobody_else(hosted):
+def test_the_holder_of_control_is_notified_and_no_other_user(hosted):
     hosted.take_control(Holder("ada", "Ada"), take_over=False)
     reported = Reported.all_of(hosted)
     for client, is_ada in (("ada", True), ("bob", False), ("ada", True), (None, False)):
@@ -65,7 +65,7 @@ def test_who_is_in_control_is_told_so_and_nobody_else(hosted):
         assert (control["holder"], control["mine"]) == ("Ada", is_ada)
 
 
-def test_what_moves_by_itself_is_written_once_in_each_period(hosted, monkeypatch):
+def test_what_moves_on_its_own_is_written_once_in_each_period(hosted, monkeypatch):
     written = []
     build = broadcast.build_progress
     monkeypatch.setattr(broadcast, "build_progress", lambda *of: written.append(of) or build(*of))

@@ -70,7 +70,7 @@ def test_a_start_with_unknown_runs_answers_while_they_are_indexed(
         assert [run["id"] for run in trash["runs"]] == [newest]
 
 
-def test_the_start_is_told_how_far_the_index_is(
+def test_the_start_reports_the_progress_of_the_index(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     copy_runs(tmp_path, 3)

@@ -1,4 +1,4 @@
-"""A command that waits for a bench: it comes to its end in order, and holds up nobody."""
+"""A command that waits for a bench: it comes to its end in order, and holds up no user."""
 
 import asyncio
 import threading

@@ -97,7 +97,7 @@ def test_as_fast_as_it_goes_is_faster_than_the_clock(lab: Lab) -> None:
     lab.client.delete(path)
 
 
-def test_fl_beside_ndobc_is_one_call(lab: Lab) -> None:
+def test_fl_next_to_ndobc_is_one_call(lab: Lab) -> None:
     state = lab.client.put(lab.session + "/lanes", json={"comparisons": [{"law": "fl"}]}).json()
     assert [lane["law"] for lane in state["lanes"]] == ["ndobc", "fl"]
     lab.client.post(lab.session + "/loads", json={"kind": "paper"})

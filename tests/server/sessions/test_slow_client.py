@@ -1,4 +1,4 @@
-"""A client that takes its samples late gets the newest, is told what it missed, and is alone."""
+"""A client that takes its samples late gets the newest samples and a count of those missed."""
 
 import asyncio
 import types
@@ -86,7 +86,7 @@ def play(monkeypatch: pytest.MonkeyPatch, script: Callable) -> None:
     asyncio.run(run())
 
 
-def test_a_slow_client_gets_the_newest_and_is_told_what_it_missed_and_slows_nobody(
+def test_a_slow_client_gets_the_newest_and_a_count_of_those_missed_and_slows_no_client(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     async def script(streamed: StreamedSession) -> None:

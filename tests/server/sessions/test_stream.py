@@ -138,7 +138,7 @@ def test_a_new_run_begins_at_tick_zero_with_a_new_number(lab: Lab) -> None:
     assert fresh[0].missed == 0
 
 
-def test_changes_are_told_to_every_client(lab: Lab) -> None:
+def test_changes_are_reported_to_every_client(lab: Lab) -> None:
     first, _ = open_stream(lab)
     second, _ = open_stream(lab)
     with first, second:
@@ -151,7 +151,7 @@ def test_changes_are_told_to_every_client(lab: Lab) -> None:
                     law = json.loads(message)["state"].get("configuration", {}).get("law")
 
 
-def test_a_client_that_does_not_read_is_held_by_its_socket_and_told_what_it_missed(
+def test_a_client_that_does_not_read_is_held_by_its_socket_and_gets_a_count_of_those_missed(
     lab: Lab,
 ) -> None:
     """While it has not read three seconds of the session, of which its buffers hold a fraction."""

@@ -114,7 +114,7 @@ def compose_tick(blocks, law, inputs, lane, tick, sample):
 
 
 def test_one_call_is_what_a_run_does(parts, initial, whole):
-    """The run adds nothing to the compiled loop: no state is kept beside `LaneState`."""
+    """The run adds nothing to the compiled loop: no state is kept next to `LaneState`."""
     samples = np.empty_like(whole)
     _, done, code = advance_lane(*parts, initial, 0, samples)
     assert (done, code) == (TICKS, INSIDE)
@@ -162,7 +162,7 @@ def test_a_controller_in_python_with_the_same_law_gives_the_same_bits(configurat
 def test_a_controller_in_python_is_asked_once_a_tick():
     """One that remembers (an integrator, a log) must see each tick once, in order.
 
-    Also where a lane beside it ends the run early.
+    Also where a lane next to it ends the run early.
     """
     fragile = svsa.Lane(law="fl", gains=svsa.Gains.from_poles([-900.0] * 4, [-900.0] * 2))
     configuration = build_configuration(comparisons=(fragile,), effects=svsa.RIG)

@@ -52,7 +52,7 @@ def test_each_effect_describes_itself(effect):
 
 @pytest.mark.parametrize("name", ALONE)
 def test_each_effect_alone_changes_the_run(name, ideal):
-    """The switch does something by itself, and the run goes on under it."""
+    """The switch does something on its own, and the run goes on under it."""
     result = svsa.simulate("4a", effects=svsa.Effects(**{name: ALONE[name]}), **LOADED)
     assert result.fault is None
     assert np.any(result.position_rad != ideal.position_rad)
@@ -120,7 +120,7 @@ def test_the_controller_knows_positions_in_counts():
         assert (known.dq, known.dtheta1, known.dtheta2) == (x.dq, x.dtheta1, x.dtheta2)
 
 
-def test_the_estimate_is_recorded_beside_the_truth():
+def test_the_estimate_is_recorded_next_to_the_truth():
     """The channels that the controller acts on are those of x̂, the error that of the truth."""
     result = svsa.simulate("4b", effects=svsa.RIG, duration_s=0.5)
     r = result
@@ -142,7 +142,7 @@ def test_gravity_and_friction_are_disturbances_of_the_true_plant():
 
 
 def test_parameter_error_is_the_difference_of_plant_and_model():
-    """No switch of its own: the same loop, told another model, is disturbed by the rest."""
+    """No switch of its own: the same loop with another model, is disturbed by the rest."""
     c = build_configuration()
     exact = svsa.simulate(c.changed(nominal=c.actuator), duration_s=0.5)
     wrong = svsa.simulate(c, duration_s=0.5)

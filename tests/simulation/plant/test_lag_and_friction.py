@@ -60,7 +60,7 @@ def test_the_lagged_torque_is_the_solution_of_its_differential_equation(lag):
 
 @pytest.mark.parametrize("lag", [1e-5, 5e-4, 0.05])
 def test_the_mean_torque_is_the_integral_over_the_period(lag):
-    """What the observer is told is the impulse that the motor really gave, over T."""
+    """What the observer is reported is the impulse that the motor really gave, over T."""
     from scipy.integrate import quad
 
     found = compute_mean_torque(START, TARGET, lag, T)
@@ -181,7 +181,7 @@ def test_in_the_loop_the_law_acts_d_samples_after_it_was_asked(law, samples):
     np.testing.assert_array_equal(found[samples:], asked)
 
 
-def test_the_observer_is_told_the_torque_that_acts_and_not_the_one_that_was_asked():
+def test_the_observer_receives_the_torque_that_acts_and_not_the_one_that_was_asked():
     """With an exact model ŵ converges at β, whatever delay and lag make of the torque."""
     w = 0.3
     result = svsa.simulate(

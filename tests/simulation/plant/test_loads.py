@@ -145,8 +145,8 @@ def test_a_run_feels_its_loads_in_the_sample_of_their_onset():
     np.testing.assert_allclose(link, expected, atol=1e-11)
 
 
-def test_a_push_that_is_told_again_is_one_load_that_changes_and_lasts_on():
-    """No gap and no overlap: each torque from its tick on, until it was not told again."""
+def test_a_push_that_is_reported_again_is_one_load_that_changes_and_lasts_on():
+    """No gap and no overlap: each torque from its tick on, until it was not reported again."""
     configuration = svsa.paper.get_figure("4b").build_configuration(load=False)
     run = Run(configuration.changed(nominal=configuration.actuator))
     link = []

@@ -160,7 +160,7 @@ def test_a_wrong_submission_names_its_file(tmp_path, text, said):
     assert said in str(refused.value)
 
 
-def test_the_error_that_is_foretold_is_that_of_the_formula_in_the_text():
+def test_the_error_that_is_predicted_is_that_of_the_formula_in_the_text():
     c0, c2, c3 = 60.0**4, 6 * 60.0**2, 240.0
     M, D, sigma = 0.0153, 0.007, 30.0
     gain = (c2 / M - c3 * D / M**2 - sigma / M**2) * 1.334

@@ -90,7 +90,7 @@ WRONG = {
     "effects to choose": ('law = "fl"', 'law = "fl"\nfree = ["effects"]', "cannot be chosen"),
     "a torque on a motor": ("[2.0, 0.0, 0.0]", "[2.0, 2.0, 0.0]", "on the link alone"),
     "a load from the start": ("start_s = 5.0, ", "", "from a time on"),
-    "a load that nobody is told of": ('by_hand = "hang 3 kg on the cable"\n', "", "by_hand"),
+    "a load that no user is reported": ('by_hand = "hang 3 kg on the cable"\n', "", "by_hand"),
     "points of its own": ("high = 1.0\n", "high = 1.0\npoints = 3\n", "1 points in all"),
     "a criterion of no measure": (
         'measure = "error"\nhigh = 1.0',

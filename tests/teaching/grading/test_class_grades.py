@@ -1,4 +1,4 @@
-"""A class is graded from what stands in the lab's folder; refused is told, again is the same."""
+"""A class is graded from the lab's folder; rejections are reported, and grades are repeatable."""
 
 import json
 import os
@@ -83,7 +83,7 @@ def test_side_by_side_each_gets_the_grade_that_it_gets_alone(store):
 
 
 @pytest.mark.exhaustive
-def test_a_grader_that_is_lost_refuses_nobody_s_work(store, monkeypatch):
+def test_a_grader_that_is_lost_refuses_no_user_s_work(store, monkeypatch):
     monkeypatch.setattr(grader_queue, "grade_file", end_process)
     with pytest.raises(GraderLostError, match="from outside"):
         give(store, workers=2)

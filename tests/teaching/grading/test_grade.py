@@ -1,4 +1,4 @@
-"""A grade comes from exact replay and from draws that nobody knew; it is given once."""
+"""A grade comes from exact replay and from draws that no user knew; it is given once."""
 
 import csv
 import io
@@ -104,13 +104,13 @@ def test_a_good_law_has_more_points_than_a_lazy_one(tmp_path):
     assert "of 8 did" in good.criteria[0].feedback
 
 
-def test_a_law_that_fails_is_told_why_and_not_asked_again(tmp_path):
+def test_a_law_that_fails_gets_the_reason_and_not_asked_again(tmp_path):
     found = grade(submit(b"def law(*given): return 1 / 0"), OWN_LAW, tmp_path, SECRET)
     assert found.points == 0
     assert "ZeroDivisionError" in found.criteria[0].feedback
 
 
-def test_no_law_has_no_points_and_a_law_that_nobody_asked_for_is_refused(tmp_path):
+def test_no_law_has_no_points_and_a_law_that_no_user_asked_for_is_refused(tmp_path):
     given = Submission(student="Ada", exercise="own-law")
     assert grade(given, OWN_LAW, tmp_path, SECRET).points == 0
     given = Submission(student="Ada", exercise=EXERCISE, law=LAZY)
@@ -146,7 +146,7 @@ def test_a_law_stays_in_its_folder(tmp_path):
         read_submission(path)
 
 
-def test_a_class_is_graded_once_and_told_as_page_and_csv(tmp_path):
+def test_a_class_is_graded_once_and_reported_as_page_and_csv(tmp_path):
     """What does not fit is refused by name, and the others have their grades."""
     course, book = write_course(tmp_path / "course"), tmp_path / "class"
     ada = submit_law(tmp_path / "ada", LAZY, "<b>Ada</b>")

@@ -1,4 +1,4 @@
-"""A law is tried before it is submitted, in isolation, and told plainly what came of it."""
+"""A law is tried before it is submitted, in isolation, and reported plainly what came of it."""
 
 import pytest
 
@@ -29,7 +29,7 @@ def test_the_law_that_the_exercise_begins_with_holds():
         ("import socket; socket.socket()", "failed", "PermissionError"),
     ],
 )
-def test_a_law_that_fails_is_told_what_it_printed(text, verdict, reported):
+def test_a_law_that_fails_gets_what_it_printed(text, verdict, reported):
     found = try_law(text)
     assert found.verdict == verdict
     assert found.text == text

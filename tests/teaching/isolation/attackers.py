@@ -11,7 +11,7 @@ from svsa.teaching.isolation.refusal import LawFaultError
 
 ATTACKS = Path(__file__).parent / "attacks"
 MODEL = Actuator(0.1, 0.02, 0.02, 0.1, 0.1, 0.1, 3.0, 0.02, 0.5, 0)
-TOLD = (
+REPORTED = (
     Reference(*[0.0] * 8),
     State(*[0.0] * 6),
     Disturbance(0.0, 0.0, 0.0),
@@ -72,9 +72,9 @@ def attack(theme: str, name: str, clue: dict, place: Place, bounds: Bounds = BOU
     got = b""
     try:
         with LawProcess(text.encode(), MODEL, bounds, place) as law:
-            ended, length = law(0.0, *TOLD)
+            ended, length = law(0.0, *REPORTED)
             for tick in range(1, max(3, 1 + -(-int(length) // (2 * SENT_AT_ONCE)))):
-                for torque in law(1e-3 * tick, *TOLD):
+                for torque in law(1e-3 * tick, *REPORTED):
                     got += int(torque).to_bytes(SENT_AT_ONCE, "little")
             return Outcome("got" if ended == GOT else "refused", got[: int(length)])
     except LawFaultError as error:

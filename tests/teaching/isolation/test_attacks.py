@@ -1,6 +1,6 @@
 """Laws that attack: nothing gets out, and the lab does not notice.
 
-Every attacker is told all but the secret: where it lies, in a file, a variable of the environment,
+Every attacker knows all but the secret: where it lies, in a file, a variable of the environment,
 memory, shared memory and behind three sockets. Those that get it, or their way, from a process
 that is not confined show that the attack is real and that this test would see it.
 """
@@ -54,7 +54,7 @@ REAL = (
     "call_the_lab_by_its_hidden_name", "listen", "send_a_datagram", "ask_the_kernel",
     "make_a_pair", "call_without_python",
 )  # fmt: skip
-"""Attacks that succeed from a process that is not confined, whoever runs it."""
+"""Attacks that succeed from a process that is not confined, under any account."""
 GETTING = ("read_the_secret", "leave_by", "read_shared", "call_the", "start_a_program")
 """How those begin that get the secret itself."""
 WALLS = {
@@ -66,7 +66,7 @@ WALLS = {
 
 @pytest.fixture(scope="module", autouse=True)
 def isolation():
-    """A machine may do without it, unless it is told that it has all it takes (`.ci/run`)."""
+    """A machine may do without it, unless it is declared that it has all it takes (`.ci/run`)."""
     try:
         check_isolation()
     except NotIsolatedError as error:
@@ -159,7 +159,7 @@ def list_children() -> set[str]:
 
 
 @pytest.mark.parametrize(("theme", "name"), list_attacks(), ids=lambda part: part)
-def test_an_attack_gets_nothing_and_disturbs_nobody(theme, name, clue, secret):
+def test_an_attack_gets_nothing_and_disturbs_no_user(theme, name, clue, secret):
     ends = ENDS.get(name, {"refused"})
     outcome = attack(theme, name, clue, confine, SHORT if "late" in ends else PATIENT)
     assert outcome.ended in ends, outcome

@@ -14,7 +14,7 @@ from svsa.teaching.isolation.confinement import Bounds, confine, leave_open
 from svsa.teaching.isolation.probe import check_isolation
 from svsa.teaching.isolation.process import LawProcess
 from svsa.teaching.isolation.refusal import LawFaultError, NotIsolatedError, describe_output
-from tests.teaching.isolation.attackers import MODEL, TOLD
+from tests.teaching.isolation.attackers import MODEL, REPORTED
 from tests.teaching.isolation.test_attacks import isolation  # noqa: F401
 
 ROOT = Path(__file__).parents[3]
@@ -66,21 +66,21 @@ def law(time_s, reference, x, w):
     return np.array([len(seen), float(open("notes").read())])
 """
     with LawProcess(source, MODEL) as law:
-        assert [law(0.0, *TOLD) for _ in range(3)] == [(1, 1), (2, 2), (3, 3)]
+        assert [law(0.0, *REPORTED) for _ in range(3)] == [(1, 1), (2, 2), (3, 3)]
 
 
 def test_a_law_that_asks_for_no_numpy_is_started_without_it():
-    """Most of a start was numpy's; a law is started anew for each of its draws."""
+    """Most of a start was numpy's; a law is restarted for each of its draws."""
     source = b"import sys\ndef law(*given): return float('numpy' in sys.modules), 1.0"
     with LawProcess(source, MODEL) as law:
-        assert law(0.0, *TOLD) == (0.0, 1.0)
+        assert law(0.0, *REPORTED) == (0.0, 1.0)
 
 
 def test_every_run_begins_in_an_empty_folder():
     source = b"import os\nopen('left', 'w').close()\ndef law(*given): return len(os.listdir()), 0"
     for _ in range(2):
         with LawProcess(source, MODEL) as law:
-            assert law(0.0, *TOLD) == (1, 0)
+            assert law(0.0, *REPORTED) == (1, 0)
 
 
 @pytest.mark.parametrize(
@@ -120,7 +120,7 @@ def test_huge_torques_are_limited_and_no_number_ends_the_run():
         (Bounds(answer_s=9.0, whole_s=0.5), "took more than 0.5 s"),
     ],
 )
-def test_a_law_that_hangs_is_told_how_long_it_had(bounds, reported):
+def test_a_law_that_hangs_gets_its_time_limit(bounds, reported):
     with (
         pytest.raises(LawFaultError, match=reported),
         LawProcess(b"def law(*given):\n    while True: pass\n", MODEL, bounds, leave_open) as law,
@@ -186,13 +186,13 @@ def test_what_a_law_printed_before_it_was_killed_is_kept():
         LawProcess(endless, MODEL, Bounds(answer_s=0.5)) as law,
         pytest.raises(LawFaultError, match="did not answer") as raised,
     ):
-        law(0.0, *TOLD)
+        law(0.0, *REPORTED)
     assert raised.value.output == "here\n"
 
 
 def test_a_law_process_keeps_what_was_answered():
     with LawProcess(b"def law(time_s, *others): return time_s, 2.0", MODEL) as law:
-        given = [law(number, *TOLD) for number in (1.0, 3.0)]
+        given = [law(number, *REPORTED) for number in (1.0, 3.0)]
         assert law.torques == given == [(1.0, 2.0), (3.0, 2.0)]
 
 

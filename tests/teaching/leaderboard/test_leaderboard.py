@@ -1,4 +1,4 @@
-"""A law's place comes from draws that nobody knows, is given once, and stands beside the lab's."""
+"""A law's rank comes from hidden trials, is computed once, and is listed with the lab's laws."""
 
 import json
 
@@ -130,7 +130,7 @@ def test_one_that_is_broken_off_has_no_standing_and_says_how_far_it_was():
 
 
 @pytest.mark.usefixtures("short_season")
-def test_a_law_is_put_through_once_and_stands_beside_the_labs(tmp_path):
+def test_a_law_is_put_through_once_and_stands_next_to_the_labs(tmp_path):
     file, folder = tmp_path / "mine.py", tmp_path / "board"
     file.write_bytes(GOOD)
     (first,) = [

@@ -65,7 +65,7 @@ def test_a_submitted_laws_worst_run_is_the_one_that_was_measured(tmp_path, monke
 
 
 @pytest.mark.usefixtures("short_season")
-def test_a_law_of_the_lab_is_simulated_beside_ndobc_with_the_declared_gains(tmp_path):
+def test_a_law_of_the_lab_is_simulated_next_to_ndobc_with_the_declared_gains(tmp_path):
     board = Board(tmp_path)
     measure_missing(board)
     lanes = {one.key: replay_worst(board, one).lanes for one in board.list()}

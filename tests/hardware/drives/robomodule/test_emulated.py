@@ -90,7 +90,7 @@ def test_other_modes_are_taken_but_move_nothing(drive, mode):
 
 
 def test_the_last_current_is_held_for_ever(drive):
-    """No command-loss watchdog is documented: whoever wants one has to be it."""
+    """No command-loss watchdog is documented: the supervisor has to be one."""
     ready = bring_up(drive)
     report(drive, Current(5000, -700), ready)
     before = drive.target_nm
@@ -144,7 +144,7 @@ def test_velocity_comes_in_steps_of_30_rpm(drive, rpm, reported):
     assert found.velocity_rpm == reported
 
 
-def test_the_current_told_is_the_one_that_is_made(drive):
+def test_the_current_reported_is_the_one_that_is_made(drive):
     assert read(drive, torque=-50 * 0.9 * 0.0396 * 1.5) == Feedback(-1500, 0, 0)
 
 

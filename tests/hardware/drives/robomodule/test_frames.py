@@ -180,7 +180,7 @@ def test_any_bytes_are_a_message_or_refused(command, data):
 
 @given(command=st.sampled_from(Command), data=st.binary(min_size=8, max_size=8))
 def test_reports_of_a_drive_are_never_refused_for_their_numbers(command, data):
-    """A fault must not be missed because a number beside it is strange."""
+    """A fault must not be missed because a number next to it is strange."""
     if command in (Command.FEEDBACK, Command.INPUTS, Command.ERROR, Command.ONLINE):
         assert decode(command, data).command is command
 

@@ -89,7 +89,7 @@ def varied(catalogue: Catalogue) -> Catalogue:
     return catalogue
 
 
-def test_a_run_is_called_by_its_settings_until_somebody_names_it(varied: Catalogue) -> None:
+def test_a_run_is_called_by_its_settings_until_a_user_names_it(varied: Catalogue) -> None:
     titles = {run.id: run.title for run in varied.list().runs}
     assert titles == {
         "run-1": "Fig. 4B · NDOBC vs FL · σ 60 · 3 kg",

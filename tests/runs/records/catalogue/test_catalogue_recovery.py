@@ -45,7 +45,7 @@ def test_the_next_start_finishes_what_a_killed_server_recorded(catalogue: Catalo
 
 
 @pytest.mark.parametrize("loss", ["gone", "damaged"])
-def test_the_list_is_built_anew_from_the_folders(catalogue: Catalogue, loss: str) -> None:
+def test_the_list_is_built_again_from_the_folders(catalogue: Catalogue, loss: str) -> None:
     add(catalogue, "run-1", name="First")
     add(catalogue, "run-2")
     catalogue.update("run-2", name="Renamed", tags=("kept",), notes="and notes")
@@ -118,7 +118,7 @@ def test_damage_is_listed_with_its_reason_and_what_still_opens(catalogue: Catalo
     assert (catalogue.get("run-1").state, catalogue.get("run-1").message) == ("complete", "")
 
 
-def test_a_folder_that_cannot_be_used_is_told(tmp_path: Path) -> None:
+def test_a_folder_that_cannot_be_used_is_reported(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     with pytest.raises(CatalogueError, match="cannot be kept"):
         Catalogue(tmp_path / "file" / "data")

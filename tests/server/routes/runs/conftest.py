@@ -1,4 +1,4 @@
-"""A small server of the lab's routes, which is told of nothing but runs, and three of them."""
+"""A small server of the lab's routes, which has only runs, and three of them."""
 
 import socket
 import threading

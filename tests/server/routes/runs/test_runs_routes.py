@@ -30,7 +30,7 @@ def test_runs_are_listed_newest_first_a_page_at_a_time(client: httpx.Client) -> 
     assert client.get("runs", params={"sort": "name"}).json()["runs"][0]["id"] == "run-0"
 
 
-def test_a_run_is_told_with_all_that_decided_it(client: httpx.Client) -> None:
+def test_a_run_is_reported_with_all_that_decided_it(client: httpx.Client) -> None:
     run = client.get("runs/run-1").raise_for_status().json()
     assert run["configuration"] == build_header().configuration
     assert run["commands"] == [{"tick": 1200, "command": {"kind": "load"}}]
@@ -50,7 +50,7 @@ def test_a_run_is_renamed_tagged_and_noted(client: httpx.Client) -> None:
     client.patch("runs/run-0", json={"name": "Run 0", "tags": ["tag-0", "all"]}).raise_for_status()
 
 
-def test_who_changes_a_run_that_somebody_else_has_changed_is_told(client: httpx.Client) -> None:
+def test_who_changes_a_run_that_a_user_else_has_changed_is_reported(client: httpx.Client) -> None:
     read = client.get("runs/run-0").json()
     seen = {"If-Match": f'"{read["revision"]}"'}
     changed = client.patch("runs/run-0", json={"notes": "mine"}, headers=seen).json()
@@ -113,7 +113,7 @@ def test_hostile_ids_are_not_found(client: httpx.Client, run_id: str) -> None:
         assert client.get(path).status_code == 404
 
 
-def test_a_run_that_cannot_be_read_is_told(client: httpx.Client, catalogue: Catalogue) -> None:
+def test_a_run_that_cannot_be_read_is_reported(client: httpx.Client, catalogue: Catalogue) -> None:
     header = build_header("run-bad", created="2020-01-01T00:00:00+00:00", tags=())
     folder = catalogue.folder / "runs" / "run-bad"
     write_record(folder, header, [], 0, build_samples(10))
