@@ -7,6 +7,7 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
+from docutils import nodes
 from sphinx.application import Sphinx
 
 sys.path.insert(0, str(Path(__file__).parent))
@@ -70,9 +71,25 @@ def escape_docstring(*arguments: Any) -> None:
     lines[:] = escaped
 
 
+SUBSCRIPT = re.compile(r"(?<!\w)([^\W\d_][\u0300-\u036f]?)_([a-zα-ω]{1,3}|[0-9])(?!\w)")
+
+
+def lower_subscripts(_: Sphinx, document: nodes.document, __: str) -> None:
+    """Set the index of a symbol as a subscript, outside code and formulas: q_d, σ_d, a_min."""
+    for text in list(document.findall(nodes.Text)):
+        if isinstance(text.parent, nodes.literal | nodes.FixedTextElement | nodes.math):
+            continue
+        parts: list[nodes.Node] = []
+        for number, part in enumerate(SUBSCRIPT.split(text.astext())):
+            parts.append(nodes.subscript("", part) if number % 3 == 2 else nodes.Text(part))
+        if len(parts) > 1:
+            text.parent.replace(text, parts)
+
+
 def setup(app: Sphinx) -> None:
-    """Install the hook before that of napoleon."""
+    """Install the hooks, the first before that of napoleon."""
     app.connect("autodoc-process-docstring", escape_docstring, priority=100)
+    app.connect("doctree-resolved", lower_subscripts)
 
 
 write_reference_pages(Path(__file__).parent / "reference" / "generated")

@@ -62,7 +62,7 @@ def test_runs_are_laid_over_one_another_from_their_load_on(
     expect(row.get_by_role("cell").nth(2)).to_have_text(f"{peak:.1f}")
     expect(row.get_by_role("cell").nth(0)).to_have_text(re.compile(r"3 kg load, 5\.00–"))
     differing = page.get_by_role("table", name="Settings that differ")
-    expect(differing.get_by_role("row", name="σ_d")).to_contain_text("N·m/rad1560")
+    expect(differing.get_by_role("row", name="Stiffness reference")).to_contain_text("N·m/rad1560")
     expect(differing.get_by_role("row", name="Comparison lanes")).to_contain_text("FLnothing")
     entry = page.get_by_role("button", name=f"{BOTH} · FL")
     entry.click()

@@ -43,7 +43,7 @@ def test_runs_that_were_set_alike_differ_in_nothing() -> None:
 
 def test_a_number_is_reported_with_its_unit_and_a_law_by_its_name() -> None:
     assert compare(record(), record(figure="4b", law="fl")) == {
-        ("Stiffness", "σ_d", "N·m/rad"): (15.0, 60.0),
+        ("Stiffness", "Stiffness reference", "N·m/rad"): (15.0, 60.0),
         ("Controller", "Law", ""): ("NDOBC", "FL"),
     }
 
@@ -51,7 +51,7 @@ def test_a_number_is_reported_with_its_unit_and_a_law_by_its_name() -> None:
 def test_three_runs_are_compared_at_once() -> None:
     stiff = ConstantStiffness(stiffness_nm_per_rad=40)
     assert compare(record(), record(), record((0, "stiffness", stiff))) == {
-        ("Stiffness", "σ_d", "N·m/rad"): (15.0, 15.0, 40.0)
+        ("Stiffness", "Stiffness reference", "N·m/rad"): (15.0, 15.0, 40.0)
     }
 
 
@@ -63,7 +63,7 @@ def test_a_motion_of_another_form_has_other_values() -> None:
         ("Motion", "Amplitude", "rad"): (1.0471975511965976, None),
         ("Motion", "Frequency f", "Hz"): (0.2, None),
         ("Motion", "Phase", "rad"): (0.0, None),
-        ("Motion", "q_d", "rad"): (None, 0.5),
+        ("Motion", "Position reference", "rad"): (None, 0.5),
     }
 
 

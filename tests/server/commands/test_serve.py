@@ -77,7 +77,7 @@ def test_a_data_folder_that_cannot_be_written_is_not_claimed(tmp_path: Path) -> 
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no such locks and modes")
-def test_no_user_else_reads_the_files_of_a_class(tmp_path: Path) -> None:
+def test_no_other_user_reads_the_files_of_a_class(tmp_path: Path) -> None:
     with run_lab("--class", data=str(tmp_path)):
         written = [path for path in tmp_path.rglob("*") if path.is_file()]
         assert {"catalogue.sqlite", "class.json", "members.sqlite"} <= {one.name for one in written}

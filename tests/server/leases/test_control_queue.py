@@ -60,12 +60,12 @@ def test_it_goes_on_when_it_is_given_back_and_who_leaves_the_queue_is_out(
     assert queue.holder is None
 
 
-def test_its_holder_hands_it_to_one_who_waits_and_no_user_else_does(queue: ControlQueue) -> None:
+def test_its_holder_hands_it_to_one_who_waits_and_no_other_user_does(queue: ControlQueue) -> None:
     ask(queue, ADA, BOB, EVE)
     for other in ("p-2", None):
         with pytest.raises(HeldError):
             queue.hand_over(other, "p-3", 1.0)
-    with pytest.raises(StateError, match="who waits"):
+    with pytest.raises(StateError, match="a user in the queue"):
         queue.hand_over("p-1", "p-9", 1.0)
     queue.hand_over("p-1", "p-3", 1.0)
     assert (queue.holder, queue.waiting) == (EVE, [BOB])
@@ -73,7 +73,7 @@ def test_its_holder_hands_it_to_one_who_waits_and_no_user_else_does(queue: Contr
     assert (queue.holder, queue.waiting) == (BOB, [])
 
 
-def test_an_idle_holder_loses_it_to_who_waits_and_to_no_user_else(queue: ControlQueue) -> None:
+def test_an_idle_holder_loses_it_to_who_waits_and_to_no_other_user(queue: ControlQueue) -> None:
     ask(queue, ADA)
     assert not settle(queue, 1000.0)
     assert queue.holder == ADA, "the queue is empty"

@@ -75,7 +75,7 @@ def test_a_killed_supervisor_ends_the_run_and_is_started_again(bench: BenchLab) 
     bench.ask("/bench/clear")
 
 
-def test_a_silent_loop_has_a_name_and_a_way_back_and_stops_no_user_else(bench: BenchLab) -> None:
+def test_a_silent_loop_has_a_name_and_a_way_back_and_stops_no_other_user(bench: BenchLab) -> None:
     """No user watches any more, so that the server has a reason to ask it at every wake."""
     client = bench.lab.client
     private = client.post("/api/v1/sessions", json={"figure": "4a"}).raise_for_status().json()

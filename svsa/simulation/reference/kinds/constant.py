@@ -14,7 +14,7 @@ class ConstantPosition(AnyPosition):
     main = "position_rad"
 
     kind: Literal["constant"] = "constant"
-    position_rad: Number = quantity("rad", "q_d", ge=-FULL_TURN_RAD, le=FULL_TURN_RAD, default=0.0)
+    position_rad: Number = quantity("rad", "Position reference", ge=-FULL_TURN_RAD, le=FULL_TURN_RAD, default=0.0)
     transition_s: Number = quantity("s", "Time to fade over from the old reference", **TRANSITION)
 
     def get_shape(self) -> Shape:
@@ -32,7 +32,7 @@ class ConstantStiffness(AnyStiffness):
     main = "stiffness_nm_per_rad"
 
     kind: Literal["constant"] = "constant"
-    stiffness_nm_per_rad: Number = quantity("N·m/rad", "σ_d", gt=0, le=1e4)
+    stiffness_nm_per_rad: Number = quantity("N·m/rad", "Stiffness reference", gt=0, le=1e4)
     transition_s: Number = quantity("s", "Time to fade over from the old reference", **TRANSITION)
 
     def get_shape(self) -> Shape:

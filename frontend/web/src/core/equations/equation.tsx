@@ -3,6 +3,7 @@ import { laws } from "../state/laws";
 import { session } from "../state/session";
 import { text } from "../text/en";
 import { Popup } from "../widgets/popup";
+import { MathSymbol } from "../widgets/symbol";
 import { EQUATIONS, type Equation, type Topic } from "./equations";
 import { Formula } from "./formula";
 
@@ -64,18 +65,16 @@ export function EquationCard({ topic }: { topic: Topic }) {
 
 /** The symbol of a quantity; pressing it opens the equations behind it. */
 export function EquationButton({ topic }: { topic: Topic }) {
-  const [symbol, index] = SYMBOLS[topic].split("_");
   const title = words.open(words.topics[topic]);
   return (
     <Popup
       class="symbol"
       popupClass="equation-popup"
-      name={`${title}, ${symbol}${index ?? ""}`}
+      name={`${title}, ${SYMBOLS[topic].replace("_", "")}`}
       title={title}
       button={
         <i aria-hidden="true">
-          {symbol}
-          {index && <sub>{index}</sub>}
+          <MathSymbol text={SYMBOLS[topic]} />
         </i>
       }
     >

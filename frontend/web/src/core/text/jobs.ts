@@ -25,7 +25,7 @@ export const tuningText = {
     openHint: "Search this law's parameters on training trials",
     about:
       "CMA-ES from the present parameters on 128 training trials, then the ten best candidates on 512 validation trials. Loads, models, stiffness and noise are drawn as for the ranking's test trials, which are different ones.",
-    cost: "cost = mean over the trials of log10(rms error, °) + log10(rms stiffness error over σ_d) + 2 if not held; 3 to 4 for a fault; 5 and more above the noise limit",
+    cost: "cost = mean over the trials of log10(rms error, °) + log10(relative rms stiffness error) + 2 if not held; 3 to 4 for a fault; 5 and more above the noise limit",
     law: "Law",
     budget: "Candidates",
     budgetHint: "1 to 2000",

@@ -23,7 +23,7 @@ export const leaderboardText = {
       },
       success: {
         name: "Held",
-        hint: "Share of the season's hidden trials that held, with Wilson's 95 % interval: no fault, in the last second at most 1° and 10 % of σ_d, a peak of at most 30°",
+        hint: "Share of the season's hidden trials that held, with Wilson's 95 % interval: no fault, in the last second at most 1° and 10 % of the stiffness reference, a peak of at most 30°",
       },
       ended: {
         name: "Ended",

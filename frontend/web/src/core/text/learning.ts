@@ -184,12 +184,12 @@ export const learningText = {
     },
     notes: {
       lever:
-        "The paper's text after Eq 5 has a = Rθ₂/2π, which agrees only for γ = 1, μ₀ = 0. Here γ = 1, and μ₀ makes σ(0) = σ_d(0).",
+        "The paper's text after Eq 5 has a = Rθ₂/2π, which agrees only for γ = 1, μ₀ = 0. Here γ = 1, and μ₀ makes σ(0) equal to its reference.",
       zeroStiffness:
         "Beyond this angle the stiffness is negative: 0.54 rad at σ = 15, 0.37 rad at σ = 150, below the paper's limit of 0.75 rad. The limit of a run therefore depends on μ.",
       signLaw:
         "The published sign drives the state out of the model's domain within 0.1 s; the opposite sign is correct. v = −Σ cₖ eₖ.",
-      signError: "E contains the errors qᵈ − q, σᵈ − σ and their derivatives.",
+      signError: "E contains the errors of q and σ, reference minus actual, and their derivatives.",
       observer:
         "J = (M, B₁, B₂), v the velocities, F the torques of the nominal model. β = k/J is the bandwidth of the estimate.",
       discrete:

@@ -3,6 +3,7 @@ import { text } from "../../core/text/en";
 import { formatInput } from "../../core/units";
 import { Problem } from "../../core/widgets/form";
 import { positionOf, type SliderRange, STEPS, valueAt } from "../../core/widgets/scale";
+import { MathSymbol } from "../../core/widgets/symbol";
 import { type HeldNumber, useDraft } from "./draft";
 
 interface FieldProps extends HeldNumber {
@@ -33,7 +34,7 @@ export function Field({ label, labelRest, unit, factor = 1, range, ...held }: Fi
   return (
     <div class={`field ${range ? "" : "is-plain"}`}>
       <label for={id}>
-        {label}
+        <MathSymbol text={label} />
         {labelRest && <span class="visually-hidden"> {labelRest}</span>}
       </label>
       {range && (

@@ -1,6 +1,7 @@
 import type { Candidate, Tuning } from "../../core/api/jobs";
 import { text } from "../../core/text/en";
 import { formatInput, formatNumber } from "../../core/units";
+import { MathSymbol } from "../../core/widgets/symbol";
 import { Table } from "../../core/widgets/tables";
 
 const words = text.tuning;
@@ -22,7 +23,10 @@ export function ValueTable({ tuning, present, best }: FoundProps) {
       {tuning.axes.map((axis, index) => (
         <tr key={axis.name}>
           <th scope="row" title={axis.name}>
-            <i>{axis.symbol}</i> <small>{axis.unit === "1" ? "" : axis.unit}</small>
+            <i>
+              <MathSymbol text={axis.symbol} />
+            </i>{" "}
+            <small>{axis.unit === "1" ? "" : axis.unit}</small>
           </th>
           <td>{formatInput(present.values[index] ?? 0, 4)}</td>
           <td class="strong">{formatInput(best.values[index] ?? 0, 4)}</td>
