@@ -86,7 +86,7 @@ def test_what_cannot_be_done_while_recording_is_reported(lab: Lab) -> None:
 
 
 @pytest.mark.parametrize("run_id", ["nothing", "..%2F..%2Fetc", "%00", "a" * 500])
-def test_unknown_runs_are_told(lab: Lab, run_id: str) -> None:
+def test_unknown_runs_are_reported(lab: Lab, run_id: str) -> None:
     answer = lab.client.post(f"/api/v1/runs/{run_id}/verify")
     assert answer.status_code == 404
 

@@ -58,7 +58,7 @@ def test_one_is_kept_read_and_forgotten_and_no_other_takes_its_name(lab):
     assert lab.get(SCENARIOS).json() == []
     kept = lab.put(f"{SCENARIOS}/impulse", json=IMPULSE).raise_for_status().json()
     assert kept == lab.get(f"{SCENARIOS}/impulse").json() == lab.get(SCENARIOS).json()[0]
-    assert LoadScenario(**kept["scenario"]) == LoadScenario(**BLOW)
+    assert LoadScenario(**kept["scenario"]) == LoadScenario(**IMPULSE)
     file = lab.get(f"{SCENARIOS}/impulse?format=toml").raise_for_status()
     assert tomllib.loads(file.text) == kept["scenario"]
     other = lab.put(f"{SCENARIOS}/impulse", json=IMPULSE | {"duration_s": 3.0})
@@ -69,10 +69,10 @@ def test_one_is_kept_read_and_forgotten_and_no_other_takes_its_name(lab):
         assert call(f"{SCENARIOS}/impulse").status_code == 404
 
 
-OPENING = {"from": "scenario", "scenario": BLOW, "laws": LAWS}
+OPENING = {"from": "scenario", "scenario": IMPULSE, "laws": LAWS}
 
 
-def test_it_is_seen_in_a_session_with_laws_beside_each_other(lab):
+def test_it_is_seen_in_a_session_with_laws_next_to_each_other(lab):
     seen = lab.post("/api/v1/sessions", json=OPENING)
     assert seen.status_code == 201
     state = seen.json()
@@ -84,22 +84,22 @@ def test_it_is_seen_in_a_session_with_laws_beside_each_other(lab):
 @pytest.mark.parametrize(
     ("path", "wrong", "reported"),
     [
-        (f"{SCENARIOS}/runs", {"laws": ["nobody"]}, "laws[0] is 'nobody'"),
+        (f"{SCENARIOS}/runs", {"laws": ["missing"]}, "laws[0] is 'missing'"),
         (f"{SCENARIOS}/runs", {"laws": []}, "laws"),
         (
             f"{SCENARIOS}/runs",
-            {"scenario": BLOW | {"duration_s": 61.0}},
+            {"scenario": IMPULSE | {"duration_s": 61.0}},
             "scenario.duration_s is 61",
         ),
-        (f"{SCENARIOS}/runs", {"scenario": BLOW | {"settings": {"nothing": 1.0}}}, "nothing"),
+        (f"{SCENARIOS}/runs", {"scenario": IMPULSE | {"settings": {"nothing": 1.0}}}, "nothing"),
         (
             "/api/v1/sessions",
-            {"from": "scenario", "scenario": BLOW | {"base": {"figure": "9"}}},
+            {"from": "scenario", "scenario": IMPULSE | {"base": {"figure": "9"}}},
             "base.figure is '9'",
         ),
     ],
 )
 def test_a_wrong_one_is_refused_with_name_and_bound(lab, path, wrong, reported):
-    refused = lab.post(path, json={"scenario": BLOW, "laws": LAWS} | wrong)
+    refused = lab.post(path, json={"scenario": IMPULSE, "laws": LAWS} | wrong)
     assert refused.status_code == 422
     assert reported in refused.json()["detail"]

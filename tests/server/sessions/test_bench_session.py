@@ -147,7 +147,7 @@ def test_a_push_is_one_load_from_the_first_time_it_is_reported_to_its_end(bench:
             assert bench.emulator.control.read_state()["loads"] == (0 if torque == 0.4 else 1)
             push = {"kind": "push", "torque_nm": [torque, 0.0, 0.0], "hold_s": hold_s}
             load = bench.ask("/loads", push)
-            assert load["id"] == 1, "told again it is the same"
+            assert load["id"] == 1, "reported again it is the same"
             if hold_s == LASTING_S:
                 state = bench.wait_for_ticks(500)
                 assert state["sample"]["estimate_link_nm"] == pytest.approx(torque, abs=0.3)

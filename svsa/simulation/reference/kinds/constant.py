@@ -14,7 +14,9 @@ class ConstantPosition(AnyPosition):
     main = "position_rad"
 
     kind: Literal["constant"] = "constant"
-    position_rad: Number = quantity("rad", "Position reference", ge=-FULL_TURN_RAD, le=FULL_TURN_RAD, default=0.0)
+    position_rad: Number = quantity(
+        "rad", "Position reference", ge=-FULL_TURN_RAD, le=FULL_TURN_RAD, default=0.0
+    )
     transition_s: Number = quantity("s", "Time to fade over from the old reference", **TRANSITION)
 
     def get_shape(self) -> Shape:

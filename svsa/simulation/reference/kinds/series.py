@@ -49,7 +49,7 @@ class _Series(AnyReference):
 class SeriesPosition(_Series, AnyPosition):
     """q_d through points of one's own: see `_Series`."""
 
-    position_rad: Annotated[tuple[_Position, ...], _Rows] = quantity("rad", "Position reference at each time")
+    position_rad: Annotated[tuple[_Position, ...], _Rows] = quantity("rad", "Position at each time")
 
     @model_validator(mode="after")
     def _check_curve(self) -> Self:
