@@ -44,7 +44,7 @@ class Lab(NamedTuple):
         return self.client.get(self.session).raise_for_status().json()
 
     def load_figure(self, figure: str = "4a", law: str = "ndobc", load: bool = False) -> dict:
-        """Begin anew on a figure of the paper, at normal speed."""
+        """Restart on a figure of the paper, at normal speed."""
         self.client.put(self.session + "/speed", json={"speed": 1}).raise_for_status()
         request = {"figure": figure, "law": law, "load": load}
         answer = self.client.post(self.session + "/experiment", json=request)

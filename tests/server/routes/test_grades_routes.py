@@ -26,7 +26,7 @@ def find_id(browser):
 
 
 def list_own(browser):
-    """The submissions of the student that this browser belongs to; missing else's are listed."""
+    """The submissions of the student that this browser belongs to; no others are listed."""
     students = browser.get(GRADES).raise_for_status().json()["students"]
     assert {one["person"] for one in students} <= {find_id(browser)}
     return [submission for one in students for submission in one["submissions"]]
