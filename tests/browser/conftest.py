@@ -28,6 +28,10 @@ ARGUMENTS = [
     "--disable-features=WebUIOmniboxPopup,WebUIOmniboxAimPopup",
 ]
 
+# Of a user who has been here before: no tour is offered, and all controls are shown.
+RETURNING = """localStorage.setItem("svsa.tour", "done");
+localStorage.setItem("svsa.controls", "all");"""
+
 PATIENCE_MS = 60_000
 expect.set_options(timeout=PATIENCE_MS)  # a busy machine takes its time
 

@@ -8,7 +8,7 @@ from typing import Literal
 from PIL import Image
 from playwright.sync_api import Browser, Page, expect, sync_playwright
 
-from tests.browser.conftest import ARGUMENTS, find_chromium
+from tests.browser.conftest import ARGUMENTS, RETURNING, find_chromium
 from tests.lab import Lab, run_lab
 
 FOLDER = Path(__file__).parents[2] / "frontend" / "screenshots"
@@ -98,7 +98,7 @@ def take(
     for scheme in schemes:
         context = browser.new_context(viewport={"width": 1280, "height": 720}, color_scheme=scheme)
         page = context.new_page()
-        page.add_init_script("localStorage.setItem('svsa.tour', 'done')")
+        page.add_init_script(RETURNING)
         show(page, lab)
         page.wait_for_timeout(SETTLE_MS)
         path = FOLDER / f"{name}-{scheme}.png"

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser, Page, WebSocket, expect
 
+from tests.browser.conftest import RETURNING
 from tests.server.test_behind_proxy import ROOT, find_caddy, run_proxied
 
 pytestmark = [
@@ -27,7 +28,7 @@ def joined_at(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, s
 def page(browser: Browser) -> Iterator[Page]:
     """A browser that takes the certificate that Caddy has made for itself."""
     context = browser.new_context(ignore_https_errors=True)
-    context.add_init_script("localStorage.setItem('svsa.tour', 'done')")
+    context.add_init_script(RETURNING)
     yield context.new_page()
     context.close()
 

@@ -8,6 +8,7 @@ import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
 from svsa_server.access.class_keys import ClassKeys, ShownOnce
+from tests.browser.conftest import RETURNING
 from tests.browser.test_accessibility import PHONE, WIDE, expect_no_violation
 from tests.lab import Lab, run_lab
 
@@ -37,7 +38,7 @@ def open_page(browser: Browser, room: Room) -> Iterator[object]:
 
     def open_one(below: str = "/") -> Page:
         context = browser.new_context(viewport={"width": 1280, "height": 720})
-        context.add_init_script("localStorage.setItem('svsa.tour', 'done')")
+        context.add_init_script(RETURNING)
         context.route("**/viser/**", lambda route: route.fulfill(body="<title>3D</title>"))
         contexts.append(context)
         page = context.new_page()

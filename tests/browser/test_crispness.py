@@ -9,6 +9,7 @@ import pytest
 from PIL import Image
 from playwright.sync_api import Browser, Page, Playwright, WebSocketRoute, expect
 
+from tests.browser.conftest import RETURNING
 from tests.browser.test_page import LAST_TIME, open_page, wait_for_samples
 from tests.lab import Lab
 
@@ -98,7 +99,7 @@ def test_what_has_scrolled_is_as_if_drawn_just_now(
         viewport={"width": 1280, "height": 720}, device_scale_factor=ratio
     )
     context.route("**/viser/**", lambda route: route.fulfill(body="<title>3D</title>"))
-    context.add_init_script("localStorage.setItem('svsa.tour', 'done')")
+    context.add_init_script(RETURNING)
     page = context.new_page()
     stream = HeldStream(page)
     lab.load_figure()

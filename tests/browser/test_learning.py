@@ -30,7 +30,7 @@ def test_the_tour_is_offered_once_goes_by_keyboard_and_is_taken_again(page: Page
     tour = page.get_by_role("region", name="Tour of the lab")
     expect(tour.get_by_role("heading")).to_have_text("Welcome to the lab")
     tour.get_by_role("button", name="Take the tour").press("Enter")
-    titles = ["The actuator", "The plots", "The 3 kg load", "FL or NDOBC", "Gains"]
+    titles = ["The actuator", "The plots", "The 3 kg load", "FL or NDOBC", "All controls"]
     for title in titles:
         expect(tour.get_by_role("heading")).to_have_text(title)
         page.keyboard.press("ArrowRight")

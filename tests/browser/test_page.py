@@ -6,6 +6,7 @@ import re
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
+from tests.browser.conftest import RETURNING
 from tests.lab import Lab
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page")]
@@ -28,18 +29,27 @@ IS_SO_BRIGHT = """brightness => {
     return shown.every((part) => Math.abs(Number(part) - brightness) <= 10);
 }"""
 LAST_TIME = """() => {
-    const page = window.svsa;
-    if (!page || !page.channels().includes("position_error_rad")) return 0;
-    const { time } = page.series("position_error_rad");
+    const door = window.svsa;
+    if (!door || !door.channels().includes("position_error_rad")) return 0;
+    const { time } = door.series("position_error_rad");
     return time.length ? time[time.length - 1] : 0;
 }"""
 
 
 def open_page(page: Page, lab: Lab) -> None:
-    """And wait until what it asks for as it opens has come: nothing moves after that on its own."""
+    """With all controls, once what it requests as it opens has come: nothing moves after that."""
     page.goto(lab.url)
     wait_for_samples(page)
+    show_all_controls(page)
     expect(page.get_by_role("button", name=KNOWN_LAW)).to_be_attached()
+
+
+def show_all_controls(page: Page) -> None:
+    """Leave the basic view; a bench and an exercise have no other."""
+    basic = page.get_by_role("switch", name="All controls", checked=False)
+    if basic.count() > 0:
+        basic.press("Enter")
+        expect(page.get_by_role("switch", name="All controls", checked=True)).to_be_visible()
 
 
 def go_to_page(page: Page, name: str) -> None:
@@ -74,9 +84,9 @@ def choose(one: Locator) -> None:
 
 
 def come_back(page: Page, lab: Lab) -> None:
-    """As a user who has been here before, to whom no tour is offered."""
+    """As a user who has been here before: without the tour, with all controls."""
     page.goto(lab.url + "/icon.svg")
-    page.evaluate("localStorage.setItem('svsa.tour', 'done')")
+    page.evaluate(RETURNING)
 
 
 def wait_for_samples(page: Page, after_s: float = 0.0, before_s: float = math.inf) -> None:

@@ -8,6 +8,7 @@ import pytest
 from playwright.sync_api import Browser, Page
 
 from tests.browser.bench_fixture import HOMED, PatchedBench
+from tests.browser.conftest import RETURNING
 from tests.browser.settled import find_lasting, resize
 from tests.browser.test_page import open_page
 from tests.exhaustive import exhaust
@@ -33,7 +34,7 @@ def visit(request: pytest.FixtureRequest, browser: Browser, shared_lab: Lab) -> 
     shared_lab.load_figure()
     context = browser.new_context()
     context.route("**/viser/**", lambda route: route.fulfill(body="<title>3D</title>"))
-    context.add_init_script("localStorage.setItem('svsa.tour', 'done')")
+    context.add_init_script(RETURNING)
     page = context.new_page()
     bench = PLANTS[request.param]
     if bench is not None:

@@ -5,7 +5,7 @@ import re
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.browser.test_page import go_to_page
+from tests.browser.test_page import go_to_page, open_page
 from tests.lab import Lab
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
@@ -13,7 +13,7 @@ pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without
 
 def test_nothing_recorded_tells_how_and_then_the_run_is_there(page: Page, lab: Lab) -> None:
     lab.load_figure()
-    page.goto(lab.url)
+    open_page(page, lab)
     expect(page.get_by_role("button", name="Record", exact=True)).to_be_enabled()
     page.keyboard.press("o")
     expect(page.get_by_text("No recorded runs yet")).to_be_visible()

@@ -9,6 +9,7 @@ import { BenchStrip } from "../hardware/strip";
 import { DesignPanel } from "../lab/design/panel";
 import { HelpSheet } from "../lab/keys/help";
 import { Controls } from "../lab/panels/controls";
+import { IdentificationPanel } from "../lab/panels/identification";
 import { LoadButton } from "../lab/panels/loadbutton";
 import { CallsDrawer } from "../lab/script/drawer";
 import { TunePanel } from "../lab/tuning/panel";
@@ -23,6 +24,7 @@ import { Lesson } from "../teaching/course/view";
 import { GradesPage } from "../teaching/grades/page";
 import { LeaderboardPage } from "../teaching/leaderboard/page";
 import { Banners } from "./banners";
+import { isBasic } from "./basic";
 import { Comparison } from "./comparison";
 import { Login } from "./login";
 import { Readout } from "./readout";
@@ -51,18 +53,18 @@ function Here() {
   ) : state === null ? (
     <main class="waiting-page">{phase.value !== "ended" && text.connection.waiting}</main>
   ) : (
-    <main class={at.kind === "learn" ? "lab has-lesson" : "lab"}>
-      <View />
+    <main class={at.kind === "learn" ? "lab has-lesson" : isBasic.value ? "lab is-basic" : "lab"}>
+      <View isBasic={isBasic.value} />
       {state.lanes.length > 1 ? <Comparison state={state} /> : <Readout state={state} />}
       <LoadButton state={state} />
-      <Plots />
+      <Plots isBasic={isBasic.value} />
       {at.kind === "learn" ? (
         <div class="lesson-side">
           <Lesson name={at.exercise} />
           {hasFreeSettings.value && <Controls state={state} />}
         </div>
       ) : (
-        <Controls state={state} />
+        <Controls state={state} isBasic={isBasic.value} />
       )}
     </main>
   );
@@ -95,6 +97,7 @@ export function App() {
       <Here key={comings.value} />
       <DesignPanel />
       <TunePanel />
+      <IdentificationPanel />
       <ClassPanel />
       {state !== null && at.kind === "lab" && <Tour />}
       <CallsDrawer />

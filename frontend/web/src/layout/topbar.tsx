@@ -6,6 +6,7 @@ import { CallsButton } from "../lab/script/drawer";
 import { isOfLab, PlaceLink, place } from "../runs/list/place";
 import { ClassButton } from "../teaching/classroom/panel";
 import { LearnLink } from "../teaching/course/page";
+import { AllControlsSwitch, isBasic } from "./basic";
 import { PagesMenu } from "./pages";
 import { FigurePicker, RecordButton, Transport } from "./transport";
 
@@ -46,17 +47,22 @@ export function TopBar() {
         </PlaceLink>
       )}
       {isLab && state && (
-        <fieldset class="row topbar-controls" disabled={!isLive.value} aria-label={text.session}>
-          {!isLesson && <FigurePicker state={state} />}
-          {state.bench === null && <Transport state={state} />}
-          {(!isLesson || state.recording !== null) && <RecordButton state={state} />}
-        </fieldset>
+        <div class="row topbar-controls">
+          <fieldset disabled={!isLive.value} aria-label={text.session}>
+            {!isLesson && !isBasic.value && <FigurePicker state={state} />}
+            {state.bench === null && <Transport state={state} isBasic={isBasic.value} />}
+            {((!isLesson && !isBasic.value) || state.recording !== null) && (
+              <RecordButton state={state} />
+            )}
+          </fieldset>
+          <AllControlsSwitch />
+        </div>
       )}
       <div class="topbar-end">
         <ClassButton />
         <LearnLink />
         <PagesMenu />
-        <CallsButton />
+        {!isBasic.value && <CallsButton />}
         <HelpButton />
         <ThemeButton />
       </div>

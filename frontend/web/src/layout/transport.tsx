@@ -111,7 +111,8 @@ function Stepper({ state }: { state: SessionState }) {
   );
 }
 
-export function Transport({ state }: { state: SessionState }) {
+/** Stepping and the speed are for a session that stands still, unless all controls are shown. */
+export function Transport({ state, isBasic }: { state: SessionState; isBasic: boolean }) {
   const isRunning = state.status === "running";
   const wish = isRunning ? text.transport.pause : text.transport.run;
   return (
@@ -148,8 +149,10 @@ export function Transport({ state }: { state: SessionState }) {
       >
         {text.transport.reset}
       </button>
-      <Stepper state={state} />
-      <SpeedPicker speed={state.speed} />
+      {(!isBasic || state.status === "paused") && <Stepper state={state} />}
+      {(!isBasic || state.status === "paused" || state.speed !== 1) && (
+        <SpeedPicker speed={state.speed} />
+      )}
     </fieldset>
   );
 }

@@ -17,7 +17,7 @@ function load(frame: HTMLIFrameElement): void {
 }
 
 /** The actuator in 3D, served by viser; created again after each lost connection. */
-export function View() {
+export function View({ isBasic }: { isBasic: boolean }) {
   const connection = connectionCount.value;
   const frame = useRef<HTMLIFrameElement | null>(null);
   const begin = useCallback((element: HTMLIFrameElement | null) => {
@@ -45,7 +45,7 @@ export function View() {
         />
       )}
       <SceneLabels frame={present} />
-      <SceneTools />
+      <SceneTools isBasic={isBasic} />
       <CornerMark />
     </div>
   );

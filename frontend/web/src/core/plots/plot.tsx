@@ -102,7 +102,8 @@ function Chooser({ title, groups, shown, onChoose }: ChooserProps) {
   );
 }
 
-export function Plot({ setup }: { setup: PlotSetup }) {
+/** `isBasic` leaves out its equation and its menu. */
+export function Plot({ setup, isBasic }: { setup: PlotSetup; isBasic: boolean }) {
   const [chosen, setChosen] = useState<ReadonlySet<string>>(new Set());
   const [hidden, toggle] = useHidden();
   const { content, shown, traces, isSideBySide } = useTraces(setup, chosen, shownCast.value);
@@ -123,7 +124,7 @@ export function Plot({ setup }: { setup: PlotSetup }) {
           {title}{" "}
           <span class="unit">{unitOf(isPhase ? setup.channels.slice(1) : setup.channels)}</span>
         </h3>
-        {setup.preset !== "own" && <EquationButton topic={setup.preset} />}
+        {setup.preset !== "own" && !isBasic && <EquationButton topic={setup.preset} />}
         {isSideBySide && content.groups.length > 1 && (
           <Chooser title={title} groups={content.groups} shown={shown} onChoose={setChosen} />
         )}
@@ -135,7 +136,7 @@ export function Plot({ setup }: { setup: PlotSetup }) {
           isRead={(key) => hasOneValue(traces, key)}
           onToggle={toggle}
         />
-        <PlotMenu setup={setup} title={title} traces={traces} hidden={hidden.value} />
+        {!isBasic && <PlotMenu setup={setup} title={title} traces={traces} hidden={hidden.value} />}
       </div>
       <div class="plot-row">
         <ChartBox class="plot-canvas" make={makeChart} {...{ setup, traces, hidden }} />

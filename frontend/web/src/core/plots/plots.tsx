@@ -12,7 +12,7 @@ import { listenToGestures } from "./gestures";
 import { HoverLine } from "./hover";
 import { MeasureTable } from "./measures";
 import { Plot } from "./plot";
-import { setups } from "./setups";
+import { BASIC_SETUPS, type PlotSetup, setups } from "./setups";
 import { followSession, isHeld } from "./span";
 import { TimeAxis, ZoomAxis, ZoomTitle } from "./timeaxis";
 import { Toolbar } from "./toolbar";
@@ -67,15 +67,21 @@ function PlotsBelow({ list }: { list: RefObject<HTMLElement | null> }) {
   );
 }
 
+interface StageProps {
+  list: RefObject<HTMLElement | null>;
+  shown: readonly PlotSetup[];
+  isBasic: boolean;
+}
+
 /** The plots over time between the events and the axis, and what lies across all of them. */
-function Stage({ list }: { list: RefObject<HTMLElement | null> }) {
+function Stage({ list, shown, isBasic }: StageProps) {
   const stage = useRef<HTMLDivElement>(null);
   const box = useRef<HTMLDivElement>(null);
   useEffect(() => {
     if (stage.current === null || box.current === null) return;
     return listenToGestures(stage.current, box.current);
   }, []);
-  const overTime = setups.value.filter(({ preset }) => preset !== "phase");
+  const overTime = shown.filter(({ preset }) => preset !== "phase");
   return (
     <div class="plots-stage" ref={stage}>
       <div class="plots-top">
@@ -83,7 +89,7 @@ function Stage({ list }: { list: RefObject<HTMLElement | null> }) {
         {isZoomOn.value && <ZoomTitle />}
       </div>
       {overTime.map((setup) => (
-        <Plot key={setup.key} setup={setup} />
+        <Plot key={setup.key} setup={setup} isBasic={isBasic} />
       ))}
       <div class="plots-box" ref={box}>
         <HoverLine />
@@ -101,8 +107,8 @@ function Stage({ list }: { list: RefObject<HTMLElement | null> }) {
   );
 }
 
-/** All plots, in step with each other. */
-export function Plots() {
+/** All plots, in step with each other; of a first experiment two. */
+export function Plots({ isBasic }: { isBasic: boolean }) {
   const list = useRef<HTMLElement>(null);
   useEffect(() => {
     const ends = [followSession(), followChannels(), releaseCursors()];
@@ -110,10 +116,10 @@ export function Plots() {
       for (const end of ends) end();
     };
   }, []);
-  const shown = setups.value;
+  const shown = isBasic ? BASIC_SETUPS : setups.value;
   useEffect(() => (list.current === null ? undefined : keepShare(list.current)), [shown]);
-  const phase = setups.value.find(({ preset }) => preset === "phase");
-  const isEmpty = setups.value.length === 0;
+  const phase = shown.find(({ preset }) => preset === "phase");
+  const isEmpty = shown.length === 0;
   const looks = {
     "is-frozen": !isLive.value && !isHeld.value,
     "is-measured": areCursorsOn.value,
@@ -128,11 +134,15 @@ export function Plots() {
       tabIndex={-1}
     >
       <h2 class="visually-hidden">{text.plots.heading}</h2>
-      <Toolbar />
+      <Toolbar isBasic={isBasic} />
       {/* biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls is reached by keyboard */}
       <section class="plots-scroll" ref={list} aria-label={text.plots.list} tabIndex={0}>
-        {isEmpty ? <p class="plots-none">{text.plots.none}</p> : <Stage list={list} />}
-        {phase && <Plot key={phase.key} setup={phase} />}
+        {isEmpty ? (
+          <p class="plots-none">{text.plots.none}</p>
+        ) : (
+          <Stage list={list} shown={shown} isBasic={isBasic} />
+        )}
+        {phase && <Plot key={phase.key} setup={phase} isBasic={isBasic} />}
       </section>
       <MeasureTable />
     </section>

@@ -1,6 +1,6 @@
 /** Which plots there are and what is in them, as the reader arranged them and the browser keeps them. */
 import { computed, signal } from "@preact/signals";
-import { remember, remembered } from "../state/preferences";
+import { areAllControlsOn, remember, remembered } from "../state/preferences";
 import { sourcesOf } from "../stream/ring";
 import { CHANNELS, type ChannelName, isChannel, PRESETS, type PresetName } from "./channels";
 
@@ -32,6 +32,9 @@ const phaseOf = (channels: readonly ChannelName[]): PlotSetup => ({
   ...ofPreset("phase"),
   channels,
 });
+
+/** The plots of a first experiment, whatever the reader arranged. */
+export const BASIC_SETUPS: readonly PlotSetup[] = [ofPreset("position"), ofPreset("error")];
 
 const setupsAtFirst = (): PlotSetup[] => AT_FIRST.map(ofPreset);
 
@@ -68,7 +71,14 @@ export const setups = signal<readonly PlotSetup[]>(
 
 /** What the stream has to carry. */
 export const channelsInUse = computed(() => [
-  ...new Set([...ALWAYS, ...setups.value.flatMap(({ channels }) => channels)].flatMap(sourcesOf)),
+  ...new Set(
+    [
+      ...ALWAYS,
+      ...[...setups.value, ...(areAllControlsOn.value ? [] : BASIC_SETUPS)].flatMap(
+        ({ channels }) => channels,
+      ),
+    ].flatMap(sourcesOf),
+  ),
 ]);
 
 function arrange(next: readonly PlotSetup[]): void {

@@ -95,49 +95,62 @@ function ZoomButton({ name, factor, path }: ZoomButtonProps) {
   );
 }
 
-/** What holds for all plots. */
-export function Toolbar() {
+/** What holds for all plots; `isBasic` leaves what is on, and how to look at the session. */
+export function Toolbar({ isBasic }: { isBasic: boolean }) {
   return (
     <div class="plot-tools" role="toolbar" aria-label={text.plots.tools}>
-      <HoldButton />
+      <fieldset class="row" aria-label={text.plots.view}>
+        <HoldButton />
+        <button
+          type="button"
+          class="button tool"
+          aria-pressed={isZoomOn.value}
+          aria-keyshortcuts="Z"
+          title={text.zoom.switchHint}
+          onClick={toggleZoom}
+        >
+          {text.zoom.switch}
+        </button>
+      </fieldset>
       <span class="visually-hidden" role="status">
         {isHeld.value ? text.plots.held : ""}
       </span>
-      <button
-        type="button"
-        class="button tool"
-        aria-pressed={areCursorsOn.value}
-        title={text.cursors.switchHint}
-        onClick={toggleCursors}
-      >
-        <svg viewBox="0 0 12 12" aria-hidden="true">
-          <path d="M3 0h1.4v12H3zM7.6 0H9v12H7.6z" />
-        </svg>
-        {text.cursors.switch}
-      </button>
-      <button
-        type="button"
-        class="button tool"
-        aria-pressed={isZoomOn.value}
-        aria-keyshortcuts="Z"
-        title={text.zoom.switchHint}
-        onClick={toggleZoom}
-      >
-        {text.zoom.switch}
-      </button>
-      <WindowPicker />
-      <ZoomButton name={text.plots.zoomOut} factor={ZOOM} path="M1 5.2h10v1.6H1z" />
-      <ZoomButton
-        name={text.plots.zoomIn}
-        factor={1 / ZOOM}
-        path="M1 5.2h4.2V1h1.6v4.2H11v1.6H6.8V11H5.2V6.8H1z"
-      />
-      <span class="plot-tools-end">
-        <PlotPicker />
-        <button type="button" class="button tool" title={text.save.allHint} onClick={saveWindowCsv}>
-          {text.save.csv}
+      {(!isBasic || areCursorsOn.value) && (
+        <button
+          type="button"
+          class="button tool"
+          aria-pressed={areCursorsOn.value}
+          title={text.cursors.switchHint}
+          onClick={toggleCursors}
+        >
+          <svg viewBox="0 0 12 12" aria-hidden="true">
+            <path d="M3 0h1.4v12H3zM7.6 0H9v12H7.6z" />
+          </svg>
+          {text.cursors.switch}
         </button>
-      </span>
+      )}
+      {!isBasic && (
+        <>
+          <WindowPicker />
+          <ZoomButton name={text.plots.zoomOut} factor={ZOOM} path="M1 5.2h10v1.6H1z" />
+          <ZoomButton
+            name={text.plots.zoomIn}
+            factor={1 / ZOOM}
+            path="M1 5.2h4.2V1h1.6v4.2H11v1.6H6.8V11H5.2V6.8H1z"
+          />
+          <span class="plot-tools-end">
+            <PlotPicker />
+            <button
+              type="button"
+              class="button tool"
+              title={text.save.allHint}
+              onClick={saveWindowCsv}
+            >
+              {text.save.csv}
+            </button>
+          </span>
+        </>
+      )}
     </div>
   );
 }

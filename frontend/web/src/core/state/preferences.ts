@@ -34,6 +34,8 @@ export const theme = signal<Theme>(firstTheme());
 export const windowS = signal<WindowS>(
   WINDOWS_S.find((seconds) => String(seconds) === remembered("svsa.window_s")) ?? 20,
 );
+/** Whether the lab shows all controls, or those of a first experiment. */
+export const areAllControlsOn = signal(remembered("svsa.controls") === "all");
 /** Whether single keys command the page; Shift + Esc always does. */
 export const areKeysOn = signal(remembered("svsa.keys") !== "off");
 export const personName = signal(remembered("svsa.name") ?? "");
@@ -53,6 +55,11 @@ export const nameForControl = (name: string): string =>
 export function chooseKeys(isOn: boolean): void {
   areKeysOn.value = isOn;
   remember("svsa.keys", isOn ? "on" : "off");
+}
+
+export function toggleAllControls(): void {
+  areAllControlsOn.value = !areAllControlsOn.peek();
+  remember("svsa.controls", areAllControlsOn.peek() ? "all" : "basic");
 }
 
 export function rememberPerson(name: string): void {

@@ -181,6 +181,8 @@ export const lawsText = {
 export const identificationText = {
   identification: {
     title: "Identification",
+    open: "Identify …",
+    openHint: "Record a run that excites the actuator, and load the parameters estimated from it",
     runName: "Identification",
     explanation:
       "Runs and records 32 s of slow and fast motion at low and high stiffness. Estimate the" +

@@ -155,10 +155,10 @@ export const learningText = {
         words:
           "FL cancels the model it knows; NDOBC also estimates the load and cancels it. Compare runs both at once.",
       },
-      gains: {
-        title: "Gains",
+      all: {
+        title: "All controls",
         words:
-          "Place the poles with the mouse. The page predicts their effect before you apply them; Undo restores the previous ones.",
+          "This switch adds the reference, poles and gains, observer, non-ideal effects and more plots. The browser remembers it.",
       },
     },
   },

@@ -7,6 +7,10 @@ export const pageText = {
   subtitle: "variable stiffness, live",
   session: "Session",
   view: "The actuator in 3D",
+  allControls: {
+    name: "All controls",
+    hint: "Show the references, gains, observer, non-ideal effects, and tools of the plots and the 3D view",
+  },
   pages: {
     open: "Pages",
     openHint:

@@ -10,6 +10,7 @@ export const plotsText = {
     list: "List of plots",
     below: (count: number) => (count === 1 ? "1 more plot below" : `${count} more plots below`),
     plotOf: (title: string) => `${title} plot`,
+    view: "View",
     tools: "Plot tools",
     window: "Window",
     seconds: (seconds: number) => `${seconds} s`,

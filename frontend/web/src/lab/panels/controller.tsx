@@ -12,17 +12,19 @@ import { isOpen as isTuning } from "../tuning/tuning";
 import { Compare } from "./compare";
 import { Field } from "./field";
 import { Group } from "./group";
+import { isIdentifying } from "./identification";
 import { LawForm } from "./law";
 import { LawPicker } from "./lawpicker";
 import { isExact } from "./parameters";
 
-export function Controller({ state }: { state: SessionState }) {
+/** `isBasic` leaves the law and its comparison. */
+export function Controller({ state, isBasic }: { state: SessionState; isBasic: boolean }) {
   const { law, gains } = state.configuration;
   const present = lawOf(law);
   return (
     <Group
       title={text.controller.title}
-      topic="controller"
+      topic={isBasic ? undefined : "controller"}
       aside={
         <LawPicker
           label={`${text.controller.law}: ${titleOf(law)}`}
@@ -38,13 +40,20 @@ export function Controller({ state }: { state: SessionState }) {
       <p class="hint is-about">{present?.summary}</p>
       {isExact(state.configuration) && <p class="hint">{text.controller.exact}</p>}
       <Problem control="controller.law" />
-      {present && !present.takes_gains && <LawForm law={present} state={state} />}
-      {(!present || present.takes_gains) && <Gains gains={gains} />}
-      <div class="tune-open">
-        <PanelButton isOpen={isTuning} hint={text.tuning.openHint}>
-          {text.tuning.open}
-        </PanelButton>
-      </div>
+      {!isBasic && (
+        <>
+          {present && !present.takes_gains && <LawForm law={present} state={state} />}
+          {(!present || present.takes_gains) && <Gains gains={gains} />}
+          <div class="row tune-open">
+            <PanelButton isOpen={isTuning} hint={text.tuning.openHint}>
+              {text.tuning.open}
+            </PanelButton>
+            <PanelButton isOpen={isIdentifying} hint={text.identification.openHint}>
+              {text.identification.open}
+            </PanelButton>
+          </div>
+        </>
+      )}
       <Compare state={state} />
     </Group>
   );

@@ -4,15 +4,23 @@ import { takesCommands } from "../../core/state/control";
 import { text } from "../../core/text/en";
 import { Controller } from "./controller";
 import { GroupIndex } from "./group";
-import { Identification } from "./identification";
-import { Loads } from "./load";
+import { hasOtherLoads, Loads } from "./load";
 import { Motion } from "./motion";
 import { Observer } from "./observer";
 import { Realism } from "./realism";
 import { Stiffness } from "./stiffness";
 
-/** Everything a student sets, in the order of the block diagram. */
-export function Controls({ state }: { state: SessionState }) {
+interface ControlsProps {
+  state: SessionState;
+  isBasic?: boolean;
+}
+
+/**
+ * Everything a student sets, in the order of the block diagram.
+ *
+ * isBasic: the controller alone, with loads and effects that act beside the button's.
+ */
+export function Controls({ state, isBasic = false }: ControlsProps) {
   const groups = useRef<HTMLDivElement>(null);
   return (
     <fieldset
@@ -23,13 +31,18 @@ export function Controls({ state }: { state: SessionState }) {
       aria-label={text.controls.heading}
     >
       <div class="groups" ref={groups}>
-        <Motion state={state} />
-        <Stiffness state={state} />
-        <Controller state={state} />
-        <Observer state={state} />
-        <Loads state={state} />
-        {state.bench === null && <Realism state={state} />}
-        <Identification state={state} />
+        {!isBasic && (
+          <>
+            <Motion state={state} />
+            <Stiffness state={state} />
+          </>
+        )}
+        <Controller state={state} isBasic={isBasic} />
+        {!isBasic && <Observer state={state} />}
+        {(!isBasic || hasOtherLoads(state)) && <Loads state={state} />}
+        {state.bench === null && (!isBasic || state.configuration.effects_preset !== "ideal") && (
+          <Realism state={state} />
+        )}
       </div>
       <GroupIndex groups={groups} />
     </fieldset>

@@ -9,7 +9,7 @@ import { goTo, headingOf, useBelow } from "../../core/widgets/below";
 interface GroupProps {
   title: string;
   /** What the equation behind the group is of. */
-  topic?: Topic;
+  topic?: Topic | undefined;
   /** Stands in the line of the title. */
   aside?: ComponentChildren;
   children: ComponentChildren;

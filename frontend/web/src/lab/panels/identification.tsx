@@ -1,19 +1,40 @@
+import { signal } from "@preact/signals";
 import { useId } from "preact/hooks";
 import { excite, putNominal, stopExcitation } from "../../core/api/client";
 import type { SessionState } from "../../core/api/types";
 import { perform } from "../../core/state/actions";
+import { takesCommands } from "../../core/state/control";
+import { session } from "../../core/state/session";
 import { text } from "../../core/text/en";
 import { formatSeconds } from "../../core/units";
 import { Problem } from "../../core/widgets/form";
-import { Group } from "./group";
+import { Panel } from "../../core/widgets/panel";
 
 const words = text.identification;
 
+export const isIdentifying = signal(false);
+
+function close(): void {
+  isIdentifying.value = false;
+}
+
 /** Plays what `svsa identify` needs, and takes what came of it as the model. */
-export function Identification({ state }: { state: SessionState }) {
+export function IdentificationPanel() {
+  const state = session.value;
+  if (!isIdentifying.value || state === null) return null;
+  return (
+    <Panel title={words.title} class="identification" onClose={close}>
+      <fieldset class="stack" disabled={!takesCommands.value} aria-label={words.title}>
+        <Identification state={state} />
+      </fieldset>
+    </Panel>
+  );
+}
+
+function Identification({ state }: { state: SessionState }) {
   const { excitation } = state;
   return (
-    <Group title={words.title}>
+    <>
       <p class="hint">
         {words.explanation} <code>{words.command}</code>
       </p>
@@ -49,7 +70,7 @@ export function Identification({ state }: { state: SessionState }) {
       )}
       <Problem control="identification.excite" />
       {state.bench === null ? <ModelFile /> : <p class="hint">{words.bench}</p>}
-    </Group>
+    </>
   );
 }
 

@@ -19,9 +19,13 @@ const FORMS: readonly { value: WeightForm; label: string }[] = [
   { value: "mass", label: text.load.mass },
 ];
 
+/** Whether a load acts or comes that is not the button's. */
+export const hasOtherLoads = (state: SessionState): boolean =>
+  !presentLoads(state).every((row) => row.active && isWeight(row));
+
 function LoadRows({ state }: { state: SessionState }) {
   const rows = presentLoads(state);
-  if (rows.length === 0 || rows.every((row) => row.active && isWeight(row))) return null;
+  if (!hasOtherLoads(state)) return null;
   return (
     <ul class="load-rows">
       {rows.map((row) => (

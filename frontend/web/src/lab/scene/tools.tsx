@@ -27,7 +27,8 @@ function PushButton() {
 }
 
 /** Cameras, pushing and the cost of drawing, at the foot of the 3D view. */
-export function SceneTools() {
+export function SceneTools({ isBasic }: { isBasic: boolean }) {
+  if (isBasic) return null;
   return (
     <>
       {isPushing.value && <PushLayer />}

@@ -15,7 +15,7 @@ const STEPS = [
   { key: "plots", target: "#plots" },
   { key: "load", target: ".load-button" },
   { key: "controller", target: ".compare" },
-  { key: "gains", target: ".design-open" },
+  { key: "all", target: ".all-controls" },
 ] as const;
 
 /** The step shown; null without a tour. */

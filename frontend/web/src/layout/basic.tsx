@@ -1,0 +1,29 @@
+/** The lab of a first experiment, and the switch to all of its controls. */
+import { computed } from "@preact/signals";
+import { areAllControlsOn, toggleAllControls } from "../core/state/preferences";
+import { session } from "../core/state/session";
+import { text } from "../core/text/en";
+import { place } from "../runs/list/place";
+
+const words = text.allControls;
+
+/** An exercise names the controls that it needs, and the operator of a bench needs all of them. */
+const hasChoice = computed(() => place.value.kind === "lab" && session.value?.bench === null);
+
+export const isBasic = computed(() => hasChoice.value && !areAllControlsOn.value);
+
+export function AllControlsSwitch() {
+  if (!hasChoice.value) return null;
+  return (
+    <button
+      type="button"
+      role="switch"
+      class="button all-controls"
+      aria-checked={areAllControlsOn.value}
+      title={words.hint}
+      onClick={toggleAllControls}
+    >
+      {words.name}
+    </button>
+  );
+}

@@ -1,0 +1,118 @@
+"""What a user sees at the first visit: few controls, and a switch to all of them."""
+
+import re
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.browser.measured_layout import FIND_PROBLEMS
+from tests.browser.test_accessibility import PHONE, WIDE, expect_no_violation
+from tests.browser.test_page import come_back, wait_for_samples
+from tests.browser.visited_layout import LEAST_PLOT_PX, SIZES, measure
+from tests.lab import Lab
+
+pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d", "still")]
+
+MOST_BASIC = 29
+LEAST_ALL = 80
+
+# Everything that takes the pointer or the focus and lies in the window.
+COUNT_CONTROLS = """() => {
+    const controls = "a[href], button, input, select, textarea, summary, [tabindex='0']";
+    return [...document.querySelectorAll(controls)].filter((one) => {
+        const { left, right, top, bottom, width, height } = one.getBoundingClientRect();
+        return one.checkVisibility({ visibilityProperty: true }) && !one.matches(".skip") &&
+            width > 1 && height > 1 && right > 0 && bottom > 0 &&
+            left < innerWidth && top < innerHeight;
+    }).length;
+}"""
+
+
+def open_first(page: Page, lab: Lab) -> None:
+    """As a user who has only ended the tour."""
+    come_back(page, lab)
+    page.evaluate("localStorage.removeItem('svsa.controls')")
+    page.goto(lab.url)
+    wait_for_samples(page)
+
+
+def test_the_first_view_has_few_controls_and_the_switch_to_all_is_remembered(
+    page: Page, lab: Lab
+) -> None:
+    page.set_viewport_size({"width": 1440, "height": 900})
+    lab.client.post(lab.session + "/start").raise_for_status()
+    open_first(page, lab)
+    switch = page.get_by_role("switch", name="All controls")
+    expect(switch).to_have_attribute("aria-checked", "false")
+    amplitude = page.get_by_role("spinbutton", name="Amplitude")
+    expect(page.get_by_role("region", name="Position error plot")).to_be_visible()
+    expect(amplitude).to_have_count(0)
+    assert 0 < page.evaluate(COUNT_CONTROLS) <= MOST_BASIC
+    switch.click()
+    expect(amplitude).to_be_visible()
+    assert page.evaluate(COUNT_CONTROLS) >= LEAST_ALL
+    page.reload()
+    expect(amplitude).to_be_visible()
+    switch.click()
+    page.reload()
+    expect(page.get_by_role("button", name=re.compile("Hang 3 kg"))).to_be_visible()
+    expect(amplitude).to_have_count(0)
+
+
+def test_load_law_and_comparison_are_in_the_first_view(page: Page, lab: Lab) -> None:
+    open_first(page, lab)
+    for part in (
+        page.get_by_role("button", name=re.compile("Hang 3 kg")),
+        page.get_by_role("button", name="Control law: NDOBC"),
+        page.get_by_role("switch", name="Compare with FL"),
+    ):
+        expect(part).to_be_in_viewport(ratio=1)
+    page.get_by_role("switch", name="Compare with FL").press("Enter")
+    table = page.get_by_role("table", name="Which controller does better")
+    expect(table.get_by_role("row")).to_have_count(3)
+    page.get_by_role("button", name=re.compile("Hang 3 kg")).press("Enter")
+    expect(page.get_by_role("button", name=re.compile("Remove"))).to_be_visible()
+
+
+def test_step_and_speed_are_shown_while_the_session_is_paused(page: Page, lab: Lab) -> None:
+    open_first(page, lab)
+    step, speed = page.get_by_role("button", name="Step"), page.get_by_label("Speed")
+    expect(step).to_be_visible()
+    expect(speed).to_be_visible()
+    page.get_by_role("button", name="Run", exact=True).click()
+    expect(step).to_have_count(0)
+    expect(speed).to_have_count(0)
+    page.get_by_role("button", name="Pause", exact=True).click()
+    expect(step).to_be_visible()
+
+
+def test_effects_and_loads_that_act_are_never_hidden(page: Page, lab: Lab) -> None:
+    """They explain an error that the controller alone does not."""
+    load = {"kind": "constant", "torques_nm": [1, 0, 0]}
+    lab.client.post(lab.session + "/loads", json=load).raise_for_status()
+    preset = {"preset": "rig"}
+    lab.client.put(lab.session + "/effects", json=preset).raise_for_status()
+    open_first(page, lab)
+    expect(page.get_by_role("heading", name="Realism")).to_be_visible()
+    expect(page.get_by_role("heading", name="Load", exact=True)).to_be_visible()
+
+
+def test_identification_opens_from_all_controls(page: Page, lab: Lab) -> None:
+    open_first(page, lab)
+    page.get_by_role("switch", name="All controls").click()
+    page.get_by_role("button", name="Identify …").click()
+    panel = page.get_by_role("dialog", name="Identification")
+    expect(panel.get_by_role("button", name="Excite and record")).to_be_enabled()
+    page.keyboard.press("Escape")
+    expect(panel).to_be_hidden()
+
+
+def test_the_first_view_is_whole_at_each_size(page: Page, lab: Lab) -> None:
+    open_first(page, lab)
+    problems = measure(page, FIND_PROBLEMS, SIZES, LEAST_PLOT_PX["simulation"])
+    assert not problems, "\n".join(problems)
+
+
+def test_the_first_view_has_no_violation(page: Page, lab: Lab) -> None:
+    open_first(page, lab)
+    expect_no_violation(page, WIDE, PHONE)
