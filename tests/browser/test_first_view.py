@@ -88,10 +88,9 @@ def test_step_and_speed_are_shown_while_the_session_is_paused(page: Page, lab: L
 
 def test_effects_and_loads_that_act_are_never_hidden(page: Page, lab: Lab) -> None:
     """They explain an error that the controller alone does not."""
-    load = {"kind": "constant", "torques_nm": [1, 0, 0]}
+    load = {"kind": "pulse", "torque_nm": [1.0, 0.0, 0.0], "start_s": 9.0, "duration_s": 1.0}
     lab.client.post(lab.session + "/loads", json=load).raise_for_status()
-    preset = {"preset": "rig"}
-    lab.client.put(lab.session + "/effects", json=preset).raise_for_status()
+    lab.client.put(lab.session + "/effects", json={"delay_samples": 1}).raise_for_status()
     open_first(page, lab)
     expect(page.get_by_role("heading", name="Realism")).to_be_visible()
     expect(page.get_by_role("heading", name="Load", exact=True)).to_be_visible()

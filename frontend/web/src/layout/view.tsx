@@ -1,11 +1,12 @@
 import { useCallback, useEffect, useRef } from "preact/hooks";
 import { sessionName } from "../core/api/request";
 import { theme } from "../core/state/preferences";
-import { connectionCount } from "../core/state/session";
+import { connectionCount, session } from "../core/state/session";
 import { text } from "../core/text/en";
 import { answerKey } from "../lab/keys/keys";
 import { addressOf } from "../lab/scene/cameras";
 import { SceneLabels } from "../lab/scene/labels";
+import { hasWebGl, Schematic } from "../lab/scene/schematic";
 import { SceneTools } from "../lab/scene/tools";
 import { beginAt, enterView, fitCamera, isLow } from "../lab/scene/viewer";
 import { CornerMark } from "./marks";
@@ -16,7 +17,7 @@ function load(frame: HTMLIFrameElement): void {
   frame.src = `viser/${sessionName}/?${first}${theme.peek() === "dark" ? "&darkMode" : ""}`;
 }
 
-/** The actuator in 3D, served by viser; created again after each lost connection. */
+/** The actuator in 3D, served by viser and loaded again after each lost connection; without WebGL in 2D. */
 export function View({ isBasic }: { isBasic: boolean }) {
   const connection = connectionCount.value;
   const frame = useRef<HTMLIFrameElement | null>(null);
@@ -33,7 +34,8 @@ export function View({ isBasic }: { isBasic: boolean }) {
   }, []);
   return (
     <div class={`surface view ${isLow.value ? "is-low" : ""}`} ref={box}>
-      {connection > 0 && (
+      {!hasWebGl && session.value !== null && <Schematic state={session.value} />}
+      {hasWebGl && connection > 0 && (
         <iframe
           key={`${connection} ${theme.value}`}
           title={text.view}
@@ -44,8 +46,8 @@ export function View({ isBasic }: { isBasic: boolean }) {
           }}
         />
       )}
-      <SceneLabels frame={present} />
-      <SceneTools isBasic={isBasic} />
+      {hasWebGl && <SceneLabels frame={present} />}
+      {hasWebGl && <SceneTools isBasic={isBasic} />}
       <CornerMark />
     </div>
   );

@@ -135,8 +135,14 @@ export function Plots({ isBasic }: { isBasic: boolean }) {
     >
       <h2 class="visually-hidden">{text.plots.heading}</h2>
       <Toolbar isBasic={isBasic} />
-      {/* biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls is reached by keyboard */}
-      <section class="plots-scroll" ref={list} aria-label={text.plots.list} tabIndex={0}>
+      <section
+        key={isBasic ? "basic" : "all"}
+        class="plots-scroll"
+        ref={list}
+        aria-label={text.plots.list}
+        // biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls is reached by keyboard
+        tabIndex={0}
+      >
         {isEmpty ? (
           <p class="plots-none">{text.plots.none}</p>
         ) : (

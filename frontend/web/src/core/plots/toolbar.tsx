@@ -99,7 +99,7 @@ function ZoomButton({ name, factor, path }: ZoomButtonProps) {
 export function Toolbar({ isBasic }: { isBasic: boolean }) {
   return (
     <div class="plot-tools" role="toolbar" aria-label={text.plots.tools}>
-      <fieldset class="row" aria-label={text.plots.view}>
+      <fieldset class="view-group" aria-label={text.plots.view}>
         <HoldButton />
         <button
           type="button"

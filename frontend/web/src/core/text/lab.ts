@@ -13,6 +13,9 @@ export const sceneText = {
     pulling: (torque: string) => `${torque} N·m`,
     names: "Names of the parts",
     namesHint: "motors, spiral, pivot, lever and spring, in this window only",
+    schematic: "The actuator from the front: link, reference and load",
+    noWebGl:
+      "This browser has no WebGL, which the 3D view needs. The same angles in 2D: the link in the color of its curve, the reference dotted.",
     low: "Low graphics",
     lowHint: "Fewer and coarser parts, 15 frames per second: for computers without a graphics card",
   },

@@ -129,6 +129,11 @@ export const learningText = {
     done: "Done",
     of: (step: number, all: number) => `${step} of ${all}`,
     keys: "Arrow keys: next and previous. Esc: skip.",
+    viewIn2d: {
+      title: "The actuator",
+      words:
+        "The thick line is the link, seen from the front; the dotted line is where it should be. The circle is the axis of the motors.",
+    },
     steps: {
       welcome: {
         title: "Welcome to the lab",

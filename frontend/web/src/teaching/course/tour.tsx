@@ -3,6 +3,7 @@ import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import { remember, remembered } from "../../core/state/preferences";
 import { text } from "../../core/text/en";
 import { closeOnEscape } from "../../core/widgets/panel";
+import { hasWebGl } from "../../lab/scene/schematic";
 
 const STORE = "svsa.tour";
 const GAP_PX = 12;
@@ -84,7 +85,8 @@ function useTarget(selector: string, isShown: boolean): Box | null {
 
 function Card({ index }: { index: number }) {
   const { key, target } = STEPS[index] as (typeof STEPS)[number];
-  const { title, words: explanation } = words.steps[key];
+  const { title, words: explanation } =
+    key === "view" && !hasWebGl ? words.viewIn2d : words.steps[key];
   const isFirst = index === 0;
   const isLast = index === STEPS.length - 1;
   const card = useRef<HTMLElement>(null);
