@@ -71,7 +71,7 @@ def test_load_law_and_comparison_are_in_the_first_view(page: Page, lab: Lab) -> 
     table = page.get_by_role("table", name="Which controller does better")
     expect(table.get_by_role("row")).to_have_count(3)
     page.get_by_role("button", name=re.compile("Hang 3 kg")).press("Enter")
-    expect(page.get_by_role("button", name=re.compile("Remove"))).to_be_visible()
+    expect(page.get_by_role("button", name=re.compile("^Remove 3 kg"))).to_be_visible()
 
 
 def test_step_and_speed_are_shown_while_the_session_is_paused(page: Page, lab: Lab) -> None:

@@ -23,7 +23,8 @@ export function AllControlsSwitch() {
       title={words.hint}
       onClick={toggleAllControls}
     >
-      {words.name}
+      {words.all}
+      <span class="all-controls-word"> {words.controls}</span>
     </button>
   );
 }

@@ -8,7 +8,8 @@ export const pageText = {
   session: "Session",
   view: "The actuator in 3D",
   allControls: {
-    name: "All controls",
+    all: "All",
+    controls: "controls",
     hint: "Show the references, gains, observer, non-ideal effects, and tools of the plots and the 3D view",
   },
   pages: {
