@@ -29,9 +29,9 @@ IS_SO_BRIGHT = """brightness => {
     return shown.every((part) => Math.abs(Number(part) - brightness) <= 10);
 }"""
 LAST_TIME = """() => {
-    const door = window.svsa;
-    if (!door || !door.channels().includes("position_error_rad")) return 0;
-    const { time } = door.series("position_error_rad");
+    const page = window.svsa;
+    if (!page || !page.channels().includes("position_error_rad")) return 0;
+    const { time } = page.series("position_error_rad");
     return time.length ? time[time.length - 1] : 0;
 }"""
 

@@ -18,7 +18,7 @@ interface ControlsProps {
 /**
  * Everything a student sets, in the order of the block diagram.
  *
- * isBasic: the controller alone, with loads and effects that act beside the button's.
+ * isBasic: the controller alone, with loads and effects that act in addition to the button's.
  */
 export function Controls({ state, isBasic = false }: ControlsProps) {
   const groups = useRef<HTMLDivElement>(null);
