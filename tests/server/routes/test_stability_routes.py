@@ -11,7 +11,7 @@ UNSTABLE = {"position_poles_rad_per_s": [-60, -60, [5, 30], [5, -30]]}
 
 
 def ask(lab: Lab, what: str, **request: object) -> dict:
-    answer = lab.client.post(f"{lab.session}/design/{what}", json=request)
+    answer = lab.client.post(f"{lab.session}/design", json={"kind": what, **request})
     return answer.raise_for_status().json()
 
 
@@ -134,7 +134,8 @@ def test_every_law_has_margins_also_one_without_a_continuous_model(lab: Lab, law
 def test_an_unstable_design_fails_in_a_private_simulation_only(lab: Lab) -> None:
     lab.load_figure(law="ndobc")
     before = lab.read()["configuration"]
-    private = ask(lab, "simulation", gains=UNSTABLE)
+    opening = {"from": "session", "id": "lab", "gains": UNSTABLE}
+    private = lab.client.post("/api/v1/sessions", json=opening).raise_for_status().json()
     assert private["session"] != lab.read()["session"]
     roots = private["configuration"]["gains"]["position_roots_rad_per_s"]
     assert max(root["re"] for root in roots) == pytest.approx(5.0)
@@ -144,10 +145,10 @@ def test_an_unstable_design_fails_in_a_private_simulation_only(lab: Lab) -> None
     failed = lab.client.get(path).json()
     assert failed["status"] == "fault"
     assert failed["fault"]["message"]
+    lab.client.post(f"{path}/reset").raise_for_status()
     refused = lab.client.post(f"{path}/recording", json={"name": "it fails"})
     assert refused.status_code == 422
     assert "lies right of" in refused.json()["detail"]
-    lab.client.post(f"{path}/reset").raise_for_status()
     lab.client.delete(path).raise_for_status()
     assert lab.read()["configuration"] == before
     assert lab.client.put(f"{lab.session}/gains", json=UNSTABLE).status_code == 422
