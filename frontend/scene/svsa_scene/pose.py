@@ -71,7 +71,7 @@ class ActuatorPose:
     disturbance_link_nm: w2, the torque on the link that the nominal model does not explain;
     disturbance_motor1_nm, disturbance_motor2_nm: w4, w6, likewise on the motors; see
     `draw_nothing_unknown` for a bench, which does not know them.
-    load_mass_kg: mass hung on the link, 0 when none is (the paper's load shows as 3 kg).
+    load_mass_kg: mass hung on the link, 0 when none is (the paper's load is torques).
     deflection_limit_rad: largest |φ| allowed at this μ, where φ = q − θ1. comparisons: the other
     lanes.
     """

@@ -247,3 +247,9 @@ def test_each_kind_of_load_describes_itself_and_acts_as_its_form_begins(kind):
         assert read_load([load], 0.013)[:3] != (0.0, 0.0, 0.0)
         factor = 1.0 if kind.factor is None else read_load([load], 0.013).w2 / TRIPLE[0]
         assert read_load([load], 0.013)[:3] == pytest.approx([factor * torque for torque in TRIPLE])
+
+
+def test_the_paper_load_is_torques_and_hangs_no_mass():
+    """A view that drew 3 kg on a cord would show another plant than the one simulated."""
+    assert svsa.PaperLoad().get_hung_mass() == 0.0
+    assert svsa.MassLoad().get_hung_mass() == 3.0

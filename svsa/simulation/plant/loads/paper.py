@@ -5,7 +5,6 @@ from typing import Literal
 import numpy as np
 
 from svsa.simulation.plant.loads.load import W2, W6, AnyLoad
-from svsa.simulation.plant.loads.mass import PAPER_MASS_KG
 
 PAPER_TORQUE_NM = 2.0
 
@@ -14,10 +13,6 @@ class PaperLoad(AnyLoad):
     """The paper's 3 kg: w2 = w4 = w6 = 2 N·m, as printed."""
 
     kind: Literal["paper"] = "paper"
-
-    def get_hung_mass(self) -> float:
-        """The mass that the paper hangs on the link, kg."""
-        return PAPER_MASS_KG
 
     def describe(self) -> str:
         """A few words, as in the name of a run."""
