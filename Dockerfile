@@ -9,21 +9,23 @@ COPY requirements.lock pyproject.toml README.md LICENSE ./
 COPY svsa svsa
 COPY backend backend
 COPY frontend frontend
-# Extras of the image; add "plot" for pictures of the command line, "lti" for a learning platform.
-ARG EXTRAS=server,bench,nidaqmx
+# Extras of the image; add "plot" for pictures of the command line, "lti" for a learning platform,
+# "nidaqmx" for an encoder on a card of NI.
+ARG EXTRAS=server,bench
 # uv checks every package against the hashes of the lock file.
 RUN /opt/tools/bin/uv build --quiet --wheel --out-dir /dist . \
  && python3 -m venv --without-pip /opt/svsa \
  && /opt/tools/bin/uv pip install --quiet --python /opt/svsa/bin/python \
       --constraint requirements.lock "$(ls /dist/*.whl)[${EXTRAS}]" \
  && /opt/tools/bin/cyclonedx-py environment --output-file /opt/svsa/sbom.cdx.json /opt/svsa/bin/python
-# What no program of the lab loads: tests, headers, parts of pyarrow for remote storage, debug symbols.
-# numpy's and SciPy's own libraries are not stripped: that breaks their alignment.
+# What no program of the lab loads: tests, sources of extension modules, parts of pyarrow for remote
+# storage, AVIF pictures, debug symbols. Stripping OpenBLAS and numpy breaks their alignment.
 RUN cd /opt/svsa/lib/python3*/site-packages \
  && find . -depth -type d \( -name tests -o -name include \) -not -path './svsa*' -exec rm -r {} + \
+ && find . -type f \( -name '*.pyi' -o -name '*.pyx' -o -name '*.pxd' -o -name '*.pxi' -o -name '*.[cha]' \) -delete \
  && rm -rf pyarrow/*flight* pyarrow/_s3fs* pyarrow/libarrow_s3* pyarrow/_gcsfs* pyarrow/_azurefs* \
-      pyarrow/_hdfs* pyarrow/*_cpp_tests* pyarrow/*.pyx pyarrow/*.pxi \
- && find . -name '*.so*' -type f -size +100k -not -path './numpy*' -not -path './scipy*' \
+      pyarrow/_hdfs* pyarrow/*_cpp_tests* PIL/_avif* pillow.libs/libavif* \
+ && find . -name '*.so*' -type f -size +100k -not -path './numpy*' -not -path './scipy.libs/*' \
       -exec strip --strip-unneeded {} +
 # Bytecode of the modules that the lab loads, and the compiled loop.
 ENV PATH=/opt/svsa/bin:$PATH SVSA_CACHE=/opt/svsa/cache
@@ -41,7 +43,7 @@ LABEL org.opencontainers.image.title="SVSA Lab" \
       org.opencontainers.image.licenses=MIT
 # What isolates the laws of students.
 RUN apt-get update -qq && apt-get install -y -qq --no-install-recommends bubblewrap libseccomp2 >/dev/null \
- && rm -rf /var/lib/apt/lists/*
+ && rm -rf /var/lib/apt/lists/* /var/cache/apt/* /var/log/*
 RUN useradd --uid 1000 --no-create-home --home-dir /tmp svsa && install -d -o svsa -g svsa /data
 COPY --from=build /opt/svsa /opt/svsa
 ENV PATH=/opt/svsa/bin:$PATH SVSA_CACHE=/opt/svsa/cache SVSA_DATA=/data \
