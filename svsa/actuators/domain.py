@@ -10,13 +10,13 @@ from svsa.actuators.elasticity import (
     Actuator,
     AnyActuator,
     ElasticActuator,
-    choose_kind,
     compute_coordinate,
     compute_coordinate_for_stiffness,
     compute_determinant_of_energy,
     compute_stiffness_of,
 )
 from svsa.actuators.faults import find_number
+from svsa.actuators.kinds import choose_kind
 from svsa.actuators.lever import (
     compute_lever_ratio_for_stiffness,
     compute_zero_stiffness_deflection,

@@ -78,7 +78,23 @@ def offer_equations() -> None:
         "numerics.simd.rounding": {
             "floor": lambda x: float(math.floor(x)) if math.isfinite(x) else x,
         },
-        "actuators.parameters": {"ActuatorParameters": object, "Limits": object},
+        "actuators.parameters": {
+            "ActuatorParameters": object,
+            "Limits": object,
+            "MechanismParameters": object,
+            "get_mechanism_name": None,
+        },
+        # A law in a process of its own gets the SVSA, whose equations need no compiler.
+        "actuators.kinds": {
+            "choose_kind": lambda of_svsa, of_energy: of_svsa,
+            "find_derivatives": None,
+            "find_determinant": None,
+            "find_stiffness": None,
+            "find_torques": None,
+        },
+        "actuators.energy": {"compile_energy": None},
+        "actuators.installed": {"get_mechanism": None},
+        "actuators.mechanism": {"MAX_ELASTIC": 6},
     }
     for name, given in words.items():
         module = ModuleType(f"svsa.{name}")
