@@ -22,7 +22,7 @@ class RunningConnection(ControlledConnection):
         return _read_fault(self.read_state())
 
     def start(self) -> None:
-        """Run on from where it is."""
+        """Start or continue the session."""
         self.call("POST", "/start")
 
     def pause(self) -> None:
@@ -36,16 +36,16 @@ class RunningConnection(ControlledConnection):
             time.sleep(LOOK_S)
 
     def quick_stop(self) -> None:
-        """Zero current at once on a bench, latched until cleared; a simulation pauses."""
+        """Set zero current at once on a bench, latched until cleared; a simulation pauses."""
         self.call("POST", "/quick-stop")
 
     def reset(self) -> None:
         """Begin again at t = 0 with everything as it is set now."""
         self.call("POST", "/reset")
 
-    def set_speed(self, factor: float | Literal["max"]) -> None:
+    def set_speed(self, speed: float | Literal["max"]) -> None:
         """Session seconds a wall second, or as fast as it goes."""
-        self.call("PUT", "/speed", {"speed": factor})
+        self.call("PUT", "/speed", {"speed": speed})
 
     def run_until(self, time_s: float) -> None:
         """Run to this session time: a paused simulation as fast as it goes, a bench in real time.

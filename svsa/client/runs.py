@@ -86,7 +86,7 @@ class RemoteStudies(Remote):
         return self._connection.read(_build_study_path(name))
 
     def delete(self, name: str) -> None:
-        """Delete a study with all its rows, for good; one that is being run is cancelled first."""
+        """Delete a study with all its rows permanently; a running one is cancelled first."""
         self._connection.call("DELETE", _build_study_path(name))
 
 

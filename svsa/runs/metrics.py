@@ -27,7 +27,7 @@ UNMOVED_NM_PER_RAD = 0.01
 
 @dataclass(frozen=True)
 class Metrics:
-    """Metrics of a stretch of samples; SI units as named, over `duration_s`.
+    """Metrics of a segment of samples; SI units as named, over `duration_s`.
 
     e = q_d − q and e_σ = σ_d − σ. Ticks that a bench's loop missed have a time and no numbers:
     nothing of them is in a sum or a peak. All is NaN if the last 0.5 s, or all of the stretch, has

@@ -34,7 +34,7 @@ _WRONG = {401: {"model": Problem, "description": "A wrong secret, token or code"
 @router.get("/access")
 @allow(ANYBODY)
 async def read_access(request: Request) -> AccessState:
-    """How one comes in, and as whom this request has come."""
+    """Read how users log in to this lab, and the identity of this request."""
     authentication = _find_authentication(request)
     is_removed = isinstance(authentication, ClassAuthentication) and authentication.is_removed(
         request.headers
@@ -48,7 +48,7 @@ async def log_in(
     request: Request,
     credentials: Annotated[LoginRequest, Body(examples=[{"secret": "the shared secret"}])],
 ) -> Response:
-    """Trade the shared secret, or the instructor token of a class, for a cookie.
+    """Log in with the shared secret, or the instructor token of a class; the answer sets a cookie.
 
     Where the lab is open, everyone is in already.
     """
@@ -78,7 +78,7 @@ async def join(
     response: Response,
     wanted: Annotated[JoinRequest, Body(examples=[{"name": "Ada", "code": "ABCD-2345"}])],
 ) -> JoinState | JSONResponse:
-    """Join the class with a name and its code; a cookie says from then on who one is.
+    """Join the class with a name and its code; the answer sets a cookie that identifies the user.
 
     A name that is already in use gets a number. `rejoin_code` is returned once: with it one comes
     back as the same person from any browser.
@@ -139,7 +139,7 @@ async def renew_rejoin_code(request: Request, person: NamedPerson) -> RejoinCode
 @router.post("/leave", status_code=204)
 @allow(OBSERVER)
 async def leave(request: Request, person: NamedPerson) -> Response:
-    """Forget who this browser is."""
+    """Log out: delete the cookie of this browser."""
     authentication = _find_authentication(request)
     if isinstance(authentication, ClassAuthentication):
         authentication.people.forget(person)

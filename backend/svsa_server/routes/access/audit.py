@@ -33,7 +33,7 @@ async def read_audit_log(
     page: Annotated[int, Query(ge=1, le=10_000)] = 1,
     page_size: Annotated[int, Query(ge=1, le=200)] = 50,
 ) -> AuditPage:
-    """Who did what, where and at which tick, done or refused, the newest first.
+    """Read the audit log: user, action, session, tick and result, the newest first.
 
     person: an id. kind: one of `kinds`. until: of the first page, so that the next ones go on from
     it while more is done.

@@ -42,7 +42,7 @@ Member = Annotated[
 @router.get("")
 @allow(OBSERVER)
 async def read_class(request: Request, person: NamedPerson) -> ClassState:
-    """Who is here, in the order of their names, and which private sessions one may see."""
+    """List the people of the class by name, and the private sessions that the caller may see."""
     people, laboratory = find_class(request).people, _find_laboratory(request)
     here = {one.id: one for one in people.list_here()}
     for hosted in laboratory.sessions.values():
@@ -112,7 +112,7 @@ def choose_join_address(base: URL, host: str) -> URL:
 @router.post("/broadcast")
 @allow(INSTRUCTOR_ONLY)
 async def broadcast(request: Request) -> BroadcastState:
-    """Give every private session law, gains, observer and references of the shared session."""
+    """Copy law, gains, observer and references of the shared session to every private session."""
     find_class(request)
     laboratory = _find_laboratory(request)
     commands = list_settings(laboratory.get(SHARED_SESSION).session.run.configuration)

@@ -32,7 +32,7 @@ Name = Annotated[
     str,
     Path(
         alias="scenario",
-        description="By which a scenario is kept",
+        description="Name of the saved scenario",
         pattern=r"^[0-9A-Za-z][0-9A-Za-z_-]{0,63}$",
         examples=["impulse-ndobc"],
     ),
@@ -43,7 +43,7 @@ _TOML = {"application/toml": {"schema": {"type": "string"}}}
 @router.get("")
 @allow(OBSERVER)
 def list_saved_scenarios() -> list[SavedScenario]:
-    """The scenarios that are kept in this lab, by name."""
+    """List the saved scenarios of this lab, by name."""
     return [describe_kept(name, one) for name, one in list_scenarios().items()]
 
 
@@ -55,7 +55,7 @@ async def run_scenario(
         ScenarioRuns, Body(examples=[{"scenario": SCENARIO_EXAMPLE, "laws": ["ndobc"]}])
     ],
 ) -> ScenarioTraceState:
-    """Put laws through a scenario: what came of each, and its errors over time."""
+    """Run laws in a scenario: the outcome of each, and its errors over time."""
     return ScenarioTraceState(**await work.run(run_laws, wanted.scenario, wanted.laws))
 
 
@@ -64,7 +64,7 @@ async def run_scenario(
 def save_scenario(
     name: Name, wanted: Annotated[LoadScenario, Body(examples=[SCENARIO_EXAMPLE])]
 ) -> SavedScenario:
-    """Keep a scenario by a name, which no other one may have."""
+    """Save a scenario under a name that no other one has."""
     keep_scenario(name, wanted)
     return describe_kept(name, wanted)
 
@@ -93,7 +93,7 @@ def read_scenario(
 @router.delete("/{scenario}", status_code=204)
 @allow(INSTRUCTOR_ONLY)
 def delete_scenario(name: Name) -> None:
-    """Keep it no longer."""
+    """Delete a saved scenario."""
     if not forget_scenario(name):
         raise _refuse(name)
 

@@ -24,7 +24,7 @@ _COUNTS = Query(
 @router.get("")
 @allow(OBSERVER)
 async def estimate_shares(counts: Annotated[list[Counts], _COUNTS]) -> list[Estimate]:
-    """Shares with Wilson's interval of 95 %, in the order of the counts.
+    """Compute Wilson's 95 % interval for each count.
 
     Repeat the parameter: `?counts=8,2&counts=0,81`. The share of nothing is null, from 0 to 1.
     """

@@ -61,7 +61,7 @@ _PARQUET = {"application/vnd.apache.parquet": {"schema": {"type": "string", "for
 @router.get("")
 @allow(OBSERVER)
 def list_all_studies(request: Request, person: NamedPerson) -> StudyList:
-    """The studies that come with the lab, and those that were begun here, the last one first.
+    """List the built-in studies, and those that were started here, the newest first.
 
     In a class the caller's own, and those without an owner in the class.
     """
@@ -84,14 +84,14 @@ def list_all_studies(request: Request, person: NamedPerson) -> StudyList:
 @router.post("/check")
 @allow(OBSERVER)
 def check_study(person: NamedPerson, wanted: Wanted) -> StudyPlan:
-    """What a study would be; nothing is begun. A wrong text is refused with lines and bounds."""
+    """Check a study without starting it. A wrong text is rejected with lines and bounds."""
     return describe_plan(*wanted.build(person))
 
 
 @router.post("", status_code=201, responses=BUSY)
 @allow(OPERATOR)
 async def start_study(request: Request, person: NamedPerson, wanted: Wanted) -> StudyState:
-    """Begin a study, or go on with one of this name: a job, that makes no live session late.
+    """Start or continue a study of this name, as a job that makes no live session late.
 
     In a class it is one's own and the instructor's, with every run of its rows.
     """
@@ -112,14 +112,14 @@ async def start_study(request: Request, person: NamedPerson, wanted: Wanted) -> 
 @router.get("/{study}")
 @allow(OBSERVER)
 def read_study(request: Request, study: Study) -> StudyState:
-    """A study, how much of it is done, and the job that works at it."""
+    """Read a study, its progress, and its job."""
     return describe_study(_open(study), _find_job(request, study))
 
 
 @router.delete("/{study}", status_code=204)
 @allow(OPERATOR)
 async def delete_study(request: Request, study: ChangedStudy) -> None:
-    """Delete a study with all its rows, for good; one that is being run is cancelled first.
+    """Delete a study with all its rows permanently; a running one is cancelled first.
 
     Runs that were recorded of its rows stay.
     """
@@ -138,7 +138,7 @@ async def delete_study(request: Request, study: ChangedStudy) -> None:
 @router.get("/{study}/summary", responses=BUSY)
 @allow(OBSERVER)
 async def summarize_study(work: Work, study: Study) -> StudySummary:
-    """Success, faults and quantiles of each law so far, and the first law less each other one."""
+    """Summarize each law so far (success, faults, quantiles), and its difference from law 1."""
     return StudySummary(**await work.run(summarize, await asyncio.to_thread(_open, study)))
 
 
@@ -149,7 +149,7 @@ async def read_sensitivity(
     study: Study,
     outcome: Annotated[str, Query(description="succeeded, or a metric")] = SUCCEEDED,
 ) -> list[SobolIndices]:
-    """Sobol indices of an outcome under each law; of a study that was drawn for it."""
+    """Compute Sobol indices of an outcome under each law, for a study with Sobol samples."""
     stored = await asyncio.to_thread(_open, study)
     return [SobolIndices(**one) for one in await work.run(decide, stored, outcome)]
 
@@ -187,7 +187,7 @@ def read_rows(
 @router.get("/{study}/rows/{row}")
 @allow(OBSERVER)
 def read_row(study: Study, row: Row) -> dict[str, str | bool | int | float | None]:
-    """One row with every column; null where it has no value."""
+    """Read one row with every column; null where it has no value."""
     return find_row(_open(study), row)
 
 
@@ -196,7 +196,7 @@ def read_row(study: Study, row: Row) -> dict[str, str | bool | int | float | Non
 async def replay_row(
     request: Request, person: NamedPerson, work: Work, study: Study, row: Row
 ) -> RowReplay:
-    """Run a row again as a recorded run, with every sample, to be seen in 3D."""
+    """Run a row again as a recorded run with every sample, for the 3D view."""
     await request.app.state.quota.check(person.id)
     stored = await asyncio.to_thread(_open, study)
     return RowReplay(**await work.run(replay, stored, row, person.id))

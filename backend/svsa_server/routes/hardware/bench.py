@@ -37,7 +37,7 @@ def confirm_home(
     hosted: NamedSession,
     request: Annotated[HomingRequest, Body(examples=[{"step": "link", "by": "Ada"}])],
 ) -> SessionState:
-    """Confirm that an axis stands at its zero mark; the state tells the next step."""
+    """Confirm that an axis is at its zero mark; the state has the next step."""
     _find_bench(hosted.session).confirm_home(request.step, request.by)
     return build_state(hosted)
 
@@ -67,7 +67,7 @@ async def predict_heat(
     hosted: NamedSession,
     load: Annotated[Load, Body(examples=[{"kind": "paper"}])],
 ) -> EnduranceState | None:
-    """The motor that is too warm for this load within 30 s, and when; null where neither is.
+    """Predict which motor overheats under this load within 30 s, and when; null if none does.
 
     For the present settings, added to the active loads; computed on its simulated twin with the
     motors cold. Nothing is changed.

@@ -55,7 +55,7 @@ def compare_claim(
     hosted: NamedSession,
     figure: Annotated[Literal["4a", "4b", "5"], Query(description="Figure that the run is of")],
 ) -> ClaimState:
-    """Which parts of the paper's claim hold of this run, of FL as lane 1 and NDOBC as lane 2."""
+    """Check which parts of the paper's claim hold in a run with FL (lane 1) and NDOBC (lane 2)."""
     run, history = hosted.session.run, hosted.session.journal.history
     laws = tuple(lane.law for lane in run.configuration.lanes)
     if laws != CLAIM_LAWS or history.first_tick:

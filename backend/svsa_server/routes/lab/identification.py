@@ -54,7 +54,7 @@ async def excite(
 @router.delete("/excitation")
 @allow(OPERATOR)
 async def stop_excitation(hosted: NamedSession) -> SessionState:
-    """Break the excitation off, and end its recording; the references stay as they are."""
+    """Stop the excitation and its recording; the references stay."""
     hosted.end_excitation()
     return build_state(hosted)
 
@@ -67,7 +67,7 @@ def load_nominal(
         ParameterFileRequest, Body(examples=[{"toml": PROTOTYPE_FILE.read_text("utf-8")}])
     ],
 ) -> SessionState:
-    """Take the nominal model of a parameter file (TOML), and the parameters of laws in it.
+    """Load the nominal model from a parameter file (TOML), and the parameters of laws in it.
 
     Gains, observer, the true plant and limits stay as they are.
     """

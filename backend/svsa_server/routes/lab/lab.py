@@ -21,7 +21,7 @@ router = build_router(tags=["lab"], route_class=TurnRoute)
 @router.get("/health")
 @allow(ANYBODY)
 async def read_health() -> Health:
-    """That the server lives, and its version."""
+    """Report that the server is alive, and its version."""
     return Health(version=svsa.__version__)
 
 
@@ -57,7 +57,7 @@ def quick_stop_lab(request: Request) -> Response:
 @router.get("/laws")
 @allow(OBSERVER)
 async def read_laws() -> list[LawState]:
-    """The control laws that are installed, the paper's first, each with its own parameters."""
+    """List the installed control laws, the paper's first, each with its own parameters."""
     return list_laws()
 
 

@@ -24,7 +24,7 @@ async def take_control(
     person: NamedPerson,
     request: Annotated[ControlRequest, Body(examples=[{"by": "Ada"}])],
 ) -> SessionState:
-    """Only the client that SVSA-Client names may command from now on; all may pause and stop.
+    """Take the control lease: only the client of `SVSA-Client` may command; all may pause and stop.
 
     Where another client is in control, only with `take_over`. Control ends automatically some time
     after its holder has closed its last stream and made its last call (SVSA_CONTROL_S, 15 s).
@@ -43,7 +43,7 @@ async def take_control(
 @router.delete("")
 @allow(OPERATOR)
 async def give_control_back(hosted: NamedSession, client: NamedClient) -> SessionState:
-    """Everybody may command again; in a class who waits first, or one waits no longer."""
+    """Release the control lease, to the first in the queue of a class; or leave the queue."""
     hosted.give_control_back(client)
     return build_state(hosted)
 
@@ -55,7 +55,7 @@ async def hand_control_over(
     client: NamedClient,
     request: Annotated[HandoverRequest, Body(examples=[{"to": "p-0123456789ab"}])],
 ) -> SessionState:
-    """Give control to one of those who wait for it in a class; its holder or an instructor does."""
+    """Hand the control lease to a person in the queue; for its holder or an instructor."""
     hosted.hand_control_over(client, request.to)
     return build_state(hosted)
 
@@ -65,6 +65,6 @@ async def hand_control_over(
 async def lock_control(
     hosted: NamedSession, request: Annotated[LockRequest, Body(examples=[{"locked": True}])]
 ) -> SessionState:
-    """The instructor locks control; after unlocking, the previous holder is first."""
+    """Lock control, as the instructor; after unlocking, the previous holder is first."""
     hosted.lock_control(request.locked)
     return build_state(hosted)

@@ -39,6 +39,6 @@ async def start_recording(
 @router.delete("/sessions/{session}/recording")
 @allow(OPERATOR)
 async def stop_recording(hosted: NamedSession) -> SessionState:
-    """End the recording; the run is in the list as soon as its file is finished."""
+    """Stop the recording; the run is in the list as soon as its file is complete."""
     hosted.session.stop_recording()
     return build_state(hosted)

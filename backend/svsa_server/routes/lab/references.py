@@ -77,7 +77,7 @@ async def read_csv(
         ),
     ],
 ) -> Series:
-    """The series in a CSV; what is wrong in it is named with its row."""
+    """Read a time series from CSV text; an error names its row."""
     series = await asyncio.to_thread(parse_series, text)
     if isinstance(series, SeriesPosition):
         return PositionSeries(reference=series)

@@ -33,7 +33,7 @@ router = build_router("/sessions", tags=["session"], responses=REFUSALS, route_c
 async def list_sessions(
     request: Request, _: NamedClient, person: NamedPerson
 ) -> list[SessionState]:
-    """Every session of this server; in a class the shared one and one's own."""
+    """List the sessions of this server; in a class the shared one and those of the caller."""
     hosted = request.app.state.laboratory.sessions.values()
     return [build_state(one) for one in hosted if person.may_see(one.owner)]
 
@@ -75,14 +75,14 @@ async def end_session(request: Request, hosted: NamedSession) -> None:
 @router.get("/{session}")
 @allow(OBSERVER)
 async def read_session(hosted: NamedSession) -> SessionState:
-    """Where a session is, how it is set, and how well it does."""
+    """Read the state of a session: time, settings, faults and metrics."""
     return build_state(hosted)
 
 
 @router.post("/{session}/start")
 @allow(OPERATOR)
 def start(hosted: NamedSession) -> SessionState:
-    """Run on from where it is."""
+    """Start or continue the session."""
     hosted.session.start()
     return build_state(hosted)
 
@@ -90,7 +90,7 @@ def start(hosted: NamedSession) -> SessionState:
 @router.post("/{session}/pause")
 @allow(OBSERVER)
 def pause(hosted: NamedSession) -> SessionState:
-    """Stop time; nothing is lost."""
+    """Pause the session; its state stays."""
     hosted.session.pause()
     return build_state(hosted)
 
@@ -98,7 +98,7 @@ def pause(hosted: NamedSession) -> SessionState:
 @router.post("/{session}/quick-stop")
 @allow(OBSERVER)
 def quick_stop(hosted: NamedSession) -> SessionState:
-    """Zero current at once on a bench, latched until cleared; a simulation pauses.
+    """Set zero current at once on a bench, latched until cleared; a simulation pauses.
 
     Software may fail to deliver it: no emergency stop in the sense of EN ISO 13850.
     """
@@ -109,7 +109,7 @@ def quick_stop(hosted: NamedSession) -> SessionState:
 @router.post("/{session}/reset")
 @allow(OPERATOR)
 def reset(hosted: NamedSession) -> SessionState:
-    """Begin again at t = 0 with everything as it is set now, after a fault too."""
+    """Restart at t = 0 with the present settings, also after a fault."""
     hosted.session.reset()
     return build_state(hosted)
 
@@ -119,7 +119,7 @@ def reset(hosted: NamedSession) -> SessionState:
 def step(
     hosted: NamedSession, request: Annotated[StepRequest, Body(examples=[{"ticks": 1}])]
 ) -> SessionState:
-    """Run some ticks while paused."""
+    """Run a number of ticks while the session is paused."""
     hosted.session.step(request.ticks)
     return build_state(hosted)
 
@@ -188,5 +188,5 @@ async def describe(_: NamedSession) -> JSONResponse:
 @router.websocket("/{session}/stream")
 @allow(OBSERVER)
 async def stream(websocket: WebSocket, hosted: NamedSession, person: NamedPerson) -> None:
-    """Samples as they come; see `stream_schemas` for the format."""
+    """Stream the samples; see `stream_schemas` for the format."""
     await stream_session(websocket, hosted, person)

@@ -136,7 +136,7 @@ def set_gains(
         ),
     ],
 ) -> SessionState:
-    """New gains, as poles or coefficients; refused with the roots when not Hurwitz."""
+    """Set the gains, as poles or coefficients; rejected with the roots if not Hurwitz."""
     hosted.session.patch(lambda run: Set("gains", request.apply_to(run.gains)))
     return build_state(hosted)
 
@@ -150,7 +150,7 @@ def set_parameters(
         Body(examples=[{"fl_integral": {"position_pole_rad_per_s": 54.6}}]),
     ],
 ) -> SessionState:
-    """New parameters of laws that have their own, by the law's name (see `GET /laws`).
+    """Set parameters of laws that have their own, by the name of the law (see `GET /laws`).
 
     What is left out stays.
     """
@@ -166,7 +166,7 @@ def set_observer(
         ObserverBandwidth, Body(examples=[{"bandwidth_rad_per_s": [80.0, 80.0, 80.0]}])
     ],
 ) -> SessionState:
-    """How fast the disturbance observer follows, on link, motor 1 and motor 2."""
+    """Set the bandwidth of the disturbance observer on link, motor 1 and motor 2."""
     hosted.session.set(Set("observer", request))
     return build_state(hosted)
 
@@ -188,7 +188,7 @@ def change_nominal(
     hosted: NamedSession,
     patch: Annotated[NominalPatch, Body(examples=[{"link_inertia_kg_m2": 0.0103}])],
 ) -> SessionState:
-    """Change parameters of the model that controller and observer believe in."""
+    """Change parameters of the nominal model of controller and observer."""
     hosted.session.patch(lambda run: Set("nominal", _apply(patch, run.nominal)))
     return build_state(hosted)
 
@@ -202,7 +202,7 @@ def set_effects(
         Body(examples=[{"encoders": {}, "estimation": {}, "delay_samples": 1}, {}]),
     ],
 ) -> SessionState:
-    """Switch on what separates the simulation from a bench; what is left out is off."""
+    """Set the non-ideal effects of the simulation; an effect that is left out is off."""
     hosted.session.set(Set("effects", effects))
     return build_state(hosted)
 

@@ -21,7 +21,7 @@ router = build_router(tags=["runs"], responses=REFUSALS)
 @router.get("/sessions/{session}/origin")
 @allow(OBSERVER)
 async def read_origin(request: Request, hosted: NamedSession) -> RunOrigin:
-    """The run that a session is on: how it stood at t = 0 and what was changed since."""
+    """Read the configuration of the session's run at t = 0, and every change since."""
     return _tell(
         hosted.session.journal.initial.model_dump(mode="json"),
         hosted.session.journal.commands,
@@ -35,7 +35,7 @@ async def read_origin(request: Request, hosted: NamedSession) -> RunOrigin:
 @router.get("/runs/{run_id}/origin")
 @allow(OBSERVER)
 def read_run_origin(request: Request, runs: Runs, run_id: RunId) -> RunOrigin:
-    """A recorded run: how it stood at its t = 0 and what was changed, to its last sample."""
+    """Read the configuration of a recorded run at t = 0, and every change to its last sample."""
     record = runs.open(run_id)
     header = record.header
     return _tell(

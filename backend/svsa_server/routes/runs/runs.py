@@ -78,7 +78,7 @@ def list_runs(
     page_size: Annotated[int, Query(ge=1, le=MAX_PAGE_SIZE)] = 50,
     trash: Annotated[bool, Query(description="What was deleted instead")] = False,
 ) -> RunList:
-    """The runs, newest first, a page at a time.
+    """List the runs, newest first, in pages.
 
     In a class: those of the shared session, and of private ones one's own; for instructors all.
     """
@@ -101,7 +101,7 @@ def list_runs(
 @router.get("/runs/{run_id}")
 @allow(OBSERVER)
 def read_run(runs: Runs, run_id: RunId) -> RunDetails:
-    """A run with its configuration, its channels and the commands given while it went on."""
+    """Read a run: configuration, channels, and the commands during it."""
     entry, record = runs.get(run_id), runs.open(run_id)
     timeline = trace_record(record)
     segments = list_record_segments(record, timeline)

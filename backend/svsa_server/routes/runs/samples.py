@@ -45,7 +45,7 @@ def read_samples(
     end_s: RunTime = None,
     points: Annotated[int, Query(ge=2, le=MAX_POINTS, description="At most so many")] = 2000,
 ) -> Response:
-    """A segment of the run for a plot; least and greatest values are kept."""
+    """Read a segment of the run for a plot, decimated; minima and maxima are preserved."""
     record = runs.open(run_id)
     names = _choose_channels(record, channels)
     start, stop = _choose_rows(record, start_s, end_s)
@@ -71,7 +71,7 @@ def read_samples(
 def read_metrics(
     runs: Runs, run_id: RunId, start_s: RunTime = None, end_s: RunTime = None
 ) -> RunMetrics:
-    """How good every lane is over a segment of the run, such as from its load on."""
+    """Compute the metrics of every lane over a segment of the run, such as from its load on."""
     record = runs.open(run_id)
     start, stop = _choose_rows(record, start_s, end_s)
     measured = record.read_channels(MEASURED, start, stop)

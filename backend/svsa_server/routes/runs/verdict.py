@@ -40,7 +40,7 @@ def read_difference(
         Query(min_length=1, max_length=MAX_OTHERS, description="Ids of the other runs"),
     ],
 ) -> RunDifference:
-    """What of the settings differs between a run and others, and nothing that does not."""
+    """List the settings that differ between a run and other runs."""
     ids = [run_id, *other]
     found = compare_settings([runs.open(one) for one in ids])
     return RunDifference(
@@ -57,7 +57,7 @@ def judge_run(
     run_id: RunId,
     wanted: Annotated[VerdictRequest, Body(examples=[EXAMPLE])],
 ) -> RunVerdict:
-    """Judge a run against another: each channel held or not, with its worst moment and the band."""
+    """Compare a run with another within tolerances: each channel held or not, and when worst."""
     run, other = runs.open(run_id), runs.open(wanted.other)
     begins = FROM_THE_FIRST if wanted.align == "start" else _align_windows(run, other)
     verdict = judge(run, other, wanted.tolerances, wanted.rest, begins)

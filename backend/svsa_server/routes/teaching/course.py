@@ -60,7 +60,7 @@ _AT_HOME = "Student"
 @router.get("/course")
 @allow(OBSERVER)
 def read_course(request: Request, person: NamedPerson) -> CourseState:
-    """The exercises, and how far one is in each."""
+    """List the exercises, and the progress of the caller in each."""
     kept = find_store(request).read(person.id)
     exercises = request.app.state.course
     return CourseState(
@@ -71,7 +71,7 @@ def read_course(request: Request, person: NamedPerson) -> CourseState:
 @router.get("/course/{exercise}")
 @allow(OBSERVER)
 def read_exercise(request: Request, person: NamedPerson, exercise: ExerciseName) -> ExerciseState:
-    """An exercise with the text of its steps, and one's own progress in it."""
+    """Read an exercise with the text of its steps, and the progress of the caller."""
     found = _find_exercise(request, exercise)
     return describe_exercise(found, find_store(request).read(person.id).get(exercise))
 
@@ -84,7 +84,7 @@ def set_exercise_place(
     exercise: ExerciseName,
     wanted: Annotated[PlaceRequest, Body(examples=[{"step": "predict-error"}])],
 ) -> ExerciseState:
-    """Where one is, for another browser; what is only read before it has been read."""
+    """Save the step at which the caller is; steps before it that are only read count as read."""
     return _change(request, person, exercise, lambda e, p: visit_step(e, p, wanted.step))
 
 
@@ -97,7 +97,7 @@ def answer_step(
     step: StepInPath,
     wanted: Annotated[AnswerRequest, Body(examples=[{"answer": 12.0}])],
 ) -> ExerciseState:
-    """Keep a prediction, until the run that judges it is set up; or choose an answer, once."""
+    """Save a prediction (final once its run is set up), or choose an answer (once)."""
 
     def keep(found: Exercise, progress: ExerciseProgress) -> ExerciseProgress:
         progress = keep_answer(found, progress, step, wanted.answer)
@@ -120,7 +120,7 @@ def check_experiment(
     step: StepInPath,
     wanted: Annotated[RunRequest, Body(examples=[{"run_id": "20260102-030405-9f8e7d6c"}])],
 ) -> list[CriterionResult]:
-    """Judge a recorded run of one's own, and with it the predictions; the best one is kept."""
+    """Grade a recorded run of the caller, and with it the predictions; the best run counts."""
     found = _find_exercise(request, exercise)
     asked = found.find_step(step)
     if not isinstance(asked, Experiment):
@@ -147,7 +147,7 @@ async def try_submission_law(
         CourseLawRequest, Body(examples=[{"text": "def law(*given): return 0.0, 0.0\n"}])
     ],
 ) -> ExerciseState:
-    """Try a law in a process of its own on a scenario that everybody may see, and keep it.
+    """Try a law in an isolated process on a public scenario, and save it.
 
     The one that was kept last is submitted. It is kept also where it fails, or where this machine
     cannot isolate it and leaves it untried.

@@ -54,7 +54,7 @@ async def read_grades(
         Query(alias="format", description="csv: a line each; html: a page to read or print"),
     ] = "json",
 ) -> GradesState | Response:
-    """Read the class's grades, or one person's: points by criterion, and why one has no grade.
+    """Read the grades of the class or of one person: points by criterion, or why there are none.
 
     The instructor reads the whole class; a student reads the own grades only.
     """
@@ -80,7 +80,7 @@ async def grade_class(
     person: NamedPerson,
     wanted: Annotated[GradingRequest, Body(examples=[{"again": False}])],
 ) -> JobState:
-    """Grade what was submitted and has no grade, or all of it again: a job.
+    """Start a job that grades the submissions without a grade, or all of them again.
 
     Runs are simulated again from their records, laws run in isolation on trials of the class's
     secret and the submission: graded again, a submission has the grade that it had. Where nothing

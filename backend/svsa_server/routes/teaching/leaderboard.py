@@ -35,7 +35,7 @@ router = build_router("/leaderboard", tags=["leaderboard"], responses=REFUSALS)
 @router.get("")
 @allow(OBSERVER)
 async def read_leaderboard(request: Request) -> LeaderboardState:
-    """Every entry of the season, the best first: the lab's laws and those that were submitted."""
+    """List every entry of the season, the best first: laws of the lab, and submitted laws."""
     board = await _open_board(request)
     entries = await asyncio.to_thread(board.list)
     return LeaderboardState(
@@ -55,7 +55,7 @@ async def show_worst_run(
     work: Work,
     key: Annotated[str, Path(description="Key of an entry", examples=["fl"])],
 ) -> StreamingResponse:
-    """The entry's worst run in 3D as a page of its own; `?t=5` opens it at 5 s.
+    """Show the worst run of an entry in 3D as a separate page; `?t=5` opens it at 5 s.
 
     Compared with NDOBC, and NDOBC with FL, unless that run ends first; then its notes report it.
 
@@ -77,7 +77,7 @@ async def submit_law(
         Body(examples=[{"name": "Nothing", "law": "def law(*given): return 0.0, 0.0\n"}]),
     ],
 ) -> SubmissionState:
-    """Put a law through the season, in a process of its own: a job of some minutes.
+    """Start a job that measures a law in the season in an isolated process (minutes).
 
     The same text has one entry, which stays as it is. Nothing is measured where this machine
     cannot isolate a law.
@@ -94,7 +94,7 @@ async def submit_law(
 @router.post("/laws", status_code=201, responses=BUSY)
 @allow(OPERATOR)
 async def measure_installed_laws(request: Request, person: NamedPerson) -> JobState:
-    """Measure the lab's laws that have no entry on this season: a job of a minute or two."""
+    """Start a job that measures the installed laws without an entry in this season (minutes)."""
     board = await _open_board(request)
     return _begin(request, person, Asked(board.folder, "The laws of the lab", None))
 

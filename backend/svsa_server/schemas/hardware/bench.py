@@ -65,8 +65,8 @@ class LoopState(BaseModel):
 class MotorState(BaseModel):
     """How warm a motor's winding is, by the current that it had (I²t), and what that allows."""
 
-    heat: float = Field(description="1 is all that its winding bears; from 0.9 on it gives less")
-    lasting_torque_nm: float = Field(description="What it bears for ever: heat stays at 1")
+    heat: float = Field(description="1 is the thermal limit; the torque is reduced from 0.9 on")
+    lasting_torque_nm: float = Field(description="Continuous rating: the heat stays at 1")
     allowed_torque_nm: float = Field(description="The greatest torque that its heat allows now")
     held_back: bool = Field(
         description="More than that was asked for, now or within the last half second"
@@ -78,7 +78,7 @@ class EnduranceState(BaseModel):
 
     motor: Literal["motor1", "motor2"]
     torque_nm: float = Field(description="Asked for under the load, rms")
-    lasting_torque_nm: float = Field(description="What it bears for ever")
+    lasting_torque_nm: float = Field(description="Continuous rating")
     seconds: float = Field(description="From the load's onset until it is held back, from cold")
 
 

@@ -112,8 +112,8 @@ def describe_stream(batch_period_s: float) -> str:
     ]
     return "\n".join(
         [
-            "Samples as they come, over a **WebSocket** at this address (`ws://` or `wss://`); a"
-            " plain GET is answered with 426.",
+            "Stream the samples over a **WebSocket** at this address (`ws://` or `wss://`); a plain"
+            " GET is answered with 426.",
             "",
             "Text messages are JSON, distinguished by `type`: `hello` first, `state` after every"
             " change, and with the fields that change with time five times a second in the first"
