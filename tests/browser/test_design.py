@@ -42,6 +42,23 @@ def real_parts(lab: Lab, group: str = "position") -> list[float]:
     return [root["re"] for root in gains[f"{group}_roots_rad_per_s"]]
 
 
+def test_undo_takes_back_load_and_law(page: Page, still_lab: Lab) -> None:
+    come_back(page, still_lab)
+    open_page(page, still_lab)
+    undo = page.locator("#controls").get_by_role("button", name=re.compile("^Undo"))
+    law = still_lab.read()["configuration"]["law"]
+    page.get_by_role("button", name="Hang 3 kg").click()
+    until(page, lambda: len(still_lab.read()["loads"]) == 1)
+    undo.click()
+    until(page, lambda: still_lab.read()["loads"] == [])
+    expect(undo).to_be_disabled()
+    other = {"law": "ndobc" if law == "fl" else "fl"}
+    still_lab.client.put(still_lab.session + "/law", json=other).raise_for_status()
+    expect(undo).to_be_enabled()
+    undo.click()
+    until(page, lambda: still_lab.read()["configuration"]["law"] == law)
+
+
 def test_a_pole_is_dragged_judged_applied_and_undone_step_by_step(
     page: Page, still_lab: Lab, panel: Locator
 ) -> None:

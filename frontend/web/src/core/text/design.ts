@@ -59,7 +59,7 @@ export const designText = {
     discard: "Discard",
     discardHint: "Return to the settings in use",
     undo: "Undo",
-    undoHint: "Restore the previous gains, observer and law parameters",
+    undoHint: "Restore the previous law, gains, observer, parameters, effects, reference or load",
     undoSteps: (count: number) => `Undo, ${count} ${count === 1 ? "step" : "steps"} kept`,
     summary: (group: string) => `${group} poles`,
   },

@@ -1,15 +1,47 @@
-/** Previous gains, observer and law parameters: one step per change, of any user. */
+/** Previous settings, references and loads: one step per change, of any user. */
 import { effect, signal } from "@preact/signals";
-import { putGains, putLane, putLanes, putObserver, putParameters } from "../../core/api/client";
-import type { Lane, SessionState } from "../../core/api/types";
+import {
+  addLoad,
+  putEffects,
+  putGains,
+  putLane,
+  putLanes,
+  putLaw,
+  putObserver,
+  putParameters,
+  putPosition,
+  putStiffness,
+  readState,
+  removeLoad,
+} from "../../core/api/client";
+import type {
+  Configuration,
+  Effects,
+  Lane,
+  Law,
+  Load,
+  LoadRow,
+  SessionState,
+} from "../../core/api/types";
 import { perform } from "../../core/state/actions";
-import { comparisonLanes, comparisonsOf, hasOwnSettings } from "../../core/state/lanes";
+import {
+  comparisonLanes,
+  comparisonLaws,
+  comparisonsOf,
+  hasOwnSettings,
+} from "../../core/state/lanes";
+import { isRealBench } from "../../core/state/plant";
 import { session } from "../../core/state/session";
 
 const MAX_STEPS = 50;
 
-/** parameters: by law. comparisons: by the identity of the lane. */
+/** parameters: by law. comparisons: by the identity of the lane. loads: those that stay, of run `run`. */
 interface Design {
+  law: Law;
+  effects: Effects;
+  references: Pick<Configuration, "position" | "stiffness">;
+  run: number;
+  loads: readonly Load[];
   position: readonly number[];
   stiffness: readonly number[];
   observer: readonly [number, number, number];
@@ -22,9 +54,21 @@ export const steps = signal<readonly Design[]>([]);
 let known: Design | null = null;
 let isUndoing = false;
 
+/** The loads that software can remove: one on a real bench hangs there, and a pulse ends itself. */
+const stayingLoads = ({ bench, loads }: SessionState): LoadRow[] =>
+  isRealBench(bench) ? [] : loads.filter(({ end_s: endS }) => endS === null);
+
+/** When it came is not part of what it is. */
+const loadOf = ({ load }: LoadRow): Load => ({ ...load, start_s: null });
+
 export function designOf(state: SessionState): Design {
-  const { gains, observer, parameters } = state.configuration;
+  const { law, effects, position, stiffness, gains, observer, parameters } = state.configuration;
   return {
+    law,
+    effects,
+    references: { position, stiffness },
+    run: state.run_number,
+    loads: stayingLoads(state).map(loadOf),
     position: gains.position_coefficients,
     stiffness: gains.stiffness_coefficients,
     observer: observer.bandwidth_rad_per_s,
@@ -58,12 +102,30 @@ const lostLanes = (one: Design, other: Design): string[] =>
     (id) => other.comparisons[id] === undefined && hasOwnSettings(one.comparisons[id] as Lane),
   );
 
-const isOther = (key: "position" | "stiffness" | "observer", one: Design, other: Design) =>
+/** Those of `some` that are not among `others`, each as often as it is missing. */
+function without<T>(some: readonly T[], others: readonly unknown[], read: (one: T) => unknown) {
+  const left = others.map((one) => JSON.stringify(one));
+  return some.filter((one) => {
+    const at = left.indexOf(JSON.stringify(read(one)));
+    if (at >= 0) left.splice(at, 1);
+    return at < 0;
+  });
+}
+
+/** A run that begins again begins without its loads: they do not come back with it. */
+const lostLoads = (one: Design, other: Design): Load[] =>
+  one.run === other.run ? without(one.loads, other.loads, (load) => load) : [];
+
+const KEYS = ["law", "effects", "references", "position", "stiffness", "observer"] as const;
+
+const isOther = (key: (typeof KEYS)[number], one: Design, other: Design) =>
   !isEqual(one[key], other[key]);
 
 /** Whether nothing that can be taken back differs: a lane without settings of its own is not. */
 export const isSame = (one: Design, other: Design): boolean =>
-  !(["position", "stiffness", "observer"] as const).some((key) => isOther(key, one, other)) &&
+  !KEYS.some((key) => isOther(key, one, other)) &&
+  lostLoads(one, other).length === 0 &&
+  lostLoads(other, one).length === 0 &&
   changedLaws(one, other).length === 0 &&
   changedLanes(one, other).length === 0 &&
   lostLanes(one, other).length === 0;
@@ -76,7 +138,8 @@ function keepStep(kept: readonly Design[], before: Design): Design[] {
 export function watchDesign(): void {
   effect(() => {
     const state = session.value;
-    if (state === null) return;
+    // The excitation brings back by itself what it replaces.
+    if (state === null || state.excitation) return;
     const design = designOf(state);
     if (known !== null && !isSame(known, design) && !isUndoing) {
       steps.value = keepStep(steps.peek(), known);
@@ -89,6 +152,18 @@ export function watchDesign(): void {
 export function callsBack(design: Design, state: SessionState): (() => Promise<SessionState>)[] {
   const now = designOf(state);
   const calls: (() => Promise<SessionState>)[] = [];
+  if (isOther("law", design, now)) {
+    calls.push(() => putLaw(design.law, comparisonLaws(design.law, state)));
+  }
+  if (isOther("effects", design, now)) {
+    calls.push(() => putEffects(design.effects));
+  }
+  if (!isEqual(design.references.position, now.references.position)) {
+    calls.push(() => putPosition(design.references.position));
+  }
+  if (!isEqual(design.references.stiffness, now.references.stiffness)) {
+    calls.push(() => putStiffness(design.references.stiffness));
+  }
   const lost = lostLanes(design, now).map((id) => design.comparisons[id] as Lane);
   if (lost.length > 0) calls.push(() => putLanes([...comparisonsOf(state), ...lost]));
   if (isOther("position", design, now) || isOther("stiffness", design, now)) {
@@ -105,6 +180,13 @@ export function callsBack(design: Design, state: SessionState): (() => Promise<S
   for (const id of changedLanes(design, now)) {
     const lane = comparisonLanes(state).find((one) => String(one.id) === id)?.lane;
     if (lane !== undefined) calls.push(() => putLane(lane, design.comparisons[id] as Lane));
+  }
+  // Last: a load changes the revision that settings are sent with.
+  for (const load of lostLoads(design, now)) calls.push(() => addLoad(load));
+  if (design.run === now.run) {
+    for (const { id } of without(stayingLoads(state), design.loads, loadOf)) {
+      calls.push(() => removeLoad(id).then(readState));
+    }
   }
   return calls;
 }

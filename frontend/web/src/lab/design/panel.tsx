@@ -24,7 +24,7 @@ import { RegionMap } from "./regionmap";
 import { Responses } from "./responses";
 import { watchStability } from "./stability";
 import { StabilityTable } from "./stabilitytable";
-import { UndoButton } from "./summary";
+import { SharedPoles, UndoButton } from "./summary";
 import { describePoles } from "./words";
 
 const words = text.design;
@@ -104,6 +104,7 @@ function Design() {
         </div>
         <div class="grow design-outcome">
           <Roots />
+          <SharedPoles />
           <Outcome />
           <Problem id="design-problem" control="design.apply" />
           <FailButton />

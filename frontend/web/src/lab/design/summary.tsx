@@ -45,17 +45,22 @@ export function Undo() {
 }
 
 /** The comparisons that have no gains of their own. */
-export const sharedWith = (state: SessionState): string[] =>
+const sharedWith = (state: SessionState): string[] =>
   comparisonLanes(state)
     .filter(({ controller: { law, gains } }) => !gains && lawOf(law)?.takes_gains)
     .map(({ name }) => name);
 
+/** Which comparisons change with the poles that are placed. */
+export function SharedPoles() {
+  const state = session.value;
+  const shared = state === null ? [] : sharedWith(state);
+  return shared.length > 0 ? <p class="hint">{words.shared(shared)}</p> : null;
+}
+
 /** The poles in use, and the way to other ones. */
 export function DesignSummary() {
   const now = inUse.value;
-  const state = session.value;
-  if (now === null || state === null) return null;
-  const shared = sharedWith(state);
+  if (now === null) return null;
   return (
     <>
       <dl class="facts">
@@ -68,7 +73,7 @@ export function DesignSummary() {
           </div>
         ))}
       </dl>
-      {shared.length > 0 && <p class="hint">{words.shared(shared)}</p>}
+      <SharedPoles />
       <div class="row design-open">
         <PanelButton isOpen={isOpen} hint={words.openHint}>
           <svg viewBox="0 0 16 16" aria-hidden="true">

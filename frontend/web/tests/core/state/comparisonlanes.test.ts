@@ -10,7 +10,7 @@ function stateOf(law: string, comparisons: Lane[], changes: object = {}): Sessio
     segments: [{ number: index + 1, name, line_style: index, start_s: 0, end_s: null }],
   }));
   return {
-    ...{ run_number: 1, tick: 0, bench: null, lanes },
+    ...{ run_number: 1, tick: 0, bench: null, excitation: null, loads: [], lanes },
     configuration: {
       ...{ law, comparisons, gains: GAINS, parameters: { fl_integral: POLE } },
       observer: { bandwidth_rad_per_s: [60, 60, 60] },

@@ -1,0 +1,114 @@
+import { beforeEach, expect, it, vi } from "vitest";
+import type { SessionState } from "../../../src/core/api/types";
+
+const REFERENCES = {
+  position: { kind: "sine", amplitude_rad: 0.2 },
+  stiffness: { kind: "constant", value_nm_per_rad: 15 },
+};
+const NONE = { friction: null };
+
+interface Row {
+  id: number;
+  end_s: number | null;
+  load: { kind: string; start_s: number | null };
+}
+
+const row = (id: number, kind: string, endS: number | null = null): Row => ({
+  id,
+  end_s: endS,
+  load: { kind, start_s: id },
+});
+
+function stateOf(configuration: object, loads: Row[] = [], rest: object = {}): SessionState {
+  return {
+    ...{ run_number: 1, bench: null, lanes: [{ id: 1 }], excitation: null, revision: "1" },
+    ...rest,
+    loads,
+    configuration: {
+      ...{ law: "ndobc", comparisons: [], effects: NONE, parameters: {}, ...REFERENCES },
+      gains: { position_coefficients: [1, 4, 6, 4], stiffness_coefficients: [1, 2] },
+      observer: { bandwidth_rad_per_s: [60, 60, 60] },
+      ...configuration,
+    },
+  } as unknown as SessionState;
+}
+
+let sent: [string, string, unknown][] = [];
+
+beforeEach(() => {
+  vi.resetModules();
+  vi.stubGlobal("window", new EventTarget());
+  vi.stubGlobal("document", { baseURI: "http://lab/" });
+  vi.stubGlobal("location", { search: "" });
+  sent = [];
+  vi.stubGlobal("fetch", async (address: URL | string, { method, body }: RequestInit) => {
+    const path =
+      String(address)
+        .split("/sessions/")[1]
+        ?.replace(/^[^/]*/, "") ?? "";
+    sent.push([String(method), path, body ? JSON.parse(String(body)) : null]);
+    return new Response(JSON.stringify(stateOf({})), {
+      headers: { "Content-Type": "application/json" },
+    });
+  });
+});
+
+/** What is sent to come back from one state to another. */
+async function back(to: SessionState, from: SessionState) {
+  const { callsBack, designOf } = await import("../../../src/lab/design/history");
+  for (const call of callsBack(designOf(to), from)) await call();
+  return sent.filter(([method]) => method.toLowerCase() !== "get");
+}
+
+it("a law, an effect and a reference are taken back", async () => {
+  const before = stateOf({});
+  const after = stateOf({
+    ...{ law: "fl", effects: { friction: { coulomb_nm: 0.1 } } },
+    position: { kind: "constant", value_rad: 0 },
+  });
+  const calls = await back(before, after);
+  expect(calls.map(([, path, body]) => [path, body])).toEqual([
+    ["/law", { law: "ndobc" }],
+    ["/effects", NONE],
+    ["/position", REFERENCES.position],
+  ]);
+});
+
+it("a load that was added is removed, and one that was removed is added now", async () => {
+  const calls = await back(stateOf({}, [row(1, "paper")]), stateOf({}, [row(2, "mass")]));
+  expect(calls.map(([method, path, body]) => [method.toLowerCase(), path, body])).toEqual([
+    ["post", "/loads", { kind: "paper", start_s: null }],
+    ["delete", "/loads/2", null],
+  ]);
+});
+
+it("of two equal loads one is removed", async () => {
+  const calls = await back(
+    stateOf({}, [row(1, "mass")]),
+    stateOf({}, [row(1, "mass"), row(2, "mass")]),
+  );
+  expect(calls.map(([, path]) => path)).toEqual(["/loads/2"]);
+});
+
+it("a pulse that ended, a load of the run before and one hung by hand are no steps", async () => {
+  const { designOf, isSame } = await import("../../../src/lab/design/history");
+  const alike = (one: SessionState, other: SessionState) => isSame(designOf(one), designOf(other));
+  expect(alike(stateOf({}, [row(1, "pulse", 2)]), stateOf({}))).toBe(true);
+  expect(alike(stateOf({}, [row(1, "mass")]), stateOf({}, [], { run_number: 2 }))).toBe(true);
+  const bench = { bench: { emulated: false } };
+  expect(alike(stateOf({}, [row(1, "mass")], bench), stateOf({}, [], bench))).toBe(true);
+  expect(alike(stateOf({}, [row(1, "mass")]), stateOf({}))).toBe(false);
+});
+
+it("the motion of an identification is no step: it brings back what it replaced", async () => {
+  const { steps, watchDesign } = await import("../../../src/lab/design/history");
+  const { session } = await import("../../../src/core/state/session");
+  watchDesign();
+  session.value = stateOf({});
+  const excited = { position: { kind: "excitation" } };
+  session.value = stateOf(excited, [], { excitation: { progress: 0 } });
+  session.value = stateOf({});
+  expect(steps.value).toEqual([]);
+  session.value = stateOf({ law: "fl" });
+  expect(steps.value.map(({ law }) => law)).toEqual(["ndobc"]);
+});
