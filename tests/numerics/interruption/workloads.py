@@ -5,6 +5,7 @@ from typing import Any, cast
 import svsa
 from svsa.actuators.faults import FAULT_CODES
 from svsa.actuators.signals import Disturbance, State
+from svsa.actuators.spring import compute_stiffness
 from svsa.analysis.design.report import build_report
 from svsa.analysis.design.steady_error import compute_fl_steady_error
 from svsa.analysis.identification.identify import identify
@@ -33,6 +34,8 @@ def run_all() -> None:
     list_c_constants(Run(configuration))
     sample_torque(configuration, 0.01)
     sample_reference(configuration.position, 4)
+    # A commissioned bench compares its spring with this.
+    compute_stiffness(0.5, 0.0, configuration.actuator.rotational_stiffness_nm_per_rad)
     _run_bench()
 
 

@@ -64,7 +64,7 @@ def test_a_figure_is_found_in_capitals_and_a_constant_takes_its_value_without_a_
         ({"stiffness": "soft"}, "stiffness is 'soft': it must be a reference, such as"),
         ({"effects": "rigg"}, "effects is 'rigg': it must be .*one of ideal, rig, full"),
         ({"loads": 3}, r"loads\[0\] is 3: it must be a load, such as svsa\.PaperLoad"),
-        ({"nominal": 3}, "nominal is 3: it must be svsa.ActuatorParameters, or a dict"),
+        ({"nominal": 3}, "nominal is 3: it must be .*svsa.ActuatorParameters, or a dict"),
         ({"actuator": {"link_inertia": 1}}, "actuator.link_inertia is 1.*nearest is link_inertia_"),
         ({"position": svsa.ConstantStiffness(20)}, "position is .*it must be a reference"),
         ({"observr": 3}, "observr: there is no such keyword; the nearest is observer"),
