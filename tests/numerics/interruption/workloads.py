@@ -5,7 +5,6 @@ from typing import Any, cast
 import svsa
 from svsa.actuators.faults import FAULT_CODES
 from svsa.actuators.signals import Disturbance, State
-from svsa.actuators.spring import compute_stiffness
 from svsa.analysis.design.report import build_report
 from svsa.analysis.design.steady_error import compute_fl_steady_error
 from svsa.analysis.identification.identify import identify
@@ -13,6 +12,7 @@ from svsa.control.installed import list_law_names
 from svsa.evaluation.falsifier.trace import sample_torque
 from svsa.evaluation.studies.replay import measure_samples
 from svsa.evaluation.timing.benchmark import list_c_constants
+from svsa.hardware.commissioning import magnitudes
 from svsa.hardware.emulator.experiment import LockstepBench
 from svsa.runs.batch import run_configurations
 from svsa.runs.configuration import Configuration
@@ -35,7 +35,7 @@ def run_all() -> None:
     sample_torque(configuration, 0.01)
     sample_reference(configuration.position, 4)
     # A commissioned bench compares its spring with this.
-    compute_stiffness(0.5, 0.0, configuration.actuator.rotational_stiffness_nm_per_rad)
+    magnitudes.compute_stiffness(0.5, 0.0, configuration.actuator.rotational_stiffness_nm_per_rad)
     _run_bench()
 
 

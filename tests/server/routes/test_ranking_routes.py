@@ -5,7 +5,7 @@ import pytest
 from svsa.evaluation.ranking.results import load_published
 from tests.lab import Lab
 
-RANKING = "/api/v1/ranking"
+RANKING, SESSIONS = "/api/v1/ranking", "/api/v1/sessions"
 
 
 def test_the_table_is_the_published_one_with_its_provenance(shared_lab: Lab) -> None:
@@ -19,8 +19,8 @@ def test_the_table_is_the_published_one_with_its_provenance(shared_lab: Lab) -> 
 def test_a_run_of_the_suite_is_seen_next_to_the_papers_law(
     lab: Lab, row: str, baselines: list[str]
 ) -> None:
-    wanted = {"row": row, "scenario": "mass.negative.4"}
-    state = lab.client.post(f"{RANKING}/sessions", json=wanted).raise_for_status().json()
+    wanted = {"from": "ranking", "row": row, "scenario": "mass.negative.4"}
+    state = lab.client.post(SESSIONS, json=wanted).raise_for_status().json()
     configuration = state["configuration"]
     assert row.startswith(configuration["law"])
     assert [comparison["law"] for comparison in configuration["comparisons"]] == baselines
@@ -33,8 +33,8 @@ def test_a_run_of_the_suite_is_seen_next_to_the_papers_law(
 
 
 def test_a_run_that_ndobc_would_end_is_seen_alone_and_says_why(lab: Lab) -> None:
-    wanted = {"row": "fl", "scenario": "load_removal.positive.0"}
-    state = lab.client.post(f"{RANKING}/sessions", json=wanted).raise_for_status().json()
+    wanted = {"from": "ranking", "row": "fl", "scenario": "load_removal.positive.0"}
+    state = lab.client.post(SESSIONS, json=wanted).raise_for_status().json()
     assert state["configuration"]["comparisons"] == []
     assert "NDOBC, declared gains: At " in state["note"]
     again = lab.client.get(f"/api/v1/sessions/{state['session']}").raise_for_status().json()
@@ -43,9 +43,9 @@ def test_a_run_that_ndobc_would_end_is_seen_alone_and_says_why(lab: Lab) -> None
 
 
 def test_a_run_that_there_is_not_is_refused_by_name(shared_lab: Lab) -> None:
-    wanted = {"row": "ndobc", "scenario": "moon"}
-    answer = shared_lab.client.post(f"{RANKING}/sessions", json=wanted)
+    wanted = {"from": "ranking", "row": "ndobc", "scenario": "moon"}
+    answer = shared_lab.client.post(SESSIONS, json=wanted)
     assert answer.status_code == 422
     assert "moon" in answer.json()["detail"]
-    wanted = {"row": "missing", "scenario": "mass.negative.4"}
-    assert shared_lab.client.post(f"{RANKING}/sessions", json=wanted).status_code == 422
+    wanted = {"from": "ranking", "row": "missing", "scenario": "mass.negative.4"}
+    assert shared_lab.client.post(SESSIONS, json=wanted).status_code == 422

@@ -62,7 +62,7 @@ async def read_class(request: Request, person: NamedPerson) -> ClassState:
     )
 
 
-@router.patch("/people/{person}", responses={404: REFUSALS[404]})
+@router.patch("/people/{person}", responses={404: REFUSALS[404], 422: REFUSALS[422]})
 @allow(INSTRUCTOR_ONLY)
 async def change_person(
     request: Request,

@@ -16,6 +16,7 @@ from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.runs.records.writer import write_record
 from svsa_server.errors import install_error_handlers
 from svsa_server.jobs.heavy_work import HeavyWork
+from svsa_server.monitoring import DiskWatch
 from svsa_server.routes import build_routes
 from svsa_server.sessions.indexing import Indexing
 from tests.runs.records.records import build_header, build_samples
@@ -57,6 +58,7 @@ def app(catalogue: Catalogue) -> Iterator[FastAPI]:
     app = FastAPI()
     app.state.catalogue = catalogue
     app.state.indexing = Indexing(catalogue)
+    app.state.disk = DiskWatch(catalogue.folder, 0.0)
     app.state.heavy_work = HeavyWork(most=10)
     install_error_handlers(app)
     app.router.routes.extend(build_routes())
