@@ -131,7 +131,7 @@ def test_the_instructor_sees_who_is_here_locks_and_shows_a_code(open_page, room:
     panel.get_by_role("button", name="Audit log").click()
     log = panel.get_by_role("table").filter(has_text="Result")
     expect(log.get_by_role("row", name="Renew code").first).to_contain_text("Instructor")
-    panel.get_by_label("Kind").select_option(label="Control")
+    panel.get_by_label("Category").select_option(label="Control")
     expect(log.get_by_role("row", name="Lock control").first).to_contain_text("done")
     expect(log.get_by_role("row", name="Renew code")).to_have_count(0)
     expect_no_violation(teacher, WIDE, PHONE)

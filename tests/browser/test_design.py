@@ -64,7 +64,9 @@ def test_a_pole_is_dragged_judged_applied_and_undone_step_by_step(
 ) -> None:
     expect(panel.get_by_role("button", name="Apply")).to_be_disabled()
     drag(page, panel.get_by_role("slider", name="Position pole 4 of 4"), 20, 0)
-    expect(panel.get_by_role("row", name=re.compile("FL error"))).not_to_contain_text("12.1°12.1°")
+    expect(panel.get_by_role("row", name=re.compile("FL steady-state error"))).not_to_contain_text(
+        "12.1°12.1°"
+    )
     assert real_parts(still_lab) == pytest.approx([-60.0] * 4, abs=0.1)
     panel.get_by_role("button", name="Apply").click()
     expect(panel.get_by_role("button", name="Undo, 1 step kept")).to_be_visible()
@@ -83,7 +85,7 @@ def test_a_pole_is_dragged_judged_applied_and_undone_step_by_step(
 @pytest.mark.smoke
 def test_an_unstable_choice_says_why_and_cannot_be_applied(page: Page, panel: Locator) -> None:
     drag(page, panel.get_by_role("slider", name="Position pole 4 of 4"), 100, -60)
-    verdict = panel.get_by_role("status", name="Verdict: Not this one")
+    verdict = panel.get_by_role("status", name="Verdict: Unsuitable")
     expect(verdict).to_contain_text("right of the imaginary axis")
     expect(panel.get_by_role("button", name="Apply")).to_be_disabled()
     panel.get_by_role("button", name="Discard").click()
@@ -100,7 +102,7 @@ def test_a_map_fills(panel: Locator) -> None:
 @pytest.mark.exhaustive
 def test_too_fast_poles_are_predicted_to_end_in_a_fault(panel: Locator) -> None:
     panel.get_by_role("spinbutton", name="Position bandwidth").fill("90")
-    expect(panel.get_by_role("status", name="Verdict: Not this one")).to_contain_text("fault")
+    expect(panel.get_by_role("status", name="Verdict: Unsuitable")).to_contain_text("fault")
     expect(panel.get_by_role("row", name=re.compile("Peak u₁"))).to_contain_text("beyond the limit")
 
 

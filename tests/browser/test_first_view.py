@@ -68,7 +68,7 @@ def test_load_law_and_comparison_are_in_the_first_view(page: Page, lab: Lab) -> 
     ):
         expect(part).to_be_in_viewport(ratio=1)
     page.get_by_role("switch", name="Compare with FL").press("Enter")
-    table = page.get_by_role("table", name="Which controller does better")
+    table = page.get_by_role("table", name="Comparison of controllers")
     expect(table.get_by_role("row")).to_have_count(3)
     page.get_by_role("button", name=re.compile("Hang 3 kg")).press("Enter")
     expect(page.get_by_role("button", name=re.compile("^Remove 3 kg"))).to_be_visible()

@@ -70,13 +70,13 @@ class Hand:
         expect(self.find_results().get_by_text("Right").first).to_be_visible()
 
     def find_results(self) -> Locator:
-        return self.page.get_by_role("region", name=re.compile("^What came of it")).first
+        return self.page.get_by_role("region", name=re.compile("^Result")).first
 
     def submit(self) -> None:
         if self.exercise.takes_law:
             self.go_on("Insert the law above")
             self.go_on("Test and save")
-            tried = self.page.get_by_text(re.compile("^(It holds|Kept, not tried)")).first
+            tried = self.page.get_by_text(re.compile("^(Passed|Saved, not tested)")).first
             expect(tried).to_be_visible(timeout=LONG_MS)
         self.page.keyboard.press("Tab")
         self.page.keyboard.type("Grace")

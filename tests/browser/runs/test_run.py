@@ -7,6 +7,7 @@ import pytest
 from playwright.sync_api import Page, Route, expect
 
 from tests.browser.runs.recorded import BOTH, STIFF, is_change
+from tests.browser.test_page import show_all_controls
 from tests.lab import Lab
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
@@ -26,6 +27,7 @@ def test_no_control_of_the_live_session_stands_above_a_replay(
         expect(top.get_by_role("button", name=name, exact=True)).to_have_count(0)
     expect(page.get_by_role("button", name="Quick stop")).to_be_visible()
     top.get_by_role("link", name="Back to the lab").click()
+    show_all_controls(page)
     expect(top.get_by_role("button", name="Record", exact=True)).to_be_visible()
 
 
@@ -63,7 +65,7 @@ def test_a_branch_is_a_private_session_that_stands_at_the_moment(
     expect(page.get_by_role("button", name=re.compile("Hang 3 kg"))).to_be_visible()
     assert lab.client.get(path).json()["loads"] == []
     origin = page.get_by_role("complementary", name="Private session")
-    expect(origin).to_contain_text(f"It goes on from Branch of {BOTH} at 6 s")
+    expect(origin).to_contain_text(f"Continued from Branch of {BOTH} at 6 s")
     assert lab.read()["session"] == "lab"
     page.get_by_role("link", name="Back to the shared lab").click()
     expect(page.get_by_text("Private session.")).to_have_count(0)

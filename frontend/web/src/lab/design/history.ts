@@ -138,7 +138,7 @@ function keepStep(kept: readonly Design[], before: Design): Design[] {
 export function watchDesign(): void {
   effect(() => {
     const state = session.value;
-    // The excitation brings back by itself what it replaces.
+    // The excitation brings back automatically what it replaces.
     if (state === null || state.excitation) return;
     const design = designOf(state);
     if (known !== null && !isSame(known, design) && !isUndoing) {
