@@ -38,7 +38,7 @@ def test_heat_that_holds_a_motor_back_is_reported_in_band_and_table(
     expect(find_bench(page).get_by_role("alert")).to_have_text(
         "Motor 2 torque limited by winding heat."
     )
-    expect(find_bench(page)).to_contain_text("it gives 1.83 N·m at most (1.22 N·m for ever)")
+    expect(find_bench(page)).to_contain_text("limited to 1.83 N·m (continuous rating 1.22 N·m)")
     bench.change(status="fault")
     page.get_by_text("Causes and remedies").press("Enter")
     expect(page.get_by_text("Let the motor cool")).to_be_visible()
@@ -55,11 +55,11 @@ def test_next_to_the_load_stands_which_motor_bears_it_for_how_long(
         "seconds": 3.79,
     }
     open_page(page, still_lab)
-    expect(page.get_by_text("Motor 2 bears this for about 4 s from cold")).to_be_visible()
+    expect(page.get_by_text("Motor 2 overheats in about 4 s, starting cold")).to_be_visible()
     bench.endurance |= {"motor": "motor1", "seconds": 0.4}
     page.get_by_role("radio", name="Hanging mass").press("Space")
-    expect(page.get_by_text("Motor 2 bears this")).to_have_count(0)
-    expect(page.get_by_text("Motor 1 bears this for less than a second")).to_be_visible()
+    expect(page.get_by_text("Motor 2 overheats")).to_have_count(0)
+    expect(page.get_by_text("Motor 1 overheats in less than a second")).to_be_visible()
     asked = [body for call, body in bench.calls if call == "bench/endurance"]
     kinds = dict.fromkeys(load["kind"] for load in asked)
     assert list(kinds) == ["paper", "mass"], "asked again after a moment without the lab"

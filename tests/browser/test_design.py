@@ -95,7 +95,7 @@ def test_an_unstable_choice_says_why_and_cannot_be_applied(page: Page, panel: Lo
 @pytest.mark.exhaustive
 def test_a_map_fills(panel: Locator) -> None:
     panel.get_by_role("button", name="Fill the map").click()
-    reported = panel.get_by_text("21.3 % of 961 starts come to rest, on the rig")
+    reported = panel.get_by_text("21.3 % of 961 initial states converge, on the rig")
     expect(reported).to_be_visible(timeout=WORKER_MS)
 
 

@@ -24,7 +24,7 @@ def test_what_a_script_sets_while_a_user_types_is_reported_and_not_undone(
     lab.client.put(lab.session + "/position", json=theirs).raise_for_status()
     field.press("Enter")
     reported = motion.get_by_role("alert").filter(has_text="Another user changed this value")
-    expect(reported).to_contain_text("It is now: Frequency 0.25 Hz.")
+    expect(reported).to_contain_text("Present value: Frequency 0.25 Hz.")
     expect(field).to_have_value("0.25")
     assert lab.read()["configuration"]["position"]["frequency_hz"] == 0.25
     with page.expect_response("**/position"):
