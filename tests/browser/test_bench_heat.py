@@ -36,7 +36,7 @@ def test_heat_that_holds_a_motor_back_is_reported_in_band_and_table(
     bench.change(motors=motors)
     expect(row).to_contain_text("limited to 1.83 N·m")
     expect(find_bench(page).get_by_role("alert")).to_have_text(
-        "Motor 2 torque limited by winding heat."
+        "Motor 2: torque limited by winding heat."
     )
     expect(find_bench(page)).to_contain_text("limited to 1.83 N·m (continuous rating 1.22 N·m)")
     bench.change(status="fault")
