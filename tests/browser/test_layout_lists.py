@@ -109,8 +109,9 @@ def test_what_is_refused_at_the_edge_of_the_panel_is_brought_into_sight(
     resize(visited, 1280, 720)
     still_lab.client.post(still_lab.session + "/loads", json={"kind": "paper"}).raise_for_status()
     # No click: once the end of the panel is in sight no group is named below it, and all moves.
-    visited.get_by_role("button", name="Excite and record").press("Enter")
-    refused = visited.get_by_text("take every load off first")
+    visited.get_by_role("spinbutton", name="Bandwidth β").fill("-1")
+    visited.get_by_role("spinbutton", name="Bandwidth β").press("Enter")
+    refused = visited.get_by_text("Bandwidth β, Link: −1 rad/s is out of range")
     expect(refused).to_be_in_viewport(ratio=1)
     groups = visited.get_by_role("group", name="Controls", exact=True).locator(".groups")
 

@@ -50,6 +50,8 @@ def show_all_controls(page: Page) -> None:
     if basic.count() > 0:
         basic.press("Enter")
         expect(page.get_by_role("switch", name="All controls", checked=True)).to_be_visible()
+        # Space on the switch would turn it off again.
+        page.evaluate("document.activeElement.blur()")
 
 
 def go_to_page(page: Page, name: str) -> None:

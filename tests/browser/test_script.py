@@ -65,7 +65,7 @@ def test_every_action_shows_its_call_in_python_and_curl(page: Page, lab: Lab) ->
     field = page.get_by_role("spinbutton", name=re.compile("Frequency")).first
     field.fill("99")
     field.press("Enter")
-    expect(calls.last).to_contain_text("refused, 422")
+    expect(calls.last).to_contain_text("rejected, 422")
     page.get_by_role("button", name="Copy all").click()
     page.wait_for_function(
         "async () => (await navigator.clipboard.readText()).split('curl -X').length === 4"
@@ -122,5 +122,5 @@ def test_a_script_stops_where_the_lab_refuses(page: Page, lab: Lab, tmp_path: Pa
     broken = code.replace("session.reset()", "session.set_speed(-1)")
     done = run_script(broken, tmp_path)
     assert done.returncode == 1
-    assert "factor is -1: it must be" in done.stderr
+    assert "speed is -1: it must be" in done.stderr
     assert "Traceback" not in done.stderr

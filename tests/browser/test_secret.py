@@ -7,7 +7,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.test_accessibility import PHONE, WIDE, expect_no_violation
-from tests.browser.test_page import wait_for_samples
+from tests.browser.test_page import show_all_controls, wait_for_samples
 from tests.browser.test_safety import wait_for_status
 from tests.browser.test_script import open_drawer
 from tests.lab import Lab, run_lab
@@ -49,6 +49,7 @@ def test_the_secret_is_asked_for_once_and_never_shown(page: Page, locked: Lab) -
     wait_for_status(page, locked, "paused")
     page.reload()
     wait_for_samples(page)
+    show_all_controls(page)
     drawer = open_drawer(page)
     page.get_by_role("button", name="Run", exact=True).click()
     expect(drawer.get_by_role("listitem")).to_have_count(1)

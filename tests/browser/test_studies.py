@@ -73,7 +73,7 @@ def test_a_wrong_text_is_reported_with_its_line_and_nothing_is_begun(
     expect(page.get_by_role("alert").first).to_contain_text("line 2: runs is 0")
     text.fill('title = "Mine"\nruns = 2\n')
     page.get_by_role("button", name="Check").press("Enter")
-    expect(page.get_by_text("Right: 2 samples, 2 runs under NDOBC.")).to_be_visible()
+    expect(page.get_by_text("Valid: 2 samples, 2 runs under NDOBC.")).to_be_visible()
     kept = studied.client.get("/api/v1/studies").json()["saved"]
     assert {one["name"] for one in kept} == {"short", "decided"}
 

@@ -1,7 +1,6 @@
 import { signal } from "@preact/signals";
-import { request } from "../../core/api/request";
-import type { components } from "../../core/api/schema";
 import type { Claim, ClaimNumbers, Figure } from "../../core/api/types";
+import { kinds } from "../../core/state/kinds";
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
 import { ErrorLine } from "../../core/widgets/form";
@@ -22,7 +21,7 @@ const trial = signal<Trial | null>(null);
 async function check(figure: Figure): Promise<void> {
   trial.value = { figure, tried: null, problem: "" };
   try {
-    const [tried] = await Promise.all([runFigureApart(figure), loadClaims()]);
+    const tried = await runFigureApart(figure);
     if (trial.peek()?.figure === figure) trial.value = { figure, tried, problem: "" };
   } catch (error) {
     trial.value = { figure, tried: null, problem: error instanceof Error ? error.message : "" };
@@ -72,7 +71,8 @@ function Result({ figure, tried }: { figure: Figure; tried: Tried }) {
   return (
     <section class="stack" role="status" aria-label={words.result(text.figures.name[figure])}>
       <blockquote class="note small">
-        <strong>{words.claim}</strong> {figureClaims.value.get(figure)}
+        <strong>{words.claim}</strong>{" "}
+        {kinds.value?.figures.find(({ key }) => key === figure)?.claim}
       </blockquote>
       <ErrorCourse course={course} />
       <NumbersTable numbers={claim.numbers} />
@@ -124,14 +124,4 @@ export function Claims() {
       {now?.tried && <Result figure={now.figure} tried={now.tried} />}
     </div>
   );
-}
-
-// What the paper claims of each figure, in the server's words.
-
-const figureClaims = signal<ReadonlyMap<string, string>>(new Map());
-
-async function loadClaims(): Promise<void> {
-  if (figureClaims.peek().size > 0) return;
-  const figures = (await request("get", "figures")) as components["schemas"]["FigureState"][];
-  figureClaims.value = new Map(figures.map(({ key, claim }) => [key, claim]));
 }
