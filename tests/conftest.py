@@ -100,7 +100,7 @@ def shared_lab() -> Iterator[Lab]:
 
 @pytest.fixture
 def lab(shared_lab: Lab) -> Iterator[Lab]:
-    """The shared lab, restarted; it stands still after the test."""
+    """The shared lab, restarted; it is paused after the test."""
     shared_lab.restart()
     yield shared_lab
     shared_lab.client.post(shared_lab.session + "/pause")

@@ -98,7 +98,7 @@ class Laboratory:
         run_id: str,
         owner: str = "",
     ) -> HostedSession:
-        """A private session, paused, that goes on from a recorded run at a tick.
+        """A private session, paused, that continues from a recorded run at a tick.
 
         Raises `ParameterError` for another actuator than the SVSA.
         """

@@ -11,7 +11,7 @@ preview. The Hessian is fixed, so that a fixed number of projected Gauss–Seide
 plan is all that a tick does: no tick costs more than another. ŵ of an observer of its own is
 compensated.
 
-What stands in the way of greater steps of load is the separate bound of each chain: from 2.5 N·m
+The separate bound of each chain limits larger steps of load: from 2.5 N·m
 on the link on, motor 2 is at its limit for more than half of the time until the deflection is at
 its own. With the position first where motor 2 is at its limit, u1 = (y1 − a12 u2)/a11, it holds
 2.5 N·m in place of 2, recovers in 0.24 s in place of 0.21, and scores less; and of 1024 settings

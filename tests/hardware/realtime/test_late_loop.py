@@ -128,7 +128,7 @@ def test_in_a_fault_it_says_so_and_not_that_it_was_not_read_yet() -> None:
 
 
 def test_a_link_that_a_load_has_turned_away_begins_no_run() -> None:
-    """Where no user takes it off after a stop it goes on turning; the motors get no torque."""
+    """A load that stays after a stop keeps turning the link; the motors have no torque."""
     with WiredBench() as bench:
         loop = begin(bench)
         bench.drive(loop, 10)

@@ -12,7 +12,7 @@ from .sessions import PULSE, build_session, list_events, read_samples
 
 
 def test_a_window_that_has_ended_keeps_its_numbers_of_the_lanes_that_are_left():
-    """What a mark tells of an event is what the table reported of it when it was the newest."""
+    """A mark has the values that the table reported while its event was the newest."""
     session = build_session()
     session.step(10)
     session.change(Set("comparisons", (svsa.Lane(law="fl"), svsa.Lane(law="fl_integral"))))

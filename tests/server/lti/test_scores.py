@@ -39,7 +39,7 @@ class Log:
 
 
 class Clock:
-    """A time that goes on when it is reported."""
+    """A time that continues when it is reported."""
 
     def __init__(self) -> None:
         self.now = time.time()

@@ -52,7 +52,7 @@ def test_each_effect_describes_itself(effect):
 
 @pytest.mark.parametrize("name", ALONE)
 def test_each_effect_alone_changes_the_run(name, ideal):
-    """The switch does something on its own, and the run goes on under it."""
+    """The switch acts on its own, and the run continues."""
     result = svsa.simulate("4a", effects=svsa.Effects(**{name: ALONE[name]}), **LOADED)
     assert result.fault is None
     assert np.any(result.position_rad != ideal.position_rad)

@@ -111,7 +111,7 @@ function Stepper({ state }: { state: SessionState }) {
   );
 }
 
-/** Stepping and the speed are for a session that stands still, unless all controls are shown. */
+/** Step and speed are shown while the session is paused, or with all controls. */
 export function Transport({ state, isBasic }: { state: SessionState; isBasic: boolean }) {
   const isRunning = state.status === "running";
   const wish = isRunning ? text.transport.pause : text.transport.run;
