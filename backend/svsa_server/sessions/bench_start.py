@@ -7,6 +7,7 @@ from rich.console import Console
 from svsa.errors import StateError, SvsaError
 from svsa.hardware.session.session import BenchSession
 from svsa.runs.command import Set, is_held
+from svsa.runs.configuration import Configuration
 from svsa.runs.session.session import Session
 from svsa.teaching.course.steps import Experiment
 from svsa_server.sessions.lock import take_turn
@@ -48,20 +49,24 @@ def show_steps(console: Console) -> Callable[[str, float], None]:
 
 
 def check_for_step(session: BenchSession, step: Experiment) -> None:
-    """Raise `StateError` where this bench cannot be set to the step, now or at all."""
+    """Raise `StateError` if this bench cannot be set to the step, now or at all."""
     if step.bench is None:
         raise StateError(
             f"Step {step.name!r} is simulated and nothing else, and a bench has its own plant and"
             " effects: set up a simulated session."
         )
+    check_at_rest(session)
+
+
+def check_at_rest(session: BenchSession) -> None:
+    """Raise `StateError` if the loop is not started, or the bench moves."""
     session.loop.check_started()
     if session.status == "running":
         raise StateError("The bench is moving: stop it, and wait until it stands.")
 
 
-def set_up_bench(session: BenchSession, step: Experiment) -> None:
-    """Law, references, loads, gains, parameters and observer of the step, for the next start."""
-    asked = step.bench_configuration
+def set_up_bench(session: BenchSession, asked: Configuration) -> None:
+    """Set law, references, loads, gains, parameters and observer, for the next start."""
     session.load(asked)
     for command in (
         Set("gains", asked.gains),

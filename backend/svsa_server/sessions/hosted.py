@@ -7,9 +7,10 @@ import secrets
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator
-from typing import Any
+from typing import Any, NamedTuple
 
 from svsa.errors import StateError
+from svsa.runs.configuration import Configuration
 from svsa.runs.session.session import Session
 from svsa_server.access.audit import AuditLog
 from svsa_server.leases.lease import ControlLease, Holder, Settled
@@ -35,6 +36,14 @@ class Round:
         await self._begun.wait()
 
 
+class BeforeExercise(NamedTuple):
+    """What a session was set to before an exercise, whether it ran, and the exercise's name."""
+
+    configuration: Configuration
+    was_running: bool
+    exercise: str
+
+
 class HostedSession:
     """A session, and what is the server's own of it. Times are monotonic, s.
 
@@ -43,7 +52,8 @@ class HostedSession:
     streams are sent in each `round`, made once for all. `last_use`: time of the last request;
     infinite for one that does not end when idle. `owner`: the id of its person; empty for
     everybody's. `note`: message for the user it was opened for. `instance`: no other
-    session has it, also none of this name before or after.
+    session has it, also none of this name before or after. `before_exercise`: the settings that an
+    exercise replaced, or None.
     note_settled: is called when the lease ends without a request of its holder.
     """
 
@@ -60,6 +70,7 @@ class HostedSession:
         self._note_settled = note_settled
         self.lease = lease or ControlLease(session.name)
         self.excitation: Excitation | None = None
+        self.before_exercise: BeforeExercise | None = None
         self.last_use = last_use
         self.broadcast, self.progress, self.reported = (
             Versioned[Any](),
@@ -193,6 +204,11 @@ class HostedSession:
             return
         if self.session.plant != "simulated" and self.session.status == "running":
             self.session.halt("control was handed over")
+
+    def keep_before_exercise(self, before: BeforeExercise | None) -> None:
+        """Keep the settings to return to after an exercise; None: there is no exercise."""
+        self.before_exercise = before
+        self._changes += 1
 
     def check_excitable(self) -> None:
         """Raise `StateError` if the excitation could not be used for an identification."""

@@ -79,6 +79,7 @@ def build_state(hosted: HostedSession, since_tick: int = 0) -> SessionState:
         revision=hosted.revision,
         branch_of=_build_branch(session.journal.branch_of),
         note=hosted.note,
+        exercise=hosted.before_exercise and hosted.before_exercise.exercise,
         control=build_control(hosted),
         queue=build_queue(hosted.lease),
         rate_hz=1.0 / run.period_s,

@@ -194,3 +194,36 @@ def test_progress_with_former_words_is_kept(student, data):
     assert (state["at"], state["submitted_at"]) == ("submit", written["handed_in"])
     part = next(one for one in state["parts"] if one["name"] == "load")
     assert list(part["results"][0].values()) == result
+
+
+def test_the_settings_from_before_the_first_step_are_restored(student):
+    """Also those that no settings route reaches: the exercise makes the model exact."""
+    student.client.put(f"{student.session}/law", json={"law": "pd"}).raise_for_status()
+    before = student.post("start")
+    assert before["exercise"] is None
+    assert student.restore().status_code == 409
+    student.answer("predict-error", 7.5).raise_for_status()
+    student.answer("predict-stiffness", 0.05).raise_for_status()
+    student.answer("predict-better-model", 7.5).raise_for_status()
+    for step in ("load", "exact-model"):
+        during = student.set_up(step).raise_for_status().json()
+    assert during["exercise"] == NAME
+    assert during["configuration"]["nominal"] == during["configuration"]["actuator"]
+
+    after = student.restore().raise_for_status().json()
+
+    assert after["configuration"] == before["configuration"]
+    assert after["configuration"]["nominal"] != after["configuration"]["actuator"]
+    assert (after["status"], after["exercise"]) == ("running", None)
+    assert student.restore().status_code == 409
+
+
+def test_a_figure_chosen_after_a_step_is_kept(student):
+    student.answer("predict-error", 7.5).raise_for_status()
+    student.answer("predict-stiffness", 0.05).raise_for_status()
+    student.set_up("load").raise_for_status()
+
+    chosen = student.post("experiment", {"figure": "5"})
+
+    assert chosen["exercise"] is None
+    assert student.restore().status_code == 409

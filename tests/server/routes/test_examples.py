@@ -42,8 +42,9 @@ NOT_HERE = {
 EXAMPLES_NOT_HERE = (
     {"from": "falsification", "id": "3f2a9c01b7de"},
     {"from": "exercise", "exercise": "feedback-linearization", "step": "load"},
+    {"from": "before_exercise"},
 )
-"""A job that is not here (see `test_falsifications`), and a step without its prediction."""
+"""A job of another lab (see `test_falsifications`), a step without its prediction, no exercise."""
 STEP_THAT_ASKS = "predict-error"
 
 

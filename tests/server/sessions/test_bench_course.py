@@ -147,6 +147,15 @@ def test_a_bench_gets_law_references_and_observer_and_keeps_what_it_is(room: Roo
     assert step["bench"]["manual_loads"] == [{"time_s": 0.8, "is_on": True}]
 
 
+def test_a_bench_is_given_its_earlier_settings_and_stays_at_rest(room: Room) -> None:
+    room.set_up("hold").raise_for_status()
+    restored = room.bench.ask("/experiment", {"from": "before_exercise"})
+    assert restored["configuration"]["observer"]["bandwidth_rad_per_s"] != SLOWER
+    assert restored["loads"] == []
+    assert restored["status"] != "running"
+    assert restored["exercise"] is None
+
+
 @pytest.fixture(scope="module")
 def run_id(room: Room) -> Iterator[str]:
     """A run of the step, submitted."""

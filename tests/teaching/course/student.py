@@ -32,6 +32,9 @@ class Student:
         wanted = {"exercise": self.exercise.name, "step": step}
         return self.client.post(f"{self.session}/experiment", json={"from": "exercise"} | wanted)
 
+    def restore(self):
+        return self.client.post(f"{self.session}/experiment", json={"from": "before_exercise"})
+
     def run(self, step: str, duration_s: float) -> str:
         """Reset, as the page does, record and run; the id of the run."""
         self.post("reset")

@@ -9,10 +9,15 @@ from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
 from svsa_server.openapi import UPGRADED
 from svsa_server.problems import Problem, answer_problem
 from svsa_server.routes.depends import REFUSALS, NamedClient, NamedPerson, NamedSession
-from svsa_server.routes.teaching.course import set_up_step
+from svsa_server.routes.teaching.course import restore_settings, set_up_step
 from svsa_server.routing import build_router
 from svsa_server.schemas.evaluation.scenario import SCENARIO_EXAMPLE
-from svsa_server.schemas.lab.opening import ExerciseExperiment, ExperimentRequest, SessionRequest
+from svsa_server.schemas.lab.opening import (
+    ExerciseExperiment,
+    ExperimentRequest,
+    SessionRequest,
+    SettingsBeforeExercise,
+)
 from svsa_server.schemas.lab.session import (
     SessionState,
     SpeedRequest,
@@ -146,13 +151,17 @@ async def load_experiment(
             examples=[
                 {"figure": "4a", "law": "ndobc", "load": True},
                 {"from": "exercise", "exercise": "feedback-linearization", "step": "load"},
+                {"from": "before_exercise"},
             ]
         ),
     ],
 ) -> SessionState:
-    """Set a session to a figure of the paper or an experiment of the course, at t = 0."""
+    """Set a session to a figure or an exercise's experiment, or back to before the exercise."""
     if isinstance(wanted, ExerciseExperiment):
         await set_up_step(request, hosted, person, wanted.exercise, wanted.step)
+        return build_state(hosted)
+    if isinstance(wanted, SettingsBeforeExercise):
+        await restore_settings(hosted)
         return build_state(hosted)
     configuration, session = wanted.build_configuration(request.app.state.design), hosted.session
 
@@ -164,6 +173,7 @@ async def load_experiment(
             session.pause()
 
     await take_turn(begin)
+    hosted.keep_before_exercise(None)
     return build_state(hosted)
 
 

@@ -45,8 +45,8 @@ from svsa_server.schemas.teaching.course import (
     describe_exercise,
     describe_summary,
 )
-from svsa_server.sessions.bench_start import check_for_step, set_up_bench
-from svsa_server.sessions.hosted import HostedSession
+from svsa_server.sessions.bench_start import check_at_rest, check_for_step, set_up_bench
+from svsa_server.sessions.hosted import BeforeExercise, HostedSession
 from svsa_server.sessions.lock import take_turn
 
 router = build_router(tags=["course"], responses=REFUSALS)
@@ -241,11 +241,33 @@ async def set_up_step(
         _change, request, person, found.name, lambda e, p: begin_step(e, p, name)
     )
     assert isinstance(step, Experiment)  # noqa: S101
+    before = hosted.before_exercise or BeforeExercise(
+        session.journal.build_restart(), session.status == "running", found.name
+    )
     if isinstance(session, BenchSession):
-        await take_turn(set_up_bench, session, step)
+        await take_turn(set_up_bench, session, step.bench_configuration)
     else:
         await take_turn(session.pause)
         await take_turn(session.load, step.configuration)
+    hosted.keep_before_exercise(before._replace(exercise=found.name))
+
+
+async def restore_settings(hosted: HostedSession) -> None:
+    """Set a session to the settings from before the exercise, at t = 0; a bench stays at rest.
+
+    Raises:
+        StateError: No exercise has set up the session, or the bench moves.
+    """
+    before, session = hosted.before_exercise, hosted.session
+    if before is None:
+        raise StateError("No exercise has set up this session: there is nothing to restore.")
+    if isinstance(session, BenchSession):
+        check_at_rest(session)
+        await take_turn(set_up_bench, session, before.configuration)
+    else:
+        await take_turn(session.load, before.configuration)
+        await take_turn(session.start if before.was_running else session.pause)
+    hosted.keep_before_exercise(None)
 
 
 def _find_exercise(request: Request, name: str) -> Exercise:

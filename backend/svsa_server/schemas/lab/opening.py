@@ -121,10 +121,19 @@ class ExerciseExperiment(Checked):
     step: StepName = quantity("", "Name of the step")
 
 
+class SettingsBeforeExercise(Checked):
+    """The settings from before the exercise, from t = 0; running if the simulation ran then.
+
+    A bench stays at rest. Rejected if no exercise has set up the session, or on a bench that moves.
+    """
+
+    source: Literal["before_exercise"] = quantity("", "Before the exercise", alias="from")
+
+
 ExperimentRequest = TypeAliasType(
     "ExperimentRequest",
     Annotated[
-        FigureExperiment | ExerciseExperiment,
+        FigureExperiment | ExerciseExperiment | SettingsBeforeExercise,
         Field(discriminator="source"),
         BeforeValidator(_add_source),
     ],

@@ -115,6 +115,10 @@ class SessionState(SessionProgress):
         description="Note given when it was opened: why a law of the ranking has no comparison"
         " it; empty where nothing is"
     )
+    exercise: str | None = Field(
+        description="Name of the exercise that set up the session; null after"
+        ' POST …/experiment {"from": "before_exercise"}, which restores the settings'
+    )
     control: ControlState
     queue: QueueState | None = Field(
         description="null where there is no queue: in a lab without a class, and in private"

@@ -41,6 +41,9 @@ export const setUpStep = (exercise: string, step: string) =>
     exercise,
     step,
   }) as Promise<SessionState>;
+/** The settings from before the exercise, at t = 0. */
+export const restoreSettings = () =>
+  request("post", `${SESSION}/experiment`, { from: "before_exercise" }) as Promise<SessionState>;
 /** The run is called by its exercise and step. */
 export const recordStep = (name: string) =>
   request("post", `${SESSION}/recording`, {
