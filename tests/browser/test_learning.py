@@ -46,6 +46,30 @@ def test_the_tour_is_offered_once_goes_by_keyboard_and_is_taken_again(page: Page
     expect(tour).to_be_hidden()
 
 
+def test_the_tour_leaves_load_and_lanes_as_they_were(page: Page, lab: Lab) -> None:
+    """Of a session with a load and a comparison lane: the tour removes both, then restores them."""
+    lab.client.post(lab.session + "/loads", json={"kind": "paper"}).raise_for_status()
+    comparisons = {"comparisons": [{"law": "pd"}]}
+    lab.client.put(lab.session + "/lanes", json=comparisons).raise_for_status()
+    page.goto(lab.url)
+    tour = page.get_by_role("region", name="Tour of the lab")
+    tour.get_by_role("button", name="Take the tour").press("Enter")
+    page.get_by_role("button", name=re.compile("Remove 3 kg")).press("Enter")
+    page.get_by_role("switch", name=re.compile("^Compare")).press("Enter")
+    expect(page.get_by_role("button", name=re.compile("Hang 3 kg"))).to_be_visible()
+    expect(page.get_by_role("switch", name=re.compile("^Compare"))).not_to_be_checked()
+
+    tour.get_by_role("button", name="Skip").press("Enter")
+
+    expect(page.get_by_role("button", name=re.compile("Remove 3 kg"))).to_be_visible()
+    expect(page.get_by_role("switch", name=re.compile("^Compare"))).to_be_checked()
+    state = lab.read()
+    assert [lane["law"] for lane in state["lanes"]] == [state["configuration"]["law"], "pd"]
+    assert [row["load"]["kind"] for row in state["loads"]] == ["paper"]
+    lab.client.put(lab.session + "/lanes", json={"comparisons": []}).raise_for_status()
+    lab.client.delete(lab.session + "/loads").raise_for_status()
+
+
 @pytest.mark.exhaustive
 def test_the_tour_is_skipped(page: Page, lab: Lab) -> None:
     open_page(page, lab)

@@ -58,6 +58,7 @@ import { App } from "./layout/app";
 import { markTab } from "./layout/marks";
 import { followHistory } from "./runs/list/place";
 import { watchRecording } from "./runs/list/saved";
+import { watchLeaving } from "./teaching/course/lesson";
 
 render(<App />, document.getElementById("app") as HTMLElement);
 listenToKeys();
@@ -71,6 +72,7 @@ watchComparisons();
 watchGraphics();
 watchHold();
 watchRecording();
+watchLeaving();
 void openLaws();
 void openFaults();
 void openKinds();

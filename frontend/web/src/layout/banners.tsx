@@ -6,7 +6,9 @@ import { text } from "../core/text/en";
 import { Problem } from "../core/widgets/form";
 import { ControlBanner } from "../lab/lease/banner";
 import { FaultAdvice, StopBanners } from "../lab/safety/stopbanner";
+import { place } from "../runs/list/place";
 import { RejoinCodeBanner } from "../teaching/classroom/join";
+import { ExerciseBanner } from "../teaching/course/experiment";
 import { SavedNote } from "./savednote";
 
 /** For a command whose answer was lost: not known yet, or executed. */
@@ -100,6 +102,9 @@ export function Banners() {
       )}
       <ControlBanner />
       <RejoinCodeBanner />
+      {session.value?.exercise && place.value.kind === "lab" && (
+        <ExerciseBanner exercise={session.value.exercise} />
+      )}
       <SavedNote />
       <Problem control="session" />
     </div>

@@ -119,6 +119,9 @@ export const learningText = {
       stopped: (time: string) => `The bench was stopped at ${time} s, before the run's end.`,
     },
     cutAgain: "The run is not assessed: restart the step.",
+    hasSettings: "This session has the settings of an exercise.",
+    restore: "Restore earlier settings",
+    resume: "Return to the exercise",
   },
   tour: {
     label: "Tour of the lab",

@@ -191,6 +191,24 @@ export function callsBack(design: Design, state: SessionState): (() => Promise<S
   return calls;
 }
 
+async function bringBack(design: Design, state: SessionState): Promise<SessionState> {
+  let reached = state;
+  for (const call of callsBack(design, state)) reached = await call();
+  return reached;
+}
+
+/** Restores design, loads and lanes of a state; the run goes on. */
+export async function restoreTo(before: SessionState): Promise<boolean> {
+  const state = session.peek();
+  if (state === null) return false;
+  const lanes = comparisonsOf(before);
+  return perform("session", async () => {
+    const isSameLanes = isEqual(lanes, comparisonsOf(state));
+    const reached = isSameLanes ? state : await putLanes(lanes);
+    return bringBack({ ...designOf(before), comparisons: {} }, reached);
+  });
+}
+
 /** A lane that is brought back is another one to the server: earlier steps learn its identity. */
 function renameLanes(design: Design, names: ReadonlyMap<string, string>): Design {
   const comparisons = Object.entries(design.comparisons).map(([id, lane]) => [
@@ -211,8 +229,7 @@ export async function undo(): Promise<boolean> {
   let back: string[] = [];
   isUndoing = true;
   const isDone = await perform("design.undo", async () => {
-    let reached = state;
-    for (const call of callsBack(last, state)) reached = await call();
+    const reached = await bringBack(last, state);
     if (lost.length > 0) back = Object.keys(designOf(reached).comparisons).slice(-lost.length);
     return reached;
   });

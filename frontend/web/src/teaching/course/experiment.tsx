@@ -13,6 +13,7 @@ import {
   follow,
   isBusy,
   judged,
+  restore,
   resultsOf,
   resume,
   run,
@@ -24,6 +25,24 @@ import { CutOff, Obstacle } from "./obstacle";
 import { Results } from "./results";
 
 const words = text.lesson;
+
+/** In the lab: the settings are those of an exercise, and a press restores the earlier ones. */
+export function ExerciseBanner({ exercise }: { exercise: string }) {
+  return (
+    <div class="banner is-news" role="status">
+      <p>{words.hasSettings}</p>
+      <PlaceLink to={{ kind: "learn", exercise, step: "" }}>{words.resume}</PlaceLink>
+      <button
+        type="button"
+        class="button"
+        disabled={!mayCommand.value}
+        onClick={() => void restore()}
+      >
+        {words.restore}
+      </button>
+    </div>
+  );
+}
 
 /** When the operator adds or removes a load; an emulator does it automatically. */
 function Hands({ of }: { of: Step }) {

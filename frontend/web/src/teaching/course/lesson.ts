@@ -1,5 +1,5 @@
 /** The exercise that is worked at: what the server keeps of it, and what one does in it. */
-import { computed, signal } from "@preact/signals";
+import { computed, effect, signal } from "@preact/signals";
 import { pause, reset, start, stopRecording } from "../../core/api/client";
 import {
   type CriterionResult,
@@ -14,13 +14,14 @@ import {
   putPlace,
   readExercise,
   recordStep,
+  restoreSettings,
   type Step,
   setUpStep,
 } from "../../core/api/course";
 import { RefusedError } from "../../core/api/errors";
 import { readRun } from "../../core/api/runs";
 import { explain, perform } from "../../core/state/actions";
-import { hasControl } from "../../core/state/control";
+import { hasControl, mayCommand } from "../../core/state/control";
 import { acceptState, session } from "../../core/state/session";
 import { place, writePlace } from "../../runs/list/place";
 import { type Cut, findCut } from "./benchstep";
@@ -228,6 +229,21 @@ export async function submit(student: string): Promise<void> {
   const judgement = await attempt(() => giveIn(name, student));
   if (judgement === null) return;
   show(await attempt(() => readExercise(name)));
+}
+
+export const restore = (): Promise<boolean> => perform("session", restoreSettings);
+
+/** Where the lab is entered from another place, an exercise takes its settings back. */
+export function watchLeaving(): void {
+  let before = place.peek().kind;
+  effect(() => {
+    const { kind } = place.value;
+    const isEntered = kind === "lab" && before !== "lab";
+    before = kind;
+    const state = session.peek();
+    const isOver = state !== null && state.exercise !== null && state.recording === null;
+    if (isEntered && isOver && mayCommand.peek()) void restore();
+  });
 }
 
 /** Continues in a session that no other user commands; the page is reloaded with it. */

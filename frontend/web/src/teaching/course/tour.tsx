@@ -1,8 +1,12 @@
 import { signal } from "@preact/signals";
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
+import type { SessionState } from "../../core/api/types";
+import { mayCommand } from "../../core/state/control";
 import { remember, remembered } from "../../core/state/preferences";
+import { session } from "../../core/state/session";
 import { text } from "../../core/text/en";
 import { closeOnEscape } from "../../core/widgets/panel";
+import { restoreTo } from "../../lab/design/history";
 import { hasWebGl } from "../../lab/scene/schematic";
 
 const STORE = "svsa.tour";
@@ -23,16 +27,23 @@ const STEPS = [
 const step = signal<number | null>(remembered(STORE) === "done" ? null : 0);
 
 export function startTour(): void {
-  step.value = 1;
+  step.value = 0;
+  go(1);
 }
+
+/** What the tour began with: it leaves the session so. */
+let before: SessionState | null = null;
 
 function endTour(): void {
   step.value = null;
+  if (before !== null && mayCommand.peek()) void restoreTo(before);
+  before = null;
   remember(STORE, "done");
 }
 
 function go(by: number): void {
   const next = (step.peek() ?? 0) + by;
+  if (before === null) before = session.peek();
   if (next >= STEPS.length) endTour();
   else step.value = Math.max(0, next);
 }
