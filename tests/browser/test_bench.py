@@ -130,7 +130,7 @@ def test_why_it_does_not_arm_is_reported_and_everything_else_is_in_the_details(
 
 def test_the_status_bar_tells_the_lateness_of_a_bench(page: Page, patched: PatchedBench) -> None:
     bar = page.get_by_role("region", name="Status", exact=True)
-    expect(bar.get_by_text("late 24 µs / 71 µs · 3 ticks skipped")).to_be_visible()
+    expect(bar.get_by_text("late 24 µs / 71 µs · 3 skipped in this run")).to_be_visible()
     patched.change(loop=BENCH["loop"] | {"alive": False, "state": "gone"})
     expect(bar.get_by_text("ended")).to_be_visible()
 

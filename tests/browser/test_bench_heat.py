@@ -57,7 +57,7 @@ def test_next_to_the_load_stands_which_motor_bears_it_for_how_long(
     open_page(page, still_lab)
     expect(page.get_by_text("Motor 2 overheats in about 4 s, starting cold")).to_be_visible()
     bench.endurance |= {"motor": "motor1", "seconds": 0.4}
-    page.get_by_role("radio", name="Hanging mass").press("Space")
+    page.get_by_role("radio", name="Paper’s torques").press("Space")
     expect(page.get_by_text("Motor 2 overheats")).to_have_count(0)
     expect(page.get_by_text("Motor 1 overheats in less than a second")).to_be_visible()
     asked = [body for call, body in bench.calls if call == "bench/endurance"]

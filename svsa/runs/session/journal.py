@@ -149,8 +149,15 @@ class Journal:
             self.enter(Stop(tick=self.run.tick))
 
     def log_fault(self, fault: Fault, ends_run: bool = True) -> None:
-        """A fault is an event, and the end of the recording of a run that it ends."""
-        if ends_run and self.recorder is not None:
+        """A fault that ends the run is its event and the end of its recording; others are neither.
+
+        A fault of a bench at rest comes after the run: as an event it would be at the run's last
+        tick, where the event of the fault that ended the run already is.
+        """
+        self.version += 1
+        if not ends_run:
+            return
+        if self.recorder is not None:
             self.recorder.write_fault(fault)
         self.log("fault", label_fault(fault.code))
 

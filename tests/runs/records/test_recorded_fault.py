@@ -96,3 +96,15 @@ def test_a_fault_that_was_cleared_before_the_run_is_not_of_the_run(tmp_path: Pat
     recorder.write_fault(None)
     recorder.close()
     assert open_record(recorder.folder).fault is None
+
+
+def test_a_fault_at_rest_is_no_event_of_the_run_before() -> None:
+    """It would be at the run's last tick, and its name in place of the fault that ended the run."""
+    session = SimulatedSession("test", get_figure("4a").build_configuration(load=False))
+    session.step(10)
+    version = session.journal.version
+    for number, code in enumerate(("lever_end", "loop_late", "quick_stop")):
+        session.journal.log_fault(Fault(code, 0, 10, 0.01, code), ends_run=number == 0)
+    faults = [event.label for event in session.journal.events if event.kind == "fault"]
+    assert faults == [label_fault("lever_end")]
+    assert session.journal.version >= version + 3

@@ -7,7 +7,7 @@ import { text } from "../core/text/en";
 import { formatNumber, toDegrees } from "../core/units";
 import { useLiveText } from "../core/widgets/live";
 import { AllMetricsButton } from "./allmetrics";
-import { bestIn, hasEnded, recoveryOf, sinceOf } from "./window";
+import { bestIn, hasEnded, recoveryNameOf, recoveryOf, sinceOf } from "./window";
 
 const { compare } = text;
 
@@ -63,8 +63,8 @@ export function Comparison({ state }: { state: SessionState }) {
     },
     {
       key: "recovery",
-      title: inUnit(compare.recovery, compare.seconds),
-      hint: text.windows.recovery,
+      title: inUnit(recoveryNameOf(state).name, compare.seconds),
+      hint: recoveryNameOf(state).hint,
       cell: (row) => (ended[row] ? compare.ended : (recoveries[row]?.words ?? "")),
       cellHint: (row) => (ended[row] ? compare.endedHint : recoveries[row]?.hint),
       best: bestIn(

@@ -4,7 +4,7 @@ import { text } from "../core/text/en";
 import { formatNumber, toDegrees } from "../core/units";
 import { useLiveText } from "../core/widgets/live";
 import { AllMetricsButton } from "./allmetrics";
-import { type Recovery, recoveryOf, sinceOf } from "./window";
+import { type Recovery, recoveryNameOf, recoveryOf, sinceOf } from "./window";
 
 const degrees = (rad: number | null | undefined) =>
   formatNumber(rad === null || rad === undefined ? null : toDegrees(rad), 3, 4);
@@ -57,8 +57,8 @@ export function Readout({ state }: { state: SessionState }) {
           {degrees(metrics?.peak_position_error_rad)} <span class="unit">deg</span>
         </dd>
       </div>
-      <div title={recovery.hint}>
-        <dt>{text.readout.recovery}</dt>
+      <div title={state.bench === null ? recovery.hint : text.windows.marked.hint}>
+        <dt>{recoveryNameOf(state).name}</dt>
         <dd>
           <Recovered recovery={recovery} />
         </dd>

@@ -48,6 +48,10 @@ export interface Recovery {
   hint: string;
 }
 
+/** Name and hint of the recovery time: on a bench it begins with the mark, before the load acts. */
+export const recoveryNameOf = ({ bench }: Pick<SessionState, "bench">) =>
+  bench === null ? { name: measuredText.names.recovered, hint: windows.recovery } : windows.marked;
+
 /** metrics: of the window; null for a lane that has no numbers in it. */
 export function recoveryOf(metrics: Metrics | null, window: WindowState): Recovery {
   const none = formatNumber(null);

@@ -8,7 +8,7 @@ import type {
 } from "../../src/core/api/types";
 import { text as page } from "../../src/core/text/en";
 import { text as replay } from "../../src/core/text/replay";
-import { bestIn, hasEnded, recoveryOf, sinceOf } from "../../src/layout/window";
+import { bestIn, hasEnded, recoveryNameOf, recoveryOf, sinceOf } from "../../src/layout/window";
 
 const window = (kind: WindowState["kind"], label: string): WindowState => ({
   kind,
@@ -27,6 +27,11 @@ const lanesFrom = (...ticks: number[]): Pick<SessionState, "bench" | "lanes" | "
 const metrics = (seconds: number | null) => ({ recovery_time_s: seconds }) as Metrics;
 
 describe("a window", () => {
+  it("names what the recovery time of a bench includes", () => {
+    expect(recoveryNameOf({ bench: null }).name).toBe("Recovery time");
+    expect(recoveryNameOf({ bench: {} as BenchState }).name).toBe("Recovery after mark");
+  });
+
   it("says since when and since what", () => {
     expect(sinceOf(window("start", ""))).toBe("From the start");
     expect(sinceOf(window("load", "3 kg load"))).toBe("3 kg load, since 5.00 s");
@@ -70,7 +75,7 @@ it("says it in the words of the replay and the overlay", async () => {
   expect(page.compare.rms).toBe(replay.numbers.rms);
   expect(page.readout.peak).toBe(replay.numbers.peak);
   expect(page.overlay.steadyStateError).toBe(replay.numbers.settled);
-  expect(page.overlay.recovery).toBe(page.compare.recovery);
+  expect(page.overlay.recovery).toBe(recoveryNameOf({ bench: null }).name);
 });
 
 describe("the recovery time", () => {

@@ -22,14 +22,13 @@ export function markOf(plant: RunDetails["plant"]): Mark | null {
 export type WeightForm = "paper" | "mass";
 
 /** `paper`: 2 N·m on all three channels; `mass`: a mass with inertia and gravity, as large as the library's default. */
-export const weightForm = signal<WeightForm>("paper");
+export const chosenForm = signal<WeightForm | null>(null);
 
-export const weightOf = (form: WeightForm): Load =>
-  form === "paper" ? { kind: "paper" } : { kind: "mass" };
+/** The form of the next 3 kg: a mass on a bench, whose stiffness motor does not hold the paper's torques; on a real one always. */
+export const formOfNext = (bench: BenchState | null): WeightForm =>
+  isRealBench(bench) ? "mass" : (chosenForm.value ?? (bench === null ? "paper" : "mass"));
 
-/** What the next 3 kg are: on a real bench a mass, whatever was chosen for a simulation. */
-export const nextWeight = (bench: BenchState | null): Load =>
-  weightOf(isRealBench(bench) ? "mass" : weightForm.peek());
+export const nextWeight = (bench: BenchState | null): Load => ({ kind: formOfNext(bench) });
 
 /** One of which it is not known yet whether it is emulated counts as real. */
 export const isRealBench = (bench: BenchState | null): boolean =>

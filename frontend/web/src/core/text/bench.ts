@@ -173,7 +173,7 @@ export const benchText = {
       lateness: "Lateness since the loop started",
       noneYet: "–",
       cost: "Cost of a tick, 99 %",
-      skipped: "Skipped ticks",
+      skipped: "Ticks skipped since loop start",
       of: (skipped: string, ticks: string) => `${skipped} of ${ticks}`,
       quantiles: { half: "median", most: "99 %", nearlyAll: "99.9 %", worst: "worst" },
       histogram: (half: string, most: string, worst: string) =>

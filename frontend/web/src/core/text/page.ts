@@ -85,7 +85,7 @@ export const pageText = {
     rateHint: (stretched: string) =>
       `Control rate and speed of the session time; delay accumulated so far: ${stretched}`,
     late: (median: string, most: string) => `late ${median} / ${most}`,
-    skipped: (count: number) => `${count} ticks skipped`,
+    skipped: (count: number) => `${count} skipped in this run`,
     lateHint:
       "Control rate; lateness of the ticks (median / 99 %) since the loop started; ticks skipped in this run",
     recording: "Recording",

@@ -31,6 +31,7 @@ export const plotsText = {
     own: (first: string, more: number) => (more > 0 ? `${first} + ${more}` : first),
     phaseNote: (across: string, unit: string) => `over ${across.toLowerCase()} in ${unit}`,
     disturbanceNote: "dashed: true",
+    unusedEstimate: (laws: string) => `unused by ${laws}`,
     reference: "reference",
     true: "true",
     common: "Common",
@@ -199,11 +200,14 @@ export const plotsText = {
       change: "since change",
       stop: "since stop",
     },
-    recovery: "Recovery time",
   },
   windows: {
     at: (label: string, time: string) => `${label} at ${time} s`,
     recovery: "Time from the start of the window until the error stays within 2 % of its peak",
+    marked: {
+      name: "Recovery after mark",
+      hint: "Time from the mark of the load until the error stays within 2 % of its peak. It includes the delay until the load acts, which is not of the control law.",
+    },
     undisturbed: "No load came on or was removed at the start of this window",
     recoveryFrom: (load: string) =>
       `Time from ${load} until the error stayed within 2 % of its peak`,
@@ -228,7 +232,6 @@ export const plotsText = {
     lastKnown: "Last known",
     rms: names.rms,
     peak: names.peak,
-    recovery: names.recovered,
     degrees: "deg",
     seconds: "s",
     ended: "ended",

@@ -3,11 +3,12 @@ import { removeAllLoads, removeLoad } from "../../core/api/client";
 import type { SessionState } from "../../core/api/types";
 import { perform } from "../../core/state/actions";
 import {
+  chosenForm,
+  formOfNext,
   isRealBench,
   isWeight,
   presentLoads,
   type WeightForm,
-  weightForm,
 } from "../../core/state/plant";
 import { text } from "../../core/text/en";
 import { Choice, Problem } from "../../core/widgets/form";
@@ -60,14 +61,14 @@ function LoadRows({ state }: { state: SessionState }) {
 }
 
 /** What 3 kg are in a simulation and on the emulator. */
-function FormPicker() {
+function FormPicker({ state: { bench } }: { state: SessionState }) {
   return (
     <Choice
       label={text.load.form}
       options={FORMS}
-      value={weightForm.value}
+      value={formOfNext(bench)}
       onChoose={(form) => {
-        weightForm.value = form;
+        chosenForm.value = form;
       }}
     />
   );
@@ -83,9 +84,9 @@ export function Loads({ state }: { state: SessionState }) {
     );
   }
   return (
-    <Group title={text.load.title} topic="load" aside={<FormPicker />}>
+    <Group title={text.load.title} topic="load" aside={<FormPicker state={state} />}>
       <p class="hint is-about">
-        {weightForm.value === "paper" ? text.load.paperDoes : text.load.massDoes}
+        {formOfNext(state.bench) === "paper" ? text.load.paperDoes : text.load.massDoes}
       </p>
       <LoadRows state={state} />
       <Problem control="load.rows" />

@@ -3,12 +3,12 @@ import type { SessionState } from "../../core/api/types";
 import { CONTROL, toggleWeight } from "../../core/state/commands";
 import { takesCommands } from "../../core/state/control";
 import {
+  formOfNext,
   hungWeights,
   isRealBench,
+  nextWeight,
   nextWeightAt,
   type WeightForm,
-  weightForm,
-  weightOf,
 } from "../../core/state/plant";
 import { isLive } from "../../core/state/session";
 import { text } from "../../core/text/en";
@@ -44,7 +44,7 @@ function WeightPicture({ isHung, form }: { isHung: boolean; form: WeightForm }) 
 function formOf(state: SessionState): WeightForm {
   const [hung] = hungWeights(state);
   if (hung !== undefined) return hung.load.kind === "paper" ? "paper" : "mass";
-  return isRealBench(state.bench) ? "mass" : weightForm.value;
+  return formOfNext(state.bench);
 }
 
 function caption(state: SessionState, isHung: boolean): string {
@@ -53,7 +53,7 @@ function caption(state: SessionState, isHung: boolean): string {
   if (isHung) return formOf(state) === "paper" ? text.load.acts : text.load.hangs;
   const next = nextWeightAt(state);
   if (next !== null) return text.load.comesAt(next);
-  return weightForm.value === "paper" ? text.load.paperShort : text.load.massShort;
+  return formOf(state) === "paper" ? text.load.paperShort : text.load.massShort;
 }
 
 function words(state: SessionState, isHung: boolean): string {
@@ -65,7 +65,6 @@ function words(state: SessionState, isHung: boolean): string {
 export function LoadButton({ state }: { state: SessionState }) {
   const [isBusy, setBusy] = useState(false);
   const isHung = hungWeights(state).length > 0;
-  const weight = weightOf(isRealBench(state.bench) ? "mass" : weightForm.value);
 
   const press = async () => {
     setBusy(true);
@@ -88,7 +87,7 @@ export function LoadButton({ state }: { state: SessionState }) {
           <small>{caption(state, isHung)}</small>
         </span>
       </button>
-      <EnduranceNote load={isHung ? null : weight} />
+      <EnduranceNote load={isHung ? null : nextWeight(state.bench)} />
       <Problem control={CONTROL.load} />
     </div>
   );
