@@ -217,3 +217,14 @@ def test_what_is_seen_is_saved(page: Page, tmp_path: Path) -> None:
     times = [float(row[0]) for row in rows[1:]]
     assert len(times) > 300
     assert times[1] - times[0] == pytest.approx(0.005)
+
+
+def test_the_disturbance_plot_says_which_law_does_not_use_the_estimate(
+    page: Page, shared_lab: Lab
+) -> None:
+    plot, note = find_plot(page, "Disturbance"), "unused by FL"
+    expect(plot).not_to_contain_text("unused")
+    shared_lab.client.put(shared_lab.session + "/law", json={"law": "fl"}).raise_for_status()
+    expect(plot).to_contain_text(note)
+    shared_lab.client.put(shared_lab.session + "/law", json={"law": "ndobc"}).raise_for_status()
+    expect(plot).not_to_contain_text(note)

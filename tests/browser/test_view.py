@@ -246,3 +246,28 @@ def test_low_graphics_are_remembered(view: Page) -> None:
     page.wait_for_function(f"() => {pixels} < {0.7 * full['width']}")
     page.reload()
     expect(switch).to_have_attribute("aria-pressed", "true")
+
+
+WITHOUT_WEBGL = """const getContext = HTMLCanvasElement.prototype.getContext;
+HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+    return kind.startsWith("webgl") ? null : getContext.call(this, kind, ...rest);
+};"""
+
+
+@pytest.mark.parametrize("kind", ["paper", "mass"])
+def test_the_2d_view_draws_the_papers_load_as_torques_and_a_mass_as_a_mass(
+    own_page: Page, lab: Lab, kind: str
+) -> None:
+    """Also where no plot shows the disturbance."""
+    come_back(own_page, lab)
+    own_page.add_init_script(WITHOUT_WEBGL)
+    own_page.add_init_script("""localStorage.setItem("svsa.plots", '[{"preset": "error"}]')""")
+    lab.load_figure()
+    lab.client.post(lab.session + "/loads", json={"kind": kind}).raise_for_status()
+    lab.jump(1)
+    own_page.goto(lab.url)
+    picture = own_page.get_by_role("img", name="The actuator from the front")
+    expect(picture.locator("path[data-torque='disturbance_link_nm'][d^='M']")).to_be_attached()
+    motor = picture.locator("path[data-torque='disturbance_motor2_nm'][d^='M']")
+    expect(motor).to_have_count(1 if kind == "paper" else 0)
+    expect(picture.locator(".schematic-load")).to_have_count(1 if kind == "mass" else 0)

@@ -57,7 +57,7 @@ def run_again(session: SimulatedSession, url: str, folder: Path) -> dict:
     origin = _tell(
         journal.initial.model_dump(mode="json"),
         journal.commands,
-        run.tick,
+        (0, run.tick),
         run.period_s,
         "simulated",
         svsa.load_prototype(),

@@ -9,6 +9,7 @@ from svsa.runs.metrics import compute_metrics
 from svsa.runs.records.reader import open_record
 from tests.lab import Lab
 from tests.lab_in_process import run_lab_in_process
+from tests.waiting import follow_recording
 
 ONSET_S = 2.0
 
@@ -43,7 +44,24 @@ def test_the_origin_of_a_recorded_run_is_that_of_its_session(lab: Lab) -> None:
         (2000, "load"),
     ]
     assert (live["tick"], live["period_s"], live["plant"]) == (4000, 0.001, "simulated")
+    assert live["first_tick"] == 0
     assert live["configuration"] == live["defaults"]
+
+
+def test_the_origin_of_a_run_reports_where_its_record_begins(lab: Lab) -> None:
+    """The script of a short recording of a long session simulates what came before it, too."""
+    lab.load_figure()
+    lab.jump(3)
+    first = lab.read()["tick"]
+    recording = lab.client.post(lab.session + "/recording", json={}).raise_for_status().json()
+    run = recording["recording"]["run_id"]
+    lab.jump(1)
+    lab.client.delete(lab.session + "/recording").raise_for_status()
+    follow_recording(lab.client, f"/api/v1/runs/{run}")
+
+    origin = lab.client.get(f"/api/v1/runs/{run}/origin").raise_for_status().json()
+
+    assert (origin["first_tick"], origin["tick"]) == (first, first + 1000)
 
 
 def test_the_metrics_of_a_stretch_are_those_of_its_samples(tmp_path: Path) -> None:

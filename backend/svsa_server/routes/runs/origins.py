@@ -25,7 +25,7 @@ async def read_origin(request: Request, hosted: NamedSession) -> RunOrigin:
     return _tell(
         hosted.session.journal.initial.model_dump(mode="json"),
         hosted.session.journal.commands,
-        hosted.session.run.tick,
+        (0, hosted.session.run.tick),
         hosted.session.run.period_s,
         hosted.session.plant,
         request.app.state.design,
@@ -41,7 +41,7 @@ def read_run_origin(request: Request, runs: Runs, run_id: RunId) -> RunOrigin:
     return _tell(
         header.configuration,
         (read_command(written) for _, written in record.commands),
-        record.first_tick + record.tick_count,
+        (record.first_tick, record.first_tick + record.tick_count),
         header.period_s,
         header.plant,
         request.app.state.design,
@@ -65,7 +65,7 @@ def name_origin(
 def _tell(
     configuration: dict[str, Any],
     commands: Iterable[Command],
-    tick: int,
+    ticks: tuple[int, int],
     period_s: float,
     plant: PlantKind,
     design: Design,
@@ -73,7 +73,8 @@ def _tell(
     return RunOrigin(
         configuration=configuration,
         commands=[GivenCommand(tick=command.tick, command=command) for command in commands],
-        tick=tick,
+        first_tick=ticks[0],
+        tick=ticks[1],
         period_s=period_s,
         plant=plant,
         defaults=_build_defaults(design),

@@ -160,6 +160,7 @@ class RunOrigin(BaseModel):
 
     configuration: dict[str, Any] = Field(description="At tick 0")
     commands: list[GivenCommand] = Field(description="In the order in which they were given")
+    first_tick: int = Field(description="Where its record begins; 0 of a session's present run")
     tick: int = Field(description="How far the run is, or where its record ends")
     period_s: float
     plant: PlantKind

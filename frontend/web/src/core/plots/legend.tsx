@@ -65,7 +65,11 @@ export function Legend({ note, entries, hidden, onToggle, ...rest }: LegendProps
   const { class: look = "legend", readings, isRead = () => true } = rest;
   return (
     <div class={look}>
-      {note && <span class="legend-note">{note}</span>}
+      {note && (
+        <span class="legend-note" title={note}>
+          {note}
+        </span>
+      )}
       {entries.map((entry) => (
         <button
           key={entry.key}

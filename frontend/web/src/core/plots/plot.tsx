@@ -1,6 +1,9 @@
+import { computed } from "@preact/signals";
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { EquationButton } from "../equations/equation";
 import type { Cast } from "../state/lanes";
+import { lawOf, titleOf as titleOfLaw } from "../state/laws";
+import { session } from "../state/session";
 import { text } from "../text/en";
 import { formatNumber } from "../units";
 import { CHANNELS, spanOf, unitOf } from "./channels";
@@ -148,9 +151,19 @@ export function Plot({ setup, isBasic }: { setup: PlotSetup; isBasic: boolean })
   );
 }
 
-function noteOf({ preset, channels: [across] }: PlotSetup, hasTruth: boolean): string | undefined {
+/** The laws of the present lanes that act on no estimate. */
+const lawsWithout = computed(() => {
+  const laws = (session.value?.lanes ?? []).map(({ law }) => law);
+  const without = laws.filter((law) => lawOf(law)?.estimate === "none");
+  return [...new Set(without)].map(titleOfLaw).join(", ");
+});
+
+function noteOf({ preset, channels }: PlotSetup, hasTruth: boolean): string | undefined {
+  const [across] = channels;
   if (preset === "phase" && across !== undefined) {
     return text.plots.phaseNote(text.channelNames[across], CHANNELS[across].unit);
   }
-  return hasTruth ? text.plots.disturbanceNote : undefined;
+  const isUnused = lawsWithout.value && channels.some((one) => one.startsWith("estimate_"));
+  const unused = isUnused ? [text.plots.unusedEstimate(lawsWithout.value)] : [];
+  return (hasTruth ? [...unused, text.plots.disturbanceNote] : unused).join(" · ") || undefined;
 }

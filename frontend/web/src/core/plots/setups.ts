@@ -69,11 +69,15 @@ export const setups = signal<readonly PlotSetup[]>(
   readSetups(remembered(STORE)) ?? setupsAtFirst(),
 );
 
+/** What is drawn outside the plots. */
+export const alsoDrawn = signal<readonly ChannelName[]>([]);
+
 /** What the stream has to carry. */
 export const channelsInUse = computed(() => [
   ...new Set(
     [
       ...ALWAYS,
+      ...alsoDrawn.value,
       ...[...setups.value, ...(areAllControlsOn.value ? [] : BASIC_SETUPS)].flatMap(
         ({ channels }) => channels,
       ),

@@ -15,7 +15,7 @@ export const sceneText = {
     namesHint: "motors, spiral, pivot, lever and spring, in this window only",
     schematic: "The actuator from the front: link, reference and load",
     noWebGl:
-      "This browser has no WebGL, which the 3D view needs. The same angles in 2D: the link in the color of its curve, the reference dotted.",
+      "This browser has no WebGL, which the 3D view needs. The same angles in 2D: the link in the color of its curve, the reference dotted, disturbance torques as arrows.",
     low: "Low graphics",
     lowHint: "Fewer and coarser parts, 15 frames per second: for computers without a graphics card",
   },

@@ -3,7 +3,7 @@ import { effect } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import type { SessionState } from "../../core/api/types";
 import { lineStyleOfLane } from "../../core/plots/linestyles";
-import { hungWeights } from "../../core/state/plant";
+import { alsoDrawn } from "../../core/plots/setups";
 import { received, samples } from "../../core/state/session";
 import { text } from "../../core/text/en";
 import { toDegrees } from "../../core/units";
@@ -12,6 +12,34 @@ const words = text.scene;
 
 /** Seen from the front: at 0 the link hangs straight down, and a positive angle turns it to the right. */
 const turnOf = (rad: number): string => `rotate(${-toDegrees(rad)})`;
+
+const LEAST_NM = 0.05;
+const MOST_NM = 20;
+const LONGEST_RAD = 3.6;
+
+/** An arrow about the axis, as long as in 3D: with the root of the torque; counter-clockwise if positive. */
+function arrowOf(torqueNm: number, radius: number): string {
+  const size = Math.min(Math.abs(torqueNm), MOST_NM);
+  if (!(size >= LEAST_NM)) return "";
+  const [least, most] = [Math.sqrt(LEAST_NM), Math.sqrt(MOST_NM)];
+  const length = 0.45 + ((Math.sqrt(size) - least) / (most - least)) * (LONGEST_RAD - 0.45);
+  const way = Math.sign(torqueNm);
+  const at = (angle: number, r: number) =>
+    `${(-way * r * Math.sin(angle)).toFixed(1)} ${(-r * Math.cos(angle)).toFixed(1)}`;
+  const arc = `A${radius} ${radius} 0 ${length > Math.PI ? 1 : 0} ${way > 0 ? 0 : 1} `;
+  const barb = length - 9 / radius;
+  return `M${at(0, radius)}${arc}${at(length, radius)}L${at(barb, radius - 6)}M${at(length, radius)}L${at(barb, radius + 6)}`;
+}
+
+const LINK_RADIUS = 74;
+const TORQUES = ["disturbance_link_nm", "disturbance_motor1_nm", "disturbance_motor2_nm"] as const;
+
+/** A disturbance torque: of the link from its arm on, of a motor from the top. */
+const Torque = ({ of, radius }: { of: (typeof TORQUES)[number]; radius: number }) => (
+  <path class="schematic-torque" data-torque={of} data-radius={radius}>
+    <title>{text.channelNames[of]}</title>
+  </path>
+);
 
 /** Whether the browser draws WebGL at all: without it the 3D view stays empty. */
 export const hasWebGl = ((): boolean => {
@@ -24,6 +52,10 @@ export const hasWebGl = ((): boolean => {
 function keepPoses(picture: SVGSVGElement): () => void {
   return effect(() => {
     void received.value;
+    for (const part of picture.querySelectorAll<SVGPathElement>("[data-torque]")) {
+      const { torque = "", radius } = part.dataset;
+      part.setAttribute("d", arrowOf(samples.ring.newest(torque, 1), Number(radius)));
+    }
     for (const part of picture.querySelectorAll<SVGGElement>("[data-channel]")) {
       const { channel = "", lane } = part.dataset;
       const angle = samples.ring.newest(channel, Number(lane));
@@ -33,11 +65,14 @@ function keepPoses(picture: SVGSVGElement): () => void {
   });
 }
 
-/** Links of all lanes, the reference, and the load that hangs; the same poses as in 3D. */
+/** Links of all lanes, the reference, the mass that hangs and the torques; as in 3D. */
 export function Schematic({ state }: { state: SessionState }) {
   const picture = useRef<SVGSVGElement>(null);
-  useEffect(() => (picture.current === null ? undefined : keepPoses(picture.current)), []);
-  const isHung = hungWeights(state).length > 0;
+  useEffect(() => {
+    alsoDrawn.value = TORQUES;
+    return picture.current === null ? undefined : keepPoses(picture.current);
+  }, []);
+  const isHung = state.loads.some(({ active, load }) => active && load.kind === "mass");
   return (
     <figure class="schematic">
       <svg ref={picture} viewBox="-120 -120 240 240" role="img" aria-label={words.schematic}>
@@ -54,10 +89,17 @@ export function Schematic({ state }: { state: SessionState }) {
                 style={{ stroke: `var(--plot-${colour})` }}
                 d="M0 0V92"
               />
+              {lane === 1 && (
+                <g transform="rotate(180)">
+                  <Torque of="disturbance_link_nm" radius={LINK_RADIUS} />
+                </g>
+              )}
               {lane === 1 && isHung && <circle class="schematic-load" cy="98" r="12" />}
             </g>
           );
         })}
+        <Torque of="disturbance_motor1_nm" radius={58} />
+        <Torque of="disturbance_motor2_nm" radius={32} />
         <circle class="schematic-axis" r="6" />
       </svg>
       <figcaption class="hint">{words.noWebGl}</figcaption>

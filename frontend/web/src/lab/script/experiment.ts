@@ -89,20 +89,27 @@ function writeSettings({ configuration, defaults }: RunOrigin): string[] {
   return lines;
 }
 
-function writeChanges({ configuration, commands, period_s: periodS }: RunOrigin): string[] {
+function writeChanges({ configuration, commands, ...origin }: RunOrigin): string[] {
+  const { first_tick: first, period_s: periodS } = origin;
   const loads = configuration.loads as unknown[];
   const lines = loads.flatMap((load) => writeCommand("load", load));
   const followed: Fields = { position: configuration.position, stiffness: configuration.stiffness };
   let reached = 0;
+  const runTo = (tick: number, remark = "") => {
+    if (tick > reached) lines.push(`session.run_until(${secondsOf(tick, periodS)})${remark}`);
+    reached = Math.max(reached, tick);
+  };
+  const begin = () => runTo(first, "  # Here the recording begins.");
   for (const { tick, command } of commands) {
     const { kind, argument } = command;
-    if (tick > reached) lines.push(`session.run_until(${secondsOf(tick, periodS)})`);
-    reached = Math.max(reached, tick);
+    if (tick >= first) begin();
+    runTo(tick);
     // A reference that is followed already is not set again by its assignment.
     const isRepeated = kind in followed && isSame(followed[kind], argument);
     lines.push(...(isRepeated ? [`session.repeat_${kind}()`] : writeCommand(kind, argument)));
     if (kind in followed) followed[kind] = argument;
   }
+  begin();
   return lines;
 }
 
@@ -112,7 +119,14 @@ const secondsOf = (tick: number, periodS: number): string =>
 /** `title` is said in the docstring; `lab` is the address of the lab, without a slash at its end. */
 export function writeExperiment(origin: RunOrigin, title: string, lab: string): string {
   const { configuration, defaults } = origin;
-  const end = secondsOf(origin.tick, origin.period_s);
+  const [begin, end] = [origin.first_tick, origin.tick].map((tick) =>
+    secondsOf(tick, origin.period_s),
+  );
+  const before =
+    origin.first_tick === 0
+      ? ""
+      : ` The recording begins at ${begin} s; the time
+before it is simulated too, because it decides the state in which the recording begins.`;
   const law = toPython(configuration.law);
   const seed = isSame(configuration.seed, defaults.seed)
     ? ""
@@ -124,7 +138,7 @@ export function writeExperiment(origin: RunOrigin, title: string, lab: string): 
     ...writeChanges(origin),
     `session.run_until(${end})`,
   ];
-  return `"""${inDocstring(title)}: an experiment of SVSA Lab, 0 to ${end} s, to be run again.
+  return `"""${inDocstring(title)}: an experiment of SVSA Lab, 0 to ${end} s, to be run again.${before}
 
 It needs the library (pip install 'svsa-lab[client]') and a running lab; with a secret or the token
 of a class, set SVSA_SECRET. It uses a private session, so it affects no other user, and runs as fast as it

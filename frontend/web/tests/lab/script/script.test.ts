@@ -83,6 +83,7 @@ const DEFAULTS = {
 const origin = (change: object, commands: RunOrigin["commands"] = []): RunOrigin => ({
   configuration: { ...DEFAULTS, ...change },
   commands,
+  first_tick: 0,
   tick: 7250,
   period_s: 0.001,
   plant: "simulated",
@@ -117,6 +118,21 @@ describe("an experiment as a script", () => {
       "session.loads.remove(1)",
       "session.run_until(7.25)",
     ]);
+  });
+
+  it("says where the recording begins, and simulates the time before it", () => {
+    const load = [given(2500, "load", { kind: "paper" }), given(7100, "unload", 1)];
+    const late = { ...origin({}, load), first_tick: 7000 };
+    const script = writeExperiment(late, "a", "http://lab");
+    expect(script).toContain("The recording begins at 7 s");
+    expect(script.match(/session\.run_until.*/g)).toEqual([
+      "session.run_until(2.5)",
+      "session.run_until(7)  # Here the recording begins.",
+      "session.run_until(7.1)",
+      "session.run_until(7.25)",
+    ]);
+    const whole = writeExperiment(origin({}, load), "a", "http://lab");
+    expect(whole).not.toContain("recording begins");
   });
 
   it("begins a reference again that is followed already", () => {
