@@ -29,7 +29,7 @@ def build_settings(number: int) -> RunSettings:
     return RunSettings(
         name=f"Fig. {figure.upper()} · {law.upper()} · σ {stiffness:g} · {load}",
         figure=figure,
-        figure_held=True,
+        figure_name=f"Fig. {figure.upper()}",
         motion="60° 0.2 Hz",
         laws=law.upper(),
         law_kinds=(law,),

@@ -4,10 +4,12 @@ Everything is said of the samples that were recorded and of nothing else: a law 
 switched to before the first sample, or a load planned for after the last, is not named.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from svsa.runs.configuration import load_prototype
+from svsa.runs.paper import LOAD_TIME_S, get_figure
 from svsa.runs.records.acting import Acting, read_acting
 from svsa.runs.records.header import RecordHeader
 from svsa.runs.records.parquet import Commands
@@ -21,9 +23,10 @@ from svsa.runs.records.wording import (
     describe_reference,
     follow,
 )
-from svsa.simulation.reference.paper import References, find_figure
+from svsa.simulation.reference.paper import ON_BENCH, References, find_figure
 
 NO_LOAD = "no load"
+IDEAL_NAME = "ideal"
 _DOT = " · "
 _PLANTS = {"bench": "bench", "emulated": "emulated bench"}
 _OWN = {
@@ -42,7 +45,9 @@ class RunSettings:
     """What a run was set to while it was recorded, as people say it; "" where it is not known.
 
     name: the settings joined, for a run without a name of its own. figure: key of the paper's
-    figure with its references, from the first sample on; figure_held: to the last one too.
+    figure with its references at the first sample. figure_name: "Fig. 4A" of a run that is set as
+    the figure and has its load at its time, and no other; "Fig. 4A motion" of one with the
+    figure's references alone; "from Fig. 4A" of one that left them.
     laws: lane by lane; law_kinds: every law that controlled a lane at some time. stiffness: σ_d,
     N·m/rad; stiffness_nm_per_rad: its mean at the first sample. loads that were on; load_kinds:
     their kinds, or "none". effects: non-ideal effects of the simulation, or the bench. own: what of
@@ -52,7 +57,7 @@ class RunSettings:
 
     name: str
     figure: str
-    figure_held: bool
+    figure_name: str
     motion: str
     laws: str
     law_kinds: tuple[str, ...]
@@ -74,11 +79,17 @@ def describe_settings(
     acting = read_acting(header, commands, first_tick, ticks)
     on_bench = header.plant != "simulated"
     figure, is_held = _find_figure(acting, on_bench)
+    own = "" if on_bench else ", ".join(_find_own(acting))
+    effects = _PLANTS.get(header.plant, "") or follow(
+        map(describe_effects, acting.get_values("effects"))
+    )
+    is_plain = not own and (on_bench or effects == IDEAL_NAME)
+    is_whole = is_held and is_plain and _has_load_of(figure, acting, header.period_s)
     first = acting.get_values("stiffness")[0]
     settings = RunSettings(
         name="",
         figure=figure,
-        figure_held=is_held,
+        figure_name=_name_figure(figure, is_held, is_whole),
         motion=follow(map(describe_reference, acting.get_values("position"))),
         laws=_describe_laws(acting, header),
         law_kinds=_list_laws(acting),
@@ -86,27 +97,37 @@ def describe_settings(
         stiffness_nm_per_rad=None if first is None else first.get_mean(),
         load=_describe_loads(acting),
         load_kinds=_list_load_kinds(acting),
-        effects=_PLANTS.get(header.plant, "")
-        or follow(map(describe_effects, acting.get_values("effects"))),
-        own="" if on_bench else ", ".join(_find_own(acting)),
+        effects=effects,
+        own=own,
     )
     return replace(settings, name=_build_name(settings))
 
 
-def name_figure(settings: RunSettings) -> str:
-    """The figure as it is shown: "Fig. 4A", or "from Fig. 4A" where the run left it."""
-    if not settings.figure:
+def _name_figure(figure: str, is_held: bool, is_whole: bool) -> str:
+    if not figure:
         return ""
-    return f"{'' if settings.figure_held else 'from '}Fig. {settings.figure.upper()}"
+    name = f"Fig. {figure.upper()}"
+    return name if is_whole else f"{name} motion" if is_held else f"from {name}"
+
+
+def _has_load_of(figure: str, acting: Acting, period_s: float) -> bool:
+    """Whether the only load is the figure's, or a mass on a bench, from its time to the end."""
+    if acting.loads is None or len(acting.loads) != 1:
+        return False
+    [(_, load, start, end)] = acting.loads
+    hung = get_figure(figure).hung
+    is_same = load.changed(start_s=hung.start_s) == hung
+    is_mass = figure in ON_BENCH.values() and load.kind == "mass"
+    return (is_same or is_mass) and start == round(LOAD_TIME_S / period_s) and end == math.inf
 
 
 def _build_name(settings: RunSettings) -> str:
     parts = [
-        name_figure(settings) or settings.motion,
+        settings.figure_name or settings.motion,
         settings.laws,
         f"σ {settings.stiffness}" if settings.stiffness else "",
         settings.load,
-        "" if settings.effects == "ideal" else settings.effects,
+        "" if settings.effects == IDEAL_NAME else settings.effects,
         f"own {settings.own}" if settings.own else "",
     ]
     name = _DOT.join(part for part in parts if part)

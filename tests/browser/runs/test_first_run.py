@@ -20,11 +20,13 @@ def test_nothing_recorded_tells_how_and_then_the_run_is_there(page: Page, lab: L
     page.get_by_role("link", name="Back to the lab", exact=True).click()
     page.get_by_role("button", name="Record", exact=True).click()
     page.get_by_role("button", name=re.compile("^Recording (?!0:00)")).click()
-    note = page.get_by_role("status").filter(has_text="Saved: Fig. 4A · NDOBC · σ 15 · no load")
+    note = page.get_by_role("status").filter(
+        has_text="Saved: Fig. 4A motion · NDOBC · σ 15 · no load"
+    )
     expect(note).to_be_visible()
     go_to_page(page, "Runs")
     row = page.get_by_role("table", name="Recorded runs").get_by_role("row").nth(1)
-    expect(row.get_by_role("link", name="Fig. 4A · NDOBC · σ 15 · no load")).to_be_visible()
+    expect(row.get_by_role("link", name="Fig. 4A motion · NDOBC · σ 15 · no load")).to_be_visible()
     page.set_viewport_size({"width": 1440, "height": 900})
     expect(row.get_by_role("img", name=re.compile("Position error of NDOBC"))).to_be_visible()
     row.get_by_role("button", name=re.compile("^Delete")).click()

@@ -9,7 +9,7 @@ from svsa.runs.command import build_command
 from svsa.runs.configuration import Configuration, Lane, LaneSetting, load_prototype
 from svsa.runs.paper import get_figure
 from svsa.runs.records.header import RecordHeader
-from svsa.runs.records.settings import RunSettings, describe_settings, name_figure
+from svsa.runs.records.settings import RunSettings, describe_settings
 from svsa.simulation.plant.effects import RIG
 from svsa.simulation.plant.effects.friction import Friction
 from svsa.simulation.plant.loads.mass import MassLoad
@@ -68,6 +68,34 @@ def test_a_figure_with_its_load_is_named_as_people_say_it() -> None:
     assert (settings.effects, settings.own) == ("ideal", "")
 
 
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"loads": ()},
+        {"loads": (PaperLoad(start_s=37.0),)},
+        {"loads": (MassLoad(start_s=5.0),)},
+        {"loads": (PaperLoad(start_s=5.0), MassLoad(start_s=6.0))},
+        {"effects": RIG},
+        {"nominal": load_prototype().actuator},
+    ],
+)
+def test_a_run_with_other_settings_than_the_figure_is_not_named_as_it(
+    changes: dict[str, Any],
+) -> None:
+    changes = {"loads": (PaperLoad(start_s=5.0),)} | changes
+    settings = describe(ticks=60_000, **changes)
+    assert (settings.figure, settings.figure_name) == ("4a", "Fig. 4A motion")
+
+
+def test_a_load_taken_off_or_hung_by_hand_at_the_figures_time() -> None:
+    """The load counts by its time in the run, whether it was planned or not."""
+    by_hand = (5000, "load", PaperLoad())
+    assert describe(by_hand).figure_name == "Fig. 4A"
+    assert describe(by_hand, (6000, "unload", 1)).figure_name == "Fig. 4A motion"
+    mass = (5000, "load", MassLoad())
+    assert describe(mass, header={"plant": "emulated"}).figure_name == "Fig. 6A"
+
+
 def test_a_load_that_the_record_never_reached_is_not_named() -> None:
     loads = (PaperLoad(start_s=5.0),)
     assert describe(loads=loads, ticks=5000).load == "no load"
@@ -108,7 +136,7 @@ def test_what_changed_while_it_was_recorded_stands_behind_an_arrow() -> None:
     settings = describe((3000, "law", "fl"), (4000, "stiffness", sigma(60)))
     assert settings.name == "From Fig. 4A · NDOBC → FL · σ 15 → 60 · no load"
     assert settings.law_kinds == ("ndobc", "fl")
-    assert (settings.figure, name_figure(settings)) == ("4a", "from Fig. 4A")
+    assert (settings.figure, settings.figure_name) == ("4a", "from Fig. 4A")
 
 
 def test_what_changed_before_the_first_sample_or_after_the_last_did_not_happen_to_it() -> None:
@@ -118,7 +146,7 @@ def test_what_changed_before_the_first_sample_or_after_the_last_did_not_happen_t
         (9000, "law", "ndobc"),
     )
     settings = describe(*changes, first_tick=1000, ticks=8000)
-    assert settings.name == "Fig. 4B · FL · σ 60 · no load"
+    assert settings.name == "Fig. 4B motion · FL · σ 60 · no load"
     assert settings.law_kinds == ("fl",)
 
 
@@ -140,7 +168,7 @@ def test_how_a_figure_is_faded_in_makes_no_other_figure_of_it() -> None:
 
 
 def test_realism_and_a_design_of_ones_own_are_reported() -> None:
-    assert describe(effects=RIG).name == "Fig. 4A · NDOBC · σ 15 · no load · rig"
+    assert describe(effects=RIG).name == "Fig. 4A motion · NDOBC · σ 15 · no load · rig"
     rough = RIG.changed(friction=Friction())
     assert describe(effects=rough).effects == "encoders, estimated velocities, friction, delay 1"
     exact = load_prototype().actuator
@@ -151,7 +179,7 @@ def test_realism_and_a_design_of_ones_own_are_reported() -> None:
 def test_a_bench_is_named_with_its_twin_and_its_own_figures() -> None:
     header = {"plant": "emulated"}
     settings = describe(header=header, comparisons=(Lane(law="ndobc"),))
-    assert settings.name == "Fig. 6A · NDOBC vs twin · σ 15 · no load · emulated bench"
+    assert settings.name == "Fig. 6A motion · NDOBC vs twin · σ 15 · no load · emulated bench"
 
 
 @pytest.mark.parametrize(
@@ -171,7 +199,7 @@ def test_a_change_that_cannot_be_read_is_a_question_mark() -> None:
     header = build_header(get_figure("4a").build_configuration(load=False))
     unread = [(5, {"kind": "stiffness", "argument": {"kind": "of tomorrow"}})]
     settings = describe_settings(header, unread, 0, 10)
-    assert (settings.stiffness, settings.figure_held) == ("15 → ?", False)
+    assert (settings.stiffness, settings.figure_name) == ("15 → ?", "from Fig. 4A")
 
 
 def test_laws_that_changed_places_are_reported_of_every_lane() -> None:

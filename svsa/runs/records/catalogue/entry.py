@@ -13,7 +13,7 @@ from svsa.runs.metrics import Metrics
 from svsa.runs.records.former_words import SETTINGS, translate_fields
 from svsa.runs.records.header import BranchPoint, PlantKind, describe_newer
 from svsa.runs.records.measured_window import MeasuredWindow
-from svsa.runs.records.settings import RunSettings, name_figure
+from svsa.runs.records.settings import RunSettings
 
 RunState = Literal["recording", "complete", "failed", "damaged", "missing"]
 SORTS = (
@@ -107,7 +107,7 @@ class RunEntry:
     @property
     def figure(self) -> str:
         """The figure as the list shows it; "" for none."""
-        return name_figure(self.settings) if self.settings else ""
+        return self.settings.figure_name if self.settings else ""
 
     @property
     def facets(self) -> list[tuple[str, str]]:

@@ -21,7 +21,7 @@ from svsa.runs.records.catalogue.entry import (
     write_entry,
 )
 
-VERSION = 7
+VERSION = 8
 _REBUILT = range(VERSION)
 _COLUMNS = {
     "id": "TEXT PRIMARY KEY",

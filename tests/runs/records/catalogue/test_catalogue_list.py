@@ -92,9 +92,9 @@ def varied(catalogue: Catalogue) -> Catalogue:
 def test_a_run_is_called_by_its_settings_until_a_user_names_it(varied: Catalogue) -> None:
     titles = {run.id: run.title for run in varied.list().runs}
     assert titles == {
-        "run-1": "Fig. 4B · NDOBC vs FL · σ 60 · 3 kg",
-        "run-2": "Fig. 4A · FL · σ 15 · no load",
-        "run-3": "Fig. 5 · NDOBC → FL · σ 35 ± 1 · no load",
+        "run-1": "Fig. 4B motion · NDOBC vs FL · σ 60 · 3 kg",
+        "run-2": "Fig. 4A motion · FL · σ 15 · no load",
+        "run-3": "Fig. 5 motion · NDOBC → FL · σ 35 ± 1 · no load",
         "run-4": "Mine",
     }
     assert varied.update("run-2", name="Named").title == "Named"

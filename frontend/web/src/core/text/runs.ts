@@ -34,8 +34,6 @@ export const runsText = {
       plant: { simulated: "Simulation", emulated: "Emulated bench", bench: "Bench" },
     },
     figureName: (figure: string) => `Fig. ${figure}`,
-    figureShown: (figure: string, isHeld: boolean) =>
-      isHeld ? `Fig. ${figure}` : `from Fig. ${figure}`,
     counted: (name: string, count: number) => `${name} (${count})`,
     sort: "Order",
     sortUp: (column: string) => `${column} ↑`,

@@ -85,11 +85,9 @@ const setting = (read: (settings: NonNullable<RunSummary["settings"]>) => string
   hintOf: (run: RunSummary) => (run.settings ? read(run.settings) : undefined),
 });
 
-/** "Fig. 4A", "from Fig. 4A", or the motion of a run that is no figure. */
+/** "Fig. 4A", "Fig. 4A motion", "from Fig. 4A", or the motion of a run of no figure. */
 function figureOf({ settings }: Pick<RunSummary, "settings">): string {
-  if (settings === null) return "";
-  if (settings.figure === "") return settings.motion;
-  return words.figureShown(settings.figure.toUpperCase(), settings.figure_held);
+  return settings?.figure_name || (settings?.motion ?? "");
 }
 
 export const COLUMNS: readonly Column[] = [
