@@ -75,7 +75,7 @@ def test_a_run_is_named_whole_next_to_its_tags(page: Page, lab: Lab, runs: tuple
     tags = {"name": "", "tags": ["stiff", "before the holidays", "group 3"]}
     lab.client.patch(f"/api/v1/runs/{runs[0]}", json=tags).raise_for_status()
     open_list(page, lab)
-    name = find_names(page).filter(has_text="Fig. 4A motion · NDOBC vs FL · σ 15 · 3 kg")
+    name = find_names(page).filter(has_text="Fig. 4A · NDOBC vs FL · σ 15 · 3 kg")
     expect(name).to_be_visible()
     assert page.evaluate(NAMES_CUT) == []
 

@@ -1,4 +1,6 @@
 /** Studies: many perturbed runs of every law. */
+const samples = (count: number) => (count === 1 ? "1 sample" : `${count} samples`);
+
 export const studiesText = {
   studies: {
     title: "Studies",
@@ -81,7 +83,7 @@ export const studiesText = {
     inBrush: "In the brush",
     faults: "Faults",
     noFaults: "none",
-    refused: (count: number) => `${count} samples were not run: their settings are incompatible`,
+    refused: (count: number) => `${samples(count)} not run: incompatible settings`,
     median: (metric: string) => `${metric}: 5, 50, 95 %`,
     fault: "fault",
     interval: (share: string, low: string, high: string) => `${share} % (${low} to ${high})`,
@@ -93,9 +95,9 @@ export const studiesText = {
     pMetric: (value: string) => `Wilcoxon's p, Holm-corrected: ${value}`,
     pSmall: "< 0.0001",
     only: (one: number, other: number) =>
-      `only the first succeeded: ${one} samples; only the second: ${other}`,
+      `only the first succeeded: ${samples(one)}; only the second: ${other}`,
     difference: (metric: string, whole: number) =>
-      `${metric}, over the ${whole} samples on which both finished`,
+      `${metric}, over ${samples(whole)} on which both finished`,
     sensitivity: "Sensitivity of the success",
     sensitivityHint:
       "Sobol indices of the success: share of its variance due to each setting alone (first order) and including interactions (total). The intervals treat the points of the Sobol' sequence as independent and are therefore upper bounds",
