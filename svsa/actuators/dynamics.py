@@ -19,7 +19,7 @@ from svsa.actuators.installed import get_mechanism
 from svsa.actuators.mechanism import MAX_ELASTIC
 from svsa.actuators.parameters import ActuatorParameters, MechanismParameters, get_mechanism_name
 from svsa.actuators.signals import Disturbance, State, Torque
-from svsa.actuators.spring import REACTION_ENERGY, REACTION_PRINTED
+from svsa.actuators.spring import REACTION_ENERGY, REACTION_PRINTED, SpringTorques
 from svsa.numerics.compilation import compiled
 from svsa.numerics.simd.choice import choose, some
 from svsa.numerics.trigonometry import sin
@@ -60,9 +60,8 @@ def build_actuator(parameters: MechanismParameters, s0: float) -> Any:
         float(s0),
         *mechanism.coordinate,
         addresses["compute_torques"],
-        addresses["compute_stiffness"],
-        addresses["compute_derivatives"],
-        addresses["compute_determinant"],
+        addresses["compute_margin"],
+        addresses["compute_state"],
         *[*mechanism.list_elastic(p), *[0.0] * MAX_ELASTIC][:MAX_ELASTIC],
     )
 
@@ -111,11 +110,16 @@ def compute_internal_torque(actuator: AnyActuator, x: State) -> InternalTorque:
     """
     phi = compute_deflection(x)
     spring = compute_torques(actuator, compute_coordinate(actuator, x.theta2), phi)
-    torque, reaction = spring.torque, spring.reaction
+    return add_damping(actuator, x, spring)
+
+
+@compiled
+def add_damping(actuator: AnyActuator, x: State, spring: SpringTorques) -> InternalTorque:
+    """`compute_internal_torque` where those of the spring at x, `SpringTorques`, are known."""
     return InternalTorque(
-        -actuator.D * x.dq - torque,
-        -actuator.D1 * x.dtheta1 + torque,
-        -actuator.D2 * x.dtheta2 - reaction,
+        -actuator.D * x.dq - spring.torque,
+        -actuator.D1 * x.dtheta1 + spring.torque,
+        -actuator.D2 * x.dtheta2 - spring.reaction,
     )
 
 
@@ -127,7 +131,14 @@ def compute_acceleration(
 
     actuator: `Actuator`. x: `State`. u: `Torque`, N·m. load: `ExternalLoad`.
     """
-    F = compute_internal_torque(actuator, x)
+    return accelerate(actuator, x, compute_internal_torque(actuator, x), u, load)
+
+
+@compiled
+def accelerate(
+    actuator: AnyActuator, x: State, F: InternalTorque, u: Torque, load: ExternalLoad
+) -> Acceleration:
+    """`compute_acceleration` where F = F(x), `InternalTorque`, N·m, is known."""
     gravity = 0.0
     weighs = load.gravity_moment != 0.0
     if some(weighs):
@@ -142,7 +153,12 @@ def compute_acceleration(
 @compiled
 def compute_rate(actuator: AnyActuator, x: State, u: Torque, load: ExternalLoad) -> State:
     """ẋ = f(x) + g(x)u + p(x)w of Eq 9, as a `State` of velocities and accelerations."""
-    acceleration = compute_acceleration(actuator, x, u, load)
+    return build_rate(x, compute_acceleration(actuator, x, u, load))
+
+
+@compiled
+def build_rate(x: State, acceleration: Acceleration) -> State:
+    """ẋ, as a `State` of the velocities of x and of accelerations, rad/s²."""
     return State(
         x.dq,
         acceleration.ddq,

@@ -9,9 +9,8 @@ from typing import NamedTuple, TypeAlias
 
 from svsa.actuators.kinds import (
     choose_kind,
-    find_derivatives,
-    find_determinant,
-    find_stiffness,
+    find_margin,
+    find_state,
     find_torques,
 )
 from svsa.actuators.lever import (
@@ -22,6 +21,7 @@ from svsa.actuators.lever import (
 from svsa.actuators.spring import (
     REACTION_PRINTED,
     SpringDerivatives,
+    SpringState,
     SpringTorques,
     compute_elastic_torque,
     compute_printed_reaction_torque,
@@ -74,9 +74,8 @@ class ElasticActuator(NamedTuple):
     lowest: float
     highest: float
     torques_address: int
-    stiffness_address: int
-    derivatives_address: int
-    determinant_address: int
+    margin_address: int
+    state_address: int
     e0: float
     e1: float
     e2: float
@@ -112,13 +111,19 @@ def _torques_of_energy(actuator: ElasticActuator, s: float, phi: float) -> Sprin
 
 
 @compiled
+def _torques_inside_of_energy(actuator: ElasticActuator, s: float, phi: float) -> SpringTorques:
+    found = find_margin(actuator.margin_address, s, phi, _list_values(actuator)).torques
+    return SpringTorques(found.torque, actuator.kappa * found.reaction)
+
+
+@compiled
 def _stiffness_of_svsa(actuator: Actuator, s: float, phi: float) -> float:
     return compute_stiffness(s, phi, actuator.K)
 
 
 @compiled
 def _stiffness_of_energy(actuator: ElasticActuator, s: float, phi: float) -> float:
-    return find_stiffness(actuator.stiffness_address, s, phi, _list_values(actuator))
+    return find_margin(actuator.margin_address, s, phi, _list_values(actuator)).sigma
 
 
 @compiled
@@ -128,7 +133,19 @@ def _derivatives_of_svsa(actuator: Actuator, s: float, phi: float) -> SpringDeri
 
 @compiled
 def _derivatives_of_energy(actuator: ElasticActuator, s: float, phi: float) -> SpringDerivatives:
-    return find_derivatives(actuator.derivatives_address, s, phi, _list_values(actuator))
+    return _state_of_energy(actuator, s, phi).derivatives
+
+
+@compiled
+def _state_of_svsa(actuator: Actuator, s: float, phi: float) -> SpringState:
+    return SpringState(_torques_of_svsa(actuator, s, phi), _derivatives_of_svsa(actuator, s, phi))
+
+
+@compiled
+def _state_of_energy(actuator: ElasticActuator, s: float, phi: float) -> SpringState:
+    found = find_state(actuator.state_address, s, phi, _list_values(actuator))
+    reaction = actuator.kappa * found.torques.reaction
+    return SpringState(SpringTorques(found.torques.torque, reaction), found.derivatives)
 
 
 @compiled
@@ -179,8 +196,10 @@ def _inverse_of_energy(actuator: ElasticActuator, sigma: float, _: float) -> flo
 
 
 _torques = choose_kind(_torques_of_svsa, _torques_of_energy)
+_torques_inside = choose_kind(_torques_of_svsa, _torques_inside_of_energy)
 _stiffness = choose_kind(_stiffness_of_svsa, _stiffness_of_energy)
 _derivatives = choose_kind(_derivatives_of_svsa, _derivatives_of_energy)
+_state = choose_kind(_state_of_svsa, _state_of_energy)
 _coordinate = choose_kind(_coordinate_of_svsa, _coordinate_of_energy)
 _slope = choose_kind(_slope_of_svsa, _slope_of_energy)
 _stiffness_slope = choose_kind(_stiffness_slope_of_svsa, _stiffness_slope_of_energy)
@@ -215,6 +234,15 @@ def compute_torques(actuator: AnyActuator, s: float, phi: float) -> SpringTorque
 
 
 @compiled
+def compute_torques_inside(actuator: AnyActuator, s: float, phi: float) -> SpringTorques:
+    """`compute_torques` at a state whose domain is checked and whose stiffness is published.
+
+    Of an energy one call returns all three.
+    """
+    return _torques_inside(actuator, s, phi)
+
+
+@compiled
 def compute_stiffness_of(actuator: AnyActuator, s: float, phi: float) -> float:
     """σ = ∂²U/∂φ² at s and φ (rad), N·m/rad."""
     return _stiffness(actuator, s, phi)
@@ -227,6 +255,12 @@ def compute_derivatives(actuator: AnyActuator, s: float, phi: float) -> SpringDe
 
 
 @compiled
+def compute_spring_state(actuator: AnyActuator, s: float, phi: float) -> SpringState:
+    """τ_e, τ_r and all derivatives at s and φ (rad), `SpringState`: of an energy, one call."""
+    return _state(actuator, s, phi)
+
+
+@compiled
 def compute_stiffness_slope_of(actuator: AnyActuator, s: float) -> float:
     """g = ∂σ/∂θ2 at s and φ = 0, N·m/rad²."""
     return _stiffness_slope(actuator, s, 0.0)
@@ -235,4 +269,4 @@ def compute_stiffness_slope_of(actuator: AnyActuator, s: float) -> float:
 @compiled
 def compute_determinant_of_energy(actuator: ElasticActuator, s: float, phi: float) -> float:
     """(σ σ_s − τ_s σ_φ) at φ over its value at φ = 0, which det A(x) is a multiple of."""
-    return find_determinant(actuator.determinant_address, s, phi, _list_values(actuator))
+    return find_margin(actuator.margin_address, s, phi, _list_values(actuator)).determinant

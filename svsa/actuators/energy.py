@@ -23,7 +23,7 @@ import numba
 from numba.core import types
 
 from svsa.actuators.mechanism import MAX_ELASTIC, Mechanism
-from svsa.actuators.spring import SpringDerivatives, SpringTorques
+from svsa.actuators.spring import SpringDerivatives, SpringState, SpringTorques, StiffnessMargin
 from svsa.errors import ParameterError, Violation
 from svsa.numerics.code_cache import choose_root
 
@@ -32,23 +32,35 @@ _SIGNATURE = ", ".join(["s", "phi", *_PARAMETERS])
 _GIVEN = [types.float64] * (2 + MAX_ELASTIC)
 RESULTS: dict[str, Any] = {
     "compute_torques": numba.typeof(SpringTorques(*[0.0] * 2)),
-    "compute_stiffness": types.float64,
-    "compute_derivatives": numba.typeof(SpringDerivatives(*[0.0] * 9)),
-    "compute_determinant": types.float64,
+    "compute_margin": numba.typeof(StiffnessMargin(SpringTorques(*[0.0] * 2), *[0.0] * 2)),
+    "compute_state": numba.typeof(
+        SpringState(SpringTorques(*[0.0] * 2), SpringDerivatives(*[0.0] * 9))
+    ),
     "compute_energy": types.float64,
 }
 """The functions of an energy and what each returns."""
+_RETURNED = {
+    "compute_torques": "SpringTorques({}, {})",
+    "compute_margin": f"StiffnessMargin(compute_torques({_SIGNATURE}), {{}}, {{}})",
+    "compute_state": f"SpringState(compute_torques({_SIGNATURE}), SpringDerivatives("
+    + ", ".join(["{}"] * 9)
+    + "))",
+    "compute_energy": "{}",
+}
+"""What the text of each returns. Torques are the same bits wherever they come from."""
 _PAIRS = {("sin", "cos"): "sin_cos", ("sinh", "cosh"): "sinh_cosh"}
 _SINGLE = ("exp", "log", "tanh")
 _HEAD = '''"""Derivatives of an elastic energy, written by `svsa.actuators.energy`."""
 
 from math import sqrt
 
-from svsa.actuators.spring import SpringDerivatives, SpringTorques
+from svsa.actuators.spring import SpringDerivatives, SpringState, SpringTorques, StiffnessMargin
 from svsa.numerics.compilation import compiled
 from svsa.numerics.exponential import exp, log, sinh_cosh, tanh
-from svsa.numerics.trigonometry import sin_cos
+from svsa.numerics.trigonometry import sin_cos, sin_versin
 '''
+_MAX_POWER = 32
+_SHORT = 60
 _TESTED = 33
 """At how many values of s an energy is tested."""
 
@@ -96,7 +108,7 @@ def _check_stiffness(mechanism: Mechanism, energy: Energy) -> None:
     slopes = []
     for i in range(_TESTED):
         s = low + (high - low) * i / (_TESTED - 1)
-        found = energy.functions["compute_derivatives"](s, 0.0, *values)
+        found = energy.functions["compute_state"](s, 0.0, *values).derivatives
         if not 0.0 < found.sigma < math.inf:
             text = f"its stiffness at φ = 0 and s = {s:.4g} is {found.sigma:.4g} N·m/rad, not > 0"
             raise _reject(mechanism, text)
@@ -175,8 +187,11 @@ def write_source(mechanism: Mechanism) -> str:
     determinant = sigma * sigma.diff(s) - torque.diff(s) * sigma.diff(phi)
     found = {
         "compute_torques": [torque, reaction],
-        "compute_stiffness": [sigma],
-        "compute_derivatives": [
+        "compute_margin": [
+            sigma,
+            _shorten(sympy, determinant / determinant.subs(phi, 0)),
+        ],
+        "compute_state": [
             torque,
             torque.diff(s),
             torque.diff(s, 2),
@@ -187,7 +202,6 @@ def write_source(mechanism: Mechanism) -> str:
             sigma.diff(phi, s),
             sigma.diff(s, 2),
         ],
-        "compute_determinant": [determinant / determinant.subs(phi, 0)],
         "compute_energy": [U],
     }
     write = _build_writer(mechanism, sympy)
@@ -205,20 +219,47 @@ def _check_smooth(mechanism: Mechanism, sympy: Any, expressions: list[Any]) -> N
 
 def _build_writer(mechanism: Mechanism, sympy: Any) -> Callable[[str, list[Any]], str]:
     """A function that writes a function of these expressions."""
+    from sympy.printing.precedence import PRECEDENCE
     from sympy.printing.pycode import PythonCodePrinter
 
     class Printer(PythonCodePrinter):
-        """Powers as products: a library's `pow` differs from machine to machine."""
+        """Powers as products: a library's `pow` differs from machine to machine.
+
+        In sums and products, what is computed last comes last: nothing else waits for it.
+        """
+
+        levels: dict[str, int]
+
+        def _sort(self, parts: tuple[Any, ...]) -> list[Any]:
+            return sorted(
+                parts, key=lambda one: (self.find_level(one), sympy.default_sort_key(one))
+            )
+
+        def find_level(self, expr: Any) -> int:
+            return max((self.levels.get(one.name, 0) for one in expr.free_symbols), default=-1)
+
+        def _print_Add(self, expr: Any, order: Any = None) -> str:  # noqa: N802
+            first, *others = self._sort(expr.args)
+            text = self._print(first)
+            for part in others:
+                minus = part.could_extract_minus_sign()
+                written = self.parenthesize(-part if minus else part, PRECEDENCE["Mul"])
+                text += f" {'-' if minus else '+'} {written}"
+            return text
+
+        def _print_Mul(self, expr: Any) -> str:  # noqa: N802
+            minus = expr.could_extract_minus_sign()
+            parts = self._sort(sympy.Mul.make_args(-expr if minus else expr))
+            text = "*".join(self.parenthesize(part, PRECEDENCE["Mul"]) for part in parts)
+            return f"-{text}" if minus else text
 
         def _print_Pow(self, expr: Any, rational: bool = False, sqrt: str = "") -> str:  # noqa: N802
             base, exponent = expr.as_base_exp()
-            twice = 2 * exponent
-            if not twice.is_Integer or abs(twice) > 32:
-                raise _reject(mechanism, f"it contains the power {expr}")
-            whole, half = divmod(abs(int(twice)), 2)
+            # `_name_shared` leaves whole positive powers. Squares of squares: a short chain.
             text = self.parenthesize(base, 1000)
-            product = "*".join([text] * whole + [f"sqrt({self._print(base)})"] * half)
-            return f"(1.0/({product}))" if int(twice) < 0 else f"({product})"
+            square = f"({text}*{text})"
+            pairs, rest = divmod(int(exponent), 2)
+            return f"({'*'.join([square] * pairs + [text] * rest)})"
 
         def _print_Rational(self, expr: Any) -> str:  # noqa: N802
             return f"({float(expr.p)!r}/{float(expr.q)!r})"
@@ -231,40 +272,102 @@ def _build_writer(mechanism: Mechanism, sympy: Any) -> Callable[[str, list[Any]]
 
         _print_exp = _print_log = _print_tanh = _print_Function
 
-    printer = Printer({"fully_qualified_modules": False})
-
     def write(name: str, expressions: list[Any]) -> str:
-        pairs, expressions = _name_pairs(sympy, expressions)
+        named, expressions = _name_shared(mechanism, sympy, expressions)
         lines = [""] * 2 + ["", "@compiled", f"def {name}({_SIGNATURE}):"]
         symbols = (sympy.Symbol(f"x{i}") for i in range(10_000))
-        for function, argument, names in pairs:
-            lines.append(f"    {', '.join(names)} = {function}({printer.doprint(argument)})")
         common, results = sympy.cse(expressions, symbols=symbols)
-        lines += [f"    {symbol} = {printer.doprint(value)}" for symbol, value in common]
+        named += [(str(symbol), "{}", value) for symbol, value in common]
+        printer = Printer({"fully_qualified_modules": False})
+        printer.levels = {"s": 1, "phi": 1}
+        for names, function, argument in named:
+            lines.append(f"    {names} = {function.format(printer.doprint(argument))}")
+            level = printer.find_level(argument) if function == "{}" else len(lines)
+            printer.levels |= dict.fromkeys(names.split(", "), level)
         texts = [f"1.0 * ({printer.doprint(value)})" for value in results]
-        kind = {2: "SpringTorques", 9: "SpringDerivatives"}.get(len(texts), "")
-        lines.append(f"    return {kind}({', '.join(texts)})")
+        lines.append(f"    return {_RETURNED[name].format(*texts)}")
         return "\n".join(lines)[1:] + "\n"
 
     return write
 
 
-def _name_pairs(sympy: Any, expressions: list[Any]) -> tuple[list[Any], list[Any]]:
-    """Replace sin, cos, sinh and cosh by names of values that are computed in pairs."""
-    pairs: list[tuple[str, Any, list[str]]] = []
+def _name_shared(
+    mechanism: Mechanism, sympy: Any, expressions: list[Any]
+) -> tuple[list[tuple[str, str, Any]], list[Any]]:
+    """Name what costs most and occurs in several places: computed once each.
+
+    sin and cos, sinh and cosh are computed in pairs; a root or a reciprocal is computed once for
+    all the powers of its base, of which whole positive powers of a name remain.
+
+    Returns:
+        The names in order, as (names, text with {} for the argument, argument); the expressions.
+    """
+    named: list[tuple[str, str, Any]] = []
     functions = {getattr(sympy, name): pair for pair in _PAIRS for name in pair}
+
+    def is_costly(one: Any) -> bool:
+        whole = one.is_Pow and one.exp.is_Integer and one.exp > 0
+        return type(one) in functions or (one.is_Pow and not whole)
+
+    def list_costly(one: Any) -> list[Any]:
+        return [part for part in one.atoms(sympy.Pow, *functions) if is_costly(part)]
+
     while True:
-        whole = sympy.Tuple(*expressions)
-        found = whole.atoms(*functions)
-        inner = [one for one in found if not one.args[0].atoms(*functions)]
+        found = list_costly(sympy.Tuple(*expressions))
+        inner = [one for one in found if not any(list_costly(part) for part in one.args)]
         if not inner:
-            return pairs, expressions
+            return named, expressions
         one = min(inner, key=sympy.default_sort_key)
-        pair, argument = functions[type(one)], one.args[0]
-        names = [f"{name}{len(pairs)}" for name in pair]
-        pairs.append((_PAIRS[pair], argument, names))
-        replaced = {
-            getattr(sympy, name)(argument): sympy.Symbol(new)
-            for name, new in zip(pair, names, strict=True)
-        }
-        expressions = [expression.xreplace(replaced) for expression in expressions]
+        if one.is_Pow:
+            names, replace = _name_powers(mechanism, sympy, one, inner, len(named))
+            named += names
+        else:
+            pair, argument = functions[type(one)], one.args[0]
+            names = [f"{name}{len(named)}" for name in pair]
+            function = f"{_PAIRS[pair]}({{}})"
+            if function == "sin_cos({})" and argument == sympy.Symbol("phi", real=True):
+                named.append((f"{names[0]}, versin", "sin_versin({})", argument))
+                named.append((names[1], "1.0 - {}", sympy.Symbol("versin")))
+            else:
+                named.append((", ".join(names), function, argument))
+            replace = {
+                getattr(sympy, name)(argument): sympy.Symbol(new)
+                for name, new in zip(pair, names, strict=True)
+            }
+        expressions = [expression.xreplace(replace) for expression in expressions]
+
+
+def _name_powers(
+    mechanism: Mechanism, sympy: Any, one: Any, powers: list[Any], count: int
+) -> tuple[list[tuple[str, str, Any]], dict[Any, Any]]:
+    """Names of the root and the reciprocal of a power's base, and by what to replace powers."""
+    base = one.base
+    if one.exp.is_Integer and base.could_extract_minus_sign():
+        base = -base
+    alike = [power for power in powers if power.is_Pow and power.base in (base, -base)]
+    half = sympy.Rational(1, 2)
+    unit = sympy.Integer(1) if all(power.exp.is_Integer for power in alike) else half
+    root, inverse = sympy.Symbol(f"root{count}"), sympy.Symbol(f"inverse{count}")
+    names, replace = [], {}
+    if unit == half:
+        alike = [power for power in alike if power.base == base]
+        names.append((str(root), "sqrt({})", base))
+    if any(power.exp.is_negative for power in alike):
+        names.append((str(inverse), "1.0/({})", base if unit == 1 else root))
+    for power in alike:
+        size = abs(power.exp / unit)
+        if not size.is_Integer or size > _MAX_POWER:
+            raise _reject(mechanism, f"it contains the power {power}")
+        sign = -1 if power.base != base and power.exp % 2 else 1
+        replace[power] = sign * (inverse if power.exp.is_negative else root) ** size
+    return names, replace
+
+
+def _shorten(sympy: Any, expression: Any) -> Any:
+    """The same with fewer operations; by identities of sin, cosh, … only where that takes no time.
+
+    Of a long expression `trigsimp` takes seconds, and finds little.
+    """
+    factored = sympy.factor_terms(expression)
+    is_short = sympy.count_ops(factored) <= _SHORT
+    return sympy.trigsimp(factored) if is_short else factored

@@ -8,7 +8,7 @@ from numba.core import types
 from numba.extending import intrinsic, overload
 
 from svsa.actuators.energy import RESULTS
-from svsa.actuators.spring import SpringDerivatives, SpringTorques
+from svsa.actuators.spring import SpringDerivatives, SpringState, SpringTorques, StiffnessMargin
 from svsa.numerics.compilation import compiled
 from svsa.numerics.simd.each import put, take
 from svsa.numerics.simd.number import INLINED, VECTOR, WIDTH
@@ -29,7 +29,9 @@ def _build_call(name: str) -> Any:
                 context.cast(builder, number, one, types.float64)
                 for number, one in zip(numbers, kinds, strict=True)
             ]
-            return builder.call(builder.inttoptr(place, kind.as_pointer()), given)
+            # Without side effects: the compiler calls it once where two equations ask the same.
+            effects = ("readnone", "nounwind")
+            return builder.call(builder.inttoptr(place, kind.as_pointer()), given, attrs=effects)
 
         return result(address, s, phi, values), generate
 
@@ -37,21 +39,20 @@ def _build_call(name: str) -> Any:
 
 
 _call_torques = _build_call("compute_torques")
-_call_stiffness = _build_call("compute_stiffness")
-_call_derivatives = _build_call("compute_derivatives")
-_call_determinant = _build_call("compute_determinant")
+_call_margin = _build_call("compute_margin")
+_call_state = _build_call("compute_state")
 
 
 def _spread_torques(z: Any) -> SpringTorques:
     return SpringTorques(z, z)
 
 
-def _spread_derivatives(z: Any) -> SpringDerivatives:
-    return SpringDerivatives(z, z, z, z, z, z, z, z, z)
+def _spread_state(z: Any) -> SpringState:
+    return SpringState(SpringTorques(z, z), SpringDerivatives(z, z, z, z, z, z, z, z, z))
 
 
-def _spread_number(z: Any) -> Any:
-    return z
+def _spread_margin(z: Any) -> StiffnessMargin:
+    return StiffnessMargin(SpringTorques(z, z), z, z)
 
 
 def _call_each(call: Any, spread: Callable[[Any], Any]) -> Any:
@@ -79,9 +80,8 @@ def _call_each(call: Any, spread: Callable[[Any], Any]) -> Any:
 
 
 find_torques = _call_each(_call_torques, _spread_torques)
-find_stiffness = _call_each(_call_stiffness, _spread_number)
-find_derivatives = _call_each(_call_derivatives, _spread_derivatives)
-find_determinant = _call_each(_call_determinant, _spread_number)
+find_margin = _call_each(_call_margin, _spread_margin)
+find_state = _call_each(_call_state, _spread_state)
 
 
 def has_energy(kind: Any) -> bool:

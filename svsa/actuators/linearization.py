@@ -2,12 +2,12 @@
 
 from typing import NamedTuple
 
-from svsa.actuators.dynamics import compute_deflection, compute_internal_torque
+from svsa.actuators.dynamics import add_damping, compute_deflection
 from svsa.actuators.elasticity import (
     AnyActuator,
     compute_coordinate,
     compute_coordinate_slope,
-    compute_derivatives,
+    compute_spring_state,
 )
 from svsa.actuators.signals import State, Torque
 from svsa.numerics.compilation import compiled
@@ -49,8 +49,8 @@ def compute_linearization(nominal: AnyActuator, x: State) -> Linearization:
     rM, rB1, rB2 = 1.0 / M, 1.0 / B1, 1.0 / B2
     slope = compute_coordinate_slope(nominal)
     mu = compute_coordinate(nominal, x.theta2)
-    spring = compute_derivatives(nominal, mu, compute_deflection(x))
-    F = compute_internal_torque(nominal, x)
+    torques, spring = compute_spring_state(nominal, mu, compute_deflection(x))
+    F = add_damping(nominal, x, torques)
     a = F.link * rM
     dphi = x.dq - x.dtheta1
     dmu = slope * x.dtheta2

@@ -40,6 +40,25 @@ class SpringTorques(NamedTuple):
     reaction: float
 
 
+class SpringState(NamedTuple):
+    """All that the equations need of the spring at one state."""
+
+    torques: SpringTorques
+    derivatives: SpringDerivatives
+
+
+class StiffnessMargin(NamedTuple):
+    """What a tick needs of the plant's spring at its beginning.
+
+    sigma: σ, N·m/rad. determinant: (σ σ_s − τ_s σ_φ) over its value at φ = 0, of which det A(x) is
+    a multiple.
+    """
+
+    torques: SpringTorques
+    sigma: float
+    determinant: float
+
+
 class Spring(NamedTuple):
     """The lever and the spring as they stand: what all their functions are made of.
 

@@ -48,6 +48,9 @@ L = (
     0.05834304510699724,
     0.06017188559825755,
 )
+MAX_POWER = 1010.0
+H = tuple(1.0 / math.factorial(n) for n in range(2, 14))
+"""The Taylor coefficients of cosh and sinh from r²/2! on: what follows is below 10⁻¹⁷."""
 
 
 @compiled
@@ -118,8 +121,21 @@ def tanh(x: float) -> float:
 
 @compiled
 def sinh_cosh(x: float) -> tuple[float, float]:
-    """sinh x and cosh x from one eˣ − 1, so that nothing cancels at small x."""
-    less = expm1(abs(x))
-    rest = less / (less + 1.0)
-    size = 0.5 * (less + rest)
-    return choose(x >= 0.0, size, -size), fma(0.5 * less, rest, 1.0)
+    """sinh x and cosh x for |x| ≤ 700; beyond, numbers of that size with the sign of x.
+
+    x = k ln 2 + r, so that sinh x = sinh(k ln 2) cosh r + cosh(k ln 2) sinh r, and the hyperbolic
+    functions of k ln 2 are sums of powers of 2. At small x, k is 0 and nothing cancels.
+    """
+    k = floor(x * LOG2_E + 0.5)
+    r = fma(-k, LN_2[1], fma(-k, LN_2[0], x))
+    power = least(greatest(k, -MAX_POWER), MAX_POWER)
+    up, down = raise_two(power - 1.0), raise_two(-1.0 - power)
+    S, C = up - down, up + down
+    z = r * r
+    z2 = z * z
+    # In pairs: each operation waits for the one before, and a chain of six takes twice as long.
+    sine = fma(z2, fma(z2, fma(z, H[11], H[9]), fma(z, H[7], H[5])), fma(z, H[3], H[1]))
+    cosine = fma(z2, fma(z2, fma(z, H[10], H[8]), fma(z, H[6], H[4])), fma(z, H[2], H[0]))
+    sine, cosine = fma(r * z, sine, r), z * cosine
+    # The 1 of cosh r is added last, where it rounds least.
+    return fma(S, cosine, fma(C, sine, S)), fma(C, cosine, fma(S, sine, C))

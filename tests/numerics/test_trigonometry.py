@@ -12,7 +12,7 @@ import pytest
 from numpy.testing import assert_array_equal
 
 from svsa.numerics import exponential, trigonometry
-from svsa.numerics.exponential import exp, expm1, log, log1p, tanh
+from svsa.numerics.exponential import exp, expm1, log, log1p, sinh_cosh, tanh
 from svsa.numerics.fused import fma
 from svsa.numerics.trigonometry import acos, cos, sin, sin_cos, sin_versin
 from tests.numerics.minimax import KERNELS, find_coefficients
@@ -80,6 +80,11 @@ def test_arc_cosine_is_within_one_unit_of_the_last_place() -> None:
         (log1p, mpmath.log1p, np.abs(SMALL), 1.5),
         (tanh, mpmath.tanh, RANDOM.uniform(-20.0, 20.0, COUNT), 3.0),
         (tanh, mpmath.tanh, SMALL, 3.0),
+        (lambda x: sinh_cosh(x)[0], mpmath.sinh, RANDOM.uniform(-700.0, 700.0, COUNT), 1.5),
+        (lambda x: sinh_cosh(x)[0], mpmath.sinh, RANDOM.uniform(-3.0, 3.0, COUNT), 2.5),
+        (lambda x: sinh_cosh(x)[0], mpmath.sinh, SMALL, 1.5),
+        (lambda x: sinh_cosh(x)[1], mpmath.cosh, RANDOM.uniform(-3.0, 3.0, COUNT), 1.5),
+        (lambda x: sinh_cosh(x)[1], mpmath.cosh, RANDOM.uniform(-700.0, 700.0, COUNT), 1.5),
     ],
 )
 def test_exponentials_and_logarithms(
@@ -98,6 +103,8 @@ def test_what_has_no_end_and_what_is_no_number() -> None:
     assert expm1(-1e300) == -1.0
     assert math.isfinite(exp(1e300))
     assert (tanh(1e300), tanh(-1e300)) == (1.0, -1.0)
+    assert all(math.isnan(value) for value in sinh_cosh(math.nan))
+    assert [value > 1e300 for value in (-sinh_cosh(-800.0)[0], *sinh_cosh(800.0))] == [True] * 3
 
 
 @pytest.mark.parametrize(

@@ -50,7 +50,7 @@ from svsa.simulation.loop.lane import (
 from svsa.simulation.loop.publish import publish
 from svsa.simulation.plant.effects import EffectConstants
 from svsa.simulation.plant.effects.current_lag import compute_lagged_torque, compute_mean_torque
-from svsa.simulation.plant.integration import compute_plant_rate, integrate_from
+from svsa.simulation.plant.integration import compute_first_rate, integrate_from
 from svsa.simulation.plant.load_table import compute_load
 from svsa.simulation.plant.sensors import are_inexact, build_positions, read_positions, read_sensors
 from svsa.simulation.reference.transition import compute_trajectory
@@ -225,7 +225,7 @@ def act(blocks: Blocks, inputs: Inputs, lane: LaneState, torque: Torque, tick: i
     load = compute_load(inputs.loads, tick, blocks.period, time)
     actual = compute_lagged_torque(lane.actual, delayed, effects.current_lag, 0.0)
     # Computed once for two uses: the sample, and the first Runge–Kutta stage in `move`.
-    rate = compute_plant_rate(blocks.plant, effects, lane.x, actual, load)
+    rate = compute_first_rate(blocks.plant, effects, lane.x, actual, load)
     return Action(limited, delayed, actual, load, rate)
 
 

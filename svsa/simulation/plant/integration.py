@@ -2,7 +2,17 @@
 
 from typing import NamedTuple
 
-from svsa.actuators.dynamics import Actuator, ExternalLoad, compute_rate, shift
+from svsa.actuators.dynamics import (
+    Actuator,
+    ExternalLoad,
+    accelerate,
+    add_damping,
+    build_rate,
+    compute_deflection,
+    compute_rate,
+    shift,
+)
+from svsa.actuators.elasticity import compute_coordinate, compute_torques_inside
 from svsa.actuators.signals import State, Torque
 from svsa.numerics.compilation import compiled
 from svsa.simulation.plant.effects import EffectConstants
@@ -65,6 +75,16 @@ def compute_plant_rate(
 ) -> State:
     """ẋ of the plant under the motors' torque, the loads and everything else that acts (Eq 1)."""
     return compute_rate(actuator, x, torque, add_resistance(effects, x, load))
+
+
+@compiled
+def compute_first_rate(
+    actuator: Actuator, effects: EffectConstants, x: State, torque: Torque, load: ExternalLoad
+) -> State:
+    """`compute_plant_rate` at the beginning of a tick, where the domain is checked, too."""
+    s = compute_coordinate(actuator, x.theta2)
+    F = add_damping(actuator, x, compute_torques_inside(actuator, s, compute_deflection(x)))
+    return build_rate(x, accelerate(actuator, x, F, torque, add_resistance(effects, x, load)))
 
 
 @compiled

@@ -87,9 +87,8 @@ def offer_equations() -> None:
         # A law in a process of its own gets the SVSA, whose equations need no compiler.
         "actuators.kinds": {
             "choose_kind": lambda of_svsa, of_energy: of_svsa,
-            "find_derivatives": None,
-            "find_determinant": None,
-            "find_stiffness": None,
+            "find_margin": None,
+            "find_state": None,
             "find_torques": None,
         },
         "actuators.energy": {"compile_energy": None},
