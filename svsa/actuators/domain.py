@@ -16,12 +16,18 @@ from svsa.actuators.elasticity import (
     compute_stiffness_of,
 )
 from svsa.actuators.faults import find_number
+from svsa.actuators.installed import get_mechanism
 from svsa.actuators.kinds import choose_kind
 from svsa.actuators.lever import (
     compute_lever_ratio_for_stiffness,
     compute_zero_stiffness_deflection,
 )
-from svsa.actuators.parameters import ActuatorParameters, Limits, MechanismParameters
+from svsa.actuators.parameters import (
+    ActuatorParameters,
+    Limits,
+    MechanismParameters,
+    get_mechanism_name,
+)
 from svsa.actuators.signals import State
 from svsa.actuators.spring import compute_spring
 from svsa.errors import ParameterError, Violation
@@ -64,7 +70,8 @@ def build_domain(actuator: MechanismParameters, limits: Limits) -> Domain:
     stiffness is zero at any of these s.
     """
     if not isinstance(actuator, ActuatorParameters):
-        return _build_domain_of_energy(build_actuator(actuator, 0.0), limits)
+        has_motor = get_mechanism(get_mechanism_name(actuator)).has_stiffness_motor
+        return _build_domain_of_energy(build_actuator(actuator, 0.0), limits, has_motor)
     K = actuator.rotational_stiffness_nm_per_rad
     mu_min = compute_lever_ratio_for_stiffness(limits.stiffness_min_nm_per_rad, K)
     mu_max = compute_lever_ratio_for_stiffness(limits.stiffness_max_nm_per_rad, K)
@@ -77,9 +84,11 @@ def build_domain(actuator: MechanismParameters, limits: Limits) -> Domain:
     )
 
 
-def _build_domain_of_energy(actuator: ElasticActuator, limits: Limits) -> Domain:
+def _build_domain_of_energy(actuator: ElasticActuator, limits: Limits, has_motor: bool) -> Domain:
     ends = limits.stiffness_min_nm_per_rad, limits.stiffness_max_nm_per_rad
-    reached = sorted(_find_coordinate(actuator, sigma) for sigma in ends)
+    reached = [actuator.lowest, actuator.highest]
+    if has_motor:
+        reached = sorted(_find_coordinate(actuator, sigma) for sigma in ends)
     margin = limits.lever_ratio_margin * (reached[1] - reached[0])
     low = max(reached[0] - margin, actuator.lowest)
     high = min(reached[1] + margin, actuator.highest)

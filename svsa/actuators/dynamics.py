@@ -59,6 +59,7 @@ def build_actuator(parameters: MechanismParameters, s0: float) -> Any:
         mechanism.compute_slope(p),
         float(s0),
         *mechanism.coordinate,
+        float(mechanism.antagonistic),
         addresses["compute_torques"],
         addresses["compute_margin"],
         addresses["compute_state"],

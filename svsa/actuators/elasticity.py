@@ -60,6 +60,7 @@ class ElasticActuator(NamedTuple):
     """The constants of an actuator with an elastic energy U(φ, s), SI, gear output side.
 
     M … D2: as of `Actuator`. kappa: κ = ds/dθ2. mu0: s at θ2 = 0. lowest, highest: ends of s.
+    antagonistic: 1 of two motors that pull against each other, else 0.
     The addresses are those of `svsa.actuators.energy`, of this process. e0 … e5: parameters of U.
     """
 
@@ -73,6 +74,7 @@ class ElasticActuator(NamedTuple):
     mu0: float
     lowest: float
     highest: float
+    antagonistic: float
     torques_address: int
     margin_address: int
     state_address: int

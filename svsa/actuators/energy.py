@@ -182,9 +182,16 @@ def write_source(mechanism: Mechanism) -> str:
     torque, reaction = U.diff(phi), U.diff(s)
     sigma = torque.diff(phi)
     _check_smooth(mechanism, sympy, [U, sigma.diff(phi, 2), sigma.diff(s, 2)])
-    if sympy.simplify(sigma.diff(s)) == 0:
+    slope = sympy.simplify(sigma.diff(s))
+    if not mechanism.has_stiffness_motor:
+        if any(sympy.simplify(one) != 0 for one in (reaction, slope, sigma.diff(phi))):
+            finding = "without a stiffness motor it is that of a linear spring, ½ k φ²"
+            raise _reject(mechanism, finding)
+        # σ̇ = ṡ on paper: A(x) stays regular, and the error σ_d − σ = 0 never moves motor 2.
+        slope = sympy.Integer(1)
+    elif slope == 0:
         raise _reject(mechanism, "its stiffness ∂²U/∂φ² does not depend on s")
-    determinant = sigma * sigma.diff(s) - torque.diff(s) * sigma.diff(phi)
+    determinant = sigma * slope - torque.diff(s) * sigma.diff(phi)
     found = {
         "compute_torques": [torque, reaction],
         "compute_margin": [
@@ -197,7 +204,7 @@ def write_source(mechanism: Mechanism) -> str:
             torque.diff(s, 2),
             sigma,
             sigma.diff(phi),
-            sigma.diff(s),
+            slope,
             sigma.diff(phi, 2),
             sigma.diff(phi, s),
             sigma.diff(s, 2),

@@ -38,6 +38,11 @@ class Mechanism:
         prototype: Parameters of the true plant.
         nominal: Parameters of the model that the control laws get.
         limits: Torque limits, stiffness range and deflection limit.
+        antagonistic: Whether two real motors a and b pull against each other, θ1 = (θa + θb)/2 and
+            θ2 = (θa − θb)/2: then u1 = ua + ub, u2 = ua − ub, and the torque limits are theirs.
+        has_stiffness_motor: False for the limit case of a linear spring U(φ) = ½ k φ² whose
+            stiffness no motor changes: the stiffness reference is k, always, and the equations of
+            motor 2 are those of a body that nothing moves.
         sources: Of each field of `prototype` and `limits` the source, or "assumed: …".
     """
 
@@ -53,6 +58,8 @@ class Mechanism:
     nominal: MechanismParameters
     limits: Limits
     sources: Mapping[str, str]
+    antagonistic: bool = False
+    has_stiffness_motor: bool = True
 
     def __post_init__(self) -> None:
         if not NAME.fullmatch(self.name):

@@ -10,6 +10,7 @@ from pydantic import ValidationInfo, field_validator, model_validator
 
 from svsa.actuators.installed import InstalledActuator
 from svsa.actuators.parameters import Limits, get_mechanism_name
+from svsa.actuators.reach import check_only_stiffness
 from svsa.control.gains import Gains
 from svsa.control.installed import (
     PAPERS_LAW,
@@ -137,7 +138,9 @@ class Configuration(Design):
 
     @model_validator(mode="after")
     def _check_stiffness_range(self) -> Self:
-        self.limits.check_stiffness("stiffness", *get_range(self.stiffness))
+        low, high = get_range(self.stiffness)
+        check_only_stiffness(self.nominal, low, high)
+        self.limits.check_stiffness("stiffness", low, high)
         return self
 
     @property

@@ -1,13 +1,15 @@
 """One run: a configuration, the state it has reached, and the changes made on the way."""
 
+import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
-from svsa.actuators.domain import INSIDE
+from svsa.actuators.domain import INSIDE, build_domain
 from svsa.actuators.dynamics import build_actuator
 from svsa.actuators.elasticity import compute_coordinate, compute_stiffness_of
+from svsa.actuators.reach import check_reach
 from svsa.actuators.signals import State
 from svsa.control.installed import check_installed, get_law
 from svsa.errors import Fault, ParameterError, StateError
@@ -22,6 +24,8 @@ from svsa.simulation.loop.slices import advance_in_slices
 from svsa.simulation.loop.stepwise import Controller, advance_stepwise
 from svsa.simulation.plant.load_table import ScheduledLoad, build_load_table
 from svsa.simulation.plant.loads import Load
+from svsa.simulation.plant.loads.load import TORQUE, W2, D
+from svsa.simulation.reference.kinds import get_range
 from svsa.simulation.reference.kinds.constant import ConstantPosition, ConstantStiffness
 from svsa.simulation.reference.transition import Stack, build_stack, push_trajectory
 
@@ -58,6 +62,7 @@ class Run:
         bind: Bind = bind_law,
     ) -> None:
         check_laws(configuration)
+        check_lasting_loads(configuration)
         self.configuration = configuration
         self.steps = steps
         self._bind = bind
@@ -256,6 +261,17 @@ def check_laws(configuration: Configuration) -> None:
             check_installed(lane.law)
         except ParameterError as error:
             raise error.within(f"comparisons[{number - 1}].law" if number else "law") from None
+
+
+def check_lasting_loads(configuration: Configuration) -> None:
+    """Raise `ParameterError` for a stiffness that is not possible under the loads that last."""
+    c, torque = configuration, 0.0
+    for load in c.loads:
+        if load.acts_as == TORQUE and load.factor is None and math.isinf(load.get_duration()):
+            row = np.zeros(D + 1)
+            load.fill(row)
+            torque += float(row[W2])
+    check_reach(c.actuator, build_domain(c.actuator, c.limits), torque, *get_range(c.stiffness))
 
 
 def _follow_law(lane: LaneState, before: str, law: str) -> LaneState:

@@ -11,6 +11,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from svsa.actuators.installed import get_mechanism
 from svsa.actuators.parameters import Limits, MechanismParameters
+from svsa.actuators.reach import find_only_stiffness
 from svsa.control.gains import Gains
 from svsa.control.law_names import AnyLaw, KnownLaw
 from svsa.control.observers.disturbance import ObserverBandwidth
@@ -141,12 +142,16 @@ def change_configuration(
 
 
 def _read_mechanism(name: str) -> dict[str, Any]:
-    """Plant, nominal model and limits of an actuator."""
+    """Plant, nominal model and limits of an actuator, and the stiffness if it has only one."""
     try:
         found = get_mechanism(name)
     except ParameterError as error:
         raise error.within("actuator") from None
-    return {"actuator": found.prototype, "nominal": found.nominal, "limits": found.limits}
+    read = {"actuator": found.prototype, "nominal": found.nominal, "limits": found.limits}
+    only = find_only_stiffness(found.nominal)
+    if only is not None:
+        read["stiffness"] = ConstantStiffness(stiffness_nm_per_rad=only)
+    return read
 
 
 def read_setting(name: str, given: Any, present: Any) -> Any:

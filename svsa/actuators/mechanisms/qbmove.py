@@ -12,7 +12,7 @@ from svsa.actuators.parameters import Limits, MechanismParameters
 from svsa.inputs.checked import Number, quantity
 
 _MODELS = "public Gazebo models of the ViActors project"
-_TORQUE = f"{_MODELS}: 6 N·m a motor; |u1|, |u2| ≤ 6 N·m keep both motors within it"
+_TORQUE = f"{_MODELS}: 6 N·m a motor"
 
 
 class QbmoveParameters(MechanismParameters):
@@ -79,4 +79,5 @@ QBMOVE = Mechanism(
         "stiffness_max_nm_per_rad": "assumed",
         "lever_ratio_margin": "assumed",
     },
+    antagonistic=True,
 )

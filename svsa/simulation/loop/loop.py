@@ -29,7 +29,7 @@ from svsa.actuators.domain import INSIDE, NOT_FINITE, check_domain
 from svsa.actuators.dynamics import InternalTorque, compute_internal_torque
 from svsa.actuators.signals import Disturbance, Measurement, Positions, Reference, State, Torque
 from svsa.control.call import BoundLaw, Call, build_call, compute_law
-from svsa.control.limits import limit_torque
+from svsa.control.limits import limit_motors
 from svsa.control.observers.disturbance import (
     correct_disturbance_estimate,
     update_disturbance_estimate,
@@ -103,7 +103,8 @@ def decide(
     """
     reference = read_reference(inputs, tick * blocks.period)
     commanded = compute_law(call, known, reference, estimate, applied, blocks.period, measured)
-    return reference, limit_torque(commanded, blocks.torque1_max, blocks.torque2_max)
+    most = Torque(blocks.torque1_max, blocks.torque2_max)
+    return reference, limit_motors(blocks.plant, commanded, most)
 
 
 @compiled

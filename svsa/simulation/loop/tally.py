@@ -8,6 +8,7 @@ import numpy as np
 from svsa.actuators.dynamics import InternalTorque, compute_deflection
 from svsa.actuators.elasticity import compute_coordinate, compute_stiffness_of
 from svsa.actuators.signals import Reference, State, Torque
+from svsa.control.limits import are_at_limit
 from svsa.numerics.compilation import compiled
 from svsa.numerics.simd.choice import choose, greatest
 from svsa.simulation.loop.lane import Action, Blocks, LaneState
@@ -137,18 +138,17 @@ def add_moment(
     tally: Tally,
     runs: bool,
     window: Window,
-    limits: tuple[float, float],
+    is_limited: bool,
     moment: Moment,
     tick: int,
 ) -> Tally:
-    """`Tally` with one tick, where it `runs`. limits: of either torque, N·m."""
+    """`Tally` with one tick, where it `runs`. is_limited: whether a motor is at its limit."""
     t, m = tally, moment
     e, s = choose(runs, abs(m.position), 0.0), choose(runs, abs(m.stiffness), 0.0)
     u1, u2 = choose(runs, abs(m.u1), 0.0), choose(runs, abs(m.u2), 0.0)
     peak, passed = greatest(t.position_peak, e), float(tick - window.begin + 1)
     settled = float(window.settled)
     inside, recovered = follow_recovery(runs, e, peak, passed, settled, t.inside, t.recovered)
-    is_limited = (u1 >= AT_LIMIT * limits[0]) | (u2 >= AT_LIMIT * limits[1])
     share = s / m.sigma
     squares, stiffness_squares = t.steady_state_squares, t.stiffness_steady_squares
     if tick >= window.end - window.settled:
@@ -174,7 +174,7 @@ def add_moment(
         squares,
         inside,
         recovered,
-        choose(is_limited, t.limited + 1.0, t.limited),
+        choose(runs & is_limited, t.limited + 1.0, t.limited),
         stiffness_squares,
         greatest(t.share_peak, share),
         last_peak,
@@ -207,8 +207,9 @@ def measure(
     sigma = compute_stiffness_of(plant, mu, compute_deflection(x))
     errors = reference.q - x.q, reference.sigma - sigma
     moment = Moment(*errors, reference.sigma, torque.u1, torque.u2, x.dtheta1, x.dtheta2)
-    limits = blocks.torque1_max, blocks.torque2_max
-    return add_moment(tally, runs, window, limits, moment, tick)
+    most = Torque(AT_LIMIT * blocks.torque1_max, AT_LIMIT * blocks.torque2_max)
+    is_limited = are_at_limit(plant, torque, most)
+    return add_moment(tally, runs, window, is_limited, moment, tick)
 
 
 @compiled

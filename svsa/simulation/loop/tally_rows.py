@@ -88,14 +88,13 @@ def follow_samples(followed: Followed, rows: np.ndarray, window: Window) -> Foll
     passed, known = followed.passed, followed.known
     absolute, variation = followed.stiffness_absolute, followed.torque2_variation
     last, settled = followed.torque2_last, float(window.settled)
-    unlimited = math.inf, math.inf
     for i in range(rows.shape[0]):
         r = rows[i]
         e, s = position.size, stiffness.size
         passed += 1.0
         if not math.isnan(r[0]):
             moment = Moment(r[0], r[1], r[2], r[3], r[4], r[5], r[6])
-            tally = add_moment(tally, True, window, unlimited, moment, int(known))
+            tally = add_moment(tally, True, window, False, moment, int(known))
             e, s = abs(moment.position), abs(moment.stiffness)
             absolute += s
             if known > 0.0:

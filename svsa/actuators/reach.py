@@ -1,0 +1,105 @@
+"""Which stiffness an elastic energy gives under a load: not every σ_d is possible at every τ_e.
+
+With qbmove |τ_e| < σ_d/a, whatever s is: more torque needs more deflection, which stiffens the
+springs.
+"""
+
+import math
+
+import numpy as np
+
+from svsa.actuators.domain import Domain
+from svsa.actuators.dynamics import build_actuator
+from svsa.actuators.elasticity import ElasticActuator, compute_stiffness_of, compute_torques
+from svsa.actuators.installed import get_mechanism
+from svsa.actuators.parameters import ActuatorParameters, MechanismParameters, get_mechanism_name
+from svsa.errors import ParameterError, Violation
+
+_COUNT = 129
+"""At how many values of s a stiffness is searched."""
+_HALVINGS = 50
+
+
+def find_stiffness_range(
+    actuator: ElasticActuator, domain: Domain, torque: float
+) -> tuple[float, float]:
+    """The least and the greatest stiffness at rest under an elastic torque.
+
+    Args:
+        actuator: Constants of the plant.
+        domain: Its domain: ends of s and of φ.
+        torque: τ_e, N·m.
+
+    Returns:
+        σ, N·m/rad; (infinite, 0) if no s holds this torque inside the domain.
+    """
+    found = [
+        compute_stiffness_of(actuator, s, phi)
+        for s in np.linspace(domain.mu_min, domain.mu_max, _COUNT)
+        if not math.isnan(phi := _find_deflection(actuator, domain, s, torque))
+    ]
+    return (min(found), max(found)) if found else (math.inf, 0.0)
+
+
+def _find_deflection(actuator: ElasticActuator, domain: Domain, s: float, torque: float) -> float:
+    """The φ with τ_e(φ, s) = τ by bisection, rad; NaN if it lies outside the domain."""
+    near, far = 0.0, math.copysign(domain.deflection_max, torque)
+    if abs(compute_torques(actuator, s, far).torque) < abs(torque):
+        return math.nan
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (near + far)
+        if abs(compute_torques(actuator, s, middle).torque) < abs(torque):
+            near = middle
+        else:
+            far = middle
+    return 0.5 * (near + far)
+
+
+def find_only_stiffness(parameters: MechanismParameters) -> float | None:
+    """The stiffness of an actuator without a stiffness motor, N·m/rad; None of any other."""
+    if isinstance(parameters, ActuatorParameters):
+        return None
+    if get_mechanism(get_mechanism_name(parameters)).has_stiffness_motor:
+        return None
+    return float(compute_stiffness_of(build_actuator(parameters, 0.0), 0.0, 0.0))
+
+
+def check_only_stiffness(parameters: MechanismParameters, low: float, high: float) -> None:
+    """Raise `ParameterError` for a stiffness reference that no motor could follow.
+
+    Args:
+        parameters: Of the nominal model.
+        low: Least stiffness of the reference, N·m/rad.
+        high: Its greatest stiffness, N·m/rad.
+    """
+    only = find_only_stiffness(parameters)
+    for value in (low, high):
+        if only is not None and not math.isclose(value, only, rel_tol=1e-12):
+            mechanism = get_mechanism(get_mechanism_name(parameters))
+            bound = f"{only:.10g} N·m/rad: the actuator {mechanism.name} has no stiffness motor"
+            raise ParameterError(Violation("stiffness", value, "N·m/rad", bound))
+
+
+def check_reach(
+    parameters: MechanismParameters, domain: Domain, torque: float, low: float, high: float
+) -> None:
+    """Raise `ParameterError` for a stiffness that the energy does not give under a lasting load.
+
+    Args:
+        parameters: Of the plant. Of the SVSA the domain says it, and nothing is checked.
+        domain: Of the plant.
+        torque: Sum of the loads on the link that last, N·m.
+        low: Least stiffness of the reference, N·m/rad.
+        high: Its greatest stiffness, N·m/rad.
+    """
+    if isinstance(parameters, ActuatorParameters) or torque == 0.0:
+        return
+    least, greatest = find_stiffness_range(build_actuator(parameters, 0.0), domain, torque)
+    under = f"under {abs(torque):.4g} N·m on the link"
+    if least > greatest:
+        bound = f"a load that the spring holds within a deflection of {domain.deflection_max:.3g}"
+        raise ParameterError(Violation("loads", torque, "N·m", f"{bound} rad"))
+    if low < least or high > greatest:
+        bound = f"from {least:.4g} to {greatest:.4g} N·m/rad {under}: the energy gives no other"
+        wrong = low if low < least else high
+        raise ParameterError(Violation("stiffness", wrong, "N·m/rad", bound))
