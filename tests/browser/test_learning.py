@@ -35,6 +35,8 @@ def test_the_tour_is_offered_once_goes_by_keyboard_and_is_taken_again(page: Page
         expect(tour.get_by_role("heading")).to_have_text(title)
         page.keyboard.press("ArrowRight")
     expect(tour).to_be_hidden()
+    page.keyboard.press("Tab")
+    expect(page.get_by_role("button", name=re.compile("3 kg"))).to_be_focused()
     page.reload()
     expect(page.get_by_role("button", name=re.compile("Hang 3 kg"))).to_be_visible()
     expect(tour).to_be_hidden()

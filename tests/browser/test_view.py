@@ -248,6 +248,16 @@ def test_low_graphics_are_remembered(view: Page) -> None:
     expect(switch).to_have_attribute("aria-pressed", "true")
 
 
+def test_the_3d_view_shows_that_it_has_the_focus(own_page: Page, lab: Lab) -> None:
+    open_view(own_page, lab)
+    ring = "() => getComputedStyle(document.querySelector('.view'), '::after').borderTopWidth"
+    assert own_page.evaluate(ring) != "2px"
+    own_page.evaluate("document.querySelector('iframe').contentWindow.focus()")
+    own_page.wait_for_function(f"({ring})() === '2px'")
+    own_page.get_by_role("button", name="Reset").focus()
+    own_page.wait_for_function(f"({ring})() !== '2px'")
+
+
 WITHOUT_WEBGL = """const getContext = HTMLCanvasElement.prototype.getContext;
 HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
     return kind.startsWith("webgl") ? null : getContext.call(this, kind, ...rest);

@@ -28,6 +28,7 @@ import { isBasic } from "./basic";
 import { Comparison } from "./comparison";
 import { Login } from "./login";
 import { Readout } from "./readout";
+import { SavedNote } from "./savednote";
 import { StatusBar } from "./statusbar";
 import { TopBar } from "./topbar";
 import { View } from "./view";
@@ -101,6 +102,7 @@ export function App() {
       <ClassPanel />
       {state !== null && at.kind === "lab" && <Tour />}
       <CallsDrawer />
+      <SavedNote />
       <StatusBar />
     </>
   );

@@ -9,7 +9,6 @@ import { FaultAdvice, StopBanners } from "../lab/safety/stopbanner";
 import { place } from "../runs/list/place";
 import { RejoinCodeBanner } from "../teaching/classroom/join";
 import { ExerciseBanner } from "../teaching/course/experiment";
-import { SavedNote } from "./savednote";
 
 /** For a command whose answer was lost: not known yet, or executed. */
 function CommandStatus({ now }: { now: NonNullable<typeof commandStatus.value> }) {
@@ -105,7 +104,6 @@ export function Banners() {
       {session.value?.exercise && place.value.kind === "lab" && (
         <ExerciseBanner exercise={session.value.exercise} />
       )}
-      <SavedNote />
       <Problem control="session" />
     </div>
   );

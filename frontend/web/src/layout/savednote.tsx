@@ -1,6 +1,6 @@
 import type { RunDetails } from "../core/api/types";
 import { text } from "../core/text/en";
-import { PlaceLink } from "../runs/list/place";
+import { isOfLab, PlaceLink, place } from "../runs/list/place";
 import { type Saved, saved } from "../runs/list/saved";
 import { formatDuration } from "../runs/list/words";
 import { isOfLesson } from "../teaching/course/lesson";
@@ -22,9 +22,10 @@ const isShownThere = (now: Saved): boolean =>
   isOfLesson(now.run) &&
   (now.stage === "saving" || (now.stage === "saved" && now.details.state === "complete"));
 
-/** After a recording: that it is being saved, and then under which name it is found. */
+/** After a recording, over the lab: that it is being saved, and then under which name it is found. */
 export function SavedNote() {
-  const now = saved.value === null || isShownThere(saved.value) ? null : saved.value;
+  const last = isOfLab(place.value) ? saved.value : null;
+  const now = last === null || isShownThere(last) ? null : last;
   const [head, rest] =
     now === null
       ? ["", ""]
@@ -37,7 +38,7 @@ export function SavedNote() {
     saved.value = null;
   };
   return (
-    <div class="banner is-news" role="status" hidden={now === null}>
+    <div class="toast" role="status" hidden={now === null}>
       {now && (
         <>
           <p>

@@ -41,7 +41,12 @@ export function View({ isBasic }: { isBasic: boolean }) {
           title={text.view}
           ref={begin}
           onLoad={({ currentTarget }) => {
-            currentTarget.contentWindow?.addEventListener("keydown", answerKey, true);
+            const inner = currentTarget.contentWindow;
+            inner?.addEventListener("keydown", answerKey, true);
+            const mark = ({ type }: Event) =>
+              currentTarget.classList.toggle("is-focused", type === "focus");
+            inner?.addEventListener("focus", mark);
+            inner?.addEventListener("blur", mark);
             enterView(currentTarget);
           }}
         />

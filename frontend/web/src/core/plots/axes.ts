@@ -162,7 +162,7 @@ export function otherAxis(way: "x" | "y", { label, isLog, labels }: Scale = {}):
       label,
       labelSize: 16,
       labelGap: 0,
-      labelFont: "12px system-ui, sans-serif",
+      labelFont: FONT,
     }),
   };
 }

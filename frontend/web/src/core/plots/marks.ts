@@ -22,7 +22,10 @@ function strokeLine(
   context.stroke();
 }
 
-/** Faint lines at ±value of each bound that is on the axis. */
+/**
+ * Faint lines at ±value of each bound that is on the axis. A name is beyond its line, where the
+ * curve that it limits does not go.
+ */
 export function drawBounds(plot: uPlot, bounds: readonly Bound[]): void {
   const { min, max } = plot.scales.y as uPlot.Scale;
   if (min === undefined || max === undefined) return;
@@ -31,19 +34,19 @@ export function drawBounds(plot: uPlot, bounds: readonly Bound[]): void {
   context.setLineDash([]);
   context.lineWidth = devicePixelRatio;
   context.font = `${LABEL_PX * devicePixelRatio}px system-ui, sans-serif`;
-  context.textBaseline = "middle";
-  context.textAlign = "left";
+  context.textAlign = "right";
   context.fillStyle = palette.peek().axis;
+  const [right, gap] = [bbox.left + bbox.width, 3 * devicePixelRatio];
   for (const bound of bounds) {
     context.strokeStyle = palette.peek()[bound.colour];
-    const gap = context.measureText(bound.label).width + 8 * devicePixelRatio;
     for (const value of [-bound.value, bound.value]) {
       if (value < min || value > max) continue;
       const y = Math.round(plot.valToPos(value, "y", true));
       context.globalAlpha = 0.6;
-      strokeLine(context, [bbox.left, y], [bbox.left + bbox.width - gap, y]);
+      strokeLine(context, [bbox.left, y], [right, y]);
       context.globalAlpha = 1;
-      context.fillText(bound.label, bbox.left + bbox.width - gap + 4 * devicePixelRatio, y);
+      context.textBaseline = value > 0 ? "bottom" : "top";
+      context.fillText(bound.label, right - gap, y - Math.sign(value) * gap);
     }
   }
   context.restore();

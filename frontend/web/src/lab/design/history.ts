@@ -198,16 +198,14 @@ async function bringBack(design: Design, state: SessionState): Promise<SessionSt
 }
 
 /** Restores design, loads and lanes of a state; the run goes on. */
-export async function restoreTo(before: SessionState): Promise<boolean> {
-  const state = session.peek();
-  if (state === null) return false;
-  const lanes = comparisonsOf(before);
-  return perform("session", async () => {
-    const isSameLanes = isEqual(lanes, comparisonsOf(state));
-    const reached = isSameLanes ? state : await putLanes(lanes);
+export const restoreTo = (before: SessionState): Promise<boolean> =>
+  perform("session", async () => {
+    // The page may know less than the server: answers of a session at rest can overtake each other.
+    const state = await readState();
+    const lanes = comparisonsOf(before);
+    const reached = isEqual(lanes, comparisonsOf(state)) ? state : await putLanes(lanes);
     return bringBack({ ...designOf(before), comparisons: {} }, reached);
   });
-}
 
 /** A lane that is brought back is another one to the server: earlier steps learn its identity. */
 function renameLanes(design: Design, names: ReadonlyMap<string, string>): Design {

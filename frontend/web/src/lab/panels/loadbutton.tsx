@@ -73,7 +73,7 @@ export function LoadButton({ state }: { state: SessionState }) {
   };
 
   return (
-    <div class="load-place">
+    <div class="load-place" tabIndex={-1}>
       <button
         type="button"
         class={`load-button ${isHung ? "is-hung" : ""}`}

@@ -39,6 +39,8 @@ function endTour(): void {
   if (before !== null && mayCommand.peek()) void restoreTo(before);
   before = null;
   remember(STORE, "done");
+  // The next Tab goes to the load button, not to the top of the page.
+  document.querySelector<HTMLElement>(".load-place")?.focus({ preventScroll: true });
 }
 
 function go(by: number): void {
