@@ -29,7 +29,7 @@ const metrics = (seconds: number | null) => ({ recovery_time_s: seconds }) as Me
 describe("a window", () => {
   it("names what the recovery time of a bench includes", () => {
     expect(recoveryNameOf({ bench: null }).name).toBe("Recovery time");
-    expect(recoveryNameOf({ bench: {} as BenchState }).name).toBe("Recovery after mark");
+    expect(recoveryNameOf({ bench: {} as BenchState }).name).toBe("Mark to recovery");
   });
 
   it("says since when and since what", () => {

@@ -2,7 +2,7 @@ import { computed } from "@preact/signals";
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { EquationButton } from "../equations/equation";
 import type { Cast } from "../state/lanes";
-import { lawOf, titleOf as titleOfLaw } from "../state/laws";
+import { lawOf } from "../state/laws";
 import { session } from "../state/session";
 import { text } from "../text/en";
 import { formatNumber } from "../units";
@@ -151,11 +151,11 @@ export function Plot({ setup, isBasic }: { setup: PlotSetup; isBasic: boolean })
   );
 }
 
-/** The laws of the present lanes that act on no estimate. */
-const lawsWithout = computed(() => {
-  const laws = (session.value?.lanes ?? []).map(({ law }) => law);
-  const without = laws.filter((law) => lawOf(law)?.estimate === "none");
-  return [...new Set(without)].map(titleOfLaw).join(", ");
+/** The law of the only lane, if it acts on no estimate; the legend of several has no room for it. */
+const lawWithout = computed(() => {
+  const lanes = session.value?.lanes ?? [];
+  const law = lanes.length === 1 ? lawOf(lanes[0]?.law ?? "") : undefined;
+  return law?.estimate === "none" ? law.title : "";
 });
 
 function noteOf({ preset, channels }: PlotSetup, hasTruth: boolean): string | undefined {
@@ -163,7 +163,7 @@ function noteOf({ preset, channels }: PlotSetup, hasTruth: boolean): string | un
   if (preset === "phase" && across !== undefined) {
     return text.plots.phaseNote(text.channelNames[across], CHANNELS[across].unit);
   }
-  const isUnused = lawsWithout.value && channels.some((one) => one.startsWith("estimate_"));
-  const unused = isUnused ? [text.plots.unusedEstimate(lawsWithout.value)] : [];
+  const isUnused = lawWithout.value && channels.some((one) => one.startsWith("estimate_"));
+  const unused = isUnused ? [text.plots.unusedEstimate(lawWithout.value)] : [];
   return (hasTruth ? [...unused, text.plots.disturbanceNote] : unused).join(" · ") || undefined;
 }

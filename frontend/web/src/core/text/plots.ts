@@ -31,7 +31,7 @@ export const plotsText = {
     own: (first: string, more: number) => (more > 0 ? `${first} + ${more}` : first),
     phaseNote: (across: string, unit: string) => `over ${across.toLowerCase()} in ${unit}`,
     disturbanceNote: "dashed: true",
-    unusedEstimate: (laws: string) => `unused by ${laws}`,
+    unusedEstimate: (law: string) => `unused by ${law}`,
     reference: "reference",
     true: "true",
     common: "Common",
@@ -205,7 +205,7 @@ export const plotsText = {
     at: (label: string, time: string) => `${label} at ${time} s`,
     recovery: "Time from the start of the window until the error stays within 2 % of its peak",
     marked: {
-      name: "Recovery after mark",
+      name: "Mark to recovery",
       hint: "Time from the mark of the load until the error stays within 2 % of its peak. It includes the delay until the load acts, which is not of the control law.",
     },
     undisturbed: "No load came on or was removed at the start of this window",
