@@ -9,22 +9,28 @@ COPY requirements.lock pyproject.toml README.md LICENSE ./
 COPY svsa svsa
 COPY backend backend
 COPY frontend frontend
+COPY docs docs
 # Extras of the image; add "plot" for pictures of the command line, "lti" for a learning platform,
 # "nidaqmx" for an encoder on a card of NI.
 ARG EXTRAS=server,bench
 # uv checks every package against the hashes of the lock file.
-RUN /opt/tools/bin/uv build --quiet --wheel --out-dir /dist . \
+RUN /opt/tools/bin/uv build --quiet --wheel --build-constraints requirements.lock --out-dir /dist . \
  && python3 -m venv --without-pip /opt/svsa \
  && /opt/tools/bin/uv pip install --quiet --python /opt/svsa/bin/python \
       --constraint requirements.lock "$(ls /dist/*.whl)[${EXTRAS}]" \
  && /opt/tools/bin/cyclonedx-py environment --output-file /opt/svsa/sbom.cdx.json /opt/svsa/bin/python
 # What no program of the lab loads: tests, sources of extension modules, parts of pyarrow for remote
-# storage, AVIF pictures, debug symbols. Stripping OpenBLAS and numpy breaks their alignment.
+# storage and query plans, copies of its libraries, fields of sympy without use here, AVIF pictures,
+# debug symbols. Stripping OpenBLAS and numpy breaks their alignment.
 RUN cd /opt/svsa/lib/python3*/site-packages \
  && find . -depth -type d \( -name tests -o -name include \) -not -path './svsa*' -exec rm -r {} + \
  && find . -type f \( -name '*.pyi' -o -name '*.pyx' -o -name '*.pxd' -o -name '*.pxi' -o -name '*.[cha]' \) -delete \
  && rm -rf pyarrow/*flight* pyarrow/_s3fs* pyarrow/libarrow_s3* pyarrow/_gcsfs* pyarrow/_azurefs* \
-      pyarrow/_hdfs* pyarrow/*_cpp_tests* PIL/_avif* pillow.libs/libavif* \
+      pyarrow/_hdfs* pyarrow/*_cpp_tests* \
+      pyarrow/*substrait* pyarrow/libarrow_python*.so pyarrow/libarrow_python*.so.*.*.* \
+      sympy/physics sympy/stats sympy/parsing/autolev sympy/parsing/latex sympy/holonomic \
+      sympy/crypto sympy/diffgeom sympy/categories \
+      PIL/_avif* pillow.libs/libavif* \
  && find . -name '*.so*' -type f -size +100k -not -path './numpy*' -not -path './scipy.libs/*' \
       -exec strip --strip-unneeded {} +
 # Bytecode of the modules that the lab loads, and the compiled loop.
@@ -33,7 +39,7 @@ RUN svsa compile && SVSA_DATA=/tmp/data python -c "\
 import can, cantools, mcap.writer, pyarrow.parquet, serial, viser; \
 from starlette.testclient import TestClient; \
 from svsa_server.app import build_app; \
-lab = TestClient(build_app(), base_url='http://127.0.0.1'); lab.__enter__(); lab.get('/').raise_for_status(); lab.__exit__()"
+lab = TestClient(build_app(), base_url='http://127.0.0.1'); lab.__enter__(); [lab.get(path).raise_for_status() for path in ('/', '/docs/guide/')]; lab.__exit__()"
 
 FROM ${BASE_IMAGE}
 ARG VERSION=unknown SOURCE=unknown

@@ -92,8 +92,7 @@ schema: .venv/installed  ## docs/openapi.json, docs/permissions.txt, docs/deploy
 	$(WEB) run schema
 
 docs: .venv/installed  ## the documentation site, which the lab serves at /docs/guide/
-	$(BIN)/python -m sphinx --fail-on-warning --keep-going --quiet docs docs/_build/html
-	rm -rf $(GUIDE) && cp -r docs/_build/html $(GUIDE)
+	@$(BIN)/python frontend/web/hatch_build.py --guide
 
 screenshots: .venv/installed $(PAGE)  ## the README's pictures
 	$(BIN)/python -m tests.browser.screenshots

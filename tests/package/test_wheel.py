@@ -1,5 +1,6 @@
-"""The wheel: what it is called, what it asks for, and that page and types are in it."""
+"""The wheel: its name, its requirements, and its page, guide and types."""
 
+import os
 import subprocess
 import sys
 import zipfile
@@ -13,6 +14,20 @@ import svsa
 from svsa.inputs.extras import DISTRIBUTION, MODULES
 
 ROOT = Path(__file__).parents[2]
+
+
+SERVE = """
+from starlette.testclient import TestClient
+
+import svsa_server
+from svsa_server.app import build_app
+
+print(svsa_server.__file__)
+with TestClient(build_app(), base_url="http://127.0.0.1") as client:
+    answer = client.get("/docs/guide/").raise_for_status()
+    print(answer.headers["content-type"])
+    print(answer.text)
+"""
 
 
 @pytest.fixture(scope="module")
@@ -50,6 +65,29 @@ def test_types_parameters_page_and_rig_are_in_it(wheel):
     scripts = [name for name in page if name.startswith("assets/") and name.endswith(".js")]
     assert any(f"/{script}" in index for script in scripts)
     assert not [name for name in names if name.startswith("tests/") or "node_modules" in name]
+
+
+def test_its_guide_is_served_by_the_installed_server(wheel, tmp_path):
+    installed = tmp_path / "installed"
+    command = [sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--no-index"]
+    command += ["--disable-pip-version-check", "--target", str(installed), wheel.filename]
+    subprocess.run(command, check=True, timeout=300, capture_output=True)
+    environment = os.environ | {"PYTHONPATH": str(installed), "SVSA_DATA": str(tmp_path / "data")}
+    done = subprocess.run(
+        [sys.executable, "-c", SERVE],
+        cwd=tmp_path,
+        env=environment,
+        capture_output=True,
+        text=True,
+        timeout=300,
+    )
+    assert done.returncode == 0, done.stderr
+    place, kind, page = done.stdout.split("\n", 2)
+    assert Path(place).is_relative_to(installed)
+    assert kind.startswith("text/html")
+    assert "First hour in the browser" in page
+    guide = {name.removeprefix("svsa_server/guide/") for name in wheel.namelist()}
+    assert {"tutorials/own_law.html", "reference/library.html", "searchindex.js"} <= guide
 
 
 def test_only_the_library_s_packages_come_without_an_extra(metadata):
