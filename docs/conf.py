@@ -17,11 +17,12 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 # Runs that a tutorial records are not the user's.
 os.environ["SVSA_DATA"] = tempfile.mkdtemp(prefix="svsa-docs-")
-logging.getLogger("traitlets").setLevel(logging.WARNING)
-
 from reference_pages import write_reference_pages
 
 from svsa import __version__
+
+# Of nbclient, which otherwise reports each notebook that it runs.
+logging.getLogger("traitlets").setLevel(logging.WARNING)
 
 project = "SVSA Lab"
 author = "SVSA Lab contributors"
