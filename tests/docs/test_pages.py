@@ -1,0 +1,72 @@
+"""The commands and the Python code of the documentation run as they are written."""
+
+import pytest
+
+from svsa.hardware.emulator.launch import start_emulator
+from tests.docs.pages import BENCH, LAB, ROOT, needs_lab, read_blocks, start_page
+from tests.hardware.live_bench import start_live_emulator, write_bench
+from tests.lab import run_lab
+
+TUTORIALS = ROOT / "docs" / "tutorials"
+GUIDES = [*sorted(TUTORIALS.glob("*.md")), *sorted((ROOT / "docs/howto").glob("*.md"))]
+EXAMPLES = [ROOT / name for name in ("README.md", "docs/grading.md", "docs/scripting.md")]
+ON_BENCH = TUTORIALS / "emulated_bench.md"
+RUN = [
+    page
+    for page in [*GUIDES, *EXAMPLES]
+    if page != ON_BENCH and any(block.is_run for block in read_blocks(page))
+]
+IN_BROWSER = {"browser": "tests/browser/test_first_hour.py"}
+"""The tutorial that a user follows on the page, and the test that does so."""
+LANGUAGES = {"python", "console", "toml", "text", "yaml", "matlab", "bibtex", "{toctree}"}
+
+
+def name(page):
+    return str(page.relative_to(ROOT))
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("page", RUN, ids=name)
+def test_the_code_of_a_page_runs_and_prints_what_it_shows(page, tmp_path, request):
+    lab = request.getfixturevalue("lab") if needs_lab(page) else None
+    start_page(page, tmp_path, {LAB: lab.url} if lab else {})
+
+
+@pytest.mark.wall_clock
+def test_the_tutorial_of_the_emulated_bench_runs_over_a_bus_between_processes(tmp_path):
+    # The check waits for the clock, which an emulator in lockstep does not follow.
+    with start_emulator(lockstep=False) as emulator:
+        bench = write_bench(tmp_path, emulator, lockstep=False)
+        start_page(ON_BENCH, tmp_path, {BENCH: str(bench)}, ["console"])
+    with start_live_emulator() as emulator:
+        bench = write_bench(tmp_path, emulator)
+        with run_lab("--bench", str(bench)) as lab:
+            start_page(ON_BENCH, tmp_path, {LAB: lab.url}, ["python"])
+
+
+def test_each_tutorial_is_executed():
+    notebooks = {page.stem for page in TUTORIALS.glob("*.ipynb")}
+    pages = {page.stem for page in [*RUN, ON_BENCH] if page.parent == TUTORIALS}
+    for test in IN_BROWSER.values():
+        assert (ROOT / test).is_file()
+    executed = notebooks | pages | {*IN_BROWSER}
+    assert executed == {page.stem for page in TUTORIALS.iterdir()} - {"index"}
+
+
+@pytest.mark.parametrize("guide", GUIDES, ids=name)
+def test_a_block_is_run_or_states_why_not(guide):
+    for block in read_blocks(guide):
+        assert block.language in LANGUAGES, f"line {block.line}: {block.language!r}"
+        if block.note == "not executed":
+            assert len(block.subject) > 10, f"line {block.line}: no reason"
+
+
+@pytest.mark.parametrize("section", ["tutorials", "howto"])
+def test_the_index_of_a_section_lists_each_page(section):
+    pages = {page.stem for page in (ROOT / "docs" / section).iterdir()} - {"index"}
+    (contents,) = (
+        block.text
+        for block in read_blocks(ROOT / "docs" / section / "index.md")
+        if block.language == "{toctree}"
+    )
+    assert {line for line in contents.splitlines() if line and line[0] != ":"} == pages
