@@ -3,6 +3,7 @@ import { commandStatus } from "../core/api/outcome";
 import { perform } from "../core/state/actions";
 import { isAnother, phase, session } from "../core/state/session";
 import { text } from "../core/text/en";
+import { Banner } from "../core/widgets/banner";
 import { Problem } from "../core/widgets/form";
 import { ControlBanner } from "../lab/lease/banner";
 import { FaultAdvice, StopBanners } from "../lab/safety/stopbanner";
@@ -15,15 +16,13 @@ function CommandStatus({ now }: { now: NonNullable<typeof commandStatus.value> }
   const words = text.connection;
   const isAsking = now === "asking";
   return (
-    <div class={`banner ${isAsking ? "is-lost" : "is-news"}`} role="alert">
-      <span class="banner-sign" aria-hidden="true">
-        {!isAsking && "✓"}
-      </span>
-      <p>
-        <strong>{isAsking ? words.askingTitle : words.carriedOutTitle}</strong>{" "}
-        {isAsking ? words.askingText : words.carriedOutText}
-      </p>
-    </div>
+    <Banner
+      look={isAsking ? "is-lost" : "is-news"}
+      role="alert"
+      sign={isAsking ? "" : "✓"}
+      title={isAsking ? words.askingTitle : words.carriedOutTitle}
+      words={isAsking ? words.askingText : words.carriedOutText}
+    />
   );
 }
 
@@ -33,14 +32,11 @@ function Another() {
     isAnother.value = false;
   };
   return (
-    <div class="banner is-news" role="status">
-      <p>
-        <strong>{text.connection.anotherTitle}</strong> {text.connection.anotherText}
-      </p>
+    <Banner look="is-news" title={text.connection.anotherTitle} words={text.connection.anotherText}>
       <button type="button" class="quiet" aria-label={text.runs.dismiss} onClick={close}>
         ✕
       </button>
-    </div>
+    </Banner>
   );
 }
 
@@ -54,12 +50,13 @@ export function Banners() {
       <StopBanners />
       {commandStatus.value !== null && <CommandStatus now={commandStatus.value} />}
       {isLost && (
-        <div class="banner is-lost" role="alert">
-          <span class="banner-sign" aria-hidden="true" />
-          <p>
-            <strong>{text.connection.lostTitle}</strong> {text.connection.lostText}
-          </p>
-        </div>
+        <Banner
+          look="is-lost"
+          role="alert"
+          sign=""
+          title={text.connection.lostTitle}
+          words={text.connection.lostText}
+        />
       )}
       {isAnother.value && !isLost && <Another />}
       {fault && (
@@ -82,13 +79,13 @@ export function Banners() {
         </div>
       )}
       {recording?.state === "failed" && (
-        <div class="banner is-fault" role="alert">
-          <span class="banner-sign" aria-hidden="true">
-            ▲
-          </span>
-          <p>
-            <strong>{text.recording.failed}</strong> {recording.message}
-          </p>
+        <Banner
+          look="is-fault"
+          role="alert"
+          sign="▲"
+          title={text.recording.failed}
+          words={recording.message}
+        >
           <button
             type="button"
             class="button"
@@ -97,7 +94,7 @@ export function Banners() {
           >
             {text.recording.close}
           </button>
-        </div>
+        </Banner>
       )}
       <ControlBanner />
       <RejoinCodeBanner />

@@ -206,7 +206,7 @@ export const plotsText = {
     recovery: "Time from the start of the window until the error stays within 2 % of its peak",
     marked: {
       name: "Mark to recovery",
-      hint: "Time from the mark of the load until the error stays within 2 % of its peak. It includes the delay until the load acts, which is not of the control law.",
+      hint: "Time from the mark of the load to an error within 2 % of its peak, delay until the load acts included",
     },
     undisturbed: "No load came on or was removed at the start of this window",
     recoveryFrom: (load: string) =>

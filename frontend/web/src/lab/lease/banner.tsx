@@ -10,6 +10,7 @@ import {
 import { defaultName, LONGEST_NAME, personName } from "../../core/state/preferences";
 import { isLive } from "../../core/state/session";
 import { text } from "../../core/text/en";
+import { Banner } from "../../core/widgets/banner";
 import { Problem } from "../../core/widgets/form";
 import { InTurn } from "./inturn";
 
@@ -62,17 +63,11 @@ function Question({ other }: { other: string | null }) {
 
 function Held({ other }: { other: string }) {
   return (
-    <div class="banner is-news is-calm" role="status">
-      <span class="banner-sign" aria-hidden="true">
-        ▪
-      </span>
-      <p>
-        <strong>{words.heldTitle(other)}</strong> {words.heldText}
-      </p>
+    <Banner look="is-news is-calm" sign="▪" title={words.heldTitle(other)} words={words.heldText}>
       <button type="button" class="button" disabled={!isLive.value} onClick={wishControl}>
         {words.takeOver}
       </button>
-    </div>
+    </Banner>
   );
 }
 

@@ -10,6 +10,7 @@ import {
 } from "../../core/state/control";
 import { isLive } from "../../core/state/session";
 import { text } from "../../core/text/en";
+import { Banner } from "../../core/widgets/banner";
 
 const words = text.classroom;
 type Queue = NonNullable<SessionState["queue"]>;
@@ -70,14 +71,8 @@ export function InTurn({ queue }: { queue: Queue }) {
   const turn = access.value === null ? null : describeTurn(queue);
   if (turn === null) return null;
   return (
-    <div class="banner is-news is-calm" role="status">
-      <span class="banner-sign" aria-hidden="true">
-        ▪
-      </span>
-      <p>
-        <strong>{turn.title}</strong> {turn.more}
-      </p>
+    <Banner look="is-news is-calm" sign="▪" title={turn.title} words={turn.more}>
       <Act queue={queue} />
-    </div>
+    </Banner>
   );
 }

@@ -125,8 +125,8 @@ export function writeExperiment(origin: RunOrigin, title: string, lab: string): 
   const before =
     origin.first_tick === 0
       ? ""
-      : ` The recording begins at ${begin} s; the time
-before it is simulated too, because it decides the state in which the recording begins.`;
+      : ` The recording begins at ${begin} s; the time before
+it is simulated too.`;
   const law = toPython(configuration.law);
   const seed = isSame(configuration.seed, defaults.seed)
     ? ""

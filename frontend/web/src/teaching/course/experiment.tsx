@@ -4,6 +4,7 @@ import type { Step } from "../../core/api/course";
 import { mayCommand } from "../../core/state/control";
 import { bench, session } from "../../core/state/session";
 import { text } from "../../core/text/en";
+import { Banner } from "../../core/widgets/banner";
 import { Problem } from "../../core/widgets/form";
 import { isHeld } from "../../hardware/hold";
 import { PlaceLink } from "../../runs/list/place";
@@ -29,8 +30,7 @@ const words = text.lesson;
 /** In the lab: the settings are those of an exercise, and a press restores the earlier ones. */
 export function ExerciseBanner({ exercise }: { exercise: string }) {
   return (
-    <div class="banner is-news" role="status">
-      <p>{words.hasSettings}</p>
+    <Banner look="is-news" words={words.hasSettings}>
       <PlaceLink to={{ kind: "learn", exercise, step: "" }}>{words.resume}</PlaceLink>
       <button
         type="button"
@@ -40,7 +40,7 @@ export function ExerciseBanner({ exercise }: { exercise: string }) {
       >
         {words.restore}
       </button>
-    </div>
+    </Banner>
   );
 }
 

@@ -1,0 +1,28 @@
+/** A notice across the page. */
+import type { ComponentChildren } from "preact";
+
+interface BannerProps {
+  look: string;
+  sign?: string;
+  role?: "alert" | "status";
+  title?: string;
+  words?: string | undefined;
+  /** What can be done about it. */
+  children?: ComponentChildren;
+}
+
+export function Banner({ look, sign, role = "status", title, words, children }: BannerProps) {
+  return (
+    <div class={`banner ${look}`} role={role}>
+      {sign !== undefined && (
+        <span class="banner-sign" aria-hidden="true">
+          {sign}
+        </span>
+      )}
+      <p>
+        <strong>{title}</strong> {words}
+      </p>
+      {children}
+    </div>
+  );
+}
