@@ -1,0 +1,118 @@
+"""Questions of a new user, each answered within two clicks from the start page of the site."""
+
+import re
+import runpy
+from collections.abc import Iterator
+from html.parser import HTMLParser
+from pathlib import Path
+from urllib.parse import urljoin, urlsplit
+
+import pytest
+
+from tests.docs.pages import ROOT
+
+QUESTIONS = {
+    "What is the sign of the load?": "A load w is positive if it accelerates in the positive",
+    "What are the units of the stream?": "Every value is in SI units",
+    "How do I add Coulomb friction?": 'friction = {"coulomb1_nm": 0.2, "coulomb2_nm": 0.1}',
+    "How do I change the inertia of the link?": "changed(link_inertia_kg_m2=inertia)",
+    "How do I cite the lab?": "Cite two sources: the software with its version, and the paper",
+    "What is a lane?": "One controller with its own copy of the plant",
+    "What is the recovery time?": "until the error stays within 2 % of its peak",
+    "Does the same seed give the same noise?": "The same seed gives the same noise",
+    "Which variable sets the shared secret?": "SVSA_SECRET Shared secret of at least 8 characters",
+    "What does the fault deflection_limit mean?": "the actuator left the domain of the model",
+    "How do I export a run to MATLAB?": 'svsa.export_run(result, "mat", "run.mat")',
+    "What do I need before I switch a bench on?": "The emergency stop is hardware that you build",
+}
+CLICKS = 2
+
+
+class SitePage(HTMLParser):
+    """The text of a page's article, and the links that a reader of the page sees.
+
+    These are the links of the article, and of the sidebar those that need not be unfolded.
+    """
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.links: list[str] = []
+        self.parts: list[str] = []
+        self._lists = 0
+        self._is_article = self._is_sidebar = self._is_script = False
+        self.feed(text)
+
+    @property
+    def text(self) -> str:
+        return " ".join("".join(self.parts).split())
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        names = dict(attrs)
+        classes = (names.get("class") or "").split()
+        self._is_article |= tag == "article"
+        self._is_script |= tag in ("script", "style")
+        self._is_sidebar |= "sidebar-tree" in classes
+        self._lists += tag == "ul"
+        is_seen = self._is_article or (self._is_sidebar and self._lists == 1)
+        if tag == "a" and is_seen and "headerlink" not in classes:
+            self.links.append(names.get("href") or "")
+
+    def handle_endtag(self, tag: str) -> None:
+        self._is_article &= tag != "article"
+        self._is_script &= tag not in ("script", "style")
+        self._is_sidebar &= tag != "aside"
+        self._lists -= tag == "ul"
+
+    def handle_data(self, data: str) -> None:
+        if self._is_article and not self._is_script:
+            self.parts.append(data)
+
+
+def read_page(path: Path) -> SitePage:
+    # A cell of a table ends a word.
+    return SitePage(
+        re.sub(r"</(td|th|p|dt|dd|li|h\d)>", r" </\1>", path.read_text(encoding="utf-8"))
+    )
+
+
+def follow_links(folder: Path, name: str) -> Iterator[str]:
+    """The pages that a page links to, by their paths in the folder."""
+    for link in read_page(folder / name).links:
+        path = urlsplit(urljoin(f"/{name}", link)).path.lstrip("/")
+        if not urlsplit(link).scheme and (folder / path).suffix == ".html":
+            yield path
+
+
+@pytest.fixture(scope="module")
+def site() -> Path:
+    """The built site."""
+    hook = runpy.run_path(str(ROOT / "frontend/web/hatch_build.py"))
+    hook["build_guide"]()
+    return hook["GUIDE"]
+
+
+@pytest.fixture(scope="module")
+def near(site: Path) -> dict[str, str]:
+    """The text of each page within two clicks from the start page."""
+    names = {"index.html"}
+    for _ in range(CLICKS):
+        names |= {found for name in names for found in follow_links(site, name)}
+    return {name: read_page(site / name).text for name in names}
+
+
+@pytest.mark.parametrize("question", QUESTIONS)
+def test_a_question_of_a_new_user_is_answered_within_two_clicks(question, near):
+    answer = QUESTIONS[question]
+    assert [name for name, text in near.items() if answer in text], f"{len(near)} pages"
+
+
+def test_every_link_within_two_clicks_leads_to_a_page(site, near):
+    broken = {
+        (name, link)
+        for name in near
+        for link in read_page(site / name).links
+        if not urlsplit(link).scheme
+        and link.partition("#")[0]
+        and not (site / urlsplit(urljoin(f"/{name}", link)).path.lstrip("/")).exists()
+    }
+    assert not broken
