@@ -119,26 +119,24 @@ simulated twin; they are 0 in every other lane.
 
 
 def write_faults() -> str:
-    """The table of faults."""
-    rows = [
-        (
-            f"`{name}`",
-            kind.label,
-            kind.cause,
-            "bench" if kind.where == "bench" else "simulation, bench",
-            NONE if kind.within_s is None else f"{1000 * kind.within_s:g} ms",
-            kind.advice or NONE,
-        )
+    """The fault sheet: a table of all faults, and cause and advice of each."""
+    rows = [(f"[`{name}`](#{name})", kind.label, kind.cause) for name, kind in FAULTS.items()]
+    sheets = "\n".join(
+        f"## `{name}`\n\n**{kind.label}**: {kind.cause}.\n\n"
+        f"* Occurs: {'bench' if kind.where == 'bench' else 'simulation and bench'}\n"
+        + (f"* Zero current within {1000 * kind.within_s:g} ms\n" if kind.within_s else "")
+        + (f"* Advice: {kind.advice}\n" if kind.advice else "")
         for name, kind in FAULTS.items()
-    ]
-    heads = ("code", "label", "cause", "where", "zero current within", "advice")
+    )
     return f"""# Faults
 
 A fault ends a run. It is latched, with the values that caused it, until a user clears it.
 `svsa.FaultError`, the state of
 a session and the recording of the run carry the code.
 
-{format_table(heads, rows)}
+{format_table(("code", "label", "cause"), rows)}
+
+{sheets}
 """
 
 
