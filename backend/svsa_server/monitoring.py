@@ -101,13 +101,13 @@ class LabCollector(Collector):
         recording = sum(session.journal.recorder is not None for session in sessions)
         yield GaugeMetricFamily("svsa_recordings", "Sessions that are being recorded", recording)
         family = GaugeMetricFamily(
-            "svsa_session_stretched_seconds",
+            "svsa_session_delay_seconds",
             "Wall time by which the simulation of a session's run is late",
             labels=["session"],
         )
         for session in sessions:
             if not isinstance(session, BenchSession):
-                family.add_metric([session.name], session.pace.stretched_s)
+                family.add_metric([session.name], session.pace.accumulated_delay_s)
         yield family
         family = GaugeMetricFamily("svsa_jobs", "Jobs that are kept", labels=["kind", "status"])
         jobs = Counter((job.kind, job.status) for job in self._state.jobs.list_all())

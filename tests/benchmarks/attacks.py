@@ -241,7 +241,7 @@ def main() -> None:
     def report(name: str, attack: Callable[[], object]) -> None:
         began, begin = time.monotonic(), lab.read()
         found = attack()
-        late = lab.read()["stretched_s"] - begin["stretched_s"]
+        late = lab.read()["accumulated_delay_s"] - begin["accumulated_delay_s"]
         took = time.monotonic() - began
         memory = f"{read_memory_mb(lab):.0f} MB, {count_sockets(lab)} sockets"
         print(f"{name}: {found}\n    {took:.1f} s, given up {late:.3f} s, {memory}")

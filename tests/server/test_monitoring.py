@@ -35,7 +35,7 @@ def test_metrics_count_sessions_recordings_and_disk(tmp_path) -> None:
         after = read_metrics(lab)
         assert after["svsa_sessions", "simulated", "running"] == 2
         assert after["svsa_recordings",] == before["svsa_recordings",] + 1
-        assert ("svsa_session_stretched_seconds", session) in after
+        assert ("svsa_session_delay_seconds", session) in after
 
 
 def test_a_lab_is_ready_until_the_disk_is_nearly_full(tmp_path, monkeypatch) -> None:

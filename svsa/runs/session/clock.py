@@ -10,38 +10,38 @@ class Pace(NamedTuple):
     """How session time goes against that of the wall.
 
     speed: session seconds a wall second, as asked for; infinite for as fast as it goes.
-    real_time_factor: as it goes. stretched_s: wall time that was given up, s.
+    real_time_factor: as it goes. accumulated_delay_s: wall time that was given up, s.
     """
 
     speed: float = 1.0
     real_time_factor: float = 0.0
-    stretched_s: float = 0.0
+    accumulated_delay_s: float = 0.0
 
 
 class SimulationClock:
     """Tells how many ticks are due. Wall time (s, any monotonic origin) enters only here.
 
     A session that cannot keep up stretches time: a backlog of more than 0.25 s is given
-    up, added to `stretched_s`, and no tick is skipped.
+    up, added to `accumulated_delay_s`, and no tick is skipped.
     """
 
     def __init__(self, period_s: float) -> None:
         self._period = period_s
         self._last: float | None = None
         self._owed_s = 0.0
-        self.stretched_s = 0.0
+        self.accumulated_delay_s = 0.0
         self.speed = 1.0
         self.real_time_factor = 0.0
 
     @property
     def pace(self) -> Pace:
         """As it is now."""
-        return Pace(self.speed, self.real_time_factor, self.stretched_s)
+        return Pace(self.speed, self.real_time_factor, self.accumulated_delay_s)
 
     def begin(self) -> None:
         """Stop, and forget what was given up: a run begins."""
         self.stop()
-        self.stretched_s = 0.0
+        self.accumulated_delay_s = 0.0
 
     def stop(self) -> None:
         """Owe nothing, and count again from the next question on."""
@@ -64,7 +64,7 @@ class SimulationClock:
         longest = max(LONGEST_BACKLOG_S * self.speed, self._period)
         lost = max(self._owed_s - longest, 0.0)
         self._owed_s -= lost
-        self.stretched_s += lost / self.speed
+        self.accumulated_delay_s += lost / self.speed
         ticks = int(self._owed_s / self._period)
         self._owed_s -= ticks * self._period
         if elapsed > 0.0:

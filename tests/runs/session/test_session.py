@@ -30,7 +30,7 @@ def test_a_running_session_follows_the_wall_clock():
     assert session.status == "running"
     assert abs(session.run.tick - 1000) <= 1
     assert session.clock.real_time_factor == pytest.approx(1.0)
-    assert session.clock.stretched_s == 0.0
+    assert session.clock.accumulated_delay_s == 0.0
 
 
 def test_pause_keeps_the_state_and_start_does_not_make_up_for_the_pause():
@@ -78,7 +78,7 @@ def test_a_late_session_stretches_time_and_skips_no_tick():
     session.wake(0.0)
     session.wake(3.0)
     assert abs(session.run.tick - 1000 * LONGEST_BACKLOG_S) <= 1
-    assert session.clock.stretched_s == pytest.approx(3.0 - LONGEST_BACKLOG_S)
+    assert session.clock.accumulated_delay_s == pytest.approx(3.0 - LONGEST_BACKLOG_S)
     assert session.clock.real_time_factor < 1.0
     times = read_samples(session)[:, 0]
     np.testing.assert_allclose(np.diff(times), 0.001, atol=1e-12)
@@ -150,7 +150,7 @@ def test_a_running_session_owes_nothing_after_a_reset():
     session.reset()
     session.wake(3.0)
     assert (session.status, session.run.tick) == ("running", 0)
-    assert session.clock.stretched_s == 0.0
+    assert session.clock.accumulated_delay_s == 0.0
 
 
 def test_the_same_run_after_a_reset_gives_the_same_samples():

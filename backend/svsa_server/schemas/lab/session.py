@@ -80,7 +80,7 @@ class SessionProgress(BaseModel):
     time_s: float
     speed: float | Literal["max"]
     real_time_factor: float = Field(description="Session seconds a wall second, as measured")
-    stretched_s: float = Field(description="Wall time given up because ticks came too late")
+    accumulated_delay_s: float = Field(description="Wall time given up because ticks came too late")
     fault: SessionFault | None = Field(description="Held until it is reset or cleared")
     window: WindowState = Field(description="Since the last change of anything, or the last load")
     load_window: WindowState | None = Field(
@@ -112,8 +112,8 @@ class SessionState(SessionProgress):
     revision: str = Field(description="Of settings and loads: for If-Match of a change of them")
     branch_of: BranchState | None = Field(description="null unless its run is a branch")
     note: str = Field(
-        description="Note given when it was opened: why a law of the ranking has no comparison"
-        " it; empty where nothing is"
+        description="Note given when the session was opened, such as why a law of the ranking"
+        " has no comparison; empty without one"
     )
     exercise: str | None = Field(
         description="Name of the exercise that set up the session; null after"

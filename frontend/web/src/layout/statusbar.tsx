@@ -51,7 +51,7 @@ function Cell({ name, hint, children, ...rest }: CellProps) {
 }
 
 function SimulatedLoop({ state }: { state: SessionState }) {
-  const { status, rate_hz: rateHz, real_time_factor: factor, stretched_s: stretched } = state;
+  const { status, rate_hz: rateHz, real_time_factor: factor, accumulated_delay_s: delay } = state;
   const moving =
     status === "running" ? text.status.realTime(formatNumber(factor, 3, 2)) : text.status.standing;
   const pace = isLive.value ? moving : text.status.notKnown;
@@ -59,7 +59,7 @@ function SimulatedLoop({ state }: { state: SessionState }) {
     <Cell
       name={text.status.loop}
       class="is-loop"
-      hint={text.status.rateHint(formatLapse(stretched))}
+      hint={text.status.rateHint(formatLapse(delay))}
     >
       {text.status.rate(rateHz)} <small>{pace}</small>
     </Cell>

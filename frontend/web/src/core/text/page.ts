@@ -82,8 +82,8 @@ export const pageText = {
     unknown: "Unknown",
     notKnown: "not known",
     lastKnown: (state: string) => `Last known: ${state}`,
-    rateHint: (stretched: string) =>
-      `Control rate and speed of the session time; delay accumulated so far: ${stretched}`,
+    rateHint: (delay: string) =>
+      `Control rate and speed of the session time; delay accumulated so far: ${delay}`,
     late: (median: string, most: string) => `late ${median} / ${most}`,
     skipped: (count: number) => `${count} skipped in this run`,
     lateHint:
