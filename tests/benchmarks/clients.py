@@ -107,7 +107,9 @@ def main() -> None:
     print(f"{count} streams of one session, {rate:g} commands/s, {wall:.1f} s")
     print(f"  command to sample    median {p50:.1f}, p99 {p99:.1f}, worst {shown.max():.1f} ms")
     print(f"  commands that showed {len(shown)} of {len(found)}")
-    print(f"  time given up        {end['accumulated_delay_s'] - begin['accumulated_delay_s']:.3f} s")
+    print(
+        f"  time given up        {end['accumulated_delay_s'] - begin['accumulated_delay_s']:.3f} s"
+    )
     print(f"  server               {cpu / wall * 100:.0f} % of one core")
 
 

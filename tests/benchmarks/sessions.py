@@ -51,7 +51,9 @@ def main() -> None:
         wall = time.monotonic() - wall
         states = lab.client.get("/api/v1/sessions").json()
         states = [state for state in states if state["session"] in names]
-    delay = max(s["accumulated_delay_s"] - begin[s["session"]]["accumulated_delay_s"] for s in states)
+    delay = max(
+        s["accumulated_delay_s"] - begin[s["session"]]["accumulated_delay_s"] for s in states
+    )
     print(f"{count} sessions at 1 kHz, {count} streams, {wall:.1f} s")
     print(f"  time given up, worst session   {delay:.3f} s")
     print(f"  real-time factor, worst        {min(s['real_time_factor'] for s in states):.4f}")

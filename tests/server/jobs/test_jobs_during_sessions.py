@@ -24,7 +24,9 @@ def list_workers(process: int) -> list[int]:
 
 
 def read_delays(client) -> dict[str, float]:
-    return {one["session"]: one["accumulated_delay_s"] for one in client.get("/api/v1/sessions").json()}
+    return {
+        one["session"]: one["accumulated_delay_s"] for one in client.get("/api/v1/sessions").json()
+    }
 
 
 @pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="processes are found in /proc")
