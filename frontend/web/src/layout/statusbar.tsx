@@ -56,11 +56,7 @@ function SimulatedLoop({ state }: { state: SessionState }) {
     status === "running" ? text.status.realTime(formatNumber(factor, 3, 2)) : text.status.standing;
   const pace = isLive.value ? moving : text.status.notKnown;
   return (
-    <Cell
-      name={text.status.loop}
-      class="is-loop"
-      hint={text.status.rateHint(formatLapse(delay))}
-    >
+    <Cell name={text.status.loop} class="is-loop" hint={text.status.rateHint(formatLapse(delay))}>
       {text.status.rate(rateHz)} <small>{pace}</small>
     </Cell>
   );
