@@ -8,6 +8,7 @@ from email.parser import Parser
 from pathlib import Path
 
 import pytest
+import yaml
 from packaging.requirements import Requirement
 
 import svsa
@@ -50,6 +51,8 @@ def metadata(wheel):
 def test_its_name_is_not_that_of_the_other_project_on_the_index(metadata):
     assert metadata["Name"] == DISTRIBUTION == "svsa-lab"
     assert metadata["Version"] == svsa.__version__
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    assert citation["version"] == svsa.__version__, "set it to the version of pyproject.toml"
 
 
 def test_types_parameters_page_and_rig_are_in_it(wheel):
