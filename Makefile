@@ -98,7 +98,7 @@ screenshots: .venv/installed $(PAGE)  ## the README's pictures
 	$(BIN)/python -m tests.browser.screenshots
 
 ranking: .venv/installed  ## tune and measure every law, write its page: after a change of one
-	$(BIN)/svsa tune --all --budget 192 --trials 64 --validation 256
+	$(BIN)/svsa tune --all
 	$(BIN)/svsa ranking run --save svsa/evaluation/ranking/results.json
 	$(BIN)/svsa ranking bench ndobc_s ndobc_w --save svsa/evaluation/ranking/bench_results.json
 	$(BIN)/svsa ranking publish
