@@ -170,9 +170,9 @@ def open_ranking(page: Page, lab: Lab) -> None:
     ).to_be_visible()
 
 
-def open_pages(page: Page, lab: Lab) -> None:
-    open_button("Pages")(page, lab)
-    expect(page.get_by_role("link", name=re.compile("^Ranking"))).to_be_visible()
+def open_menu(page: Page, lab: Lab) -> None:
+    open_button("Menu")(page, lab)
+    expect(page.get_by_role("link", name=re.compile("^Guide"))).to_be_visible()
 
 
 def open_tuned(page: Page, lab: Lab) -> None:
@@ -200,7 +200,7 @@ EXHAUSTIVE = pytest.mark.exhaustive
         pytest.param(open_button("Keyboard shortcuts"), (WIDE, PHONE), id="keys", marks=EXHAUSTIVE),
         pytest.param(open_learn, (WIDE, PHONE), id="learn", marks=EXHAUSTIVE),
         pytest.param(open_exercise, (HIGH, PHONE), id="exercise", marks=EXHAUSTIVE),
-        pytest.param(open_pages, (WIDE, PHONE), id="pages", marks=EXHAUSTIVE),
+        pytest.param(open_menu, (WIDE, PHONE), id="menu", marks=EXHAUSTIVE),
         pytest.param(open_equation, (WIDE,), id="equation", marks=EXHAUSTIVE),
         pytest.param(open_button("Place poles"), (WIDE, PHONE), id="design", marks=EXHAUSTIVE),
         pytest.param(open_button("Plots"), (WIDE,), id="plots", marks=EXHAUSTIVE),

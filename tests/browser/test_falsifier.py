@@ -6,7 +6,7 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from tests.browser.test_accessibility import PHONE, TABLET, WIDE, expect_no_violation
-from tests.browser.test_page import WORKER_MS
+from tests.browser.test_page import WORKER_MS, go_to_page
 from tests.lab import Lab
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
@@ -15,8 +15,7 @@ pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without
 def search(page: Page, lab: Lab) -> Locator:
     """By keyboard from the lab on, to its end; the laws that were put under what was found."""
     page.goto(lab.url)
-    page.get_by_role("button", name="Pages").press("Enter")
-    page.get_by_role("link", name=re.compile("^Falsifier")).press("Enter")
+    go_to_page(page, "Falsifier")
     page.get_by_label("Failure criterion").select_option(label="peak error")
     page.get_by_label("Effects").select_option(label="none")
     page.get_by_label("Length of a run, s").fill("8")

@@ -54,10 +54,22 @@ def show_all_controls(page: Page) -> None:
         page.evaluate("document.activeElement.blur()")
 
 
+EVALUATIONS = ("Ranking", "Leaderboard", "Studies", "Falsifier")
+
+
 def go_to_page(page: Page, name: str) -> None:
-    """By the menu of pages; *Tune …* opens a panel."""
-    page.get_by_role("button", name="Pages", exact=True).press("Enter")
-    menu = page.get_by_role("navigation", name="Pages")
+    """By a tab, on a phone by the menu; *Tune …* opens a panel from the menu at every size."""
+    tabs = page.get_by_role("navigation", name=re.compile("^(Pages|Evaluation)$"))
+    if name in EVALUATIONS and tabs.get_by_role("link", name="Evaluation").is_visible():
+        tabs.get_by_role("link", name="Evaluation").press("Enter")
+        expect(tabs.get_by_role("link", name=name, exact=True)).to_be_visible()
+    tab = tabs.get_by_role("link", name=name, exact=True)
+    if tab.is_visible():
+        tab.press("Enter")
+        expect(tab).to_have_attribute("aria-current", "page")
+        return
+    page.get_by_role("button", name="Menu", exact=True).press("Enter")
+    menu = page.get_by_role("navigation", name="Menu")
     menu.locator("a, button").filter(has=page.get_by_text(name, exact=True)).press("Enter")
     expect(menu).to_be_hidden()
 

@@ -17,7 +17,7 @@ def test_nothing_recorded_tells_how_and_then_the_run_is_there(page: Page, lab: L
     expect(page.get_by_role("button", name="Record", exact=True)).to_be_enabled()
     page.keyboard.press("o")
     expect(page.get_by_text("No recorded runs yet")).to_be_visible()
-    page.get_by_role("link", name="Back to the lab", exact=True).click()
+    page.get_by_role("link", name="Lab", exact=True).click()
     page.get_by_role("button", name="Record", exact=True).click()
     page.get_by_role("button", name=re.compile("^Recording (?!0:00)")).click()
     note = page.get_by_role("status").filter(

@@ -25,8 +25,8 @@ def test_no_control_of_the_live_session_stands_above_a_replay(
     top = page.get_by_role("banner")
     for name in ("Fig. 4A", "Run", "Pause", "Reset", "Record"):
         expect(top.get_by_role("button", name=name, exact=True)).to_have_count(0)
-    expect(page.get_by_role("button", name="Quick stop")).to_be_visible()
-    top.get_by_role("link", name="Back to the lab").click()
+    expect(page.get_by_role("button", name="Quick stop")).to_have_count(0)
+    top.get_by_role("link", name="Lab", exact=True).click()
     show_all_controls(page)
     expect(top.get_by_role("button", name="Record", exact=True)).to_be_visible()
 

@@ -27,6 +27,7 @@ import { Banners } from "./banners";
 import { isBasic } from "./basic";
 import { Comparison } from "./comparison";
 import { Login } from "./login";
+import { EvaluationTabs } from "./pages";
 import { Readout } from "./readout";
 import { SavedNote } from "./savednote";
 import { StatusBar } from "./statusbar";
@@ -90,6 +91,7 @@ export function App() {
         </>
       )}
       <TopBar />
+      <EvaluationTabs />
       {(isOfLab(at) || at.kind === "list") && state?.bench && <BenchStrip bench={state.bench} />}
       <PrivateBanner />
       <Banners />

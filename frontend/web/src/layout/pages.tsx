@@ -38,6 +38,72 @@ const shownPages = computed(() =>
 /** A run and an overlay are of the runs. */
 const pageOf = (at: Place): Page => (isOfRuns(at) ? "runs" : at.kind);
 
+const EVALUATION: readonly Page[] = ["ranking", "leaderboard", "studies", "falsifier"];
+const GROUPS: readonly (readonly Page[])[] = [["lab", "runs"], ["learn", "grades"], ["ranking"]];
+
+interface TabProps {
+  page: Page;
+  isHere: boolean;
+  name?: string;
+}
+
+function Tab({ page, isHere, name = words.names[page] }: TabProps) {
+  return (
+    <li>
+      <PlaceLink
+        to={PAGES[page]}
+        isHere={isHere}
+        title={words.hints[page]}
+        shortcut={page === "runs" ? "o" : undefined}
+      >
+        {name}
+      </PlaceLink>
+    </li>
+  );
+}
+
+/** Lab and runs, learning, evaluation; the last opens at the ranking. */
+export function Tabs() {
+  const here = pageOf(place.value);
+  return (
+    <nav class="tabs row" aria-label={words.tabs}>
+      {GROUPS.map((group) => (
+        <ul key={group[0]} class="row">
+          {group
+            .filter((page) => shownPages.value.includes(page))
+            .map((page) =>
+              page === "ranking" ? (
+                <Tab
+                  key={page}
+                  page={page}
+                  isHere={EVALUATION.includes(here)}
+                  name={words.evaluation}
+                />
+              ) : (
+                <Tab key={page} page={page} isHere={page === here} />
+              ),
+            )}
+        </ul>
+      ))}
+    </nav>
+  );
+}
+
+/** The pages of the evaluation, in a row below the top bar. */
+export function EvaluationTabs() {
+  const here = pageOf(place.value);
+  if (!EVALUATION.includes(here)) return null;
+  return (
+    <nav class="tabs is-second" aria-label={words.evaluation}>
+      <ul class="row">
+        {EVALUATION.map((page) => (
+          <Tab key={page} page={page} isHere={page === here} />
+        ))}
+      </ul>
+    </nav>
+  );
+}
+
 function Entry({ name }: { name: keyof typeof words.names }): ComponentChildren {
   return (
     <>
@@ -47,7 +113,7 @@ function Entry({ name }: { name: keyof typeof words.names }): ComponentChildren 
   );
 }
 
-/** Where one can go from here: every page, the search for parameters, the routes for scripts. */
+/** Tuning, guide and API reference; on a phone, which has no tabs, every page too. */
 export function PagesMenu() {
   const here = pageOf(place.value);
   return (
@@ -69,7 +135,7 @@ export function PagesMenu() {
         <nav aria-label={words.open}>
           <ul>
             {shownPages.value.map((page) => (
-              <li key={page}>
+              <li key={page} class="is-tab">
                 <PlaceLink
                   to={PAGES[page]}
                   isHere={page === here}

@@ -8,6 +8,7 @@ import { useLiveText } from "../core/widgets/live";
 import { isStarting } from "../hardware/status";
 import { ControlCell } from "../lab/lease/cell";
 import { StopButton } from "../lab/safety/stopbanner";
+import { isOfLab, place } from "../runs/list/place";
 import { CornerMark } from "./marks";
 
 const STATUS_SIGNS = { running: "▶", paused: "❚❚", fault: "▲" } as const;
@@ -141,25 +142,30 @@ function usePublishedHeight() {
   return bar;
 }
 
-/** Always at the bottom of the window: where the session is, and the quick stop. */
+/** Always at the bottom of the window. The state of a simulated session and its quick stop appear
+ * only where the session is shown; those of a bench appear on every page. The key works on all. */
 export function StatusBar() {
   const state = session.value;
   const bar = usePublishedHeight();
+  const isShown = isOfLab(place.value) || state?.bench != null;
+  const shown = isShown ? state : null;
+  // A page that does not know what the session moves keeps the button.
+  const hasStop = isShown || state === null || !isLive.value;
   return (
     <section ref={bar} class="statusbar" aria-label={text.status.heading}>
       <div class="status-now">
         <CornerMark />
-        {state && <SessionPill state={state} />}
-        {state && <Clock />}
+        {shown && <SessionPill state={shown} />}
+        {shown && <Clock />}
       </div>
       <dl class="grow status-cells">
-        {state &&
-          (state.bench ? <BenchLoop bench={state.bench} /> : <SimulatedLoop state={state} />)}
+        {shown &&
+          (shown.bench ? <BenchLoop bench={shown.bench} /> : <SimulatedLoop state={shown} />)}
         {state && <RecordingCell state={state} />}
         <Connection />
         {state && <ControlCell />}
       </dl>
-      <StopButton />
+      {hasStop && <StopButton />}
     </section>
   );
 }

@@ -3,11 +3,10 @@ import { isLive, session } from "../core/state/session";
 import { text } from "../core/text/en";
 import { HelpButton } from "../lab/keys/help";
 import { CallsButton } from "../lab/script/drawer";
-import { isOfLab, PlaceLink, place } from "../runs/list/place";
+import { isOfLab, place } from "../runs/list/place";
 import { ClassButton } from "../teaching/classroom/panel";
-import { LearnLink } from "../teaching/course/page";
 import { AllControlsSwitch, isBasic } from "./basic";
-import { PagesMenu } from "./pages";
+import { PagesMenu, Tabs } from "./pages";
 import { FigurePicker, RecordButton, Transport } from "./transport";
 
 function ThemeButton() {
@@ -41,11 +40,7 @@ export function TopBar() {
       <h1>
         {text.name} <small>{text.subtitle}</small>
       </h1>
-      {place.value.kind !== "lab" && (
-        <PlaceLink to={{ kind: "lab" }} class="button">
-          ← {text.runs.back}
-        </PlaceLink>
-      )}
+      <Tabs />
       {isLab && state && (
         <div class="row topbar-controls">
           <fieldset disabled={!isLive.value} aria-label={text.session}>
@@ -60,7 +55,6 @@ export function TopBar() {
       )}
       <div class="topbar-end">
         <ClassButton />
-        <LearnLink />
         <PagesMenu />
         {!isBasic.value && <CallsButton />}
         <HelpButton />

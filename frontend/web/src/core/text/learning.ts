@@ -1,8 +1,6 @@
 /** Learning pages: the tour, the equations, the paper's claims. */
 export const learningText = {
   learning: {
-    open: "Learn",
-    openHint: "Exercises in the lab, the paper's claims, every equation, the tour",
     title: "Learn",
     lead: "Seven exercises: predict, run, explain. Your prediction is saved before the run and compared with the measured result.",
     equations: "Equations",

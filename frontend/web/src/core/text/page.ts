@@ -13,9 +13,10 @@ export const pageText = {
     hint: "Show the references, gains, observer, non-ideal effects, and tools of the plots and the 3D view",
   },
   pages: {
-    open: "Pages",
-    openHint:
-      "Learn, runs, ranking, leaderboard, studies, falsifier, tuning, the guide, and the documented routes",
+    open: "Menu",
+    openHint: "Tuning, the guide, and the documented routes",
+    tabs: "Pages",
+    evaluation: "Evaluation",
     names: {
       lab: "Lab",
       learn: "Learn",

@@ -3,7 +3,6 @@ import { measuredText } from "./measured";
 
 export const runsText = {
   runs: {
-    back: "Back to the lab",
     title: "Runs",
     count: (total: number) => (total === 1 ? "1 run" : `${total} runs`),
     indexing: (done: number, total: number) =>

@@ -122,7 +122,7 @@ const WORDS: Record<StopStage, string> = {
   refused: text.stop.refused,
 };
 
-/** Always in sight and never disabled, whatever the page believes of the connection.
+/** Never disabled, whatever the page believes of the connection.
  *
  * Where it is known that nothing but a simulation runs, it is as modest as any other button. */
 export function StopButton() {

@@ -97,14 +97,3 @@ export function LearnPage() {
     </Page>
   );
 }
-
-export function LearnLink() {
-  return (
-    <PlaceLink class="button" to={{ kind: "learn", exercise: "", step: "" }} title={words.openHint}>
-      <svg viewBox="0 0 16 16" aria-hidden="true">
-        <path d="M8 2L0 5.8l8 3.8 6.4-3v4.6H16V5.8zM3 8.6v3.2c1.2 1.5 3 2.2 5 2.2s3.8-.7 5-2.2V8.6l-5 2.4z" />
-      </svg>
-      {words.open}
-    </PlaceLink>
-  );
-}
