@@ -5,7 +5,7 @@ import re
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.browser.test_page import come_back, wait_for_samples
+from tests.browser.test_page import come_back, go_to_page, wait_for_samples
 from tests.docs.pages import ROOT
 from tests.lab import Lab
 
@@ -34,5 +34,5 @@ def test_the_tutorial_in_the_browser_can_be_followed(page: Page, lab: Lab) -> No
     page.get_by_role("button", name="Record", exact=True).click()
     page.get_by_role("button", name=re.compile("^Recording")).click()
     expect(page.get_by_role("button", name="Record", exact=True)).to_be_visible()
-    page.get_by_role("link", name="Runs", exact=True).click()
+    go_to_page(page, "Runs")
     expect(page.get_by_role("table", name="Recorded runs")).to_be_visible()

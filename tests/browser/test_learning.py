@@ -5,7 +5,7 @@ import re
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from tests.browser.test_page import open_page
+from tests.browser.test_page import go_to_page, open_page
 from tests.exhaustive import exhaust
 from tests.lab import Lab
 
@@ -17,7 +17,7 @@ LOADED = """family => [...document.fonts]
 
 
 def open_learn(page: Page) -> Locator:
-    page.get_by_role("link", name="Learn", exact=True).click()
+    go_to_page(page, "Learn")
     return page.get_by_role("main", name="Learn")
 
 

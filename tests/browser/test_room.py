@@ -6,7 +6,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.settled import get_box, resize
-from tests.browser.test_page import open_page
+from tests.browser.test_page import go_to_page, open_page
 from tests.lab import Lab
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
@@ -31,7 +31,7 @@ def test_a_recording_is_reported_over_the_lab_and_on_no_other_page(
     note = page.get_by_text("Saved:")
     expect(note).to_be_visible()
     assert get_box(page.locator(".view")) == before
-    page.get_by_role("link", name="Learn", exact=True).press("Enter")
+    go_to_page(page, "Learn")
     expect(page.get_by_role("main", name="Learn")).to_be_visible()
     expect(note).to_be_hidden()
 

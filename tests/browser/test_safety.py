@@ -8,7 +8,7 @@ import pytest
 from playwright.sync_api import Page, Request, expect
 
 from tests.browser.bench_fixture import HOMED, PatchedBench, describe_fault
-from tests.browser.test_page import PATIENCE_MS, open_page
+from tests.browser.test_page import PATIENCE_MS, go_to_page, open_page
 from tests.exhaustive import exhaust
 from tests.lab import Lab
 
@@ -179,3 +179,28 @@ def test_keys_typed_into_a_field_stay_there_and_single_keys_are_switched_off(
     with page.expect_response("**/quick-stop"):
         page.keyboard.press("Shift+Escape")
     assert commands == ["quick-stop"]
+
+
+@pytest.mark.usefixtures("still")
+def test_only_a_page_that_shows_the_session_has_its_clock_and_stop(page: Page, lab: Lab) -> None:
+    """The key works on every page; a simulation has no button where it is not shown."""
+    open_page(page, lab)
+    expect(page.get_by_role("timer")).to_be_visible()
+    expect(page.get_by_role("button", name="Quick stop")).to_be_visible()
+    for name in ("Runs", "Studies"):
+        go_to_page(page, name)
+        expect(page.get_by_role("timer")).to_have_count(0)
+        expect(page.get_by_role("button", name="Quick stop")).to_have_count(0)
+    page.keyboard.press("Shift+Escape")
+    expect(page.get_by_role("alert").get_by_text("Quick stop.")).to_be_visible()
+    go_to_page(page, "Lab")
+    expect(page.get_by_role("button", name="Quick stop")).to_be_visible()
+
+
+def test_a_bench_keeps_its_stop_on_every_page(bench_page: Page, lab: Lab) -> None:
+    PatchedBench(bench_page, status="run", homing=HOMED)
+    open_page(bench_page, lab)
+    for name in ("Runs", "Studies"):
+        go_to_page(bench_page, name)
+        expect(bench_page.get_by_role("timer")).to_be_visible()
+        expect(bench_page.get_by_role("button", name="Quick stop")).to_be_visible()

@@ -113,7 +113,7 @@ function Entry({ name }: { name: keyof typeof words.names }): ComponentChildren 
   );
 }
 
-/** Tuning, guide and API reference; on a phone, which has no tabs, every page too. */
+/** Tuning, guide and API reference; every page too where the top bar has no room for tabs. */
 export function PagesMenu() {
   const here = pageOf(place.value);
   return (

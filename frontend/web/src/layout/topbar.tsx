@@ -36,7 +36,7 @@ export function TopBar() {
   // An exercise sets the session up and records it; a figure of the paper would undo that.
   const isLesson = place.value.kind === "learn";
   return (
-    <header class="topbar">
+    <header class={isLab && !isBasic.value ? "topbar is-full" : "topbar"}>
       <h1>
         {text.name} <small>{text.subtitle}</small>
       </h1>
