@@ -58,7 +58,7 @@ EVALUATIONS = ("Ranking", "Leaderboard", "Studies", "Falsifier")
 
 
 def go_to_page(page: Page, name: str) -> None:
-    """By a tab, or by the menu where the bar has no room; *Tune …* opens a panel from the menu at every size."""
+    """By a tab, or by the menu where the bar has no room; *Tune …* is in the menu at every size."""
     tabs = page.get_by_role("navigation", name=re.compile("^(Pages|Evaluation)$"))
     if name in EVALUATIONS and tabs.get_by_role("link", name="Evaluation").is_visible():
         tabs.get_by_role("link", name="Evaluation").press("Enter")
