@@ -197,7 +197,8 @@ def test_only_a_page_that_shows_the_session_has_its_clock_and_stop(page: Page, l
         page.keyboard.press("Shift+Escape")
     wait_for_status(page, lab, "paused")
     go_to_page(page, "Lab")
-    expect(page.get_by_role("button", name="Quick stop")).to_be_visible()
+    bar = page.get_by_role("region", name="Status", exact=True)
+    expect(bar.get_by_role("button", name="Quick stop")).to_be_visible()
 
 
 def test_a_bench_keeps_its_stop_on_every_page(bench_page: Page, lab: Lab) -> None:
