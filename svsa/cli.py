@@ -17,6 +17,7 @@ from rich.progress import Progress
 from rich.table import Table
 
 import svsa
+from svsa.analysis.datasheet.cli import datasheet
 from svsa.analysis.design.cli import margins, stability
 from svsa.analysis.identification.cli import identify
 from svsa.control.installed import get_title
@@ -114,6 +115,7 @@ app.command("emulator")(emulator)
 app.command("identify")(identify)
 app.command("stability")(stability)
 app.command("margins")(margins)
+app.command("datasheet")(datasheet)
 app.command("bench-check")(bench_check)
 app.command("bench-home")(bench_home)
 

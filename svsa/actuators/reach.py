@@ -8,9 +8,9 @@ import math
 
 import numpy as np
 
-from svsa.actuators.domain import Domain
+from svsa.actuators.domain import Domain, compute_deflection_limit
 from svsa.actuators.dynamics import build_actuator
-from svsa.actuators.elasticity import ElasticActuator, compute_stiffness_of, compute_torques
+from svsa.actuators.elasticity import AnyActuator, compute_stiffness_of, compute_torques
 from svsa.actuators.installed import get_mechanism
 from svsa.actuators.parameters import ActuatorParameters, MechanismParameters, get_mechanism_name
 from svsa.errors import ParameterError, Violation
@@ -21,7 +21,7 @@ _HALVINGS = 50
 
 
 def find_stiffness_range(
-    actuator: ElasticActuator, domain: Domain, torque: float
+    actuator: AnyActuator, domain: Domain, torque: float
 ) -> tuple[float, float]:
     """The least and the greatest stiffness at rest under an elastic torque.
 
@@ -33,17 +33,47 @@ def find_stiffness_range(
     Returns:
         σ, N·m/rad; (infinite, 0) if no s holds this torque inside the domain.
     """
+    places = np.linspace(domain.mu_min, domain.mu_max, _COUNT).tolist()
+    holds = [not math.isnan(find_deflection(actuator, domain, s, torque)) for s in places]
+    within = [s for s, holds_it in zip(places, holds, strict=True) if holds_it]
+    for i in range(_COUNT - 1):
+        if holds[i] != holds[i + 1]:
+            inside, outside = (places[i], places[i + 1]) if holds[i] else (places[i + 1], places[i])
+            within.append(_find_end(actuator, domain, torque, inside, outside))
     found = [
-        compute_stiffness_of(actuator, s, phi)
-        for s in np.linspace(domain.mu_min, domain.mu_max, _COUNT)
-        if not math.isnan(phi := _find_deflection(actuator, domain, s, torque))
+        float(compute_stiffness_of(actuator, s, find_deflection(actuator, domain, s, torque)))
+        for s in within
     ]
     return (min(found), max(found)) if found else (math.inf, 0.0)
 
 
-def _find_deflection(actuator: ElasticActuator, domain: Domain, s: float, torque: float) -> float:
-    """The φ with τ_e(φ, s) = τ by bisection, rad; NaN if it lies outside the domain."""
-    near, far = 0.0, math.copysign(domain.deflection_max, torque)
+def _find_end(
+    actuator: AnyActuator, domain: Domain, torque: float, inside: float, outside: float
+) -> float:
+    """The last s, from `inside` towards `outside`, that holds a torque."""
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (inside + outside)
+        if math.isnan(find_deflection(actuator, domain, middle, torque)):
+            outside = middle
+        else:
+            inside = middle
+    return inside
+
+
+def find_deflection(actuator: AnyActuator, domain: Domain, s: float, torque: float) -> float:
+    """The φ with τ_e(φ, s) = τ at rest, by bisection.
+
+    Args:
+        actuator: Constants of the plant.
+        domain: Its domain.
+        s: Stiffness coordinate.
+        torque: τ_e, N·m.
+
+    Returns:
+        φ, rad; NaN if it lies outside the domain.
+    """
+    far = math.copysign(compute_deflection_limit(domain, actuator, s), torque)
+    near = 0.0
     if abs(compute_torques(actuator, s, far).torque) < abs(torque):
         return math.nan
     for _ in range(_HALVINGS):

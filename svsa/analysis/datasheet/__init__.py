@@ -1,0 +1,1 @@
+"""The datasheet of an actuator, measured on its simulation (Grioli et al., IJRR 2015)."""

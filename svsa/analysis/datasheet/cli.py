@@ -1,0 +1,63 @@
+"""`svsa datasheet`: what an actuator can do, as a table, as JSON and as a page (PDF or PNG)."""
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from svsa.inputs.extras import require_extra
+
+if TYPE_CHECKING:
+    from svsa.analysis.datasheet.measure import Datasheet
+
+
+def datasheet(
+    name: Annotated[str, typer.Argument(help="Actuator that is installed, such as qbmove.")],
+    plot: Annotated[
+        Path | None, typer.Option(help="Draw the page into this file (.pdf, .png).")
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the numbers as JSON.")] = False,
+) -> None:
+    """Measure the datasheet of an actuator on its simulation (Grioli et al., IJRR 2015)."""
+    from svsa.analysis.datasheet.measure import measure_datasheet
+
+    if plot is not None:
+        require_extra("plot")
+    found = measure_datasheet(name)
+    if plot is not None:
+        from svsa.analysis.datasheet.page import draw_page
+
+        draw_page(found).savefig(plot)
+    if as_json:
+        typer.echo(json.dumps(found.to_json()))
+        return
+    Console().print(*_build_tables(found), highlight=False)
+
+
+def _build_tables(found: "Datasheet") -> list[Table]:
+    from svsa.analysis.datasheet.rows import list_rows
+
+    summary = Table(title=f"{found.title} ({found.source})", title_justify="left")
+    summary.add_column("Quantity")
+    summary.add_column("Simulated plant", justify="right")
+    for row in list_rows(found):
+        summary.add_row(*row)
+    presets = Table(title="Stiffness presets, motors at rest", title_justify="left")
+    for column in ("σ at φ = 0 [N·m/rad]", "Deflection [rad]", "Torque [N·m]", "Energy [J]"):
+        presets.add_column(column, justify="right")
+    for one in found.presets:
+        numbers = (
+            one.stiffness_nm_per_rad,
+            one.deflection_rad[-1],
+            one.torque_nm[-1],
+            one.energy_j,
+        )
+        presets.add_row(*(f"{number:.3g}" for number in numbers))
+    assumed = Table(title="Parameters without a published source", title_justify="left")
+    assumed.add_column("Name")
+    for name in found.assumed:
+        assumed.add_row(name)
+    return [summary, presets, assumed]

@@ -1,0 +1,222 @@
+"""What a datasheet of a variable stiffness actuator contains, measured by standard experiments.
+
+Grioli et al., "Variable stiffness actuators: the user's point of view", IJRR 34(6), 2015: torque
+and deflection at stiffness presets, stiffness range unloaded and loaded, time to vary the
+stiffness, elastic energy, and the workspace of torque and stiffness.
+"""
+
+import math
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+
+from svsa.actuators.domain import Domain, build_domain, compute_deflection_limit
+from svsa.actuators.dynamics import build_actuator
+from svsa.actuators.elasticity import (
+    AnyActuator,
+    compute_coordinate_for_stiffness,
+    compute_stiffness_of,
+    compute_torques,
+)
+from svsa.actuators.installed import get_mechanism
+from svsa.actuators.mechanism import Mechanism
+from svsa.actuators.reach import find_deflection, find_stiffness_range
+from svsa.actuators.signals import CHANNEL_INDEX
+from svsa.errors import ParameterError
+from svsa.runs.change import Change
+from svsa.runs.result.simulate import simulate
+from svsa.simulation.plant.loads.series import SeriesLoad
+from svsa.simulation.reference.kinds.constant import ConstantPosition
+from svsa.simulation.reference.kinds.minimum_jerk import MinimumJerkStiffness
+
+PRESETS = 5
+POINTS = 41
+NOMINAL_SHARE = 0.5
+"""Nominal torque as a share of the peak torque, where no publication says another."""
+VARIED = (0.1, 0.9)
+"""Which part of the stiffness range, in ln σ, is passed for the stiffness-variation time."""
+SETTLED = 0.05
+"""How near the stiffness has to stay to its end, as a share of the change."""
+SHORTEST_S, LONGEST_S, RAMP_S, REST_S = 0.1, 6.4, 2.0, 0.5
+FADE_S = 0.05
+
+
+@dataclass(frozen=True)
+class Preset:
+    """Torque over deflection at one stiffness preset: motors at rest, s held.
+
+    stiffness_nm_per_rad: σ at φ = 0. deflection_rad, torque_nm, stiffness_at_nm_per_rad: the curve,
+    from φ = 0 to the deflection limit, or to what motor 1 holds. energy_j: elastic energy there.
+    """
+
+    stiffness_nm_per_rad: float
+    deflection_rad: list[float]
+    torque_nm: list[float]
+    stiffness_at_nm_per_rad: list[float]
+    energy_j: float
+
+
+@dataclass(frozen=True)
+class Variation:
+    """The shortest time, s, between two stiffnesses, N·m/rad; never below `SHORTEST_S`."""
+
+    start_nm_per_rad: float
+    end_nm_per_rad: float
+    time_s: float
+
+
+@dataclass(frozen=True)
+class Datasheet:
+    """A datasheet. Variations are None where the stiffness is not varied within `LONGEST_S`.
+
+    peak_torque_nm: largest torque that spring and principal motor hold. nominal_torque_nm:
+    `NOMINAL_SHARE` of it. stiffness_range…: least and greatest σ, unloaded and under the nominal
+    torque (None: no s holds it). variation…: shortest minimum-jerk change of σ under NDOBC with
+    an exact model, over `VARIED` of the range, no motor at its limit. torque_stiffness: (torque,
+    least σ, greatest σ). assumed: parameters without a published source. Speeds are not in it: the
+    plant has no voltage that would limit them.
+    """
+
+    name: str
+    title: str
+    source: str
+    peak_torque_nm: float
+    nominal_torque_nm: float
+    stiffness_range_nm_per_rad: tuple[float, float]
+    stiffness_range_at_nominal_nm_per_rad: tuple[float, float] | None
+    variation_unloaded: Variation | None
+    variation_loaded: Variation | None
+    deflection_max_rad: float
+    elastic_energy_max_j: float
+    presets: list[Preset]
+    torque_stiffness: list[tuple[float, float, float]]
+    assumed: list[str]
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain values."""
+        return asdict(self)
+
+
+def measure_datasheet(name: str) -> Datasheet:
+    """Measure the datasheet of an installed actuator.
+
+    Args:
+        name: Of the actuator, such as "qbmove".
+
+    Returns:
+        Its datasheet, with the parameters of the simulated plant that have no published source.
+
+    Raises:
+        ParameterError: If no such actuator is installed.
+    """
+    mechanism = get_mechanism(name)
+    parameters, limits = mechanism.prototype, mechanism.limits
+    # A run may leave the range of s a little before it ends; a datasheet may not.
+    exact = limits.changed(lever_ratio_margin=0.0)
+    plant, domain = build_actuator(parameters, 0.0), build_domain(parameters, exact)
+    low, high = limits.stiffness_min_nm_per_rad, limits.stiffness_max_nm_per_rad
+    if not mechanism.has_stiffness_motor:
+        low = high = float(compute_stiffness_of(plant, 0.0, 0.0))
+    of_motor = limits.torque1_nm * (2.0 if mechanism.antagonistic else 1.0)
+    presets = [_measure_preset(plant, domain, sigma, of_motor) for sigma in _spread(low, high)]
+    peak = min(max(preset.torque_nm[-1] for preset in presets), of_motor)
+    nominal = NOMINAL_SHARE * peak
+    torques = np.linspace(0.0, peak, PRESETS * 4 + 1).tolist()
+    ranges = [(torque, *find_stiffness_range(plant, domain, torque)) for torque in torques]
+    loaded = find_stiffness_range(plant, domain, nominal)
+    commanded = max(loaded[0], low), min(loaded[1], high)
+    return Datasheet(
+        name=name,
+        title=mechanism.title,
+        source=mechanism.source,
+        peak_torque_nm=peak,
+        nominal_torque_nm=nominal,
+        stiffness_range_nm_per_rad=(low, high),
+        stiffness_range_at_nominal_nm_per_rad=loaded if loaded[0] <= loaded[1] else None,
+        variation_unloaded=_find_variation_time(mechanism, low, high, 0.0),
+        variation_loaded=_find_variation_time(mechanism, *commanded, nominal),
+        deflection_max_rad=max(preset.deflection_rad[-1] for preset in presets),
+        elastic_energy_max_j=max(preset.energy_j for preset in presets),
+        presets=presets,
+        torque_stiffness=[one for one in ranges if one[1] <= one[2]],
+        assumed=[key for key, source in mechanism.sources.items() if source.startswith("assumed")],
+    )
+
+
+def _spread(low: float, high: float) -> list[float]:
+    """Presets over the range, evenly in ln σ; one where there is no range."""
+    return [low] if low == high else np.geomspace(low, high, PRESETS).tolist()
+
+
+def _measure_preset(plant: AnyActuator, domain: Domain, sigma: float, most: float) -> Preset:
+    s = float(compute_coordinate_for_stiffness(plant, sigma))
+    limit = find_deflection(plant, domain, s, most)
+    if math.isnan(limit):
+        limit = compute_deflection_limit(domain, plant, s)
+    deflections = np.linspace(0.0, limit, POINTS)
+    torques = [float(compute_torques(plant, s, phi).torque) for phi in deflections]
+    return Preset(
+        stiffness_nm_per_rad=sigma,
+        deflection_rad=deflections.tolist(),
+        torque_nm=torques,
+        stiffness_at_nm_per_rad=[float(compute_stiffness_of(plant, s, phi)) for phi in deflections],
+        energy_j=float(np.trapezoid(torques, deflections)),
+    )
+
+
+def _find_variation_time(
+    mechanism: Mechanism, low: float, high: float, torque: float
+) -> Variation | None:
+    """The shortest change of σ that NDOBC follows, found by halving the time."""
+    if not low < high:
+        return None
+    start, end = (low * (high / low) ** share for share in VARIED)
+    shortest, longest = 0.5 * SHORTEST_S, LONGEST_S
+    if not _is_followed(mechanism, start, end, torque, longest):
+        return None
+    while longest > 1.1 * shortest:
+        middle = max(math.sqrt(shortest * longest), SHORTEST_S)
+        if _is_followed(mechanism, start, end, torque, middle):
+            longest = middle
+        else:
+            shortest = middle
+        if longest == SHORTEST_S:
+            break
+    return Variation(start, end, longest)
+
+
+def _is_followed(
+    mechanism: Mechanism, start: float, end: float, torque: float, duration: float
+) -> bool:
+    """Whether a run ends without a fault, at σ = end, and without a motor at its limit."""
+    on_link = (0.0, 0.0, 0.0), (-torque, 0.0, 0.0)
+    begin, whole = RAMP_S + REST_S, RAMP_S + 2.0 * REST_S + duration
+    load = SeriesLoad(time_s=(0.0, RAMP_S, whole), torque_nm=(*on_link, on_link[1]))
+    movement = MinimumJerkStiffness(
+        start_nm_per_rad=start, end_nm_per_rad=end, duration_s=duration, transition_s=FADE_S
+    )
+    try:
+        result = simulate(
+            "4a",
+            "ndobc",
+            actuator=mechanism.name,
+            nominal=mechanism.prototype,
+            position=ConstantPosition(position_rad=0.0),
+            stiffness=start,
+            loads=(load,) if torque else (),
+            commands=(Change(at_s=begin, stiffness=movement),),
+            duration_s=whole,
+        )
+    except ParameterError:
+        return False
+    period = result.configuration.sampling.period_s
+    settled = result.samples[round((begin + duration) / period) :]
+    errors = np.abs(settled[:, CHANNEL_INDEX["stiffness_error_nm_per_rad"]])
+    u1, u2 = (result.samples[:, CHANNEL_INDEX[f"torque{number}_nm"]] for number in (1, 2))
+    limits = mechanism.limits
+    if mechanism.antagonistic:
+        u1, u2 = (u1 + u2) / 2, (u1 - u2) / 2
+    free = np.abs(u1).max() < limits.torque1_nm and np.abs(u2).max() < limits.torque2_nm
+    is_near = len(errors) > 0 and errors.max() <= SETTLED * abs(end - start)
+    return result.fault is None and bool(free) and bool(is_near)
