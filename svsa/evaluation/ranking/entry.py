@@ -15,7 +15,7 @@ from svsa.runs.configuration import Configuration, Design, Lane, load_prototype
 
 Variant = Literal["tuned", "declared", "default"]
 DECLARED = f"{PAPERS_LAW}_declared"
-"""Key of NDOBC with the gains declared for the paper, which the others are compared with."""
+"""Key of NDOBC with the gains declared for the paper, which prints none."""
 
 
 class Entry(NamedTuple):
@@ -59,6 +59,11 @@ def get_entry_title(key: str) -> str:
     if key == DECLARED:
         return f"{get_title(PAPERS_LAW)}, declared gains"
     return get_title(key)
+
+
+def get_reference(law: str) -> str:
+    """The key of the row that a law is compared with: NDOBC tuned; for NDOBC, as declared."""
+    return DECLARED if law == PAPERS_LAW else PAPERS_LAW
 
 
 def build_entry(key: str) -> Entry:

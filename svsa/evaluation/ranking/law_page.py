@@ -6,11 +6,11 @@ import re
 from svsa.analysis.design.margin_table import HEADS, compute_law_margins, format_margins
 from svsa.control.call import is_measuring
 from svsa.control.gains import Gains
-from svsa.control.installed import PAPERS_LAW, get_law, get_notes
+from svsa.control.installed import PAPERS_LAW, get_law, get_notes, get_title
 from svsa.control.law import Law, Nothing
 from svsa.evaluation.ranking.bench_runs import BenchRuns
 from svsa.evaluation.ranking.bench_table import build_section
-from svsa.evaluation.ranking.entry import DECLARED, get_entry_title
+from svsa.evaluation.ranking.entry import get_entry_title, get_reference
 from svsa.evaluation.ranking.results import Results
 from svsa.evaluation.ranking.row import Row
 from svsa.evaluation.ranking.table import (
@@ -59,13 +59,14 @@ def build_law_page(results: Results, bench: BenchRuns, name: str, margins: str) 
     """The page of a law, Markdown. bench: runs on the emulator. margins: see `build_margins`."""
     law = get_law(name)
     rows = [row for row in results.rows if row.law == name]
-    shown = rows if name == PAPERS_LAW else [*rows, results.get_row(DECLARED)]
+    shown = rows if name == PAPERS_LAW else [*rows, results.get_row(PAPERS_LAW)]
+    reference = get_entry_title(get_reference(name))
     lines = [
         f"# {law.title}",
         "",
         law.summary,
         "",
-        f"![{law.title} compared with NDOBC, declared gains: paper's load, load removal, errors of"
+        f"![{law.title} compared with {reference}: paper's load, load removal, errors of"
         f" the trials](pictures/{name}.png)",
         "",
         f"$${law.equation}$$",
@@ -90,7 +91,7 @@ def build_law_page(results: Results, bench: BenchRuns, name: str, margins: str) 
                     for family in rows[0].families
                 ),
                 (
-                    "p against NDOBC, declared gains",
+                    f"p against the tuned {get_title(PAPERS_LAW)}",
                     *(format_p(results.get_rank(row.key).p_value) for row in shown),
                 ),
                 ("largest load [N·m]", *(f"{row.largest_load_nm:g}" for row in shown)),

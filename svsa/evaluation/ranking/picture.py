@@ -9,7 +9,7 @@ from matplotlib.figure import Figure as Picture
 
 from svsa.actuators.faults import label_fault
 from svsa.control.installed import BASELINE
-from svsa.evaluation.ranking.entry import DECLARED, build_entry, get_entry_title
+from svsa.evaluation.ranking.entry import DECLARED, build_entry, get_entry_title, get_reference
 from svsa.evaluation.ranking.results import Results
 from svsa.evaluation.ranking.row import QUANTILES, FamilyOutcome
 from svsa.evaluation.ranking.scenarios import find_scenario
@@ -31,8 +31,9 @@ class Shown(NamedTuple):
 
 def save_pareto(results: Results, path: Path) -> None:
     """Median position error against median stiffness error of family A; effort is the size."""
-    picture = Picture(figsize=(9.0, 6.0), layout="constrained")
+    picture = Picture(figsize=(9.0, 6.0), dpi=110, layout="constrained")
     axes = picture.subplots()
+    points: list[tuple[str, float, float]] = []
     for row in results.rows:
         family = row.families["A"]
         numbers = [family.get_median(name) for name in (RMS, STIFFNESS_RMS, TORQUE_RMS)]
@@ -42,17 +43,38 @@ def save_pareto(results: Results, path: Path) -> None:
         style = style_law(row.law)
         color = "#444444" if row.key == DECLARED else style["color"]
         axes.scatter(np.degrees(position), stiffness, s=60.0 * torque, color=color, alpha=0.7)
-        axes.annotate(
-            get_entry_title(row.key), (np.degrees(position), stiffness), (6, 3),
-            textcoords="offset points", fontsize=8,
-        )  # fmt: skip
+        points.append((get_entry_title(row.key), float(np.degrees(position)), stiffness))
     axes.set(
         xscale="log", yscale="log", xlabel="Median of rms position error [°]",
         ylabel="Median of rms stiffness error [N·m/rad]",
         title="Trials of family A; area: median of rms u1",
     )  # fmt: skip
     axes.grid(alpha=0.25, which="both")
-    picture.savefig(path, dpi=110)
+    picture.draw_without_rendering()  # fixes the scales that the labels are placed by
+    _label_points(axes, points)
+    picture.savefig(path)
+
+
+def _label_points(axes: Axes, points: list[tuple[str, float, float]]) -> None:
+    """Write a label next to each point, moved up until it covers no other, with a line to it."""
+    height, width = 13.0, 6.0  # of a line and of a character, pixels
+    taken: list[tuple[float, float, float]] = []
+    right = axes.bbox.x1
+    for title, x, y in sorted(points, key=lambda point: point[2]):
+        left, base = axes.transData.transform((x, y))
+        space = width * len(title)
+        start = left + 10.0 if left + 10.0 + space < right else left - 10.0 - space
+        level = base
+        while any(
+            abs(level - other) < height and start < end and begin < start + space
+            for other, begin, end in taken
+        ):
+            level += height / 4.0
+        taken.append((level, start, start + space))
+        axes.annotate(
+            title, (x, y), (start, level), textcoords="figure pixels", fontsize=8, va="center",
+            arrowprops={"arrowstyle": "-", "linewidth": 0.5, "color": "#888888"},
+        )  # fmt: skip
 
 
 def save_losses(path: Path) -> None:
@@ -73,14 +95,14 @@ def save_losses(path: Path) -> None:
 
 
 def save_law(results: Results, key: str, path: Path) -> None:
-    """A row compared with NDOBC, declared gains: two runs, and the trials' errors."""
+    """A row compared with NDOBC: two runs, and the trials' errors."""
     picture = Picture(figsize=(11.0, 3.6), layout="constrained")
     rig, removal, trials = picture.subplots(1, 3)
     shown = (
         (rig, Shown("Paper's load on the rig", find_scenario("rig_4a.positive.0"), (4.8, 6.5))),
         (removal, Shown("Load removal", find_scenario("load_removal.positive.0"), (4.8, 6.5))),
     )
-    keys = (DECLARED, key)
+    keys = (get_reference(key), key)
     for number, name in enumerate(keys):
         style = {"color": "#444444" if number == 0 else COLORS[0], "linewidth": 1.5}
         for axes, one in shown:

@@ -82,8 +82,8 @@ def describe_results(results: Results) -> str:
     names = ", ".join(map(get_entry_title, first))
     lines = [
         f"* First rank: {names}.",
-        f"* Of {len(compared)} rows {len(better)} hold significantly more trials than NDOBC with"
-        f" the declared gains, {len(worse)} significantly fewer.",
+        f"* Of {len(compared)} rows {len(better)} hold significantly more trials than the tuned"
+        f" {get_title(PAPERS_LAW)}, {len(worse)} significantly fewer.",
     ]
     for key in (DECLARED, PAPERS_LAW, "ndobc_s", "ndobc_w"):
         row = next((one for one in results.rows if one.key == key), None)

@@ -8,9 +8,10 @@ from typing import Self
 import numpy as np
 from pydantic import ValidationError
 
+from svsa.control.installed import PAPERS_LAW
 from svsa.errors import ParameterError, Violation
 from svsa.evaluation.metrics import HELD
-from svsa.evaluation.ranking.entry import DECLARED, build_entry
+from svsa.evaluation.ranking.entry import build_entry
 from svsa.evaluation.ranking.measure import TrialSet, measure_entry
 from svsa.evaluation.ranking.row import Row
 from svsa.evaluation.statistics import compute_mcnemar_p, correct_holm
@@ -22,14 +23,14 @@ SIGNIFICANT = 0.05
 
 
 class Rank(Checked):
-    """The rank of a row, and its comparison with NDOBC with the declared gains."""
+    """The rank of a row, and its comparison with the tuned NDOBC."""
 
     key: str = quantity("", "Name of the row")
     rank: Whole = quantity("", "From 1; rows that do not differ significantly share it", ge=1)
     only_this: Whole = quantity("", "Trials that only this row held", ge=0)
-    only_ndobc: Whole = quantity("", "Trials that only NDOBC, declared gains, held", ge=0)
+    only_ndobc: Whole = quantity("", "Trials that only the tuned NDOBC held", ge=0)
     p_value: Number | None = quantity(
-        "1", "McNemar's exact test against NDOBC, declared gains, corrected by Holm", ge=0, le=1
+        "1", "McNemar's exact test against the tuned NDOBC, corrected by Holm", ge=0, le=1
     )
 
 
@@ -88,15 +89,15 @@ def compute_ranks(rows: Sequence[Row]) -> tuple[Rank, ...]:
         rank = len(ranks) + 1
         ranks |= dict.fromkeys((first, *shared), rank)
         left = [key for key in others if key not in shared]
-    compared = [row.key for row in rows if row.key != DECLARED] if DECLARED in held else []
-    values = correct_holm([_compute_p(held[key], held[DECLARED]) for key in compared])
+    compared = [row.key for row in rows if row.key != PAPERS_LAW] if PAPERS_LAW in held else []
+    values = correct_holm([_compute_p(held[key], held[PAPERS_LAW]) for key in compared])
     p_values = dict(zip(compared, values, strict=True))
     return tuple(
         Rank(
             key=row.key,
             rank=ranks[row.key],
-            only_this=_count_only(held[row.key], held.get(DECLARED)),
-            only_ndobc=_count_only(held.get(DECLARED), held[row.key]),
+            only_this=_count_only(held[row.key], held.get(PAPERS_LAW)),
+            only_ndobc=_count_only(held.get(PAPERS_LAW), held[row.key]),
             p_value=p_values.get(row.key),
         )
         for row in rows

@@ -120,13 +120,13 @@ def test_rows_that_do_not_differ_significantly_share_a_rank():
     rows = [
         build_row("esp", trials < 96),
         build_row("lqi", trials < 94),
-        build_row(DECLARED, trials < 74),
+        build_row(PAPERS_LAW, trials < 74),
         build_row("pd", trials < 20),
     ]
     ranks = {rank.key: rank for rank in compute_ranks(rows)}
     assert [rank.rank for rank in ranks.values()] == [1, 1, 3, 4]
     assert (ranks["esp"].only_this, ranks["esp"].only_ndobc) == (44, 0)
-    assert ranks[DECLARED].p_value is None
+    assert ranks[PAPERS_LAW].p_value is None
     # McNemar's exact p is 2·2⁻⁴⁰ for 40 to 0; Holm multiplies by how many are left.
     assert ranks["lqi"].p_value == pytest.approx(1 * 2.0**-39, rel=1e-9)
     assert ranks["esp"].p_value == pytest.approx(2 * 2.0**-43, rel=1e-9)

@@ -37,7 +37,7 @@ export const rankingText = {
       },
       p: {
         name: "p",
-        hint: "McNemar's exact test against NDOBC with the declared gains, with Holm's correction",
+        hint: "McNemar's exact test against the tuned NDOBC, with Holm's correction",
       },
       rig: {
         name: "Paper's load, °",

@@ -6,7 +6,7 @@ import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { sortRows } from "./columns";
 
-/** NDOBC with the gains declared for the paper, which the other rows are compared with. */
+/** NDOBC with the gains declared for the paper. */
 export const DECLARED = "ndobc_declared";
 
 export const results = signal<Results | null>(null);
