@@ -3,6 +3,7 @@ import { measuredText } from "./measured";
 
 export const runsText = {
   runs: {
+    openLab: "Open the lab",
     title: "Runs",
     count: (total: number) => (total === 1 ? "1 run" : `${total} runs`),
     indexing: (done: number, total: number) =>

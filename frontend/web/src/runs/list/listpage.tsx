@@ -68,7 +68,7 @@ function Empty() {
       <h3>{words.emptyTitle}</h3>
       <p>{words.emptyText}</p>
       <PlaceLink to={{ kind: "lab" }} class="button is-primary">
-        {words.back}
+        {words.openLab}
       </PlaceLink>
     </div>
   );
