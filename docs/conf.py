@@ -9,8 +9,10 @@ from pathlib import Path
 from typing import Any
 
 import jupyter_client
+import latex2mathml.converter
 from docutils import nodes
 from sphinx.application import Sphinx
+from sphinx.writers.html5 import HTML5Translator
 from traitlets import default
 
 sys.path.insert(0, str(Path(__file__).parent))
@@ -35,7 +37,9 @@ source_suffix = {".md": "myst-nb", ".ipynb": "myst-nb"}
 exclude_patterns = ["_build", "**/.ipynb_checkpoints"]
 nitpicky = False
 
-myst_enable_extensions = ["colon_fence", "deflist", "fieldlist"]
+myst_enable_extensions = ["colon_fence", "deflist", "dollarmath", "fieldlist"]
+myst_dmath_allow_space = False
+html_math_renderer = "mathml"
 myst_heading_anchors = 3
 # Links of a page to files of the repository that are no pages.
 suppress_warnings = ["myst.xref_missing"]
@@ -105,8 +109,22 @@ def lower_subscripts(_: Sphinx, document: nodes.document, __: str) -> None:
             text.parent.replace(text, parts)
 
 
+def write_inline_formula(translator: HTML5Translator, node: nodes.math) -> None:
+    """Write a formula in a line as MathML, which browsers draw without a script."""
+    translator.body.append(latex2mathml.converter.convert(node.astext()))
+    raise nodes.SkipNode
+
+
+def write_formula(translator: HTML5Translator, node: nodes.math_block) -> None:
+    """Write a formula of its own lines as MathML."""
+    formula = latex2mathml.converter.convert(node.astext(), display="block")
+    translator.body.append(f'<div class="math">{formula}</div>')
+    raise nodes.SkipNode
+
+
 def setup(app: Sphinx) -> None:
     """Install the hooks, the first before that of napoleon."""
+    app.add_html_math_renderer("mathml", (write_inline_formula, None), (write_formula, None))
     app.connect("autodoc-process-docstring", escape_docstring, priority=100)
     app.connect("doctree-resolved", lower_subscripts)
 

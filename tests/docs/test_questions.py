@@ -116,3 +116,11 @@ def test_every_link_within_two_clicks_leads_to_a_page(site, near):
         and not (site / urlsplit(urljoin(f"/{name}", link)).path.lstrip("/")).exists()
     }
     assert not broken
+
+
+def test_formulas_are_drawn_by_the_browser_without_a_script(site):
+    """MathML: the site has no script for formulas, and none may come from elsewhere."""
+    for path in (site / "laws").glob("*.html"):
+        page = path.read_text(encoding="utf-8")
+        assert "$$" not in read_page(path).text, path.name
+        assert "<math" in page or path.name == "README.html", path.name
