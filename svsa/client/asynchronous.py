@@ -35,9 +35,18 @@ IMMEDIATE = frozenset({"open_session", "stream"})
 def connect_async(
     url: str = "http://127.0.0.1:8000", token: str | None = None, **options: Any
 ) -> "Pending[AsyncLab]":
-    """A running lab, for `async with` or `await`; options: those of `svsa.connect`.
+    """Connect to a running lab, with `async with` or `await`.
 
-    Raises, when it is awaited, `LabError` where none answers.
+    Args:
+        url: Address of the lab.
+        token: Token of a class, or the lab's shared secret.
+        **options: The other arguments of `svsa.connect`.
+
+    Returns:
+        What to await for the lab.
+
+    Raises:
+        LabError: When it is awaited, if no lab answers at this address.
     """
     return Pending(partial(connect, url, token, **options))
 

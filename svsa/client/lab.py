@@ -30,11 +30,20 @@ def connect(
     client: str = "",
     timeout_s: float = 30.0,
 ) -> "Lab":
-    """A running lab; a context closes it. Raises `LabError` where none answers.
+    """Connect to a running lab. A context closes the connection.
 
-    token: of its class, or the lab's secret; left out, that of the environment (SVSA_SECRET).
-    client: what the lab knows this script by, drawn at random if left out. timeout_s: for how
-    long a lab that does not answer, or is busy, is asked again, s.
+    Args:
+        url: Address of the lab.
+        token: Token of a class, or the lab's shared secret; if left out, that of the environment
+            (SVSA_SECRET).
+        client: Name by which the lab knows this script; drawn at random if left out.
+        timeout_s: How long a lab that does not answer, or is busy, is asked again, s.
+
+    Returns:
+        The lab, with its sessions, runs and jobs.
+
+    Raises:
+        LabError: If no lab answers at this address.
     """
     connection = Connection(url, token or os.environ.get("SVSA_SECRET"), client, timeout_s)
     try:

@@ -37,9 +37,18 @@ def reproduce(
 ) -> list[Reproduction]:
     """Run figures of the paper with FL and NDOBC, with the figure's load at 5 s.
 
-    Figures 6A, 6B and 7 run on the emulator, through CAN, in lockstep. progress: called with
-    the share done. Raises `FaultError` if a run leaves the domain of the model,
-    `ParameterError` for a figure that does not exist.
+    Figures 6A, 6B and 7 run on the emulator, through CAN, in lockstep.
+
+    Args:
+        figures: Names of the figures, "4a" to "7".
+        progress: Receives the share that is done, 0 to 1.
+
+    Returns:
+        For each figure and law the run, and the numbers of the table.
+
+    Raises:
+        FaultError: If a run leaves the domain of the model.
+        ParameterError: For a figure that does not exist.
     """
     runs: list[tuple[str, str]] = [(get_figure(key).key, law) for key in figures for law in LAWS]
     found = []

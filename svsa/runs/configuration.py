@@ -161,10 +161,19 @@ class Configuration(Design):
 
 
 def read_design(path: Path | str) -> Design:
-    """Read a parameter file written as `prototype.toml` is; a value may stand bare.
+    """Read a parameter file in the format of `prototype.toml`; a value may be a plain number.
 
-    The parameters of a law stand in a table of its own, `[parameters.fl_integral]`. Raises
-    `ParameterError` for a file that cannot be read and for every wrong value, with the file's name.
+    The parameters of a law are in its own table, such as `[parameters.fl_integral]`.
+
+    Args:
+        path: The file, TOML.
+
+    Returns:
+        Actuator, nominal model, limits, gains, observer and parameters of laws, in SI units.
+
+    Raises:
+        ParameterError: For a file that cannot be read, and for every wrong value, with the name of
+            the file.
     """
     return _build_design(read_toml(path, PARAMETER_FILE), str(path))
 
@@ -196,7 +205,16 @@ def _check_law(law: str) -> None:
 
 
 def write_design(path: Path | str, design: Design, source: str) -> None:
-    """Write a parameter file in which every value has `source` as its source."""
+    """Write a parameter file. Every value has the same source.
+
+    Args:
+        path: The file to write.
+        design: Actuator, nominal model, limits, gains, observer and parameters of laws.
+        source: Where the values come from, as text.
+
+    Raises:
+        OSError: If the file cannot be written.
+    """
     Path(path).write_text(format_design(design, lambda _: source), encoding="utf-8")
 
 
@@ -215,7 +233,14 @@ def format_design(design: Design, describe_source: Callable[[str], str]) -> str:
 
 @cache
 def load_prototype() -> Design:
-    """The paper's prototype with the declared assumptions: `svsa/actuators/prototype.toml`."""
+    """Read the parameters of the paper's prototype, `svsa/actuators/prototype.toml`, once.
+
+    Returns:
+        The paper's actuator, nominal model and limits, and the lab's gains and observer.
+
+    Raises:
+        ParameterError: If the file of the package was changed to a wrong value.
+    """
     return read_design(PROTOTYPE_FILE)
 
 

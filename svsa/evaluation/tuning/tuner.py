@@ -112,6 +112,9 @@ def tune(
         is_cancelled: Asked before each candidate but the first; then, and at Ctrl-C, the best so
             far is returned.
 
+    Returns:
+        The candidates with their costs, and the design with the best parameters.
+
     Raises:
         ParameterError: For a law that is not installed or has nothing to tune, or a number out of
             range.

@@ -22,18 +22,40 @@ from svsa.runs.result.saved import build_result_record
 
 
 def list_runs(search: str = "", page: int = 1, page_size: int = 50) -> RunPage:
-    """The recorded runs of this machine, newest first; `Catalogue` can do more.
+    """List the recorded runs of this machine, the newest first. `Catalogue` has more filters.
 
-    search: words that must be in id, name, session, tags or notes.
+    Args:
+        search: Words that are in the id, name, session, tags or notes.
+        page: Number of the page, from 1.
+        page_size: Runs of a page.
+
+    Returns:
+        The runs of the page, and the total number of runs found.
+
+    Raises:
+        ParameterError: For a page or page size out of range.
     """
     return Catalogue().list(search=search, page=page, page_size=page_size)
 
 
 def find_record(run: str | Path | Result) -> Record:
-    """The record of a run: of its id in this machine's catalogue, its folder, or a result.
+    """Read a recorded run as the `Result` that `svsa.simulate` would have returned.
 
-    Raises `UnknownRunError` for an id that is not there, `RecordError` for what cannot be read,
-    `StateError` for a result that is one lane of a run, or has no samples.
+    Its lanes are the `comparisons`. The samples are those of the record, bit for bit. Commands are
+    those given while it was recorded or before. `fault` is None also for a record of a version that
+    did not write it. On a bench the true disturbance is unknown (NaN). Warns of a record of a newer
+    version.
+
+    Args:
+        run: Id of the run, or its folder.
+
+    Returns:
+        The run.
+
+    Raises:
+        RecordError: For a record that cannot be read, has other channels, or has a configuration
+            that this version does not know.
+        UnknownRunError: For an id that does not exist.
     """
     if isinstance(run, Result):
         return build_result_record(run)
@@ -44,14 +66,17 @@ def find_record(run: str | Path | Result) -> Record:
 
 
 def open_run(run: str | Path) -> Result:
-    """A recorded run as `simulate` would have returned it; its lanes as `comparisons`.
+    """Simulate a run again from its record alone, and compare every bit.
 
-    run: its id, or its folder. The samples are those of the record, bit for bit; commands are
-    those given while it was recorded or before; `fault` is None also for a record of a version
-    that did not write it. On a bench the true disturbance is unknown (NaN). Raises `RecordError`
-    for a record that cannot be read, of other channels, or of a configuration that this version
-    does not know, `UnknownRunError` for an id that is not there. Warns of a record of a newer
-    version.
+    Args:
+        run: Id or folder of a recorded run, or a result of `svsa.simulate`.
+
+    Returns:
+        Whether both are identical, and the first difference if they are not.
+
+    Raises:
+        RecordError: For a run of a bench, of a function as controller, or of more than one
+            integration step in a period.
     """
     record = find_record(run)
     header = record.header
@@ -83,10 +108,17 @@ def open_run(run: str | Path) -> Result:
 
 
 def resimulate(run: str | Path | Result) -> Comparison:
-    """Simulate a run again from its record alone and compare every bit.
+    """Simulate a run again from its record alone, and compare every bit.
 
-    Raises `RecordError` for a run of a bench, of a function as controller, or of more than one
-    integration step a period.
+    Args:
+        run: Id or folder of a recorded run, or a result of `svsa.simulate`.
+
+    Returns:
+        Whether every sample is identical, and the tick and channel of the first that is not.
+
+    Raises:
+        RecordError: For a run of a bench, of a function as controller, or of more than one
+            integration step in a period.
     """
     return compare_with_simulation(find_record(run))
 
@@ -129,10 +161,17 @@ def compare_runs(
 
 
 def export_run(run: str | Path | Result, kind: str, target: Path | str) -> None:
-    """Write a run for other programs: "csv", "parquet", "mat", "mcap" or "html".
+    """Write a run for other programs.
 
-    "html" is one page with 3D replay and plots, which needs the extra `server`, but no server.
-    Raises `ParameterError` for another kind, `RecordError` where the run cannot be written.
+    Args:
+        run: Id or folder of a recorded run, or a result of `svsa.simulate`.
+        kind: "csv", "parquet", "mat", "mcap" or "html". "html" is one page with 3D replay and
+            plots; it needs the extra `server`, but no running server.
+        target: File to write.
+
+    Raises:
+        ParameterError: For another kind.
+        RecordError: If the run cannot be written.
     """
     from svsa.runs.records.export.formats import (
         export,  # late: what the formats need takes a second

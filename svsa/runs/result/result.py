@@ -68,7 +68,18 @@ class Result(Channels):
         return compute_metrics(self.samples, self.configuration.sampling.period_s)
 
     def measure(self, start_s: float, end_s: float) -> Metrics:
-        """The metrics between two times of the run, s; raises `ParameterError` if empty."""
+        """Compute the metrics between two times of the run.
+
+        Args:
+            start_s: First time of the window, s.
+            end_s: Last time of the window, s.
+
+        Returns:
+            The metrics of both outputs and of the effort.
+
+        Raises:
+            ParameterError: For a window without a sample.
+        """
         period = self.configuration.sampling.period_s
         first = round(float(self.time_s[0]) / period) if len(self.samples) else 0
         begin, end = first * period, (first + len(self.samples)) * period
@@ -81,7 +92,11 @@ class Result(Channels):
         return compute_metrics(rows, period)
 
     def list_segments(self) -> list[tuple[str, slice]]:
-        """The laws that controlled, one after the other, each with its rows of the samples."""
+        """List the laws that controlled, in their order.
+
+        Returns:
+            The name of each law, and its rows of the samples.
+        """
         period, rows = self.configuration.sampling.period_s, len(self.samples)
         first = round(float(self.time_s[0]) / period) if rows else 0
         begins = [(0, self.law)]
@@ -93,29 +108,48 @@ class Result(Channels):
         return [(law, slice(at, end)) for (at, law), end in zip(begins, ends, strict=True)]
 
     def to_dataframe(self) -> "pandas.DataFrame":
-        """All channels as a pandas DataFrame, one row for each tick; needs the extra `pandas`.
+        """Build a pandas DataFrame of all channels; needs the extra `pandas`.
 
-        Its `attrs` have the units.
+        Returns:
+            One row for each tick, one column for each channel; `attrs` has the units.
+
+        Raises:
+            MissingExtraError: If pandas is not installed.
         """
         from svsa.runs.result.tables import build_dataframe
 
         return build_dataframe(self.samples, self._tell())
 
     def to_xarray(self) -> "xarray.Dataset":
-        """All channels along `time_s`, each with its units; needs the extra `xarray`."""
+        """Build an xarray Dataset of all channels; needs the extra `xarray`.
+
+        Returns:
+            The channels along `time_s`, each with its unit.
+
+        Raises:
+            MissingExtraError: If xarray is not installed.
+        """
         from svsa.runs.result.tables import build_dataset
 
         return build_dataset(self.samples, self._tell())
 
     def to_csv(self, path: Path | str) -> None:
-        """Write all channels as CSV; the first row names each with its unit."""
+        """Write all channels as CSV. The first row names each channel with its unit.
+
+        Args:
+            path: The file to write.
+        """
         names = ",".join(f"{channel.name} [{channel.unit}]" for channel in CHANNELS)
         np.savetxt(path, self.samples, fmt="%.9g", delimiter=",", header=names, comments="")
 
     def plot(self) -> "Picture":
-        """Position, its error, stiffness, torques and disturbances as a matplotlib figure.
+        """Plot position, its error, stiffness, torques and disturbances; needs the extra `plot`.
 
-        Raises `MissingExtraError` where matplotlib, of the extra `plot`, is not installed.
+        Returns:
+            A matplotlib figure.
+
+        Raises:
+            MissingExtraError: If matplotlib is not installed.
         """
         require_extra("plot")
         from svsa.runs.result.plot import plot_run

@@ -11,10 +11,21 @@ LONGEST_S = 1e6
 
 
 def sample_reference(reference: AnyReference, points: int = 400) -> tuple[np.ndarray, np.ndarray]:
-    """A reference from its beginning to its end: times (s) and, a row each, r … r⁗.
+    """Sample a reference with its derivatives from its beginning to its end.
 
-    Of a sine two periods, of a constant 1 s. Times (points,); values (points, 5), the unit of
-    the reference and that by s … s⁴. It goes alone, not faded in from another.
+    A sine is sampled over two periods, a constant over 1 s. There is no transition from another
+    reference.
+
+    Args:
+        reference: Reference of position or stiffness.
+        points: Number of points.
+
+    Returns:
+        Times (points,), s, and values (points, 5): r, ṙ, r̈, r⃛ and r⁗, in rad or N·m/rad, and that
+        by s to s⁴.
+
+    Raises:
+        ParameterError: For a reference with a wrong value.
     """
     times = np.linspace(0.0, find_duration(reference), points)
     stack = build_stack(reference)

@@ -41,7 +41,17 @@ COLUMNS = {
 
 
 def read_series(path: Path | str) -> SeriesPosition | SeriesStiffness:
-    """The reference in a CSV file; see `parse_series`. Raises `ParameterError`."""
+    """Read a reference from a CSV file; see `parse_series` for the columns.
+
+    Args:
+        path: The file: a column of times, s, and one of positions, rad, or of stiffness, N·m/rad.
+
+    Returns:
+        The reference that the columns give.
+
+    Raises:
+        ParameterError: For a file that cannot be read, and for a wrong column or value.
+    """
     try:
         text = Path(path).read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
