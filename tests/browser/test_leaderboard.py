@@ -60,7 +60,7 @@ def test_it_is_sorted_and_left_for_a_worst_run_and_survives_a_reload(
     expect(page.get_by_text("nothing is kept")).to_be_visible(timeout=WORKER_MS)
     page.reload()
     expect(page.get_by_role("heading", name="Worst run of Mine")).to_be_visible()
-    page.get_by_role("link", name="Leaderboard").press("Enter")
+    page.get_by_role("link", name="← Leaderboard").press("Enter")
     expect(table).to_be_visible()
     page.goto(lab_with_board.url + "/leaderboard")
     expect(page).to_have_url(re.compile(r"/\?leaderboard=all$"))

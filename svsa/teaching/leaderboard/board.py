@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Self
 
 import numpy as np
 from pydantic import AfterValidator
@@ -70,6 +70,11 @@ class Board(ClassFolder[Entry]):
         folder = find_data_folder() / FOLDER if folder is None else folder
         super().__init__(folder, Entry, ("leaderboard", "entries", "torques"))
         self.season = build_season(derive_seed(self.secret))
+
+    @classmethod
+    def find_started(cls, folder: Path) -> Self | None:
+        """The board of a folder; None before the season's secret is drawn."""
+        return cls(folder) if (folder / "secret").exists() else None
 
     def find(self, key: str) -> Entry | None:
         """The entry of this key in this version of the suite; of an installed law, of the lab."""

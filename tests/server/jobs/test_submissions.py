@@ -27,19 +27,23 @@ def lab(data):
         yield lab.client
 
 
-def test_a_board_begins_with_all_laws_missing_and_its_secret_in_the_labs_folder(lab, data):
+def test_a_visit_does_not_start_a_season(lab, data):
     state = lab.get(BOARD).json()
+    assert state["began"] is None
     assert state["entries"] == []
     assert {"fl", "ndobc"} <= set(state["missing"])
     assert state["runs"] == 214
-    assert (data / FOLDER / "secret").stat().st_mode & 0o077 == 0
+    assert lab.get(f"{BOARD}/entries/fl/replay").status_code == 404
+    assert not (data / FOLDER).exists()
 
 
-def test_a_law_that_fails_at_once_is_refused_by_its_job_and_has_no_entry(lab):
+def test_a_law_that_fails_at_once_is_refused_by_its_job_and_has_no_entry(lab, data):
     law = "def law(*given):\n    return spring\n"
     begun = lab.post(f"{BOARD}/submissions", json={"name": "Mine", "law": law})
     assert begun.status_code == 201
     assert begun.json()["key"] == digest_law(law.encode())
+    assert lab.get(BOARD).json()["began"] is not None
+    assert (data / FOLDER / "secret").stat().st_mode & 0o077 == 0
     state = follow(lab, f"/api/v1/jobs/{begun.json()['job']['id']}")
     assert state["status"] == "failed"
     assert "name 'spring' is not defined" in state["problem"]

@@ -2,14 +2,18 @@
 
 import asyncio
 from functools import partial
+from pathlib import Path as FilePath
 from typing import Annotated
 
 from fastapi import Body, Path, Request
 from fastapi.responses import StreamingResponse
 
+from svsa.control.installed import list_law_names
+from svsa.evaluation.ranking.scenarios import PUBLIC_SEED
 from svsa.evaluation.trials import PROTOCOL
 from svsa.teaching.isolation.probe import check_isolation, find_isolation_problem
 from svsa.teaching.leaderboard.board import FOLDER, Board
+from svsa.teaching.leaderboard.standing import build_season
 from svsa.teaching.submission import digest_law
 from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
 from svsa_server.access.roles import Person
@@ -35,16 +39,18 @@ router = build_router("/leaderboard", tags=["leaderboard"], responses=REFUSALS)
 @router.get("")
 @allow(OBSERVER)
 async def read_leaderboard(request: Request) -> LeaderboardState:
-    """List every entry of the season, the best first: laws of the lab, and submitted laws."""
-    board = await _open_board(request)
-    entries = await asyncio.to_thread(board.list)
+    """List every entry of the season, the best first: laws of the lab, and submitted laws.
+
+    The season begins with the first submission or measurement; before it `began` is null.
+    """
+    board = await asyncio.to_thread(Board.find_started, _find_folder(request))
     return LeaderboardState(
         suite=PROTOCOL,
-        began=board.began,
+        began=board and board.began,
         not_isolated=await asyncio.to_thread(find_isolation_problem),
-        runs=board.season.run_count,
-        entries=describe_entries(entries),
-        missing=await asyncio.to_thread(board.list_missing),
+        runs=build_season(PUBLIC_SEED).run_count,
+        entries=describe_entries(await asyncio.to_thread(board.list) if board else []),
+        missing=await asyncio.to_thread(board.list_missing) if board else list_law_names(),
     )
 
 
@@ -61,8 +67,8 @@ async def show_worst_run(
 
     Of a submitted law, what it answered then is played: it does not run again.
     """
-    board = await _open_board(request)
-    if await asyncio.to_thread(board.find, key) is None:
+    board = await asyncio.to_thread(Board.find_started, _find_folder(request))
+    if board is None or await asyncio.to_thread(board.find, key) is None:
         raise UnknownError(f"There is no entry {key:.80} in this season.")
     return send_page(await work.write(partial(write_worst_run, key), board.folder))
 
@@ -83,10 +89,12 @@ async def submit_law(
     cannot isolate a law.
     """
     law = wanted.law.encode()
-    board, key = await _open_board(request), digest_law(law)
-    if board.find(key) is not None:
+    key = digest_law(law)
+    started = await asyncio.to_thread(Board.find_started, _find_folder(request))
+    if started is not None and started.find(key) is not None:
         return SubmissionState(key=key, job=None)
     await asyncio.to_thread(check_isolation)
+    board = await _open_board(request)
     asked = Asked(board.folder, wanted.name, law, person.name or wanted.author)
     return SubmissionState(key=key, job=_begin(request, person, asked))
 
@@ -100,7 +108,11 @@ async def measure_installed_laws(request: Request, person: NamedPerson) -> JobSt
 
 
 async def _open_board(request: Request) -> Board:
-    return await asyncio.to_thread(Board, request.app.state.catalogue.folder / FOLDER)
+    return await asyncio.to_thread(Board, _find_folder(request))
+
+
+def _find_folder(request: Request) -> FilePath:
+    return request.app.state.catalogue.folder / FOLDER
 
 
 def _begin(request: Request, person: Person, asked: Asked) -> JobState:

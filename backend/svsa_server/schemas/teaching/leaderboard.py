@@ -43,7 +43,9 @@ class LeaderboardState(BaseModel):
     """A season: who is on the board, the best first."""
 
     suite: str = Field(description="Version of the suite; scores compare within one")
-    began: str = Field(description="When the season began, UTC, ISO 8601")
+    began: str | None = Field(
+        description="When the season began, UTC, ISO 8601; null before its first measurement"
+    )
     not_isolated: str | None = Field(
         description="Why this machine takes no law, as it cannot isolate one; null where it can"
     )

@@ -40,7 +40,7 @@ export function LeaderboardPage() {
     <Desk
       title={words.title}
       lead={
-        found === null
+        found?.began == null
           ? words.lead
           : `${words.lead} ${words.season(formatMoment(found.began), found.suite)}`
       }
