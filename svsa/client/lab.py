@@ -3,10 +3,10 @@
 import inspect
 import os
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import AbstractContextManager, contextmanager, suppress
 from typing import Any, Self, Unpack
 
-from svsa.client.connection import Connection, Remote
+from svsa.client.connection import Connection, LabError, Remote
 from svsa.client.runs import RemoteRuns, RemoteStudies
 from svsa.client.session import RemoteSession, dump_lane
 from svsa.control.law_names import AnyLaw
@@ -112,8 +112,11 @@ class Lab(Remote):
         session = self.create_session(figure, law, **settings)
         try:
             yield session
-        finally:
-            session.end()
+        except BaseException:
+            with suppress(LabError):  # the first error is the one to report
+                session.end()
+            raise
+        session.end()
 
     @contextmanager
     def operate(

@@ -168,6 +168,14 @@ def test_a_lab_that_is_not_there_is_named() -> None:
         svsa.connect("http://127.0.0.1:9", timeout_s=0.0)
 
 
+def test_a_session_that_is_gone_is_one_error_with_the_next_step(lab: Lab) -> None:
+    """As after a restart of the lab: the end of the block reports no second error."""
+    with pytest.raises(LabError, match="open a new one") as raised, lab.new_session() as session:
+        lab.open_session(session.name).end()
+        session.law = "fl"
+    assert raised.value.__context__ is None
+
+
 def test_control_is_taken_and_given_back(server: Server, lab: Lab) -> None:
     with svsa.connect(server.url, client="Ada's") as other, lab.new_session(load=False) as session:
         other_s = other.open_session(session.name)

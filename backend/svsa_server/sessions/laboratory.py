@@ -71,7 +71,10 @@ class Laboratory:
         if name not in self.sessions:
             open_to_all = [one for one, hosted in self.sessions.items() if not hosted.owner]
             known = ", ".join(open_to_all[:10])
-            raise UnknownError(f"There is no session {name[:80]!r}; sessions here: {known}.")
+            raise UnknownError(
+                f"There is no session {name[:80]!r}; sessions here: {known}. A private session ends"
+                " when nobody uses it or the lab restarts: open a new one."
+            )
         self.sessions[name].touch()
         return self.sessions[name]
 
