@@ -3,7 +3,10 @@
 from typing import Any, cast
 
 import svsa
+from svsa.actuators.domain import build_domain
+from svsa.actuators.dynamics import build_actuator
 from svsa.actuators.faults import FAULT_CODES
+from svsa.actuators.reach import find_stiffness_range
 from svsa.actuators.signals import Disturbance, State
 from svsa.analysis.design.report import build_report
 from svsa.analysis.design.steady_error import compute_fl_steady_error
@@ -32,6 +35,10 @@ def run_all() -> None:
     build_report(configuration, (15.0,), 2, lambda _: None)
     compute_fl_steady_error(configuration, 15.0, Disturbance(1.0, 0.0, 0.0))
     list_c_constants(Run(configuration))
+    # An actuator that is an elastic energy has its stiffness range checked under a lasting load.
+    parameters = configuration.actuator
+    domain = build_domain(parameters, configuration.limits)
+    find_stiffness_range(build_actuator(parameters, 0.0), domain, 1.0)
     sample_torque(configuration, 0.01)
     sample_reference(configuration.position, 4)
     # A commissioned bench compares its spring with this.
