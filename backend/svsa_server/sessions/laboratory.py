@@ -73,7 +73,7 @@ class Laboratory:
             known = ", ".join(open_to_all[:10])
             raise UnknownError(
                 f"There is no session {name[:80]!r}; sessions here: {known}. A private session ends"
-                " when nobody uses it or the lab restarts: open a new one."
+                " when no client uses it or the lab restarts: open a new one."
             )
         self.sessions[name].touch()
         return self.sessions[name]
