@@ -50,7 +50,7 @@ async def read_leaderboard(request: Request) -> LeaderboardState:
         not_isolated=await asyncio.to_thread(find_isolation_problem),
         runs=build_season(PUBLIC_SEED).run_count,
         entries=describe_entries(await asyncio.to_thread(board.list) if board else []),
-        missing=await asyncio.to_thread(board.list_missing) if board else list_law_names(),
+        missing=await asyncio.to_thread(board.list_missing) if board else [*list_law_names()],
     )
 
 
