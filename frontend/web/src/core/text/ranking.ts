@@ -36,7 +36,7 @@ export const rankingText = {
         hint: "The same with σ 12–120, also varying, spring ±5 % and dampings × 0.5–2, current lag 0.2–2 ms, sines to 5 Hz, loads on the motors",
       },
       p: {
-        name: "p",
+        name: "p vs NDOBC",
         hint: "McNemar's exact test against the tuned NDOBC, with Holm's correction",
       },
       rig: {

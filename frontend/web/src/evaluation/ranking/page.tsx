@@ -1,6 +1,7 @@
 import { useEffect } from "preact/hooks";
 import { text } from "../../core/text/en";
 import { Page } from "../../core/widgets/desk";
+import { MathSymbol } from "../../core/widgets/symbol";
 import { COLUMNS } from "./columns";
 import { LawCard } from "./law";
 import { Pareto } from "./pareto";
@@ -38,7 +39,9 @@ export function RankingPage() {
       ) : (
         <>
           <RankingTable />
-          <p class="hint">{words.provenance({ ...found, versions })}</p>
+          <p class="hint">
+            <MathSymbol text={words.provenance({ ...found, versions })} />
+          </p>
           <Legend />
           <div class="halves">
             <Pareto />
