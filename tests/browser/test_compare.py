@@ -5,7 +5,7 @@ import re
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from tests.browser.settled import get_box, until
+from tests.browser.settled import get_box
 from tests.browser.test_page import (
     LAST_TIME,
     ONE_DEGREE,
@@ -134,6 +134,7 @@ def test_the_same_law_twice_is_distinguished_by_what_it_is_set_to(
 
 def test_a_recording_is_begun_reported_and_ended(page: Page, still_lab: Lab) -> None:
     open_page(page, still_lab)
+    before = get_box(page.locator(".lab"))
     page.get_by_role("button", name="Record", exact=True).click()
     recording = page.get_by_role("button", name=re.compile("^Recording"))
     expect(recording).to_be_visible()
@@ -147,10 +148,5 @@ def test_a_recording_is_begun_reported_and_ended(page: Page, still_lab: Lab) -> 
     expect(find_switch(page)).to_be_enabled()
     note = page.get_by_role("status").filter(has_text=re.compile("^Saved:"))
     expect(note).to_be_visible()
-
-    def is_above_the_work() -> bool:
-        reported = get_box(note)
-        return reported["y"] + reported["height"] <= get_box(page.locator(".lab"))["y"]
-
-    until(page, is_above_the_work)
+    assert get_box(page.locator(".lab")) == before, "the note moved the work"
     assert still_lab.read()["recording"] is None
