@@ -5,6 +5,7 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Page, expect
 
+from tests.browser.test_page import go_to_page
 from tests.lab import Lab, run_lab
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
@@ -36,7 +37,7 @@ def test_the_lab_is_entered_with_the_settings_from_before_the_exercise(
     page.goto(own_lab.url + "/?learn=" + EXERCISE + "/exact-model")
     expect(page.get_by_role("button", name="Run again")).to_be_enabled()
     assert own_lab.read()["configuration"]["law"] == "fl"
-    page.get_by_role("banner").locator("a[href='/']").press("Enter")
+    go_to_page(page, "Lab")
     expect(page.get_by_role("button", name="Control law: NDOBC")).to_be_visible()
     assert own_lab.read()["configuration"] == before
 
