@@ -62,4 +62,4 @@ def test_next_to_the_load_stands_which_motor_bears_it_for_how_long(
     expect(page.get_by_text("Motor 1 overheats in less than a second")).to_be_visible()
     asked = [body for call, body in bench.calls if call == "bench/endurance"]
     kinds = dict.fromkeys(load["kind"] for load in asked)
-    assert list(kinds) == ["paper", "mass"], "asked again after a moment without the lab"
+    assert list(kinds) == ["mass", "paper"], "asked again after a moment without the lab"

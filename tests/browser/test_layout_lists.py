@@ -25,7 +25,7 @@ WHOLE_PLOTS = """() => {
 
 
 def test_a_low_list_of_plots_shows_whole_ones_and_says_how_many_are_below(visited: Page) -> None:
-    resize(visited, 1280, 720)
+    resize(visited, 1280, 600)
     visited.locator(".plots-scroll").evaluate("list => list.scrollTo(0, 0)")
     visited.get_by_role("button", name="Cursors").click()
     expect(visited.get_by_role("button", name="Cursors")).to_have_attribute("aria-pressed", "true")
@@ -49,6 +49,16 @@ def test_a_low_list_of_plots_shows_whole_ones_and_says_how_many_are_below(visite
     find_below().press("Enter")
     until(visited, lambda: get_box(last)["y"] < 500)
     visited.get_by_role("button", name="Cursors").click()
+
+
+@pytest.mark.parametrize("visited", ["simulation"], indirect=True)
+def test_cursors_leave_all_plots_in_view(visited: Page) -> None:
+    resize(visited, 1280, 720)
+    cursors = visited.get_by_role("button", name="Cursors")
+    cursors.click()
+    below = visited.get_by_role("button", name=re.compile("more plots? below"))
+    until(visited, lambda: visited.evaluate(WHOLE_PLOTS) and below.count() == 0)
+    cursors.click()
 
 
 @pytest.mark.parametrize("visited", ["simulation"], indirect=True)

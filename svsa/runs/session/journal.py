@@ -149,17 +149,17 @@ class Journal:
             self.enter(Stop(tick=self.run.tick))
 
     def log_fault(self, fault: Fault, ends_run: bool = True) -> None:
-        """A fault that ends the run is its event and the end of its recording; others are neither.
+        """A fault is an event; one that ends the run is the end of its recording, too.
 
-        A fault of a bench at rest comes after the run: as an event it would be at the run's last
-        tick, where the event of the fault that ended the run already is.
+        A fault of a bench at rest is at the run's last tick. Where the event of a fault is there
+        already, such as of the one that ended the run, it keeps its name.
         """
         self.version += 1
-        if not ends_run:
-            return
-        if self.recorder is not None:
+        if ends_run and self.recorder is not None:
             self.recorder.write_fault(fault)
-        self.log("fault", label_fault(fault.code))
+        last = self.events[-1] if self.events else None
+        if ends_run or last is None or (last.kind, last.tick) != ("fault", self.run.tick):
+            self.log("fault", label_fault(fault.code))
 
     def refine_fault(self, fault: Fault) -> None:
         """Extend the description of the reported fault, also in a record that has it."""
