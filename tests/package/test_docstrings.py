@@ -18,7 +18,10 @@ def list_missing(function) -> list[str]:
         "Args:": [name for name in signature.parameters if name != "self"],
         "Returns:": signature.return_annotation not in (None, "None", inspect.Signature.empty),
     }
-    return [section for section, is_needed in needed.items() if is_needed and section not in text]
+    undocumented = [name for name in needed["Args:"] if f"{name}:" not in text]
+    return undocumented + [
+        section for section, is_needed in needed.items() if is_needed and section not in text
+    ]
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)
@@ -26,6 +29,11 @@ def test_a_public_function_has_every_section(name):
     function = getattr(svsa, name)
     assert not list_missing(function)
     assert "Raises:" in inspect.getdoc(function)
+
+
+def test_every_public_function_has_a_summary_of_its_own():
+    summaries = [inspect.getdoc(getattr(svsa, name)).partition("\n")[0] for name in FUNCTIONS]
+    assert len({*summaries}) == len(summaries)
 
 
 @pytest.mark.parametrize("name", [name for name in METHODS if not name.startswith("_")])

@@ -39,6 +39,28 @@ def list_runs(search: str = "", page: int = 1, page_size: int = 50) -> RunPage:
 
 
 def find_record(run: str | Path | Result) -> Record:
+    """Find the record of a run.
+
+    Args:
+        run: Id of a run in this machine's catalogue, its folder, or a result.
+
+    Returns:
+        The record.
+
+    Raises:
+        UnknownRunError: For an id that does not exist.
+        RecordError: For a record that cannot be read.
+        StateError: For a result that is one lane of a run, or has no samples.
+    """
+    if isinstance(run, Result):
+        return build_result_record(run)
+    folder = Path(run)
+    if isinstance(run, Path) or (folder / HEADER_FILE).is_file():
+        return open_record(folder)
+    return Catalogue().open(run)
+
+
+def open_run(run: str | Path) -> Result:
     """Read a recorded run as the `Result` that `svsa.simulate` would have returned.
 
     Its lanes are the `comparisons`. The samples are those of the record, bit for bit. Commands are
@@ -56,27 +78,6 @@ def find_record(run: str | Path | Result) -> Record:
         RecordError: For a record that cannot be read, has other channels, or has a configuration
             that this version does not know.
         UnknownRunError: For an id that does not exist.
-    """
-    if isinstance(run, Result):
-        return build_result_record(run)
-    folder = Path(run)
-    if isinstance(run, Path) or (folder / HEADER_FILE).is_file():
-        return open_record(folder)
-    return Catalogue().open(run)
-
-
-def open_run(run: str | Path) -> Result:
-    """Simulate a run again from its record alone, and compare every bit.
-
-    Args:
-        run: Id or folder of a recorded run, or a result of `svsa.simulate`.
-
-    Returns:
-        Whether both are identical, and the first difference if they are not.
-
-    Raises:
-        RecordError: For a run of a bench, of a function as controller, or of more than one
-            integration step in a period.
     """
     record = find_record(run)
     header = record.header

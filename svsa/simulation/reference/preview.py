@@ -2,12 +2,14 @@
 
 import numpy as np
 
+from svsa.inputs.checked import check_number
 from svsa.simulation.reference.kinds.reference import AnyReference
 from svsa.simulation.reference.transition import build_stack, compute_trajectory
 
 STILL_S = 1.0
 LONGEST_S = 1e6
 """As long as any run may be."""
+MAX_POINTS = 1_000_000
 
 
 def sample_reference(reference: AnyReference, points: int = 400) -> tuple[np.ndarray, np.ndarray]:
@@ -18,15 +20,16 @@ def sample_reference(reference: AnyReference, points: int = 400) -> tuple[np.nda
 
     Args:
         reference: Reference of position or stiffness.
-        points: Number of points.
+        points: Number of points, at least 2.
 
     Returns:
         Times (points,), s, and values (points, 5): r, ṙ, r̈, r⃛ and r⁗, in rad or N·m/rad, and that
         by s to s⁴.
 
     Raises:
-        ParameterError: For a reference with a wrong value.
+        ParameterError: For another number of points.
     """
+    check_number("points", points, "", 2, MAX_POINTS)
     times = np.linspace(0.0, find_duration(reference), points)
     stack = build_stack(reference)
     return times, np.array([compute_trajectory(stack, time) for time in times])
