@@ -170,8 +170,8 @@ def control(
 BACKSTEPPING = Law(
     name="backstepping",
     title="Backstepping",
-    summary="Step by step from the link to the torque, each with a filter of its command; ŵ of an"
-    " observer of its own is compensated.",
+    summary="Backstepping from the link to the torques, with a command filter in each step;"
+    " the load estimate ŵ of an observer is compensated.",
     equation=r"\tau^*=-D\dot q+\hat w_2-M(\dot\alpha_1-e_1-k_2e_2),\quad"
     r"u=B(\ddot\theta^*-kz)-F-\hat w",
     source='J. A. Farrell, M. Polycarpou, M. Sharma, W. Dong, "Command filtered '

@@ -194,8 +194,9 @@ def control(
 ESO_SATURATED = Law(
     name="eso_saturated",
     title="ESO, simplified",
-    summary="Extended-state observers on the linearized chains with compensation of saturation: a"
-    " simplification of a published controller. For exact states: with encoders it vibrates.",
+    summary="Extended-state observers on the linearized chains with compensation of"
+    " saturation: a simplification of a published controller. For exact states only:"
+    " with encoders it oscillates.",
     equation=r"y_1=\dots+\lambda(s-\zeta)-\hat d,\quad"
     r"\dot\zeta=-\kappa\zeta+y_{\mathrm{commanded}}-y_{\mathrm{acted}}",
     source="Simplified after Int. J. Adv. Robot. Syst., 2020, doi:10.1177/1729881420911774",

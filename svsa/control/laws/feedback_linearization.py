@@ -87,7 +87,8 @@ def control(
 FL = Law(
     name="fl",
     title="FL",
-    summary="Feedback linearization cancels the model it knows; a load it does not know stays.",
+    summary="Feedback linearization cancels the dynamics of the model. An unknown load leaves"
+    " a steady-state error.",
     equation=r"u=A^{-1}\,(b-v)",
     source="Eq 36",
     parameters=Gains,

@@ -95,8 +95,8 @@ def control(
 FL_INTEGRAL = Law(
     name="fl_integral",
     title="FL + I",
-    summary="Feedback linearization that integrates the error: a constant load goes, slowly, and"
-    " no observer is needed.",
+    summary="Feedback linearization with integral action: a constant load is rejected slowly,"
+    " without an observer.",
     equation=r"u=A^{-1}\,\Bigl(b-v+\begin{bmatrix}a^5\int e^1\\p^3\int e^2\end{bmatrix}\Bigr)",
     source="",
     parameters=IntegralPoles,

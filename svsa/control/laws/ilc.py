@@ -128,8 +128,8 @@ def control(
 ILC = Law(
     name="ilc",
     title="ILC",
-    summary="Feedback linearization that learns from period to period: what repeats goes, without"
-    " an observer.",
+    summary="Feedback linearization with iterative learning: a periodic error decreases from"
+    " period to period, without an observer.",
     equation=r"c\leftarrow Q\,(c+\gamma\,e(t+t_q)),\quad u=A^{-1}(b-v+c_0c)",
     source='D. A. Bristow, M. Tharayil, A. G. Alleyne, "A survey of iterative learning '
     'control", IEEE Control Syst. Mag. 26(3), 2006, doi:10.1109/MCS.2006.1636313',

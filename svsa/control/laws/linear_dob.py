@@ -111,8 +111,8 @@ def control(
 LINEAR_DOB = Law(
     name="linear_dob",
     title="Linear DOB",
-    summary="Pole placement on the chain linearized at σ_d, and a Q-filter a body that takes all"
-    " else for disturbance.",
+    summary="Pole placement on the chain linearized at σ_d, with one Q-filter per body;"
+    " everything else is treated as disturbance.",
     equation=r"u=J\,\ddot\theta^*-F_{\sigma_d}-\hat w,\quad\hat w=Q(s)\,(J\dot v-F_{\sigma_d}-u)",
     source='K. Ohnishi, M. Shibata, T. Murakami, "Motion control for advanced '
     'mechatronics", IEEE/ASME Trans. Mechatron. 1(1), 1996',

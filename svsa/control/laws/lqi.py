@@ -214,8 +214,8 @@ def control(
 LQI = Law(
     name="lqi",
     title="LQI",
-    summary="The linear-quadratic regulator with integrals, its gains scheduled over the stiffness,"
-    " about the motion that the reference asks for.",
+    summary="Linear-quadratic regulator with integral action about the reference motion. The"
+    " gains are scheduled over the stiffness.",
     equation=r"u=u_{\mathrm{ff}}-K(\sigma_d)\,(x-x_d)+K_I(\sigma_d)\textstyle\int e",
     source="After the gain-scheduling control that the paper names: Sardellitti et al., 2013",
     parameters=Weights,

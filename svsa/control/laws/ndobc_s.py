@@ -1,4 +1,4 @@
-"""NDOBC-S: NDOBC-W that is fast after a sudden load, and slow where it shakes or oscillates.
+"""NDOBC-S: NDOBC-W with fast poles after a sudden load, and slow poles on noise or oscillation.
 
 A fast loop has smaller errors under a load. It is harmful where it acts on encoder counts and
 noise, and where motors at their limits or a wrong model make it oscillate. The law measures which
@@ -300,7 +300,8 @@ def control(
 NDOBC_S = Law(
     name="ndobc_s",
     title="NDOBC-S",
-    summary="NDOBC-W that is fast after a sudden load, and slow where it shakes or oscillates.",
+    summary="NDOBC-W with fast poles after a sudden load, and slow poles where noise or"
+    " oscillation is detected.",
     equation=r"u=A^{-1}\,(y(a)-\mathcal{L}\,|_{\hat w}),\quad "
     r"a=a_f+G\,(a_0-a_f),\ a_f=a_s+f\,(a_0-a_s)",
     source="",

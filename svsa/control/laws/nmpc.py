@@ -204,8 +204,9 @@ def control(
 NMPC = Law(
     name="nmpc",
     title="NMPC",
-    summary="Predicts both linearized chains over 50 ms with the torque limits as bounds, and"
-    " compensates ŵ of an observer of its own.",
+    summary="Model predictive control: both linearized chains are predicted over 50 ms with"
+    " the torque limits as constraints. The load estimate ŵ of an observer is"
+    " compensated.",
     equation=r"\min_y\sum\tfrac{e^2}{e_q^2}+\tfrac{\dot e^2}{e_v^2}+\tfrac{\Delta y^2}{y_n^2},"
     r"\quad |A^{-1}(y-\mathcal L|_{\hat w})|\le u_{\max}",
     source='D. Q. Mayne, J. B. Rawlings, C. V. Rao, P. O. M. Scokaert, "Constrained model '

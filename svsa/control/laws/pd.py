@@ -37,8 +37,8 @@ def build(parameters: MotorPoles, setting: Setting) -> Constants:
 PD = Law(
     name="pd",
     title="PD",
-    summary="A PD on each motor about the motion that the reference asks for: a load bends the"
-    " spring, and stays.",
+    summary="A PD controller on each motor about the reference motion. A load leaves a"
+    " steady-state error.",
     equation=r"u_i=u_{i,\mathrm{ff}}+B_i\,[\omega_i^2(\theta_{id}-\theta_i)"
     r"+2\zeta_i\omega_i(\dot\theta_{id}-\dot\theta_i)]",
     source='P. Tomei, "A simple PD controller for robots with elastic joints", '

@@ -108,7 +108,7 @@ def control(
 PI_OBSERVER = Law(
     name="pi_observer",
     title="PI observer",
-    summary="NDOBC on one observer of state and load, which needs positions only.",
+    summary="NDOBC with one observer of state and load, which needs position measurements only.",
     equation=r"u=A^{-1}(b-v-\Gamma\hat w),\quad\dot{\hat w}=\omega^3 J\,(y-\hat y)",
     source="",
     parameters=PolesAndObserver,

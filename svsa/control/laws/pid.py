@@ -123,8 +123,8 @@ def control(
 PID = Law(
     name="pid",
     title="PID",
-    summary="A PD on each motor about the motion that the reference asks for, and integrals of the"
-    " link's error and of the stiffness's.",
+    summary="A PD controller on each motor about the reference motion, with integral action"
+    " on the errors of position and stiffness.",
     equation=r"u_i=u_{i,\mathrm{ff}}+B_i\,[\omega_i^2(\theta_{id}+I_i-\theta_i)"
     r"+2\zeta_i\omega_i(\dot\theta_{id}-\dot\theta_i)]",
     source="",

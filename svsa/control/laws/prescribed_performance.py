@@ -159,9 +159,9 @@ def control(
 PRESCRIBED_PERFORMANCE = Law(
     name="prescribed_performance",
     title="Prescribed perf.",
-    summary="Holds every error in a funnel that narrows with time, without a model of the inertias"
-    " and without an estimate of the load. On a bench, choose it before the start: under a load, a"
-    " change to it ends in overspeed.",
+    summary="Keeps every error in a prescribed funnel that narrows with time, without"
+    " inertias and without a load estimate. On a bench, select it before the start:"
+    " under a load, a change to it ends in an overspeed fault.",
     equation=r"u=-k\rho\,\varepsilon(\tfrac e\rho),\quad"
     r"\varepsilon(x)=\tfrac12\ln\tfrac{1+x}{1-x},\quad"
     r"\rho(t)=\rho_\infty+(\rho_0-\rho_\infty)e^{-\lambda t}",

@@ -141,8 +141,8 @@ def control(
 RBF_NETWORK = Law(
     name="rbf_network",
     title="RBF network",
-    summary="Networks of radial basis functions over position and velocity learn the load; NDOBC"
-    " compensates what they say.",
+    summary="Radial basis function networks of position and velocity estimate the load; the"
+    " estimate is compensated as in NDOBC.",
     equation=r"u=A^{-1}(b-v-\Gamma\hat W^\top\varphi(q,\dot q)),\quad"
     r"\dot{\hat W}=\omega^2J\,\varphi\,(v-\hat v)/|\varphi|^2",
     source='R. M. Sanner, J.-J. E. Slotine, "Gaussian networks for direct adaptive '

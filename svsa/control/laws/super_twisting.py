@@ -166,8 +166,8 @@ def control(
 SUPER_TWISTING = Law(
     name="super_twisting",
     title="Super-twisting",
-    summary="Sliding modes of second order against every load of bounded rate, on position and"
-    " stiffness, with an observer of the link of the same kind.",
+    summary="Second-order sliding modes reject loads of bounded rate in position and"
+    " stiffness, with a link observer of the same kind.",
     equation=r"y=\dots+1.5\sqrt L\,\frac s{\sqrt{|s|+d}}+\textstyle\int1.1L\tanh\tfrac sd,"
     r"\quad d=\delta^2L",
     source='A. Levant, "Sliding order and sliding accuracy in sliding mode control", Int. '
