@@ -12,23 +12,20 @@ import inspect
 import math
 import os
 import sys
-from collections.abc import Callable
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
-from types import ModuleType, SimpleNamespace
+from types import ModuleType
 from typing import Any, NamedTuple
 
 import numba
 from numba.core import types
 
+from svsa.actuators.energy_source import reject_energy, write_source
 from svsa.actuators.mechanism import MAX_ELASTIC, Mechanism
 from svsa.actuators.spring import SpringDerivatives, SpringState, SpringTorques, StiffnessMargin
-from svsa.errors import ParameterError, Violation
 from svsa.numerics.code_cache import choose_root
 
-_PARAMETERS = [f"e{i}" for i in range(MAX_ELASTIC)]
-_SIGNATURE = ", ".join(["s", "phi", *_PARAMETERS])
 _GIVEN = [types.float64] * (2 + MAX_ELASTIC)
 RESULTS: dict[str, Any] = {
     "compute_torques": numba.typeof(SpringTorques(*[0.0] * 2)),
@@ -39,28 +36,6 @@ RESULTS: dict[str, Any] = {
     "compute_energy": types.float64,
 }
 """The functions of an energy and what each returns."""
-_RETURNED = {
-    "compute_torques": "SpringTorques({}, {})",
-    "compute_margin": f"StiffnessMargin(compute_torques({_SIGNATURE}), {{}}, {{}})",
-    "compute_state": f"SpringState(compute_torques({_SIGNATURE}), SpringDerivatives("
-    + ", ".join(["{}"] * 9)
-    + "))",
-    "compute_energy": "{}",
-}
-"""What the text of each returns. Torques are the same bits wherever they come from."""
-_PAIRS = {("sin", "cos"): "sin_cos", ("sinh", "cosh"): "sinh_cosh"}
-_SINGLE = ("exp", "log", "tanh")
-_HEAD = '''"""Derivatives of an elastic energy, written by `svsa.actuators.energy`."""
-
-from math import sqrt
-
-from svsa.actuators.spring import SpringDerivatives, SpringState, SpringTorques, StiffnessMargin
-from svsa.numerics.compilation import compiled
-from svsa.numerics.exponential import exp, log, sinh_cosh, tanh
-from svsa.numerics.trigonometry import sin_cos, sin_versin
-'''
-_MAX_POWER = 32
-_SHORT = 60
 _TESTED = 33
 """At how many values of s an energy is tested."""
 
@@ -111,16 +86,12 @@ def _check_stiffness(mechanism: Mechanism, energy: Energy) -> None:
         found = energy.functions["compute_state"](s, 0.0, *values).derivatives
         if not 0.0 < found.sigma < math.inf:
             text = f"its stiffness at φ = 0 and s = {s:.4g} is {found.sigma:.4g} N·m/rad, not > 0"
-            raise _reject(mechanism, text)
+            raise reject_energy(mechanism, text)
         slopes.append(found.sigma_mu)
     if not (min(slopes) > 0.0 or max(slopes) < 0.0):
-        raise _reject(
+        raise reject_energy(
             mechanism, f"its stiffness at φ = 0 is not monotonic in s, {low:g} … {high:g}"
         )
-
-
-def _reject(mechanism: Mechanism, finding: str) -> ParameterError:
-    return ParameterError(Violation("energy", mechanism.name, "", "", finding=finding))
 
 
 def _load_module(mechanism: Mechanism) -> ModuleType:
@@ -150,231 +121,9 @@ def _compute_digest(mechanism: Mechanism) -> str:
     """What changes with the energy, or with how it is differentiated."""
     code = mechanism.energy.__code__
     digest = hashlib.sha256(Path(__file__).read_bytes())
+    digest.update(Path(inspect.getfile(write_source)).read_bytes())
     digest.update(repr((code.co_qualname, mechanism.elastic)).encode())
     with suppress(OSError):
         digest.update(inspect.getsource(inspect.getmodule(code) or mechanism.energy).encode())
     digest.update(code.co_code + repr((code.co_consts, code.co_firstlineno)).encode())
     return digest.hexdigest()[:16]
-
-
-def write_source(mechanism: Mechanism) -> str:
-    """Differentiate the energy and write the text of its functions.
-
-    Args:
-        mechanism: The actuator.
-
-    Returns:
-        Text of a Python module.
-
-    Raises:
-        ParameterError: If the energy is not smooth, contains a function that the lab does not
-            compute with, or its stiffness does not depend on s.
-    """
-    import sympy  # an import takes 0.3 s: only where an energy is new
-
-    s, phi = sympy.symbols("s phi", real=True)
-    values = sympy.symbols(_PARAMETERS[: len(mechanism.elastic)], positive=True)
-    named = SimpleNamespace(**dict(zip(mechanism.elastic, values, strict=True)))
-    U = sympy.sympify(mechanism.energy(phi, s, named, sympy))
-    foreign = U.free_symbols - {s, phi, *values}
-    if foreign:
-        raise _reject(mechanism, f"it depends on {', '.join(map(str, foreign))}")
-    torque, reaction = U.diff(phi), U.diff(s)
-    sigma = torque.diff(phi)
-    _check_smooth(mechanism, sympy, [U, sigma.diff(phi, 2), sigma.diff(s, 2)])
-    slope = sympy.simplify(sigma.diff(s))
-    if not mechanism.has_stiffness_motor:
-        if any(sympy.simplify(one) != 0 for one in (reaction, slope, sigma.diff(phi))):
-            finding = "without a stiffness motor it is that of a linear spring, ½ k φ²"
-            raise _reject(mechanism, finding)
-        # σ̇ = ṡ on paper: A(x) stays regular, and the error σ_d − σ = 0 never moves motor 2.
-        slope = sympy.Integer(1)
-    elif slope == 0:
-        raise _reject(mechanism, "its stiffness ∂²U/∂φ² does not depend on s")
-    determinant = sigma * slope - torque.diff(s) * sigma.diff(phi)
-    found = {
-        "compute_torques": [torque, reaction],
-        "compute_margin": [
-            sigma,
-            _shorten(sympy, determinant / determinant.subs(phi, 0)),
-        ],
-        "compute_state": [
-            torque,
-            torque.diff(s),
-            torque.diff(s, 2),
-            sigma,
-            sigma.diff(phi),
-            slope,
-            sigma.diff(phi, 2),
-            sigma.diff(phi, s),
-            sigma.diff(s, 2),
-        ],
-        "compute_energy": [U],
-    }
-    write = _build_writer(mechanism, sympy)
-    return _HEAD + "".join(write(name, expressions) for name, expressions in found.items())
-
-
-def _check_smooth(mechanism: Mechanism, sympy: Any, expressions: list[Any]) -> None:
-    names = ("Abs", "sign", "Max", "Min", "Piecewise", "Heaviside", "DiracDelta", "floor")
-    bends = tuple(getattr(sympy, name) for name in (*names, "ceiling", "Mod", "Derivative"))
-    for expression in expressions:
-        found = expression.atoms(*bends)
-        if found:
-            raise _reject(mechanism, f"it is not smooth: it contains {next(iter(found))}")
-
-
-def _build_writer(mechanism: Mechanism, sympy: Any) -> Callable[[str, list[Any]], str]:
-    """A function that writes a function of these expressions."""
-    from sympy.printing.precedence import PRECEDENCE
-    from sympy.printing.pycode import PythonCodePrinter
-
-    class Printer(PythonCodePrinter):
-        """Powers as products: a library's `pow` differs from machine to machine.
-
-        In sums and products, what is computed last comes last: nothing else waits for it.
-        """
-
-        levels: dict[str, int]
-
-        def _sort(self, parts: tuple[Any, ...]) -> list[Any]:
-            return sorted(
-                parts, key=lambda one: (self.find_level(one), sympy.default_sort_key(one))
-            )
-
-        def find_level(self, expr: Any) -> int:
-            return max((self.levels.get(one.name, 0) for one in expr.free_symbols), default=-1)
-
-        def _print_Add(self, expr: Any, order: Any = None) -> str:  # noqa: N802
-            first, *others = self._sort(expr.args)
-            text = self._print(first)
-            for part in others:
-                minus = part.could_extract_minus_sign()
-                written = self.parenthesize(-part if minus else part, PRECEDENCE["Mul"])
-                text += f" {'-' if minus else '+'} {written}"
-            return text
-
-        def _print_Mul(self, expr: Any) -> str:  # noqa: N802
-            minus = expr.could_extract_minus_sign()
-            parts = self._sort(sympy.Mul.make_args(-expr if minus else expr))
-            text = "*".join(self.parenthesize(part, PRECEDENCE["Mul"]) for part in parts)
-            return f"-{text}" if minus else text
-
-        def _print_Pow(self, expr: Any, rational: bool = False, sqrt: str = "") -> str:  # noqa: N802
-            base, exponent = expr.as_base_exp()
-            # `_name_shared` leaves whole positive powers. Squares of squares: a short chain.
-            text = self.parenthesize(base, 1000)
-            square = f"({text}*{text})"
-            pairs, rest = divmod(int(exponent), 2)
-            return f"({'*'.join([square] * pairs + [text] * rest)})"
-
-        def _print_Rational(self, expr: Any) -> str:  # noqa: N802
-            return f"({float(expr.p)!r}/{float(expr.q)!r})"
-
-        def _print_Function(self, expr: Any) -> str:  # noqa: N802
-            name = type(expr).__name__
-            if name not in _SINGLE:
-                raise _reject(mechanism, f"it contains the function {name}")
-            return f"{name}({self._print(expr.args[0])})"
-
-        _print_exp = _print_log = _print_tanh = _print_Function
-
-    def write(name: str, expressions: list[Any]) -> str:
-        named, expressions = _name_shared(mechanism, sympy, expressions)
-        lines = [""] * 2 + ["", "@compiled", f"def {name}({_SIGNATURE}):"]
-        symbols = (sympy.Symbol(f"x{i}") for i in range(10_000))
-        common, results = sympy.cse(expressions, symbols=symbols)
-        named += [(str(symbol), "{}", value) for symbol, value in common]
-        printer = Printer({"fully_qualified_modules": False})
-        printer.levels = {"s": 1, "phi": 1}
-        for names, function, argument in named:
-            lines.append(f"    {names} = {function.format(printer.doprint(argument))}")
-            level = printer.find_level(argument) if function == "{}" else len(lines)
-            printer.levels |= dict.fromkeys(names.split(", "), level)
-        texts = [f"1.0 * ({printer.doprint(value)})" for value in results]
-        lines.append(f"    return {_RETURNED[name].format(*texts)}")
-        return "\n".join(lines)[1:] + "\n"
-
-    return write
-
-
-def _name_shared(
-    mechanism: Mechanism, sympy: Any, expressions: list[Any]
-) -> tuple[list[tuple[str, str, Any]], list[Any]]:
-    """Name what costs most and occurs in several places: computed once each.
-
-    sin and cos, sinh and cosh are computed in pairs; a root or a reciprocal is computed once for
-    all the powers of its base, of which whole positive powers of a name remain.
-
-    Returns:
-        The names in order, as (names, text with {} for the argument, argument); the expressions.
-    """
-    named: list[tuple[str, str, Any]] = []
-    functions = {getattr(sympy, name): pair for pair in _PAIRS for name in pair}
-
-    def is_costly(one: Any) -> bool:
-        whole = one.is_Pow and one.exp.is_Integer and one.exp > 0
-        return type(one) in functions or (one.is_Pow and not whole)
-
-    def list_costly(one: Any) -> list[Any]:
-        return [part for part in one.atoms(sympy.Pow, *functions) if is_costly(part)]
-
-    while True:
-        found = list_costly(sympy.Tuple(*expressions))
-        inner = [one for one in found if not any(list_costly(part) for part in one.args)]
-        if not inner:
-            return named, expressions
-        one = min(inner, key=sympy.default_sort_key)
-        if one.is_Pow:
-            names, replace = _name_powers(mechanism, sympy, one, inner, len(named))
-            named += names
-        else:
-            pair, argument = functions[type(one)], one.args[0]
-            names = [f"{name}{len(named)}" for name in pair]
-            function = f"{_PAIRS[pair]}({{}})"
-            if function == "sin_cos({})" and argument == sympy.Symbol("phi", real=True):
-                named.append((f"{names[0]}, versin", "sin_versin({})", argument))
-                named.append((names[1], "1.0 - {}", sympy.Symbol("versin")))
-            else:
-                named.append((", ".join(names), function, argument))
-            replace = {
-                getattr(sympy, name)(argument): sympy.Symbol(new)
-                for name, new in zip(pair, names, strict=True)
-            }
-        expressions = [expression.xreplace(replace) for expression in expressions]
-
-
-def _name_powers(
-    mechanism: Mechanism, sympy: Any, one: Any, powers: list[Any], count: int
-) -> tuple[list[tuple[str, str, Any]], dict[Any, Any]]:
-    """Names of the root and the reciprocal of a power's base, and by what to replace powers."""
-    base = one.base
-    if one.exp.is_Integer and base.could_extract_minus_sign():
-        base = -base
-    alike = [power for power in powers if power.is_Pow and power.base in (base, -base)]
-    half = sympy.Rational(1, 2)
-    unit = sympy.Integer(1) if all(power.exp.is_Integer for power in alike) else half
-    root, inverse = sympy.Symbol(f"root{count}"), sympy.Symbol(f"inverse{count}")
-    names, replace = [], {}
-    if unit == half:
-        alike = [power for power in alike if power.base == base]
-        names.append((str(root), "sqrt({})", base))
-    if any(power.exp.is_negative for power in alike):
-        names.append((str(inverse), "1.0/({})", base if unit == 1 else root))
-    for power in alike:
-        size = abs(power.exp / unit)
-        if not size.is_Integer or size > _MAX_POWER:
-            raise _reject(mechanism, f"it contains the power {power}")
-        sign = -1 if power.base != base and power.exp % 2 else 1
-        replace[power] = sign * (inverse if power.exp.is_negative else root) ** size
-    return names, replace
-
-
-def _shorten(sympy: Any, expression: Any) -> Any:
-    """The same with fewer operations; by identities of sin, cosh, … only where that takes no time.
-
-    Of a long expression `trigsimp` takes seconds, and finds little.
-    """
-    factored = sympy.factor_terms(expression)
-    is_short = sympy.count_ops(factored) <= _SHORT
-    return sympy.trigsimp(factored) if is_short else factored

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import svsa
-from svsa.actuators.energy import write_source
+from svsa.actuators.energy_source import write_source
 from svsa.actuators.installed import get_mechanism
 from svsa.actuators.signals import CHANNEL_INDEX
 from svsa.analysis.design.linear_model import linearize
