@@ -22,7 +22,8 @@ from svsa.actuators.elasticity import (
 from svsa.actuators.installed import get_mechanism
 from svsa.actuators.mechanism import Mechanism
 from svsa.actuators.reach import find_deflection, find_stiffness_range
-from svsa.actuators.signals import CHANNEL_INDEX
+from svsa.actuators.signals import CHANNEL_INDEX, Torque
+from svsa.control.limits import are_at_limit
 from svsa.errors import ParameterError
 from svsa.runs.change import Change
 from svsa.runs.result.simulate import simulate
@@ -213,10 +214,9 @@ def _is_followed(
     period = result.configuration.sampling.period_s
     settled = result.samples[round((begin + duration) / period) :]
     errors = np.abs(settled[:, CHANNEL_INDEX["stiffness_error_nm_per_rad"]])
-    u1, u2 = (result.samples[:, CHANNEL_INDEX[f"torque{number}_nm"]] for number in (1, 2))
-    limits = mechanism.limits
-    if mechanism.antagonistic:
-        u1, u2 = (u1 + u2) / 2, (u1 - u2) / 2
-    free = np.abs(u1).max() < limits.torque1_nm and np.abs(u2).max() < limits.torque2_nm
+    torques = result.samples[:, [CHANNEL_INDEX[f"torque{number}_nm"] for number in (1, 2)]]
+    plant = build_actuator(mechanism.prototype, 0.0)
+    most = Torque(mechanism.limits.torque1_nm, mechanism.limits.torque2_nm)
+    is_free = not any(are_at_limit(plant, Torque(*row), most) for row in torques.tolist())
     is_near = len(errors) > 0 and errors.max() <= SETTLED * abs(end - start)
-    return result.fault is None and bool(free) and bool(is_near)
+    return result.fault is None and is_free and bool(is_near)

@@ -7,7 +7,8 @@ from svsa.actuators.domain import build_domain
 from svsa.actuators.dynamics import build_actuator
 from svsa.actuators.faults import FAULT_CODES
 from svsa.actuators.reach import find_stiffness_range
-from svsa.actuators.signals import Disturbance, State
+from svsa.actuators.signals import Disturbance, State, Torque
+from svsa.analysis.datasheet import measure
 from svsa.analysis.design.report import build_report
 from svsa.analysis.design.steady_error import compute_fl_steady_error
 from svsa.analysis.identification.identify import identify
@@ -38,7 +39,10 @@ def run_all() -> None:
     # An actuator that is an elastic energy has its stiffness range checked under a lasting load.
     parameters = configuration.actuator
     domain = build_domain(parameters, configuration.limits)
-    find_stiffness_range(build_actuator(parameters, 0.0), domain, 1.0)
+    plant = build_actuator(parameters, 0.0)
+    find_stiffness_range(plant, domain, 1.0)
+    # A datasheet finds out whether a motor is at its limit.
+    measure.are_at_limit(plant, Torque(0.0, 0.0), Torque(1.0, 1.0))
     sample_torque(configuration, 0.01)
     sample_reference(configuration.position, 4)
     # A commissioned bench compares its spring with this.
