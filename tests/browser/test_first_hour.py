@@ -13,7 +13,7 @@ pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without
 
 TUTORIAL = (ROOT / "docs/tutorials/browser.md").read_text(encoding="utf-8")
 NAMED = ("Hang 3 kg", "Compare with FL", "Last event", "Record", "Runs")
-"""What the tutorial tells a user to press; each is pressed below."""
+"""The controls that the tutorial names; each is pressed below."""
 
 
 def test_the_tutorial_in_the_browser_can_be_followed(page: Page, lab: Lab) -> None:

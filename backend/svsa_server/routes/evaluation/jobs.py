@@ -36,7 +36,7 @@ def list_jobs(
     page: Annotated[int, Query(ge=1, le=MAX_PAGES)] = 1,
     page_size: Annotated[int, Query(ge=1, le=MAX_PAGE_SIZE)] = 50,
 ) -> JobList:
-    """List jobs, the newest first; in a class one's own. The last 50 are stored."""
+    """List jobs, the newest first; in a class those of the user. The last 50 are stored."""
     seen = [job for job in find_jobs(request).list_all(kind) if person.may_see(job.owner)]
     shown = seen[(page - 1) * page_size : page * page_size]
     return JobList(

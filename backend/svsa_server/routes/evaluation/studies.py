@@ -93,7 +93,7 @@ def check_study(person: NamedPerson, wanted: Wanted) -> StudyPlan:
 async def start_study(request: Request, person: NamedPerson, wanted: Wanted) -> StudyState:
     """Start or continue a study of this name, as a job that makes no live session late.
 
-    In a class it is one's own and the instructor's, with every run of its rows.
+    In a class, only its user and the instructor see it and the runs of its rows.
     """
     name, study = await asyncio.to_thread(wanted.build, person)
     owner = await asyncio.to_thread(read_owner, name)

@@ -41,7 +41,7 @@ async def read_outcome(
         ),
     ],
 ) -> OutcomeState:
-    """Read whether a request of one's own, the answer of which was lost, was carried out."""
+    """Read whether a request of this client whose answer was lost was carried out."""
     outcomes: Outcomes = request.app.state.outcomes
     outcome, status, age_s = outcomes.find(person.id, key)
     return OutcomeState(

@@ -80,7 +80,7 @@ def list_runs(
 ) -> RunList:
     """List the runs, newest first, in pages.
 
-    In a class: those of the shared session, and of private ones one's own; for instructors all.
+    In a class: runs of the shared session and the user's own; for instructors all.
     """
     wanted = RunQuery(search, tag, law, load, figure, plant, sort, page, page_size, trash)
     if person.role is not Role.INSTRUCTOR:

@@ -1,4 +1,4 @@
-"""Grades: a class's, for its instructor, and one's own."""
+"""Grades: of a class, for its instructor, and of a student."""
 
 import asyncio
 from typing import Annotated, Any, Literal

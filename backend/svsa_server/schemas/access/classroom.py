@@ -40,7 +40,7 @@ class ClassSession(BaseModel):
 
 
 class ClassState(BaseModel):
-    """The class at this instant; sessions are all for the instructor, and one's own for others."""
+    """The class at this instant; the instructor sees all sessions, other users their own."""
 
     people: list[PersonState]
     removed: list[MemberState] = Field(

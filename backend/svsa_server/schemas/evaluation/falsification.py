@@ -18,7 +18,7 @@ LONGEST_TEXT = 100_000
 
 
 class FalsificationRequest(Checked):
-    """A search: an adversary of the package or one of one's own, and the law to be hurt."""
+    """A search: an adversary of the package or a given one, and the law under test."""
 
     kind: Literal["falsification"] = quantity("", "Search for the load that hurts a law most")
     adversary: Annotated[str, Field(min_length=1, max_length=64)] | None = quantity(
@@ -28,7 +28,7 @@ class FalsificationRequest(Checked):
         "", "An adversary as TOML, in place of a name", default=None
     )
     definition: Adversary | None = quantity(
-        "", "An adversary of one's own, in place of a name", default=None
+        "", "An adversary with all its fields, in place of a name", default=None
     )
     law: InstalledLaw | None = quantity("", "Law to be hurt; else the adversary's", default=None)
     runs: Whole = quantity("", "Runs at most", ge=1, le=MAX_RUNS, default=20_000)

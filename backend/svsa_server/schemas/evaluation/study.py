@@ -135,7 +135,7 @@ class BuiltInStudy(BaseModel):
 
     name: str
     title: str
-    text: str = Field(description="As TOML, to begin one's own from")
+    text: str = Field(description="As TOML, to start a new study from")
 
 
 class StudyMetric(BaseModel):

@@ -1,4 +1,4 @@
-"""A reference of one's own: points in time, joined by a spline of degree 7."""
+"""A reference given by points in time, joined by a spline of degree 7."""
 
 from functools import cached_property
 from typing import Annotated, Literal, Self
@@ -47,7 +47,7 @@ class _Series(AnyReference):
 
 
 class SeriesPosition(_Series, AnyPosition):
-    """q_d through points of one's own: see `_Series`."""
+    """q_d as a spline of degree 7 through given points, at rest at both ends."""
 
     position_rad: Annotated[tuple[_Position, ...], _Rows] = quantity("rad", "Position at each time")
 
@@ -66,7 +66,7 @@ class SeriesPosition(_Series, AnyPosition):
 
 
 class SeriesStiffness(_Series, AnyStiffness):
-    """σ_d through points of one's own, inside the range of the limits: see `_Series`."""
+    """σ_d as a spline of degree 7 through given points, inside the stiffness limits."""
 
     stiffness_nm_per_rad: Annotated[tuple[_Stiffness, ...], _Rows] = quantity(
         "N·m/rad", "σ_d at each time"

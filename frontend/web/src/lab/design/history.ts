@@ -197,7 +197,7 @@ async function bringBack(design: Design, state: SessionState): Promise<SessionSt
   return reached;
 }
 
-/** Restores design, loads and lanes of a state; the run goes on. */
+/** Restores design, loads and lanes of a state; the run continues. */
 export const restoreTo = (before: SessionState): Promise<boolean> =>
   perform("session", async () => {
     // The page may know less than the server: answers of a session at rest can overtake each other.
