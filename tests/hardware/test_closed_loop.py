@@ -200,7 +200,9 @@ def test_a_law_that_is_not_for_a_moving_bench_says_so(law: str) -> None:
         finally:
             bench.close()
     summary = get_law(law).summary
-    assert is_ended is ("with encoders it vibrates" in summary or "ends in overspeed" in summary)
+    assert is_ended is (
+        "with encoders it oscillates" in summary or "ends in an overspeed" in summary
+    )
 
 
 def test_500_hz_tracks_as_well() -> None:

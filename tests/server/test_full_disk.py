@@ -100,7 +100,9 @@ def test_a_leaderboard_on_a_read_only_disk_says_so(disk: Path) -> None:
         # The catalogue's file stays open for writing: a second, read-only mount of the same disk.
         for options in (["--bind", str(disk)], ["-o", "remount,bind,ro"]):
             subprocess.run(["mount", *options, str(disk)], check=True)
-        answer = running.client.get("/api/v1/leaderboard")
+        read = running.client.get("/api/v1/leaderboard")
+        answer = running.client.post("/api/v1/leaderboard/laws")
         subprocess.run(["umount", "--lazy", str(disk)], check=True)
+        assert read.json()["began"] is None
         assert answer.status_code in (422, 507)
         assert "Read-only file system" in answer.json()["detail"]
