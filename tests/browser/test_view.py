@@ -256,28 +256,3 @@ def test_the_3d_view_shows_that_it_has_the_focus(own_page: Page, lab: Lab) -> No
     own_page.wait_for_function(f"({ring})() === '2px'")
     own_page.get_by_role("button", name="Reset").focus()
     own_page.wait_for_function(f"({ring})() !== '2px'")
-
-
-WITHOUT_WEBGL = """const getContext = HTMLCanvasElement.prototype.getContext;
-HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
-    return kind.startsWith("webgl") ? null : getContext.call(this, kind, ...rest);
-};"""
-
-
-@pytest.mark.parametrize("kind", ["paper", "mass"])
-def test_the_2d_view_draws_the_papers_load_as_torques_and_a_mass_as_a_mass(
-    own_page: Page, lab: Lab, kind: str
-) -> None:
-    """Also where no plot shows the disturbance."""
-    come_back(own_page, lab)
-    own_page.add_init_script(WITHOUT_WEBGL)
-    own_page.add_init_script("""localStorage.setItem("svsa.plots", '[{"preset": "error"}]')""")
-    lab.load_figure()
-    lab.client.post(lab.session + "/loads", json={"kind": kind}).raise_for_status()
-    lab.jump(1)
-    own_page.goto(lab.url)
-    picture = own_page.get_by_role("img", name="The actuator from the front")
-    expect(picture.locator("path[data-torque='disturbance_link_nm'][d^='M']")).to_be_attached()
-    motor = picture.locator("path[data-torque='disturbance_motor2_nm'][d^='M']")
-    expect(motor).to_have_count(1 if kind == "paper" else 0)
-    expect(picture.locator(".schematic-load")).to_have_count(1 if kind == "mass" else 0)
