@@ -1,10 +1,8 @@
 """What every actuator keeps, from its sources to runs, and one of a package outside."""
 
 import os
-import shutil
 import subprocess
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -18,8 +16,9 @@ from svsa.control.installed import list_law_names
 from svsa.runs.batch import RunSet
 from svsa_server.sessions.laboratory import Laboratory
 from tests.actuators.members import NAMES, STIFFNESS, follow
+from tests.docs.pages import ROOT, read_blocks
 
-EXAMPLE = Path(__file__).parents[1] / "data" / "example_actuator"
+TUTORIAL = ROOT / "docs" / "tutorials" / "own_actuator.md"
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -104,14 +103,16 @@ print(result.fault is None, result.configuration.actuator.mechanism)
 
 def test_a_package_outside_adds_an_actuator(tmp_path):
     source, target = tmp_path / "source", tmp_path / "installed"
-    shutil.copytree(EXAMPLE, source)
+    source.mkdir()
+    for block in read_blocks(TUTORIAL):
+        if block.note == "file":
+            (source / block.subject).write_text(block.text, encoding="utf-8")
     install = [sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--no-index"]
     install += ["--no-build-isolation", "--disable-pip-version-check", "--target", str(target)]
     subprocess.run([*install, str(source)], check=True, timeout=300, capture_output=True)
-    root = Path(svsa.__file__).parents[1]
     done = subprocess.run(
         [sys.executable, "-c", SCRIPT],
-        env=os.environ | {"PYTHONPATH": os.pathsep.join([str(target), str(root)])},
+        env=os.environ | {"PYTHONPATH": os.pathsep.join([str(target), str(ROOT)])},
         capture_output=True,
         text=True,
         timeout=600,

@@ -33,6 +33,10 @@ LAB = "http://127.0.0.1:8000"
 BENCH = "svsa/hardware/emulator/bench.toml"
 """The bench file in the pages."""
 
+OFFLINE = "python -m pip install --no-deps --no-index --no-build-isolation --target . ."
+INSTALL = {"$ pip install .\n": f"$ {OFFLINE}\n"}
+"""The installation of a package that a page writes, and what the tests do: into its folder."""
+
 COMMENT = re.compile(r"<!-- (file|not executed): (.+?) -->", re.DOTALL)
 PROMPT = "$ "
 TIMEOUT_S = 400.0
@@ -85,7 +89,9 @@ def start_page(
     """
     folders = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
     environment = os.environ | {"SVSA_DATA": str(folder / "data"), "PATH": folders}
-    environment |= {"PYTHONPATH": str(ROOT), "MPLBACKEND": "agg", "NO_COLOR": "1"}
+    # A page may install a package into its folder.
+    paths = f"{ROOT}{os.pathsep}{folder}"
+    environment |= {"PYTHONPATH": paths, "MPLBACKEND": "agg", "NO_COLOR": "1"}
     texts = [f"{written}={here}" for written, here in replaced.items()]
     done = subprocess.run(
         [sys.executable, "-m", "tests.docs.pages", str(path), ",".join(languages), *texts],

@@ -3,7 +3,7 @@
 import pytest
 
 from svsa.hardware.emulator.launch import start_emulator
-from tests.docs.pages import BENCH, LAB, ROOT, needs_lab, read_blocks, start_page
+from tests.docs.pages import BENCH, INSTALL, LAB, ROOT, needs_lab, read_blocks, start_page
 from tests.hardware.live_bench import start_live_emulator, write_bench
 from tests.lab import run_lab
 
@@ -29,7 +29,7 @@ def name(page):
 @pytest.mark.parametrize("page", RUN, ids=name)
 def test_the_code_of_a_page_runs_and_prints_what_it_shows(page, tmp_path, request):
     lab = request.getfixturevalue("lab") if needs_lab(page) else None
-    start_page(page, tmp_path, {LAB: lab.url} if lab else {})
+    start_page(page, tmp_path, INSTALL | ({LAB: lab.url} if lab else {}))
 
 
 @pytest.mark.wall_clock
