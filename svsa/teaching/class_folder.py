@@ -1,4 +1,4 @@
-"""A folder of a class or a season: a secret that trials come from, and results, a file each."""
+"""The folder of a class or a season: a secret seed for trials, and one file per result."""
 
 import json
 import os
@@ -18,7 +18,7 @@ T = TypeVar("T", bound=Checked)
 
 
 class ClassFolder(Generic[T]):
-    """`secret`, for the grader's eyes only, a folder of results, and one of what belongs to them.
+    """A folder with a file `secret`, a folder of results, and a folder of further files.
 
     kind: type of a result. names: of the folder in an error, of the results' folder, and of that
     of their other files. The secret is drawn when the folder is begun. Raises `ParameterError`
@@ -44,17 +44,21 @@ class ClassFolder(Generic[T]):
         return datetime.fromtimestamp(made_s, UTC).isoformat(timespec="seconds")
 
     def find(self, key: str) -> T | None:
-        """The result of this key; raises `ParameterError` where its file cannot be read."""
+        """Read the result of a key; return None if there is none.
+
+        Raises:
+            ParameterError: The file of the result cannot be read.
+        """
         path = self._results / f"{key}.json"
         return self._read(path) if path.exists() else None
 
     def write(self, key: str, result: T) -> None:
-        """Keep a result, whole or not at all; raises `OSError`."""
+        """Save a result atomically; raises `OSError`."""
         text = result.model_dump_json(indent=1) + "\n"
         replace_file(self._results / f"{key}.json", text.encode())
 
     def read_all(self) -> Iterator[T]:
-        """Every result, in no order."""
+        """Yield every result, in arbitrary order."""
         return map(self._read, self._results.glob("*.json"))
 
     def _read(self, path: Path) -> T:
@@ -83,7 +87,7 @@ def keep_secret(path: Path) -> bytes:
 
 
 def _write_new(path: Path, content: bytes) -> None:
-    """Write a file whole or not at all; of two processes that begin at once the first decides."""
+    """Write a file atomically; if two processes write at once, the first one's content stays."""
     draft = path.with_name(f"{path.name}.{secrets.token_hex(4)}.part")
     try:
         opened = os.open(draft, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)

@@ -1,4 +1,4 @@
-"""A submission: answers, ids of runs, and a law's text, with the digests that it is known by."""
+"""A submission: answers, ids of runs and a law's file, with SHA-256 digests."""
 
 import hashlib
 from pathlib import Path
@@ -31,7 +31,7 @@ LawText = Annotated[str, Field(min_length=1, max_length=MAX_LAW_BYTES), AfterVal
 
 
 class Submission(Checked):
-    """A submission of one exercise, by its steps.
+    """The submission of one exercise, by its steps.
 
     answers: numbers that were predicted, in the unit that the step asks for, and names of options
     that were chosen. runs: the recorded run of each experiment. law_file: path of a Python file,
@@ -51,13 +51,13 @@ class Submission(Checked):
 
     @property
     def digest(self) -> str:
-        """SHA-256 of everything that was submitted, in hexadecimal."""
+        """SHA-256 of the whole submission, in hexadecimal."""
         reported = self.model_dump_json(exclude={"law_file"}).encode()
         law = b"" if self.law is None else hashlib.sha256(self.law).digest()
         return hashlib.sha256(hashlib.sha256(reported).digest() + law).hexdigest()
 
     def write(self, path: Path) -> None:
-        """Write it as JSON, and its law next to it, as `read_submission` reads them."""
+        """Write the submission as JSON, and its law next to it, for `read_submission`."""
         written = self
         if self.law is not None:
             law = path.with_suffix(".py")
@@ -67,12 +67,12 @@ class Submission(Checked):
 
 
 def digest_law(law: bytes | None) -> str:
-    """SHA-256 of a law's text, in hexadecimal: of none, that of an empty one."""
+    """Compute SHA-256 of a law's text, in hexadecimal; without a law, of an empty text."""
     return hashlib.sha256(law or b"").hexdigest()
 
 
 def read_submission(path: Path | str) -> Submission:
-    """The submission of a JSON file, with its law; raises `ParameterError` with the file's name."""
+    """Read a submission from JSON, with its law; raises `ParameterError` with the file's name."""
     path = Path(path)
     try:
         text = path.read_text(encoding="utf-8")
@@ -101,7 +101,7 @@ def _parse(text: str) -> Submission:
 
 
 def _read_law_in(folder: Path, name: str) -> bytes:
-    """The text of a law's file in a folder, which it cannot leave; raises `ParameterError`."""
+    """Read a law's file within a folder; raises `ParameterError`, also for other paths."""
     path = (folder / name).resolve()
     if not path.is_relative_to(folder.resolve()):
         raise ParameterError(Violation("law_file", name, "", "a file next to the submission"))
@@ -109,7 +109,7 @@ def _read_law_in(folder: Path, name: str) -> bytes:
 
 
 def read_law(path: Path) -> bytes:
-    """The text of a law's file; raises `ParameterError`."""
+    """Read a law's file; raises `ParameterError`."""
     try:
         with path.open("rb") as file:
             text = file.read(MAX_LAW_BYTES + 1)
@@ -128,7 +128,7 @@ part; this machine could not try it."""
 
 
 class SavedLaw(Checked):
-    """A law's file, and the verdict of its trial. output: the end of what it printed."""
+    """A law's file and the result of its trial. output: the end of what it printed."""
 
     text: str = quantity("", "Text of a law's Python file")
     verdict: TrialVerdict = quantity("", "What came of trying it")

@@ -57,7 +57,7 @@ def test_it_is_sorted_and_left_for_a_worst_run_and_survives_a_reload(
     assert page.evaluate(ALL_WITHIN_THE_PAGE)
     table.get_by_role("link", name=re.compile("^Mine, worst run in 3D")).press("Enter")
     expect(page.get_by_role("heading", name="Worst run of Mine")).to_be_visible()
-    expect(page.get_by_text("nothing is kept")).to_be_visible(timeout=WORKER_MS)
+    expect(page.get_by_text("are not saved")).to_be_visible(timeout=WORKER_MS)
     page.reload()
     expect(page.get_by_role("heading", name="Worst run of Mine")).to_be_visible()
     page.get_by_role("link", name="← Leaderboard").press("Enter")

@@ -1,1 +1,1 @@
-"""A course in the lab: exercises as files, what is submitted, and how it is judged."""
+"""The course of the lab: exercises as files, submissions, and the judgement of both."""

@@ -16,7 +16,7 @@ _Folder = Annotated[
 
 @course.command("list")
 def list_command(folder: _Folder = None) -> None:
-    """The exercises of the course, the package's and one's own."""
+    """List the exercises of the course: those of the package and those in `SVSA_COURSE`."""
     from svsa.teaching.course.file import find_course_folder, read_course
 
     table = Table("", "exercise", "title", "steps", "points", "min", title_justify="left")
@@ -31,7 +31,7 @@ def list_command(folder: _Folder = None) -> None:
 def check_command(
     files: Annotated[list[Path], typer.Argument(metavar="FILE", help="Exercise files (.md).")],
 ) -> None:
-    """Read exercise files; a wrong one is refused with file, line and reason."""
+    """Check exercise files: an invalid one is rejected with its file, line and reason."""
     from svsa.teaching.course.file import read_exercise
 
     for file in files:

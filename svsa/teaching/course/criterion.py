@@ -1,4 +1,4 @@
-"""A criterion of a run: a measure, the range that earns its points, and the judgement by it."""
+"""A criterion of a run: a measure, and the range of its value that earns the points."""
 
 from collections.abc import Sequence
 from typing import Annotated, Self
@@ -14,7 +14,7 @@ FeedbackText = Annotated[str, Field(max_length=1000)]
 
 
 class Criterion(Checked):
-    """A measure and the range in which it has the points, with the feedback beyond each end."""
+    """A measure, the range in which it earns its points, and the feedback below and above."""
 
     title: str = quantity("", "What is asked", min_length=1, max_length=200)
     measure: StepName
@@ -35,7 +35,7 @@ class Criterion(Checked):
 
 
 class CriterionResult(Checked):
-    """One criterion of a step, judged.
+    """The result of one criterion of a step.
 
     channel, time_s: where in the step's run to look, in the run's time; None where it is about no
     sample.
@@ -51,7 +51,7 @@ class CriterionResult(Checked):
 
 
 class Judgement(Checked):
-    """A submission as it was judged: all criteria of an exercise, in the order of its steps."""
+    """The judgement of a submission: all criteria of an exercise, in the order of its steps."""
 
     exercise: str = quantity("", "Name of the exercise")
     points: Number = quantity("", "Points in all", ge=0)
@@ -60,7 +60,7 @@ class Judgement(Checked):
 
 
 def build_judgement(exercise: str, criteria: Sequence[CriterionResult]) -> Judgement:
-    """`Judgement` with the sums of these criteria."""
+    """Build a `Judgement` with the sums of these criteria."""
     return Judgement(
         exercise=exercise,
         points=sum(one.points for one in criteria),

@@ -1,4 +1,4 @@
-"""An exercise as a value: what it is about, and its steps in their order."""
+"""An exercise as a value: its topic and its ordered steps."""
 
 from typing import Annotated, Self
 
@@ -12,7 +12,9 @@ from svsa.teaching.submission import MAX_STEPS, StepName
 
 
 class Exercise(Checked):
-    """Predict, experiment, explain, submit. Raises `ParameterError` where steps do not fit.
+    """The steps of one exercise: predict, experiment, explain, submit.
+
+    Raises `ParameterError` if the steps are inconsistent.
 
     name: that of its file. number: its place in the course. goal: what one can do after it.
     """
@@ -50,7 +52,7 @@ class Exercise(Checked):
             raise ParameterError(Violation(f"steps[{number}].unit", step.unit, "", bound))
 
     def find_step(self, name: str) -> Step:
-        """The step of this name; raises `ParameterError`."""
+        """Return the step of this name; raises `ParameterError` if there is none."""
         for step in self.steps:
             if step.name == name:
                 return step
@@ -58,7 +60,7 @@ class Exercise(Checked):
         raise ParameterError(Violation("step", name, "", bound))
 
     def find_judge(self, step: Predict) -> tuple[Experiment, Measure]:
-        """The experiment and the measure that judge a prediction."""
+        """Find the experiment and the measure that judge a prediction."""
         wanted, _, name = step.judged_by.partition(".")
         judge = self.find_step(wanted)
         assert isinstance(judge, Experiment)  # noqa: S101
@@ -68,12 +70,12 @@ class Exercise(Checked):
 
     @property
     def takes_law(self) -> bool:
-        """Whether a law's file is submitted with it."""
+        """Whether a submission of this exercise includes the file of a control law."""
         return any(isinstance(step, SubmitStep) and step.law for step in self.steps)
 
     @property
     def max_points(self) -> float:
-        """Points that there are."""
+        """The largest possible number of points."""
         points = 0.0
         for step in self.steps:
             if isinstance(step, Experiment):

@@ -1,4 +1,4 @@
-"""Exercises as Markdown files with TOML in front, and those that come with the package."""
+"""Exercise files, Markdown with TOML front matter, and the exercises of the package."""
 
 import os
 import re
@@ -27,13 +27,13 @@ class _Section(NamedTuple):
 
 
 def find_course_folder() -> Path | None:
-    """The folder in SVSA_COURSE, whose exercises are added to the package's; None if not set."""
+    """Return the folder in `SVSA_COURSE`, whose exercises extend the course; None if not set."""
     named = os.environ.get(FOLDER_VARIABLE)
     return Path(named) if named else None
 
 
 def list_exercise_files(folder: Path | None = None) -> list[Path]:
-    """The files of the course; one of `folder` takes the place of the package's of its name.
+    """List the files of the course; a file in `folder` replaces the package's of the same name.
 
     Raises `ParameterError` for a folder that is not there.
     """
@@ -46,13 +46,13 @@ def list_exercise_files(folder: Path | None = None) -> list[Path]:
 
 
 def read_course(folder: Path | None = None) -> list[Exercise]:
-    """Every exercise of the course by number; raises `ParameterError` for a wrong file."""
+    """Read every exercise of the course, by number; raises `ParameterError` for an invalid file."""
     exercises = [read_exercise(path) for path in list_exercise_files(folder)]
     return sorted(exercises, key=lambda one: (one.number, one.name))
 
 
 def read_exercise(path: Path | str) -> Exercise:
-    """The exercise of a file, called as the file is.
+    """Read the exercise in a file; the exercise has the name of the file.
 
     Raises `ParameterError` with the file, and the lines of what is wrong.
     """
@@ -66,7 +66,7 @@ def read_exercise(path: Path | str) -> Exercise:
 
 @lru_cache(MAX_KEPT)
 def parse_exercise(text: str, name: str, place: str = "") -> Exercise:
-    """The exercise in a text; raises `ParameterError` as `read_exercise`, `place` as the file.
+    """Parse an exercise; raises `ParameterError` as `read_exercise`, with `place` as the file.
 
     The front matter stands between two lines `+++`; then come the text of the exercise, and under
     a heading `## NAME` that of each step.
@@ -87,7 +87,7 @@ def parse_exercise(text: str, name: str, place: str = "") -> Exercise:
 
 
 def _split(lines: list[str], first: int) -> tuple[str, dict[str, _Section]]:
-    """The text before the first heading, and that under each `## NAME`."""
+    """Split a file into the text before the first heading and the text of each `## NAME`."""
     sections: dict[str, _Section] = {}
     intro: list[str] = []
     present, at, name, is_code = intro, 0, "", False
@@ -132,7 +132,7 @@ def _build(
 
 
 def _locate(error: ParameterError, place: str, front: str) -> ParameterError:
-    """The same refusal with its lines; what names its own line keeps it."""
+    """Add line numbers to the violations of an error that have none."""
     first = error.violations[0]
     if first.name.startswith("line "):
         line, _, name = first.name.partition(": ")

@@ -1,4 +1,4 @@
-"""How an exercise is judged: pure functions of the answers and the runs."""
+"""Judgement of an exercise: pure functions of the answers and the runs."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -25,7 +25,7 @@ def judge_submission(
     open_run: OpenRun,
     judge_law: JudgeLaw | None = None,
 ) -> Judgement:
-    """All criteria of an exercise: what a student sees at once, and with the law's a grade.
+    """Judge all criteria of an exercise, as shown to the student; a law's grade comes later.
 
     open_run: gives the run of an id; where it raises `SvsaError`, the criteria of that step have no
     points and say why. judge_law: gives the criteria of a law's text, None where a law is judged
@@ -56,7 +56,7 @@ def judge_submission(
 def judge_run(
     exercise: Exercise, step: Experiment, answers: Mapping[str, Answer], run: Result
 ) -> list[CriterionResult]:
-    """The criteria of an experiment, and those of the predictions that its run judges."""
+    """Judge the criteria of an experiment, and of the predictions that its run decides."""
     judged = [
         one
         for one in exercise.steps
@@ -69,7 +69,7 @@ def judge_run(
 def judge_step(
     exercise: Exercise, step: Step, answers: Mapping[str, Answer], runs: Mapping[str, Opened]
 ) -> list[CriterionResult]:
-    """The criteria of one step; none of a step that has no points."""
+    """Judge the criteria of one step; a step without points has none."""
     match step:
         case Predict():
             return [_judge_prediction(exercise, step, answers.get(step.name), runs)]
@@ -81,7 +81,7 @@ def judge_step(
 
 
 def check_answer(step: Step, answer: Answer) -> None:
-    """Raise `ParameterError` for what is no answer to this step, as a number out of bounds."""
+    """Raise `ParameterError` for an invalid answer to a step, such as a number out of bounds."""
     match step:
         case Predict():
             if isinstance(answer, str | bool) or not step.low <= answer <= step.high:
@@ -98,7 +98,7 @@ def check_answer(step: Step, answer: Answer) -> None:
 
 
 def read_measures(step: Experiment, result: Result) -> dict[str, Measured]:
-    """Every measure of a step in a run, ratios too."""
+    """Read every measure of a step in a run, ratios included."""
     found: dict[str, Measured] = {}
     for measure in step.measures:
         own = measure.read(result)
@@ -146,7 +146,7 @@ def _judge_prediction(
 
 
 def _measure_off(predicted: float, seen: float, by_factor: bool) -> float:
-    """How far off, as a share of what was seen; or how many times larger or smaller, less one."""
+    """Return the relative error of a prediction, or for a ratio the factor minus one."""
     if predicted == seen:
         return 0.0
     if not by_factor:
@@ -176,7 +176,7 @@ def _judge_experiment(step: Experiment, run: Opened | None) -> list[CriterionRes
 
 
 def _find_problem(step: Experiment, run: Opened | None) -> tuple[str, float | None] | None:
-    """Why a run cannot be judged, and the moment of it; None where it can."""
+    """Find why a run cannot be judged, and at which time; None if it can."""
     if run is None:
         return f"There is no run of step {step.name!r} yet.", None
     if isinstance(run, str):
@@ -232,7 +232,7 @@ def _build_result(
     channel: str | None = None,
     time_s: float | None = None,
 ) -> CriterionResult:
-    """A criterion without points."""
+    """Build a result for a criterion without points."""
     return CriterionResult(
         step=step,
         name=name,

@@ -1,4 +1,4 @@
-"""Numbers that an exercise takes from a run: a statistic of a channel over a window."""
+"""Measures of an exercise: a statistic of a channel of a run over a time window."""
 
 import math
 from collections.abc import Callable
@@ -26,7 +26,9 @@ _TIMES = ("rise", "recovery")
 
 
 class Measured(NamedTuple):
-    """value: in the measure's unit; None where the run does not tell it, and `problem` says why.
+    """A measured value in the measure's unit.
+
+    value: None if the run does not determine it; `problem` then has the reason.
 
     time_s: the moment that shows it best, s of the run; None where there is none.
     """
@@ -37,7 +39,7 @@ class Measured(NamedTuple):
 
 
 class Measure(Checked):
-    """A statistic of a channel from `from_s` up to `to_s`, or a setting of the run.
+    """A statistic of a channel from `from_s` to `to_s`, or a setting of the run.
 
     mean, rms, spread (standard deviation), peak (largest size), max, min, last; crossing: the
     channel where `of` first reaches `level`, upwards; rise: how long after
@@ -84,14 +86,14 @@ class Measure(Checked):
 
     @property
     def shown_unit(self) -> str:
-        """The unit of its value; "" for a ratio, unless it has a unit of its own."""
+        """The unit of the value; "" for a ratio, unless the measure declares a unit."""
         if self.per is not None:
             return "" if self.unit == DEGREE else self.unit
         unit = self.unit or self._own_unit
         return "" if unit == "1" else unit
 
     def read(self, result: Result) -> Measured:
-        """Its value in this run, before it is divided by another."""
+        """Read the value of the measure in this run, before it is divided by another."""
         if self.channel is None:
             return Measured(_read_configured(result, self.setting))
         lanes = (result, *result.comparisons)
@@ -128,7 +130,7 @@ def _describe_end(result: Result, wanted_s: float) -> str:
 
 
 def _read_configured(result: Result, path: str) -> float:
-    """A setting as it stood at the end of the run."""
+    """Read a setting as it was at the end of the run."""
     configuration, is_bench = result.configuration, result.plant != "simulated"
     for command in result.commands:
         configuration = fold(configuration, command, is_bench)
@@ -136,7 +138,7 @@ def _read_configured(result: Result, path: str) -> float:
 
 
 def read_number(configuration: Configuration, path: str) -> float:
-    """The number at a path of the configuration; raises `ParameterError` where there is none."""
+    """Read the number at a path of the configuration; raises `ParameterError` if there is none."""
     try:
         value = read_setting(configuration, path)
     except ParameterError as error:
@@ -156,7 +158,7 @@ def _find_peak(values: np.ndarray) -> int:
 
 
 def _build_take(reduce: _Reduce, find_row: _Reduce) -> _Take:
-    """A statistic of the values alone. find_row: the sample that shows it best."""
+    """Build a statistic that needs the values only. find_row: the sample that represents it."""
 
     def take(_: Measure, __: Result, values: np.ndarray, ___: np.ndarray) -> Taken:
         return float(reduce(values)), int(find_row(values))

@@ -1,4 +1,4 @@
-"""An experiment on a bench: what of it there is, and what a bench cannot be asked for."""
+"""The form of an experiment on a bench: what changes, and what a bench cannot do."""
 
 from collections.abc import Iterable, Sequence
 from typing import Any
@@ -21,7 +21,7 @@ _NOT_FREE = ("comparisons", "effects")
 
 
 class OnBench(Checked):
-    """What differs where an experiment is run on a bench; what is left out is as it is simulated.
+    """The fields of an experiment that differ on a bench; fields left out are as simulated.
 
     by_hand: what the user at the bench does at the times of its loads.
     """
@@ -38,7 +38,7 @@ def check_for_bench(
     loads: Sequence[Load],
     measures: Sequence[Measure],
 ) -> None:
-    """Raise `ParameterError` where an experiment asks for what no bench has, or measures.
+    """Raise `ParameterError` if an experiment needs what a bench cannot set or measure.
 
     base: the paths that it sets. loads: those on the bench.
     """

@@ -1,4 +1,4 @@
-"""Progress of a student in an exercise: saved answers and runs, and what may still be changed.
+"""Progress of students: saved answers and runs, and the changes that are still allowed.
 
 A prediction is asked for before the run that judges it, and is kept as it was once that run was
 set up; an answer to a question is kept as it was first given, since its feedback tells which is
@@ -32,7 +32,7 @@ SUBMISSIONS = "submissions"
 
 
 class StepProgress(Checked):
-    """One step. begun: its run was set up. results: what was last judged of it."""
+    """Progress in one step. begun: its run was set up. results: the latest judgement."""
 
     answer: Answer | None = None
     run: str | None = None
@@ -42,7 +42,7 @@ class StepProgress(Checked):
 
 
 class ExerciseProgress(Checked):
-    """One exercise. at: the step that was looked at last. submitted_at: when, as ISO 8601.
+    """Progress in one exercise. at: the step shown last. submitted_at: ISO 8601.
 
     law: the one that was tried last, which is what is submitted. changes: how often it was changed,
     by which the newer of two answers is known.
@@ -56,21 +56,21 @@ class ExerciseProgress(Checked):
     changes: Whole = 0
 
     def get(self, step: str) -> StepProgress:
-        """What is known of a step."""
+        """Return the progress in a step."""
         return self.steps.get(step, StepProgress())
 
     def with_step(self, step: str, **changes: object) -> "ExerciseProgress":
-        """With a step changed."""
+        """Return the progress with one step changed."""
         return self.changed(steps={**self.steps, step: self.get(step).changed(**changes)})
 
     @property
     def answers(self) -> dict[str, Answer]:
-        """What was predicted or chosen, by step."""
+        """The predictions and selected options, by step."""
         kept = self.steps.items()
         return {name: one.answer for name, one in kept if one.answer is not None}
 
     def build_submission(self, exercise: str, student: str) -> Submission:
-        """What is submitted of it."""
+        """Build the submission of an exercise."""
         runs = {name: one.run for name, one in self.steps.items() if one.run is not None}
         law = self.law and self.law.text.encode()
         return Submission(
@@ -84,12 +84,12 @@ class PersonProgress(Checked):
     exercises: dict[StepName, ExerciseProgress] = quantity("", "By name", default={})
 
     def get(self, exercise: str) -> ExerciseProgress:
-        """What is known of an exercise."""
+        """Return the progress in an exercise."""
         return self.exercises.get(exercise, ExerciseProgress())
 
 
 def visit_step(exercise: Exercise, progress: ExerciseProgress, step: str) -> ExerciseProgress:
-    """The reader is at a step; what is only read before it has been read."""
+    """Record a visit to a step; visiting a reading step completes it."""
     exercise.find_step(step)
     for one in exercise.steps:
         if one.name == step:
@@ -102,7 +102,12 @@ def visit_step(exercise: Exercise, progress: ExerciseProgress, step: str) -> Exe
 def keep_answer(
     exercise: Exercise, progress: ExerciseProgress, step: str, answer: Answer
 ) -> ExerciseProgress:
-    """With an answer; raises `ParameterError` for what is none, `StateError` where it is late."""
+    """Save an answer.
+
+    Raises:
+        ParameterError: The answer is invalid.
+        StateError: The run that judges it has begun, or the exercise is submitted.
+    """
     found = exercise.find_step(step)
     check_answer(found, answer)
     _check_open(progress)
@@ -116,7 +121,7 @@ def keep_answer(
 
 
 def begin_step(exercise: Exercise, progress: ExerciseProgress, step: str) -> ExerciseProgress:
-    """The run of a step is set up; raises `StateError` where a prediction of it is missing."""
+    """Record that the run of a step is set up; raises `StateError` if a prediction is missing."""
     found = exercise.find_step(step)
     if not isinstance(found, Experiment):
         raise StateError(f"Step {step!r} is no experiment: there is nothing to set up.")
@@ -135,7 +140,7 @@ def keep_run(
     run: str,
     results: Sequence[CriterionResult],
 ) -> ExerciseProgress:
-    """With a run that was judged; one with fewer points than that before does not take its place.
+    """Save a judged run, unless the saved run has more points.
 
     results: of the step and of the predictions that it judges, each under its step.
     """
@@ -152,20 +157,20 @@ def keep_run(
 
 
 def keep_law(exercise: Exercise, progress: ExerciseProgress, law: SavedLaw) -> ExerciseProgress:
-    """With a law in place of the one before; raises `StateError` where none belongs to it."""
+    """Save a law, replacing the previous one; raises `StateError` if the exercise takes none."""
     check_takes_law(exercise, progress)
     return progress.changed(law=law)
 
 
 def check_takes_law(exercise: Exercise, progress: ExerciseProgress) -> None:
-    """Raise `StateError` where no law belongs to the exercise, or it was submitted."""
+    """Raise `StateError` if the exercise takes no law or was submitted."""
     if not exercise.takes_law:
         raise StateError(f"Exercise {exercise.name!r} asks for no law.")
     _check_open(progress)
 
 
 def find_done(exercise: Exercise, progress: ExerciseProgress) -> list[str]:
-    """The names of the steps that are done."""
+    """Return the names of the completed steps."""
     return [
         step.name
         for step in exercise.steps
@@ -175,9 +180,7 @@ def find_done(exercise: Exercise, progress: ExerciseProgress) -> list[str]:
 
 
 def find_missing(exercise: Exercise, progress: ExerciseProgress) -> list[str]:
-    """The names of the steps that are still to be answered or run; of the last, where its law is
-    missing.
-    """
+    """Return the names of the incomplete steps; the last one is incomplete without its law."""
     done = find_done(exercise, progress)
     wanted = (Predict, Experiment, Explain)
     missing = [s.name for s in exercise.steps if isinstance(s, wanted) and s.name not in done]
@@ -196,7 +199,7 @@ def _sum(results: Sequence[CriterionResult]) -> float:
 
 
 def _translate(written: Any) -> Any:
-    """The progress in an exercise, in the present words."""
+    """Translate saved progress of an earlier version to the present names."""
     present = translate_fields(written, former_words.PROGRESS)
     if isinstance(present, dict) and present.get("at") in former_words.STEPS:
         present["at"] = former_words.STEPS[present["at"]]
@@ -212,7 +215,7 @@ def _translate(written: Any) -> Any:
 
 
 class ProgressStore:
-    """Progress of people in a folder, a file each, whole or not at all. Thread-safe.
+    """A folder with one progress file per person, written atomically. Thread-safe.
 
     The caller that changes progress holds `lock` from reading to writing.
     """
@@ -225,7 +228,7 @@ class ProgressStore:
             former.rename(self.folder / SUBMISSIONS)
 
     def read(self, person: str) -> PersonProgress:
-        """Return what is kept of a person; nothing if there is nothing.
+        """Read the progress of a person; empty if there is none.
 
         A damaged file is set aside and reported in the log, and the version before it is used.
 
@@ -246,7 +249,7 @@ class ProgressStore:
         return PersonProgress()
 
     def write(self, person: str, progress: PersonProgress) -> None:
-        """Keep progress and the version before it; raises `OSError` with both unchanged."""
+        """Save progress and its previous version; raises `OSError` with both unchanged."""
         path = self._find(person)
         path.parent.mkdir(parents=True, exist_ok=True)
         if path.exists():
@@ -257,11 +260,11 @@ class ProgressStore:
         return self.folder / "people" / f"{person or HOME}.json"
 
     def find_submission(self, exercise: str, person: str) -> Path:
-        """Where the submission of a person stands."""
+        """Return the path of a person's submission."""
         return self.folder / SUBMISSIONS / exercise / f"{person or HOME}.json"
 
     def list_submissions(self, person: str | None = None) -> list[Path]:
-        """The files of all that was submitted, or of what this person did."""
+        """List the files of all submissions, or of one person's."""
         name = "*" if person is None else escape(person or HOME)
         return sorted((self.folder / SUBMISSIONS).glob(f"*/{name}.json"))
 

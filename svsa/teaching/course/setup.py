@@ -1,4 +1,4 @@
-"""What an experiment sets a session to, and whether a run is the one that was asked for."""
+"""The setup of an experiment, and the comparison of a run with it."""
 
 from collections.abc import Sequence
 from functools import cached_property
@@ -38,14 +38,14 @@ _FIELDS: dict[str, str] = {"laws": "law", "lane": "comparisons", "load": "loads"
 
 
 class Difference(NamedTuple):
-    """How a run is not the one that was asked for; time_s: when it became so, or None."""
+    """How a run differs from the required one; time_s: since when, or None."""
 
     message: str
     time_s: float | None = None
 
 
 class Setup(Checked):
-    """A configuration that a run begins from: a figure and settings in its place, as in studies.
+    """The configuration that a run starts from: a figure, and settings that replace its own.
 
     free: what the student may choose before the run. bench: how it is run on a bench; None for one
     that is simulated and nothing else.
@@ -67,19 +67,19 @@ class Setup(Checked):
 
     @cached_property
     def configuration(self) -> Configuration:
-        """The run that is asked for, with what is free at what it begins from."""
+        """The required run, with the free fields at their start values."""
         comparisons = tuple(Lane(law=law) for law in self.comparisons)
         return build_base(self.base, self.law).changed(comparisons=comparisons)
 
     @property
     def bench_configuration(self) -> Configuration:
-        """The run that is asked for on a bench, which has plant, effects and limits of its own."""
+        """The required run on a bench, which has its own plant, effects and limits."""
         loads = self.bench.loads if self.bench is not None else None
         asked = self.configuration
         return asked if loads is None else asked.changed(loads=loads)
 
     def find_difference(self, result: Result) -> Difference | None:
-        """How a run is not the one that was asked for, besides what is free; None: it is."""
+        """Find how a run differs from the required one in fields that are not free; None if not."""
         is_bench = result.plant != "simulated"
         if is_bench and self.bench is None:
             return Difference("it was recorded on a bench, and this step is simulated")
@@ -94,7 +94,7 @@ class Setup(Checked):
         return self._find_change(result)
 
     def _find_change(self, result: Result) -> Difference | None:
-        """What was changed while it ran; a bench that is stopped at the end of its time is not."""
+        """Find a change made during the run; stopping a bench at the end of its time is allowed."""
         for command in result.commands:
             time_s = command.tick * result.configuration.sampling.period_s
             if isinstance(command, Stop):
@@ -108,7 +108,7 @@ class Setup(Checked):
 
 
 def _give_first(configuration: Configuration, commands: Sequence[Command]) -> Configuration:
-    """With the commands that were given before the first sample."""
+    """Apply the commands that were given before the first sample."""
     for command in commands:
         if command.tick > 0:
             break
@@ -124,7 +124,7 @@ def _give_first(configuration: Configuration, commands: Sequence[Command]) -> Co
 
 
 def _tell(asked: Any, had: Any) -> str:
-    """The first field that differs, as far as there are fields; else no more than that."""
+    """Describe the first field that differs, if the values have fields."""
     if isinstance(asked, Checked) and isinstance(had, Checked):
         if type(asked) is not type(had):
             return "another kind"

@@ -1,4 +1,4 @@
-"""The steps of an exercise: read, predict, experiment, explain, submit."""
+"""The steps of an exercise: read, predict, experiment, explain and submit."""
 
 from typing import Annotated, Literal, Self
 
@@ -14,7 +14,7 @@ from svsa.teaching.submission import StepName
 
 
 class _Step(Checked):
-    """A step: its name, what it is called, and its text in Markdown with equations."""
+    """A step: its name, its title, and its text in Markdown with equations."""
 
     name: StepName
     title: str = quantity("", "What it is called", min_length=1, max_length=120)
@@ -22,13 +22,13 @@ class _Step(Checked):
 
 
 class Read(_Step):
-    """Text alone."""
+    """A step of text only."""
 
     kind: Literal["read"] = "read"
 
 
 class Predict(_Step):
-    """A number that is asked for before the run that judges it.
+    """A number to be predicted before the run that judges it.
 
     judged_by: step and measure of that run, as `fl.steady`. within, half_within: the share of
     the measured value that the prediction may be off for all, and for half of the points.
@@ -61,7 +61,7 @@ class Predict(_Step):
 
 
 class Experiment(_Step, Setup):
-    """A run with a setup, what is measured of it, and what that is judged by."""
+    """A run with a setup, its measures and its criteria."""
 
     kind: Literal["experiment"] = "experiment"
     measures: tuple[Measure, ...] = quantity("", "What is measured", min_length=1, max_length=20)
@@ -116,17 +116,17 @@ class Experiment(_Step, Setup):
             raise ParameterError(Violation("bench.criteria", points, "", bound))
 
     def list_criteria(self, is_bench: bool) -> tuple[Criterion, ...]:
-        """What a run is judged by, of a bench or a simulated one."""
+        """List the criteria of a run on a bench or of a simulated run."""
         own = self.bench.criteria if is_bench and self.bench is not None else None
         return self.criteria if own is None else own
 
     def find_measure(self, name: str) -> Measure | None:
-        """The measure of this name."""
+        """Return the measure of this name."""
         return next((one for one in self.measures if one.name == name), None)
 
 
 class Option(Checked):
-    """An answer that can be chosen, and its feedback."""
+    """An answer that can be selected, with its feedback."""
 
     name: StepName
     text: str = quantity("", "The answer", min_length=1, max_length=500)
@@ -135,7 +135,7 @@ class Option(Checked):
 
 
 class Explain(_Step):
-    """A question about what was seen: one of several answers is right."""
+    """A multiple-choice question about the run; one option is correct."""
 
     kind: Literal["explain"] = "explain"
     options: tuple[Option, ...] = quantity("", "The answers", min_length=2, max_length=8)
@@ -153,7 +153,7 @@ class Explain(_Step):
 
 
 class SubmitStep(_Step):
-    """The end: everything is submitted. law: with a Python file of a law."""
+    """The last step: submit the exercise. law: whether a law's Python file is included."""
 
     kind: Literal["submit"] = "submit"
     law: Flag = quantity("", "Whether a law's file belongs to it", default=False)

@@ -1,4 +1,4 @@
-"""Markdown with equations as HTML that a page may show: no HTML of the text's own gets through."""
+"""Convert Markdown with equations to safe HTML: HTML in the text is escaped."""
 
 from functools import cache
 
@@ -7,7 +7,7 @@ from mdit_py_plugins.dollarmath import dollarmath_plugin
 
 
 def render_text(text: str) -> str:
-    """The HTML of a text; $TeX$ is an element of class `math`, to be typeset where it is shown."""
+    """Render a text as HTML; $TeX$ becomes an element of class `math` for the page to typeset."""
     return str(_build_renderer().render(text))
 
 

@@ -1,1 +1,1 @@
-"""Grading: submissions, run again in isolation."""
+"""Grading: submitted runs are simulated again, submitted laws run in isolation."""

@@ -1,4 +1,4 @@
-"""A class's grades: what was submitted in the lab, run again, and what became of each."""
+"""Grades of a class: the submissions of the lab, simulated again, each with its result."""
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing
@@ -30,12 +30,12 @@ class GradedSubmission(NamedTuple):
 
 
 def open_book(store: ProgressStore) -> Book:
-    """The book of the class whose progress this is; raises `ParameterError`."""
+    """Open the gradebook that belongs to the progress of a class; raises `ParameterError`."""
     return Book(store.folder / BOOK_FOLDER)
 
 
 def list_graded(store: ProgressStore, person: str | None = None) -> list[GradedSubmission]:
-    """Everything that was submitted, by student and exercise; person: of this one alone."""
+    """List all submissions, or those of one person, sorted by student and exercise."""
     book = open_book(store)
     files = store.list_submissions() if person is None else store.list_submissions(person)
     found = [_describe(path, book) for path in files]
@@ -52,7 +52,9 @@ def grade_class(
     is_cancelled: Callable[[], bool] = lambda: False,
     workers: int = 1,
 ) -> bool:
-    """Grade these submissions, so many at once; whether it came to its end.
+    """Grade these submissions; return whether all were graded.
+
+    report: receives (graded, total). workers: processes.
 
     One that is refused keeps the grade that it has, and the book says why. Raises
     `GraderLostError`.
@@ -81,5 +83,5 @@ def _describe(path: Path, book: Book) -> GradedSubmission:
 
 
 def list_grades(submitted: Sequence[GradedSubmission]) -> Iterator[Grade]:
-    """The grades that were given."""
+    """Yield the grades that were given."""
     return (one.grade for one in submitted if one.grade is not None)

@@ -1,4 +1,4 @@
-"""`svsa grade`: run again what was submitted, and tell what it is worth."""
+"""`svsa grade`: simulate submitted runs again, run submitted laws, and print the grades."""
 
 import os
 from collections.abc import Sequence
@@ -41,7 +41,7 @@ def grade_command(
     csv: _File = None,
     page: _File = None,
 ) -> None:
-    """Grade submissions: runs by exact replay, laws in a process of their own on secret trials.
+    """Grade submissions: runs by exact replay, laws in an isolated process on secret trials.
 
     What was graded before keeps its grade. --csv and --page tell all grades of the class.
     """
@@ -68,7 +68,7 @@ def grade_command(
 def _grade_all(
     files: Sequence[Path], exercises: dict[str, Exercise], runs: Path | None, book: Book | None
 ) -> tuple[list[Grade], list[str]]:
-    """The grades in the order of the files, and why others got none."""
+    """Return the grades in the order of the files, and the reasons for missing grades."""
     workers = min(len(files), os.cpu_count() or 1)
     found, refused = dict[Path, Grade](), list[str]()
     with show_progress(_messages, "Grading", len(files), "") as bar:

@@ -1,4 +1,4 @@
-"""A grade: points by criterion, from what was submitted and nothing else."""
+"""A grade: points by criterion, computed from the submission only."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -21,14 +21,14 @@ from svsa.teaching.submission import Submission, digest_law
 
 
 class VerifiedRun(Checked):
-    """A run that was submitted, and what was found when it was run again."""
+    """A submitted run, and the result of simulating it again."""
 
     run_id: str = quantity("", "Id of the run")
     description: str = quantity("", "What was verified of it")
 
 
 class Grade(Judgement):
-    """What a submission is worth, and what it was graded with.
+    """The points of a submission, and the versions and trials that it was graded with.
 
     submission: digest of everything that was submitted. seed: of the trials that its law went
     through, in hexadecimal, None without a law. is_isolated: false for a law that ran without
@@ -45,7 +45,7 @@ class Grade(Judgement):
 
 
 def verify_run(catalogue: Catalogue, run_id: str) -> VerifiedRun:
-    """A recorded run that follows from itself, bit for bit; raises `RecordError` for another.
+    """Verify that a recorded run follows bit for bit from its own configuration and commands.
 
     A simulated one is simulated again. Of a bench's all is worked out again but what it measured
     and sent, and what it sent is compared with its law.
@@ -70,7 +70,7 @@ def grade(
     secret: bytes | None,
     report: Callable[[float], None] = lambda share: None,
 ) -> Grade:
-    """The grade of a submission. runs: folder of the runs, None for this machine's.
+    """Grade a submission. runs: folder of the runs, None for the data folder of this machine.
 
     secret: the class's, from which and from the law's text come its trials, so that one law is
     worth the same for every author; None for practice: public trials, and the law runs without

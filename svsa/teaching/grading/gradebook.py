@@ -1,4 +1,4 @@
-"""A class's book: its secret, and every grade that was given, so that it stays as it is."""
+"""The gradebook of a class: its secret seed and every grade, so that grades do not change."""
 
 from pathlib import Path
 
@@ -8,7 +8,7 @@ from svsa.teaching.grading.grade import Grade
 
 
 class Book(ClassFolder[Grade]):
-    """A folder of a class: `secret`, and `grades/`, a file each by the digest of its submission.
+    """A class folder with `secret`, and `grades/` with one file per submission digest.
 
     `refused/` has why a submission was given none. Raises `ParameterError` where the folder cannot
     be used.
@@ -18,13 +18,13 @@ class Book(ClassFolder[Grade]):
         super().__init__(folder, Grade, ("class", "grades", "refused"))
 
     def keep(self, grade: Grade) -> None:
-        """Keep a grade; raises `StateError` for one of a law that was not isolated."""
+        """Save a grade; raises `StateError` for a law that was not isolated."""
         if not grade.is_isolated:
             raise StateError("A law that was not isolated gets no grade in a class.")
         self.write(grade.submission, grade)
 
     def refuse(self, submission: str, problem: str) -> None:
-        """Keep why a submission was given no grade; empty where it was given one."""
+        """Save why a submission got no grade; an empty text removes the reason."""
         path = self.others / f"{submission}.txt"
         if problem:
             path.write_text(problem, encoding="utf-8")
@@ -32,10 +32,10 @@ class Book(ClassFolder[Grade]):
             path.unlink(missing_ok=True)
 
     def find_refusal(self, submission: str) -> str:
-        """Why a submission was given no grade when it was graded last, or empty."""
+        """Return why the latest grading of a submission failed, or an empty text."""
         path = self.others / f"{submission}.txt"
         return path.read_text(encoding="utf-8") if path.exists() else ""
 
     def list(self) -> list[Grade]:
-        """Every grade, by exercise and student."""
+        """Return all grades, sorted by exercise and student."""
         return sorted(self.read_all(), key=lambda one: (one.exercise, one.student, one.submission))

@@ -1,4 +1,4 @@
-"""The points of a law: hidden trials, as many as it takes until chance decides little."""
+"""Points of a law on hidden trials, run until the interval of the points is narrow enough."""
 
 import math
 from collections.abc import Callable, Iterator, Sequence
@@ -42,7 +42,7 @@ POINTS = {
 
 
 class Trials(NamedTuple):
-    """How a law went through trials.
+    """The results of a law on trials.
 
     held: of each, (trials,). rms_deg: position error from the load on, (trials,), °; NaN where the
     run ended early. problem: why the first of those did, or why the law failed at its own part;
@@ -55,13 +55,13 @@ class Trials(NamedTuple):
     output: str = ""
 
     def compute_shares(self) -> np.ndarray:
-        """The share of each criterion's points, (3, trials)."""
+        """Compute each criterion's share of its points in each trial, (3, trials)."""
         whole = np.isfinite(self.rms_deg)
         accuracy = np.where(whole, 1.0 - np.tanh(np.where(whole, self.rms_deg, 0.0)), 0.0)
         return np.stack([whole, self.held, accuracy]).astype(float)
 
     def estimate_range(self) -> float:
-        """The width of the 95 % interval of the points."""
+        """Estimate the width of the 95 % interval of the points."""
         points = np.array(list(POINTS.values())) @ self.compute_shares()
         return float(2.0 * NORMAL_QUANTILE * np.std(points, ddof=1) / math.sqrt(len(points)))
 
@@ -72,7 +72,7 @@ def run_trials(
     place: Place = confine,
     report: Callable[[float], None] = lambda share: None,
 ) -> Trials:
-    """Run a law on the trials of a seed, until its points are certain to `POINTS_RANGE`.
+    """Run a law on the trials of a seed until the interval of its points is `POINTS_RANGE` wide.
 
     How many trials that takes follows from their outcome: the same law has the same grade. A law
     that fails at its own part is not asked again, and has no points for the rest of the block.
@@ -112,7 +112,7 @@ def run_trials(
 def _run_block(
     source: bytes, scenarios: Sequence[Scenario], place: Place, end_s: float
 ) -> tuple[Trials, bool]:
-    """The outcome of a block, and whether it is the last: the law has failed, or its time is over.
+    """Run a block of trials; return its result and whether to stop: failure, or out of time.
 
     Trials for which there was no time are left out.
     """
@@ -141,7 +141,7 @@ def _run_block(
 
 
 def _list_groups(configurations: Sequence[Configuration]) -> Iterator[list[int]]:
-    """The numbers of those that run side by side, at most eight at once."""
+    """List the numbers of runs that are simulated together, at most eight."""
     for alike in find_alike(configurations):
         for begin in range(0, len(alike), WIDTH):
             yield alike[begin : begin + WIDTH]
@@ -150,7 +150,7 @@ def _list_groups(configurations: Sequence[Configuration]) -> Iterator[list[int]]
 def _run_group(
     source: bytes, group: Sequence[Configuration], scenario: Scenario, place: Place
 ) -> tuple[np.ndarray, str]:
-    """`SUMMARY` of each run; where one ended early, also the end of what the law printed.
+    """Return the `SUMMARY` of each run; with it, for a run that ended early, its output.
 
     scenario: any of the group, which have the same duration.
     """
@@ -168,7 +168,7 @@ def _pick_first(problems: dict[int, str]) -> str:
 
 
 def _describe_end(configuration: Configuration, summary: np.void) -> str:
-    """Why a run ended early."""
+    """Describe why a run ended early."""
     mu0 = compute_start_ratio(configuration)
     blocks = build_blocks(configuration, configuration.lanes[0], mu0)
     x = State(*(float(summary[name]) for name in State._fields))
@@ -176,7 +176,7 @@ def _describe_end(configuration: Configuration, summary: np.void) -> str:
 
 
 def judge_law(trials: Trials | None) -> list[CriterionResult]:
-    """Three criteria: no run ends early, the error is gone at the end, and it is small.
+    """Judge three criteria: no run ends early, small final error, small error throughout.
 
     accuracy: the mean of 1 − tanh(rms / 1°); 0 for a run that ended. trials: None where no law was
     submitted.

@@ -1,4 +1,4 @@
-"""One run of a law that was submitted, or of one that is installed."""
+"""One run of a submitted or of an installed law."""
 
 import math
 from time import perf_counter
@@ -21,7 +21,7 @@ from svsa.teaching.isolation.refusal import LawFaultError
 
 
 class LawRun(NamedTuple):
-    """How a law went through one scenario.
+    """The result of a law in one scenario.
 
     rms_deg: position error from the load on, None where the run ended early, and `problem` says
     why; `output` is the end of what the law printed then. cost_us: median time of an answer, µs,
@@ -43,7 +43,7 @@ class LawRun(NamedTuple):
 def run_law(
     source: bytes, scenario: Scenario, bounds: Bounds = BOUNDS, place: Place = confine
 ) -> LawRun:
-    """One run of a law in a process of its own.
+    """Run a submitted law in its own process, in one scenario.
 
     place: `confine`, or `leave_open` for a law that is trusted. Raises `NotIsolatedError` where
     this machine cannot confine a law.
@@ -73,7 +73,7 @@ def _pack_torques(reported: list[tuple[float, float]]) -> bytes:
 
 
 def run_installed(law: str, scenario: Scenario) -> LawRun:
-    """The same of an installed law, with the parameters of its row in the ranking."""
+    """Run an installed law in one scenario, with the parameters of its row in the ranking."""
     configuration = build_entry(law).build_configuration(scenario)
     begin = perf_counter()
     result = simulate(configuration, duration_s=scenario.duration_s)
@@ -81,7 +81,7 @@ def run_installed(law: str, scenario: Scenario) -> LawRun:
 
 
 def describe_run(scenario: Scenario, result: Result, took_s: float) -> LawRun:
-    """What a run of a scenario shows. took_s: how long it took, s."""
+    """Compute the `LawRun` of a finished run. took_s: wall time, s."""
     ticks = len(result.samples)
     begin_s, end_s = scenario.measured_s, scenario.duration_s
     rms_deg = None

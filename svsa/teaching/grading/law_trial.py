@@ -1,4 +1,4 @@
-"""A law tried before it is submitted: one run, on a scenario that everybody may see."""
+"""Trial of a law before its submission: one run of a public scenario."""
 
 from svsa.evaluation.metrics import HELD
 from svsa.evaluation.ranking.scenarios import PUBLIC_SEED
@@ -14,7 +14,7 @@ OPEN_TRIAL = 0
 
 
 def try_law(text: str, place: Place = confine) -> SavedLaw:
-    """The law with what came of one run on the first public draw, within 20 s.
+    """Save a law and run it once on the first public trial, within 20 s.
 
     A machine that cannot hold a law leaves it untried, and says why.
     """
@@ -28,7 +28,7 @@ def try_law(text: str, place: Place = confine) -> SavedLaw:
 
 
 def judge_trial(text: str, run: LawRun) -> SavedLaw:
-    """What a run of a law shows, in words."""
+    """Describe the result of the trial run."""
     output = run.output[-LONGEST_OUTPUT:]
     if run.cost_us is None:
         return SavedLaw(text=text, verdict="failed", feedback=run.problem, output=output)

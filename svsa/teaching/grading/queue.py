@@ -1,4 +1,4 @@
-"""Submissions graded side by side, in as many processes as there are cores."""
+"""Parallel grading of submissions, one process per core."""
 
 import os
 from collections.abc import Callable, Generator, Iterable
@@ -19,7 +19,7 @@ _WAITING_EACH = 2
 
 
 class GraderLostError(StateError):
-    """A process that graded is gone, and nothing is known of what it had."""
+    """A grading process ended unexpectedly; its result is lost."""
 
     def __init__(self) -> None:
         super().__init__("A grader's process was ended from outside: grade what is left again.")
@@ -33,7 +33,7 @@ def grade_file(
     again: bool = False,
     report: Callable[[float], None] = lambda share: None,
 ) -> Grade:
-    """The grade of a submission's file, kept in the book; the one that it has there, if any.
+    """Grade a submission's file and save the grade; return the saved grade if there is one.
 
     again: run it again, though it has one. Same submission, same trials, same grade. Where it is
     refused, the book says why, and keeps the grade that it has. report: is given the share that is
@@ -68,7 +68,7 @@ def grade_files(
     again: bool = False,
     report: Callable[[float], None] = lambda share: None,
 ) -> Generator[tuple[Path, Grade | SvsaError], None, None]:
-    """Each file, as it is done, with its grade or why it has none.
+    """Yield each file with its grade or its error, in the order of completion.
 
     files: taken one by one, as there is room. workers: processes of low priority; one works in
     this one. Closed early, those that are worked at are waited for. report: is given the share of a

@@ -1,4 +1,4 @@
-"""Grades as a page and as CSV: a class at a glance, and for each student what differs."""
+"""Grades as an HTML page and as CSV: an overview of the class, and each student's criteria."""
 
 import csv
 import io
@@ -24,7 +24,7 @@ HEADINGS = ("student", "exercise", "points", "max_points", "submission", "seed",
 
 
 def write_csv(grades: Sequence[Grade]) -> str:
-    """A line a grade, then a column for each criterion of an exercise, with its points."""
+    """Write a CSV: one line per grade, then a column of points for each criterion."""
     names = dict.fromkeys(_name(grade, at) for grade in grades for at in range(len(grade.criteria)))
     text = io.StringIO()
     table = csv.writer(text, lineterminator="\n")
@@ -41,7 +41,7 @@ def write_csv(grades: Sequence[Grade]) -> str:
 
 
 def write_page(grades: Sequence[Grade]) -> str:
-    """A self-contained page: the class's table, then each student's criteria with feedback."""
+    """Write a self-contained HTML page: the class's table, then each student's feedback."""
     parts = ["<h1>Grades</h1>", _write_summary(grades), _write_table(grades)]
     parts += [_write_grade(grade, f"grade-{at}") for at, grade in enumerate(grades)]
     return (
@@ -59,7 +59,7 @@ def _name(grade: Grade, at: int) -> str:
 
 
 def _guard(word: str) -> str:
-    """A word that a spreadsheet takes for no formula."""
+    """Prefix a text that a spreadsheet would read as a formula."""
     return f"'{word}" if word.startswith(("=", "+", "-", "@", "\t", "\r")) else word
 
 

@@ -1,1 +1,1 @@
-"""An untrusted control law, in a process of its own that can only compute."""
+"""Isolation of an untrusted control law in a process that can only compute."""

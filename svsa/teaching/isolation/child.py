@@ -1,4 +1,4 @@
-"""The law's side: a new process in empty namespaces, with the law and two ends of pipes.
+"""The law's process: an interpreter in empty namespaces, connected by two pipes.
 
     python -I -S -B -u child.py LAW FILTER ANSWERS MEMORY_BYTES CPU_S OUTPUT_BYTES
 
@@ -28,7 +28,7 @@ class _Program(ctypes.Structure):
 
 
 def limit(memory_bytes: int, cpu_s: int, output_bytes: int) -> None:
-    """Bound memory, processor time and the length of files, for good; leave no core."""
+    """Limit memory, processor time and file size permanently; disable core dumps."""
     os.nice(max(0, NICENESS - os.nice(0)))
     for kind, bound in (
         (resource.RLIMIT_AS, memory_bytes),
@@ -43,7 +43,7 @@ def limit(memory_bytes: int, cpu_s: int, output_bytes: int) -> None:
 
 
 def filter_calls(program: bytes) -> None:
-    """Have the kernel refuse every system call that this program does not let through."""
+    """Install a kernel filter that rejects every system call outside this program."""
     libc = ctypes.CDLL(None, use_errno=True)
     code = ctypes.create_string_buffer(program, len(program))
     length = len(program) // _INSTRUCTION_BYTES
@@ -58,7 +58,7 @@ def filter_calls(program: bytes) -> None:
 
 
 def offer_equations() -> None:
-    """Make `svsa.actuators` importable as plain Python: define here what is compiled elsewhere."""
+    """Make `svsa.actuators` importable as plain Python, without compiled functions."""
     # Neither numba nor numpy is imported for them: with numpy a process of a law takes five times
     # as long to start.
     words: dict[str, dict[str, Any]] = {
@@ -102,7 +102,7 @@ def offer_equations() -> None:
 
 
 def load_law(text: str, constants: tuple[float, ...]) -> Any:
-    """The law that a file defines: `law`, or what `build` makes of the nominal model."""
+    """Load the law of a file: `law`, or the result of `build` for the nominal model."""
     from svsa.actuators.dynamics import Actuator
 
     names: dict[str, Any] = {"__name__": "law"}
@@ -116,7 +116,7 @@ def load_law(text: str, constants: tuple[float, ...]) -> Any:
 
 
 def read_torque(answer: Any) -> tuple[float, float]:
-    """(u1, u2) of a law's answer, N·m; raises `TypeError` for what is not two numbers."""
+    """Read (u1, u2), N·m, from a law's return value; raises `TypeError` unless two numbers."""
     try:
         u1, u2 = answer
         return float(u1), float(u2)
@@ -126,7 +126,7 @@ def read_torque(answer: Any) -> tuple[float, float]:
 
 
 def read(length: int) -> bytes:
-    """So many bytes of what is asked; fewer at its end."""
+    """Read so many bytes of the requests; fewer at the end of the stream."""
     got = b""
     while len(got) < length and (more := os.read(0, length - len(got))):
         got += more
@@ -134,7 +134,7 @@ def read(length: int) -> bytes:
 
 
 def print_in_law(error: BaseException) -> None:
-    """The error with its place in the law's file, and without the frames here that lead there."""
+    """Print an error with its location in the law's file, without the frames of this module."""
     frame = error.__traceback__
     while frame is not None and frame.tb_frame.f_code.co_filename == __file__:
         frame = frame.tb_next
@@ -143,7 +143,7 @@ def print_in_law(error: BaseException) -> None:
 
 
 def serve(path: Path, answers: int) -> None:
-    """Load the law for each run, then answer every question with torques, until there are no more.
+    """Load the law for each run, then answer requests with torques until the stream ends.
 
     Each run has a law of its own: the file is executed once for each.
     """
@@ -182,7 +182,7 @@ def serve(path: Path, answers: int) -> None:
 
 
 def main(law: str, program: str, answers: str, *bounds: str) -> None:
-    """Take the limits, then serve."""
+    """Apply the limits, then serve."""
     here = Path(__file__).parent
     sys.path[:0] = [str(here), str(here / "packages")]
     offer_equations()

@@ -1,4 +1,4 @@
-"""Where a law runs: namespaces that bubblewrap makes, which hold an interpreter and nothing else.
+"""Confinement of a law by bubblewrap: namespaces that contain an interpreter only.
 
 Users, processes, mounts, network, IPC, host name and control groups are its own. Mounted
 read-only are the interpreter with its library, the system's shared libraries, numpy, the model's
@@ -30,7 +30,7 @@ _OTHERS_PACKAGES = ("site-packages", "dist-packages")
 
 
 class Bounds(NamedTuple):
-    """What a law may use. answer_s, whole_s: of the clock, for an answer and for all of a run.
+    """Resource limits of a law. answer_s, whole_s: wall time of one answer and of a whole run.
 
     start_s: until it is loaded. cpu_s: of the processor, whole seconds. output_bytes: of what it
     prints, and of any file.
@@ -48,14 +48,14 @@ BOUNDS = Bounds()
 
 
 class Command(NamedTuple):
-    """How the law's side is started, and in which folder."""
+    """The command that starts the law's process, and its working folder."""
 
     words: Sequence[str]
     folder: str = "/"
 
 
 def check_tools() -> str:
-    """The path of bwrap; raises `NotIsolatedError` where something is missing."""
+    """Return the path of bwrap; raises `NotIsolatedError` if a tool is missing."""
     if sys.platform != "linux":
         raise NotIsolatedError(f"it runs {sys.platform}")
     found = shutil.which("bwrap")
@@ -67,7 +67,7 @@ def check_tools() -> str:
 
 @contextmanager
 def confine(source: bytes, answers: int, bounds: Bounds) -> Iterator[Command]:
-    """The command for a law behind every wall; its files are there until this is closed.
+    """Build the command of a fully isolated law; a context that owns the law's files.
 
     Raises `NotIsolatedError`.
     """
@@ -101,7 +101,7 @@ def confine(source: bytes, answers: int, bounds: Bounds) -> Iterator[Command]:
 
 @contextmanager
 def leave_open(source: bytes, answers: int, bounds: Bounds) -> Iterator[Command]:
-    """The command for a law with limits of memory and time only: for one's own, at home."""
+    """Build the command of a trusted law, with limits of memory and time only."""
     with TemporaryDirectory(prefix="svsa-law-") as folder:
         here = Path(folder)
         (here / "law.py").write_bytes(source)
@@ -125,12 +125,12 @@ def _start_child(folder: str, program: str, answers: int, bounds: Bounds) -> lis
 
 
 def _find_interpreter() -> Path:
-    """The interpreter itself, not the environment that this one runs in."""
+    """Find the interpreter outside the virtual environment."""
     return Path(getattr(sys, "_base_executable", None) or sys.executable).resolve()
 
 
 def _mount_interpreter() -> list[str]:
-    """Interpreter, its library and the system's, without the packages of others."""
+    """Mount the interpreter, its library and the system's, without installed packages."""
     library = Path(sys.base_prefix) / "lib"
     standard = Path(sysconfig.get_path("stdlib"))
     paths = dict.fromkeys((*_SYSTEM_LIBRARIES, str(library), str(standard)))
@@ -144,7 +144,7 @@ def _mount_interpreter() -> list[str]:
 
 
 def _list_packages() -> list[Path]:
-    """The folders of numpy and of the libraries that come with it."""
+    """List the folders of numpy and of the libraries that it needs."""
     numpy = Path(np.__file__).parent
     libraries = numpy.with_name("numpy.libs")
     return [numpy, libraries] if libraries.is_dir() else [numpy]

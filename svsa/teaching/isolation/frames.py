@@ -1,4 +1,4 @@
-"""What goes between the loop and a law in a process of its own: frames for one run or for several.
+"""Binary frames between the loop and the law's process, for one run or several.
 
 To the law: `ASK` with kind, number and how many rows follow, then the rows. A row is 23 doubles of
 one run: time (s), `Reference`, x̂ (`State`), ŵ (`Disturbance`), the `Torque` that acted and the

@@ -1,4 +1,4 @@
-"""Whether this machine can isolate an untrusted law, found by an attempt to break out."""
+"""Test whether this machine can isolate an untrusted law, by trying to break out."""
 
 from functools import cache
 
@@ -34,7 +34,7 @@ def law(time_s, reference, x, w):
 
 @cache
 def check_isolation() -> None:
-    """Raise `NotIsolatedError` where a law could leave its process: six ways are tried, once."""
+    """Raise `NotIsolatedError` if one of six escape attempts succeeds; tested once a process."""
     zeros = Reference(*[0.0] * 8), State(*[0.0] * 6), Disturbance(0.0, 0.0, 0.0)
     still = Torque(0.0, 0.0), Positions(0.0, 0.0, 0.0)
     try:
@@ -48,7 +48,7 @@ def check_isolation() -> None:
 
 
 def find_isolation_problem() -> str | None:
-    """Why this machine cannot isolate a law, in words; None if it can."""
+    """Describe why this machine cannot isolate a law; None if it can."""
     try:
         check_isolation()
     except NotIsolatedError as error:

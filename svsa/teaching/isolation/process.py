@@ -1,4 +1,4 @@
-"""The lab's side of a law in a process of its own: one request a tick, with a time limit.
+"""The lab's side of an isolated law: one request per tick, with a time limit.
 
 One process answers for one run, or for several side by side.
 """
@@ -42,7 +42,7 @@ Place = Callable[[bytes, int, Bounds], AbstractContextManager[Command]]
 
 
 class RunningLaw:
-    """A law's process: from a law's source, for so many runs as there are models.
+    """The process of a law; it computes as many runs as there are models.
 
     models: nominal, one `Actuator` a run, which `build` of the law is given. place: `confine`, or
     `leave_open` for a law that is trusted. Raises `LawFaultError` where the law fails at its part,
@@ -88,7 +88,7 @@ class RunningLaw:
             self._opened = opened.pop_all()
 
     def answer(self, rows: bytes) -> bytes:
-        """The torques (`PAIR`) for the arguments of each run's law (`ROW`), one after the other."""
+        """Return the torques (`PAIR`) for the arguments (`ROW`) of each run's law, in order."""
         begin = perf_counter()
         torques = self._ask(TICK, rows, TORQUE, self._bounds.answer_s)
         self.cost_s.append(perf_counter() - begin)
@@ -106,11 +106,11 @@ class RunningLaw:
         self.close()
 
     def close(self) -> None:
-        """End the process and whatever it began."""
+        """End the process and its children."""
         self._opened.close()
 
     def read_output(self) -> str:
-        """The end of what the law has printed so far, on both its standard streams."""
+        """Return the end of what the law has printed to stdout and stderr so far."""
         # `pread`: the position of the file is also that at which the law prints next.
         descriptor = self._output.fileno()
         begin = max(0, os.fstat(descriptor).st_size - SHOWN_BYTES)
@@ -180,14 +180,14 @@ class RunningLaw:
         return LawFaultError(code, message, self.read_output())
 
     def _end(self) -> None:
-        """End bwrap, and with it, as the first process of its namespace, everything in it."""
+        """Kill bwrap, the first process of its namespace, and with it every process in it."""
         if self._process.poll() is None:
             self._process.kill()
             self._process.wait()
 
 
 class LawProcess(RunningLaw):
-    """A law, from its source, as a `Controller` of `svsa.simulate`; one process a run.
+    """An isolated law as a `Controller` of `svsa.simulate`; one process per run.
 
     `torques` are its answers, (u1, u2), N·m. Else see `RunningLaw`.
     """
@@ -207,7 +207,7 @@ class LawProcess(RunningLaw):
         applied: Torque,
         measured: Positions,
     ) -> tuple[float, float]:
-        """The law's torque, N·m."""
+        """Compute the law's torque, N·m."""
         row = ROW.pack(time_s, *reference, *x, *w, *applied, *measured)
         u1, u2 = PAIR.unpack(self.answer(row))
         self.torques.append((u1, u2))
@@ -215,7 +215,7 @@ class LawProcess(RunningLaw):
 
 
 class GroupProcess(RunningLaw):
-    """A law, from its source, as a `GroupController` of `svsa.runs.batch.run_group`.
+    """An isolated law as a `GroupController` of `svsa.runs.batch.run_group`.
 
     One process for at most eight runs, each with a law of its own in it. models: one a run. Else
     see `RunningLaw`.
@@ -231,7 +231,7 @@ class GroupProcess(RunningLaw):
         super().__init__(source, models, bounds, place)
 
     def __call__(self, time_s: float, is_asked: np.ndarray, reported: np.ndarray) -> np.ndarray:
-        """Torques (8, 2), N·m; 0 of a run that has ended."""
+        """Compute torques (8, 2), N·m; 0 for a run that has ended."""
         count, torques = self._runs, np.zeros((len(reported), 2))
         rows = np.empty((count, DOUBLES))
         rows[:, 0] = np.where(is_asked[:count], time_s, np.nan)

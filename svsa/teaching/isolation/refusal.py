@@ -1,4 +1,4 @@
-"""What goes wrong between the lab and a law in a process of its own, by name."""
+"""Errors of isolated laws."""
 
 from typing import Literal, Self
 
@@ -13,7 +13,7 @@ PRINTED = "The law printed:"
 
 
 class NotIsolatedError(SvsaError):
-    """A machine that cannot isolate an untrusted law, and why."""
+    """An untrusted law cannot be isolated on this machine; the message has the reason."""
 
     def __init__(self, reason: str) -> None:
         self.reason = reason
@@ -24,7 +24,7 @@ class NotIsolatedError(SvsaError):
 
 
 class LawFaultError(SvsaError):
-    """A law that did not do its part. code: why. output: the end of what it printed."""
+    """A law that failed. code: the kind of failure. output: the end of what it printed."""
 
     def __init__(self, code: LawFaultCode, message: str, output: str = "") -> None:
         self.code: LawFaultCode = code
@@ -37,7 +37,7 @@ class LawFaultError(SvsaError):
 
 
 def describe_output(output: str) -> str:
-    """What a failed law printed last, from a line of its own on; empty if it printed nothing.
+    """Format the last output of a failed law on lines of its own; empty if it printed nothing.
 
     Args:
         output: The end of what it printed, with the traceback of an error.

@@ -1,4 +1,4 @@
-"""The system calls that a law is left with: what an interpreter needs to compute, and no other.
+"""The system calls that an isolated law may use: those that an interpreter needs to compute.
 
 Everything else fails with EPERM: sockets, new processes and threads, exec, signals, mounts,
 ptrace, keyrings, shared memory, other identities, and whatever kernels learn later.
@@ -35,7 +35,7 @@ _COMMANDS = {
 
 @cache
 def compile_filter() -> bytes:
-    """The filter as a program for the kernel, for this machine's processor.
+    """Compile the filter as a BPF program for this machine's processor.
 
     Raises `NotIsolatedError` where libseccomp is missing.
     """
@@ -62,7 +62,7 @@ def compile_filter() -> bytes:
 
 
 def _find_number(name: str) -> int | None:
-    """The number of a system call; None where this processor's kernel has none of that name."""
+    """Find the number of a system call; None if this processor's kernel does not have it."""
     import pyseccomp
 
     try:

@@ -1,4 +1,4 @@
-"""`svsa ranking submit`, `svsa ranking leaderboard`: a law on a season's hidden trials."""
+"""`svsa ranking submit` and `svsa ranking leaderboard`: laws on hidden trials."""
 
 import json
 from collections.abc import Iterator, Sequence
@@ -20,46 +20,46 @@ from svsa.teaching.leaderboard.board import (
     Board,
     Entry,
     build_entry,
-    go_isolated,
+    build_isolated_runner,
     measure_missing,
     rank_entries,
     submit,
 )
-from svsa.teaching.leaderboard.standing import Tell, build_season, measure_standing
+from svsa.teaching.leaderboard.standing import ReportProgress, build_season, measure_standing
 from svsa.teaching.submission import read_law
 
 _messages = Console(stderr=True)
-_BOARD = typer.Option("--board", help="Folder of the season; else SVSA_DATA's leaderboard.")
+_BOARD = typer.Option("--board", help="Folder of the season; by default leaderboard in SVSA_DATA.")
 _JSON = typer.Option("--json", help="Print JSON.")
 _HEADINGS = (
     "", "law", "by", "held", "95 %", "trials", "ended", "rms, median", "µs/tick", "worst",
 )  # fmt: skip
 MIN_WIDTH = 110
-"""Columns of characters in which the table's numbers stand whole."""
+"""Width of the terminal, in characters, that shows the table's numbers without wrapping."""
 
 
 def submit_command(
     file: Annotated[Path, typer.Argument(metavar="LAW.PY", help="The law: see docs/grading.md.")],
     name: Annotated[
-        str | None, typer.Option(help="What it is called on the board; else the file's name.")
+        str | None, typer.Option(help="Name of the entry; by default the file's name.")
     ] = None,
-    author: Annotated[str, typer.Option(help="Who submits it, as the board shows it.")] = "",
+    author: Annotated[str, typer.Option(help="Author shown on the leaderboard.")] = "",
     practice: Annotated[
         bool,
-        typer.Option("--practice", help="One's own: public trials, no walls, nothing is kept."),
+        typer.Option("--practice", help="Practice: public trials, no isolation, nothing is saved."),
     ] = False,
     folder: Annotated[Path | None, _BOARD] = None,
     as_json: Annotated[bool, _JSON] = False,
 ) -> None:
-    """Put a law through the ranking with hidden seeds, isolated, and show where it stands.
+    """Measure a law on the season's hidden trials, in isolation, and show its rank.
 
-    The same file has one entry, which stays as it is.
+    A file that was submitted before keeps its entry.
     """
     source, called = read_law(file), name or file.stem
     if practice:
-        go = go_isolated(source, leave_open)
+        run_scenario = build_isolated_runner(source, leave_open)
         with _show_progress("Practice") as report:
-            found = measure_standing(build_season(PUBLIC_SEED), go, report)
+            found = measure_standing(build_season(PUBLIC_SEED), run_scenario, report)
         own = found and build_entry("practice", called, False, found.standing, author)
         _show([own] if own else [], as_json, "practice on public trials, not isolated")
         return
@@ -74,7 +74,7 @@ def submit_command(
 def leaderboard_command(
     folder: Annotated[Path | None, _BOARD] = None, as_json: Annotated[bool, _JSON] = False
 ) -> None:
-    """Show the season's entries, the best first; the lab's own laws are measured where missing."""
+    """Show the season's entries, best first; installed laws without an entry are measured first."""
     board = Board(folder)
     with _show_progress("Laws of the lab") as report:
         measure_missing(board, report)
@@ -82,7 +82,7 @@ def leaderboard_command(
 
 
 @contextmanager
-def _show_progress(title: str) -> Iterator[Tell]:
+def _show_progress(title: str) -> Iterator[ReportProgress]:
     with show_progress(_messages, escape(title)) as report:
         yield lambda done, total: report(done, total=total)
 
@@ -102,8 +102,8 @@ def _build_table(entries: Sequence[Entry], trials: str, marked: str | None) -> T
         title=f"Leaderboard: {trials}",
         title_justify="left",
         caption="Held: no fault, in the last second at most 1° and 10 % of σ_d, peak at most 30°."
-        " µs a tick: by the clock, plant and, for a law in a process of its own (*), the way to it"
-        " included. Worst: of the scenarios that everybody knows.",
+        " µs/tick: wall time, including the plant and, for an isolated law (*), the communication."
+        " Worst: largest error among the public scenarios.",
         caption_justify="left",
     )
     for heading in _HEADINGS:

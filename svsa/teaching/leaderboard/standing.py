@@ -1,4 +1,4 @@
-"""A season, and what a law shows in it: the share of hidden trials that held.
+"""A season of trials, and a law's result in it: the success rate on hidden trials.
 
 The trials of a season are drawn from a secret.
 """
@@ -23,9 +23,9 @@ TRIALS = 200
 
 
 class Season(NamedTuple):
-    """What every entry goes through.
+    """The runs of every entry in a season.
 
-    singles: the first variant of each fixed scenario, which are public. trials: hidden.
+    singles: the first variant of each fixed scenario, public. trials: hidden.
     """
 
     singles: tuple[Scenario, ...]
@@ -33,53 +33,54 @@ class Season(NamedTuple):
 
     @property
     def run_count(self) -> int:
-        """How many runs there are."""
+        """The number of runs."""
         return len(self.singles) + len(self.trials)
 
 
 def build_season(seed: int) -> Season:
-    """The season of a seed."""
+    """Build the season of a seed."""
     singles = tuple(fixed.variants[0] for fixed in build_fixed_scenarios())
     return Season(singles, build_test_set(seed, TRIALS))
 
 
 MAX_S = 3600.0
-"""By the clock, for all runs of a law; an ordinary one in plain Python takes some minutes."""
+"""Wall time of all runs of a law; a typical law in plain Python takes some minutes."""
 
-Go = Callable[[Scenario], LawRun]
-Tell = Callable[[int, int], None]
+RunScenario = Callable[[Scenario], LawRun]
+ReportProgress = Callable[[int, int], None]
+"""Receives (finished runs, all runs)."""
 
 
 class WorstRun(Checked):
-    """The worst of the runs on public scenarios."""
+    """The run with the largest error among the public scenarios."""
 
     scenario: str = quantity("", "Name of the scenario")
-    title: str = quantity("", "The scenario in words")
-    rms_deg: Number | None = quantity("°", "rms position error, None where the run ended early")
-    problem: str = quantity("", "Why it ended early, or empty")
+    title: str = quantity("", "Title of the scenario")
+    rms_deg: Number | None = quantity("°", "rms position error; None if the run ended early")
+    problem: str = quantity("", "Why the run ended early; empty if it did not")
 
 
 class Standing(Checked):
-    """What a law shows in a season. low, high: the 95 % interval of the success rate (Wilson)."""
+    """The result of a law in a season. low, high: 95 % interval of the success rate (Wilson)."""
 
-    success: Number = quantity("1", "Share of the trials that held", ge=0, le=1)
+    success: Number = quantity("1", "Success rate on the hidden trials", ge=0, le=1)
     low: Number = quantity("1", "Lower end of its 95 % interval", ge=0, le=1)
     high: Number = quantity("1", "Upper end of its 95 % interval", ge=0, le=1)
-    trials: Whole = quantity("", "How many trials there were", ge=1)
-    trials_held: Whole = quantity("", "Trials that held", ge=0)
-    trials_ended: Whole = quantity("", "Trials that ended early", ge=0)
+    trials: Whole = quantity("", "Number of trials", ge=1)
+    trials_held: Whole = quantity("", "Number of successful trials", ge=0)
+    trials_ended: Whole = quantity("", "Number of trials that ended early", ge=0)
     median_rms_deg: Number | None = quantity(
-        "°", "Median of the trials' rms position errors; None where that is a trial that ended"
+        "°", "Median of the trials' rms position errors; None if that trial ended early"
     )
     tick_us: Number | None = quantity(
-        "µs", "Median over the trials of a tick by the clock, with plant, sensors and, for a law in"
-        " a process of its own, the way there and back", ge=0,
+        "µs", "Wall time of a tick, median over the trials, with plant and sensors, and for an"
+        " isolated law with the communication", ge=0,
     )  # fmt: skip
-    worst: WorstRun = quantity("", "The worst of the runs on public scenarios")
+    worst: WorstRun = quantity("", "The run with the largest error among the public scenarios")
 
 
 class Measured(NamedTuple):
-    """A standing, and the worst run that it names."""
+    """A result, and the run that its `worst` describes."""
 
     standing: Standing
     worst: LawRun
@@ -87,14 +88,20 @@ class Measured(NamedTuple):
 
 def measure_standing(
     season: Season,
-    go: Go,
-    report: Tell = lambda done, total: None,
+    run_scenario: RunScenario,
+    report: ReportProgress = lambda done, total: None,
     is_cancelled: Callable[[], bool] = lambda: False,
 ) -> Measured | None:
-    """Put a law through a season; None where it was broken off.
+    """Run a law in all scenarios of a season; return None if cancelled.
 
-    go: its run of a scenario. report: is given how many runs are done, and of how many. Raises
-    `StateError` for a law that fails in the season's first run, or takes more than `MAX_S`.
+    Args:
+        season: The scenarios.
+        run_scenario: Runs the law in one scenario.
+        report: Receives (finished runs, all runs).
+        is_cancelled: Asked before each run.
+
+    Raises:
+        StateError: The law fails in the season's first run, or takes more than `MAX_S`.
     """
     found: dict[str, LawRun] = {}
     reported = {scenario.name for scenario in season.singles}
@@ -107,7 +114,7 @@ def measure_standing(
                 f"The law has taken {MAX_S:g} s for {len(found)} of {season.run_count} runs: it is"
                 " too slow for the leaderboard."
             )
-        run = go(scenario)
+        run = run_scenario(scenario)
         if not found and run.problem and run.tick_us is None:
             failure = f"The law fails in its first run: {run.problem}"
             raise StateError(failure + describe_output(run.output))

@@ -1,8 +1,8 @@
-"""The worst run of an entry, shown next to NDOBC: nothing that was submitted runs for it.
+"""Replay of an entry's worst run next to NDOBC, without executing submitted code.
 
-A law of the lab is simulated again. Of a submitted one its torques are kept, and the simulated
-plant gives the same samples for the same torques, bit for bit. The scenario is one of those that
-everybody knows, with no chance of the season in it.
+An installed law is simulated again. A submitted law is replaced by its saved torques: the simulated
+plant returns the same samples for the same torques, bit for bit. The scenario is a public one, so
+that nothing of the hidden trials is revealed.
 """
 
 from typing import NamedTuple
@@ -22,9 +22,9 @@ from svsa.teaching.leaderboard.board import Board, Entry
 
 
 class WorstReplay(NamedTuple):
-    """An entry's worst run. lanes: what controlled each; the first is the entry's law.
+    """The worst run of an entry. lanes: controller of each lane; the first is the entry's law.
 
-    alone: why there is but that one; "" where there are two.
+    alone: why there is only one lane; "" if there are two.
     """
 
     scenario: Scenario
@@ -34,7 +34,7 @@ class WorstReplay(NamedTuple):
 
 
 class KeptTorques:
-    """A `Controller` that gives what was given, one a tick; torque: N·m, (ticks, 2)."""
+    """A `Controller` that returns recorded torques, one per tick; torque: N·m, (ticks, 2)."""
 
     def __init__(self, torque: np.ndarray) -> None:
         self._left = iter(torque.tolist())
@@ -42,15 +42,15 @@ class KeptTorques:
     def __call__(
         self, time_s: float, reference: Reference, x: State, w: Disturbance
     ) -> tuple[float, float]:
-        """The next torque."""
+        """Return the next recorded torque."""
         u1, u2 = next(self._left)
         return u1, u2
 
 
 def replay_worst(board: Board, entry: Entry) -> WorstReplay:
-    """The worst run of an entry next to NDOBC, NDOBC's next to FL, or alone where that ends first.
+    """Simulate an entry's worst run next to NDOBC (NDOBC next to FL), or alone if that ends first.
 
-    Raises `StateError` where nothing is kept of a submitted law's.
+    Raises `StateError` if the torques of a submitted law are not saved.
     """
     scenario = find_scenario(entry.standing.worst.scenario)
     if entry.is_installed:

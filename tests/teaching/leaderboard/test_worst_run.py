@@ -132,10 +132,10 @@ def test_what_is_seen_has_nothing_of_the_seasons_chance(tmp_path):
 def test_of_what_is_not_kept_it_says_so(tmp_path):
     board = Board(tmp_path)
     entry = Entry.model_construct(key=digest_law(b"old"), name="Old")
-    with pytest.raises(StateError, match="nothing is kept"):
+    with pytest.raises(StateError, match="are not saved"):
         board.read_torques(entry)
     (board.folder / "torques" / entry.key).write_bytes(b"0123456")
-    with pytest.raises(StateError, match="nothing is kept"):
+    with pytest.raises(StateError, match="are not saved"):
         board.read_torques(entry)
 
 
