@@ -126,7 +126,7 @@ def build_app(
 
 
 def build_authentication(config: Settings, keys: ClassKeys | None = None) -> Authentication:
-    """How people come in, as it is configured."""
+    """Build the configured authentication."""
     if config.classroom:
         folder = find_data_folder()
         keys = keys or ClassKeys.open(folder)[0]
@@ -150,7 +150,7 @@ def open_lti(config: Settings) -> "LtiTool | None":
 
 
 def build_rates(config: Settings) -> Rates:
-    """How often people of a class may."""
+    """Build the rate limits of a class."""
     return Rates(
         {
             "joins": config.joins,
@@ -164,7 +164,7 @@ def build_rates(config: Settings) -> Rates:
 
 
 def build_queue(config: Settings) -> ControlQueue:
-    """The control of a class's shared session."""
+    """Build the control queue of a class's shared session."""
     return ControlQueue(
         SHARED_SESSION, lambda client: client == INSTRUCTOR.id, config.idle_operator_s
     )
@@ -172,7 +172,7 @@ def build_queue(config: Settings) -> ControlQueue:
 
 @contextlib.asynccontextmanager
 async def _live(app: FastAPI) -> AsyncIterator[None]:
-    """Start the sessions, and end them and their 3D views with the server."""
+    """Start the sessions; at the end stop them and their 3D views."""
     config: Settings = app.state.config
     shared = app.state.shared or build_shared_session(None, design=app.state.design)
     laboratory = Laboratory(

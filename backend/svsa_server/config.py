@@ -1,4 +1,4 @@
-"""Where and how the lab is served: read from SVSA_… variables, checked at the start."""
+"""Settings of the server, read from `SVSA_…` environment variables and checked at the start."""
 
 import ipaddress
 import re
@@ -156,7 +156,7 @@ class Settings(BaseSettings):
 
     @property
     def secret_text(self) -> str | None:
-        """The secret, or None where none is set (an empty one is none)."""
+        """Return the secret; None if it is unset or empty."""
         text = self.secret.get_secret_value() if self.secret else ""
         return text or None
 
@@ -172,13 +172,15 @@ class Settings(BaseSettings):
             raise ParameterError(Violation("--root-path", self.root_path, "", bound))
 
     def choose_host(self, host: str) -> str:
-        """The address for `host`; "auto" is every address, but only where not everyone gets in."""
+        """Return the address of `host`; "auto" is every address only if authentication is
+        required.
+        """
         if host != "auto":
             return host
         return "0.0.0.0" if self.secret_text or self.classroom else "127.0.0.1"  # noqa: S104
 
     def check_exposure(self, host: str) -> None:
-        """Raise `SecurityError` where other machines reach a lab without authentication."""
+        """Raise `SecurityError` if other machines reach a lab without authentication."""
         if self.classroom:
             if self.secret_text is not None:
                 raise SecurityError(

@@ -1,4 +1,4 @@
-"""Which refusal of the library and of the routing is which problem."""
+"""The mapping of errors of library and routing to problems of the API."""
 
 import contextlib
 import errno
@@ -35,7 +35,7 @@ _STORAGE_ERRORS = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EACC
 
 
 def install_error_handlers(app: FastAPI) -> None:
-    """Answer every refusal of the library and of the schemas as a `Problem`."""
+    """Answer every error of the library and of the schemas with a `Problem`."""
 
     @app.exception_handler(RequestValidationError)
     def refuse_request(request: Request, error: RequestValidationError) -> JSONResponse:
@@ -136,13 +136,13 @@ def _refuse_request(request: Request, error: RequestValidationError) -> JSONResp
 
 
 def _find_media_type(request: Request) -> str:
-    """Of the body that the route takes."""
+    """Return the media type of the body that the route takes."""
     field = getattr(request.scope.get("route"), "body_field", None)
     return getattr(getattr(field, "field_info", None), "media_type", "application/json")
 
 
 def _refuse_route(request: Request, error: HTTPException) -> JSONResponse:
-    """What the routing refuses, in the same shape; the headers, such as Allow, stay."""
+    """Answer errors of the routing in the same form; headers such as Allow stay."""
     path, status = request.url.path[:LONGEST_ECHO], error.status_code
     headers = error.headers
     if status == 404:

@@ -1,4 +1,4 @@
-"""What operations software reads: readiness, and metrics in the format of Prometheus."""
+"""Monitoring: readiness, and metrics in the Prometheus format."""
 
 import asyncio
 import logging
@@ -39,7 +39,7 @@ class DiskWatch:
         self.problem = ""
 
     async def run(self) -> None:
-        """Look every 30 s until cancelled."""
+        """Measure every 30 s until cancelled."""
         while True:
             await asyncio.to_thread(self.look)
             await asyncio.sleep(LOOK_S)

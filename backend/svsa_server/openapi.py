@@ -1,4 +1,4 @@
-"""The OpenAPI schema: what FastAPI knows of the routes, and what goes for all of them."""
+"""The OpenAPI schema: the routes, and additions that apply to all of them."""
 
 from collections.abc import Callable
 from functools import cache
@@ -81,7 +81,7 @@ def _build_schema(
 def _complete(
     schema: dict[str, Any], permissions: PermissionTable, needs_secret: bool
 ) -> dict[str, Any]:
-    """Add the secret, each operation's permission, and what the guard before it may answer."""
+    """Add authentication, each operation's permission, and the answers of the guard."""
     schema["components"]["securitySchemes"] = {
         SCHEME: {
             "type": "http",
@@ -123,7 +123,7 @@ def _complete_operation(operation: dict[str, Any], needs_secret: bool) -> None:
 
 
 def _link(operation: dict[str, Any]) -> None:
-    """Link what creates something to what reads it."""
+    """Link operations that create something to those that read it."""
     for status in ("200", "201"):
         answer = operation["responses"].get(status, {})
         body = answer.get("content", {}).get("application/json", {}).get("schema", {})
@@ -140,7 +140,7 @@ def _link(operation: dict[str, Any]) -> None:
 
 
 def _declare_key(operation: dict[str, Any]) -> None:
-    """Declare the idempotency key, and what is answered because of it."""
+    """Declare the idempotency key, and the answers that it adds."""
     operation.setdefault("parameters", []).append(
         {
             "name": KEY_HEADER,

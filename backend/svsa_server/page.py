@@ -49,7 +49,7 @@ class _Guide(StaticFiles):
 
 
 def build_page_routes() -> list[BaseRoute]:
-    """The page, the documentation, the icon and what they load, as Vite built them."""
+    """Build the routes of the page, the documentation, the icon and their files."""
     return [
         Route("/", _serve_index),
         Route("/icon.svg", _serve_icon),

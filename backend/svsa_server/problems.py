@@ -1,4 +1,4 @@
-"""Refusals on the wire: problem details (RFC 9457), with name, value, unit and bound."""
+"""Problem details of rejected requests (RFC 9457), with name, value, unit and bound."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -50,11 +50,11 @@ TITLES = {
 
 
 class UnknownError(SvsaError):
-    """Something was named that does not exist here."""
+    """A thing that does not exist was named."""
 
 
 class ChangedError(SvsaError):
-    """What was to be changed has been changed meanwhile; the other client's value stays."""
+    """The thing was changed by another client meanwhile; that change stays."""
 
 
 class NotYoursError(SvsaError):
@@ -130,7 +130,7 @@ def answer_problem(
 
 
 def answer_violations(violations: Sequence[Violation], place: str = "") -> JSONResponse:
-    """The answer that names every refused value. place: file and lines where they stand, or ""."""
+    """Build the answer that names every rejected value. place: file and lines, or ""."""
     detail = " ".join(violation.message for violation in violations)
     detail = f"{place}: {detail}" if place else detail
     return answer_problem(422, "out_of_range", detail, violations=violations)
@@ -150,7 +150,7 @@ def build_violation(violation: Violation) -> ViolationModel:
 
 
 def _make_safe(value: Any) -> Any:
-    """A value that JSON can hold; a long or odd one as a short text."""
+    """Convert a value for JSON; a long or unsupported one becomes a short text."""
     if value is None or (isinstance(value, bool | int) and abs(value) < 2**53):
         return value
     if isinstance(value, float) and math.isfinite(value):

@@ -1,4 +1,4 @@
-"""The server around the application: it answers and ends even if a session blocks all sessions.
+"""The server around the application: it answers and ends even if a session blocks.
 
 While the sessions respond, every call is passed to them. If they are silent, this event loop
 answers: health and the quick stop almost at once, everything else with 503.
@@ -118,7 +118,7 @@ class ResponsiveApp:
         return answer_problem(503, "silent", detail, headers)
 
     async def _live(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Start the application, and end it within `LONGEST_END_S`, also if it is blocked."""
+        """Start the application; end it within `LONGEST_END_S`, even if it is blocked."""
         ending_s = math.inf
 
         async def receive_ending() -> Message:
@@ -147,7 +147,7 @@ class ResponsiveApp:
 
 
 def _is_urgent(scope: Scope) -> bool:
-    """Whether the sessions are waited for only shortly: for health and the quick stop."""
+    """Whether the application gets only a short time: for health and the quick stop."""
     path, method = find_path(scope), scope.get("method")
     if path == HEALTH:
         return method in ("GET", "HEAD")
@@ -155,5 +155,5 @@ def _is_urgent(scope: Scope) -> bool:
 
 
 async def _find_owner(scope: Scope, kind: Kind, name: str) -> Owner:
-    """The quick stop names the shared session only, which everybody sees."""
+    """Return the owner for a quick stop: of the shared session, which all users see."""
     return Owner("", is_shown=True)

@@ -45,12 +45,14 @@ class AuditLog:
         self._listener.start()
 
     def write(self, **line: Any) -> None:
-        """Add a line; what may change between versions is only added."""
+        """Add an entry. Later versions may add fields, and never rename or remove one."""
         now = datetime.now(UTC).isoformat(timespec="milliseconds")
         self._logger.info("%s", json.dumps({"time": now} | line, ensure_ascii=False))
 
     def catch_up(self) -> None:
-        """Wait until all that was added before is in the file: in a thread, not the event loop."""
+        """Wait until all earlier entries are in the file; call it in a thread, not the event
+        loop.
+        """
         with self._turn:
             # `stop` returns once the queue is empty.
             self._listener.stop()
@@ -64,13 +66,15 @@ class AuditLog:
 
 
 class Auditor:
-    """ASGI middleware that notes what changes something, done or refused, before it is answered."""
+    """ASGI middleware that logs each state-changing request, done or rejected, before the
+    answer.
+    """
 
     def __init__(self, app: ASGIApp, log: AuditLog, permissions: PermissionTable) -> None:
         self._app, self._log, self._permissions = app, log, permissions
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Hand the request on, and note what came of it."""
+        """Pass the request on, and log its result."""
         if scope["type"] != "http" or scope["method"] not in CHANGING:
             await self._app(scope, receive, send)
             return

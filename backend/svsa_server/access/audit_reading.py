@@ -1,4 +1,4 @@
-"""The audit log read again: who did what, the newest first, in a worker process."""
+"""Read the audit log, newest first, in a worker process."""
 
 import json
 import re
@@ -16,7 +16,7 @@ _LONGEST_LINE = 20_000
 
 
 class Operation(NamedTuple):
-    """What is called by a method at the paths of a pattern: its kind, and its name in words."""
+    """An operation of the API by method and path pattern: its kind and its title."""
 
     method: str
     pattern: str
@@ -25,7 +25,7 @@ class Operation(NamedTuple):
 
 
 class Question(NamedTuple):
-    """Which lines are asked for; empty or None is any.
+    """Which entries to read; empty or None selects any.
 
     person: an id. kind: of an `Operation`. refused: whether it was. until: a time of the log, the
     newest one to return, so that pages stay the same while lines are added.
@@ -40,7 +40,7 @@ class Question(NamedTuple):
 
 
 def list_operations(schema: dict[str, Any]) -> list[Operation]:
-    """Every operation of an OpenAPI schema that changes something, by its first tag."""
+    """List every state-changing operation of an OpenAPI schema, by its first tag."""
     return [
         Operation(
             method.upper(),
@@ -55,7 +55,7 @@ def list_operations(schema: dict[str, Any]) -> list[Operation]:
 
 
 def read_audit(folder: Path, operations: list[Operation], asked: Question) -> dict[str, Any]:
-    """A page of the log in this folder, and who and which kinds occur up to its newest line."""
+    """Read a page of the log in this folder, with the users and kinds that occur in it."""
     known: dict[tuple[str, str], Operation | None] = {}
     people: dict[str, str] = {}
     kinds: set[str] = set()
@@ -96,7 +96,7 @@ def report(
     operations: list[Operation],
     known: dict[tuple[str, str], Operation | None],
 ) -> dict[str, Any]:
-    """A line as people read it. known: what calls were found to be, kept from line to line."""
+    """Format an entry for display. known: cache of resolved requests."""
     status, problem = line.get("status"), line.get("problem")
     if "method" in line:
         call = line["method"], line["path"]
@@ -132,7 +132,7 @@ def _find_operation(method: str, path: str, operations: list[Operation]) -> Oper
 
 
 def read_backwards(folder: Path) -> Iterator[dict[str, Any]]:
-    """The lines, the newest first, of every file that is kept; what is no line is left out."""
+    """Yield the lines of every log file, newest first; invalid lines are skipped."""
     files = [folder / FILE, *sorted(folder.glob(f"{FILE}.*"), key=_count_aside)]
     for path in files:
         try:
@@ -149,6 +149,6 @@ def read_backwards(folder: Path) -> Iterator[dict[str, Any]]:
 
 
 def _count_aside(path: Path) -> int:
-    """How often a file was set aside: 1 is the newest of those."""
+    """Return the number of rotations of a file: 1 is the newest rotated file."""
     number = path.suffix.removeprefix(".")
     return int(number) if number.isdecimal() else 0

@@ -25,7 +25,7 @@ AuthenticationKind = Literal["open", "secret", "class"]
 
 
 class Authentication(Protocol):
-    """Says who calls. kind: how one comes in.
+    """Identifies the caller of a request. kind: the way of authentication.
 
     patience: delays the answer to a wrong secret.
     """
@@ -34,20 +34,20 @@ class Authentication(Protocol):
     patience: "Patience"
 
     def describe_needed(self, headers: Headers) -> tuple[str, str]:
-        """The problem for an unknown caller, kind and text."""
+        """The problem for an unauthenticated caller: its kind and its text."""
         ...
 
     def admit(self, headers: Headers) -> Person | None:
-        """Who calls, or None for a stranger."""
+        """Return the caller, or None if unauthenticated."""
         ...
 
     def log_in(self, secret: str) -> str | None:
-        """The cookie for the right secret or instructor token; None for any other."""
+        """Return the cookie for the right secret or instructor token; None for any other."""
         ...
 
 
 class Patience:
-    """Delays answers to wrong secrets: those of one address come one by one, half a second each.
+    """Delays answers to wrong secrets: half a second each, one at a time per address.
 
     Each address has a lock of its own, so that guesses from one do not delay answers to another.
     """
@@ -57,7 +57,7 @@ class Patience:
         self._failures: WeakValueDictionary[str, asyncio.Lock] = WeakValueDictionary()
 
     async def wait(self, address: str) -> None:
-        """Wait until it is the turn of this wrong answer.
+        """Wait for this wrong answer's delay.
 
         Args:
             address: Network address of the client.
@@ -76,15 +76,15 @@ class OpenAuthentication:
         self.patience = Patience()
 
     def describe_needed(self, headers: Headers) -> tuple[str, str]:
-        """Nothing: there are no strangers."""
+        """Return nothing: every caller is authenticated."""
         return "", ""
 
     def admit(self, headers: Headers) -> Person | None:
-        """Everybody."""
+        """Admit every caller."""
         return EVERYBODY
 
     def log_in(self, secret: str) -> str | None:
-        """Everyone is in already."""
+        """Return no cookie: every caller is authenticated."""
         return ""
 
 
@@ -99,17 +99,17 @@ class SecretAuthentication:
         self.patience = Patience()
 
     def describe_needed(self, headers: Headers) -> tuple[str, str]:
-        """The secret."""
+        """Ask for the secret."""
         return "secret_needed", "This lab needs its shared secret (bearer token or login)."
 
     def admit(self, headers: Headers) -> Person | None:
-        """Everybody who knows the secret."""
+        """Admit every caller who sends the secret."""
         if hmac.compare_digest(_read_cookie(headers).encode(), self._cookie.encode()):
             return EVERYBODY
         return EVERYBODY if self.log_in(read_bearer(headers)) is not None else None
 
     def log_in(self, secret: str) -> str | None:
-        """The cookie in place of the secret."""
+        """Return a cookie that replaces the secret."""
         return self._cookie if hmac.compare_digest(secret.encode(), self._secret) else None
 
 
@@ -128,7 +128,9 @@ class ClassAuthentication:
         self._hashing = ThreadPoolExecutor(1, "class code")
 
     def admit(self, headers: Headers) -> Person | None:
-        """The person of the cookie or token; None if it is not signed or the person was removed."""
+        """Return the person of the cookie or token; None if unsigned, or if the person was
+        removed.
+        """
         carried, membership = self._read(headers)
         if carried == INSTRUCTOR or self.keys.is_instructor(read_bearer(headers)):
             person = INSTRUCTOR
@@ -148,27 +150,27 @@ class ClassAuthentication:
         return membership is not None and membership.is_ended
 
     def describe_needed(self, headers: Headers) -> tuple[str, str]:
-        """That one has to join, or was removed."""
+        """Ask the caller to join, or report the removal."""
         if self.is_removed(headers):
             return "removed", REMOVED
         return "join_needed", "This lab is a class: join it with your name and the class code."
 
     def log_in(self, secret: str) -> str | None:
-        """The instructor's cookie for the instructor token."""
+        """Return the instructor's cookie for the instructor token."""
         return self.keys.sign(INSTRUCTOR) if self.keys.is_instructor(secret.strip()) else None
 
     async def check_code(self, code: str) -> bool:
-        """Whether it is the class code."""
+        """Whether this is the class code."""
         return await self._hash(self.keys.is_code, code)
 
     async def join(self, name: str, role: Role) -> Person:
-        """A new person of the class."""
+        """Add a new person to the class."""
         person = self.people.join(name, role)
         await asyncio.to_thread(self.members.keep, Membership(person))
         return person
 
     async def rejoin(self, rejoin_code: str) -> Membership | None:
-        """Whose rejoin code it is; their name may have got a number meanwhile."""
+        """Return the person of a rejoin code; the name may have got a number meanwhile."""
         hashed = await self._hash(self.keys.hash_rejoin_code, rejoin_code)
         found = self.members.find_returning(hashed)
         if found is None or found.is_ended:
@@ -180,7 +182,7 @@ class ClassAuthentication:
         return found
 
     async def renew_rejoin_code(self, person: Person) -> str | None:
-        """A new code by which this person comes back, the one before is worth nothing.
+        """Create a rejoin code for this person; the previous one becomes invalid.
 
         None for who has no membership, or carries less than its role.
         """
@@ -193,14 +195,14 @@ class ClassAuthentication:
         return code
 
     async def set_removed(self, person_id: str, is_removed: bool) -> Person:
-        """Remove a person at once, or let them in again; raises `UnknownError`."""
+        """Remove a person at once, or restore one; raises `UnknownError`."""
         person = await asyncio.to_thread(self.members.set_ended, person_id, is_removed)
         if is_removed:
             self.people.dismiss(person)
         return person
 
     def _read(self, headers: Headers) -> tuple[Person | None, Membership | None]:
-        """Who was signed, and what the membership is by now."""
+        """Return the signed person with the present membership."""
         carried = self.keys.read_person(read_bearer(headers) or _read_cookie(headers))
         return carried, carried and self.members.find(carried.id)
 

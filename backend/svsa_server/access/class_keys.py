@@ -36,7 +36,7 @@ class ShownOnce(NamedTuple):
 
 
 class ClassKeys:
-    """What proves who is who, in a file that only this user reads. Raises `SecurityError`."""
+    """The secrets of a class, in a file that only this account reads. Raises `SecurityError`."""
 
     def __init__(self, path: Path) -> None:
         self._path = path
@@ -96,11 +96,13 @@ class ClassKeys:
         return _stretch(code, self._key.encode())
 
     def sign(self, person: Person) -> str:
-        """What this person carries from now on."""
+        """Sign a person's id for a cookie or token."""
         return str(self._signer.dumps([person.id, person.name, person.role.word]))
 
     def read_person(self, signed: str) -> Person | None:
-        """Who carries this; None where this class has not signed it, or too long ago."""
+        """Return the person of a signed token; None if this class did not sign it, or it
+        expired.
+        """
         if not signed or len(signed) > LONGEST_SIGNED:
             return None
         try:
@@ -111,7 +113,7 @@ class ClassKeys:
 
 
 def draw_rejoin_code() -> str:
-    """A code by which one person comes back: 59 random bits."""
+    """Draw a rejoin code for one person: 59 random bits."""
     return _draw_code(_RETURN_CODE_LENGTH)
 
 
@@ -138,7 +140,7 @@ def _digest(token: str) -> bytes:
 
 
 def _write(path: Path, kept: dict[str, str]) -> None:
-    """Whole or not at all, and readable by this user alone."""
+    """Write a file atomically, readable by this account only."""
     partly = path.with_suffix(".part")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)

@@ -1,4 +1,4 @@
-"""Connections of clients that stop in the middle: of a request, or of reading what they are sent.
+"""Time limits for clients that stop in the middle of a request or stop reading.
 
 They block no other client, but each is a socket and what was to be sent, kept for as long as the
 other machine says that it lives. uvicorn closes such a WebSocket only once all was sent.
@@ -12,7 +12,7 @@ from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIO
 
 
 class BoundHttp(H11Protocol):
-    """HTTP whose requests arrive whole within the silence that a WebSocket may keep."""
+    """HTTP that closes connections whose requests do not arrive completely in time."""
 
     _overdue: asyncio.TimerHandle | None = None
 
@@ -22,12 +22,12 @@ class BoundHttp(H11Protocol):
         self._watch()
 
     def data_received(self, data: bytes) -> None:
-        """Read on, and see whether a request is whole."""
+        """Read data, and check whether the request is complete."""
         super().data_received(data)
         self._watch()
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """Nothing more is waited for."""
+        """Cancel the timer."""
         self._stop_watching()
         super().connection_lost(exc)
 
@@ -53,6 +53,6 @@ class BoundWebSocket(WebSocketsSansIOProtocol):
     """
 
     def keepalive_timeout(self) -> None:
-        """Let go of a client that does not answer."""
+        """Disconnect a client that does not answer a ping."""
         super().keepalive_timeout()
         self.transport.abort()

@@ -1,4 +1,4 @@
-"""ASGI middleware before all else: where from, under which name, how long, who, and may they.
+"""ASGI middleware in front of the application: origin, host name, size, identity, permission.
 
 Without a secret and without a class the lab listens on loopback only, and a request must name a
 loopback host (a web site that points its own name at 127.0.0.1 does not get in).
@@ -45,7 +45,7 @@ class Refusal(Exception):  # noqa: N818
 
 
 class AccessGuard:
-    """Refuses what may not come in, and says in `scope[PERSON]` who calls.
+    """Rejects requests without permission, and stores the caller in `scope[PERSON]`.
 
     permissions: of the routes behind it. hosts: names that it answers to besides its own.
     find_owner: looks up the owner of an id that a request gives (see `owned`). rates: how often
@@ -70,7 +70,7 @@ class AccessGuard:
         self._permissions, self._rates = permissions, rates
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Answer a refusal, or hand the request on."""
+        """Reject the request, or pass it on."""
         if scope["type"] not in ("http", "websocket"):
             await self._app(scope, receive, send)
             return
@@ -165,7 +165,7 @@ class AccessGuard:
 
 
 def read_person(scope: Scope) -> Person:
-    """The caller, as the guard has proved it."""
+    """Return the caller that the guard has authenticated."""
     return scope.get(PERSON) or EVERYBODY
 
 
@@ -180,7 +180,7 @@ def find_path(scope: Scope) -> str:
 
 
 def _bound_body(scope: Scope, receive: Receive) -> Receive:
-    """`receive` for a body that came without a length: refused once it is too large."""
+    """Wrap `receive` for a body without a length: rejected once it is too large."""
     if scope["type"] != "http":
         return receive
     received = 0

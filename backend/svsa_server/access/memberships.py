@@ -1,4 +1,4 @@
-"""The memberships of a class: who has joined, whom the instructor removed, and how one comes back.
+"""The memberships of a class: members, removed people, and rejoin codes.
 
 What people carry names a membership, and is worth what that is at each request: one that was ended
 is worth nothing from then on, also after a restart. Read from memory, written to a file at once.
@@ -25,7 +25,7 @@ _TABLE = (
 
 
 class Membership(NamedTuple):
-    """A person of the class. return_hash: of the code by which they come back, if they have one."""
+    """A person of the class. return_hash: hash of the person's rejoin code, if there is one."""
 
     person: Person
     return_hash: bytes | None = None
@@ -33,7 +33,7 @@ class Membership(NamedTuple):
 
 
 class Memberships:
-    """Those in a file that only this user reads, made where there is none; thread-safe.
+    """The memberships, in a file that only this account reads; thread-safe.
 
     Raises `SecurityError` where the file cannot be read or written.
     """
@@ -49,22 +49,22 @@ class Memberships:
         }
 
     def find(self, person_id: str) -> Membership | None:
-        """The membership of this id, ended or not."""
+        """Find the membership of this id, removed or not."""
         return self._members.get(person_id)
 
     def find_returning(self, return_hash: bytes) -> Membership | None:
-        """Whose code to come back has this hash."""
+        """Find the membership whose rejoin code has this hash."""
         with self._lock:
             known = [*self._members.values()]
         return next((one for one in known if one.return_hash == return_hash), None)
 
     def list_ended(self) -> list[Person]:
-        """Whom the instructor has removed, in the order of their names."""
+        """List the removed people, sorted by name."""
         ended = [one.person for one in self._members.values() if one.is_ended]
         return sorted(ended, key=lambda person: (person.name.casefold(), person.id))
 
     def keep(self, membership: Membership) -> None:
-        """Keep a new one, or what has changed of one. Raises `StateError` where the class is full.
+        """Save a new or changed membership. Raises `StateError` if the class is full.
 
         On the disk before it holds, so that no restart takes it back.
         """
@@ -83,7 +83,7 @@ class Memberships:
             self._members[person.id] = membership
 
     def set_ended(self, person_id: str, is_ended: bool) -> Person:
-        """End a membership, or take that back; raises `UnknownError` where there is none."""
+        """Remove a person or restore one; raises `UnknownError` if there is none."""
         found = self._members.get(person_id)
         if found is None:
             raise UnknownError(f"No member of this class has the id {person_id[:80]!r}.")

@@ -1,4 +1,4 @@
-"""Where a request comes from, and under which name it came: no page of another site gets in.
+"""Origin and host name of a request: pages of other sites are rejected.
 
 A site may point its own name at this machine, and its pages then have the same origin as the lab.
 So the lab answers to names that no other site can have: addresses, names of this machine, and
@@ -33,7 +33,7 @@ def is_same_origin(scope: Scope) -> bool:
 
 
 def read_host(scope: Scope) -> str:
-    """The name that a request came under, without its port; empty where it has none."""
+    """Return the host name of a request without its port; empty if it has none."""
     try:
         return urlsplit("//" + Headers(scope=scope).get("host", "")).hostname or ""
     except ValueError:
@@ -41,7 +41,7 @@ def read_host(scope: Scope) -> str:
 
 
 def is_own_name(host: str, reported: frozenset[str]) -> bool:
-    """Whether a lab beyond loopback answers to this name. reported: names that it was given."""
+    """Whether a lab that other machines reach serves this name. reported: its configured names."""
     if is_loopback(host) or host.lower() in reported | _find_own_names():
         return True
     try:
@@ -52,7 +52,7 @@ def is_own_name(host: str, reported: frozenset[str]) -> bool:
 
 
 def find_outward_address() -> str | None:
-    """The machine's address in its network; None where it is in none. Nothing is sent."""
+    """Find the machine's address in its network; None if it is in none. Nothing is sent."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as authentication:
         try:
             authentication.connect(_ELSEWHERE)

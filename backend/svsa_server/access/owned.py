@@ -1,4 +1,4 @@
-"""Ids of what belongs to a person: marked by type, and checked in one place.
+"""Ids of things with an owner: marked by type, checked in one place.
 
 Every id that a request gives, in its path, query or body, has a type that is marked as `Owned`.
 Reading such an id notes a claim. `settle_claims` checks all claims before any route uses an id.
@@ -21,7 +21,9 @@ EXTENSION = "x-owned"
 
 
 class Owner(NamedTuple):
-    """Owner of a thing. id: of the person; empty: everybody. is_shown: all people may read it."""
+    """The owner of a thing. id: of the person; empty: all users. is_shown: all users may read
+    it.
+    """
 
     id: str
     is_shown: bool = False
@@ -75,7 +77,7 @@ class Claims:
         self.pending: list[tuple[Owned, str]] = []
 
     async def settle(self) -> None:
-        """Check what is pending.
+        """Check the pending claims.
 
         Raises:
             UnknownError: There is no such thing, or the caller may not read it. Both have the

@@ -1,4 +1,4 @@
-"""Who is here: the people of a class, as the server has heard them. Times are monotonic, s."""
+"""The users of a class who were active lately. Times are monotonic, s."""
 
 import asyncio
 import contextlib
@@ -15,7 +15,7 @@ MAX_KNOWN = 1000
 
 
 class People:
-    """The last people who called; `clock` says when."""
+    """The users with recent requests; `clock` returns the time."""
 
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
         self._clock = clock
@@ -23,11 +23,11 @@ class People:
         self._connected: defaultdict[str, set[asyncio.Event]] = defaultdict(set)
 
     def join(self, name: str, role: Role) -> Person:
-        """A new person; a name that is in use already gets a number."""
+        """Add a new person; a name that is in use gets a number."""
         return self.come(Person(f"p-{secrets.token_hex(6)}", name, role))
 
     def come(self, person: Person) -> Person:
-        """A person comes, or comes back, under a name that is not in use."""
+        """Register a person, new or returning, under a name that is not in use."""
         name = person.name
         taken = {one.name for one in self.list_here() if one.id != person.id}
         numbered = (f"{name} ({number})" for number in itertools.count(2))
@@ -37,19 +37,19 @@ class People:
         return person
 
     def hear(self, person: Person) -> None:
-        """A person has called."""
+        """Note a request of a person."""
         self._heard[person.id] = (person, self._clock())
         self._heard.move_to_end(person.id)
         if len(self._heard) > MAX_KNOWN:
             self._heard.popitem(last=False)
 
     def forget(self, person: Person) -> None:
-        """A person has left."""
+        """Remove a person who has left."""
         self._heard.pop(person.id, None)
 
     @contextlib.contextmanager
     def connected(self, person: Person) -> Iterator[asyncio.Event]:
-        """While a connection of this person is open; set once it is to be closed."""
+        """A context while a connection of this person is open; its event is set to close it."""
         dismissed = asyncio.Event()
         self._connected[person.id].add(dismissed)
         try:
@@ -60,18 +60,18 @@ class People:
                 del self._connected[person.id]
 
     def dismiss(self, person: Person) -> None:
-        """Forget a person, and have their connections closed."""
+        """Remove a person, and close their connections."""
         self.forget(person)
         for dismissed in self._connected.get(person.id, ()):
             dismissed.set()
 
     def find(self, person_id: str) -> Person | None:
-        """The person of this id, if heard since the server began."""
+        """Find the person of this id, if active since the server started."""
         known = self._heard.get(person_id)
         return known and known[0]
 
     def list_here(self) -> list[Person]:
-        """Who was heard within a minute, in the order of their names."""
+        """List who was active within the last minute, sorted by name."""
         since = self._clock() - HERE_S
         here = [person for person, heard in self._heard.values() if heard >= since]
         return sorted(here, key=lambda person: (person.name.casefold(), person.id))

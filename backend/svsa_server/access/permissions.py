@@ -1,4 +1,4 @@
-"""Permissions: each route states the least role that may call it, and one table holds all of them.
+"""Permissions: each route declares the lowest role that may call it; one table has them all.
 
 `allow` declares a permission at the function of a route. `PermissionTable` is built from the routes
 of the application and rejects a route without a permission, so the server does not start with one.

@@ -28,7 +28,7 @@ _WORDS: dict[Kind, str] = {"codes": "wrong class codes of a name", "logins": "wr
 
 
 def find_kind(method: str, path: str) -> Kind | None:
-    """What a request counts as; reading counts as nothing, and nor does stopping."""
+    """Return what a request counts as; reading and stopping are not limited."""
     whole, last = f"{method} {path}", f"{method} /{path.rpartition('/')[2]}"
     if method not in CHANGING or last in _STOPS or whole in _COUNTED_WHEN_WRONG:
         return None
@@ -36,20 +36,20 @@ def find_kind(method: str, path: str) -> Kind | None:
 
 
 class Rates:
-    """What everybody has done lately. rates: of each kind, as "50/second"."""
+    """The recent requests of all users. rates: of each kind, as "50/second"."""
 
     def __init__(self, rates: dict[Kind, str]) -> None:
         self._rates: dict[Kind, RateLimitItem] = {kind: parse(rate) for kind, rate in rates.items()}
         self._limiter = MovingWindowRateLimiter(MemoryStorage())
 
     def count(self, kind: Kind, who: str) -> int | None:
-        """Count one more; where it is one too many, in how many seconds it is not, at least 1."""
+        """Count a request; return 0, or after how many seconds it would be allowed, at least 1."""
         if self._limiter.hit(self._rates[kind], kind, who):
             return None
         return self._find_wait(kind, who)
 
     def check(self, kind: Kind, who: str) -> int | None:
-        """Count nothing; return in how many seconds one more is allowed, None if it is now."""
+        """Return after how many seconds a request is allowed, without counting; None if now."""
         if self._limiter.test(self._rates[kind], kind, who):
             return None
         return self._find_wait(kind, who)

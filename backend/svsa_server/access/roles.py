@@ -7,7 +7,7 @@ RoleName = Literal["observer", "operator", "instructor"]
 
 
 class Role(IntEnum):
-    """What a person may do; each role may do what those before it may.
+    """The role of a user; each role includes the permissions of those before it.
 
     An observer watches, measures and stops. An operator also asks for control of the shared
     session, and has private sessions and runs. An instructor takes and locks control, and sees
@@ -20,7 +20,7 @@ class Role(IntEnum):
 
     @property
     def word(self) -> RoleName:
-        """As it is written on the wire."""
+        """The role's name in the API."""
         return _WORDS[self]
 
 
@@ -32,7 +32,7 @@ _WORDS: dict[Role, RoleName] = {
 
 
 class Person(NamedTuple):
-    """Who calls, as the server has proved it.
+    """The authenticated caller.
 
     id: what sessions and runs know their maker by; empty where the lab knows no persons. name: as
     all users see.
@@ -43,11 +43,13 @@ class Person(NamedTuple):
     role: Role
 
     def may_see(self, owner: str) -> bool:
-        """Whether what belongs to `owner` may be seen; an empty owner is everybody."""
+        """Whether this person may read what `owner` owns; an empty owner is all users."""
         return owner in ("", self.id) or self.role is Role.INSTRUCTOR
 
     def may_change(self, owner: str) -> bool:
-        """Whether a thing of `owner` may be changed; things without owner are the instructor's."""
+        """Whether this person may change what `owner` owns; without owner only an instructor
+        may.
+        """
         return owner == self.id or self.role is Role.INSTRUCTOR
 
 

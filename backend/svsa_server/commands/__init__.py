@@ -1,1 +1,1 @@
-"""`svsa serve`, `excite`, `openapi`: what is started from the shell."""
+"""The commands `svsa serve`, `svsa excite` and `svsa openapi`."""

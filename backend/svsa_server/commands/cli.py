@@ -59,7 +59,7 @@ def excite(
     session: Annotated[str, typer.Option(help="Session to excite.")] = "lab",
     name: Annotated[str, typer.Option(help="Name of the run.")] = "Identification",
 ) -> None:
-    """Play and record on a running lab the excitation that identify takes, 32 s.
+    """Play the excitation for `svsa identify` on a running lab, 32 s, and record it.
 
     A lab with a secret gets it from SVSA_SECRET; a bench is to be armed before.
     """

@@ -1,4 +1,4 @@
-"""Unused laws are compiled in parallel with the server: choosing one then takes no time."""
+"""Compile the installed laws in the background, so that selecting one takes no time."""
 
 import subprocess
 import sys
@@ -23,7 +23,7 @@ def _is_compiled(control: Any) -> bool:
 
 @contextmanager
 def compile_laws() -> Iterator[None]:
-    """Have every installed law compiled into the cache meanwhile, in a process of its own.
+    """Compile every installed law into the cache, in a separate process.
 
     It has the least priority, and ends with what is done here at the latest.
     """

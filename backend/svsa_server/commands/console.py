@@ -1,4 +1,4 @@
-"""The console that the lab was started from: a key on it stops a bench."""
+"""The console of the lab: a key on it stops a bench."""
 
 import contextlib
 import os

@@ -1,4 +1,4 @@
-"""`svsa excite`: the identification excitation, played by a running lab, as a script does it."""
+"""`svsa excite`: play the identification excitation on a running lab."""
 
 import time
 
@@ -12,7 +12,7 @@ _POLL_S = 0.2
 
 
 def play_excitation(url: str, session: str, name: str) -> str:
-    """Play it, wait until it is recorded, and print the run's id, which is returned.
+    """Play the excitation, wait for its record, print the run's id and return it.
 
     Raises what the lab's refusal is in the library, and `LabError` where it is broken off.
     """

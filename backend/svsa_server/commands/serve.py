@@ -45,7 +45,7 @@ class ListenError(SvsaError):
 
 
 def bind(host: str, port: int) -> socket.socket:
-    """A bound socket; a small send buffer, so that a slow client is noticed soon.
+    """Bind a socket with a small send buffer, so that slow clients are detected early.
 
     Raises `ListenError` with the reason and what to do.
     """
@@ -64,7 +64,7 @@ def bind(host: str, port: int) -> socket.socket:
 
 
 class AnnouncedServer(uvicorn.Server):
-    """A server that says where it is once it answers there.
+    """A server that prints its address once it accepts requests.
 
     What is there by then stays to the end: Python, which would look through it for circles again
     and again, 0.2 s a time in which nothing else goes on, does so from then on only, and leaves
@@ -91,7 +91,7 @@ def run_server(
     course: Path | None = None,
     root_path: str = "",
 ) -> None:
-    """Serve the lab until a signal ends it, with a bench where its file is given.
+    """Serve the lab until a signal ends it, with a bench if its file is given.
 
     Raises `SecurityError`, `ListenError`, `ParameterError` for a wrong bench file or exercise, and
     `StateError` without shared memory. A bench is opened while the lab is served already, see
@@ -201,7 +201,7 @@ def claim_data_folder(folder: Path) -> IO[str] | None:
 
 
 def write_json_logs() -> None:
-    """Have all logs written to standard error as JSON, one object a line."""
+    """Write all logs to standard error as JSON, one object per line."""
     fields = {"asctime": "time", "levelname": "level", "name": "logger"}
     handler = logging.StreamHandler()
     handler.setFormatter(
@@ -211,12 +211,12 @@ def write_json_logs() -> None:
 
 
 def print_line(line: str) -> None:
-    """Print a line on the console that the lab was started from."""
+    """Print a line on the lab's console."""
     Console(soft_wrap=True).print(line, highlight=False, markup=False)
 
 
 def _bound_exit(is_stuck: bool) -> None:
-    """Have the process end, also if one of its threads never does."""
+    """End the process even if one of its threads does not end."""
     if is_stuck:
         os._exit(1)
     exiting = threading.Timer(LONGEST_EXIT_S, os._exit, (1,))
@@ -239,7 +239,7 @@ def describe_class(reported: ShownOnce | None) -> str:
 
 
 def describe_address(asked: str, host: str, port: int) -> str:
-    """Where the lab is, and who reaches it there."""
+    """Describe the lab's address, and who can reach it."""
     everywhere = host in EVERYWHERE
     name = "localhost" if everywhere else host
     reach = " and on every address of this machine" if everywhere else ""

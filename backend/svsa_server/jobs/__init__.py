@@ -1,1 +1,1 @@
-"""Long work in parallel with the live sessions: queue, progress, cancelling."""
+"""Long-running jobs in parallel with the live sessions: queue, progress, cancellation."""

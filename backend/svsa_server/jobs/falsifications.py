@@ -1,4 +1,4 @@
-"""The falsifier as a job: the worst so far and the scenario found; laws run through a scenario."""
+"""The falsifier as a job: worst case so far, scenario found, and runs of laws in a scenario."""
 
 import json
 from pathlib import Path
@@ -31,8 +31,8 @@ class Asked(NamedTuple):
 
 
 def search(folder: JobFolder, asked: Asked) -> bool:
-    """Search in a worker, and put the law and another one through what was found; whether all of
-    the search was done.
+    """Search in a worker, then run laws in the scenario found; return whether the search was
+    complete.
     """
 
     def keep_worst(scenario: LoadScenario) -> None:
@@ -58,19 +58,19 @@ def search(folder: JobFolder, asked: Asked) -> bool:
 
 
 def read_worst(folder: Path) -> LoadScenario | None:
-    """The worst that was found so far, as it was found."""
+    """Read the worst case so far, before simplification."""
     path = folder / _WORST
     return read_scenario(path) if path.exists() else None
 
 
 def find_file(folder: Path) -> Path | None:
-    """The file of the scenario, once the search has ended with one."""
+    """Find the file of the scenario once the search has ended with one."""
     path = folder / _SCENARIO
     return path if path.exists() else None
 
 
 class Found(NamedTuple):
-    """The simplest that still does it, how it became that, and what came of each law in it."""
+    """The simplest scenario, the steps of its simplification, and each law's outcome in it."""
 
     scenario: LoadScenario
     steps: list[str]
@@ -78,7 +78,7 @@ class Found(NamedTuple):
 
 
 def read_found(folder: Path) -> Found | None:
-    """What a search found, once it has ended."""
+    """Read the result of a finished search."""
     path = find_file(folder)
     if path is None:
         return None
@@ -95,7 +95,7 @@ _TORQUES, _ERRORS = 3, 2
 
 
 def run_laws(scenario: LoadScenario, laws: tuple[str, ...]) -> dict[str, Any]:
-    """Of each law what came of it and its curves, as JSON."""
+    """Return each law's outcome and curves, as JSON."""
     outcomes, trace = run_scenario(scenario, laws), trace_scenario(scenario, laws)
     ticks = len(trace.time_s)
     curves = np.full((ticks, _TORQUES + _ERRORS * len(laws)), np.nan)

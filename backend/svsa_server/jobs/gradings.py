@@ -27,7 +27,7 @@ class Asked(NamedTuple):
 
 
 def grade_all(folder: JobFolder, asked: Asked) -> bool:
-    """Grade in a worker; whether it came to its end. What is done is kept."""
+    """Grade in a worker; return whether all were graded. Finished grades are saved."""
     return grade_class(
         asked.files,
         asked.exercises,

@@ -1,4 +1,4 @@
-"""Exports, replays, comparisons, maps, laws in the ranking: in processes of their own, few at once.
+"""Work of a few seconds in worker processes: exports, replays, comparisons, maps, laws in ranking.
 
 They take seconds of computing, which would make every live session late, so that a worker has a
 low priority. If the queue is full, the request is rejected with a time after which to retry.
@@ -25,11 +25,11 @@ T = TypeVar("T")
 
 
 class BusyError(SvsaError):
-    """Too much is being worked at already; nothing was begun."""
+    """Too much work is in progress; nothing was started."""
 
 
 class HeavyWork:
-    """The workers of one server, begun when the first is needed.
+    """The worker processes of one server, started when first needed.
 
     most: how many jobs are worked at or wait. workers: processes.
     """
@@ -42,7 +42,7 @@ class HeavyWork:
         self._is_closed = False
 
     async def run(self, job: Callable[..., T], *arguments: object) -> T:
-        """What the job returns, done in a worker; raises what it raises, and `BusyError`."""
+        """Run a job in a worker and return its result; raises its errors, and `BusyError`."""
         if self._taken >= self._most:
             raise BusyError(
                 f"{self._taken} exports, replays, comparisons, maps and laws of the ranking are"
@@ -63,14 +63,16 @@ class HeavyWork:
             self._taken -= 1
 
     async def write(self, job: Callable[[Path, Path], None], folder: Path) -> IO[bytes]:
-        """The file that a job makes of a record's folder, open to be read and named no more."""
+        """Run a job that writes a file from a record's folder; return the open, already unlinked
+        file.
+        """
         with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as place:
             target = Path(place) / "file"
             await self.run(job, folder, target)
             return target.open("rb")
 
     def _hand_over(self, job: Callable[..., T], *arguments: object) -> Future[T]:
-        """Wait until a worker has begun if none is idle: seconds, for the first of a server."""
+        """Wait until a worker has started if none is idle; the first one takes seconds."""
         with self._handing_over:
             if self._is_closed:
                 raise BusyError("This lab is ending: nothing is begun any more.")
@@ -79,13 +81,13 @@ class HeavyWork:
             return self._pool.submit(job, *arguments)
 
     def close(self) -> None:
-        """End these workers, and no other's, also in the middle of a job."""
+        """End these workers, even in the middle of a job."""
         with self._handing_over:
             self._is_closed = True
         self.end_workers()
 
     def end_workers(self) -> None:
-        """End the workers in the middle of their jobs; the next job begins another one."""
+        """End the workers in the middle of their jobs; the next job starts a new one."""
         with self._handing_over:
             pool, self._pool = self._pool, None
             if pool is not None:

@@ -14,8 +14,8 @@ RATED_S = 15.0
 
 
 class Progress(NamedTuple):
-    """How far a job is. done, total: in what it counts, as candidates or runs. rate_per_s: lately,
-    None while unknown.
+    """Progress of a job. done, total: candidates or runs. rate_per_s: recent rate, None if
+    unknown.
     """
 
     done: int = 0
@@ -24,12 +24,12 @@ class Progress(NamedTuple):
 
     @property
     def left_s(self) -> float | None:
-        """How long it still takes at this rate, s; None while unknown."""
+        """Estimated remaining time, s; None while unknown."""
         return (self.total - self.done) / self.rate_per_s if self.rate_per_s else None
 
 
 class JobFolder:
-    """The worker's side: where it writes, whom it tells how far it is, and whether to stop."""
+    """The worker's side of a job: its folder, its progress reports, and the request to stop."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
@@ -38,7 +38,7 @@ class JobFolder:
         self._progress = Progress()
 
     def report(self, done: int, total: int) -> None:
-        """Say how far it is; as often as one likes, it is written five times a second."""
+        """Report progress; written at most five times a second."""
         now = time.monotonic()
         self._reported.append((now, done))
         while len(self._reported) > 2 and self._reported[1][0] < now - RATED_S:
@@ -55,7 +55,7 @@ class JobFolder:
         replace_file(self.path / PROGRESS, json.dumps(self._progress).encode())
 
     def is_cancelled(self) -> bool:
-        """Whether it is to stop, and keep what is done."""
+        """Whether the worker has been requested to stop and keep its results."""
         return (self.path / STOP).exists()
 
 
@@ -68,5 +68,5 @@ def read_progress(folder: Path) -> Progress:
 
 
 def ask_to_stop(folder: Path) -> None:
-    """Tell the worker in this folder to stop when it can."""
+    """Request the worker in this folder to stop when it can."""
     (folder / STOP).touch()

@@ -1,4 +1,4 @@
-"""Long work: minutes or hours in a process of its own, which users follow and cancel.
+"""Long-running jobs, each in its own process, which users follow and cancel.
 
 A job's worker writes its progress into a folder, and reads there whether it has to stop. The
 server only reads, so that a job does not depend on who follows it. It has a low priority, and ends
@@ -46,7 +46,7 @@ Work = Callable[..., bool]
 
 
 class Share(NamedTuple):
-    """What each person of a class may use of the jobs of one kind; the instructor is exempt.
+    """The limits of each person of a class for jobs of one kind; the instructor is exempt.
 
     Args:
         most: Jobs that run or wait at once.
@@ -73,12 +73,12 @@ class _Queue:
         self._count = itertools.count(1)
 
     def find_share(self, owner: str) -> Share | None:
-        """The share of this person; None: unlimited."""
+        """Return the limits of this person; None: unlimited."""
         return None if owner in ("", INSTRUCTOR.id) else self.share
 
     @contextlib.asynccontextmanager
     async def turn(self, job: "Job") -> AsyncIterator[None]:
-        """Wait until it is this job's turn: the instructor first, then who was served longest ago.
+        """Wait for this job's turn: the instructor first, then the person served longest ago.
 
         Jobs of one person run in the order in which they were started.
         """
@@ -121,16 +121,16 @@ class Job:
 
     @property
     def is_under_way(self) -> bool:
-        """Whether it is worked at, or waits."""
+        """Whether it runs or waits."""
         return self.status in ("waiting", "running")
 
     @property
     def progress(self) -> Progress:
-        """How far it is."""
+        """Progress of the job."""
         return read_progress(self.folder)
 
     def begin(self, queue: _Queue, work: Work) -> None:
-        """Have it worked at when its turn comes."""
+        """Run the job when its turn comes."""
         self._task = asyncio.create_task(self._run(queue, work))
 
     async def _run(self, queue: _Queue, work: Work) -> None:
@@ -169,7 +169,7 @@ class Job:
         return True
 
     def cancel(self) -> None:
-        """Let it end as soon as it can, with what is done kept; at once where it waits."""
+        """End the job at once if it waits, otherwise as soon as it can; results so far are kept."""
         ask_to_stop(self.folder)
         # A running job ends itself, with what is done kept; one that waits has nothing to
         # keep.
@@ -177,20 +177,20 @@ class Job:
             self.drop()
 
     async def has_ended(self, longest_s: float) -> bool:
-        """Whether it is not under way any more, once it has ended or so long has passed."""
+        """Wait until the job ends or the time has passed; return whether it has ended."""
         if self._task is not None:
             await asyncio.wait([self._task], timeout=longest_s)
         return not self.is_under_way
 
     def drop(self) -> None:
-        """Wait for it no more."""
+        """Stop waiting for the job."""
         if self._task is not None and self.is_under_way:
             self.status = "cancelled"
             self._task.cancel()
 
 
 class Jobs:
-    """The jobs of one server, the last ones kept; of each kind one at a time is worked at.
+    """The jobs of one server; the latest are stored. One job of each kind runs at a time.
 
     most: of each kind how many run or wait; one more is rejected, but for the instructor, who has
     a place of their own. share: of each person of a class; None where the lab knows no persons.
@@ -239,7 +239,7 @@ class Jobs:
             )
 
     def get(self, name: str, kind: Kind | None = None) -> Job:
-        """The job of this id, and of this kind if one is given; raises `UnknownError`."""
+        """Return the job of this id (and kind, if given); raises `UnknownError`."""
         job = self._kept.get(name)
         if job is None or kind not in (None, job.kind):
             raise UnknownError(
@@ -248,11 +248,11 @@ class Jobs:
         return job
 
     def list_all(self, kind: Kind | None = None) -> list[Job]:
-        """Those that are kept, of this kind if one is given, the newest first."""
+        """List the stored jobs (of a kind, if given), newest first."""
         return [job for job in reversed(self._kept.values()) if kind in (None, job.kind)]
 
     def close(self) -> None:
-        """End the jobs, and take away what they have written."""
+        """End all jobs, and delete their files."""
         for job in self._kept.values():
             job.drop()
         for queue in self._queues.values():
@@ -268,7 +268,7 @@ def _describe_late(share: Share) -> str:
 
 
 def _work(work: Work, folder: Path, asked: Any) -> bool:
-    """Do a job in its worker."""
+    """Run a job in its worker."""
     place = JobFolder(folder)
     try:
         return work(place, asked)

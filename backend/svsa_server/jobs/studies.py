@@ -1,4 +1,4 @@
-"""A study as a job, and what a worker computes from one."""
+"""A study as a job, and computations of a worker on its rows."""
 
 from typing import Any
 
@@ -16,7 +16,7 @@ MAX_ROWS = 10**7
 
 
 def run(folder: JobFolder, stored: StoredStudy) -> bool:
-    """Run what is not done of a study; whether all of it is done then."""
+    """Run the missing part of a study; return whether the study is complete."""
     return run_study(
         stored,
         workers=MAX_WORKERS if MAX_WORKERS > 1 else 0,
@@ -27,20 +27,24 @@ def run(folder: JobFolder, stored: StoredStudy) -> bool:
 
 
 def summarize(stored: StoredStudy) -> dict[str, Any]:
-    """Every law of a study, and the first less each other one, as JSON."""
+    """Summarize every law of a study, and the first law's difference from each other one, as
+    JSON.
+    """
     study, rows = stored.study, read_rows(stored)
     laws, pairings = summarize_laws(study, rows), compare_laws(study, rows)
     return make_plain({"laws": laws, "pairings": pairings})
 
 
 def decide(stored: StoredStudy, outcome: str) -> list[dict[str, Any]]:
-    """Sobol indices of an outcome under each law, as JSON."""
+    """Compute Sobol indices of an outcome under each law, as JSON."""
     study, rows = stored.study, read_rows(stored)
     return make_plain([estimate_sensitivity(study, rows, law, outcome) for law in study.laws])
 
 
 def replay(stored: StoredStudy, row: int, owner: str) -> dict[str, Any]:
-    """Run a row again and record it; the run's id, and whether its metrics are the table's."""
+    """Run a row again and record it; return the run's id, and whether its metrics match the
+    table.
+    """
     found = replay_row(stored, row)
     run_id = record_replay(stored, found, Catalogue(), owner).id
     return {"run_id": run_id, "row": row, "differing": found.differing}

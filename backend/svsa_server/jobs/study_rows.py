@@ -1,4 +1,4 @@
-"""Rows of a study for the page: a header, then each column as numbers, one after another."""
+"""Rows of a study in binary form: a header, then each column as numbers."""
 
 import json
 import struct
@@ -20,7 +20,7 @@ _TRIES = 3
 
 
 def read_columns(stored: StoredStudy, columns: Sequence[str]) -> pa.Table:
-    """Some columns of all rows that are done; of a study that has none yet an empty table.
+    """Read some columns of all finished rows; of a study without rows an empty table.
 
     A study that ends meanwhile joins its parts into one table: then they are read again.
     """
@@ -36,7 +36,7 @@ def read_columns(stored: StoredStudy, columns: Sequence[str]) -> pa.Table:
 
 
 def read_row(stored: StoredStudy, row: int) -> dict[str, Any]:
-    """All columns of one row; raises `ParameterError`, and `StudyError` where it is not done."""
+    """Read all columns of one row; raises `ParameterError`, and `StudyError` if it is not done."""
     check_number("row", row, "", 0, stored.study.row_count - 1)
     table = read_columns(stored, build_schema(stored.study).names)
     found = table.filter(pa.array(table[ROW].to_numpy() == row)).to_pylist()
@@ -46,7 +46,9 @@ def read_row(stored: StoredStudy, row: int) -> dict[str, Any]:
 
 
 def thin_out(rows: pa.Table, laws: int, most: int) -> pa.Table:
-    """At most so many rows: random samples, the same for every client, each under every law."""
+    """Select at most so many rows: random samples, the same for every client, each under every
+    law.
+    """
     numbers = rows[DRAW].to_numpy()
     samples = np.unique(numbers)
     wanted = max(1, most // laws)
@@ -58,7 +60,7 @@ def thin_out(rows: pa.Table, laws: int, most: int) -> pa.Table:
 
 
 def pack_rows(stored: StoredStudy, columns: Sequence[str], most: int) -> bytes:
-    """uint32 length of the header; the header, JSON, filled up with spaces to 8 bytes; columns.
+    """Pack a table: uint32 length of the header; JSON header, padded to 8 bytes; columns.
 
     header: `rows`, how many there are here; `total`, how many are done; `columns`, of each `name`
     and, of one of texts, its `labels`. A column is float64, little-endian: a number, the index of

@@ -1,4 +1,4 @@
-"""A law for the leaderboard as a job: it goes through the season, then the lab's that miss it."""
+"""A law for the leaderboard as a job: its season, then installed laws without an entry."""
 
 from pathlib import Path
 from typing import NamedTuple
@@ -20,7 +20,7 @@ class Asked(NamedTuple):
 
 
 def enter(folder: JobFolder, asked: Asked) -> bool:
-    """Measure in a worker; whether it came to its end. What has its entry keeps it.
+    """Measure laws in a worker; return whether all were measured. Existing entries stay.
 
     While a law is measured it tells of the law's runs alone: then the law has its entry.
     """

@@ -1,4 +1,4 @@
-"""A tuning as a job: its worker writes a line for each candidate, and a file at the end."""
+"""A tuning as a job: the worker writes a line for each candidate, and a file at the end."""
 
 import contextlib
 import json
@@ -45,7 +45,7 @@ def search(folder: JobFolder, asked: Asked) -> bool:
 
 
 def read_candidates(folder: Path) -> list[dict[str, Any]]:
-    """The candidates that were tried so far, and those on the validation trials."""
+    """Read the candidates so far, and those on the validation trials."""
     with contextlib.suppress(FileNotFoundError):
         whole, _, _ = (folder / _CANDIDATES).read_text(encoding="utf-8").rpartition("\n")
         return [json.loads(line) for line in whole.splitlines()]
@@ -53,6 +53,6 @@ def read_candidates(folder: Path) -> list[dict[str, Any]]:
 
 
 def find_file(folder: Path) -> Path | None:
-    """The parameter file of the best, once the search has ended with one."""
+    """Find the parameter file of the best candidate, once the search has ended with one."""
     path = folder / _FILE
     return path if path.exists() else None

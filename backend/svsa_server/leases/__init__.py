@@ -1,1 +1,1 @@
-"""Who is in control of a session, who waits, and what became of a call."""
+"""Control of a session: lease, queue, and outcomes of requests."""

@@ -1,4 +1,4 @@
-"""Who is in control of a session: everybody, or the one client that holds its lease.
+"""The control lease of a session: free, or held by one client.
 
 A client is known by a text of its own choice that others do not guess: the header
 `SVSA-Client` of its calls, `client` in the query of its streams. Others see the holder's name
@@ -18,7 +18,7 @@ READABLE = rf"^[^{_CONTROLS}]*[^\s{_CONTROLS}][^{_CONTROLS}]*$"
 
 
 def check_printable(name: str) -> str:
-    """The name without what stands around it; raises `ValueError` where it cannot be read."""
+    """Return the name without surrounding spaces; raises `ValueError` if it is not printable."""
     if not name.strip() or not name.isprintable():
         raise ValueError("a text that can be read")
     return name.strip()
@@ -45,7 +45,7 @@ class HeldError(SvsaError):
 
 
 class Holder(NamedTuple):
-    """client: as it names itself to the server. name: as it is shown to everybody."""
+    """The holder of the lease. client: its id in `SVSA-Client`. name: shown to all users."""
 
     client: str
     name: str
@@ -92,7 +92,7 @@ class ControlLease:
             )
 
     def take(self, holder: Holder, take_over: bool, now: float) -> None:
-        """In control from now on; raises `HeldError` where another is, unless `take_over`."""
+        """Take the lease; raises `HeldError` if another client holds it, unless `take_over`."""
         if not take_over:
             self.check(holder.client)
         self.holder, self._heard = holder, now
@@ -103,15 +103,15 @@ class ControlLease:
         self.holder = None
 
     def hear(self, client: str | None, now: float) -> None:
-        """Its client has called, if it is the holder."""
+        """Note a request of a client, if it is the holder."""
         if self.is_held_by(client):
             self._heard = now
 
     def note_command(self, client: str | None, now: float) -> None:
-        """Its holder has given a command, which here means no more than a call."""
+        """Note a command of the holder, equal to a request here."""
 
     def settle(self, now: float, patience_s: float) -> list[Settled]:
-        """Free it where its holder was not heard for longer than `patience_s`; whom it let go."""
+        """Release the lease if its holder is silent for `patience_s`; return the former holder."""
         if self.holder is None or now - self._heard <= patience_s:
             return []
         gone, self.holder = self.holder, None
@@ -119,7 +119,7 @@ class ControlLease:
 
 
 def read_client(written: str | None, name: str) -> str | None:
-    """A client as it names itself; None where it does not. Raises `ParameterError`.
+    """Read a client's id; None if it sends none. Raises `ParameterError`.
 
     written: percent-encoded UTF-8 where it is more than ASCII. name: where it was written.
     """

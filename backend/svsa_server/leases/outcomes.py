@@ -51,7 +51,7 @@ class NamedRequest:
 
     @property
     def may_be_repeated(self) -> bool:
-        """Whether it was refused for want of capacity: a repeat is carried out."""
+        """Whether the request was rejected for lack of capacity: a repeat is carried out."""
         return self.status in (429, 503)
 
 
@@ -68,11 +68,11 @@ class Outcomes:
 
     @property
     def known_for_s(self) -> float:
-        """For this time every request with a key is known, s: no older one has been removed."""
+        """For this time every request with a key is stored, s: no newer one has been removed."""
         return self._now() - self._complete_since
 
     def begin(self, person_id: str, key: str, fingerprint: str) -> NamedRequest:
-        """Enter a request that has come."""
+        """Register a request."""
         request = NamedRequest(fingerprint, self._now())
         self._requests[person_id, key] = request
         self._requests.move_to_end((person_id, key))
@@ -80,19 +80,19 @@ class Outcomes:
         return request
 
     def end(self, request: NamedRequest, status: int, answer: list[Message] | None) -> None:
-        """Enter what a request was answered with."""
+        """Store a request's answer."""
         request.status, request.answer = status, answer
         request.done.set()
         self._bytes += request.size
         self._remove_old()
 
     def get(self, person_id: str, key: str) -> NamedRequest | None:
-        """A person's request with this key, if it is known."""
+        """Return a person's request with this key, if it is stored."""
         self._remove_old()
         return self._requests.get((person_id, key))
 
     def find(self, person_id: str, key: str) -> tuple[Outcome, int | None, float | None]:
-        """Outcome of a person's request, the status of its answer, and how long ago it came, s."""
+        """Return the outcome of a person's request, the status of its answer, and its age, s."""
         request = self.get(person_id, key)
         if request is None:
             return "unknown", None, None
@@ -127,7 +127,7 @@ class OutcomeKeeper:
         self._outcomes, self._read_person_id = outcomes, read_person_id
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Pass the request on, or answer what the first one with its key was answered."""
+        """Pass the request on, or repeat the answer of the first request with its key."""
         given = Headers(scope=scope).get(KEY_HEADER) if scope["type"] == "http" else None
         if given is None or scope["method"] not in CHANGING:
             await self._app(scope, receive, send)
@@ -186,7 +186,7 @@ class _Body:
         self._error: Exception | None = None
 
     async def read(self) -> bytes:
-        """All of it, or what came before the client left or a limit was exceeded."""
+        """Read the whole body, or the part before the client left or exceeded a limit."""
         is_more = True
         while is_more:
             try:
@@ -199,7 +199,7 @@ class _Body:
         return b"".join(message.get("body", b"") for message in self._messages)
 
     async def receive(self) -> Message:
-        """The messages that were read, then those that follow."""
+        """Return the messages that were read, then those that follow."""
         if self._messages:
             return self._messages.pop(0)
         if self._error is not None:

@@ -1,4 +1,4 @@
-"""Control of the shared session of a class: one operator at a time, and those who wait for it.
+"""Control of a class's shared session: one operator at a time, and a queue.
 
 A request while it is free succeeds; later ones wait in their order. Control passes to the first of
 them when its holder gives it back, hands it over, is gone, or has given no command for a while; an
@@ -13,7 +13,7 @@ from svsa_server.leases.lease import ControlLease, HeldError, Holder, Settled
 
 
 class ControlQueue(ControlLease):
-    """The lease of a class's session. waiting: who gets it next, the first first.
+    """The lease of a class's session. waiting: the queue, the next user first.
 
     is_instructor: whether a client is one, who commands also while control is free. idle_s: for how
     long a holder may give no command while others wait, s.
@@ -37,7 +37,7 @@ class ControlQueue(ControlLease):
         return self.is_held_by(client)
 
     def check(self, client: str | None) -> None:
-        """Raise `HeldError`, which says who is in control, unless this client may command."""
+        """Raise `HeldError`, which names the holder, unless this client may command."""
         if self.admits(client):
             return
         if self.is_locked and self.holder is None:
@@ -49,7 +49,7 @@ class ControlQueue(ControlLease):
         )
 
     def take(self, holder: Holder, take_over: bool, now: float) -> None:
-        """Ask for it; or have it at once by `take_over`, which is the instructor's alone."""
+        """Join the queue, or take the lease at once with `take_over` (instructor only)."""
         if take_over:
             if not self._is_instructor(holder.client):
                 raise HeldError("Only the instructor takes control from others: ask for it.")
@@ -62,14 +62,16 @@ class ControlQueue(ControlLease):
             self._go_on(now)
 
     def give_back(self, client: str | None, now: float) -> None:
-        """Give it to who waits, or leave the queue; nothing where one is in neither."""
+        """Pass the lease to the next user, or leave the queue; no effect for other clients."""
         self._leave_queue(client)
         if self.is_held_by(client):
             self.holder = None
             self._go_on(now)
 
     def hand_over(self, client: str | None, to: str, now: float) -> None:
-        """Give it to one of those who wait. Raises `HeldError`, and `StateError` for another."""
+        """Pass the lease to a user in the queue. Raises `HeldError`, or `StateError` for another
+        user.
+        """
         if not self.is_held_by(client) and not (client and self._is_instructor(client)):
             self.check(client)
         chosen = next((one for one in self.waiting if one.client == to), None)
@@ -89,23 +91,23 @@ class ControlQueue(ControlLease):
         self._go_on(now)
 
     def find_place(self, client: str | None) -> int | None:
-        """The place in the queue, 1 is next; None for who does not wait."""
+        """Return the place in the queue, 1 is next; None if the user is not in it."""
         places = (place for place, one in enumerate(self.waiting, 1) if one.client == client)
         return next(places, None)
 
     def hear(self, client: str | None, now: float) -> None:
-        """A user has called, or has a stream open."""
+        """Note a request or an open stream of a user."""
         super().hear(client, now)
         if client in self._waiting_heard:
             self._waiting_heard[client] = now
 
     def note_command(self, client: str | None, now: float) -> None:
-        """Its holder has given a command."""
+        """Note a command of the holder."""
         if self.is_held_by(client):
             self._acted = now
 
     def settle(self, now: float, patience_s: float) -> list[Settled]:
-        """Go on from who is gone, or idle while others wait; whom it let go."""
+        """End the lease of a holder who is gone, or idle while others wait; return the holder."""
         gone = [one for one in self.waiting if now - self._waiting_heard[one.client] > patience_s]
         for one in gone:
             self._leave_queue(one.client)
@@ -119,7 +121,7 @@ class ControlQueue(ControlLease):
         return settled
 
     def _set_aside(self) -> None:
-        """Take it from its holder, who is the first to get it back."""
+        """Take the lease from its holder, who gets it back first."""
         if self.holder is not None:
             self.waiting.insert(0, self.holder)
             self._waiting_heard[self.holder.client] = self._heard

@@ -1,1 +1,1 @@
-"""LTI 1.3: a learning platform launches people into the class, and gets their points back."""
+"""LTI 1.3: launches from a learning platform into the class, and grades back to it."""

@@ -1,4 +1,4 @@
-"""Keys of the lab, which it signs with, and of the platforms, which verify a launch."""
+"""Keys: the lab's private key for signatures, and the platforms' public keys for launches."""
 
 import os
 import time
@@ -18,7 +18,7 @@ _MIN_S = 30.0
 
 
 def open_key(path: Path) -> RSAKey:
-    """The lab's private key, made for this user's eyes where there is none.
+    """Read the lab's private key; created, readable by this account only, if there is none.
 
     Raises `ParameterError` where the file holds no such key, or cannot be read or written.
     """
@@ -37,14 +37,14 @@ def open_key(path: Path) -> RSAKey:
 
 
 class PlatformKeys:
-    """The public keys of platforms by address; read again after an hour or for a new key."""
+    """Public keys of platforms by address; read again after an hour or for an unknown key."""
 
     def __init__(self, client: httpx.AsyncClient) -> None:
         self._client = client
         self._known: dict[str, tuple[float, KeySet]] = {}
 
     async def get(self, address: str, kid: str | None) -> KeySet:
-        """The keys at an address; raises `LaunchError` where they cannot be had."""
+        """Return the keys at an address; raises `LaunchError` if they are unavailable."""
         now = time.monotonic()
         asked, keys = self._known.get(address, (-_KEPT_S, None))
         has_key = keys is not None and any(key.kid == kid for key in keys.keys)

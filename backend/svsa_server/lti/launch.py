@@ -1,4 +1,4 @@
-"""What a platform's signed token says of a launch, checked (LTI 1.3 core, 5.1.3 and 5.3)."""
+"""Verification of the signed token of a launch (LTI 1.3 core, 5.1.3 and 5.3)."""
 
 from typing import Any, Literal, NamedTuple
 
@@ -18,8 +18,10 @@ _LONGEST_NAME = 60
 
 
 class Launch(NamedTuple):
-    """A launch. user: id at the platform. target: address that is wanted. exercise: as its custom
-    parameter names it. line_item: where points of it go, if anywhere.
+    """A launch.
+
+    user: id at the platform. target: requested address. exercise: from its custom parameter.
+    line_item: where its grades are sent, if anywhere.
     """
 
     user: str
@@ -31,7 +33,7 @@ class Launch(NamedTuple):
 
 
 def read_launch(platform: Platform, keys: KeySet, token: str, nonce: str) -> Launch:
-    """The launch of a token; raises `LaunchError` that says what is wrong with it."""
+    """Verify the token of a launch; raises `LaunchError` with the reason."""
     try:
         # The algorithm is fixed: the header of a token must not choose how it is verified.
         claims = jwt.decode(token, keys, algorithms=["RS256"]).claims

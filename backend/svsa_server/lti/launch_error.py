@@ -1,4 +1,4 @@
-"""Why a launch is rejected; apart from the keys, which need the extra `lti`."""
+"""The error of a rejected launch; separate from the keys, which need the extra `lti`."""
 
 from svsa.errors import SvsaError
 

@@ -1,4 +1,4 @@
-"""Where points of whom go: what launches said, what was sent, and when it is tried again."""
+"""Links between grades and the platform's line items: targets, sent values, retries."""
 
 import os
 import sqlite3
@@ -16,7 +16,7 @@ _TABLE = (
 
 
 class Link(NamedTuple):
-    """Points of a person in an exercise go to a line item of a platform.
+    """A person's points in an exercise, and the line item of a platform that receives them.
 
     sent: the submission whose points have arrived there, or were given up. tries: how often the
     present ones were tried in vain; due: not before this time, s since 1970.
@@ -34,7 +34,7 @@ class Link(NamedTuple):
 
 
 class Links:
-    """The links in a file that only this user reads; raises `OSError` or `sqlite3.Error`."""
+    """The links, in a file that only this account reads; raises `OSError` or `sqlite3.Error`."""
 
     def __init__(self, folder: Path) -> None:
         self._path = folder / FILE
@@ -43,19 +43,19 @@ class Links:
             file.execute(_TABLE)
 
     def list(self) -> list[Link]:
-        """All of them."""
+        """List all links."""
         with self._open() as file:
             return [Link(*row) for row in file.execute("SELECT * FROM link ORDER BY rowid")]
 
     def learn(self, link: Link) -> None:
-        """What a launch says; what was sent to the same line item stays sent."""
+        """Store the line item of a launch; what was sent to the same line item stays sent."""
         for known in self.list():
             if known[:6] == link[:6]:
                 return
         self.keep(link)
 
     def keep(self, link: Link) -> None:
-        """Keep it in place of the one of the same person and exercise."""
+        """Save a link, replacing the previous one of the person and exercise."""
         with self._open() as file:
             file.execute("REPLACE INTO link VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)", link)
 

@@ -1,4 +1,4 @@
-"""The platforms that may launch, from a TOML file, and the logins that they begin."""
+"""The learning platforms in a TOML file, and the logins that they start."""
 
 import secrets
 import time
@@ -19,7 +19,7 @@ LTI_FILE = "LTI file"
 
 
 def check_address(address: str) -> str:
-    """An https address, or one of this machine; raises `ValueError`."""
+    """Check an address: https, or on this machine; raises `ValueError`."""
     parts = urlsplit(address)
     is_safe = parts.scheme == "https" and bool(parts.hostname)
     if not is_safe and not (parts.scheme == "http" and is_loopback(parts.hostname or "")):
@@ -32,7 +32,7 @@ _Name = Annotated[str, Field(min_length=1, max_length=500)]
 
 
 class Platform(Checked):
-    """A platform as it describes itself, and what it may.
+    """A platform: its identity and addresses.
 
     deployments: ids of those that may launch. takes_instructors: whether an instructor there is the
     instructor here; else everybody from there is a student.
@@ -48,13 +48,15 @@ class Platform(Checked):
 
 
 class LtiSettings(Checked):
-    """All platforms; key_file: the lab's private key (PEM), next to the file, made if missing."""
+    """All platforms; key_file: the lab's private key (PEM), next to the file, created if
+    missing.
+    """
 
     key_file: Path = quantity("", "Private key of the lab, PEM")
     platforms: tuple[Platform, ...] = quantity("", "Who may launch", min_length=1, max_length=100)
 
     def find(self, issuer: str, client_id: str | None) -> Platform | None:
-        """The platform of an issuer; client_id: where it has given several."""
+        """Find the platform of an issuer; client_id: if the issuer has several."""
         found = [one for one in self.platforms if one.issuer == issuer]
         if client_id is not None:
             found = [one for one in found if one.client_id == client_id]
@@ -62,7 +64,7 @@ class LtiSettings(Checked):
 
 
 def read_lti_file(path: Path) -> LtiSettings:
-    """The settings of a file; raises `ParameterError` with its name."""
+    """Read the settings of a file; raises `ParameterError` with its name."""
     values = read_toml(path, LTI_FILE)
     try:
         found = LtiSettings(**values)
@@ -79,7 +81,7 @@ MAX_PENDING = 10_000
 
 
 class Login(NamedTuple):
-    """A login that was begun. begun: monotonic, s."""
+    """A started login. begun: monotonic time, s."""
 
     platform: Platform
     nonce: str
@@ -87,14 +89,14 @@ class Login(NamedTuple):
 
 
 class Logins:
-    """Those that were begun here; the oldest make room."""
+    """The started logins; the oldest are removed when there are too many."""
 
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
         self._clock = clock
         self._pending: OrderedDict[str, Login] = OrderedDict()
 
     def begin(self, platform: Platform) -> tuple[str, str]:
-        """A new state and nonce."""
+        """Start a login with a new state and nonce."""
         state, nonce = secrets.token_urlsafe(32), secrets.token_urlsafe(32)
         self._pending[state] = Login(platform, nonce, self._clock())
         if len(self._pending) > MAX_PENDING:
@@ -102,7 +104,7 @@ class Logins:
         return state, nonce
 
     def end(self, state: str) -> Login | None:
-        """The login of a state, which is used up by that; None where there is none, or too late."""
+        """End the login of a state; None if there is none or it expired."""
         login = self._pending.pop(state, None)
         is_late = login is not None and self._clock() - login.begun > LONGEST_S
         return None if is_late else login

@@ -1,4 +1,4 @@
-"""Points go back to the platform: LTI Assignment and Grade Services 2.0, 3.4, as a client.
+"""Grades to the platform: a client of LTI Assignment and Grade Services 2.0, 3.4.
 
 What has been graded of those who were launched is looked for every ten seconds, sent once, tried
 again where it does not arrive, and noted in the audit log each time.
@@ -36,7 +36,7 @@ _SCORE_TYPE = "application/vnd.ims.lis.v1.score+json"
 
 
 class ScoreSender:
-    """Sends the grades of the book of the class whose progress `store` is. clock: s since 1970."""
+    """Sends the grades of the class of `store` to the platforms. clock: s since 1970."""
 
     def __init__(
         self,
@@ -49,7 +49,7 @@ class ScoreSender:
         self._tokens: dict[Platform, tuple[float, str]] = {}
 
     async def run(self) -> None:
-        """Look and send until cancelled."""
+        """Send grades until cancelled."""
         while True:
             await asyncio.sleep(LOOK_S)
             try:
@@ -58,7 +58,7 @@ class ScoreSender:
                 logging.getLogger(__name__).exception("Grades could not be sent.")
 
     async def send_due(self) -> None:
-        """Send what is graded and has not arrived, as far as it is time to try."""
+        """Send the grades that have not arrived, if their retry is due."""
         for link, grade in await asyncio.to_thread(self._list_due):
             problem = await self._try(link, grade)
             await asyncio.to_thread(self._note, link, grade, problem)
@@ -83,7 +83,7 @@ class ScoreSender:
         return found
 
     async def _try(self, link: Link, grade: Grade) -> str:
-        """Send it; why it did not arrive, or an empty text."""
+        """Send a score; return why it did not arrive, or an empty text."""
         platform = self._tool.settings.find(link.issuer, link.client_id)
         if platform is None:
             return "The platform is not configured any more."
@@ -102,7 +102,7 @@ class ScoreSender:
         return ""
 
     async def _get_token(self, platform: Platform) -> str:
-        """An access token, by an assertion that the lab's key signs (RFC 7523)."""
+        """Get an access token with an assertion signed by the lab's key (RFC 7523)."""
         now = self._clock()
         until, token = self._tokens.get(platform, (0.0, ""))
         if until > now:
@@ -151,13 +151,13 @@ class ScoreSender:
 
 
 def build_scores_address(line_item: str) -> str:
-    """The scores of a line item: `/scores` behind its path, before its query."""
+    """Build the address of a line item's scores: `/scores` after its path, before its query."""
     parts = urlsplit(line_item)
     return parts._replace(path=f"{parts.path.rstrip('/')}/scores").geturl()
 
 
 def build_score(user: str, grade: Grade, now: float) -> dict[str, object]:
-    """A score on the wire; it is whole and final."""
+    """Build a score in the format of the service, complete and final."""
     return {
         "userId": user,
         "scoreGiven": grade.points,

@@ -1,4 +1,4 @@
-"""The lab as a tool of learning platforms: logins, launches, and whom they make members."""
+"""The lab as an LTI tool: logins, launches and members."""
 
 import asyncio
 import hashlib
@@ -29,7 +29,7 @@ _ROLES = {"student": Role.OPERATOR, "instructor": Role.INSTRUCTOR}
 
 
 class LtiTool:
-    """What one lab knows of its platforms. client: how they are asked; closed with it."""
+    """The LTI tool of one lab. client: HTTP client for the platforms; closed with the tool."""
 
     def __init__(self, settings: LtiSettings, data: Path) -> None:
         self.settings = settings
@@ -48,7 +48,7 @@ class LtiTool:
         return dict(KeySet([self.key]).as_dict(private=False))
 
     def find_platform(self, asked: Mapping[str, str]) -> Platform:
-        """The platform that a login comes from; raises `LaunchError` for one that is not known."""
+        """Find the platform of a login; raises `LaunchError` for an unknown one."""
         platform = self.settings.find(asked.get("iss", ""), asked.get("client_id"))
         if platform is None:
             raise LaunchError(f"This lab knows no platform {asked.get('iss', '')!r:.200}.")
@@ -57,7 +57,8 @@ class LtiTool:
         return platform
 
     def begin(self, asked: Mapping[str, str], redirect: str) -> tuple[str, str]:
-        """Where a login goes on, and its state. redirect: where the platform answers.
+        """Start a login: return the address to redirect to, and its state. redirect: the answer's
+        address.
 
         Raises `LaunchError` for a platform that is not known.
         """
@@ -74,7 +75,7 @@ class LtiTool:
         return f"{platform.login_url}{mark}{urlencode(wanted)}", state
 
     async def take(self, given: Mapping[str, str], cookie: str) -> tuple[Platform, Launch]:
-        """The launch that a platform has sent. cookie: the state that this browser began with.
+        """Verify a launch. cookie: the state with which this browser started the login.
 
         Raises `LaunchError`.
         """
@@ -100,7 +101,7 @@ class LtiTool:
     async def admit(
         self, authentication: ClassAuthentication, platform: Platform, launch: Launch
     ) -> Person:
-        """The member of the class that the platform's user is, the same at each launch.
+        """Return the member for the platform's user, the same at each launch.
 
         Raises `LaunchError` for who was removed from the class.
         """
@@ -116,7 +117,7 @@ class LtiTool:
         return person
 
     def find_landing(self, launch: Launch, base: str, course: Collection[str]) -> str:
-        """The place of the page that is wanted, below the lab's address; by default the course.
+        """Return the requested page address within the lab; by default the course.
 
         Raises `LaunchError` for an exercise that is not there.
         """
@@ -131,13 +132,13 @@ class LtiTool:
         return place
 
     def learn(self, platform: Platform, launch: Launch, person: Person, exercise: str) -> None:
-        """Keep where this person's points of this exercise go, if the platform takes any."""
+        """Store where this person's points in this exercise are sent, if the platform takes any."""
         if exercise and launch.line_item:
             link = (person.id, exercise, platform.issuer, platform.client_id)
             self.links.learn(Link(*link, launch.user, launch.line_item))
 
 
 def find_exercise(place: str) -> str:
-    """The exercise of a place of the page, as learn/NAME/STEP; "" where it is none."""
+    """Find the exercise of a page address such as learn/NAME/STEP; "" if there is none."""
     parts = place.split("/")
     return parts[1] if len(parts) > 1 else ""

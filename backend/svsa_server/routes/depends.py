@@ -1,4 +1,4 @@
-"""What a path names: the session, for a client that may do what it asks there, or the run."""
+"""Dependencies of the routes: session, run, caller, with checks of control and ownership."""
 
 import time
 from typing import Annotated, Any
@@ -28,17 +28,17 @@ from svsa_server.sessions.laboratory import SHARED_SESSION
 
 
 def find_asked(scope: Scope) -> tuple[str | None, str]:
-    """What is asked for: the method, and the path below the session."""
+    """Return the method and the path below the session."""
     return scope.get("method"), scope["route"].path.partition("{session}")[2]
 
 
 async def find_person(connection: HTTPConnection) -> Person:
-    """Who calls, as the guard has proved it."""
+    """Return the caller that the guard has authenticated."""
     return read_person(connection.scope)
 
 
 def needs_no_login_to_stop(connection: HTTPConnection) -> bool:
-    """Whether every caller may stop the shared session: it drives a bench."""
+    """Whether every caller may stop the shared session: if it drives a bench."""
     return isinstance(connection.app.state.laboratory.get(SHARED_SESSION).session, BenchSession)
 
 
@@ -57,7 +57,7 @@ async def find_client(
         ),
     ] = None,
 ) -> str | None:
-    """The client that calls, for whom the answer is; None where it does not name itself.
+    """Return the calling client; None if it does not send `SVSA-Client`.
 
     In a class it is the person, whatever the header says. Raises `ParameterError` for a wrong
     name, but a stop is not refused for want of one.
@@ -82,7 +82,7 @@ async def find_session(
     ],
     client: NamedClient,
 ) -> HostedSession:
-    """The session that the path names; `UnknownError` where there is none.
+    """Return the session of the path; raises `UnknownError`.
 
     Every route gets its session here. Raises `HeldError` for a call that changes something
     while another client is in control.
@@ -108,7 +108,7 @@ async def check_unchanged(
         Header(description="The session's `revision`: refused where it was changed meanwhile"),
     ] = None,
 ) -> None:
-    """Raise `ChangedError` where another client has since changed settings or loads."""
+    """Raise `ChangedError` if another client has changed settings or loads since."""
     if if_match is not None and if_match.strip('"') not in ("*", hosted.revision):
         raise ChangedError(
             f"Session {hosted.session.name} was changed meanwhile, it is at {hosted.revision}, not"
@@ -117,7 +117,7 @@ async def check_unchanged(
 
 
 def find_catalogue(connection: HTTPConnection) -> Catalogue:
-    """The runs of this server."""
+    """Return the catalogue of runs of this server."""
     return connection.app.state.catalogue
 
 
@@ -125,7 +125,7 @@ Runs = Annotated[Catalogue, Depends(find_catalogue)]
 
 
 def find_work(connection: HTTPConnection) -> HeavyWork:
-    """What makes files of recorded runs."""
+    """Return the workers for files of recorded runs."""
     return connection.app.state.heavy_work
 
 

@@ -1,1 +1,1 @@
-"""Recorded runs as people see them: their lanes, and files of other programs."""
+"""Recorded runs in the API: their lanes, and exports."""

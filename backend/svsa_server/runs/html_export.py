@@ -1,4 +1,4 @@
-"""The export of a run as a page, which the library finds by its entry point `svsa.exports`."""
+"""The export of a run as a page, found by its entry point `svsa.exports`."""
 
 from typing import IO
 

@@ -15,19 +15,19 @@ MAX_STRETCHES = 200
 
 
 def list_kept_segments(session: Session) -> list[list[Segment]]:
-    """Of every lane the segments of the last `KEPT_S`; the last one is the present."""
+    """Return each lane's segments of the last `KEPT_S`; the last one is present."""
     first_tick = session.run.tick - KEPT_S / session.run.period_s
     return session.journal.timeline.list_segments(first_tick, MAX_STRETCHES)
 
 
 def list_session_segments(session: Session, since_tick: int = 0) -> list[list[SegmentState]]:
-    """Those of the last `KEPT_S`; of what has ended only what did so at since_tick or later."""
+    """List the segments of the last `KEPT_S` that are present or ended at since_tick or later."""
     kept = list_kept_segments(session)
     return _build(session.journal.timeline, kept, session.run.period_s, since_tick)
 
 
 def list_record_segments(record: Record, timeline: Timeline | None) -> list[list[SegmentState]]:
-    """Of every lane its segments in the record; without a timeline, the lane by its own name."""
+    """List each lane's segments in the record; without a timeline, one with the lane's name."""
     period_s = record.header.period_s
     if timeline is not None:
         return _build(timeline, timeline.list_segments(), period_s)
@@ -61,7 +61,7 @@ def _describe_window(window: Window, period_s: float) -> dict[str, Any]:
 
 
 def list_ended_windows(session: Session, since_tick: int = 0) -> list[EndedWindowState]:
-    """The windows of the last `KEPT_S` that have ended, each with its metrics.
+    """List the ended windows of the last `KEPT_S`, each with its metrics.
 
     since_tick: only those that ended at this tick or later.
     """

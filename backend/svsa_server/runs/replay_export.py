@@ -1,4 +1,4 @@
-"""A recorded run as one page with 3D replay and plots, which needs no server."""
+"""A recorded run as one self-contained page with 3D replay and plots."""
 
 from collections.abc import Sequence
 
@@ -19,7 +19,7 @@ from svsa_server.schemas.runs.lane import SegmentState
 
 
 def build_replay(record: Record) -> str:
-    """The page's HTML. Reads the whole record and takes seconds: not for the event loop.
+    """Build the page's HTML. Reads the whole record and takes seconds: not in the event loop.
 
     Raises `ParameterError` where the record lacks a channel that the view needs.
     """
@@ -52,7 +52,7 @@ def build_replay(record: Record) -> str:
 
 
 def _place(record: Record, segment: SegmentState) -> LaneSegment:
-    """A segment in the record's own ticks."""
+    """Convert a segment to the record's own ticks."""
     first = max(0, segment.start_tick - record.first_tick)
     end = record.tick_count
     if segment.end_tick is not None:

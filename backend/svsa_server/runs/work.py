@@ -1,4 +1,4 @@
-"""What a worker makes of a recorded run, by its folder."""
+"""Functions that a worker runs on the folder of a recorded run."""
 
 from pathlib import Path
 
@@ -9,12 +9,12 @@ from svsa.teaching.leaderboard.board import Board
 
 
 def write_export(kind: str, folder: Path, target: Path) -> None:
-    """The record in this folder as a file of another program."""
+    """Export the record in this folder."""
     export(open_record(folder), kind, target)
 
 
 def write_worst_run(key: str, folder: Path, target: Path) -> None:
-    """The worst run of an entry of the board in this folder as a page with 3D replay."""
+    """Build the page of an entry's worst run, with 3D replay."""
     from svsa_server.runs.worst_run_page import build_worst_run_page
 
     board = Board(folder)
@@ -22,5 +22,5 @@ def write_worst_run(key: str, folder: Path, target: Path) -> None:
 
 
 def compare(folder: Path) -> Comparison:
-    """The record in this folder against its simulation."""
+    """Compare the record in this folder with its simulation."""
     return compare_with_simulation(open_record(folder))

@@ -1,4 +1,4 @@
-"""The worst run of an entry of the leaderboard as one page with 3D replay and plots."""
+"""The worst run of a leaderboard entry as one page with 3D replay and plots."""
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from svsa_server.runs.replay_export import trace_hung_mass
 
 
 def build_worst_run_page(board: Board, entry: Entry) -> str:
-    """The page's HTML; takes seconds. Measured is what the board's error is of.
+    """Build the page's HTML, in seconds. The measured window is that of the leaderboard's error.
 
     Raises `StateError` where nothing is kept of the run, or it ended at its first tick.
     """

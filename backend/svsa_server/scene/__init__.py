@@ -1,1 +1,1 @@
-"""The 3D view of a session: viser servers, and the way to them."""
+"""The 3D view of a session: viser servers and the proxy to them."""

@@ -1,4 +1,4 @@
-"""A 3D view next to the server: viser on loopback, at the pose of a session."""
+"""A 3D view of a session: viser on loopback."""
 
 import contextlib
 import io
@@ -32,7 +32,7 @@ class SceneBridge:
 
     @property
     def viewers(self) -> int:
-        """How many browsers show the view now."""
+        """Number of browsers that show the view now."""
         return len(self._viser.get_clients())
 
     def set_theme(self, dark: bool) -> None:

@@ -1,4 +1,4 @@
-"""The 3D views of the sessions, with their poses: each begins with its first viewer."""
+"""The 3D views of the sessions; each starts with its first viewer."""
 
 import asyncio
 import logging
@@ -15,7 +15,7 @@ from svsa_server.sessions.laboratory import SHARED_SESSION, Laboratory
 
 
 def read_pose(session: Session) -> ActuatorPose | None:
-    """The session's newest sample as the 3D view needs it; None before the first."""
+    """Read the pose from the session's newest sample; None before the first."""
     newest = session.journal.history.read_newest()
     if newest is None:
         return None
@@ -29,7 +29,7 @@ def read_pose(session: Session) -> ActuatorPose | None:
 
 
 def _read_comparisons(session: Session) -> tuple[ComparisonPose, ...]:
-    """Where the links of the other lanes are; none before a lane's first sample."""
+    """Read the link angles of the other lanes; none before a lane's first sample."""
     poses = []
     for number, segments in enumerate(list_session_segments(session)[1:], start=1):
         newest = session.journal.history.read_newest(number)
@@ -61,7 +61,7 @@ class View:
         self.session, self.bridge, self.seen = session, bridge, time.monotonic()
 
     def update(self, now: float) -> None:
-        """Nothing is read or sent without a viewer or without a pose."""
+        """Send the present pose; nothing without a viewer or a pose."""
         if not self.bridge.viewers:
             return
         self.seen = now
@@ -70,7 +70,7 @@ class View:
             self.bridge.show(pose)
 
     def is_over(self, now: float) -> bool:
-        """Whether it may end: its session has ended, or it had no viewer for a minute."""
+        """Whether the view ends: its session has ended, or it had no viewer for a minute."""
         is_left = self.session.name != SHARED_SESSION and now - self.seen > IDLE_S
         return self.session.closed or is_left
 
@@ -85,7 +85,7 @@ class Scenes:
         self._ending: set[asyncio.Task[None]] = set()
 
     async def open(self, name: str) -> int:
-        """The loopback port of the session's viser, started where there is none.
+        """Return the loopback port of the session's viser, started if there is none.
 
         Raises `UnknownError` where there is no such session.
         """
@@ -99,7 +99,7 @@ class Scenes:
         return view.bridge.port
 
     async def run(self) -> None:
-        """Show every session 30 times a second until cancelled."""
+        """Update every view 30 times a second until cancelled."""
         while True:
             begin = time.monotonic()
             for name, view in list(self.views.items()):
@@ -110,7 +110,7 @@ class Scenes:
             await asyncio.sleep(max(0.001, begin + UPDATE_PERIOD_S - time.monotonic()))
 
     def _end(self, name: str) -> None:
-        """Stopping takes up to a second, which no other view waits for."""
+        """End a view in the background; it takes up to a second."""
         ending = asyncio.create_task(asyncio.to_thread(self.views.pop(name).bridge.stop))
         self._ending.add(ending)
         ending.add_done_callback(self._ending.discard)
@@ -130,7 +130,7 @@ def _start_viser() -> "SceneBridge":
 
 
 def _update(view: View, now: float) -> None:
-    """An error in one view stops no other."""
+    """Update a view; an error in one does not stop the others."""
     try:
         view.update(now)
     except Exception:

@@ -1,1 +1,1 @@
-"""What goes over the wire: requests and answers as frozen models."""
+"""Requests and answers of the API as immutable models."""

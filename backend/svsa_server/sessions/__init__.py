@@ -1,1 +1,1 @@
-"""What the server keeps about each session: its state, recording, bench, stream."""
+"""The server's data of each session: state, recording, bench, stream."""

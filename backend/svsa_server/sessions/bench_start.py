@@ -1,4 +1,4 @@
-"""The bench of a served lab: opened with progress on the console, set to a step of the course."""
+"""The bench of a lab: opened with progress on the console, set up for a step of the course."""
 
 from collections.abc import Callable
 
@@ -20,7 +20,7 @@ _WAY_BACK = (
 
 
 async def open_bench(session: Session, console: Console | None = None) -> None:
-    """Open the bench of a session, if it has one, and say on the console how it goes."""
+    """Open the bench of a session, if it has one, and report progress on the console."""
     if not isinstance(session, BenchSession):
         return
     console = console or Console(stderr=True, soft_wrap=True)
@@ -35,7 +35,7 @@ async def open_bench(session: Session, console: Console | None = None) -> None:
 
 
 def show_steps(console: Console) -> Callable[[str, float], None]:
-    """What prints a line every ten seconds: what a bench's loop does, and since when."""
+    """Build a function that prints the progress of a bench's loop every ten seconds."""
     reported_s = 0.0
 
     def report(step: str, seconds: float) -> None:

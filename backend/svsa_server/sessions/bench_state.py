@@ -20,7 +20,7 @@ _BINS_A_WIRE_BIN = 25
 
 
 def build_bench_state(session: BenchSession) -> BenchState:
-    """The bench of a session at this instant."""
+    """Build the present state of a session's bench."""
     fields, bench, calibration = session.loop.memory.fields, session.bench, session.calibration
     return BenchState(
         name=bench.name,
@@ -64,7 +64,7 @@ def _build_homing(next_step: Axis | None) -> HomingState:
 
 
 def build_loop(session: BenchSession) -> LoopState:
-    """State and lateness of the loop of a bench, from its shared memory."""
+    """Build state and timing of a bench's loop from its shared memory."""
     fields, loss = session.loop.memory.fields, session.loop.loss
     lateness = fields["lateness"].copy()
     p50, p99, p999 = (read_quantile(lateness, share) for share in (0.5, 0.99, 0.999))
@@ -99,7 +99,7 @@ def _is_ticking(session: BenchSession) -> bool:
 
 
 def _find_silence_s(session: BenchSession) -> float:
-    """How much older the loop's word is than it says, s; infinite if unknown."""
+    """Return how much older the loop's last report is than it claims, s; infinite if unknown."""
     return 0.0 if _is_ticking(session) else session.loop.processes.silence_s or math.inf
 
 

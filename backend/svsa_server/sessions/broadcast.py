@@ -1,4 +1,4 @@
-"""Messages of a session to its streams: each is built once for all streams that need the same.
+"""Messages of a session to its streams; equal messages are built once.
 
 The past is sent once: a message contains it only from the tick up to which its stream knows it, so
 that it does not grow with the changes of a minute.
@@ -19,7 +19,7 @@ FRESH_S = 3.0
 
 @dataclass(frozen=True, eq=False)
 class Reported:
-    """Up to where a stream knows the past: of which run, which lanes, and under which names."""
+    """The past that a stream has received: run, lanes and names."""
 
     run_number: int
     tick: int
@@ -36,7 +36,7 @@ class Reported:
         return cls(session.journal.run_number, session.run.tick, lane_ids, names)
 
     def find_since(self, now: "Reported") -> int:
-        """The tick from which the past has to be sent; 0, all of it, if it has changed."""
+        """Return the tick from which the past has to be sent; 0, all of it, if it has changed."""
         if (self.run_number, self.lane_ids) != (now.run_number, now.lane_ids):
             return 0
         if self.names is not now.names and any(
@@ -47,14 +47,14 @@ class Reported:
 
 
 class Broadcast(NamedTuple):
-    """A message, and what its reader knows then."""
+    """A message, and what its client has received with it."""
 
     text: str
     reported: Reported
 
 
 def write_broadcast(hosted: HostedSession, reported: Reported) -> Broadcast:
-    """The message of a stream after a change: built once for all clients that need the same.
+    """Build the message after a change, once for all clients that need the same.
 
     Its continuous values are those at the time of the first client.
     """
@@ -64,13 +64,13 @@ def write_broadcast(hosted: HostedSession, reported: Reported) -> Broadcast:
 
 
 def write_progress(hosted: HostedSession, reported: Reported, period: Hashable) -> Broadcast:
-    """The continuous values, for a stream that knows every change: once in each period."""
+    """Build the continuous values for an up-to-date stream, once in each period."""
     version = (hosted.version, period)
     return hosted.progress.get(version, reported, lambda: _write(hosted, reported, build_progress))
 
 
 def is_fresh(hosted: HostedSession) -> bool:
-    """Whether the window has begun so lately that its numbers still move fast."""
+    """Whether the window started so recently that its numbers still change quickly."""
     run, window = hosted.session.run, hosted.session.journal.timeline.window
     return (run.tick - window.first_tick) * run.period_s < FRESH_S
 

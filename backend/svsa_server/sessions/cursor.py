@@ -1,4 +1,4 @@
-"""Where one client is in the history of a session, and the next batch of samples for it.
+"""The position of one client in a session's history, and its next batch of samples.
 
 Batches that are the same for many clients are made once.
 """
@@ -16,14 +16,14 @@ T = TypeVar("T")
 
 
 class Versioned(Generic[T]):
-    """What was made of one version, by key; another version forgets it."""
+    """A cache of values by key, cleared at a new version."""
 
     def __init__(self) -> None:
         self._version: Hashable = None
         self._made: dict[Hashable, T] = {}
 
     def get(self, version: Hashable, key: Hashable, make: Callable[[], T]) -> T:
-        """What was made of this version for this key, or is made now."""
+        """Return the value of this version and key, computed if it is not cached."""
         if version != self._version:
             self._version = version
             self._made.clear()
@@ -40,7 +40,7 @@ MAX_FAST_ROWS = 32
 
 
 class SampleCursor:
-    """Where one client is. packed: batches that were packed for others at the same place."""
+    """The position of one client. packed: batches packed for other clients at the same position."""
 
     def __init__(
         self,
@@ -60,11 +60,11 @@ class SampleCursor:
 
     @property
     def rate_hz(self) -> float:
-        """The rate that is really sent, at speed 1."""
+        """The actual sample rate at speed 1, Hz."""
         return 1.0 / (self._stride * self._session.run.period_s)
 
     def take_batch(self, slow: bool) -> bytes | None:
-        """The samples since the last batch, or only the newest for a `slow` client."""
+        """Return the samples since the last batch, or only the newest for a `slow` client."""
         session, history = self._session, self._session.journal.history
         missed = 0
         if session.journal.run_number != self._run:
@@ -101,7 +101,7 @@ class SampleCursor:
         return pack_batch(self._run, first, stride, missed, ids, rows)
 
     def read_lanes(self) -> list[int]:
-        """The lanes of the next batch, counted from 0: the requested ones that exist."""
+        """Return the lanes of the next batch, counted from 0: the requested ones that exist."""
         there = range(len(self._session.run.lanes))
         return [lane for lane in there if self._lanes is None or lane + 1 in self._lanes]
 

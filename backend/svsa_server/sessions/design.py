@@ -1,4 +1,4 @@
-"""Responses, stability, margins and starts of a design, as `POST …/design` answers them."""
+"""Responses, stability, margins and initial states of a design, for `POST …/design`."""
 
 import asyncio
 import math
@@ -87,7 +87,7 @@ async def measure_margins(
 async def map_attraction(
     work: HeavyWork, configuration: Configuration, sigma: float, request: RegionRequest
 ) -> RegionState:
-    """Simulate a part of the map of starts."""
+    """Simulate a part of the map of initial states."""
     sensing = configuration.changed(effects=choose_sensing(configuration.effects))
     starts, end = build_map(request.starts, request.chosen), request.first + request.count
     cells = order_cells(request.starts)[request.first : end]

@@ -1,4 +1,4 @@
-"""The identification excitation played on a session: one reference after another, recorded."""
+"""The identification excitation of a session: timed references, recorded."""
 
 import asyncio
 import logging
@@ -18,7 +18,7 @@ _log = logging.getLogger("svsa")
 
 
 class Excitation:
-    """The excitation from this tick of a session's run on, which is being recorded.
+    """The excitation from this tick of a session's run on.
 
     It ends with the recording: when it has been played, or earlier where the run ends, a user
     gives a reference of his own, or the run refuses one. `broken_off`: it is not to go on.
@@ -33,12 +33,12 @@ class Excitation:
 
     @property
     def elapsed_s(self) -> float:
-        """How much of it has been played, s."""
+        """Time played so far, s."""
         return (self._session.run.tick - self._first_tick) * self._session.run.period_s
 
     @property
     def over(self) -> bool:
-        """Whether it has ended, or was broken off."""
+        """Whether it has ended or was interrupted."""
         session = self._session
         return (
             session.journal.recorder is None
@@ -51,7 +51,7 @@ class Excitation:
         )
 
     async def play(self) -> None:
-        """Give each reference when it is due, until it is over; what refuses one breaks it off."""
+        """Apply each reference when it is due, until the end; an error interrupts it."""
         try:
             while not (self.broken_off or self.over):
                 await take_turn(self._give_due)
@@ -78,7 +78,7 @@ def check_excitable(session: Session) -> None:
 
 
 def build_excitation(excitation: Excitation | None) -> ExcitationState | None:
-    """How far it is, or None."""
+    """Return its progress, or None."""
     if excitation is None:
         return None
     return ExcitationState(elapsed_s=excitation.elapsed_s, duration_s=EXCITATION_DURATION_S)

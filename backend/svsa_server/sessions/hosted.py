@@ -1,4 +1,4 @@
-"""A session as this server hosts it: who is in control, whose streams are open, its last use."""
+"""A session with the server's own data: control lease, open streams, last use."""
 
 import asyncio
 import contextlib
@@ -20,24 +20,24 @@ from svsa_server.sessions.excitation import Excitation, check_excitable
 
 
 class Round:
-    """When the streams of a session send: all of them, right after it was woken."""
+    """A wake-up of the streams: all of them send right after the session was woken."""
 
     def __init__(self) -> None:
         self._begun = asyncio.Event()
 
     def begin(self) -> None:
-        """Wake every stream that waits."""
+        """Wake every waiting stream."""
         # `set` wakes all who wait now, `clear` makes the next ones wait for the next round.
         self._begun.set()
         self._begun.clear()
 
     async def wait(self) -> None:
-        """Until the next one begins."""
+        """Wait until the next wake-up."""
         await self._begun.wait()
 
 
 class BeforeExercise(NamedTuple):
-    """What a session was set to before an exercise, whether it ran, and the exercise's name."""
+    """The settings before an exercise, whether the session ran, and the exercise's name."""
 
     configuration: Configuration
     was_running: bool
@@ -45,7 +45,7 @@ class BeforeExercise(NamedTuple):
 
 
 class HostedSession:
-    """A session, and what is the server's own of it. Times are monotonic, s.
+    """A session with the server's own data. Times are monotonic, s.
 
     session: what people start, pause and change. `lease`: who is in control of it. `excitation`:
     what is being played on it, or None. `broadcast`, `progress`, `reported`, `batches`: what its
@@ -85,12 +85,12 @@ class HostedSession:
 
     @property
     def version(self) -> int:
-        """Grows with every change of the session, and of what the server has of it."""
+        """A number that grows with every change of the session or of the server's data of it."""
         return self.session.version + self._changes
 
     @property
     def revision(self) -> str:
-        """Another one after every change of settings or loads, for `If-Match`.
+        """A tag that changes with settings or loads, for `If-Match`.
 
         No other session has it, also none of this name after a restart of the server.
         """
@@ -98,13 +98,13 @@ class HostedSession:
         return f"{self.instance}.{journal.run_number}.{len(journal.commands)}"
 
     def close(self) -> None:
-        """End the session for good, and wake its streams."""
+        """End the session permanently, and wake its streams."""
         self.session.close()
         self.round.begin()
 
     @property
     def streams(self) -> int:
-        """How many are open."""
+        """Number of open streams."""
         return self._streams.total()
 
     def touch(self) -> None:
@@ -112,12 +112,12 @@ class HostedSession:
         self.last_use = max(self.last_use, time.monotonic())
 
     def is_idle(self, now: float, idle_s: float) -> bool:
-        """Whether it was not used for longer than idle_s."""
+        """Whether it was unused for longer than idle_s."""
         return not self.streams and now - self.last_use > idle_s
 
     @contextlib.contextmanager
     def streamed_to(self, client: str | None) -> Iterator[None]:
-        """While a stream of this client is open."""
+        """A context while a stream of this client is open."""
         self._count_stream(client, 1)
         try:
             yield
@@ -133,7 +133,7 @@ class HostedSession:
         self.touch()
 
     def read_instant(self) -> dict[str, int | str | None]:
-        """Run and tick of this instant, and the client in control."""
+        """Return the present run and tick, and the client in control."""
         holder = self.lease.holder
         return {
             "run": self.session.journal.run_number,
@@ -142,7 +142,7 @@ class HostedSession:
         }
 
     def list_viewers(self) -> set[str]:
-        """The clients that have a stream of it open, of those that name themselves."""
+        """List the clients with an open stream that send an id."""
         return {client for client in self._streams if client is not None}
 
     def take_control(self, holder: Holder, take_over: bool) -> None:
@@ -166,13 +166,13 @@ class HostedSession:
             self.find_queue().lock(is_locked, time.monotonic())
 
     def find_queue(self) -> ControlQueue:
-        """The lease of a class's session; raises `StateError` for any other."""
+        """Return the queue of a class's session; raises `StateError` for any other."""
         if not isinstance(self.lease, ControlQueue):
             raise StateError(f"The queue for control of session {self.session.name} is empty.")
         return self.lease
 
     def release_if_left(self, now: float, patience_s: float) -> None:
-        """End the control of a holder who, with no stream open, is silent for patience_s."""
+        """Release the lease of a holder that, without an open stream, is silent for patience_s."""
         for client in self.list_viewers():
             self.lease.hear(client, now)
         holder = self.lease.holder
@@ -184,7 +184,7 @@ class HostedSession:
             self._note_settled(self, one)
 
     def let_go(self, client: str) -> None:
-        """Have this client, who is no longer of the class, neither in control nor waiting."""
+        """Remove a client that has left the class from lease and queue."""
         if self.lease.is_held_by(client) or isinstance(self.lease, ControlQueue):
             self.give_control_back(client)
 
@@ -196,7 +196,7 @@ class HostedSession:
         self._rest_after(holder)
 
     def _rest_after(self, before: Holder | None) -> None:
-        """A bench ramps down where it is handed on; it does not start before it is at rest."""
+        """Ramp a bench down before its lease passes on; it does not start before it is at rest."""
         now = self.lease.holder
         if before is None or (now is not None and now.client == before.client):
             return
@@ -206,7 +206,7 @@ class HostedSession:
             self.session.halt("control was handed over")
 
     def keep_before_exercise(self, before: BeforeExercise | None) -> None:
-        """Keep the settings to return to after an exercise; None: there is no exercise."""
+        """Store the settings to restore after an exercise; None: there is no exercise."""
         self.before_exercise = before
         self._changes += 1
 
@@ -217,7 +217,7 @@ class HostedSession:
         check_excitable(self.session)
 
     def begin_excitation(self) -> None:
-        """Play it in the background from now on; the session runs and is being recorded."""
+        """Play the excitation in the background; the session runs and is recorded."""
         self.excitation = Excitation(self.session)
         self._changes += 1
         self._playing = asyncio.get_running_loop().create_task(self._play(self.excitation))
@@ -228,7 +228,7 @@ class HostedSession:
             self.end_excitation()
 
     def end_excitation(self) -> None:
-        """Break it off; the recording ends, the references stay as they are."""
+        """Interrupt the excitation; the recording ends, the references stay."""
         if self.excitation is not None:
             self.excitation.broken_off, self.excitation = True, None
             self.session.stop_recording()
@@ -239,7 +239,7 @@ NoteSettled = Callable[[HostedSession, Settled], None]
 
 
 def note_settled(log: AuditLog, hosted: HostedSession, settled: Settled) -> None:
-    """Write who was let go and why, at which tick, and who is in control now."""
+    """Log whose lease ended and why, at which tick, and the present holder."""
     log.write(
         event="control",
         why=settled.why,

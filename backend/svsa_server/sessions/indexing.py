@@ -1,4 +1,4 @@
-"""Bring the list of runs up to date in the background, while the lab is used."""
+"""Update the list of runs in the background."""
 
 import logging
 import threading
@@ -15,14 +15,14 @@ _log = logging.getLogger("svsa")
 
 
 class Indexed(NamedTuple):
-    """Runs that were read since the start, and how many are to be read."""
+    """Runs read since the start, and the number of runs to read."""
 
     done: int
     total: int
 
 
 class Indexing:
-    """Reads the runs that are new, changed or cut off, in a thread; see `Catalogue.index`.
+    """Reads new, changed or interrupted runs in a thread; see `Catalogue.index`.
 
     It sleeps half of the time, so that thousands of runs do not delay a loop on the same machine.
 
@@ -42,7 +42,7 @@ class Indexing:
 
     @property
     def progress(self) -> Indexed | None:
-        """How far it is; None once the list is complete."""
+        """Progress; None once the list is complete."""
         return self._indexed
 
     def wait(self) -> None:

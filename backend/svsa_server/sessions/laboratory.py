@@ -1,4 +1,4 @@
-"""The sessions of this server and the background task that keeps them going."""
+"""The sessions of this server and the background task that advances them."""
 
 import asyncio
 import itertools
@@ -67,7 +67,7 @@ class Laboratory:
         self._most_each = max_each
 
     def get(self, name: str) -> HostedSession:
-        """The session of this name, which counts as using it; raises `UnknownError`."""
+        """Return the session of this name, which counts as use; raises `UnknownError`."""
         if name not in self.sessions:
             open_to_all = [one for one, hosted in self.sessions.items() if not hosted.owner]
             known = ", ".join(open_to_all[:10])
@@ -81,7 +81,7 @@ class Laboratory:
     def create(
         self, configuration: Configuration, owner: str = "", note: str = ""
     ) -> HostedSession:
-        """A new private session, running; refused as by `check_room`.
+        """Create a private session, running; rejected as by `check_room`.
 
         Raises `ParameterError` for another actuator than the SVSA, which the page cannot show.
         """
@@ -101,7 +101,7 @@ class Laboratory:
         run_id: str,
         owner: str = "",
     ) -> HostedSession:
-        """A private session, paused, that continues from a recorded run at a tick.
+        """Create a private session, paused, that continues from a recorded run at a tick.
 
         Raises `ParameterError` for another actuator than the SVSA.
         """
@@ -113,7 +113,9 @@ class Laboratory:
         return self._add(session, owner)
 
     def check_room(self, owner: str) -> None:
-        """Raise `TooManyError` where this owner has too many, `StateError` where all have."""
+        """Raise `TooManyError` if this owner has too many sessions, `StateError` if the server
+        has.
+        """
         own = sum(hosted.owner == owner for hosted in self.sessions.values())
         most = None if owner in ("", INSTRUCTOR.id) else self._most_each
         if most is not None and own >= most:
@@ -161,7 +163,7 @@ class Laboratory:
             await asyncio.sleep(max(0.001, begin + WAKE_PERIOD_S - time.monotonic()))
 
     def _wake(self, session: Session) -> None:
-        """An error in one session pauses that session and stops no other."""
+        """Wake a session; an error pauses that session and does not stop the others."""
         try:
             if math.isinf(session.pace.speed):
                 self._run_unpaced(session)
@@ -172,7 +174,7 @@ class Laboratory:
             session.halt()
 
     def _run_unpaced(self, session: Session) -> None:
-        """As fast as it goes: bursts of ticks for this session's share of half the time."""
+        """Run a session at full speed: bursts of ticks within its share of half the time."""
         others = (hosted.session for hosted in self.sessions.values())
         unpaced = sum(math.isinf(other.pace.speed) for other in others)
         # All unpaced sessions together get half of the time, so that live sessions are not late.
@@ -197,7 +199,7 @@ class Laboratory:
 
 
 def build_shared_session(bench: Path | None, design: Design | None = None) -> Session:
-    """The session that everyone shares: Figure 4A running with the load in your hand, or a bench.
+    """Build the shared session: Figure 4A running with an interactive load, or a bench.
 
     design: of the simulation, the paper's if left out; a bench has its own, and has still to be
     opened.
@@ -212,7 +214,7 @@ def build_shared_session(bench: Path | None, design: Design | None = None) -> Se
 
 
 class EmulatorOperator(Hands):
-    """Does to an emulator what a person does to a bench, one after another, in a thread."""
+    """Operates an emulator as a person operates a bench, one action at a time, in a thread."""
 
     def __init__(self, control_port: int) -> None:
         self._port = control_port
@@ -221,11 +223,11 @@ class EmulatorOperator(Hands):
         self._thread = ThreadPoolExecutor(1, "hands")
 
     def hang(self, loads: tuple[Load, ...]) -> None:
-        """These loads and no others are on, soon."""
+        """Request that exactly these loads are on."""
         self._thread.submit(self._tell, lambda control: control.set_loads(loads))
 
     def set_to_marks(self) -> None:
-        """Set the mechanism to its zero marks; time passes until it is there."""
+        """Set the mechanism to its zero marks, and wait until it is there."""
         done = self._thread.submit(self._tell, EmulatorControl.home)
         end = time.monotonic() + LONGEST_HANDS_S
         while not done.done():
@@ -245,11 +247,11 @@ class EmulatorOperator(Hands):
 
 
 def find_hands(bench: Path) -> Hands:
-    """The operator at the bench: a person, or the stand-in of its emulator."""
+    """Return the operator of the bench: a person, or the emulator's stand-in."""
     emulator = read_bench(bench).emulator
     return EmulatorOperator(emulator.control_port) if emulator else Hands()
 
 
 def build_name() -> str:
-    """A name for a private session that cannot be guessed."""
+    """Draw an unguessable name for a private session."""
     return f"private-{secrets.token_hex(4)}"

@@ -1,4 +1,4 @@
-"""Commands that wait for a bench, and a server that goes on meanwhile.
+"""Commands that wait for a bench while the server serves other requests.
 
 A session is plain functions: a command of a bench asks its loop and lets time pass until it
 answers. Taken as a turn, such a function runs as a greenlet on the event loop's own thread, and
@@ -22,11 +22,11 @@ T = TypeVar("T")
 
 
 class Turn(greenlet):
-    """A function on its way, which comes back for a while whenever it lets time pass."""
+    """A running function that yields to other tasks whenever it lets time pass."""
 
 
 async def take_turn(do: Callable[P, T], *args: P.args, **kwargs: P.kwargs) -> T:
-    """What `do` returns or raises; other tasks go on while it lets time pass."""
+    """Run `do` and return its result; other tasks run while it lets time pass."""
     turn = Turn(do)
     # A greenlet begins with an empty context, in which the caller of the request is missing.
     turn.gr_context = contextvars.copy_context()
@@ -43,7 +43,7 @@ async def take_turn(do: Callable[P, T], *args: P.args, **kwargs: P.kwargs) -> T:
 
 
 def let_pass(seconds: float) -> None:
-    """Let time pass: in a turn other tasks go on; elsewhere the thread sleeps."""
+    """Let time pass: within a turn other tasks run; elsewhere the thread sleeps."""
     turn = getcurrent()
     if isinstance(turn, Turn) and turn.parent is not None:
         turn.parent.switch(seconds)
@@ -52,7 +52,7 @@ def let_pass(seconds: float) -> None:
 
 
 class TurnRoute(OwnedRoute):
-    """A route whose plain function is taken as a turn: it may wait for a bench."""
+    """A route whose synchronous function runs as a turn: it may wait for a bench."""
 
     def __init__(self, path: str, endpoint: Callable[..., Any], **settings: Any) -> None:
         if not inspect.iscoroutinefunction(endpoint):

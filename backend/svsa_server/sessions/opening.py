@@ -1,4 +1,4 @@
-"""Open a private session from what a request names."""
+"""Open a private session from the source in a request."""
 
 import asyncio
 

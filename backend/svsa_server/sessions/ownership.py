@@ -1,4 +1,4 @@
-"""Owners of what a request names by id."""
+"""Owners of things that a request names by id."""
 
 import asyncio
 import contextlib

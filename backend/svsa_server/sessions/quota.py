@@ -1,4 +1,4 @@
-"""How much disk a person of a class may fill with runs and studies.
+"""Disk quota of each person of a class for runs and studies.
 
 A recording that goes beyond is ended.
 """
@@ -17,7 +17,7 @@ _MB = 1e6
 
 
 class DiskQuota:
-    """most_bytes: of one person, with runs in the trash, live recordings and studies."""
+    """most_bytes: limit of one person, with runs in the trash, live recordings and studies."""
 
     def __init__(
         self, catalogue: Catalogue | NoCatalogue, laboratory: Laboratory, most_bytes: float
@@ -25,7 +25,7 @@ class DiskQuota:
         self._catalogue, self._laboratory, self._most = catalogue, laboratory, most_bytes
 
     async def check(self, owner: str) -> None:
-        """Raise `CatalogueError` where a person has no room for another run."""
+        """Raise `CatalogueError` if a person has no space for another run."""
         if not owner:
             return
         taken = await asyncio.to_thread(self._catalogue.measure_bytes, owner)
@@ -38,13 +38,13 @@ class DiskQuota:
             )
 
     async def run(self) -> None:
-        """Look every two seconds until cancelled."""
+        """Check every two seconds until cancelled."""
         while True:
             await asyncio.sleep(CHECK_S)
             await self.end_what_is_too_much()
 
     async def end_what_is_too_much(self) -> None:
-        """End the recordings of those whose runs take too much; what is recorded is kept."""
+        """End the recordings of users over their quota; the samples so far are kept."""
         for owner, live in self._measure_live().items():
             taken = live + await asyncio.to_thread(self._catalogue.measure_bytes, owner)
             if taken > self._most:

@@ -1,4 +1,4 @@
-"""Recordings of the sessions: begun, finished in the background, opened again as branches."""
+"""Recordings of the sessions: started, finished in the background, opened as branches."""
 
 import asyncio
 import logging
@@ -19,7 +19,7 @@ _log = logging.getLogger("svsa")
 
 
 class NoCatalogue:
-    """Stands where the catalogue could not be opened: every use says why; control goes on."""
+    """Replaces a catalogue that could not be opened: every use reports why; control continues."""
 
     def __init__(self, reason: str) -> None:
         self._reason = reason
@@ -32,7 +32,7 @@ class NoCatalogue:
 
 
 def open_catalogue() -> Catalogue | NoCatalogue:
-    """The catalogue in SVSA_DATA; `Indexing` finishes what a crash cut off."""
+    """Open the catalogue in SVSA_DATA; `Indexing` completes interrupted records."""
     try:
         return Catalogue()
     except CatalogueError as error:
@@ -41,7 +41,7 @@ def open_catalogue() -> Catalogue | NoCatalogue:
 
 
 class Recordings:
-    """Begins recordings, and finishes their files while the loop goes on."""
+    """Starts recordings, and completes their files in the background."""
 
     def __init__(self, catalogue: Catalogue | NoCatalogue) -> None:
         self._catalogue = catalogue
@@ -50,7 +50,7 @@ class Recordings:
     async def start(
         self, session: Session, name: str, tags: tuple[str, ...], notes: str, owner: str = ""
     ) -> None:
-        """Record a session from now on; raises `StateError`, `RecordError`, `ParameterError`.
+        """Start to record a session; raises `StateError`, `RecordError`, `ParameterError`.
 
         owner: id of the person whose run it is, in a class.
         """
@@ -65,13 +65,13 @@ class Recordings:
             raise
 
     def finish(self, recorder: Recorder) -> None:
-        """See to it in the background that an ended recording gets its file and its entry."""
+        """Complete the file and the entry of an ended recording in the background."""
         task = asyncio.get_running_loop().create_task(self._finish(recorder))
         self._finishing.add(task)
         task.add_done_callback(self._finishing.discard)
 
     async def close(self) -> None:
-        """Wait for the files that are being finished; the next start does what is left."""
+        """Wait for files in completion; the next start does the rest."""
         if self._finishing:
             await asyncio.wait(self._finishing, timeout=FINISH_TIMEOUT_S)
 
@@ -89,7 +89,7 @@ class Recordings:
 def build_session_header(
     session: Session, name: str, tags: tuple[str, ...], notes: str, owner: str = ""
 ) -> RecordHeader:
-    """What the record of this session says of itself; raises `ParameterError`.
+    """Build the header of a session's record; raises `ParameterError`.
 
     Unstable gains, which may be tried in a private session, are refused as everywhere: their
     record could not be opened again.

@@ -30,7 +30,7 @@ from svsa_server.sessions.hosted import HostedSession
 
 
 def build_progress(hosted: HostedSession, since_tick: int = 0) -> SessionProgress:
-    """The fields of the session that change with time, at this instant.
+    """Build the fields of the session that change with time.
 
     since_tick: of ended items only those that reach to this tick are returned.
     """
@@ -68,7 +68,7 @@ def build_progress(hosted: HostedSession, since_tick: int = 0) -> SessionProgres
 
 
 def build_state(hosted: HostedSession, since_tick: int = 0) -> SessionState:
-    """Everything about the session at this instant; since_tick as for `build_progress`."""
+    """Build the complete state of the session; since_tick as for `build_progress`."""
     session = hosted.session
     run = session.run
     newest = session.journal.history.read_newest()
@@ -141,12 +141,12 @@ def _summarize(session: Session, lane: int) -> dict[str, Metrics | None]:
 
 
 def _drop_unknown(metrics: Metrics | None) -> Metrics | None:
-    """None for a lane that has ended, whose numbers would be of what was before."""
+    """Return None for a lane that has ended, whose numbers would be outdated."""
     return None if metrics is None or math.isnan(metrics.rms_position_error_rad) else metrics
 
 
 def _find_lane_at_load(session: Session, lane: int) -> int | None:
-    """The lane that who controls this one now had when the load came; None where it had none."""
+    """Find the lane that the present controller had at the onset of the load; None if none."""
     timeline = session.journal.timeline
     number = timeline.lanes[lane][-1].number
     return timeline.load_numbers.index(number) if number in timeline.load_numbers else None
@@ -195,6 +195,6 @@ def _build_load(scheduled: ScheduledLoad, tick: int, period_s: float) -> LoadSta
 
 
 def _name_values(row: np.ndarray) -> dict[str, float | None]:
-    """A sample by channel; what is not known (NaN) is null."""
+    """Return a sample by channel; unknown values (NaN) are null."""
     pairs = zip(CHANNEL_NAMES, row.tolist(), strict=True)
     return {name: value if math.isfinite(value) else None for name, value in pairs}

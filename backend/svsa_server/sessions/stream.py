@@ -1,4 +1,4 @@
-"""Samples to a client: a greeting, then binary batches; a slow client gets the newest.
+"""Samples to a client: a hello message, then binary batches; a slow client gets the newest.
 
 Messages and the batch's header are described in `stream_schemas`, and from there in `/docs`.
 A change is sent before the samples that it affects, so that their lanes are known.
@@ -37,7 +37,7 @@ SLOW_AFTER_S = 0.5
 
 
 def read_stream_request(query: dict[str, str]) -> tuple[StreamRequest, tuple[str, ...]]:
-    """rate_hz, history_s, lanes and channels of an address; raises `ParameterError`.
+    """Read rate_hz, history_s, lanes and channels of an address; raises `ParameterError`.
 
     lanes: "all", or numbers from 1 with commas; lane 1 if left out.
     """
@@ -62,7 +62,7 @@ def read_stream_request(query: dict[str, str]) -> tuple[StreamRequest, tuple[str
 
 
 async def stream_session(websocket: WebSocket, hosted: HostedSession, person: Person) -> None:
-    """Serve one client until it leaves; in a class it is the person, whatever it calls itself."""
+    """Serve one client until it leaves; in a class it is identified by the person."""
     await websocket.accept()
     try:
         query = dict(websocket.query_params)
@@ -87,7 +87,7 @@ async def stream_session(websocket: WebSocket, hosted: HostedSession, person: Pe
 
 
 async def _listen(websocket: WebSocket, hosted: HostedSession, client: str | None) -> None:
-    """Wait for the client to leave; whatever it says holds the dead-man's switch of a bench."""
+    """Wait for the client to leave; each of its messages holds a bench's dead-man's switch."""
     while (await websocket.receive())["type"] != "websocket.disconnect":
         if hosted.lease.admits(client):
             hosted.lease.note_command(client, time.monotonic())
@@ -129,7 +129,7 @@ async def _send(
 
 
 def _count_periods(hosted: HostedSession, now: float) -> tuple[float, int]:
-    """The present period of progress messages: its length, s, and its number."""
+    """Return the present period of progress messages: its length, s, and its number."""
     every_s = FRESH_PROGRESS_PERIOD_S if is_fresh(hosted) else PROGRESS_PERIOD_S
     return every_s, int(now / every_s)
 

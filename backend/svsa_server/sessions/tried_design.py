@@ -1,4 +1,4 @@
-"""A design that is tried: a session's configuration with other gains, stable or not."""
+"""A design to evaluate: a session's configuration with other gains, stable or not."""
 
 from svsa.actuators.signals import CHANNEL_INDEX
 from svsa.control.gains import TriedGains
@@ -9,7 +9,7 @@ from svsa_server.schemas.lab.stability import DesignRequest
 
 
 def build_tried(session: Session, request: DesignRequest) -> tuple[Configuration, float]:
-    """What the session would be set to, and σ_d, N·m/rad; raises `ParameterError`."""
+    """Build the configuration to evaluate, and σ_d, N·m/rad; raises `ParameterError`."""
     configuration, sigma = session.run.configuration, read_stiffness(session)
     if request.observer is not None:
         configuration = configuration.changed(observer=request.observer)
@@ -25,7 +25,7 @@ def build_tried(session: Session, request: DesignRequest) -> tuple[Configuration
 
 
 def read_stiffness(session: Session) -> float:
-    """σ_d now, N·m/rad; before the first tick, where it begins."""
+    """Return σ_d now, N·m/rad; before the first tick its start value."""
     newest = session.journal.history.read_newest()
     if newest is None:
         return compute_start_value(session.run.configuration.stiffness)

@@ -1,4 +1,4 @@
-"""Come in, say who one is, and leave: login, join, tokens for scripts."""
+"""Log in, read one's identity, log out: login, join, tokens for scripts."""
 
 from typing import Annotated
 
@@ -204,7 +204,7 @@ def _find_root(request: Request) -> str:
 
 
 def set_cookie(request: Request, response: Response, value: str) -> None:
-    """Have a browser carry who it is from now on."""
+    """Set the cookie that identifies the user."""
     response.set_cookie(
         COOKIE,
         value,

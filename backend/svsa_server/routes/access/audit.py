@@ -1,4 +1,4 @@
-"""Who did what in a class, at which tick: the audit log, for the instructor."""
+"""The audit log of a class, for the instructor."""
 
 import asyncio
 from typing import Annotated

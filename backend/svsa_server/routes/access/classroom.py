@@ -1,4 +1,4 @@
-"""A class: who is here and sees what, a new code, the instructor's settings for everybody."""
+"""The class: members and sessions, a new code, the instructor's settings for all users."""
 
 import asyncio
 from typing import Annotated
@@ -98,7 +98,7 @@ async def renew_code(request: Request) -> ClassCode:
 
 
 def choose_join_address(base: URL, host: str) -> URL:
-    """Where the others of a class reach the page that is seen at `base`.
+    """Choose the address at which other machines reach the page at `base`.
 
     A name that means this machine only is replaced by the machine's address, if the lab listens
     there. host: the address that is listened on.
@@ -131,14 +131,14 @@ async def broadcast(request: Request) -> BroadcastState:
 
 
 def list_settings(configuration: Configuration) -> list[Command]:
-    """The commands that set law, its numbers and references as they are here."""
+    """List the commands that set law, parameters and references as in this session."""
     fields = ("position", "stiffness", "gains", "observer", "parameters", "law")
     values = [(field, getattr(configuration, field)) for field in fields]
     return [Set(field, value) for field, value in values if value != {}]
 
 
 def find_class(request: Request) -> ClassAuthentication:
-    """The class of this lab; raises `StateError` where it is none."""
+    """Return the class of this lab; raises `StateError` if it has none."""
     authentication = request.app.state.authentication
     if not isinstance(authentication, ClassAuthentication):
         raise StateError("This lab is no class: it cannot be joined, and it has no members.")

@@ -1,4 +1,4 @@
-"""Adversaries: what a falsification may do to a law, and within which bounds."""
+"""Adversaries: the loads and perturbations that a falsification may use, with bounds."""
 
 from svsa.evaluation.falsifier.file import ADVERSARY_FOLDER, list_adversaries, read_adversary
 from svsa_server.access.permissions import OBSERVER, allow

@@ -1,4 +1,4 @@
-"""Long work of every kind: start a tuning or falsification, read, stop, download its file."""
+"""Jobs of every kind: start a tuning or falsification, read, stop, download its file."""
 
 import asyncio
 from pathlib import Path as FilePath
@@ -119,7 +119,7 @@ def download_job(request: Request, job: JobId) -> Response:
 
 
 def find_jobs(request: Request) -> Jobs:
-    """The jobs of this server."""
+    """Return the jobs of this server."""
     return request.app.state.jobs
 
 
@@ -146,7 +146,7 @@ def _find_present(request: Request, wanted: TuningRequest) -> Design:
 
 
 def _find_result(job: Job) -> tuple[FilePath | None, str]:
-    """The file of a job that has ended with one, and the law that it is about."""
+    """Return the result file of a finished job, and the law that it concerns."""
     if not job.is_under_way and job.kind == "tuning":
         return tunings.find_file(job.folder), job.asked.law
     if not job.is_under_way and job.kind == "falsification":

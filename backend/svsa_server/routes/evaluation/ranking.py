@@ -1,4 +1,4 @@
-"""The ranking: the published results."""
+"""The published results of the ranking."""
 
 from svsa.evaluation.ranking.results import Results, load_published
 from svsa_server.access.permissions import OBSERVER, allow

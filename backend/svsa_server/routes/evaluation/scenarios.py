@@ -1,4 +1,4 @@
-"""Scenarios: keep one by a name, put any laws through it, see it in a session."""
+"""Scenarios: save one under a name, run any laws in it, open it in a session."""
 
 from typing import Annotated, Literal
 

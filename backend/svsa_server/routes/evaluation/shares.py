@@ -1,4 +1,4 @@
-"""Intervals of shares that a client has counted, such as the successes among brushed runs."""
+"""Confidence intervals of proportions counted by a client, such as among selected runs."""
 
 from typing import Annotated
 

@@ -1,4 +1,4 @@
-"""Studies: check one, run it as a job, look at its rows, and see any of them as a run."""
+"""Studies: check one, run it as a job, read its rows, open a row as a run."""
 
 import asyncio
 from typing import Annotated, Literal

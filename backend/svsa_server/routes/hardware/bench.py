@@ -1,4 +1,4 @@
-"""Arm a bench, home it, and clear its faults; a simulated session refuses."""
+"""Commands of a bench: arm it, home it, clear its faults; a simulated session rejects them."""
 
 import asyncio
 from typing import Annotated

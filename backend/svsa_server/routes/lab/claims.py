@@ -1,4 +1,4 @@
-"""Compare a figure's run in a session with what the paper claims of it."""
+"""Compare a run of a figure with the paper's claims."""
 
 from typing import Annotated, Literal
 
@@ -18,7 +18,7 @@ router = build_router("/sessions", tags=["session"], responses=REFUSALS, route_c
 
 
 class ClaimNumbersState(BaseModel):
-    """What one law did; null where the run did not reach the window."""
+    """The numbers of one law; null if the run did not reach the window."""
 
     law: str
     before_deg: float | None = Field(description="rms position error, 1-5 s")
@@ -71,7 +71,7 @@ def compare_claim(
 
 
 def _tell(law: str, numbers: ClaimNumbers) -> ClaimNumbersState:
-    """NaN has no word in JSON: null."""
+    """Replace NaN by null for JSON."""
     reported = {
         name: value if value == value else None for name, value in numbers._asdict().items()
     }

@@ -1,4 +1,4 @@
-"""Analyze a design before it is applied: predictions, stability, margins, starts."""
+"""Analyze a design before it is applied: predictions, stability, margins, initial states."""
 
 import asyncio
 import math
@@ -112,7 +112,7 @@ async def _predict(session: Session, request: PredictionRequest) -> Prediction:
 
 
 def _describe(error: ParameterError) -> str:
-    """The refusal of gains as it is read in a panel: "Position poles: … lies right of …"."""
+    """Format the rejection of gains for a panel: "Position poles: … lies right of …"."""
     return " ".join(
         f"{violation.name.partition('_')[0].capitalize()} poles: {violation.finding}."
         for violation in error.violations

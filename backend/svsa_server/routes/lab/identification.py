@@ -1,4 +1,4 @@
-"""Identify the actuator: play the excitation, and believe in what came of it."""
+"""Identify the actuator: play the excitation, and load the nominal model found."""
 
 from typing import Annotated
 

@@ -1,4 +1,4 @@
-"""The lab itself: health, the laws, and the kinds of everything else that varies."""
+"""The lab itself: health, the laws, and the kinds of effects, loads and references."""
 
 from fastapi import Request, Response
 

@@ -1,4 +1,4 @@
-"""Take control of a session, wait for it, hand it over, and give it back."""
+"""Take the control lease of a session, queue for it, hand it over, and release it."""
 
 from typing import Annotated
 

@@ -1,4 +1,4 @@
-"""References before they are followed: read from a CSV, looked at, and nothing changed."""
+"""References before they are applied: read a CSV, preview a course."""
 
 import asyncio
 from typing import Annotated, Literal

@@ -1,4 +1,4 @@
-"""Set what a session follows, how it is controlled, and what it is made of.
+"""Change the settings of a session: references, law, lanes, plant and effects.
 
 What is set already changes nothing when it is sent again: no fade, no event, no new window.
 """
@@ -257,7 +257,7 @@ def _apply(patch: Checked, actuator: ActuatorParameters) -> ActuatorParameters:
 def _merge(
     held: dict[str, LawParameters], given: dict[str, dict[str, Any]]
 ) -> dict[str, LawParameters]:
-    """The parameters held, by law, with the given ones; what is left out stays."""
+    """Merge the given parameters into the present ones, by law."""
     changed = dict(held)
     for law, values in given.items():
         try:

@@ -1,4 +1,4 @@
-"""What takes seconds to make of a recorded run: exports, the replay page, a comparison."""
+"""Files of a recorded run that take seconds: exports, the replay page, a comparison."""
 
 import asyncio
 import os
@@ -71,7 +71,7 @@ async def verify_run(runs: Runs, work: Work, run_id: RunId) -> Comparison:
 
 
 def send_page(file: IO[bytes]) -> StreamingResponse:
-    """A replay's page, to be looked at in place; a browser keeps it for the person who got it."""
+    """Send a replay's page for display; a browser caches it for this user only."""
     headers = {
         "Cache-Control": f"private, max-age={REPLAY_AGE_S}",
         "Vary": "Cookie, Authorization",

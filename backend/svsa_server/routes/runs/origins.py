@@ -1,4 +1,4 @@
-"""What decides the samples of a run, live or recorded: enough to do it again in a script."""
+"""Configuration and commands of a run, live or recorded: enough to repeat it in a script."""
 
 from collections.abc import Iterable, Mapping
 from typing import Any
@@ -51,7 +51,7 @@ def read_run_origin(request: Request, runs: Runs, run_id: RunId) -> RunOrigin:
 def name_origin(
     branch_of: BranchPoint | None, known: Mapping[str, RunEntry]
 ) -> BranchOrigin | None:
-    """Where a run goes on from, as far as the list of runs still knows it."""
+    """Return the run that a branch continues, if the list of runs still has it."""
     if branch_of is None:
         return None
     run_id, tick = branch_of.run_id, branch_of.tick

@@ -1,4 +1,4 @@
-"""Recorded runs: list, read, rename, delete, take back."""
+"""Recorded runs: list, read, rename, delete, restore."""
 
 import dataclasses
 from typing import Annotated, Any
@@ -153,7 +153,7 @@ def _tell(runs: Catalogue, entry: RunEntry) -> dict[str, Any]:
 
 
 def _list_values(runs: Catalogue, *entries: RunEntry) -> list[dict[str, Any]]:
-    """The fields of the runs on the wire, each with the run that it branched from."""
+    """List the fields of runs for the answer, each with the run that it branched from."""
     origins = runs.find(entry.branch_of.run_id for entry in entries if entry.branch_of)
     return [
         {field.name: getattr(entry, field.name) for field in dataclasses.fields(entry)}

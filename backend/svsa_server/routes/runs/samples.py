@@ -1,4 +1,4 @@
-"""Recorded runs looked at: samples for a plot, metrics of a segment."""
+"""Data of recorded runs: samples for a plot, metrics of a segment."""
 
 from typing import Annotated
 
@@ -108,7 +108,7 @@ def _choose_channels(record: Record, channels: str | None) -> list[str]:
 
 
 def _choose_rows(record: Record, start_s: float | None, end_s: float | None) -> tuple[int, int]:
-    """Rows of the samples from start_s to end_s, which may reach beyond the record."""
+    """Select the rows from start_s to end_s, limited to the record."""
     period, first = record.header.period_s, record.first_tick
     if start_s is not None and end_s is not None and end_s <= start_s:
         raise ParameterError(Violation("end_s", end_s, "s", f"greater than start_s, {start_s:g} s"))

@@ -1,4 +1,4 @@
-"""A recorded run compared with others: the settings that differ, and a verdict by tolerances."""
+"""A recorded run compared with others: different settings, and a verdict with tolerances."""
 
 from dataclasses import asdict
 from typing import Annotated
@@ -79,7 +79,7 @@ def judge_run(
 
 
 def _align_windows(run: Record, other: Record) -> tuple[int, int]:
-    """The first samples of both that are as far from the beginning of their measured windows."""
+    """Align two runs: their first samples at the same distance from their measured windows."""
     starts: list[int] = []
     for one in (run, other):
         window = find_measured_window(one)
@@ -94,7 +94,7 @@ def _align_windows(run: Record, other: Record) -> tuple[int, int]:
 def _draw_bands(
     run: Record, channel: str, tolerance: Tolerance, begin: int, ticks: int, points: int
 ) -> dict[str, Band]:
-    """By lane the band about a channel, thinned out so that neither bound loses a peak."""
+    """Compute the band about a channel for each lane, decimated without loss of peaks."""
     period = run.header.period_s
     values = read_channel(run, channel, begin, ticks)
     bounds = build_band(values, tolerance, round(tolerance.time_s / period))

@@ -1,4 +1,4 @@
-"""The course: exercises, one's progress in them, runs judged, and submission."""
+"""The course: exercises, the caller's progress, judged runs, and submission."""
 
 import asyncio
 from collections.abc import Callable
@@ -196,7 +196,7 @@ def submit_exercise(
 
 
 def _open_own(runs: Catalogue, person: Person, run_id: str) -> Result:
-    """A run that the person has recorded; raises `SvsaError` where it is none, or not finished."""
+    """Open a finished run that the person has recorded; raises `SvsaError` for any other."""
     entry = runs.get(run_id)
     if entry.owner != person.id:
         raise UnknownRunError(f"There is no run {run_id!r:.80} of yours.")
@@ -279,5 +279,5 @@ def _find_exercise(request: Request, name: str) -> Exercise:
 
 
 def find_store(request: Request) -> ProgressStore:
-    """Everybody's progress in this lab."""
+    """Return the progress of all users in this lab."""
     return request.app.state.course_progress

@@ -1,4 +1,4 @@
-"""Grades: of a class, for its instructor, and of a student."""
+"""Grades of a class, for its instructor, and of one student."""
 
 import asyncio
 from typing import Annotated, Any, Literal

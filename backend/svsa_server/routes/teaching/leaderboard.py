@@ -1,4 +1,4 @@
-"""The leaderboard: laws on the hidden trials of a season of the ranking."""
+"""The leaderboard: laws on a season's hidden trials."""
 
 import asyncio
 from functools import partial

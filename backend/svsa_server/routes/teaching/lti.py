@@ -39,14 +39,14 @@ _COOKIE_AGE_S = 600
 @router.get("/keys")
 @allow(ANYBODY)
 async def read_lti_keys(request: Request) -> JSONResponse:
-    """The lab's public keys (JWKS), with which a platform checks what the lab signs."""
+    """Return the lab's public keys (JWKS), for platforms to verify its signatures."""
     return JSONResponse(_find_tool(request).list_keys())
 
 
 @router.api_route("/login", methods=["GET", "POST"])
 @allow(ANYBODY)
 async def begin_login(request: Request) -> Response:
-    """Start of a login by the platform: redirect back to it, with a state and a nonce (OIDC)."""
+    """Start a login by the platform: redirect back to it, with state and nonce (OIDC)."""
     tool = _find_tool(request)
     asked = dict(request.query_params) | await _read_form(request)
     try:
@@ -72,7 +72,7 @@ async def begin_login(request: Request) -> Response:
 @router.post("/launch")
 @allow(ANYBODY)
 async def launch(request: Request) -> Response:
-    """Launch of a person by a token of the platform: into the class, to an exercise."""
+    """Launch a person with the platform's token: into the class, to an exercise."""
     tool, authentication, base = _find_tool(request), find_class(request), str(request.base_url)
     given, cookie = await _read_form(request), request.cookies.get(COOKIE, "")
     course = request.app.state.course
@@ -107,7 +107,7 @@ def _find_tool(request: Request) -> "LtiTool":
 
 
 def _offer_window(asked: dict[str, str]) -> HTMLResponse:
-    """The same login, in a window of its own: in a frame the lab's cookies would be a stranger's.
+    """Offer the login in a separate window: in a frame the lab's cookies are third-party cookies.
 
     Any site may frame this page: it has one link and tells nothing.
     """

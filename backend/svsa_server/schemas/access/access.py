@@ -1,4 +1,4 @@
-"""What goes over the wire about who comes in, and as whom."""
+"""Requests and answers about login and identity."""
 
 from typing import Annotated, Literal
 
@@ -25,7 +25,7 @@ class LoginRequest(Checked):
 
 
 class JoinRequest(Checked):
-    """Joins the class."""
+    """Join the class."""
 
     name: PersonName = quantity("", "Name that all users see, in printable characters")
     code: Annotated[str, Field(max_length=100)] = quantity("", "The class code")
@@ -35,13 +35,13 @@ class JoinRequest(Checked):
 
 
 class RejoinRequest(Checked):
-    """Rejoins as a person who has joined before."""
+    """Rejoin as a person who has joined before."""
 
     code: Annotated[str, Field(max_length=100)] = quantity("", "One's own rejoin code")
 
 
 class TokenRequest(Checked):
-    """Asks for a token with which a script comes in."""
+    """Request a bearer token for a script."""
 
     role: Literal["observer", "operator"] = quantity(
         "", "What the script may be; not more than one is oneself", default="operator"
@@ -57,7 +57,7 @@ class TokenState(BaseModel):
 
 
 class AccessState(BaseModel):
-    """How one comes into this lab, and as whom this request has come."""
+    """How users log in to this lab, and the identity of this request."""
 
     authentication: AuthenticationKind = Field(
         description="open: everybody on this machine; secret: with the shared secret;"
@@ -76,10 +76,10 @@ class AccessState(BaseModel):
 
 
 class RejoinCode(BaseModel):
-    """A code by which a person comes back to their work from any browser; reported once."""
+    """A code to rejoin as the same person from any browser; reported once."""
 
     rejoin_code: str
 
 
 class JoinState(AccessState, RejoinCode):
-    """As whom one has joined."""
+    """The identity after joining."""

@@ -1,4 +1,4 @@
-"""What goes over the wire about a class: its members, what each sees, its code, its audit log."""
+"""Requests and answers about a class: members, sessions, code, audit log."""
 
 from pydantic import BaseModel, Field
 
@@ -15,7 +15,7 @@ class MemberState(BaseModel):
 
 
 class PersonPatch(Checked):
-    """What to change of a person."""
+    """Changes of a person."""
 
     removed: Flag = quantity("", "Whether the person is removed from the class")
 
@@ -59,7 +59,7 @@ class ClassCode(BaseModel):
 
 
 class BroadcastState(BaseModel):
-    """Where the settings of the shared session were taken."""
+    """Where the settings of the shared session were copied to."""
 
     taken: int
     refused: list[str] = Field(description="Why not, of each session that refused them")

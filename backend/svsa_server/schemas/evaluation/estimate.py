@@ -1,4 +1,4 @@
-"""Estimates with intervals on the wire."""
+"""Estimates with confidence intervals."""
 
 from pydantic import BaseModel
 

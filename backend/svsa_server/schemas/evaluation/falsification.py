@@ -1,4 +1,4 @@
-"""Searches for what hurts a law on the wire: what is asked, how far one is, what it found."""
+"""Requests and answers about falsifications."""
 
 from typing import Annotated, Any, Literal, Self
 
@@ -42,7 +42,7 @@ class FalsificationRequest(Checked):
         return self
 
     def build(self) -> Adversary:
-        """The adversary; raises `ParameterError`, with the lines of a text."""
+        """Build the adversary; raises `ParameterError`, for a text with its lines."""
         changes = {} if self.law is None else {"law": self.law}
         if self.definition is not None:
             return self.definition.changed(**changes)

@@ -1,4 +1,4 @@
-"""Long work on the wire: what it is, how far it is, and what it has found."""
+"""Answers about jobs: kind, progress and result."""
 
 from typing import Annotated
 
@@ -17,7 +17,7 @@ JobRequest = Annotated[TuningRequest | FalsificationRequest, BY_KIND]
 
 
 class JobState(BaseModel):
-    """A tuning, a study, a falsification, a law for the leaderboard, grades: minutes or hours."""
+    """A job that takes minutes or hours: tuning, study, falsification, submitted law or grading."""
 
     id: str
     kind: Kind

@@ -1,4 +1,4 @@
-"""Scenarios on the wire: loads that any law can be put through, and what came of the laws."""
+"""Requests and answers about scenarios and the outcome of laws in them."""
 
 from typing import Annotated, Any, Self
 
@@ -18,7 +18,7 @@ SCENARIO_EXAMPLE: dict[str, Any] = {
 
 
 class ScenarioRuns(Checked):
-    """Laws that are to be put through a scenario."""
+    """Laws to run in a scenario."""
 
     scenario: LoadScenario = quantity("", "Loads, and settings")
     laws: Annotated[tuple[InstalledLaw, ...], Field(min_length=1, max_length=MAX_LAWS)] = quantity(
@@ -35,7 +35,7 @@ class ScenarioRuns(Checked):
 
 
 class LawOutcomeState(BaseModel):
-    """What came of a law in a scenario."""
+    """The outcome of a law in a scenario."""
 
     law: str
     fault: str | None = Field(description="Code of the fault that the run ended in")
@@ -44,14 +44,14 @@ class LawOutcomeState(BaseModel):
 
 
 class LawTraceState(LawOutcomeState):
-    """What came of a law, and its errors over time; null from a fault on."""
+    """The outcome of a law, and its errors over time; null after a fault."""
 
     position_error_rad: list[float | None]
     stiffness_error_nm_per_rad: list[float | None]
 
 
 class ScenarioTraceState(BaseModel):
-    """A scenario over time, thinned out with every peak kept."""
+    """A scenario over time, decimated without loss of peaks."""
 
     description: list[str] = Field(description="Its loads and settings, each in words")
     neighborhood: Estimate | None = Field(
@@ -66,7 +66,7 @@ class ScenarioTraceState(BaseModel):
 
 
 class SavedScenario(BaseModel):
-    """A scenario that is kept by a name."""
+    """A saved scenario."""
 
     name: str
     title: str
@@ -74,10 +74,10 @@ class SavedScenario(BaseModel):
 
 
 def dump_scenario(scenario: LoadScenario) -> dict[str, Any]:
-    """A scenario as it would stand in its file."""
+    """Convert a scenario to the form of its file."""
     return scenario.model_dump(mode="json", exclude_none=True)
 
 
 def describe_kept(name: str, scenario: LoadScenario) -> SavedScenario:
-    """A kept scenario."""
+    """Describe a saved scenario."""
     return SavedScenario(name=name, title=scenario.title, scenario=dump_scenario(scenario))

@@ -1,4 +1,4 @@
-"""Studies on the wire: what is asked, what is kept, and what came of one."""
+"""Requests and answers about studies."""
 
 import itertools
 from typing import Annotated, Any, Literal, Self
@@ -32,7 +32,7 @@ StudyName = Annotated[str, Field(min_length=1, max_length=64)]
 
 
 class StudyRequest(Checked):
-    """A study to be run: a built-in or a kept one, or a text; and what is otherwise than there."""
+    """A study to run: built-in, saved or given as text, with changes."""
 
     source: Annotated[StudyName, Owned("study source")] | None = quantity(
         "", "Name of a built-in or a kept study", default=None
@@ -58,7 +58,7 @@ class StudyRequest(Checked):
         return self
 
     def build(self, person: Person) -> tuple[str, Study]:
-        """The name to keep it by, and the study; raises `ParameterError`.
+        """Build the study and the name to save it under; raises `ParameterError`.
 
         person: the caller. Without a name in the request it is the source's, with a number if
         another person's study has that one.
@@ -89,7 +89,7 @@ def _find(source: str) -> Study:
 
 
 def _find_free(name: str, person: Person) -> str:
-    """The name, with a number if another person has a study of this name."""
+    """Find a free name: with a number if another person has a study of this name."""
     numbered = (f"{name}-{number}" for number in itertools.count(2))
     for one in itertools.chain([name], numbered):
         owner = read_owner(one)
@@ -110,7 +110,7 @@ class StudyColumn(BaseModel):
 
 
 class StudyPlan(BaseModel):
-    """What a study would be."""
+    """What a study would run."""
 
     name: str = Field(description="What it is kept by")
     title: str
@@ -122,7 +122,7 @@ class StudyPlan(BaseModel):
 
 
 class StudyState(StudyPlan):
-    """A kept study."""
+    """A saved study."""
 
     created: str = Field(description="When it was begun, ISO 8601 in UTC")
     version: str = Field(description="Of SVSA Lab, that began it")
@@ -139,7 +139,7 @@ class BuiltInStudy(BaseModel):
 
 
 class StudyMetric(BaseModel):
-    """What can be kept of a run, and asked of it."""
+    """A metric that a study can store, and that its success criterion can bound."""
 
     name: str
     label: str = Field(description="In words, without its unit")
@@ -147,7 +147,7 @@ class StudyMetric(BaseModel):
 
 
 class StudyList(BaseModel):
-    """All that can be looked at or run, and what is measured of a run."""
+    """All studies that can be read or run, and the metrics of a run."""
 
     built_in: list[BuiltInStudy]
     saved: list[StudyState] = Field(description="The last begun first")
@@ -155,7 +155,7 @@ class StudyList(BaseModel):
 
 
 class LawOutcome(BaseModel):
-    """How a law did."""
+    """Results of a law."""
 
     law: str
     runs: int = Field(description="Without those that were refused")
@@ -168,7 +168,7 @@ class LawOutcome(BaseModel):
 
 
 class LawPair(BaseModel):
-    """One law less another on the same samples."""
+    """The difference of two laws on the same samples."""
 
     one: str
     other: str
@@ -192,14 +192,14 @@ class LawPair(BaseModel):
 
 
 class StudySummary(BaseModel):
-    """What came of a study so far."""
+    """Results of a study so far."""
 
     laws: list[LawOutcome]
     pairings: list[LawPair] = Field(description="The first law less each other one")
 
 
 class SobolIndices(BaseModel):
-    """What decides an outcome under a law, by what varies.
+    """Sobol indices of an outcome under a law, by varied setting.
 
     Intervals are upper bounds: they take the points of the Sobol' sequence as independent.
     """
@@ -222,7 +222,7 @@ class RowReplay(BaseModel):
 
 
 def describe_plan(name: str, study: Study) -> StudyPlan:
-    """What a study would be."""
+    """Describe what a study would run."""
     return StudyPlan(
         name=name,
         title=study.title,
@@ -235,7 +235,7 @@ def describe_plan(name: str, study: Study) -> StudyPlan:
 
 
 def describe_study(stored: StoredStudy, job: Job | None) -> StudyState:
-    """A kept study, and the job that works at it."""
+    """Describe a saved study, and its job."""
     return StudyState(
         **describe_plan(stored.name, stored.study).model_dump(),
         created=stored.created,

@@ -1,4 +1,4 @@
-"""Tunings on the wire: what is searched, what was tried, and what came of it."""
+"""Requests and answers about tunings."""
 
 from typing import Annotated, Any, Literal
 
@@ -33,7 +33,7 @@ class TuningRequest(Checked):
 
 
 class AxisState(BaseModel):
-    """A number that is searched."""
+    """A parameter that is searched."""
 
     name: str = Field(description="As in the law's parameters; an entry of a tuple as name[0]")
     symbol: str
@@ -43,7 +43,7 @@ class AxisState(BaseModel):
 
 
 class CandidateState(BaseModel):
-    """A candidate, and what it showed; values are null where they were not measured or infinite."""
+    """A candidate and its results; null if not measured or infinite."""
 
     number: int = Field(description="0 is the design as it was")
     stage: Stage

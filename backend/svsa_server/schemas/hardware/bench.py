@@ -13,14 +13,16 @@ BenchStatusName = Literal["off", "reset", "config", "mode", "ready", "run", "ram
 
 
 class HomingRequest(Checked):
-    """Confirms that one axis stands at its zero mark."""
+    """Confirm that one axis is at its zero mark."""
 
     step: Axis = quantity("", "Axis at its mark: link, motor1 or motor2")
     by: Annotated[str, Field(min_length=1, max_length=100)] = quantity("", "Who looked at the mark")
 
 
 class HomingState(BaseModel):
-    """The guided zero: what is done, and the next step in words; null when all is done."""
+    """The homing procedure: completed axes, and the instruction of the next step; null when
+    done.
+    """
 
     done: list[Axis]
     next_step: Axis | None
@@ -28,7 +30,7 @@ class HomingState(BaseModel):
 
 
 class LoopState(BaseModel):
-    """The loop's process: how punctual it is, since it started."""
+    """The loop's process: its timing statistics since the start."""
 
     alive: bool = Field(description="It ticks: its process is there, and not silent")
     state: LoopStateName = Field(
@@ -63,7 +65,7 @@ class LoopState(BaseModel):
 
 
 class MotorState(BaseModel):
-    """How warm a motor's winding is, by the current that it had (I²t), and what that allows."""
+    """Temperature of a motor's winding by the I²t model, and the torque that it allows."""
 
     heat: float = Field(description="1 is the thermal limit; the torque is reduced from 0.9 on")
     lasting_torque_nm: float = Field(description="Continuous rating: the heat stays at 1")
@@ -74,7 +76,7 @@ class MotorState(BaseModel):
 
 
 class EnduranceState(BaseModel):
-    """A motor that a load is too much for: from when on heat holds its torque back."""
+    """A motor that a load overheats: from when on heat limits its torque."""
 
     motor: Literal["motor1", "motor2"]
     torque_nm: float = Field(description="Asked for under the load, rms")
@@ -83,7 +85,7 @@ class EnduranceState(BaseModel):
 
 
 class BenchState(BaseModel):
-    """A bench at this instant."""
+    """The present state of a bench."""
 
     name: str
     emulated: bool | None = Field(

@@ -1,4 +1,4 @@
-"""A design to be judged, and the judgement, on the wire."""
+"""Requests and answers about designs to evaluate."""
 
 from typing import Literal
 
@@ -10,7 +10,7 @@ from svsa_server.schemas.lab.gain import GainsRequest, Root
 
 
 class TriedDesign(Checked):
-    """Gains and observer to try; what is left out is as it is set now."""
+    """Gains and observer to evaluate; fields left out keep the present values."""
 
     gains: GainsRequest | None = quantity("", "New gains, as for PUT …/gains", default=None)
     observer: ObserverBandwidth | None = quantity(
@@ -19,13 +19,13 @@ class TriedDesign(Checked):
 
 
 class PredictionRequest(TriedDesign):
-    """Predict what gains and observer would do, before they are applied."""
+    """Predict the effect of gains and observer before they are applied."""
 
     kind: Literal["prediction"] = quantity("", "Steady-state errors, noise, torques, a verdict")
 
 
 class ReasonState(BaseModel):
-    """One thing to know about the design."""
+    """One finding about the design."""
 
     kind: Literal["note", "warn", "refuse"]
     code: str
@@ -33,7 +33,7 @@ class ReasonState(BaseModel):
 
 
 class SteadyStateErrorState(BaseModel):
-    """What the 3 kg (2 N·m on link and motors) leave of the errors, at rest."""
+    """Steady-state errors under the 3 kg (2 N·m on link and motors)."""
 
     position_error_rad: float
     stiffness_error_nm_per_rad: float
@@ -41,7 +41,7 @@ class SteadyStateErrorState(BaseModel):
 
 
 class LoopNoiseState(BaseModel):
-    """What the counts of the encoders become in the discrete loop; null where it is unstable."""
+    """Noise in the discrete loop from encoder counts; null if it is unstable."""
 
     torque1_rms_nm: float | None
     torque2_rms_nm: float | None
@@ -52,7 +52,7 @@ class LoopNoiseState(BaseModel):
 
 
 class TorqueDemandState(BaseModel):
-    """What the load asks of the motors, from a simulation of the session's motion."""
+    """Torques that the load demands, from a simulation of the session's motion."""
 
     peak_torque1_nm: float = Field(description="Asked for where nothing limits it")
     peak_torque2_nm: float = Field(description="Asked for where nothing limits it")
@@ -61,7 +61,7 @@ class TorqueDemandState(BaseModel):
 
 
 class Prediction(BaseModel):
-    """The judgement; numbers are null for gains that are refused as such."""
+    """The prediction; numbers are null for rejected gains."""
 
     verdict: Literal["ok", "warn", "refuse"]
     reasons: list[ReasonState]

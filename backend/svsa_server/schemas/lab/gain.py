@@ -1,4 +1,4 @@
-"""What goes over the wire about gains: as poles or coefficients, with the roots they give."""
+"""Requests and answers about gains: as poles or coefficients, with their roots."""
 
 from dataclasses import replace
 from typing import Annotated, Any, Self
@@ -14,7 +14,7 @@ Pole = _Part | tuple[_Part, _Part]
 
 
 class GainsRequest(Checked):
-    """New gains, as poles or as coefficients of Eq 25; what is left out stays."""
+    """New gains, as poles or as coefficients of Eq 25; fields left out keep their values."""
 
     position_poles_rad_per_s: tuple[Pole, Pole, Pole, Pole] | None = quantity(
         "rad/s", "Four closed-loop poles of position, each a real part or [re, im]", default=None
@@ -42,7 +42,7 @@ class GainsRequest(Checked):
         return self
 
     def apply_to(self, gains: Gains, kind: type[Gains] = Gains) -> Gains:
-        """The gains with these changes; raises `ParameterError` with the roots if unstable.
+        """Apply the changes to gains; raises `ParameterError` with the roots if unstable.
 
         kind: `TriedGains` where unstable ones may be looked at.
         """
@@ -62,7 +62,7 @@ class GainsRequest(Checked):
     def choose_coefficients(
         self, gains: Gains
     ) -> tuple[tuple[float, float, float, float], tuple[float, float]]:
-        """The coefficients asked for, or else those of `gains`, stable or not."""
+        """Return the requested coefficients, or those of `gains`, stable or not."""
         chosen: list[Any] = []
         for part, order in (("position", 4), ("stiffness", 2)):
             poles = getattr(self, f"{part}_poles_rad_per_s")
@@ -87,7 +87,7 @@ class Root(BaseModel):
 
 
 class GainsState(BaseModel):
-    """The gains with the roots they give."""
+    """The gains with their roots."""
 
     position_coefficients: list[float]
     stiffness_coefficients: list[float]

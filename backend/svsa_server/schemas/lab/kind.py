@@ -1,4 +1,4 @@
-"""What goes over the wire about what varies: each kind in the words of its own file."""
+"""Answers about kinds of effects, loads and references, described by their own files."""
 
 from collections.abc import Mapping
 
@@ -27,7 +27,7 @@ class EffectState(BaseModel):
 
 
 class EffectsPreset(BaseModel):
-    """A choice among the non-ideal effects."""
+    """A preset of the non-ideal effects."""
 
     name: PresetName
     summary: str
@@ -35,7 +35,7 @@ class EffectsPreset(BaseModel):
 
 
 class FormField(BaseModel):
-    """A number for which a form asks."""
+    """A number field of a form."""
 
     parameter: ParameterState
     first: float = Field(description="What stands there first")
@@ -53,7 +53,7 @@ class KindState(BaseModel):
 
 
 class Kinds(BaseModel):
-    """What is found here of all that varies, except for laws."""
+    """All kinds of this lab, except for laws."""
 
     effects: list[EffectState]
     presets: list[EffectsPreset]
@@ -65,7 +65,7 @@ class Kinds(BaseModel):
 
 
 def list_kinds() -> Kinds:
-    """Every kind that is found here."""
+    """List every kind of this lab."""
     return Kinds(
         effects=[_describe_effect(effect) for effect in EFFECTS],
         presets=[

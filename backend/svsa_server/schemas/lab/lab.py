@@ -1,4 +1,4 @@
-"""What goes over the wire about the lab: its figures, its health."""
+"""Answers about the lab: its figures and its health."""
 
 from typing import Literal
 
@@ -18,7 +18,7 @@ class FigureState(BaseModel):
 
 
 class Health(BaseModel):
-    """That the server lives."""
+    """The server is alive."""
 
     status: Literal["ok"] = "ok"
     version: str

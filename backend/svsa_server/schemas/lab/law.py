@@ -1,4 +1,4 @@
-"""What goes over the wire about laws: what each says of itself, as a form and a legend need it."""
+"""Answers about laws: the descriptions that forms and legends need."""
 
 from typing import Annotated
 
@@ -31,7 +31,7 @@ InstalledLane = Annotated[Lane, AfterValidator(_check_lane)]
 
 
 class LawState(BaseModel):
-    """A law that is installed, in its own words."""
+    """An installed law, described by its own file."""
 
     name: str
     title: str
@@ -49,7 +49,7 @@ class LawState(BaseModel):
 
 
 def list_laws() -> list[LawState]:
-    """Every law that is installed; one that does not work says why."""
+    """List every installed law; one that does not load has the reason."""
     return [_describe(name, line_style) for name, line_style in list_law_line_styles().items()]
 
 

@@ -9,7 +9,7 @@ from svsa_server.leases.lease import LONGEST_NAME, READABLE, check_printable
 
 
 class ControlRequest(Checked):
-    """Takes control of a session."""
+    """Take control of a session."""
 
     by: Annotated[
         str,
@@ -20,7 +20,7 @@ class ControlRequest(Checked):
 
 
 class HandoverRequest(Checked):
-    """Passes control to a user in the queue."""
+    """Pass control to a user in the queue."""
 
     to: Annotated[str, Field(max_length=LONGEST_NAME)] = quantity(
         "", "Id of the person, as `queue.waiting` names it"
@@ -28,7 +28,7 @@ class HandoverRequest(Checked):
 
 
 class LockRequest(Checked):
-    """Locks control of a session, or unlocks it."""
+    """Lock or unlock control of a session."""
 
     locked: Flag = quantity("", "Whether only the instructor may be in control")
 
@@ -41,7 +41,7 @@ class WaitingState(BaseModel):
 
 
 class QueueState(BaseModel):
-    """Who waits for control of the shared session of a class."""
+    """The queue for control of a class's shared session."""
 
     waiting: list[WaitingState] = Field(description="Who gets it next stands first")
     place: int | None = Field(
@@ -54,7 +54,7 @@ class QueueState(BaseModel):
 
 
 class ControlState(BaseModel):
-    """Who may command a session; everybody may watch, pause and stop it."""
+    """Who may command a session; all users may watch, pause and stop it."""
 
     holder: str | None = Field(description="Who is in control; null: everybody may command")
     mine: bool = Field(description="Whether it is the client that this answer is for")

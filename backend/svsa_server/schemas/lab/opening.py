@@ -1,4 +1,4 @@
-"""What a session is opened from, or set to: a figure, run, falsification, exercise …"""
+"""Sources of a session: a figure, run, falsification, scenario or exercise."""
 
 from typing import Annotated, Any, Literal
 
@@ -16,14 +16,14 @@ from svsa_server.schemas.teaching.course import StepName
 
 
 class FromFigure(FigureRequest):
-    """A figure of the paper, running; also what `from` is if it is left out."""
+    """A figure of the paper, running; the default if `from` is left out."""
 
     source: Literal["figure"] = quantity("", "A figure", alias="from", default="figure")
     figure: Literal["4a", "4b", "5"] = quantity("", "Figure of the paper", default="4a")
     seed: Whole = quantity("", "Seed of the sensor noise", ge=0, le=2**63 - 1, default=0)
 
     def build_configuration(self, design: Design) -> Configuration:
-        """What the session is set to, with the lab's design; raises `ParameterError`."""
+        """Build the session's configuration with the lab's design; raises `ParameterError`."""
         return super().build_configuration(design).changed(seed=self.seed)
 
 
@@ -36,7 +36,7 @@ class FromRun(Checked):
 
 
 class FromSession(DesignRequest):
-    """Another session's settings with this design, stable or not; the 3 kg come after 1 s.
+    """Another session's settings with this design, stable or not; 3 kg are added after 1 s.
 
     It is a simulation also if the other session has a bench; the other session stays as it is.
     """
@@ -46,7 +46,7 @@ class FromSession(DesignRequest):
 
 
 class FromFalsification(Checked):
-    """The scenario that a falsification found, running, of its law and another one."""
+    """The scenario found by a falsification, running, with its law and another one."""
 
     source: Literal["falsification"] = quantity("", "A falsification", alias="from")
     id: Annotated[str, Owned("job")] = quantity("", "Id of its job, which has ended")
@@ -62,14 +62,14 @@ class FromScenario(Checked):
     )
 
     def build_configuration(self) -> Configuration:
-        """The run; raises `ParameterError`."""
+        """Build the run's configuration; raises `ParameterError`."""
         law, *others = self.laws
         comparisons = tuple(Lane(law=other) for other in others)
         return self.scenario.build_configuration(law).changed(comparisons=comparisons)
 
 
 class FromRanking(Checked):
-    """A row of the ranking in a scenario, running, with NDOBC, declared gains, as comparison.
+    """A row of the ranking in a scenario, running, compared with NDOBC (declared gains).
 
     NDOBC itself is compared with FL. Without comparison if that would end earlier; `note` says why.
     """
@@ -99,7 +99,7 @@ SessionRequest = TypeAliasType(
 
 
 class FigureExperiment(FigureRequest):
-    """One of the paper's figures, from t = 0; also what `from` is if it is left out.
+    """One of the paper's figures, from t = 0; the default if `from` is left out.
 
     What is set comes from the figure; lanes and effects from the request. A bench has its own.
     """
@@ -109,7 +109,7 @@ class FigureExperiment(FigureRequest):
 
 
 class ExerciseExperiment(Checked):
-    """An experiment of the course, paused at t = 0; its predictions are saved now.
+    """An experiment of the course, paused at t = 0; its predictions become final.
 
     A bench has plant, effects and limits of its own: it gets law, references, loads, gains and
     observer. Rejected if a prediction is missing, on a bench that moves, or on a bench for a step

@@ -1,4 +1,4 @@
-"""What goes over the wire about the numbers that a kind of something has: of a law, an effect."""
+"""Descriptions of parameters of laws and effects."""
 
 import types
 from typing import Any, Literal, Union, get_args, get_origin
@@ -14,7 +14,7 @@ _KINDS: dict[Any, ParameterKind] = {float: "number", int: "number", bool: "flag"
 
 
 class ParameterState(BaseModel):
-    """A number, or another value, that can be set."""
+    """A parameter: a number or another value."""
 
     name: str
     symbol: str = Field(description="What it is called in short")
@@ -27,13 +27,13 @@ class ParameterState(BaseModel):
 
 
 def list_parameters(model: type[BaseModel]) -> list[ParameterState]:
-    """The fields of a model but for its `kind`, in the words of their declarations."""
+    """List the fields of a model except `kind`, as they are declared."""
     fields = model.model_fields.items()
     return [describe_parameter(model, name, field) for name, field in fields if name != "kind"]
 
 
 def describe_parameter(model: type[BaseModel], name: str, field: FieldInfo) -> ParameterState:
-    """A field of a model."""
+    """Describe a field of a model."""
     declared = read_quantity(model, name)
     bounds = {
         side: next((getattr(m, side) for m in field.metadata if hasattr(m, side)), None)

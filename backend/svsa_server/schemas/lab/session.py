@@ -1,4 +1,4 @@
-"""What goes over the wire about a session: how it is started and moved, and its state."""
+"""Requests and answers about sessions."""
 
 from typing import Annotated, Literal
 
@@ -21,13 +21,13 @@ from svsa_server.schemas.runs.run import ExcitationState, RecordingState
 
 
 class StepRequest(Checked):
-    """How far to go by hand."""
+    """The number of ticks to run."""
 
     ticks: Whole = quantity("ticks", "Control periods to run", ge=1, le=10_000, default=1)
 
 
 class SpeedRequest(Checked):
-    """How fast session time goes."""
+    """The speed of session time."""
 
     speed: Annotated[Number, Field(ge=0.05, le=20)] | Literal["max"] = quantity(
         "1", "Session seconds a wall second, 0.05 to 20, or max for as fast as it goes"
@@ -35,7 +35,7 @@ class SpeedRequest(Checked):
 
 
 class FigureRequest(Checked):
-    """One of the paper's figures; with other lanes and effects than it has."""
+    """One of the paper's figures, optionally with other lanes and effects."""
 
     figure: Literal["4a", "4b", "5"] = quantity("", "Figure of the paper")
     law: InstalledLaw = quantity(
@@ -48,13 +48,13 @@ class FigureRequest(Checked):
     effects: Effects = quantity("", "What separates it from a bench", default=IDEAL)
 
     def build_configuration(self, design: Design) -> Configuration:
-        """What the session is set to, with the lab's design; raises `ParameterError`."""
+        """Build the session's configuration with the lab's design; raises `ParameterError`."""
         figure = get_figure(self.figure).build_configuration(self.law, self.load, design)
         return figure.changed(comparisons=self.comparisons, effects=self.effects)
 
 
 class LoadState(BaseModel):
-    """A load of the session; `end_s` is null for one that stays."""
+    """A load of the session; `end_s` is null for a load without end."""
 
     id: int
     start_s: float
@@ -95,14 +95,14 @@ class SessionProgress(BaseModel):
 
 
 class BranchState(BaseModel):
-    """The recorded run that a session goes on from, and the tick at which it left it."""
+    """The recorded run that a session continues, and the tick at which it branched."""
 
     run_id: str
     tick: int
 
 
 class SessionState(SessionProgress):
-    """A session: where it is, how well it does, and how it is set."""
+    """A session: its time, its metrics and its settings."""
 
     session: str
     instance: str = Field(

@@ -1,4 +1,4 @@
-"""What goes over the wire about how a session is set."""
+"""Requests and answers about the settings of a session."""
 
 from typing import Annotated, Any, ClassVar
 
@@ -32,7 +32,7 @@ class LawRequest(Checked):
 
 
 class _Patch(Checked):
-    """Changes to a section, which its errors name: two sections may have the same fields."""
+    """Changes of a section, which errors name: two sections may have the same fields."""
 
     section: ClassVar[str] = ""
 
@@ -44,7 +44,7 @@ class _Patch(Checked):
 
 
 def build_patch(section: str, model: type[ActuatorParameters]) -> type[Checked]:
-    """`model` with every field left out at will, for PATCH; bounds, units and words stay.
+    """Build a PATCH model of `model` with every field optional, with the same bounds and units.
 
     What is given must be a value: null would be refused by the model, and not silently kept.
     """
@@ -72,7 +72,7 @@ class ParameterFileRequest(Checked):
 
 
 class ConfigurationState(BaseModel):
-    """Everything that is set."""
+    """All settings of a session."""
 
     law: str
     position: PositionReference

@@ -15,7 +15,7 @@ MAX_AT_ONCE = 400
 
 
 class DesignRequest(TriedDesign):
-    """A design to try, stable or not; what is left out is as it is set now."""
+    """A design to evaluate, stable or not; fields left out keep the present values."""
 
     law: InstalledLaw | None = quantity("", "Another law: see GET /laws", default=None)
     stiffness_nm_per_rad: Number | None = quantity(
@@ -34,7 +34,9 @@ class AnalysisRequest(DesignRequest):
 
 
 class RegionRequest(DesignRequest):
-    """A part of the map of starts, from coarse to fine: request on until `next` is null."""
+    """A part of the map of initial states, coarse to fine: repeat the request until `next` is
+    null.
+    """
 
     kind: Literal["region"] = quantity("", "From which sampled starts the design comes to rest")
 
@@ -50,7 +52,7 @@ class RegionRequest(DesignRequest):
 
 
 class LoadResponseState(BaseModel):
-    """The 3 kg come at rest at t = 0, simulated as the session is set."""
+    """Response to 3 kg, from rest at t = 0, simulated with the session's settings."""
 
     time_s: list[float]
     position_error_rad: list[float]
@@ -59,14 +61,14 @@ class LoadResponseState(BaseModel):
 
 
 class FrequencyResponseState(BaseModel):
-    """Position error for a torque on the link, of the sampled loop about rest."""
+    """Position error per torque on the link, of the sampled loop about rest."""
 
     frequency_hz: list[float]
     magnitude_rad_per_nm: list[float]
 
 
 class ResponseState(BaseModel):
-    """The effect of a design, from quick computations."""
+    """The effects of a design, from quick computations."""
 
     law: str
     stiffness_nm_per_rad: float
@@ -83,7 +85,7 @@ class ResponseState(BaseModel):
 
 
 class StableRangeState(BaseModel):
-    """True over nominal value of a parameter for which the loop is Hurwitz, the others nominal."""
+    """True over nominal value of one parameter for which the loop is Hurwitz."""
 
     parameter: str
     symbol: str
@@ -125,14 +127,14 @@ class StabilityState(BaseModel):
 
 
 class GainRangeState(BaseModel):
-    """Factors on one torque between which the loop stays stable, the other torque as it is."""
+    """Factors on one torque for which the loop stays stable, with the other torque unchanged."""
 
     low: float | None = Field(description="Null where it is stable down to 0.01")
     high: float | None = Field(description="Null where it is stable up to 100")
 
 
 class MarginsState(BaseModel):
-    """Margins of the sampled loop about rest, opened where the torques reach the plant."""
+    """Margins of the sampled loop about rest, opened at the plant's torque input."""
 
     law: str
     stiffness_nm_per_rad: float
@@ -161,7 +163,7 @@ class MarginsState(BaseModel):
 
 
 class StartOutcomeState(BaseModel):
-    """What becomes of a start."""
+    """The outcome of an initial state."""
 
     row: int
     column: int
@@ -170,7 +172,8 @@ class StartOutcomeState(BaseModel):
 
 
 class RegionState(BaseModel):
-    """A part of the map: the link starts at q0 with q̇0, and is to come to rest.
+    """A part of the map of initial states: the link starts at q0 with q̇0; the reference is at
+    rest.
 
     The starts are a sample of a slice of the state space: no proof for any other start.
     """

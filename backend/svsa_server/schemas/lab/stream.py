@@ -1,4 +1,4 @@
-"""What a stream sends: its messages, and in words the layout of `svsa.runs.session.frame`."""
+"""Messages of a stream, and a description of the layout of `svsa.runs.session.frame`."""
 
 import struct
 from typing import Annotated, Any, Literal
@@ -23,7 +23,7 @@ from svsa_server.schemas.lab.session import SessionProgress, SessionState
 
 
 class StreamRequest(Checked):
-    """What a stream carries."""
+    """The contents of a stream."""
 
     rate_hz: Number = quantity("Hz", "Samples a second", ge=1, le=10_000, default=200.0)
     lanes: tuple[Annotated[Whole, Field(ge=1, le=MAX_LANES)], ...] | None = quantity(
@@ -49,7 +49,7 @@ class BatchField(BaseModel):
 
 
 class BatchLayout(BaseModel):
-    """A binary message, little-endian: its header, every lane's id, every sample's values."""
+    """A binary message, little-endian: header, lane ids, values of each sample."""
 
     magic: str = Field(default=MAGIC.decode(), description="The text that a batch begins with")
     header_bytes: int = HEADER.size
@@ -59,7 +59,7 @@ class BatchLayout(BaseModel):
 
 
 class Hello(BaseModel):
-    """The first message: what the batches will hold, and how they are packed."""
+    """The first message: contents and layout of the batches."""
 
     type: Literal["hello"] = "hello"
     session: str
@@ -84,7 +84,7 @@ class StateMessage(BaseModel):
 
 
 class StreamError(BaseModel):
-    """What is wrong with the address of the stream, which is closed then."""
+    """An error in the address of the stream; the stream is closed after it."""
 
     type: Literal["error"] = "error"
     message: str
@@ -94,7 +94,7 @@ StreamMessage = Hello | StateMessage | StreamError
 
 
 def lay_out_batch() -> BatchLayout:
-    """Where each field of a batch's header stands, as `pack_batch` packs it."""
+    """Return the offsets of the fields of a batch's header, as `pack_batch` writes them."""
     codes = [code for _, code, _ in HEADER_FIELDS]
     return BatchLayout(
         header=[
@@ -105,7 +105,7 @@ def lay_out_batch() -> BatchLayout:
 
 
 def describe_stream(batch_period_s: float) -> str:
-    """The stream in words (Markdown), with the layout of a batch as it is packed."""
+    """Describe the stream (Markdown) with the layout of a batch."""
     rows = [
         f"| {field.byte} | {field.type} | {field.name} | {meaning} |"
         for field, (_, _, meaning) in zip(lay_out_batch().header, HEADER_FIELDS, strict=True)
@@ -149,7 +149,7 @@ def describe_stream(batch_period_s: float) -> str:
 
 
 def list_stream_parameters() -> list[dict[str, Any]]:
-    """What may stand in the address of a stream, as OpenAPI parameters."""
+    """List the query parameters of the stream, as OpenAPI parameters."""
     bounds = StreamRequest.model_json_schema()["properties"]
     words = {
         "lanes": f"`all`, or numbers from 1 to {MAX_LANES} with commas; lane 1 if left out",

@@ -1,4 +1,4 @@
-"""What goes over the wire about faults: the table of all kinds, that of a run or a session."""
+"""Answers about faults: the table of all kinds, and the fault of a run or session."""
 
 from typing import Any, Literal, Self
 
@@ -27,7 +27,7 @@ class FaultKindState(BaseModel):
 
 
 class RunFault(BaseModel):
-    """The fault that a run ended in."""
+    """The fault that ended a run."""
 
     code: str
     label: str = Field(description="In a few words")
@@ -36,7 +36,7 @@ class RunFault(BaseModel):
 
     @classmethod
     def report(cls, fault: Fault, **more: Any) -> Self:
-        """The fault as it goes over the wire. more: the fields of a subclass."""
+        """Build the answer for a fault. more: the fields of a subclass."""
         return cls(
             code=fault.code,
             label=label_fault(fault.code),
@@ -47,7 +47,7 @@ class RunFault(BaseModel):
 
 
 class SessionFault(RunFault):
-    """The fault that a session holds until it is reset or cleared."""
+    """The fault of a session until it is reset or cleared."""
 
     lane: int = Field(description="From 0")
     tick: int
@@ -61,7 +61,7 @@ def list_faults() -> list[FaultKindState]:
 
 
 def build_session_fault(fault: Fault) -> SessionFault:
-    """A session's fault as it goes over the wire."""
+    """Build the answer for a session's fault."""
     return SessionFault.report(
         fault,
         lane=fault.lane,

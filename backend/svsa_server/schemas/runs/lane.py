@@ -1,4 +1,4 @@
-"""What goes over the wire about lanes: who controlled them when, and how well they did."""
+"""Answers about lanes: their controllers over time, and their metrics."""
 
 from pydantic import BaseModel, Field
 
@@ -28,14 +28,14 @@ class SegmentState(Period):
 
 
 class WindowState(Period):
-    """A part of the run in which nothing was changed, from start to before end."""
+    """A part of the run without changes, from start to before end."""
 
     kind: WindowKind = Field(description="What began it")
     label: str = Field(description="What began it, in words; empty for the start of the run")
 
 
 class EndedWindowState(WindowState):
-    """A window after which something was changed, and how well the lanes did in it."""
+    """An ended window, and the metrics of the lanes in it."""
 
     lanes: list[Metrics | None] = Field(
         description="Of the present lanes in their order; null for one that was not there"

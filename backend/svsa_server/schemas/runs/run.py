@@ -1,4 +1,4 @@
-"""What goes over the wire about recorded runs, and about a recording in progress."""
+"""Requests and answers about recorded runs and recordings."""
 
 from typing import Annotated, Any, Literal, Self
 
@@ -32,7 +32,7 @@ Tags = Annotated[
 
 
 class RunPatch(Checked):
-    """What to change of a run; what is left out, or null, stays."""
+    """Changes of a run; fields that are left out or null keep their values."""
 
     model_config = ConfigDict(json_schema_extra={"minProperties": 1})
 
@@ -49,7 +49,7 @@ class RunPatch(Checked):
 
 
 class BranchOrigin(BaseModel):
-    """The recorded run that a run or session goes on from."""
+    """The recorded run that a run or session continues."""
 
     run_id: str = Field(description="Id of that run")
     tick: int = Field(description="Tick of it from which this one goes on")
@@ -98,7 +98,7 @@ class RunSummary(BaseModel):
 
 
 class IndexProgress(BaseModel):
-    """How far the list of runs is brought up to date after a start."""
+    """Progress of updating the list of runs after a start."""
 
     model_config = ConfigDict(from_attributes=True)
 
@@ -127,21 +127,21 @@ class RunList(BaseModel):
 
 
 class RunCommand(BaseModel):
-    """A command that was given while the run went on."""
+    """A command given during the run."""
 
     tick: int
     command: dict[str, Any]
 
 
 class GivenCommand(BaseModel):
-    """A command as this version of the lab gives it again."""
+    """A command in the format of this version of the lab."""
 
     tick: int
     command: Command
 
 
 class RunDetails(RunSummary):
-    """A run with everything that decided its samples."""
+    """A run with all data that determine its samples."""
 
     lane_names: list[str] = Field(description="What to call the lanes: by their laws")
     segments: list[list[SegmentState]] = Field(description="Of every lane, who controlled it when")
@@ -156,7 +156,7 @@ class RunDetails(RunSummary):
 
 
 class RunOrigin(BaseModel):
-    """What decides the samples of a run: simulated again, they are the same bits."""
+    """Configuration and commands that determine the samples of a run bit for bit."""
 
     configuration: dict[str, Any] = Field(description="At tick 0")
     commands: list[GivenCommand] = Field(description="In the order in which they were given")
@@ -168,7 +168,7 @@ class RunOrigin(BaseModel):
 
 
 class RunMetrics(BaseModel):
-    """How good a segment of a run is, from every sample in it."""
+    """Metrics of a segment of a run, from every sample in it."""
 
     start_s: float
     end_s: float
@@ -180,7 +180,7 @@ class RunMetrics(BaseModel):
 
 
 class RunSamples(BaseModel):
-    """Samples of a run, thinned out for a plot.
+    """Samples of a run, decimated for a plot.
 
     Where stride is greater than 1, every two points are least and greatest of `stride`
     ticks, in the order in which they came, each channel separately.
@@ -195,7 +195,7 @@ class RunSamples(BaseModel):
 
 
 class SettingDifference(BaseModel):
-    """A setting that is not the same in every run."""
+    """A setting that differs between runs."""
 
     group: str
     name: str
@@ -206,7 +206,7 @@ class SettingDifference(BaseModel):
 
 
 class RunDifference(BaseModel):
-    """What of the settings differs between runs; what is not listed is the same in all."""
+    """The settings that differ between runs; all others are equal."""
 
     runs: list[str] = Field(description="Their ids, in the order of the values")
     titles: list[str]
@@ -214,7 +214,7 @@ class RunDifference(BaseModel):
 
 
 class RecordingRequest(Checked):
-    """What a recording is called; all of it may be changed later."""
+    """Name, tags and notes of a recording; they can be changed later."""
 
     name: RunName = quantity("", "Name of the run", default="")
     tags: Tags = quantity("", "Words to find it by, each once", default=())
@@ -222,7 +222,7 @@ class RecordingRequest(Checked):
 
 
 class RecordingState(BaseModel):
-    """How a recording stands; failed says why, and control goes on."""
+    """State of a recording; if it failed, the reason (control continues)."""
 
     run_id: str
     name: str
@@ -233,13 +233,13 @@ class RecordingState(BaseModel):
 
 
 class ExcitationState(BaseModel):
-    """How far the identification excitation has been played; it is recorded."""
+    """Progress of the identification excitation."""
 
     elapsed_s: float
     duration_s: float
 
 
 class ExcitationRequest(Checked):
-    """What the recording of the excitation is called."""
+    """Name of the recording of the excitation."""
 
     name: RunName = quantity("", "Name of the run", default="Identification")

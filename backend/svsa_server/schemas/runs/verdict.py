@@ -1,4 +1,4 @@
-"""What goes over the wire about a verdict between recorded runs."""
+"""Requests and answers about comparisons of recorded runs."""
 
 import math
 from dataclasses import asdict
@@ -16,7 +16,7 @@ MAX_POINTS = 20_000
 
 
 class VerdictRequest(Checked):
-    """Against which run a run is judged, and by how much each channel may differ."""
+    """The reference run of a comparison, and the tolerance of each channel."""
 
     other: Annotated[str, Owned("run")] = quantity(
         "", "Id of the run that it should be", min_length=1, max_length=200
@@ -39,7 +39,7 @@ class VerdictRequest(Checked):
 
 
 class ChannelJudged(BaseModel):
-    """How a channel of a lane was judged; times are those of the run that is judged."""
+    """The verdict of a channel of a lane; times are those of the run under test."""
 
     lane: str
     channel: str
@@ -59,7 +59,7 @@ class ChannelJudged(BaseModel):
 
 
 class Band(BaseModel):
-    """What a channel may be, in the time of the run that it should be; null: not known there."""
+    """The tolerance band of a channel, in the time of the reference run; null: unknown."""
 
     time_s: list[float]
     low: list[float | None]
@@ -67,13 +67,16 @@ class Band(BaseModel):
 
     @classmethod
     def build(cls, time_s: list[float], bounds: np.ndarray) -> Self:
-        """bounds: least and greatest, (times, 2)."""
+        """Build the band. bounds: lower and upper, (times, 2)."""
         low, high = ([_tell(value) for value in column] for column in bounds.T.tolist())
         return cls(time_s=time_s, low=low, high=high)
 
 
 class RunVerdict(BaseModel):
-    """A run judged against another. held: every channel, and both are as long from there on."""
+    """A run compared with a reference run.
+
+    held: every channel is within tolerance, and both runs have the same length.
+    """
 
     held: bool
     ticks: int = Field(description="So many were compared")
@@ -87,7 +90,7 @@ class RunVerdict(BaseModel):
 
 
 def build_channel_state(verdict: ChannelVerdict) -> ChannelJudged:
-    """A channel's verdict on the wire."""
+    """Build the answer for a channel's verdict."""
     numbers = ("value", "low", "high", "excess")
     reported: dict[str, Any] = asdict(verdict) | {
         name: _tell(getattr(verdict, name)) for name in numbers

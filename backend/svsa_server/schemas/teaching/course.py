@@ -1,4 +1,4 @@
-"""What goes over the wire about the course: exercises, progress, judgements."""
+"""Requests and answers about the course: exercises, progress, judgements."""
 
 from typing import Annotated, Literal
 
@@ -16,19 +16,19 @@ from svsa_server.access.owned import Owned
 
 
 class AnswerRequest(Checked):
-    """What was predicted, in the step's unit, or the name of the option that was chosen."""
+    """A prediction in the step's unit, or the name of the selected option."""
 
     answer: Answer
 
 
 class PlaceRequest(Checked):
-    """Where the reader is."""
+    """The step at which the user is."""
 
     step: StepName = quantity("", "Name of the step")
 
 
 class RunRequest(Checked):
-    """The run that is to be judged."""
+    """The run to be judged."""
 
     run_id: Annotated[str, Field(min_length=1, max_length=80), Owned("run")] = quantity(
         "", "Id of a recorded run"
@@ -36,19 +36,19 @@ class RunRequest(Checked):
 
 
 class SubmissionRequest(Checked):
-    """Who submits; in a class it is the person who asks."""
+    """The student who submits; in a class the caller."""
 
     student: str = quantity("", "Name", max_length=LONGEST_NAME, default="")
 
 
 class CourseLawRequest(Checked):
-    """A law that is to be tried and kept."""
+    """A law to be tried and saved."""
 
     text: LawText = quantity("", "Text of a law's Python file")
 
 
 class OptionState(BaseModel):
-    """An answer that can be chosen."""
+    """An answer that can be selected."""
 
     name: str
     text: str
@@ -62,7 +62,7 @@ class ManualLoadState(BaseModel):
 
 
 class BenchStepState(BaseModel):
-    """An experiment as it is run on a bench."""
+    """An experiment in its form for a bench."""
 
     criteria: list[str] = Field(description="What is asked of its run")
     manual_load: str = Field(description="What the user at the bench does with its loads")
@@ -70,7 +70,7 @@ class BenchStepState(BaseModel):
 
 
 class StepState(BaseModel):
-    """A step, what is known of it, and what may be done."""
+    """A step, the caller's progress in it, and the possible actions."""
 
     name: str
     kind: Literal["read", "predict", "experiment", "explain", "submit"]
@@ -132,7 +132,7 @@ class CourseState(BaseModel):
 
 
 def describe_summary(exercise: Exercise, progress: ExerciseProgress) -> ExerciseSummary:
-    """An exercise in the list."""
+    """Describe an exercise in the list."""
     return ExerciseSummary(
         name=exercise.name,
         number=exercise.number,
@@ -151,7 +151,7 @@ def describe_summary(exercise: Exercise, progress: ExerciseProgress) -> Exercise
 
 
 def describe_exercise(exercise: Exercise, progress: ExerciseProgress) -> ExerciseState:
-    """An exercise with its steps; the correct answers are not included."""
+    """Describe an exercise with its steps; correct answers are not included."""
     return ExerciseState(
         **describe_summary(exercise, progress).model_dump(),
         html=render_text(exercise.text),

@@ -1,4 +1,4 @@
-"""Grades on the wire."""
+"""Requests and answers about grades."""
 
 from pydantic import BaseModel, Field
 
@@ -9,7 +9,7 @@ from svsa.teaching.grading.grade import Grade
 
 
 class GradingRequest(Checked):
-    """What is to be graded: what was submitted and has no grade, or all of it."""
+    """Which submissions to grade: those without a grade, or all."""
 
     again: Flag = quantity("", "Run again also what has its grade", default=False)
 
@@ -23,7 +23,7 @@ class GradedSubmissionState(BaseModel):
 
 
 class StudentState(BaseModel):
-    """A student with what was submitted."""
+    """A student with their submissions."""
 
     person: str = Field(description="Id of the person")
     name: str
@@ -31,7 +31,7 @@ class StudentState(BaseModel):
 
 
 class GradedExercise(BaseModel):
-    """An exercise of the table."""
+    """An exercise of the grade table."""
 
     name: str
     number: int
@@ -39,7 +39,7 @@ class GradedExercise(BaseModel):
 
 
 class GradesState(BaseModel):
-    """A class's grades, students in the order of their names."""
+    """The grades of a class, students sorted by name."""
 
     not_isolated: str | None = Field(
         description="Why no law is graded on this machine; null where laws can be isolated"
@@ -49,12 +49,12 @@ class GradesState(BaseModel):
 
 
 def describe_submission(one: GradedSubmission) -> GradedSubmissionState:
-    """A submission on the wire."""
+    """Describe a submission."""
     return GradedSubmissionState(exercise=one.exercise, grade=one.grade, problem=one.problem)
 
 
 def describe_students(submitted: list[GradedSubmission]) -> list[StudentState]:
-    """By person, each under the name of the last submission."""
+    """Group submissions by student, each under the name of the last submission."""
     students: dict[str, StudentState] = {}
     for one in submitted:
         known = students.setdefault(
@@ -65,5 +65,5 @@ def describe_students(submitted: list[GradedSubmission]) -> list[StudentState]:
 
 
 def describe_exercises(exercises: list[Exercise]) -> list[GradedExercise]:
-    """The exercises in their order."""
+    """List the exercises in their order."""
     return [GradedExercise(name=one.name, number=one.number, title=one.title) for one in exercises]

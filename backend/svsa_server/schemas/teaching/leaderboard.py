@@ -1,4 +1,4 @@
-"""The leaderboard on the wire."""
+"""Requests and answers about the leaderboard."""
 
 from collections.abc import Sequence
 
@@ -11,7 +11,7 @@ from svsa_server.schemas.evaluation.job import JobState
 
 
 class LawSubmission(Checked):
-    """A law that is to be put through the season."""
+    """A law to be measured in the season."""
 
     name: EntryName = quantity("", "What it is called on the board", max_length=MAX_NAME)
     law: LawText = quantity("", "Text of its file, Python: see docs/grading.md")
@@ -21,26 +21,26 @@ class LawSubmission(Checked):
 
 
 class SubmissionState(BaseModel):
-    """What becomes of a law."""
+    """The state of a submission."""
 
     key: str = Field(description="Of its entry: SHA-256 of its text")
     job: JobState | None = Field(description="To be followed; null where it has its entry already")
 
 
 class RankedEntry(Entry):
-    """An entry with its place."""
+    """An entry with its rank."""
 
     rank: Whole = quantity("", "By success rate, 1 the best; equal rates share a place", ge=1)
 
 
 def describe_entries(entries: Sequence[Entry]) -> list[RankedEntry]:
-    """The entries with their places."""
+    """Describe the entries with their ranks."""
     ranks = rank_entries(entries)
     return [RankedEntry(**dict(one), rank=at) for at, one in zip(ranks, entries, strict=True)]
 
 
 class LeaderboardState(BaseModel):
-    """A season: who is on the board, the best first."""
+    """A season and its entries, the best first."""
 
     suite: str = Field(description="Version of the suite; scores compare within one")
     began: str | None = Field(
