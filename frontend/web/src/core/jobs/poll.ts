@@ -52,6 +52,16 @@ export function polling(onError: (error: unknown) => void): Poll {
   };
 }
 
+/** Reads what a page opens with: again until the server answers, or another read takes its place. */
+export function reading(onError: (error: unknown) => void) {
+  const poll = polling(onError);
+  return <T>(ask: () => Promise<T>, take: (found: T) => void): Promise<Ending> =>
+    poll.follow(ask, (found) => {
+      take(found);
+      return true;
+    });
+}
+
 /** For `take`, of what it asks for besides: null for a refusal; what is not answered is asked again. */
 export async function unlessRefused<T>(
   asked: Promise<T>,

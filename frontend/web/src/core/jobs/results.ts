@@ -3,6 +3,7 @@ import { type Signal, signal } from "@preact/signals";
 import type { Job } from "../api/jobs";
 import { attempting, showErrorIn } from "../state/actions";
 import { followJobs } from "./follow";
+import { reading } from "./poll";
 
 interface Results<T> {
   /** null until the server has answered. */
@@ -24,9 +25,12 @@ export function followResults<T>(kind: Job["kind"], ask: () => Promise<T>): Resu
   const found = signal<T | null>(null);
   const problem = signal("");
   const attempt = attempting(problem);
+  const readFound = reading(showErrorIn(problem));
   const read = async () => {
-    const answer = await attempt(ask);
-    if (answer !== null) found.value = answer;
+    problem.value = "";
+    await readFound(ask, (answer) => {
+      found.value = answer;
+    });
   };
   const { job, follow, resume, leave, cancel } = followJobs(
     kind,

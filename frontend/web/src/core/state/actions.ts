@@ -109,9 +109,14 @@ export const asking =
     }
   };
 
-/** Makes what tells why there is no answer, and with null that there is one after all. */
+/** Shows why a repeated request has no answer; null: it has one after all. */
 export const showErrorIn = (problem: Signal<string>) => (error: unknown) => {
-  problem.value = error === null ? "" : describeError(error);
+  problem.value =
+    error === null
+      ? ""
+      : error instanceof UnansweredError
+        ? text.connection.retrying
+        : describeError(error);
 };
 
 /** Wraps a request of the user: null if rejected, with its reason shown. */

@@ -106,6 +106,7 @@ export const pageText = {
     anotherText:
       "The previous session has ended, or the server restarted. Settings are the defaults; recordings are under Runs.",
     unreachable: "The server does not answer.",
+    retrying: "The server does not answer. Retrying …",
     askingTitle: "No response.",
     askingText:
       "It is unknown whether the last command was executed; the page is asking the server.",

@@ -18,7 +18,7 @@ import {
   type Trace,
 } from "../../core/api/falsifications";
 import type { Law } from "../../core/api/types";
-import { polling } from "../../core/jobs/poll";
+import { polling, reading } from "../../core/jobs/poll";
 import { isGoing } from "../../core/jobs/progress";
 import { asking, showErrorIn } from "../../core/state/actions";
 import { goTo, place } from "../../runs/list/place";
@@ -80,16 +80,22 @@ export const laws = computed((): readonly Law[] => {
 
 const attempt = asking(problem);
 
-export async function openLists(): Promise<void> {
-  const [known, ended, named] = await Promise.all([
-    adversaries.peek().length > 0 ? adversaries.peek() : attempt(listAdversaries),
-    attempt(listSearches),
-    attempt(listScenarios),
-  ]);
-  adversaries.value = known ?? [];
-  searches.value = ended ?? searches.peek();
-  kept.value = named ?? kept.peek();
-}
+const readLists = reading(showErrorIn(problem));
+
+export const openLists = () =>
+  readLists(
+    () =>
+      Promise.all([
+        adversaries.peek().length > 0 ? adversaries.peek() : listAdversaries(),
+        listSearches(),
+        listScenarios(),
+      ]),
+    ([known, ended, named]) => {
+      adversaries.value = known;
+      searches.value = ended;
+      kept.value = named;
+    },
+  );
 
 const poll = polling(showErrorIn(problem));
 export const { leave } = poll;

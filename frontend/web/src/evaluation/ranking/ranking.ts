@@ -1,7 +1,8 @@
 /** The published results, their order, and the row that is looked at. */
 import { computed, signal } from "@preact/signals";
 import { type Results, type Row, readRanking, seeScenario } from "../../core/api/ranking";
-import { explain } from "../../core/state/actions";
+import { reading } from "../../core/jobs/poll";
+import { explain, showErrorIn } from "../../core/state/actions";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { sortRows } from "./columns";
@@ -25,15 +26,14 @@ export const rows = computed<readonly Row[]>(() => {
 export const titleOfRow = ({ key, law }: Pick<Row, "key" | "law">): string =>
   key === DECLARED ? text.ranking.declared(titleOf(law)) : titleOf(law);
 
+const readResults = reading(showErrorIn(problem));
+
 export async function openRanking(): Promise<void> {
   if (results.peek() !== null) return;
-  try {
-    const found = await readRanking();
+  await readResults(readRanking, (found) => {
     results.value = found;
     chosen.value = found.rows[0]?.key ?? "";
-  } catch (error) {
-    problem.value = explain(error);
-  }
+  });
 }
 
 /** Opens a private session of this run in the lab. */

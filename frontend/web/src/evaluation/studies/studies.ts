@@ -18,7 +18,7 @@ import {
   type StudyWish,
   startStudy,
 } from "../../core/api/studies";
-import { polling, unlessRefused } from "../../core/jobs/poll";
+import { polling, reading, unlessRefused } from "../../core/jobs/poll";
 import { isGoing } from "../../core/jobs/progress";
 import { asking, showErrorIn } from "../../core/state/actions";
 import { goTo, keepLook, place } from "../../runs/list/place";
@@ -63,9 +63,12 @@ const attempt = asking(problem);
 const poll = polling(showErrorIn(problem));
 export const { leave } = poll;
 
-export async function openList(): Promise<void> {
-  list.value = (await attempt(listStudies)) ?? list.peek();
-}
+const readList = reading(showErrorIn(problem));
+
+export const openList = () =>
+  readList(listStudies, (found) => {
+    list.value = found;
+  });
 
 const wantedColumns = (names: Readonly<Record<string, string>>): string[] => [
   ...new Set(["law", "fault", "succeeded", ...Object.values(names)].filter((name) => name !== "")),

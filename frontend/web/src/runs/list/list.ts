@@ -2,7 +2,9 @@
 import { batch, computed, effect, signal } from "@preact/signals";
 import { changeRun, deleteRun, listRuns, restoreRun } from "../../core/api/runs";
 import type { RunList, RunPatch, RunSummary } from "../../core/api/types";
-import { attempt } from "./problem";
+import { reading } from "../../core/jobs/poll";
+import { showErrorIn } from "../../core/state/actions";
+import { attempt, runsProblem } from "./problem";
 
 export const PAGE_SIZE = 20;
 export const MAX_CHOSEN = 6;
@@ -29,11 +31,10 @@ export const chosen = signal<readonly string[]>([]);
 /** The run that was deleted last, as long as it may be taken back at once. */
 export const deleted = signal<RunSummary | null>(null);
 
-let newest = 0;
+const read = reading(showErrorIn(runsProblem));
 
 export async function refresh(): Promise<void> {
-  newest += 1;
-  const mine = newest;
+  runsProblem.value = "";
   const wanted = {
     search: search.peek().trim(),
     filters: filters.peek(),
@@ -42,13 +43,16 @@ export async function refresh(): Promise<void> {
     pageSize: PAGE_SIZE,
     isTrash: isTrash.peek(),
   };
-  const answer = await attempt(() => listRuns(wanted));
-  if (answer === null || mine !== newest) return;
-  if (answer.runs.length === 0 && wanted.page > 1) {
-    pageNumber.value = Math.max(1, Math.ceil(answer.total / PAGE_SIZE));
-    return;
-  }
-  found.value = answer;
+  await read(
+    () => listRuns(wanted),
+    (answer) => {
+      if (answer.runs.length === 0 && wanted.page > 1) {
+        pageNumber.value = Math.max(1, Math.ceil(answer.total / PAGE_SIZE));
+        return;
+      }
+      found.value = answer;
+    },
+  );
 }
 
 /** Asks again whenever what is asked for changes; returns the function that ends it. */

@@ -20,7 +20,8 @@ import {
 } from "../../core/api/course";
 import { RefusedError } from "../../core/api/errors";
 import { readRun } from "../../core/api/runs";
-import { explain, perform } from "../../core/state/actions";
+import { reading } from "../../core/jobs/poll";
+import { explain, perform, showErrorIn } from "../../core/state/actions";
 import { hasControl, mayCommand } from "../../core/state/control";
 import { acceptState, session } from "../../core/state/session";
 import { place, writePlace } from "../../runs/list/place";
@@ -91,9 +92,13 @@ async function attempt<T>(wish: () => Promise<T>): Promise<T | null> {
   }
 }
 
+const read = reading(showErrorIn(problem));
+
 export async function openCourse(): Promise<void> {
-  const found = await attempt(listCourse);
-  if (found !== null) exercises.value = found.exercises;
+  problem.value = "";
+  await read(listCourse, (found) => {
+    exercises.value = found.exercises;
+  });
 }
 
 /** Answers may overtake each other: the one that knows of more changes stays. */
@@ -107,7 +112,8 @@ function show(found: Exercise | null): void {
 
 export async function openExercise(name: string): Promise<void> {
   if (exercise.peek()?.name !== name) exercise.value = null;
-  show(await attempt(() => readExercise(name)));
+  problem.value = "";
+  await read(() => readExercise(name), show);
 }
 
 /** The server knows where one is, for another browser; who only watches keeps no place. */

@@ -1,0 +1,41 @@
+"""A page whose first request the server does not answer: it says so, asks again, and opens."""
+
+import pytest
+from playwright.sync_api import Page, Route, expect
+
+from tests.lab import Lab
+
+pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d", "still")]
+
+# Address of a page, and a request that it opens with.
+PAGES = {
+    "falsifier": ("falsifier=all", "adversaries"),
+    "studies": ("studies=all", "studies"),
+    "ranking": ("ranking=all", "ranking"),
+    "leaderboard": ("leaderboard=all", "leaderboard"),
+    "course": ("learn=all", "course"),
+    "runs": ("runs=all", "runs?*"),
+}
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_a_page_that_got_no_answer_asks_again(page: Page, lab: Lab, name: str) -> None:
+    address, path = PAGES[name]
+    unanswered: list[str] = []
+
+    def lose_the_first(route: Route) -> None:
+        if unanswered:
+            route.continue_()
+            return
+        unanswered.append(route.request.url)
+        route.abort()
+
+    page.route(f"**/api/v1/{path}", lose_the_first)
+    page.goto(f"{lab.url}/?{address}")
+    message = page.get_by_text("The server does not answer. Retrying …")
+    with page.expect_response(f"**/api/v1/{path}"):
+        expect(message).to_be_visible()
+    expect(message).to_have_count(0)
+    assert unanswered
+    if name == "falsifier":
+        expect(page.get_by_label("Failure criterion")).to_be_visible()
