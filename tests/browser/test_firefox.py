@@ -1,0 +1,112 @@
+"""The lab in Firefox: layout, plots and the actuator, with WebGL and without.
+
+Skipped where there is no Firefox, or for WebGL no Xvfb; `SVSA_MUST_FIREFOX=1` fails instead.
+"""
+
+import math
+from collections.abc import Iterator
+
+import pytest
+
+from tests.browser.conftest import RETURNING
+from tests.browser.firefox import Firefox, find_firefox, run_display, run_firefox
+from tests.browser.measured_layout import FIND_PROBLEMS
+from tests.browser.test_without_webgl import ANGLES_2D, ANGLES_3D, NOTE, PARTS
+from tests.browser.visited_layout import LEAST_PLOT_PX, SIZES
+from tests.lab import Lab
+
+pytestmark = pytest.mark.browser
+
+HAS_SAMPLES = """window.svsa?.channels().includes("position_rad") &&
+    window.svsa.series("position_rad").time.at(-1) > 2.5"""
+SAMPLED = """[["position_rad", 1], ["position_reference_rad", 1], ["position_rad", 2]]
+    .map(([channel, lane]) => window.svsa.series(channel, lane).value.at(-1))"""
+# Pixels of curves in the plot that has fewest: only curves have a color, grid and text are grey.
+LEAST_DRAWN = """Math.min(...[...document.querySelectorAll(".plot canvas")].map((canvas) => {
+    const { width, height } = canvas;
+    const { data } = canvas.getContext("2d").getImageData(0, 0, width, height);
+    let colored = 0;
+    for (let i = 0; i < data.length; i += 4) {
+        const one = data.subarray(i, i + 3);
+        if (data[i + 3] > 200 && Math.max(...one) - Math.min(...one) > 60) colored++;
+    }
+    return colored;
+}))"""
+VIEW_IS_DRAWN = """(() => {
+    const frame = document.querySelector(".view iframe");
+    return !!frame?.contentWindow?.__viserMutable?.nodeRefFromName?.["/a/r0"];
+})()"""
+PRESS_FRONT = """document.querySelector(".view button[aria-label='Camera: Front']")?.click()"""
+CAMERA_X = 'document.querySelector(".view iframe").contentWindow.__viserMutable.camera.position'
+
+
+@pytest.fixture(scope="module")
+def firefox() -> Iterator[Firefox]:
+    """With WebGL, by software."""
+    path = find_firefox()
+    with run_display() as display, run_firefox(path, display) as one:
+        yield one
+
+
+@pytest.fixture(scope="module")
+def flat_firefox() -> Iterator[Firefox]:
+    with run_firefox(find_firefox(), webgl_disabled=True) as one:
+        yield one
+
+
+def open_lab(firefox: Firefox, lab: Lab) -> None:
+    """With all controls; the paper's load has acted on NDOBC and FL for 3 s."""
+    comparisons = {"comparisons": [{"law": "fl"}]}
+    lab.client.put(lab.session + "/lanes", json=comparisons).raise_for_status()
+    lab.client.post(lab.session + "/loads", json={"kind": "paper"}).raise_for_status()
+    lab.jump(3)
+    firefox.open(lab.url + "/icon.svg")
+    firefox.evaluate(f"(() => {{ {RETURNING} }})()")
+    firefox.resize(1440, 900)
+    firefox.open(lab.url)
+    firefox.wait_for(HAS_SAMPLES)
+
+
+def read_sampled(firefox: Firefox) -> dict[str, float]:
+    return dict(zip(PARTS, map(math.degrees, firefox.evaluate(SAMPLED)), strict=True))
+
+
+def test_layout_and_plots_are_whole_and_3d_has_the_poses(firefox: Firefox, lab: Lab) -> None:
+    open_lab(firefox, lab)
+    firefox.wait_for(VIEW_IS_DRAWN)
+    firefox.evaluate(PRESS_FRONT)
+    firefox.wait_for(f"Math.abs({CAMERA_X}.z) > 8")
+    sampled = read_sampled(firefox)
+    # Poses and camera reach the scene one after the other.
+    firefox.wait_for(
+        f"""Object.entries(({ANGLES_3D})({PARTS!r}))
+            .every(([name, angle]) => Math.abs(angle - ({sampled!r})[name]) < 1)"""
+    )
+    expect_whole(firefox)
+
+
+def test_without_webgl_it_is_stated_and_the_poses_are_drawn_in_2d(
+    flat_firefox: Firefox, lab: Lab
+) -> None:
+    firefox = flat_firefox
+    open_lab(firefox, lab)
+    firefox.wait_for("document.querySelector('.schematic svg')")
+    assert NOTE in firefox.evaluate("document.querySelector('.view').innerText")
+    assert firefox.evaluate("document.querySelectorAll('.view iframe').length") == 0
+    sampled = read_sampled(firefox)
+    assert abs(sampled["q of FL"] - sampled["q"]) > 5
+    assert firefox.evaluate(f"({ANGLES_2D})()") == pytest.approx(sampled, abs=0.1)
+    expect_whole(firefox)
+
+
+def expect_whole(firefox: Firefox) -> None:
+    """No fault of the layout at any size, and curves in every plot."""
+    firefox.wait_for(f"{LEAST_DRAWN} > 100")
+    problems = []
+    for width, height in SIZES:
+        firefox.resize(width, height)
+        firefox.wait_for(f"innerWidth === {width} && innerHeight === {height}")
+        least = LEAST_PLOT_PX["simulation"]
+        found = firefox.evaluate(f"({FIND_PROBLEMS})({least})")
+        problems += [f"{width} × {height}: {problem}" for problem in found]
+    assert not problems, "\n".join(problems)
