@@ -20,26 +20,30 @@ RUN /opt/tools/bin/uv build --quiet --wheel --build-constraints requirements.loc
       --constraint requirements.lock "$(ls /dist/*.whl)[${EXTRAS}]" \
  && /opt/tools/bin/cyclonedx-py environment --output-file /opt/svsa/sbom.cdx.json /opt/svsa/bin/python
 # What no program of the lab loads: tests, sources of extension modules, parts of pyarrow for remote
-# storage, copies of its libraries, AVIF pictures, debug symbols. Stripping OpenBLAS and numpy breaks their alignment.
+# storage, copies of its libraries, AVIF pictures, lexers other than Python's, debug symbols.
+# Stripping OpenBLAS and numpy breaks their alignment.
 RUN cd /opt/svsa/lib/python3*/site-packages \
  && find . -depth -type d \( -name tests -o -name include \) -not -path './svsa*' -exec rm -r {} + \
  && find . -type f \( -name '*.pyi' -o -name '*.pyx' -o -name '*.pxd' -o -name '*.pxi' -o -name '*.[cha]' \) -delete \
  && rm -rf pyarrow/*flight* pyarrow/_s3fs* pyarrow/libarrow_s3* pyarrow/_gcsfs* pyarrow/_azurefs* \
       pyarrow/_hdfs* pyarrow/*_cpp_tests* \
       pyarrow/libarrow_python*.so pyarrow/libarrow_python*.so.*.*.* \
-      PIL/_avif* pillow.libs/libavif* \
+      pyarrow/src PIL/_avif* pillow.libs/libavif* \
+ && find pygments/lexers -name '*.py' -not \( -name __init__.py -o -name _mapping.py -o -name python.py -o -name special.py \) -delete \
  && find . -name '*.so*' -type f -size +100k -not -path './numpy*' -not -path './scipy.libs/*' \
       -exec strip --strip-unneeded {} +
 # Bytecode of the modules that the lab loads, and the compiled loop. With it sympy, which wrote its
-# equations, is loaded for a new actuator only.
+# equations, is loaded for a new actuator only: Python imports it from an archive.
 ENV PATH=/opt/svsa/bin:$PATH SVSA_CACHE=/opt/svsa/cache
 RUN svsa compile && SVSA_DATA=/tmp/data python -c "\
 import can, cantools, mcap.writer, pyarrow.parquet, serial, viser; \
 from starlette.testclient import TestClient; \
 from svsa_server.app import build_app; \
 lab = TestClient(build_app(), base_url='http://127.0.0.1'); lab.__enter__(); [lab.get(path).raise_for_status() for path in ('/', '/docs/guide/')]; lab.__exit__()" \
- && find /opt/svsa/lib -depth -type d -name __pycache__ \( -path '*/sympy/*' -o -path '*/mpmath/*' \) \
-      -exec rm -r {} +
+ && cd /opt/svsa/lib/python3*/site-packages \
+ && find sympy mpmath -depth -type d -name __pycache__ -exec rm -r {} + \
+ && python -m zipfile -c sympy.zip sympy mpmath && rm -r sympy mpmath \
+ && echo "$PWD/sympy.zip" > sympy.pth
 
 FROM ${BASE_IMAGE}
 ARG VERSION=unknown SOURCE=unknown
