@@ -8,7 +8,7 @@ import subprocess
 import sys
 import tempfile
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -73,18 +73,25 @@ def run_lab(
     secret: str | None = None,
     port: int = 0,
     program: str = PROGRAM,
+    within: Sequence[str] = (),
     **settings: str,
 ) -> Iterator[Lab]:
     """Start a lab, wait until it says where it is, and stop it at the end.
 
-    program: Python code that runs `svsa`. settings: SVSA_… variables, in small letters; runs go to
-    a folder of their own unless `data` names one.
+    program: Python code that runs `svsa`. within: a command that runs the given one. settings:
+    SVSA_… variables, in small letters; runs go to a folder of their own unless `data` names one.
     """
     if "data" not in settings:
         with (
             tempfile.TemporaryDirectory(prefix="svsa-test-") as folder,
             run_lab(
-                *arguments, secret=secret, port=port, program=program, data=folder, **settings
+                *arguments,
+                secret=secret,
+                port=port,
+                program=program,
+                within=within,
+                data=folder,
+                **settings,
             ) as lab,
         ):
             yield lab
@@ -94,7 +101,7 @@ def run_lab(
     environment |= {f"SVSA_{name.upper()}": value for name, value in settings.items()}
     if secret is not None:
         environment["SVSA_SECRET"] = secret
-    command = [sys.executable, "-c", program, "serve"]
+    command = [*within, sys.executable, "-c", program, "serve"]
     process = subprocess.Popen(
         [*command, "--port", str(port), *arguments],
         env=environment,

@@ -10,6 +10,7 @@ import pytest
 import yaml
 
 from svsa_server.config import Settings, write_example
+from tests.lab import run_lab
 
 ROOT = Path(__file__).parents[2]
 DEPLOY = ROOT / "docs" / "deploy"
@@ -75,3 +76,23 @@ def test_systemd_accepts_the_unit() -> None:
     done = subprocess.run(["systemd-analyze", "verify", unit], capture_output=True, text=True)
     problems = [line for line in done.stderr.splitlines() if "svsa.service" in line]
     assert all("is not executable" in line for line in problems), done.stderr
+
+
+def test_the_lab_runs_on_a_read_only_file_system(tmp_path: Path) -> None:
+    """As in the containers: only the data folder and /tmp can be written."""
+    script = """set -e
+    for folder in "$0" /tmp; do mount --bind "$folder" "$folder"; done
+    mount -o remount,bind,ro /
+    exec "$@"
+    """
+    within = ["unshare", "--mount", "sh", "-c", script, str(tmp_path)]
+    if subprocess.run([*within, "true"], capture_output=True, check=False).returncode:
+        pytest.skip("this account cannot mount a file system")
+    assert subprocess.run([*within, "touch", "/written"], capture_output=True).returncode
+    with run_lab(within=within, data=str(tmp_path)) as lab:
+        assert lab.client.get("/").is_success
+        lab.client.post(f"{lab.session}/recording", json={}).raise_for_status()
+        lab.jump(1)
+        lab.client.delete(f"{lab.session}/recording").raise_for_status()
+        (run,) = lab.client.get("/api/v1/runs").raise_for_status().json()["runs"]
+        assert run["state"] == "complete"
