@@ -9,8 +9,14 @@ from pydantic.functional_serializers import WrapSerializer
 from pydantic.functional_validators import WrapValidator
 
 from svsa.actuators.mechanism import Mechanism
-from svsa.actuators.parameters import SVSA, ActuatorParameters, MechanismParameters
+from svsa.actuators.parameters import (
+    SVSA,
+    ActuatorParameters,
+    MechanismParameters,
+    get_mechanism_name,
+)
 from svsa.errors import ParameterError, Violation
+from svsa.inputs.nearest import suggest
 
 GROUP = "svsa.actuators"
 
@@ -42,13 +48,19 @@ def get_mechanism(name: str) -> Mechanism:
     """
     entry = _find_entries().get(name)
     if entry is None:
-        bound = f"an actuator that is installed here: {', '.join(list_mechanism_names())}"
+        known = list_mechanism_names()
+        bound = f"an actuator that is installed here: {', '.join(known)}{suggest(name, known)}"
         raise ParameterError(Violation("mechanism", name, "", bound))
     found = entry.load()
     if not isinstance(found, Mechanism) or found.name != name:
         bound = f"the actuator {name}, as the entry point {entry.value} says"
         raise ParameterError(Violation("mechanism", repr(found), "", bound))
     return found
+
+
+def find_mechanism(parameters: MechanismParameters) -> Mechanism:
+    """The installed actuator that parameters belong to; raises `ParameterError`."""
+    return get_mechanism(get_mechanism_name(parameters))
 
 
 def _read(given: Any, read_svsa: ValidatorFunctionWrapHandler) -> Any:

@@ -84,6 +84,11 @@ class Lab(Remote):
         self.connection.close()
 
     @property
+    def actuators(self) -> tuple[str, ...]:
+        """Names of the actuators that are installed there, the SVSA first."""
+        return tuple(one["name"] for one in self.connection.read("/actuators"))
+
+    @property
     def laws(self) -> tuple[str, ...]:
         """Names of the laws that are installed there."""
         return tuple(law["name"] for law in self.connection.read("/laws"))
@@ -93,14 +98,31 @@ class Lab(Remote):
         return RemoteSession(self.connection, self.runs, name)
 
     def create_session(
-        self, figure: str = "4a", law: LawChoice = "ndobc", **settings: Any
+        self,
+        figure: str = "4a",
+        law: LawChoice = "ndobc",
+        actuator: str | None = None,
+        **settings: Any,
     ) -> RemoteSession:
         """Open a private simulated session, running; it ends automatically when unused.
 
-        settings: load, comparisons, effects, seed, as of `POST /sessions`; an effect's preset and a
-        law may be given by name.
+        Args:
+            figure: Figure of the paper; it has to be left out with `actuator`.
+            law: Name of the control law.
+            actuator: Name of an actuator, such as "qbmove": its default experiment.
+            settings: load, comparisons, effects, seed, as of `POST /sessions`; of an actuator also
+                parameters and nominal. An effect's preset and a law may be given by name.
+
+        Returns:
+            The session.
+
+        Raises:
+            LabError: If the lab rejects the request.
         """
         wanted = _write_experiment(figure, law, settings)
+        if actuator is not None:
+            del wanted["figure"]
+            wanted |= {"from": "actuator", "actuator": actuator}
         state = self.connection.call("POST", "/sessions", wanted)
         return self.open_session(state["session"])
 

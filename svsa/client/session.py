@@ -6,7 +6,8 @@ from typing import Any, Literal
 
 from pydantic import TypeAdapter
 
-from svsa.actuators.parameters import ActuatorParameters
+from svsa.actuators.installed import InstalledActuator
+from svsa.actuators.parameters import MechanismParameters
 from svsa.client.connection import Connection, Remote, SessionConnection, is_settable
 from svsa.client.loads import Loads
 from svsa.client.motion import RunningConnection
@@ -35,6 +36,7 @@ from svsa.simulation.reference.kinds import PositionReference, StiffnessReferenc
 
 _POSITION: TypeAdapter[PositionReference] = TypeAdapter(PositionReference)
 _STIFFNESS: TypeAdapter[StiffnessReference] = TypeAdapter(StiffnessReference)
+_ACTUATOR: TypeAdapter[MechanismParameters] = TypeAdapter(InstalledActuator)
 
 
 class RemoteSession(RunningConnection):
@@ -115,7 +117,7 @@ class RemoteSession(RunningConnection):
         """Set a property to what a script means by `given`."""
         present = getattr(self, name) if isinstance(given, Mapping) else None
         value = read_setting(name, given, present)
-        self.call(method, f"/{name}", value.model_dump(mode="json"))
+        self.call(method, f"/{name}", value.model_dump(mode="json", exclude={"mechanism"}))
 
     @property
     def position(self) -> PositionReference:
@@ -181,18 +183,18 @@ class RemoteSession(RunningConnection):
         self._put("effects", effects)
 
     @property
-    def actuator(self) -> ActuatorParameters:
+    def actuator(self) -> MechanismParameters:
         """The true plant of a simulation."""
-        return ActuatorParameters.model_validate(self._read("actuator"))
+        return _ACTUATOR.validate_python(self._read("actuator"))
 
     @actuator.setter
     def actuator(self, actuator: GivenActuator) -> None:
         self._put("actuator", actuator, "PATCH")
 
     @property
-    def nominal(self) -> ActuatorParameters:
+    def nominal(self) -> MechanismParameters:
         """The model that law and observer believe in."""
-        return ActuatorParameters.model_validate(self._read("nominal"))
+        return _ACTUATOR.validate_python(self._read("nominal"))
 
     @nominal.setter
     def nominal(self, nominal: GivenActuator) -> None:

@@ -1,13 +1,25 @@
-"""What a run begins from: a figure of the paper or a configuration, and what is changed of it."""
+"""What a run begins from: a figure of the paper, an actuator or a configuration."""
 
 import inspect
+import math
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
+from svsa.actuators.installed import get_mechanism
+from svsa.actuators.mechanism import Mechanism
+from svsa.actuators.reach import find_only_stiffness
+from svsa.errors import ParameterError
 from svsa.runs.configuration import Configuration, Design, read_design
-from svsa.runs.paper import get_simulated_figure
+from svsa.runs.paper import LOAD_TIME_S, get_simulated_figure
 from svsa.runs.shorthand import change_configuration
+from svsa.simulation.plant.loads.constant import ConstantLoad
+from svsa.simulation.reference.kinds.sine import SinePosition
+
+AMPLITUDE_RAD, FREQUENCY_HZ, FADE_S = 0.5, 0.2, 1.0
+"""Position reference of an actuator's experiment: A cos ωt − A, which begins at rest."""
+LOAD_DEFLECTION_RAD = 0.05
+"""Deflection of a linear spring of the default stiffness under the default load."""
 
 
 def build_experiment(
@@ -36,3 +48,74 @@ def build_experiment(
         design = parameters if isinstance(parameters, Design) else read_design(parameters)
         configuration = configuration.with_design(design)
     return change_configuration(configuration, given, inspect.signature(caller).parameters)
+
+
+def choose_stiffness(mechanism: Mechanism) -> float:
+    """Default stiffness of an actuator: the middle of its range in ln σ, N·m/rad.
+
+    Of an actuator without a stiffness motor, the stiffness of its spring.
+    """
+    only = find_only_stiffness(mechanism.nominal)
+    limits = mechanism.limits
+    middle = math.sqrt(limits.stiffness_min_nm_per_rad * limits.stiffness_max_nm_per_rad)
+    return float(f"{middle:.3g}") if only is None else only
+
+
+def build_default_load(mechanism: Mechanism, start_s: float = LOAD_TIME_S) -> ConstantLoad:
+    """Default load of an actuator: a torque on the link that its default stiffness holds.
+
+    Args:
+        mechanism: The actuator.
+        start_s: Onset, s.
+
+    Returns:
+        A step of `LOAD_DEFLECTION_RAD` times the default stiffness, N·m.
+    """
+    torque = float(f"{LOAD_DEFLECTION_RAD * choose_stiffness(mechanism):.2g}")
+    return ConstantLoad(start_s=start_s, torque_nm=(torque, 0.0, 0.0))
+
+
+def build_actuator_experiment(
+    name: str,
+    law: str,
+    load: bool = True,
+    actuator: Mapping[str, Any] | None = None,
+    nominal: Mapping[str, Any] | None = None,
+) -> Configuration:
+    """The default experiment of an actuator: a sine at its default stiffness, then a load.
+
+    Args:
+        name: Of the actuator, such as "qbmove".
+        law: Name of the control law.
+        load: Whether the default load comes at 5 s.
+        actuator: Parameters of the plant that differ from the prototype's.
+        nominal: Parameters of the nominal model that differ from the mechanism's.
+
+    Returns:
+        A run within the limits of the actuator. Gains and observer are those of the lab.
+
+    Raises:
+        ParameterError: There is no such actuator, or a parameter is out of range.
+    """
+    try:
+        mechanism = get_mechanism(name)
+    except ParameterError as error:
+        raise error.within("actuator") from None
+    motion = SinePosition(
+        amplitude_rad=AMPLITUDE_RAD,
+        frequency_hz=FREQUENCY_HZ,
+        phase_rad=math.pi / 2,
+        offset_rad=-AMPLITUDE_RAD,
+        transition_s=FADE_S,
+    )
+    prototype = change_configuration(
+        get_simulated_figure("4a").build_configuration(load=False),
+        {
+            "actuator": name,
+            "law": law,
+            "position": motion,
+            "stiffness": choose_stiffness(mechanism),
+            "loads": build_default_load(mechanism) if load else (),
+        },
+    )
+    return change_configuration(prototype, {"actuator": actuator or {}, "nominal": nominal or {}})

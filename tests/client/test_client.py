@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import svsa
+from svsa.actuators.installed import get_mechanism, list_mechanism_names
 from svsa.client import AccessError, ControlError, Lab, LabError
 from tests.client.faulty_line import run_faulty_line
 from tests.lab import Lab as Server
@@ -194,3 +195,14 @@ def test_a_secret_opens_the_lab() -> None:
         with svsa.connect(guarded.url, token="of the class") as lab:
             assert "ndobc" in lab.laws
             assert len(next(iter(lab.session.stream(duration_s=0.1))).ticks)
+
+
+def test_a_script_opens_a_session_of_an_actuator(lab: Lab) -> None:
+    assert lab.actuators == list_mechanism_names()
+    with lab.new_session(actuator="qbmove", law="fl", load=False) as session:
+        assert session.actuator == get_mechanism("qbmove").prototype
+        session.actuator = {"link_inertia_kg_m2": 0.021}
+        assert session.actuator.link_inertia_kg_m2 == 0.021
+        assert session.nominal == get_mechanism("qbmove").nominal
+    with pytest.raises(svsa.ParameterError, match="the nearest is qbmove"):
+        lab.create_session(actuator="qbmov")

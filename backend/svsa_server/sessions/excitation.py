@@ -4,6 +4,8 @@ import asyncio
 import logging
 from collections import deque
 
+from svsa.actuators.installed import find_mechanism
+from svsa.actuators.parameters import SVSA
 from svsa.analysis.identification.excitation import EXCITATION_DURATION_S, build_commands
 from svsa.errors import StateError, SvsaError
 from svsa.runs.session.session import Session
@@ -69,6 +71,11 @@ class Excitation:
 
 def check_excitable(session: Session) -> None:
     """Raise `StateError` if the excitation could not be used for an identification."""
+    mechanism = find_mechanism(session.run.configuration.actuator)
+    if mechanism.name != SVSA:
+        raise StateError(
+            f"The identification is of the SVSA, and this session simulates {mechanism.title}."
+        )
     if session.journal.recorder is not None:
         raise StateError("The session is being recorded: stop that first, this is its own run.")
     if any(load.end_tick > session.run.tick for load in session.run.loads):

@@ -10,7 +10,6 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from svsa.actuators.parameters import require_svsa
 from svsa.errors import StateError
 from svsa.hardware.emulator.control import EmulatorControl, EmulatorError
 from svsa.hardware.file import read_bench
@@ -34,8 +33,6 @@ BURST_S = 0.5 * WAKE_PERIOD_S
 SHARED_SESSION = "lab"
 
 _log = logging.getLogger("svsa")
-
-SESSION = "a session of the server"
 
 
 class Laboratory:
@@ -81,11 +78,7 @@ class Laboratory:
     def create(
         self, configuration: Configuration, owner: str = "", note: str = ""
     ) -> HostedSession:
-        """Create a private session, running; rejected as by `check_room`.
-
-        Raises `ParameterError` for another actuator than the SVSA, which the page cannot show.
-        """
-        require_svsa(configuration.actuator, SESSION)
+        """Create a private session, running; rejected as by `check_room`."""
         self.check_room(owner)
         session = SimulatedSession(build_name(), configuration)
         session.start()
@@ -101,11 +94,7 @@ class Laboratory:
         run_id: str,
         owner: str = "",
     ) -> HostedSession:
-        """Create a private session, paused, that continues from a recorded run at a tick.
-
-        Raises `ParameterError` for another actuator than the SVSA.
-        """
-        require_svsa(configuration.actuator, SESSION)
+        """Create a private session, paused, that continues from a recorded run at a tick."""
         self.check_room(owner)
         session = await asyncio.to_thread(
             SimulatedSession.branch, build_name(), configuration, commands, tick, run_id

@@ -2,18 +2,25 @@
 
 import asyncio
 
+import numpy as np
 from fastapi import FastAPI
 
+from svsa.actuators.installed import find_mechanism
+from svsa.actuators.parameters import SVSA
+from svsa.actuators.signals import CHANNELS
 from svsa.errors import StateError
 from svsa.evaluation.falsifier.measure import list_baselines
 from svsa.evaluation.ranking.scenarios import find_scenario
 from svsa.evaluation.ranking.single_run import build_shown_run
 from svsa.runs.configuration import Configuration, Lane
+from svsa.runs.experiment import build_default_load
 from svsa.runs.records.resimulation import check_simulated, read_origin
+from svsa.runs.run import Run
 from svsa.simulation.plant.loads.paper import PaperLoad
 from svsa_server.jobs.falsifications import read_found
 from svsa_server.jobs.queue import Job
 from svsa_server.schemas.lab.opening import (
+    FromActuator,
     FromFalsification,
     FromFigure,
     FromRanking,
@@ -54,17 +61,30 @@ async def open_session(app: FastAPI, wanted: SessionRequest, owner: str) -> Host
             scenario = find_scenario(wanted.scenario)
             shown = await asyncio.to_thread(build_shown_run, scenario, wanted.row)
             return laboratory.create(shown.configuration, owner, shown.alone)
+        case FromActuator():
+            # The first session of an actuator waits for its energy to be compiled.
+            configuration = await asyncio.to_thread(_prepare, wanted)
         case FromFigure():
             configuration = wanted.build_configuration(app.state.design)
         case FromScenario():
             configuration = await asyncio.to_thread(wanted.build_configuration)
         case FromSession():
             tried, _ = build_tried(laboratory.get(wanted.id).session, wanted)
-            load = PaperLoad(start_s=LOAD_S)
+            mechanism = find_mechanism(tried.actuator)
+            is_svsa = mechanism.name == SVSA
+            load = PaperLoad(start_s=LOAD_S) if is_svsa else build_default_load(mechanism, LOAD_S)
             configuration = tried.changed(loads=(load,), comparisons=())
         case FromFalsification():
             configuration = _build_found(app.state.jobs.get(wanted.id, "falsification"))
     return laboratory.create(configuration, owner)
+
+
+def _prepare(wanted: FromActuator) -> Configuration:
+    """The configuration, with every function of its loop compiled."""
+    configuration = wanted.build_configuration()
+    run = Run(configuration)
+    run.advance(np.empty((len(run.lanes), 1, len(CHANNELS))))
+    return configuration
 
 
 def _build_found(job: Job) -> Configuration:

@@ -5,6 +5,7 @@ from dataclasses import asdict
 
 import numpy as np
 
+from svsa.actuators.installed import find_mechanism
 from svsa.actuators.signals import CHANNEL_NAMES
 from svsa.control.gains import Gains
 from svsa.hardware.session.session import BenchSession
@@ -17,6 +18,7 @@ from svsa.simulation.plant.load_table import ScheduledLoad
 from svsa_server.leases.lease import ControlLease, asking
 from svsa_server.leases.queue import ControlQueue
 from svsa_server.runs.lanes import build_window, list_ended_windows, list_session_segments
+from svsa_server.schemas.lab.actuator import summarize_actuator
 from svsa_server.schemas.lab.gain import GainsState, Root
 from svsa_server.schemas.lab.lease import ControlState, QueueState, WaitingState
 from svsa_server.schemas.lab.session import BranchState, LoadState, SessionProgress, SessionState
@@ -83,6 +85,7 @@ def build_state(hosted: HostedSession, since_tick: int = 0) -> SessionState:
         control=build_control(hosted),
         queue=build_queue(hosted.lease),
         rate_hz=1.0 / run.period_s,
+        actuator=summarize_actuator(find_mechanism(run.configuration.actuator)),
         configuration=_build_configuration(session),
         loads=[_build_load(load, run.tick, run.period_s) for load in run.loads],
         events=[event for event in session.journal.events if event.tick >= since_tick],

@@ -5,6 +5,9 @@ from typing import Annotated
 from fastapi import Body, Request, WebSocket
 from fastapi.responses import JSONResponse
 
+from svsa.actuators.installed import find_mechanism
+from svsa.actuators.parameters import SVSA
+from svsa.errors import StateError
 from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
 from svsa_server.openapi import UPGRADED
 from svsa_server.problems import Problem, answer_problem
@@ -25,6 +28,7 @@ from svsa_server.schemas.lab.session import (
 )
 from svsa_server.schemas.lab.stream import StreamMessage, describe_stream, list_stream_parameters
 from svsa_server.sessions.cursor import BATCH_PERIOD_S
+from svsa_server.sessions.hosted import HostedSession
 from svsa_server.sessions.lock import TurnRoute, take_turn
 from svsa_server.sessions.opening import open_session
 from svsa_server.sessions.state import build_state
@@ -54,6 +58,7 @@ async def create_session(
         Body(
             examples=[
                 {"figure": "4a", "comparisons": [{"law": "fl"}]},
+                {"from": "actuator", "actuator": "qbmove", "law": "ndobc"},
                 {"from": "run", "id": "20260102-030405-9f8e7d6c", "tick": 500},
                 {"from": "session", "id": "lab", "law": "fl"},
                 {"from": "falsification", "id": "3f2a9c01b7de"},
@@ -63,7 +68,7 @@ async def create_session(
         ),
     ],
 ) -> SessionState:
-    """Open a private simulated session from a figure, run, session or scenario.
+    """Open a private simulated session from a figure, actuator, run, session ….
 
     The lab ends it automatically when it is unused. It runs, but from a run it is paused.
     """
@@ -157,6 +162,8 @@ async def load_experiment(
     ],
 ) -> SessionState:
     """Set a session to a figure or an exercise's experiment, or back to before the exercise."""
+    if not isinstance(wanted, SettingsBeforeExercise):
+        _check_svsa(hosted)
     if isinstance(wanted, ExerciseExperiment):
         await set_up_step(request, hosted, person, wanted.exercise, wanted.step)
         return build_state(hosted)
@@ -175,6 +182,16 @@ async def load_experiment(
     await take_turn(begin)
     hosted.keep_before_exercise(None)
     return build_state(hosted)
+
+
+def _check_svsa(hosted: HostedSession) -> None:
+    """Raise `StateError` if the session simulates another actuator than the SVSA."""
+    mechanism = find_mechanism(hosted.session.run.configuration.actuator)
+    if mechanism.name != SVSA:
+        raise StateError(
+            f"Figures of the paper and exercises are experiments of the SVSA, and this session"
+            f" simulates {mechanism.title}: use the lab, or open a session of the SVSA."
+        )
 
 
 @router.get(

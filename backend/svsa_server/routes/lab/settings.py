@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from fastapi import Body, Depends, Path, Query
 
-from svsa.actuators.parameters import ActuatorParameters
+from svsa.actuators.parameters import MechanismParameters
 from svsa.control.installed import check_installed, read_parameters
 from svsa.control.observers.disturbance import ObserverBandwidth
 from svsa.control.parameters import LawParameters
@@ -50,8 +50,8 @@ if TYPE_CHECKING:
     ActuatorPatch = Checked
     NominalPatch = Checked
 else:
-    ActuatorPatch = build_patch("actuator", ActuatorParameters)
-    NominalPatch = build_patch("nominal", ActuatorParameters)
+    ActuatorPatch = build_patch("actuator")
+    NominalPatch = build_patch("nominal")
 
 
 @router.get("/settings")
@@ -101,7 +101,7 @@ def set_stiffness(
     ],
     restart: Restart = False,
 ) -> SessionState:
-    """Set the stiffness reference, inside 1.7 … 150.56 N·m/rad."""
+    """Set the stiffness reference, inside the limits of the session's actuator."""
     _follow(hosted, Set("stiffness", reference), restart)
     return build_state(hosted)
 
@@ -178,7 +178,7 @@ def change_actuator(
     patch: Annotated[ActuatorPatch, Body(examples=[{"link_inertia_kg_m2": 0.0206}])],
 ) -> SessionState:
     """Change parameters of the true plant."""
-    hosted.session.patch(lambda run: Set("actuator", _apply(patch, run.actuator)))
+    hosted.session.patch(lambda run: Set("actuator", _apply(patch, "actuator", run.actuator)))
     return build_state(hosted)
 
 
@@ -189,7 +189,7 @@ def change_nominal(
     patch: Annotated[NominalPatch, Body(examples=[{"link_inertia_kg_m2": 0.0103}])],
 ) -> SessionState:
     """Change parameters of the nominal model of controller and observer."""
-    hosted.session.patch(lambda run: Set("nominal", _apply(patch, run.nominal)))
+    hosted.session.patch(lambda run: Set("nominal", _apply(patch, "nominal", run.nominal)))
     return build_state(hosted)
 
 
@@ -250,8 +250,11 @@ def _follow(hosted: HostedSession, command: Command, restart: bool) -> None:
         hosted.session.set(command)
 
 
-def _apply(patch: Checked, actuator: ActuatorParameters) -> ActuatorParameters:
-    return actuator.changed(**patch.model_dump(exclude_unset=True))
+def _apply(patch: Checked, section: str, actuator: MechanismParameters) -> MechanismParameters:
+    try:
+        return actuator.changed(**patch.model_dump(exclude_unset=True))
+    except ParameterError as error:
+        raise error.within(section) from None
 
 
 def _merge(

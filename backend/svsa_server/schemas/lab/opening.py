@@ -5,14 +5,19 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, Field
 from typing_extensions import TypeAliasType
 
-from svsa.control.installed import InstalledLaw
+from svsa.control.installed import PAPERS_LAW, InstalledLaw
 from svsa.evaluation.falsifier.scenario import LoadScenario
 from svsa.inputs.checked import Checked, Flag, Whole, quantity
 from svsa.runs.configuration import MAX_LANES, Configuration, Design, Lane
+from svsa.runs.experiment import build_actuator_experiment
+from svsa.simulation.plant.effects import IDEAL, Effects
 from svsa_server.access.owned import Owned
+from svsa_server.schemas.lab.law import InstalledLane
 from svsa_server.schemas.lab.session import FigureRequest
 from svsa_server.schemas.lab.stability import DesignRequest
 from svsa_server.schemas.teaching.course import StepName
+
+PartOfParameters = Annotated[dict[str, float | str], Field(max_length=20)]
 
 
 class FromFigure(FigureRequest):
@@ -25,6 +30,42 @@ class FromFigure(FigureRequest):
     def build_configuration(self, design: Design) -> Configuration:
         """Build the session's configuration with the lab's design; raises `ParameterError`."""
         return super().build_configuration(design).changed(seed=self.seed)
+
+
+class FromActuator(Checked):
+    """An actuator's default experiment, running: a sine, its default stiffness and load.
+
+    Gains and observer are those of the lab. See `GET /actuators` for names and parameters.
+    """
+
+    source: Literal["actuator"] = quantity("", "An actuator", alias="from")
+    actuator: Annotated[str, Field(max_length=40)] = quantity(
+        "", "Name of an actuator that is installed"
+    )
+    parameters: PartOfParameters = quantity(
+        "", "Parameters of the plant that differ from the prototype's", default={}
+    )
+    nominal: PartOfParameters = quantity(
+        "", "Parameters of the nominal model that differ from its own", default={}
+    )
+    law: InstalledLaw = quantity(
+        "", "Name of a law that is installed: see GET /laws", default=PAPERS_LAW
+    )
+    load: Flag = quantity("", "With the actuator's default load at 5 s", default=True)
+    comparisons: tuple[InstalledLane, ...] = quantity(
+        "", "Up to three", max_length=MAX_LANES - 1, default=()
+    )
+    effects: Effects = quantity("", "What separates it from a bench", default=IDEAL)
+    seed: Whole = quantity("", "Seed of the sensor noise", ge=0, le=2**63 - 1, default=0)
+
+    def build_configuration(self) -> Configuration:
+        """What the session is set to; raises `ParameterError`."""
+        experiment = build_actuator_experiment(
+            self.actuator, self.law, self.load, self.parameters, self.nominal
+        )
+        return experiment.changed(
+            comparisons=self.comparisons, effects=self.effects, seed=self.seed
+        )
 
 
 class FromRun(Checked):
@@ -90,7 +131,13 @@ def _add_source(wanted: Any) -> Any:
 SessionRequest = TypeAliasType(
     "SessionRequest",
     Annotated[
-        FromFigure | FromRun | FromSession | FromFalsification | FromScenario | FromRanking,
+        FromFigure
+        | FromActuator
+        | FromRun
+        | FromSession
+        | FromFalsification
+        | FromScenario
+        | FromRanking,
         Field(discriminator="source"),
         BeforeValidator(_add_source),
     ],

@@ -12,6 +12,7 @@ from svsa.runs.paper import get_figure
 from svsa.simulation.plant.effects import IDEAL, Effects
 from svsa.simulation.plant.loads import Load
 from svsa_server.schemas.hardware.bench import BenchState
+from svsa_server.schemas.lab.actuator import ActuatorSummary
 from svsa_server.schemas.lab.law import InstalledLane
 from svsa_server.schemas.lab.lease import ControlState, QueueState
 from svsa_server.schemas.lab.setting import ConfigurationState
@@ -125,6 +126,7 @@ class SessionState(SessionProgress):
         " sessions"
     )
     rate_hz: float
+    actuator: ActuatorSummary
     configuration: ConfigurationState
     loads: list[LoadState]
     events: list[Event]

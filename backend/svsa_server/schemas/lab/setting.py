@@ -2,9 +2,10 @@
 
 from typing import Annotated, Any, ClassVar
 
-from pydantic import BaseModel, Field, create_model
+from pydantic import BaseModel, Field, WithJsonSchema, create_model
 
-from svsa.actuators.parameters import ActuatorParameters, Limits
+from svsa.actuators.installed import InstalledActuator, get_mechanism, list_mechanism_names
+from svsa.actuators.parameters import Limits
 from svsa.control.installed import InstalledLaw
 from svsa.control.observers.disturbance import ObserverBandwidth
 from svsa.errors import ParameterError
@@ -43,15 +44,17 @@ class _Patch(Checked):
             raise error.within(self.section) from None
 
 
-def build_patch(section: str, model: type[ActuatorParameters]) -> type[Checked]:
-    """Build a PATCH model of `model` with every field optional, with the same bounds and units.
+def build_patch(section: str) -> type[Checked]:
+    """Build a PATCH model of the parameters of every installed actuator, each optional.
 
-    What is given must be a value: null would be refused by the model, and not silently kept.
+    Units, words and bounds are those of the first actuator that has the field; the actuator of the
+    session checks its own. A value must be given: the model rejects null.
     """
-    fields: dict[str, Any] = {
-        name: (field.annotation, field.merge_field_infos(field, default=None))
-        for name, field in model.model_fields.items()
-    }
+    fields: dict[str, Any] = {}
+    for mechanism in map(get_mechanism, list_mechanism_names()):
+        for name, field in mechanism.parameters.model_fields.items():
+            if name != "mechanism" and name not in fields:
+                fields[name] = (field.annotation, field.merge_field_infos(field, default=None))
     patch = create_model(f"{section.title()}Patch", __base__=_Patch, **fields)
     patch.section = section
     return patch
@@ -71,6 +74,19 @@ class ParameterFileRequest(Checked):
     )
 
 
+ActuatorValues = Annotated[
+    InstalledActuator,
+    WithJsonSchema(
+        {
+            "type": "object",
+            "additionalProperties": {"anyOf": [{"type": "number"}, {"type": "string"}]},
+            "description": "Parameters by name: see GET /actuators",
+        },
+        mode="serialization",
+    ),
+]
+
+
 class ConfigurationState(BaseModel):
     """All settings of a session."""
 
@@ -84,8 +100,8 @@ class ConfigurationState(BaseModel):
     )
     observer: ObserverBandwidth
     limits: Limits
-    actuator: ActuatorParameters
-    nominal: ActuatorParameters
+    actuator: ActuatorValues
+    nominal: ActuatorValues
     comparisons: tuple[Lane, ...]
     effects: Effects
     effects_preset: PresetName | None = Field(

@@ -3,6 +3,8 @@ import { ChangedError, RefusedError, UnansweredError } from "./errors";
 import { learnOutcome } from "./outcome";
 import { API, client, LONGEST_WAIT_MS, request, sessionName } from "./request";
 import type {
+  ActuatorParameters,
+  ActuatorRow,
   Axis,
   Body,
   Configuration,
@@ -78,7 +80,6 @@ function call<M extends Method, P extends SessionPath>(method: M, path: P, ...bo
 }
 
 export type GainsRequest = Body<"put", "/gains">[0];
-export type ActuatorPatch = Body<"patch", "/actuator">[0];
 
 export const readState = () => call("get", "");
 export const putPosition = (reference: Sent<PositionReference>) =>
@@ -116,8 +117,10 @@ export const putLane = (lane: number, controller: Lane) =>
   send("put", `/lanes/${lane}`, controller);
 export const readKinds = () => request("get", "kinds") as Promise<Kinds>;
 export const putEffects = (effects: EffectsRequest) => send("put", "/effects", effects);
-export const patchActuator = (patch: ActuatorPatch) => call("patch", "/actuator", patch);
-export const patchNominal = (patch: ActuatorPatch) => call("patch", "/nominal", patch);
+export const readActuators = () => request("get", "actuators") as Promise<ActuatorRow[]>;
+/** patch: parameters by name; the session's actuator checks them. */
+export const patchActuator = (patch: ActuatorParameters) => send("patch", "/actuator", patch);
+export const patchNominal = (patch: ActuatorParameters) => send("patch", "/nominal", patch);
 export const putNominal = (toml: string) => call("put", "/nominal", { toml });
 export const excite = (name: string) => call("post", "/excitation", { name });
 export const stopExcitation = () => call("delete", "/excitation");

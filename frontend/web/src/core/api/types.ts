@@ -15,6 +15,7 @@ export type EffectsRequest = {
     : Effects[K];
 };
 export type ActuatorParameters = Configuration["actuator"];
+export type ActuatorRow = Schemas["ActuatorState"];
 /** The controller of a comparison lane; null or left out: as the session's. */
 export type Lane = Schemas["Lane"];
 export type Gains = Schemas["Gains"];

@@ -1,15 +1,20 @@
 import { useId } from "preact/hooks";
-import { type ActuatorPatch, patchActuator, patchNominal } from "../../core/api/client";
+import { patchActuator, patchNominal } from "../../core/api/client";
 import type { ActuatorParameters, Configuration } from "../../core/api/types";
 import { perform } from "../../core/state/actions";
+import { describeActuator, nameOfActuator, patchOf, SVSA } from "../../core/state/actuators";
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
 import { Problem } from "../../core/widgets/form";
 import { type HeldNumber, useDraft } from "./draft";
 
 const words = text.realism;
-type Key = keyof typeof words.names;
-const KEYS = Object.keys(words.names) as Key[];
+/** A parameter as it is written in the table. */
+interface Row {
+  key: string;
+  symbol: string;
+  meaning: string;
+}
 const COLUMNS = [
   { column: "actuator", patch: patchActuator },
   { column: "nominal", patch: patchNominal },
@@ -35,24 +40,42 @@ function differenceOf(model: number, actual: number): string {
   return words.percent(`${percent > 0 ? "+" : ""}${formatNumber(percent, 3, digits)}`);
 }
 
-interface ParameterTableProps {
-  actuator: ActuatorParameters;
-  nominal: ActuatorParameters;
+type Models = Pick<Configuration, "actuator" | "nominal">;
+const numberOf = (values: ActuatorParameters, key: string): number => Number(values[key]);
+
+/** Numbers of the actuator, in the words of the page where it has shorter ones. */
+function listRows({ actuator }: Models): Row[] {
+  const name = nameOfActuator(actuator);
+  const described = describeActuator(name)?.parameters ?? [];
+  const common = Object.entries(words.names).filter(([key]) => typeof actuator[key] === "number");
+  const own = described.filter(
+    ({ name: key, kind }) => name !== SVSA && kind === "number" && !(key in words.names),
+  );
+  return [
+    ...common.map(([key, [symbol, meaning, unit]]) => ({
+      key,
+      symbol,
+      meaning: `${meaning}, ${unit}`,
+    })),
+    ...own.map(({ name: key, meaning, unit }) => ({
+      key,
+      symbol: "",
+      meaning: unit === "1" ? meaning : `${meaning}, ${unit}`,
+    })),
+  ];
 }
 
 /** Whether the controller's model is the plant. */
-export const isExact = ({
-  actuator,
-  nominal,
-}: Pick<Configuration, "actuator" | "nominal">): boolean =>
-  KEYS.every((key) => actuator[key] === nominal[key]);
+export const isExact = ({ actuator, nominal }: Models): boolean =>
+  Object.keys(actuator).every((key) => actuator[key] === nominal[key]);
 
 /** What the plant is, and what the controller takes it for. */
-export function ParameterTable({ actuator, nominal }: ParameterTableProps) {
+export function ParameterTable({ actuator, nominal }: Models) {
   const id = useId();
   const held = { actuator, nominal };
+  const rows = listRows(held);
   const isModelExact = isExact(held);
-  const nameOf = (key: Key, column: string) => `realism.${column}.${key}`;
+  const nameOf = (key: string, column: string) => `realism.${column}.${key}`;
   return (
     <>
       <p class="hint">{words.parametersHint}</p>
@@ -66,32 +89,28 @@ export function ParameterTable({ actuator, nominal }: ParameterTableProps) {
           </tr>
         </thead>
         <tbody>
-          {KEYS.map((key) => {
-            const [symbol, name, unit] = words.names[key];
-            const meaning = `${name}, ${unit}`;
-            return (
-              <tr key={key}>
-                <th scope="row">
-                  <i>{symbol}</i> <small>{meaning}</small>
-                </th>
-                {COLUMNS.map(({ column, patch }) => (
-                  <Cell
-                    key={column}
-                    name={nameOf(key, column)}
-                    label={words.cell(`${symbol} ${meaning}`, words[column])}
-                    describedBy={id}
-                    value={held[column][key]}
-                    send={(value) => patch({ [key]: value } as ActuatorPatch)}
-                  />
-                ))}
-                <td>{differenceOf(nominal[key], actuator[key])}</td>
-              </tr>
-            );
-          })}
+          {rows.map(({ key, symbol, meaning }) => (
+            <tr key={key}>
+              <th scope="row">
+                <i>{symbol}</i> <small>{meaning}</small>
+              </th>
+              {COLUMNS.map(({ column, patch }) => (
+                <Cell
+                  key={column}
+                  name={nameOf(key, column)}
+                  label={words.cell(`${symbol} ${meaning}`.trim(), words[column])}
+                  describedBy={id}
+                  value={numberOf(held[column], key)}
+                  send={(value) => patch({ [key]: value })}
+                />
+              ))}
+              <td>{differenceOf(numberOf(nominal, key), numberOf(actuator, key))}</td>
+            </tr>
+          ))}
         </tbody>
       </table>
       <div id={id}>
-        {KEYS.flatMap((key) =>
+        {rows.flatMap(({ key }) =>
           COLUMNS.map(({ column }) => <Problem key={column + key} control={nameOf(key, column)} />),
         )}
       </div>
@@ -99,7 +118,7 @@ export function ParameterTable({ actuator, nominal }: ParameterTableProps) {
         type="button"
         class="button"
         disabled={isModelExact}
-        onClick={() => void perform("realism.exact", () => patchNominal(actuator))}
+        onClick={() => void perform("realism.exact", () => patchNominal(patchOf(actuator)))}
       >
         {words.exact}
       </button>

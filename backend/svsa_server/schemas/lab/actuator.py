@@ -1,0 +1,93 @@
+"""What goes over the wire about actuators: what each file says of itself."""
+
+from functools import cache
+from typing import Any
+
+from pydantic import BaseModel, Field
+
+from svsa.actuators.installed import get_mechanism, list_mechanism_names
+from svsa.actuators.mechanism import Mechanism
+from svsa.actuators.parameters import Limits
+from svsa.actuators.reach import find_only_stiffness
+from svsa.runs.experiment import build_default_load, choose_stiffness
+from svsa.simulation.plant.loads.constant import ConstantLoad
+from svsa_server.schemas.lab.parameter import ParameterState, list_parameters
+
+ASSUMED = "assumed"
+
+
+class ActuatorParameterState(ParameterState):
+    """A parameter of an actuator. `default` is null: `value` is the prototype's."""
+
+    value: float | str = Field(description="Of the simulated plant")
+    nominal: float | str = Field(description="Of the model that the control laws get")
+    source: str = Field(description="Publication of the value, or what it was assumed from")
+    assumed: bool = Field(description="Without a published source")
+
+
+class ActuatorSummary(BaseModel):
+    """Which actuator a session simulates, and what its references and loads have to respect."""
+
+    name: str
+    title: str
+    stiffness_nm_per_rad: float = Field(description="Default stiffness, N·m/rad")
+    only_stiffness_nm_per_rad: float | None = Field(
+        description="The only stiffness of an actuator without a stiffness motor, else null"
+    )
+    load: ConstantLoad = Field(description="Default load: the default stiffness holds it")
+
+
+class ActuatorState(ActuatorSummary):
+    """An actuator that is installed."""
+
+    source: str = Field(description="Publication of the mechanism")
+    antagonistic: bool = Field(description="Two motors pull against each other")
+    limits: Limits
+    parameters: list[ActuatorParameterState]
+    limit_sources: dict[str, str] = Field(description="Source of each limit, by its name")
+    datasheet: str = Field(description="Address of its datasheet, below /api/v1")
+
+
+@cache
+def summarize_actuator(mechanism: Mechanism) -> ActuatorSummary:
+    """Which actuator it is, and its default stiffness and load."""
+    return ActuatorSummary(**_summarize(mechanism))
+
+
+def list_actuators() -> list[ActuatorState]:
+    """Every actuator that is installed, the SVSA first."""
+    return [describe_actuator(get_mechanism(name)) for name in list_mechanism_names()]
+
+
+def describe_actuator(mechanism: Mechanism) -> ActuatorState:
+    """An actuator in the words of its file."""
+    sources = mechanism.sources
+    return ActuatorState(
+        **_summarize(mechanism),
+        source=mechanism.source,
+        antagonistic=mechanism.antagonistic,
+        limits=mechanism.limits,
+        parameters=[
+            ActuatorParameterState(
+                **one.model_dump(),
+                value=getattr(mechanism.prototype, one.name),
+                nominal=getattr(mechanism.nominal, one.name),
+                source=sources[one.name],
+                assumed=sources[one.name].startswith(ASSUMED),
+            )
+            for one in list_parameters(mechanism.parameters)
+            if one.name != "mechanism"
+        ],
+        limit_sources={name: sources[name] for name in Limits.model_fields},
+        datasheet=f"/actuators/{mechanism.name}/datasheet",
+    )
+
+
+def _summarize(mechanism: Mechanism) -> dict[str, Any]:
+    return {
+        "name": mechanism.name,
+        "title": mechanism.title,
+        "stiffness_nm_per_rad": choose_stiffness(mechanism),
+        "only_stiffness_nm_per_rad": find_only_stiffness(mechanism.nominal),
+        "load": build_default_load(mechanism),
+    }
