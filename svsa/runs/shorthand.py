@@ -133,7 +133,7 @@ def change_configuration(
         )
     present = dict(configuration)
     if isinstance(name := given.get("actuator"), str):
-        mechanism = _read_mechanism(name)
+        mechanism = read_mechanism(name)
         present |= mechanism
         given = mechanism | {key: value for key, value in given.items() if key != "actuator"}
     return configuration.changed(
@@ -141,8 +141,18 @@ def change_configuration(
     )
 
 
-def _read_mechanism(name: str) -> dict[str, Any]:
-    """Plant, nominal model and limits of an actuator, and the stiffness if it has only one."""
+def read_mechanism(name: str) -> dict[str, Any]:
+    """What the name of an actuator stands for, as fields of a configuration.
+
+    Args:
+        name: Of an actuator that is installed.
+
+    Returns:
+        Plant, nominal model and limits, and the stiffness if it has only one.
+
+    Raises:
+        ParameterError: If no actuator of that name is installed.
+    """
     try:
         found = get_mechanism(name)
     except ParameterError as error:

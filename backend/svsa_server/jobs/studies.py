@@ -5,7 +5,12 @@ from typing import Any
 from svsa.evaluation.studies.execution import run_study
 from svsa.evaluation.studies.replay import record_replay, replay_row
 from svsa.evaluation.studies.store import StoredStudy, read_rows
-from svsa.evaluation.studies.summary import compare_laws, estimate_sensitivity, summarize_laws
+from svsa.evaluation.studies.summary import (
+    compare_laws,
+    estimate_sensitivity,
+    summarize_actuators,
+    summarize_laws,
+)
 from svsa.evaluation.studies.tables import make_plain
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa_server.jobs.heavy_work import MAX_WORKERS
@@ -32,7 +37,8 @@ def summarize(stored: StoredStudy) -> dict[str, Any]:
     """
     study, rows = stored.study, read_rows(stored)
     laws, pairings = summarize_laws(study, rows), compare_laws(study, rows)
-    return make_plain({"laws": laws, "pairings": pairings})
+    actuators = summarize_actuators(study, rows)
+    return make_plain({"laws": laws, "actuators": actuators, "pairings": pairings})
 
 
 def decide(stored: StoredStudy, outcome: str) -> list[dict[str, Any]]:

@@ -143,9 +143,17 @@ def show_command(
         Path | None, typer.Option(help="Folder for pictures; none are drawn if left out.")
     ] = None,
 ) -> None:
-    """Results of a study: success, faults and quantiles of each law, and Sobol indices."""
+    """Results of a study: success, faults and quantiles of each law, and Sobol indices.
+
+    If the actuator varies, of each actuator first, then of all.
+    """
     from svsa.evaluation.studies.store import open_study, read_rows
-    from svsa.evaluation.studies.summary import SUCCEEDED, estimate_sensitivity, summarize_laws
+    from svsa.evaluation.studies.summary import (
+        SUCCEEDED,
+        estimate_sensitivity,
+        summarize_actuators,
+        summarize_laws,
+    )
     from svsa.evaluation.studies.tables import (
         build_sensitivity_table,
         build_summary_tables,
@@ -157,14 +165,17 @@ def show_command(
     stored = open_study(name)
     rows = read_rows(stored)
     laws = summarize_laws(stored.study, rows)
+    actuators = summarize_actuators(stored.study, rows)
     is_asked = outcome is not None or stored.study.sampling == "sensitivity"
     indices = [
         estimate_sensitivity(stored.study, rows, law, outcome or SUCCEEDED)
         for law in (stored.study.laws if is_asked else ())
     ]
     if as_json:
-        write_json({"study": name, "laws": laws, "sensitivity": indices})
+        write_json({"study": name, "laws": laws, "actuators": actuators, "sensitivity": indices})
     else:
+        for actuator, found in actuators.items():
+            Console().print(*build_summary_tables(stored.study, found, actuator))
         Console().print(*build_summary_tables(stored.study, laws))
         for one in indices:
             Console().print(build_sensitivity_table(one))

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from svsa.errors import ParameterError
-from svsa.evaluation.studies.setting import change_settings, read_setting
+from svsa.evaluation.studies.setting import ACTUATOR, change_settings, read_setting
 from svsa.evaluation.studies.study import Study, scale
 from svsa.runs.configuration import Configuration
 
@@ -87,13 +87,22 @@ def build_configurations(
     study: Study, law: str, samples: ParameterSamples
 ) -> list[Configuration | None]:
     """The runs of these samples under a law; None where the settings do not go together."""
-    base = study.build_base(law)
-    present = [read_setting(base, variation.path) for variation in study.vary]
+    bases = study.build_bases(law)
+    present = {
+        name: [read_setting(base, variation.path) for variation in study.vary]
+        for name, base in bases.items()
+    }
+    over = [variation.path for variation in study.vary].index(ACTUATOR) if None not in bases else -1
     built: list[Configuration | None] = []
     for row, seed in enumerate(samples.seeds):
+        name = None if over < 0 else samples.values[over][row]
+        base = bases[name]
         changes: dict[str, Any] = {
             variation.path: scale(variation, at, values[row])
-            for variation, at, values in zip(study.vary, present, samples.values, strict=True)
+            for number, (variation, at, values) in enumerate(
+                zip(study.vary, present[name], samples.values, strict=True)
+            )
+            if number != over
         }
         try:
             built.append(change_settings(base, changes).model_copy(update={"seed": seed}))

@@ -11,6 +11,7 @@ from svsa.control.installed import check_installed
 from svsa.errors import ParameterError, Violation
 from svsa.inputs.checked import Checked
 from svsa.runs.configuration import Configuration, Lane
+from svsa.runs.shorthand import read_mechanism
 from svsa.simulation.plant.effects import EVERY, IDEAL, RIG
 
 Step = str | int
@@ -24,6 +25,8 @@ _PART = re.compile(r"[A-Za-z_]\w*|\[\d+\]")
 _PATH = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*|\[\d+\])*")
 NAMED = {"effects": {"ideal": IDEAL, "rig": RIG, "every": EVERY}}
 """Values that have a name, by the path of their setting."""
+ACTUATOR = "actuator"
+"""Path whose value may be the name of an actuator: its plant, nominal model and limits."""
 NOT_VARIED = ("law", "comparisons", "seed")
 
 
@@ -99,9 +102,21 @@ def change_settings(configuration: Configuration, changes: Mapping[str, Any]) ->
 
     A number given to a list of numbers is that of each. A table changes what it names and leaves
     the rest; one with a `kind` takes the place of what was there. An effect that was off is
-    switched on with what is not given at its default. Raises `ParameterError` as the configuration
-    does, and where two of the paths are within each other.
+    switched on with what is not given at its default. The name of an actuator sets its plant,
+    nominal model and limits, in which the other paths change what they name. Raises
+    `ParameterError` as the configuration does, and where two of the paths are within each other.
     """
+    name = changes.get(ACTUATOR)
+    if isinstance(name, str):
+        others = {path: given for path, given in changes.items() if path != ACTUATOR}
+        # Checked as a whole only: the stiffness before may be none of the other actuator.
+        switched = configuration.model_copy(update=read_mechanism(name))
+        return type(configuration)(**dict(_change_parts(switched, others)))
+    return _change_parts(configuration, changes)
+
+
+def _change_parts(configuration: Configuration, changes: Mapping[str, Any]) -> Configuration:
+    """`change_settings` within one actuator."""
     root = _Part()
     for path, given in changes.items():
         *steps, last = parse_path(path)

@@ -3,7 +3,7 @@
 from typing import NamedTuple
 
 from svsa.control.installed import get_title
-from svsa.evaluation.studies.setting import Step, parse_path, walk_to_setting
+from svsa.evaluation.studies.setting import ACTUATOR, Step, parse_path, walk_to_setting
 from svsa.evaluation.studies.variation import Variation
 from svsa.inputs.checked import Checked, read_quantity
 from svsa.runs.configuration import Configuration
@@ -34,6 +34,8 @@ def name_setting(configuration: Configuration, path: str) -> SettingName:
     The name contains "Nominal" for the controllers' model, the law of a law's parameter, and the
     number of a load where there are several.
     """
+    if path == ACTUATOR:
+        return SettingName("Mechanism", "")
     words, unit, parts = path, "", []
     for owner, step, _ in walk_to_setting(configuration, path):
         if step in _SCALED:

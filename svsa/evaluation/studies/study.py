@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from typing import Any, Literal, Self
+from typing import Any, Literal, Self, TypeGuard
 
 from pydantic import model_validator
 
@@ -10,8 +10,8 @@ from svsa.control.installed import PAPERS_LAW, InstalledLaw
 from svsa.errors import ParameterError, Violation
 from svsa.evaluation.metrics import METRICS, Metric
 from svsa.evaluation.studies.outcome import Success
-from svsa.evaluation.studies.setting import change_settings, read_setting
-from svsa.evaluation.studies.variation import DRAWN, Variation, Variations
+from svsa.evaluation.studies.setting import ACTUATOR, change_settings, read_setting
+from svsa.evaluation.studies.variation import DRAWN, Choice, Grid, Variation, Variations
 from svsa.inputs.checked import Checked, Number, Whole, quantity
 from svsa.runs.configuration import Configuration
 from svsa.runs.paper import DURATION_S, get_simulated_figure
@@ -26,6 +26,8 @@ class Study(Checked):
     """Runs of one actuator with varied settings, the same samples under each law.
 
     base: the configuration that all begin from: `figure` of the paper, and settings in its place.
+    actuators: if the actuator varies (`vary` with the path "actuator" and names as values), of each
+    the settings that it needs in place of the base's, such as a stiffness in its range.
     runs: how many samples; where there are grids, of the whole grid; for `sensitivity` how many
     base samples, a power of two. sampling: independent samples, Sobol's sequence, or the pairs of
     it of which Sobol indices are made. metrics: columns of the table in this order; success may ask
@@ -43,6 +45,9 @@ class Study(Checked):
         default=(PAPERS_LAW,),
     )
     vary: Variations = quantity("", "What varies", default=())
+    actuators: dict[str, dict[str, Any]] = quantity(
+        "", "Settings of each actuator that varies, by its name", default={}
+    )
     runs: Whole = quantity("", "How many samples", ge=1, le=MAX_RUNS)
     seed: Whole = quantity("", "Seed of all samples", ge=0, le=2**63 - 1, default=0)
     sampling: Sampling = quantity("", "How is drawn", default="random")
@@ -61,10 +66,12 @@ class Study(Checked):
         self._check_paths()
         if self.sampling == "sensitivity":
             self._check_sensitivity()
+        self._check_actuators()
         for law in self.laws:
-            base = self.build_base(law)
-            for number, variation in enumerate(self.vary):
-                check_variation(base, variation, f"vary[{number}]")
+            for base in self.build_bases(law).values():
+                for number, variation in enumerate(self.vary):
+                    if not _is_actuator(variation):
+                        check_variation(base, variation, f"vary[{number}]")
         if self.sample_count > MAX_RUNS:
             bound = f"so few that there are at most {MAX_RUNS} samples, not {self.sample_count}"
             raise ParameterError(Violation("runs", self.runs, "", bound))
@@ -79,9 +86,18 @@ class Study(Checked):
         for number, path in enumerate(paths):
             if path in paths[:number]:
                 raise ParameterError(Violation(f"vary[{number}].path", path, "", "varied once"))
-            if any(path.startswith((f"{other}.", f"{other}[")) for other in paths):
+            whole = [one.path for one in self.vary if not _is_actuator(one)]
+            if any(path.startswith((f"{other}.", f"{other}[")) for other in whole):
                 bound = "apart from the others: one that varies too holds it"
                 raise ParameterError(Violation(f"vary[{number}].path", path, "", bound))
+
+    def _check_actuators(self) -> None:
+        unused = sorted({*self.actuators} - {*self.varied_actuators})
+        if unused:
+            bound = (
+                f"an actuator over which vary goes: {', '.join(self.varied_actuators) or 'none'}"
+            )
+            raise ParameterError(Violation(f"actuators.{unused[0]}", unused[0], "", bound))
 
     def _check_sensitivity(self) -> None:
         if self.runs & (self.runs - 1) or not self.vary:
@@ -109,9 +125,40 @@ class Study(Checked):
         """How many runs there are."""
         return self.sample_count * len(self.laws)
 
+    @property
+    def varied_actuators(self) -> tuple[str, ...]:
+        """The names of the actuators over which it goes; empty if only the base's runs."""
+        for one in self.vary:
+            if _is_actuator(one):
+                return tuple(dict.fromkeys(one.values))
+        return ()
+
     def build_base(self, law: str) -> Configuration:
-        """What the runs of a law begin from; raises `ParameterError`."""
-        return build_base(self.base, law)
+        """What the runs of a law begin from, those of the first actuator if it varies.
+
+        Raises `ParameterError`.
+        """
+        return next(iter(self.build_bases(law).values()))
+
+    def build_bases(self, law: str) -> dict[str | None, Configuration]:
+        """What the runs of a law begin from, by actuator; by None if it does not vary.
+
+        Raises `ParameterError`.
+        """
+        names = self.varied_actuators
+        if not names:
+            return {None: build_base(self.base, law)}
+        return {
+            name: build_base({**self.base, **self.actuators.get(name, {}), ACTUATOR: name}, law)
+            for name in names
+        }
+
+
+def _is_actuator(variation: Variation) -> TypeGuard[Choice | Grid]:
+    """Whether it goes over actuators by their names."""
+    if variation.path != ACTUATOR or not isinstance(variation, Choice | Grid):
+        return False
+    return all(isinstance(one, str) for one in variation.values)
 
 
 def check_measured(measure_from_s: float, duration_s: float) -> None:

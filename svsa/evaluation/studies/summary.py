@@ -24,6 +24,7 @@ from svsa.evaluation.statistics import (
     estimate_statistic,
 )
 from svsa.evaluation.studies.outcome import REFUSED
+from svsa.evaluation.studies.setting import ACTUATOR
 from svsa.evaluation.studies.store import StoredStudy, StudyError, read_rows
 from svsa.evaluation.studies.study import Study
 from svsa.evaluation.studies.work import DRAW, LAW
@@ -90,6 +91,14 @@ def summarize_laws(study: Study, rows: pa.Table) -> list[LawSummary]:
     return [
         _summarize_law(law, study.metrics, rows.filter(pc.field(LAW) == law)) for law in study.laws
     ]
+
+
+def summarize_actuators(study: Study, rows: pa.Table) -> dict[str, list[LawSummary]]:
+    """`summarize_laws` of each actuator over which the study goes; empty if it goes over none."""
+    return {
+        name: summarize_laws(study, rows.filter(pc.field(ACTUATOR) == name))
+        for name in study.varied_actuators
+    }
 
 
 def _summarize_law(law: str, metrics: Sequence[str], rows: pa.Table) -> LawSummary:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from rich.table import Table
 
+from svsa.actuators.installed import get_mechanism
 from svsa.control.installed import get_title
 from svsa.evaluation.metrics import METRICS, RECOVERY
 from svsa.evaluation.statistics import Interval
@@ -21,14 +22,20 @@ _DECIMALS, _MAX_DECIMALS = 2, 12
 _DEGREES = {"rad": "°", "rad·s": "°·s"}
 
 
-def build_summary_tables(study: Study, laws: Sequence[LawSummary]) -> list[Table]:
-    """Success and faults in one table, the quantiles of every metric that is kept in the other."""
+def build_summary_tables(
+    study: Study, laws: Sequence[LawSummary], actuator: str = ""
+) -> list[Table]:
+    """Success and faults in one table, the quantiles of every metric that is kept in the other.
+
+    actuator: whose runs these are; empty: all runs.
+    """
+    whose = f"{get_mechanism(actuator).title}: " if actuator else ""
     asked = " and ".join(
         f"{format_metric(name)} ≤ {format_value(name, value)} {format_unit(name)}"
         for name, value in study.success.list_bounds().items()
     )
     success = Table("law", "runs", "success (95 %)", "faults", title_justify="left")
-    success.title = f"{study.title}. Success: no fault{f' and {asked}' if asked else ''}"
+    success.title = f"{whose}{study.title}. Success: no fault{f' and {asked}' if asked else ''}"
     for law in laws:
         faults = ", ".join(f"{count} {code}" for code, count in law.faults.items()) or "none"
         refused = f", and {law.refused} samples refused" if law.refused else ""
@@ -36,7 +43,8 @@ def build_summary_tables(study: Study, laws: Sequence[LawSummary]) -> list[Table
         success.add_row(get_title(law.law), str(law.runs), share, faults + refused)
     quantiles = Table("metric", "unit", title_justify="left")
     span = f"{study.measure_from_s:g}–{study.duration_s:g} s"
-    quantiles.title = f"5 %, 50 %, 95 % of all runs, {span}; fault: so many ended in one"
+    of = "its" if whose else "all"
+    quantiles.title = f"{whose}5 %, 50 %, 95 % of {of} runs, {span}; fault: so many ended in one"
     for law in laws:
         quantiles.add_column(get_title(law.law), justify="right")
     for name in study.metrics:

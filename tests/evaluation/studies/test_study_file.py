@@ -114,5 +114,5 @@ def test_a_value_that_was_given_next_to_the_file_is_not_said_to_stand_in_it(tmp_
 def test_those_of_the_package_can_be_read_and_found_by_name():
     for name, title in list_built_in().items():
         assert read_study(name, runs=2)[1].title == title
-    with pytest.raises(ParameterError, match=r"one of bandwidth, .*perturbation"):
+    with pytest.raises(ParameterError, match=r"one of actuators, .*perturbation"):
         read_study("nothing")

@@ -197,7 +197,7 @@ def test_a_wrong_study_is_refused_with_line_name_value_and_bound(lab):
     for asked, reported in (
         ({}, "source is missing"),
         ({"source": "load", "text": TEXT}, "not both"),
-        ({"source": "no_such"}, "a kept study, or one of bandwidth"),
+        ({"source": "no_such"}, "a kept study, or one of actuators"),
         ({"source": "../whole"}, "a kept study, or one of"),
         ({"text": "title ="}, "a readable TOML file"),
         ({"source": "load", "runs": 10**8}, "at most 10000000 rows"),

@@ -194,7 +194,10 @@ class LawPair(BaseModel):
 class StudySummary(BaseModel):
     """Results of a study so far."""
 
-    laws: list[LawOutcome]
+    laws: list[LawOutcome] = Field(description="Of all runs")
+    actuators: dict[str, list[LawOutcome]] = Field(
+        description="Of the runs of each actuator, by its name; empty if it does not vary"
+    )
     pairings: list[LawPair] = Field(description="The first law less each other one")
 
 
