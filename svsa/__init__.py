@@ -98,7 +98,7 @@ _MODULES = ("design", "falsify")
 
 
 def __getattr__(name: str) -> object:
-    """What a simulation does without, and what takes a while to import, when it is asked for."""
+    """Import on first access what a simulation does not need and what is slow to import."""
     if name in _FOUND:
         return _FOUND[name]
     if name not in _LATE:

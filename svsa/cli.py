@@ -206,7 +206,7 @@ def compile_loop() -> None:
 
 
 def prepare(laws: Iterable[str] | None = None) -> None:
-    """Have the control loop, metrics and these laws compiled, and say so where it takes long.
+    """Compile the control loop, metrics and these laws, and report a long compilation.
 
     laws: all that are installed if left out. One that does not work is named, and the others go on.
     """

@@ -1,4 +1,4 @@
-"""The domain of the model: where σ, A(x) and the mechanism allow a run to go on."""
+"""The domain of the model: bounds on σ, A(x) and the mechanism within which a run continues."""
 
 import math
 from typing import NamedTuple
@@ -56,14 +56,14 @@ class Domain(NamedTuple):
 
 
 class Bounds(NamedTuple):
-    """What `check_domain` needs of an actuator, to be packed (see `packed`)."""
+    """The fields of an actuator that `check_domain` needs, for packing (see `packed`)."""
 
     domain: Domain
     actuator: AnyActuator
 
 
 def build_domain(actuator: MechanismParameters, limits: Limits) -> Domain:
-    """The domain of a plant: s between its values at the ends of the stiffness range.
+    """Build the domain of a plant: s between its values at the ends of the stiffness range.
 
     Of the SVSA never at μ = 0, where A(x) is zero, nor at μ = 1, where the energy is infinite. Of
     an elastic energy never beyond the ends of s, nor beyond a share of the deflection at which the
@@ -103,7 +103,7 @@ def _build_domain_of_energy(actuator: ElasticActuator, limits: Limits, has_motor
 
 
 def _find_coordinate(actuator: ElasticActuator, sigma: float) -> float:
-    """The s of an end of the stiffness range; raises `ParameterError` if the energy has none."""
+    """Find s at an end of the stiffness range; raises `ParameterError` if the energy has none."""
     s = compute_coordinate_for_stiffness(actuator, sigma)
     found = compute_stiffness_of(actuator, s, 0.0)
     if not math.isclose(found, sigma, rel_tol=1e-9):
@@ -115,7 +115,7 @@ def _find_coordinate(actuator: ElasticActuator, sigma: float) -> float:
 def _find_zero_stiffness_deflection(
     actuator: ElasticActuator, low: float, high: float, most: float
 ) -> float:
-    """The least |φ| up to `most` at which σ is not positive at an s of the range; else infinite."""
+    """Find the smallest |φ| up to `most` with σ ≤ 0 at an s of the range; infinite if none."""
     for phi in np.linspace(0.0, most, _TESTED):
         for s in np.linspace(low, high, _TESTED):
             if any(not compute_stiffness_of(actuator, s, way * phi) > 0.0 for way in (1.0, -1.0)):
@@ -140,7 +140,7 @@ _limit = choose_kind(_limit_of_svsa, _limit_of_energy)
 
 @compiled
 def compute_deflection_limit(domain: Domain, actuator: AnyActuator, s: float) -> float:
-    """The |φ| at which a run ends, rad: of the SVSA a share of the zero-stiffness angle of this μ.
+    """Compute the |φ| at which a run ends, rad: for the SVSA a share of its zero-stiffness angle.
 
     Of an elastic energy `build_domain` has found it for all s.
     """

@@ -26,7 +26,7 @@ from svsa.numerics.trigonometry import sin
 
 
 def build_actuator(parameters: MechanismParameters, s0: float) -> Any:
-    """The constants of an actuator from checked parameters.
+    """Build the constants of an actuator from checked parameters.
 
     Args:
         parameters: Of the plant or of the nominal model.
@@ -68,7 +68,7 @@ def build_actuator(parameters: MechanismParameters, s0: float) -> Any:
 
 
 class ExternalLoad(NamedTuple):
-    """What the world does to the plant in one instant.
+    """The external load on the plant at one instant.
 
     w2, w4, w6: torques on link, motor 1, motor 2, N·m. inertia: added to M, kg·m².
     gravity_moment: m g r of a hung mass, N·m; its torque is −m g r sin q.

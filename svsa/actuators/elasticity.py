@@ -225,7 +225,7 @@ def compute_coordinate_slope(actuator: AnyActuator) -> float:
 
 @compiled
 def compute_coordinate_for_stiffness(actuator: AnyActuator, sigma: float) -> float:
-    """The s whose stiffness at φ = 0 is σ, or the nearest end of s. sigma: N·m/rad, > 0."""
+    """The s whose stiffness at φ = 0 is σ, limited to the range of s. sigma: N·m/rad, > 0."""
     return _inverse(actuator, sigma, 0.0)
 
 

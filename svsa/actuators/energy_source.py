@@ -1,4 +1,4 @@
-"""Text of the functions of an elastic energy: derivatives of U(φ, s) by sympy, as Python code."""
+"""Generated Python code of an elastic energy's functions: derivatives of U(φ, s) by sympy."""
 
 from collections.abc import Callable
 from types import SimpleNamespace
@@ -34,7 +34,7 @@ _SHORT = 60
 
 
 def reject_energy(mechanism: Mechanism, finding: str) -> ParameterError:
-    """The error of an actuator's energy, to be raised."""
+    """Build the error of an actuator's invalid energy."""
     return ParameterError(Violation("energy", mechanism.name, "", "", finding=finding))
 
 
@@ -182,7 +182,7 @@ def _build_writer(mechanism: Mechanism, sympy: Any) -> Callable[[str, list[Any]]
 def _name_shared(
     mechanism: Mechanism, sympy: Any, expressions: list[Any]
 ) -> tuple[list[tuple[str, str, Any]], list[Any]]:
-    """Name what costs most and occurs in several places: computed once each.
+    """Name the most expensive shared subexpressions: each is computed once.
 
     sin and cos, sinh and cosh are computed in pairs; a root or a reciprocal is computed once for
     all the powers of its base, of which whole positive powers of a name remain.
@@ -228,7 +228,7 @@ def _name_shared(
 def _name_powers(
     mechanism: Mechanism, sympy: Any, one: Any, powers: list[Any], count: int
 ) -> tuple[list[tuple[str, str, Any]], dict[Any, Any]]:
-    """Names of the root and the reciprocal of a power's base, and by what to replace powers."""
+    """Name the root and the reciprocal of a power's base, and the replacements of powers."""
     base = one.base
     if one.exp.is_Integer and base.could_extract_minus_sign():
         base = -base
@@ -252,7 +252,7 @@ def _name_powers(
 
 
 def _shorten(sympy: Any, expression: Any) -> Any:
-    """The same with fewer operations; by identities of sin, cosh, … only where that takes no time.
+    """Return an expression with fewer operations; identities of sin, cosh, … only if fast.
 
     Of a long expression `trigsimp` takes seconds, and finds little.
     """

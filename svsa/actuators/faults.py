@@ -195,13 +195,15 @@ def find_number(code: str) -> int:
 
 
 def label_fault(code: str) -> str:
-    """The label of a fault; an unknown code (of a newer record) is written with blanks."""
+    """Return the label of a fault; an unknown code (of a newer record) with blanks for
+    underscores.
+    """
     kind = FAULTS.get(code)
     return kind.label if kind else code.replace("_", " ").capitalize()
 
 
 def advise(code: str, values: Mapping[str, Any]) -> str | None:
-    """What to try after a fault.
+    """Return the advice after a fault.
 
     Args:
         code: Code of the fault.

@@ -1,4 +1,4 @@
-"""Which code computes with an actuator's constants: the SVSA's, or an energy's at its address."""
+"""Selection of the code for an actuator's constants: the SVSA's, or that of an energy."""
 
 from collections.abc import Callable
 from typing import Any
@@ -15,7 +15,7 @@ from svsa.numerics.simd.number import INLINED, VECTOR, WIDTH
 
 
 def _build_call(name: str) -> Any:
-    """A function of compiled code that calls one of an energy at an address, as C would."""
+    """Build a function of compiled code that calls an energy's function at an address."""
     result = RESULTS[name]
 
     def call_address(typing: Any, address: Any, s: Any, phi: Any, values: Any) -> Any:
@@ -56,7 +56,7 @@ def _spread_margin(z: Any) -> StiffnessMargin:
 
 
 def _call_each(call: Any, spread: Callable[[Any], Any]) -> Any:
-    """`call` of floats; of vectors one element after the other."""
+    """Call `call` for floats; for vectors once per element."""
     spread = compiled(spread)
 
     def call_energy(address: Any, s: Any, phi: Any, values: Any) -> Any:
@@ -90,7 +90,9 @@ def has_energy(kind: Any) -> bool:
 
 
 def choose_kind(of_svsa: Any, of_energy: Any) -> Any:
-    """A function (actuator, s, φ) of compiled code: one of two, by the type of the constants."""
+    """Build a compiled function (actuator, s, φ) that selects one of two by the type of
+    constants.
+    """
 
     def compute(actuator: Any, s: Any, phi: Any) -> Any:
         raise NotImplementedError("of compiled code only")

@@ -1,4 +1,4 @@
-"""What an actuator is: parameters, an elastic energy U(φ, s) and a transmission s = s0 + κ θ2.
+"""The description of an actuator: parameters, energy U(φ, s) and transmission s = s0 + κ θ2.
 
     M q̈ + D q̇ + τ_e = τ_ext        τ_e = ∂U/∂φ, φ = q − θ1
     B1 θ̈1 + D1 θ̇1 − τ_e = u1        σ   = ∂²U/∂φ²
@@ -23,7 +23,7 @@ MAX_ELASTIC = 6
 
 @dataclass(frozen=True, eq=False)
 class Mechanism:
-    """An actuator as one file describes it.
+    """An actuator, as described by one file.
 
     Attributes:
         name: Of the entry point and in records.
@@ -75,14 +75,14 @@ class Mechanism:
             raise ParameterError(Violation("sources", sorted(self.sources), "", bound))
 
     def list_elastic(self, parameters: MechanismParameters) -> list[float]:
-        """The values of the parameters that the energy takes."""
+        """List the values of the parameters that the energy depends on."""
         return [float(getattr(parameters, name)) for name in self.elastic]
 
 
 def perturb(
     parameters: MechanismParameters, inertia: tuple[float, float, float], damping: float
 ) -> Any:
-    """Parameters of a nominal model that differs from the plant as the paper's does.
+    """Perturb the parameters of a nominal model as the paper does.
 
     Args:
         parameters: Of the true plant.

@@ -1,4 +1,4 @@
-"""Which stiffness an elastic energy gives under a load: not every σ_d is possible at every τ_e.
+"""The stiffness range of an elastic energy under a load: not every σ_d is possible.
 
 With qbmove |τ_e| < σ_d/a, whatever s is: more torque needs more deflection, which stiffens the
 springs.
@@ -23,7 +23,7 @@ _HALVINGS = 50
 def find_stiffness_range(
     actuator: AnyActuator, domain: Domain, torque: float
 ) -> tuple[float, float]:
-    """The least and the greatest stiffness at rest under an elastic torque.
+    """Find the least and the greatest stiffness at rest under an elastic torque.
 
     Args:
         actuator: Constants of the plant.
@@ -50,7 +50,7 @@ def find_stiffness_range(
 def _find_end(
     actuator: AnyActuator, domain: Domain, torque: float, inside: float, outside: float
 ) -> float:
-    """The last s, from `inside` towards `outside`, that holds a torque."""
+    """Find the last s, from `inside` towards `outside`, that holds a torque."""
     for _ in range(_HALVINGS):
         middle = 0.5 * (inside + outside)
         if math.isnan(find_deflection(actuator, domain, middle, torque)):
@@ -61,7 +61,7 @@ def _find_end(
 
 
 def find_deflection(actuator: AnyActuator, domain: Domain, s: float, torque: float) -> float:
-    """The φ with τ_e(φ, s) = τ at rest, by bisection.
+    """Find the φ with τ_e(φ, s) = τ at rest, by bisection.
 
     Args:
         actuator: Constants of the plant.
@@ -86,7 +86,7 @@ def find_deflection(actuator: AnyActuator, domain: Domain, s: float, torque: flo
 
 
 def find_only_stiffness(parameters: MechanismParameters) -> float | None:
-    """The stiffness of an actuator without a stiffness motor, N·m/rad; None of any other."""
+    """Return the stiffness of an actuator without stiffness motor, N·m/rad; None for any other."""
     if isinstance(parameters, ActuatorParameters):
         return None
     if get_mechanism(get_mechanism_name(parameters)).has_stiffness_motor:
@@ -95,7 +95,7 @@ def find_only_stiffness(parameters: MechanismParameters) -> float | None:
 
 
 def check_only_stiffness(parameters: MechanismParameters, low: float, high: float) -> None:
-    """Raise `ParameterError` for a stiffness reference that no motor could follow.
+    """Raise `ParameterError` for a stiffness reference that no motor can follow.
 
     Args:
         parameters: Of the nominal model.
@@ -113,7 +113,7 @@ def check_only_stiffness(parameters: MechanismParameters, low: float, high: floa
 def check_reach(
     parameters: MechanismParameters, domain: Domain, torque: float, low: float, high: float
 ) -> None:
-    """Raise `ParameterError` for a stiffness that the energy does not give under a lasting load.
+    """Raise `ParameterError` for a stiffness that the energy does not reach under a lasting load.
 
     Args:
         parameters: Of the plant. Of the SVSA the domain says it, and nothing is checked.

@@ -1,4 +1,4 @@
-"""What flows through the loop, and the channels of a recorded sample.
+"""The signals of the loop, and the channels of a recorded sample.
 
 The tuples are the paper's symbols, SI units, and go in and out of compiled functions.
 Position and torque are positive in the direction of growing q.
@@ -40,7 +40,7 @@ class Torque(NamedTuple):
 
 
 class Measurement(NamedTuple):
-    """What the sensors say: motor angles and deflection, rad; velocities, rad/s, if known."""
+    """Measured motor angles and deflection, rad; velocities, rad/s, if known."""
 
     theta1: float
     theta2: float
@@ -51,7 +51,7 @@ class Measurement(NamedTuple):
 
 
 class Positions(NamedTuple):
-    """What the encoders said of this tick, as the loop really got it: rad, at the gear outputs.
+    """The encoder positions of a tick, as the loop received them: rad, at the gear outputs.
 
     q: link, θ1 + φ. On a bench counts are brought to the tick by the velocities of x̂, and one too
     old for that is x̂ itself. A bench's record has all of it, and so a law's torques follow from it.
@@ -71,7 +71,7 @@ class Disturbance(NamedTuple):
 
 
 class Sample(NamedTuple):
-    """What is recorded of one tick: every field a channel, with its unit and a label to read.
+    """One recorded sample: every field is a channel with a unit and a label.
 
     On a bench the disturbances w are not known (NaN), and positions are as measured; the
     residuals are against its simulated twin, and 0 in every other lane.
@@ -109,7 +109,7 @@ class Sample(NamedTuple):
 
 @dataclass(frozen=True)
 class Channel:
-    """One column of the samples: its name (ends in the unit), unit and a label to read."""
+    """A column of the samples: its name (ends in the unit), unit and label."""
 
     name: str
     unit: str

@@ -16,7 +16,7 @@ REACTION_PRINTED = 1
 
 
 class SpringDerivatives(NamedTuple):
-    """τ_e and every partial derivative that the linearization needs (Eq 17–23).
+    """τ_e and its partial derivatives for the linearization (Eq 17–23).
 
     torque τ_e, N·m; sigma = ∂τ_e/∂φ, N·m/rad; the suffix names the variables of the
     derivative (torque_mu = ∂τ_e/∂μ, sigma_phiphi = ∂²σ/∂φ², …).
@@ -41,14 +41,14 @@ class SpringTorques(NamedTuple):
 
 
 class SpringState(NamedTuple):
-    """All that the equations need of the spring at one state."""
+    """The spring at one state: torques, stiffness and derivatives."""
 
     torques: SpringTorques
     derivatives: SpringDerivatives
 
 
 class StiffnessMargin(NamedTuple):
-    """What a tick needs of the plant's spring at its beginning.
+    """The plant's stiffness and torques at the beginning of a tick.
 
     sigma: σ, N·m/rad. determinant: (σ σ_s − τ_s σ_φ) over its value at φ = 0, of which det A(x) is
     a multiple.
@@ -60,7 +60,7 @@ class StiffnessMargin(NamedTuple):
 
 
 class Spring(NamedTuple):
-    """The lever and the spring as they stand: what all their functions are made of.
+    """Subexpressions of lever and spring that all spring functions share.
 
     mu: μ, 1. s, c: sin φ, cos φ. d = 1 − cos φ. i = 1/n, j = 1/(1 − μ).
     """
@@ -125,7 +125,7 @@ def compute_reaction_torque(mu: float, phi: float, K: float, gamma: float) -> fl
 
 @compiled
 def compute_printed_reaction_torque(mu: float, phi: float, K: float) -> float:
-    """τ_r as printed in Eq 5, times R and positive, N·m: kept to compare with, not to use.
+    """τ_r as printed in Eq 5, times R and positive, N·m; for comparison only.
 
     R K_s R² a² |sin 2β| sin²φ / [2 (R − a cos φ)(a² + R² − 2 a R cos φ)] with a = μR and
     β = arctan(−2πμ), the tangent angle of the spiral; R cancels.

@@ -1,4 +1,4 @@
-"""A running lab from Python, over its public API, in the library's own words.
+"""Scripts for a running lab over its public API, with the library's vocabulary.
 
     import svsa
     with svsa.connect("http://127.0.0.1:8000") as lab:

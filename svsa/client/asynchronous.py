@@ -1,4 +1,4 @@
-"""A running lab for a program that awaits: the methods of the blocking client, each in a thread.
+"""Asynchronous client of a running lab: the blocking client's methods, each in a thread.
 
     async with svsa.connect_async("http://127.0.0.1:8000") as lab:
         session = lab.session
@@ -52,7 +52,7 @@ def connect_async(
 
 
 class Pending(Generic[T]):
-    """A call of the blocking client that has not begun: awaited, or entered with `async with`."""
+    """A call of the blocking client, executed when awaited or entered with `async with`."""
 
     def __init__(self, call: Callable[[], Any]) -> None:
         self._call = call
@@ -74,7 +74,7 @@ class Pending(Generic[T]):
 
 
 class _Awaited:
-    """An object whose methods block: here each of them, by its own name, is awaited."""
+    """A wrapper of a blocking object, whose methods become awaitable."""
 
     def __init__(self, blocking: Any) -> None:
         object.__setattr__(self, "_blocking", blocking)
@@ -95,7 +95,7 @@ class _Awaited:
         return lambda *given, **named: Pending(partial(value, *given, **named))
 
     def __setattr__(self, name: str, value: Any) -> None:
-        """Raises `AttributeError`: what is set has to be awaited."""
+        """Raise `AttributeError`: attributes cannot be set without await."""
         hint = ""
         if is_settable(type(self._blocking), name):
             hint = f" Set it with: await session.set({name}=…)."
@@ -121,19 +121,19 @@ def _describe_read(kind: type, name: str) -> str:
 
 
 class AsyncLab(_Awaited):
-    """`Lab` with its methods awaited."""
+    """`Lab` with awaitable methods."""
 
 
 class AsyncSession(_Awaited):
-    """`RemoteSession` with its methods awaited, and with those of its `loads` and `bench`."""
+    """`RemoteSession` with awaitable methods, including `loads` and `bench`."""
 
 
 class AsyncRecording(_Awaited):
-    """`Recording` with its methods awaited."""
+    """`Recording` with awaitable methods."""
 
 
 class AsyncCollection(_Awaited):
-    """Loads, runs, studies or the bench with their methods awaited; `async for` lists them."""
+    """Loads, runs, studies or the bench with awaitable methods; `async for` lists them."""
 
 
 _KINDS: dict[type, type[_Awaited]] = {
@@ -148,6 +148,6 @@ _KINDS: dict[type, type[_Awaited]] = {
 
 
 def wrap(value: Any) -> Any:
-    """An object of the blocking client with its methods awaited; any other value as it is."""
+    """Wrap an object of the blocking client; return any other value unchanged."""
     kind = _KINDS.get(type(value))
     return value if kind is None else kind(value)

@@ -1,4 +1,4 @@
-"""Calls to a lab: answered, refused in the library's words, or repeated when the answer is lost.
+"""Requests to a lab, with the library's errors, and repeated if an answer is lost.
 
 A changing call has an `Idempotency-Key`: the lab carries it out once, and answers a repeat as it
 answered the first.
@@ -18,11 +18,11 @@ from svsa.inputs.nearest import suggest
 
 
 class LabError(SvsaError):
-    """A lab that was not reached, or refused for a reason that has no error of its own."""
+    """The lab was not reached, or rejected a request for a reason without its own error."""
 
 
 class AccessError(LabError):
-    """The lab does not let this script in; the message says what it asks for."""
+    """The lab rejected the script's credentials; the message has what it requires."""
 
 
 class ControlError(StateError):
@@ -30,7 +30,7 @@ class ControlError(StateError):
 
 
 class LostAnswerError(LabError):
-    """The answer was lost on the way; the message says what is known of the request."""
+    """The answer was lost; the message has what is known of the request."""
 
 
 _BY_KIND: dict[str, type[SvsaError]] = {
@@ -43,7 +43,7 @@ _BY_STATUS = {401: AccessError, 403: AccessError}
 
 
 def build_refusal(status: int, reported: Any) -> SvsaError:
-    """The error for an answer of this status; reported: its body, a problem (RFC 9457) or anything.
+    """Build the error of a status. reported: its body, a problem (RFC 9457) or anything.
 
     A refused value is a `ParameterError` with name, value, unit and bound, as of `simulate`.
     """
@@ -57,7 +57,7 @@ def build_refusal(status: int, reported: Any) -> SvsaError:
 
 
 def _read_kind(reported: Any) -> str:
-    """Kind of a problem, as `not_now`; empty if it is none."""
+    """Return the kind of a problem, such as `not_now`; empty if the body is none."""
     return str(reported.get("type")).rpartition(":")[2] if isinstance(reported, dict) else ""
 
 
@@ -75,7 +75,7 @@ _NOT_SENT = (httpx.ConnectError, httpx.ConnectTimeout, httpx.PoolTimeout)
 
 
 class Connection:
-    """An address of a lab, and how a script shows itself there.
+    """The address of a lab and the script's credentials.
 
     token: of its class, or the lab's secret, or None where it has neither. client: what the
     script is known by; the lab gives control to it. timeout_s: for how long a lab that does not
@@ -111,15 +111,15 @@ class Connection:
         self._http.close()
 
     def read(self, path: str, **query: Any) -> Any:
-        """What stands at a path, as JSON."""
+        """Read a path as JSON."""
         return self._send("GET", path, None, query).json()
 
     def download(self, path: str, **query: Any) -> bytes:
-        """What stands at a path, as it comes."""
+        """Download a path as bytes."""
         return self._send("GET", path, None, query).content
 
     def call(self, method: str, path: str, body: Any = None) -> Any:
-        """A changing call; its answer as JSON, or None for an answer without a body.
+        """Send a state-changing request; return its answer as JSON, or None without a body.
 
         Raises `LostAnswerError` where it is not known whether the lab has carried it out.
         """
@@ -154,7 +154,7 @@ class Connection:
             raise build_refusal(answer.status_code, reported)
 
     def _check_repeatable(self, key: str, what: str, begun: float, until: float) -> None:
-        """Return when the lab answers again and a repeat cannot be carried out a second time.
+        """Return when the lab answers again and a repeat cannot be executed twice.
 
         The lab knows the key, or knows that no call with it came. A lab that was restarted
         meanwhile knows neither.
@@ -177,7 +177,7 @@ class Connection:
         )
 
     def _read_outcome(self, name: str) -> Any:
-        """What the lab says of the call of this name; None where it says nothing of it now.
+        """Ask the lab for the outcome of a request; None if it does not know it.
 
         A lab that is too busy for it, starts again or has a proxy before it may answer otherwise;
         one that refuses who asks is not asked again.
@@ -200,12 +200,12 @@ def _read_json(answer: httpx.Response) -> Any:
 
 
 class Remote:
-    """An object of a lab. It has no attributes but its own: a typing error is not silent."""
+    """A remote object; only its own attributes can be set, so that typing errors raise."""
 
     __slots__ = ()
 
     def __setattr__(self, name: str, value: Any) -> None:
-        """Set an attribute; raises `AttributeError` where there is none of this name."""
+        """Set an attribute; raises `AttributeError` if there is none of this name."""
         try:
             super().__setattr__(name, value)
         except AttributeError as error:
@@ -225,14 +225,16 @@ def is_settable(kind: type, name: str) -> bool:
 
 @dataclass(frozen=True)
 class AppliedAt:
-    """When a command was applied: the tick at whose beginning it holds, and its session time."""
+    """When a command was applied: the tick at whose beginning it takes effect, and its session
+    time.
+    """
 
     tick: int
     time_s: float
 
 
 class SessionConnection(Remote):
-    """A session by its name.
+    """A session, by its name.
 
     applied_at: when the last command was applied; None before the first.
     """
@@ -245,15 +247,15 @@ class SessionConnection(Remote):
 
     @property
     def path(self) -> str:
-        """Its path below `/api/v1`."""
+        """Path of the session below `/api/v1`."""
         return f"/sessions/{self.name}"
 
     def read_state(self) -> dict[str, Any]:
-        """All that `GET /sessions/{session}` says of it, at this instant."""
+        """Read the state, `GET /sessions/{session}`."""
         return self.connection.read(self.path)
 
     def call(self, method: str, path: str, body: Any = None) -> dict[str, Any]:
-        """A call below its own path; notes when it was applied.
+        """Send a request below the session's path; note when it was applied.
 
         Returns the session's state, or a load with the tick at which it was added.
         """

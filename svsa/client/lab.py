@@ -1,4 +1,4 @@
-"""A lab at an address: its shared session, private ones, its recorded runs."""
+"""A lab at an address: shared session, private sessions, recorded runs."""
 
 import inspect
 import os
@@ -30,7 +30,7 @@ def connect(
     client: str = "",
     timeout_s: float = 30.0,
 ) -> "Lab":
-    """Connect to a running lab. A context closes the connection.
+    """Connect to a running lab. As a context manager it closes the connection.
 
     Args:
         url: Address of the lab.
@@ -79,7 +79,7 @@ class Lab(Remote):
         return f"lab at {self.connection.url}"
 
     def close(self) -> None:
-        """End the connection; sessions and recordings of the lab go on."""
+        """Close the connection; sessions and recordings of the lab continue."""
         self.runs.close()
         self.connection.close()
 
@@ -90,11 +90,11 @@ class Lab(Remote):
 
     @property
     def laws(self) -> tuple[str, ...]:
-        """Names of the laws that are installed there."""
+        """Names of the laws that are installed in the lab."""
         return tuple(law["name"] for law in self.connection.read("/laws"))
 
     def open_session(self, name: str) -> RemoteSession:
-        """The session of this name; whether it is there shows at the first call."""
+        """Return the session of this name; whether it exists is checked at the first request."""
         return RemoteSession(self.connection, self.runs, name)
 
     def create_session(
@@ -130,7 +130,7 @@ class Lab(Remote):
     def new_session(
         self, figure: str = "4a", law: LawChoice = "ndobc", **settings: Any
     ) -> Iterator[RemoteSession]:
-        """A private session that ends with the block."""
+        """Open a private session that ends with the block."""
         session = self.create_session(figure, law, **settings)
         try:
             yield session
@@ -144,7 +144,7 @@ class Lab(Remote):
     def operate(
         self, figure: str = "4a", law: LawChoice = "ndobc", **settings: Any
     ) -> Iterator[RemoteSession]:
-        """The shared session, set as a private one would be, at rest at t = 0; then given back.
+        """Set up the shared session at rest at t = 0, and release it after the block.
 
         Asks for control of it, and in a class waits for its turn as a person does. A bench stays
         armed and at home, is watched by this script while the block lasts, and moves from the first
@@ -166,7 +166,7 @@ class Lab(Remote):
     def experiment(
         self, shared: bool, seed: int = 0, **settings: Any
     ) -> AbstractContextManager[RemoteSession]:
-        """`operate`, or `new_session` with this seed; the shared session has its own noise."""
+        """Call `operate`, or `new_session` with this seed; the shared session has its own noise."""
         return self.operate(**settings) if shared else self.new_session(seed=seed, **settings)
 
     def run(
@@ -179,7 +179,7 @@ class Lab(Remote):
         name: str = "",
         **changes: Unpack[Settings],
     ) -> Result:
-        """Simulate a run in the lab, record it there, and return it as `svsa.simulate` would.
+        """Simulate a run in the lab, record it there, and return it like `svsa.simulate`.
 
         experiment, law, duration_s, commands, changes: as of `svsa.simulate`. name: what the
         recorded run is called. The samples are the same bits. Limits and sampling are the lab's
@@ -222,7 +222,7 @@ class Lab(Remote):
 
 
 def _write_experiment(figure: str, law: str, settings: Mapping[str, Any]) -> dict[str, Any]:
-    """An experiment as a request has it."""
+    """Convert an experiment to a request."""
     written = {"figure": get_figure(figure).key, "law": law, **settings}
     if "effects" in settings and settings["effects"] is not None:
         effects = read_setting("effects", settings["effects"], None)
@@ -234,7 +234,7 @@ def _write_experiment(figure: str, law: str, settings: Mapping[str, Any]) -> dic
 
 
 def _check_fixed(session: RemoteSession, wanted: Configuration) -> None:
-    """Raise `ParameterError` where a run has limits or a period that the lab has not."""
+    """Raise `ParameterError` if a run has limits or a period that the lab does not have."""
     state = session.read_state()
     limits = wanted.limits.model_dump(mode="json")
     for name, value in state["configuration"]["limits"].items():
@@ -249,7 +249,7 @@ def _check_fixed(session: RemoteSession, wanted: Configuration) -> None:
 
 
 def _give(session: RemoteSession, change: Change) -> None:
-    """What a change gives, as calls; of a run, what is followed already begins again."""
+    """Apply changes as requests; a reference that is already followed restarts."""
     if change.load is not None:
         session.loads.add(change.load)
     for law, parameters in (change.parameters or {}).items():

@@ -1,4 +1,4 @@
-"""Control of a session: taken, waited for, handed over, given back."""
+"""The control lease of a session: take, wait, hand over, release."""
 
 import time
 
@@ -9,14 +9,14 @@ WAIT_S = 0.5
 
 
 class ControlledConnection(SessionConnection):
-    """A session that one client at a time may be in control of."""
+    """A session with a control lease."""
 
     __slots__ = ()
 
     def take_control(
         self, by: str = "A script", take_over: bool = False, wait_s: float = 600.0
     ) -> None:
-        """Only this script may command from now on; everybody may pause and stop it.
+        """Take control: only this script may command; every client may pause and stop.
 
         by: Name that other users see; in a class it is the person whose token the script has.
         Raises `ControlError` where another client is in control, unless `take_over`; in a class,
@@ -36,7 +36,7 @@ class ControlledConnection(SessionConnection):
             state = self.read_state()
 
     def hand_control_over(self, to: str) -> None:
-        """Give control to one of `waiting`, by name; raises `ParameterError` for another."""
+        """Pass control to a name in `waiting`; raises `ParameterError` for another."""
         ids = {one["name"]: one["id"] for one in self._read_waiting()}
         if to not in ids:
             raise ParameterError(
@@ -46,7 +46,7 @@ class ControlledConnection(SessionConnection):
 
     @property
     def waiting(self) -> tuple[str, ...]:
-        """Who waits for control, in a class; who gets it next stands first."""
+        """The queue for control in a class, the next user first."""
         return tuple(one["name"] for one in self._read_waiting())
 
     def _read_waiting(self) -> list[dict[str, str]]:
@@ -54,5 +54,7 @@ class ControlledConnection(SessionConnection):
         return queue["waiting"] if queue else []
 
     def give_control_back(self) -> None:
-        """Everybody may command again; in a class who waits first, or this waits no longer."""
+        """Release control: to the next in the queue of a class; without control, leave the
+        queue.
+        """
         self.call("DELETE", "/control")

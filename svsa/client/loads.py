@@ -15,7 +15,7 @@ _LOAD: TypeAdapter[Load] = TypeAdapter(Load)
 
 @dataclass(frozen=True)
 class AppliedLoad:
-    """A load of a session: its number there, from when to when (s; None: it stays), and itself."""
+    """A load of a session: its number, its start and end (s; None: no end), and its value."""
 
     number: int
     start_s: float
@@ -25,7 +25,7 @@ class AppliedLoad:
 
 
 class Loads(Remote):
-    """What loads a session: iterate over them, add one, take one or all off."""
+    """The loads of a session: iterate over them, add, remove or clear."""
 
     __slots__ = ("_session",)
 
@@ -42,17 +42,17 @@ class Loads(Remote):
         return self._session.connection.read(self._session.path + "/loads")
 
     def add(self, load: Load | Part) -> AppliedLoad:
-        """Apply a load, now or at its `start_s`; where it stands among those of the session."""
+        """Add a load, now or at its `start_s`; return it with its number."""
         added = self._session.call("POST", "/loads", read_load(load).model_dump(mode="json"))
         return _read(added)
 
     def remove(self, load: AppliedLoad | int) -> None:
-        """Take one off; raises `LabError` where there is none of this number."""
+        """Remove a load; raises `LabError` if there is none of this number."""
         number = load if isinstance(load, int) else load.number
         self._session.call("DELETE", f"/loads/{number}")
 
     def clear(self) -> None:
-        """Take every load off."""
+        """Remove all loads."""
         self._session.call("DELETE", "/loads")
 
 

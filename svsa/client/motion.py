@@ -1,4 +1,4 @@
-"""A session that is run on, stopped, and begun again."""
+"""Start, pause and reset of a session."""
 
 import time
 from dataclasses import fields
@@ -18,7 +18,7 @@ class RunningConnection(ControlledConnection):
 
     @property
     def fault(self) -> Fault | None:
-        """What has ended the run, or stopped the bench."""
+        """The fault that ended the run or stopped the bench."""
         return _read_fault(self.read_state())
 
     def start(self) -> None:
@@ -40,15 +40,15 @@ class RunningConnection(ControlledConnection):
         self.call("POST", "/quick-stop")
 
     def reset(self) -> None:
-        """Begin again at t = 0 with everything as it is set now."""
+        """Restart at t = 0 with the present settings."""
         self.call("POST", "/reset")
 
     def set_speed(self, speed: float | Literal["max"]) -> None:
-        """Session seconds a wall second, or as fast as it goes."""
+        """Set session seconds per wall second, or the maximum speed."""
         self.call("PUT", "/speed", {"speed": speed})
 
     def run_until(self, time_s: float) -> None:
-        """Run to this session time: a paused simulation as fast as it goes, a bench in real time.
+        """Run to this session time: a paused simulation at full speed, a bench in real time.
 
         A bench at t = 0 is started, and runs on afterwards. Raises `FaultError` where the run ends
         before, and `StateError` where a bench is stopped before.
@@ -64,7 +64,7 @@ class RunningConnection(ControlledConnection):
             raise FaultError(fault)
 
     def _wait_for(self, state: dict[str, Any], end: int) -> dict[str, Any]:
-        """The state of a bench once it has come to this tick, or has a fault."""
+        """Return the state of a bench once it has reached this tick, or has a fault."""
         if state["tick"] == 0 and end > 0 and state["status"] == "paused":
             state = self.call("POST", "/start")
         while state["tick"] < end and state["fault"] is None:
@@ -78,7 +78,7 @@ class RunningConnection(ControlledConnection):
 
 
 def _read_fault(state: dict[str, Any]) -> Fault | None:
-    """The fault in a session's state, without the label and the advice that the page shows."""
+    """Read the fault from a session's state, without label and advice."""
     if (fault := state["fault"]) is None:
         return None
     return Fault(**{one.name: fault[one.name] for one in fields(Fault)})

@@ -1,4 +1,4 @@
-"""Recordings, recorded runs and studies of a lab: listed, described, opened as results, deleted."""
+"""Recordings, recorded runs and studies of a lab: list, read, open, delete."""
 
 import time
 from collections.abc import Iterator
@@ -40,7 +40,7 @@ class RemoteRuns(Remote):
             yield summary["id"]
 
     def list(self, search: str = "", **filters: str) -> Iterator[dict[str, Any]]:
-        """What the lab's list says of each run, the newest first.
+        """List the runs with their metadata, the newest first.
 
         search: words that must stand in it. filters: as those of `GET /runs`: tag, law, load,
         figure, plant, sort.
@@ -53,15 +53,15 @@ class RemoteRuns(Remote):
             page += 1
 
     def read(self, run_id: str) -> dict[str, Any]:
-        """All that the lab says of a run, as `GET /runs/{run_id}`."""
+        """Read a run's metadata, `GET /runs/{run_id}`."""
         return self._connection.read(_path(run_id))
 
     def delete(self, run_id: str) -> None:
-        """Put a run into the lab's trash."""
+        """Move a run to the lab's trash."""
         self._connection.call("DELETE", _path(run_id))
 
     def close(self) -> None:
-        """Remove what was downloaded."""
+        """Delete downloaded files."""
         self._folder.cleanup()
 
 
@@ -70,7 +70,7 @@ def _path(run_id: str) -> str:
 
 
 class RemoteStudies(Remote):
-    """The studies that were begun in a lab; iterate for their names, the newest first."""
+    """The studies of a lab; iterate for their names, the newest first."""
 
     __slots__ = ("_connection",)
 
@@ -82,7 +82,7 @@ class RemoteStudies(Remote):
             yield study["name"]
 
     def read(self, name: str) -> dict[str, Any]:
-        """All that the lab says of a study, as `GET /studies/{study}`."""
+        """Read a study's metadata, `GET /studies/{study}`."""
         return self._connection.read(_build_study_path(name))
 
     def delete(self, name: str) -> None:
@@ -99,7 +99,7 @@ POLL_S = 0.05
 
 
 class Recording(Remote):
-    """Every sample and command of a session from its beginning to its end, in the lab's list.
+    """A recording of every sample and command of a session, in the lab's list of runs.
 
     run_id: its id there. As a context it ends with the block; what went wrong inside is not
     hidden by it.
@@ -117,7 +117,7 @@ class Recording(Remote):
         self.stop()
 
     def stop(self) -> None:
-        """Stop the recording, if it still runs, and wait until its file is complete."""
+        """Stop the recording if it is running, and wait until its file is complete."""
         recording = self._session.read_state()["recording"]
         if recording is not None and recording["run_id"] == self.run_id:
             self._session.call("DELETE", "/recording")
@@ -129,9 +129,9 @@ class Recording(Remote):
 
     @property
     def result(self) -> Result:
-        """The run as `svsa.simulate` would have returned it."""
+        """The run as a result, like that of `svsa.simulate`."""
         return self.read_result()
 
     def read_result(self) -> Result:
-        """The run as `svsa.simulate` would have returned it."""
+        """Download the run as a result, like that of `svsa.simulate`."""
         return self._runs.open(self.run_id)

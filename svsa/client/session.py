@@ -1,4 +1,4 @@
-"""A session of a lab: shared or private, simulated or a bench, by the same words."""
+"""A session of a lab, shared or private, simulated or on a bench."""
 
 from collections.abc import Mapping
 from contextlib import AbstractContextManager
@@ -40,7 +40,7 @@ _ACTUATOR: TypeAdapter[MechanismParameters] = TypeAdapter(InstalledActuator)
 
 
 class RemoteSession(RunningConnection):
-    """A session by its name; every property is asked of the lab when it is read.
+    """A session by its name; every property is read from the lab.
 
     Setting one returns when the lab has taken it, and `applied_at` says at which tick it holds;
     what is set already stays as it is, without a new fade or event. What the lab refuses raises
@@ -69,24 +69,24 @@ class RemoteSession(RunningConnection):
 
     @property
     def tick(self) -> int:
-        """How far its run is, ticks from t = 0."""
+        """Present tick of the run, from t = 0."""
         return self.read_state()["tick"]
 
     @property
     def time_s(self) -> float:
-        """How far its run is, s."""
+        """Present time of the run, s."""
         return self.read_state()["time_s"]
 
     @property
     def sample(self) -> Mapping[str, float | None] | None:
-        """The newest sample by channel, SI; None where a bench does not know it."""
+        """Newest sample by channel, SI; None if a bench does not know it."""
         return self.read_state()["sample"]
 
     def _read(self, name: str) -> Any:
         return self.read_state()["configuration"][name]
 
     def get(self, name: str) -> Any:
-        """The present value of a property by its name, such as "law" or "time_s".
+        """Return a property by its name, such as "law" or "time_s".
 
         Raises:
             AttributeError: There is no such property.
@@ -97,7 +97,7 @@ class RemoteSession(RunningConnection):
         return getattr(self, name)
 
     def set(self, **settings: Any) -> None:
-        """Set properties, in the order given; returns when the last one holds.
+        """Set properties in the given order; return when the last one is in effect.
 
         Args:
             **settings: Any properties that can be set, such as law="fl", each with its value.
@@ -114,14 +114,14 @@ class RemoteSession(RunningConnection):
             setattr(self, name, value)
 
     def _put(self, name: str, given: Any, method: str = "PUT") -> None:
-        """Set a property to what a script means by `given`."""
+        """Set a property to the value that `given` abbreviates."""
         present = getattr(self, name) if isinstance(given, Mapping) else None
         value = read_setting(name, given, present)
         self.call(method, f"/{name}", value.model_dump(mode="json", exclude={"mechanism"}))
 
     @property
     def position(self) -> PositionReference:
-        """What q_d follows; faded over when it is set."""
+        """Reference q_d; a new one is faded in."""
         return _POSITION.validate_python(self._read("position"))
 
     @position.setter
@@ -130,7 +130,7 @@ class RemoteSession(RunningConnection):
 
     @property
     def stiffness(self) -> StiffnessReference:
-        """What σ_d follows; faded over when it is set."""
+        """Reference σ_d; a new one is faded in."""
         return _STIFFNESS.validate_python(self._read("stiffness"))
 
     @stiffness.setter
@@ -138,16 +138,16 @@ class RemoteSession(RunningConnection):
         self._put("stiffness", reference)
 
     def repeat_position(self) -> None:
-        """Begin the position reference again, faded over; set to what it is, it just goes on."""
+        """Restart the position reference, faded in; setting the same one would not restart it."""
         self.call("PUT", "/position?restart=true", self._read("position"))
 
     def repeat_stiffness(self) -> None:
-        """Begin the stiffness reference again, faded over."""
+        """Restart the stiffness reference, faded in."""
         self.call("PUT", "/stiffness?restart=true", self._read("stiffness"))
 
     @property
     def law(self) -> AnyLaw:
-        """What controls its first lane."""
+        """Law of the first lane."""
         return self._read("law")
 
     @law.setter
@@ -156,7 +156,7 @@ class RemoteSession(RunningConnection):
 
     @property
     def gains(self) -> Gains:
-        """Coefficients of Eq 25, of laws that take such."""
+        """Coefficients of Eq 25, for laws that use gains."""
         reported = self._read("gains")
         return Gains(**{name: tuple(reported[name]) for name in Gains.model_fields})
 
@@ -175,7 +175,7 @@ class RemoteSession(RunningConnection):
 
     @property
     def effects(self) -> Effects:
-        """What separates the simulation from a bench."""
+        """Non-ideal effects of the simulation."""
         return Effects.model_validate(self._read("effects"))
 
     @effects.setter
@@ -211,25 +211,25 @@ class RemoteSession(RunningConnection):
         self.call("PUT", "/lanes", {"comparisons": [dump_lane(lane) for lane in lanes]})
 
     def set_lane(self, number: int, lane: Lane | LawChoice) -> None:
-        """Change the controller of one comparison lane; number: 2 is the first of them."""
+        """Change the controller of one comparison lane; number: from 2."""
         self.call("PUT", f"/lanes/{number}", dump_lane(read_lane(lane, "lane")))
 
     def set_laws(self, law: LawChoice, *comparison_laws: LawChoice) -> None:
-        """Other laws for the first lanes; every plant stays where it is."""
+        """Change the laws of the first lanes; every plant keeps its state."""
         self.call("PUT", "/law", {"law": law, "comparison_laws": comparison_laws})
 
     def set_parameters(self, law: str, **values: float) -> None:
-        """Parameters of a law that has its own; what is left out stays."""
+        """Set parameters of a law that has its own; those left out keep their values."""
         self.call("PUT", "/parameters", {law: values})
 
     def record(self, name: str = "", tags: tuple[str, ...] = (), notes: str = "") -> Recording:
-        """Record every sample and command from now on; a context ends it."""
+        """Record every sample and command from now on; as a context manager it stops at the end."""
         body = {"name": name, "tags": list(tags), "notes": notes}
         state = self.call("POST", "/recording", body)
         return Recording(self, self._runs, state["recording"]["run_id"])
 
     def excite(self, name: str = "Identification") -> Recording:
-        """Play the excitation that `svsa identify` takes, 32 s, which is recorded under a name."""
+        """Play and record the excitation for `svsa identify`, 32 s."""
         state = self.call("POST", "/excitation", {"name": name})
         return Recording(self, self._runs, state["recording"]["run_id"])
 
@@ -241,7 +241,7 @@ class RemoteSession(RunningConnection):
         lanes: tuple[int, ...] | None = (1,),
         history_s: float = 0.0,
     ) -> BlockStream:
-        """Samples as they come; channels: those of the plots if none is named.
+        """Stream samples; channels: by default those of the plots.
 
         duration_s: session time to return. rate_hz: samples a second at speed 1. lanes: their
         numbers, from 1; None is all there are. history_s: past to return first, up to 20 s.
@@ -253,11 +253,11 @@ class RemoteSession(RunningConnection):
         return BlockStream(self.connection, self.name, query, duration_s)
 
     def watch(self) -> AbstractContextManager[None]:
-        """While the block lasts a stream of it is open, which a bench asks for before it moves."""
+        """Keep a stream open during the block; a bench requires one before it moves."""
         return self.stream(rate_hz=1.0).held_open()
 
     def end(self) -> None:
-        """End a private session."""
+        """End the private session."""
         self.connection.call("DELETE", self.path)
 
 
@@ -271,7 +271,7 @@ class RemoteBench(Remote):
 
     @property
     def state(self) -> dict[str, Any] | None:
-        """All that is said of it, at this instant; None for a simulated session."""
+        """State of the bench; None for a simulated session."""
         return self._session.read_state()["bench"]
 
     def arm(self) -> None:
@@ -279,7 +279,7 @@ class RemoteBench(Remote):
         self._session.call("POST", "/bench/arm")
 
     def confirm_home(self, step: Literal["link", "motor1", "motor2"], by: str) -> None:
-        """An axis stands at its zero mark; by: who looked."""
+        """Confirm that an axis is at its zero mark; by: name of the observer."""
         self._session.call("POST", "/bench/home", {"step": step, "by": by})
 
     def clear(self) -> None:
@@ -292,5 +292,5 @@ class RemoteBench(Remote):
 
 
 def dump_lane(lane: Lane) -> dict[str, Any]:
-    """A lane as a request has it."""
+    """Convert a lane to a request."""
     return lane.model_dump(mode="json", exclude_none=True)

@@ -1,4 +1,4 @@
-"""Samples of a session as they come, in blocks."""
+"""Samples of a session, streamed in blocks."""
 
 import asyncio
 import json
@@ -24,7 +24,7 @@ _BROKEN = (OSError, ConnectionClosedError, InvalidHandshake)
 
 @dataclass(frozen=True)
 class Block:
-    """Samples that came together.
+    """A block of consecutive samples.
 
     run: number of the session's run, which counts up when it restarts at t = 0. ticks:
     (count,), those of the samples. missed: samples left out before it, for a reader that was too
@@ -45,7 +45,9 @@ class Block:
         return self.ticks * self.period_s
 
     def __getitem__(self, channel: str) -> np.ndarray:
-        """A channel of the first lane, (count,); raises `ParameterError` for one not asked for."""
+        """A channel of the first lane, (count,); raises `ParameterError` if it was not
+        requested.
+        """
         return self.get(channel, self.lanes[0])
 
     def get(self, channel: str, lane: int = 1) -> np.ndarray:
@@ -60,7 +62,7 @@ class Block:
 
 
 class BlockStream:
-    """The blocks of a session until this much session time is received, or it has ended.
+    """The blocks of a session, until this session time is received or the session ends.
 
     Iterate over it with `for` or `async for`. A connection that breaks is made again for as long
     as the patience of `connection`; what came meanwhile is missing, which the ticks show. Raises
@@ -115,7 +117,7 @@ class BlockStream:
 
     @contextmanager
     def held_open(self) -> Iterator[None]:
-        """While the block lasts the stream is open, and what comes is read and let go."""
+        """Keep the stream open during the block, and discard its samples."""
         with synchronous.connect(self._address, **self._options) as socket:
             reading = threading.Thread(target=_let_go, args=(socket,), daemon=True)
             reading.start()
@@ -123,7 +125,7 @@ class BlockStream:
         reading.join(CONNECT_S)
 
     def _cut(self, block: Block | None) -> Iterator[Block]:
-        """The part of a block within the requested time; nothing if there is none."""
+        """Return the part of a block within the requested time; None if there is none."""
         if block is None:
             return
         self._reported_at = time.monotonic()
@@ -138,7 +140,7 @@ class BlockStream:
 
     @contextmanager
     def _outlast_break(self) -> Iterator[None]:
-        """Suppress a broken connection, up to the patience; raise `LabError` after that."""
+        """Ignore a broken connection up to the patience; then raise `LabError`."""
         try:
             yield
         except _BROKEN as error:
@@ -156,14 +158,14 @@ def _let_go(socket: synchronous.ClientConnection) -> None:
 
 
 class BlockReader:
-    """What one connection has received: its hello, and the numbers of its lanes."""
+    """The state of one connection: its hello message, and the numbers of its lanes."""
 
     def __init__(self) -> None:
         self._hello: dict[str, Any] = {}
         self._lanes: dict[int, int] = {}
 
     def read(self, message: str | bytes) -> Block | None:
-        """The block in a message; None for one that tells of the session."""
+        """Read the block in a message; None for another message."""
         if isinstance(message, str):
             reported = json.loads(message)
             if reported["type"] == "error":

@@ -1,4 +1,4 @@
-"""What a datasheet of a variable stiffness actuator contains, measured by standard experiments.
+"""Standard experiments for the datasheet of a variable stiffness actuator.
 
 Grioli et al., "Variable stiffness actuators: the user's point of view", IJRR 34(6), 2015: torque
 and deflection at stiffness presets, stiffness range unloaded and loaded, time to vary the
@@ -95,7 +95,7 @@ class Datasheet:
     assumed: list[str]
 
     def to_json(self) -> dict[str, Any]:
-        """Plain values."""
+        """Convert to plain values."""
         return asdict(self)
 
 
@@ -169,7 +169,7 @@ def _measure_preset(plant: AnyActuator, domain: Domain, sigma: float, most: floa
 def _find_variation_time(
     mechanism: Mechanism, low: float, high: float, torque: float
 ) -> Variation | None:
-    """The shortest change of σ that NDOBC follows, found by halving the time."""
+    """Find the shortest change of σ that NDOBC follows, by halving the time."""
     if not low < high:
         return None
     start, end = (low * (high / low) ** share for share in VARIED)
@@ -190,7 +190,7 @@ def _find_variation_time(
 def _is_followed(
     mechanism: Mechanism, start: float, end: float, torque: float, duration: float
 ) -> bool:
-    """Whether a run ends without a fault, at σ = end, and without a motor at its limit."""
+    """Whether a run ends at σ = end without a fault and without a motor at its limit."""
     on_link = (0.0, 0.0, 0.0), (-torque, 0.0, 0.0)
     begin, whole = RAMP_S + REST_S, RAMP_S + 2.0 * REST_S + duration
     load = SeriesLoad(time_s=(0.0, RAMP_S, whole), torque_nm=(*on_link, on_link[1]))

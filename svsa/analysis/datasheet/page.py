@@ -8,7 +8,7 @@ from svsa.analysis.datasheet.rows import list_rows
 
 
 def draw_page(found: Datasheet) -> Picture:
-    """The page.
+    """Draw the datasheet.
 
     Args:
         found: Datasheet of an actuator.

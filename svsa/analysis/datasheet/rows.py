@@ -4,7 +4,7 @@ from svsa.analysis.datasheet.measure import SHORTEST_S, Datasheet, Variation
 
 
 def list_rows(found: Datasheet) -> list[tuple[str, str]]:
-    """The numbers of a datasheet in words."""
+    """List the numbers of a datasheet with their labels."""
 
     def write_range(given: tuple[float, float] | None) -> str:
         return "none" if given is None else f"{given[0]:.3g} to {given[1]:.3g} N·m/rad"

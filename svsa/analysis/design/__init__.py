@@ -1,4 +1,4 @@
-"""What to design a controller with: the linear model, its stability, and what gains would do.
+"""Controller design: the linear model, its stability, and the effect of gains.
 
 A, B, C, D = svsa.design.linearize(15.0)
 plant = control.ss(*svsa.design.linearize(15.0))         # python-control

@@ -1,4 +1,4 @@
-"""Samples of the region of attraction: from which starts the simulated loop comes to rest.
+"""Region of attraction, sampled: initial states from which the simulated loop comes to rest.
 
 A map is a slice of the state space with a sample of starts in it. It proves nothing about the
 starts between them, or about those outside the slice.
@@ -31,14 +31,14 @@ Outcome = Literal["rest", "fault", "unsettled"]
 
 
 class Cell(NamedTuple):
-    """A place of the map: row of the velocity and column of the position."""
+    """A cell of the map: row of the velocity and column of the position."""
 
     row: int
     column: int
 
 
 class StartOutcome(NamedTuple):
-    """What becomes of a start. after_s: when it was close for good, or when the fault came."""
+    """The outcome of an initial state. after_s: settling time, or time of the fault."""
 
     outcome: Outcome
     after_s: float
@@ -48,7 +48,7 @@ Slice = Literal["rigid", "deflected"]
 
 
 class Map(NamedTuple):
-    """The starts. positions: q0, rad, a column each. velocities: q̇0, rad/s, a row each.
+    """The initial states. positions: q0, rad, one per column. velocities: q̇0, rad/s, one per row.
 
     deflections, rates: φ0, rad, and φ̇0, rad/s, of each start, of shape (rows, columns).
     """
@@ -60,7 +60,7 @@ class Map(NamedTuple):
 
 
 def build_map(count: int, chosen: Slice = "rigid") -> Map:
-    """Starts in `count` rows and columns: q0 within ±90°, q̇0 within ±20 rad/s.
+    """Build initial states in `count` rows and columns: q0 within ±90°, q̇0 within ±20 rad/s.
 
     chosen: "rigid" has φ0 = φ̇0 = 0, link and motor 1 as one body; "deflected" has for each start a
     deflection of its own within ±0.3 rad and a rate within ±5 rad/s, uniformly distributed, the
@@ -77,7 +77,7 @@ def build_map(count: int, chosen: Slice = "rigid") -> Map:
 
 
 def order_cells(count: int) -> list[Cell]:
-    """Every cell once, from a coarse net to a fine one, so that a map says something early."""
+    """Return every cell once, ordered from a coarse to a fine grid."""
     ordered: dict[Cell, None] = {}
     stride = 1 << max(0, (count - 1).bit_length() - 2)
     while stride >= 1:
@@ -91,7 +91,7 @@ def order_cells(count: int) -> list[Cell]:
 def find_start_outcomes(
     configuration: Configuration, sigma: float, starts: Map, cells: Sequence[Cell]
 ) -> Iterator[tuple[Cell, StartOutcome]]:
-    """What becomes of each start, one after another, simulated with the compiled loop.
+    """Simulate each initial state with the compiled loop, and yield its outcome.
 
     The link starts at q0 with q̇0, motor 1 at q0 − φ0 with q̇0 − φ̇0, the lever where the nominal σ
     at φ = 0 is σ_d = `sigma`, N·m/rad; the loop is to bring it to q_d = 0. It has come to rest if
@@ -131,5 +131,5 @@ def find_start_outcomes(
 
 
 def compute_share(outcomes: Sequence[StartOutcome]) -> float:
-    """The share of starts that come to rest."""
+    """Compute the share of initial states that come to rest."""
     return sum(one.outcome == "rest" for one in outcomes) / len(outcomes)

@@ -1,4 +1,4 @@
-"""The closed loop about rest, in continuous time, where plant and nominal model are not the same.
+"""The linearized closed loop about rest in continuous time, with plant ≠ nominal model.
 
     ẋ = A x + B (u + w)                              the true plant
     u = Kx x + Kŵ ŵ + Km m + Ku u                    the law, on the nominal model
@@ -65,7 +65,7 @@ class ClosedLoop:
 
     @property
     def is_hurwitz(self) -> bool:
-        """Whether every motion about rest dies out."""
+        """Whether all small motions about rest decay."""
         return self.slowest < 0.0
 
     @property
@@ -85,7 +85,7 @@ def connect(
     law: LawDerivatives,
     actuator: ActuatorParameters | None = None,
 ) -> ClosedLoop:
-    """The loop of this law, linearized, around the true plant.
+    """Connect a linearized law to the true plant.
 
     actuator: the true one; that of the configuration if left out. At rest the controller has the
     nominal σ at σ_d, so that μ is where the nominal model has it. Raises `ParameterError` for

@@ -1,4 +1,4 @@
-"""What sensor noise becomes in the discrete loop about rest."""
+"""Effect of sensor noise in the discrete loop about rest."""
 
 import math
 from typing import NamedTuple
@@ -11,7 +11,7 @@ from svsa.simulation.plant.effects import RIG, Effects, build_effect_constants
 
 
 class LoopNoise(NamedTuple):
-    """What count noise does. u1, u2: rms, N·m; infinite where the loop is unstable.
+    """Torque noise from encoder quantisation. u1, u2: rms, N·m; infinite if unstable.
 
     radius: the largest |z| of the loop's poles, 1; below 1 it is stable.
     """
@@ -22,7 +22,7 @@ class LoopNoise(NamedTuple):
 
 
 def choose_sensing(effects: Effects) -> Effects:
-    """The session's own encoders, or those of the paper's rig where it has none."""
+    """Return the session's encoders, or those of the paper's rig if it has none."""
     if effects.encoders is not None:
         return effects
     return effects.changed(
@@ -33,7 +33,7 @@ def choose_sensing(effects: Effects) -> Effects:
 
 
 def compute_loop_noise(configuration: Configuration, sigma: float) -> LoopNoise:
-    """Encoder counts through the discrete loop at rest at σ = `sigma`, N·m/rad.
+    """Compute the torque noise of encoder counts at rest at σ = `sigma`, N·m/rad.
 
     One tick is z' = A z + B n (see `SampledLoop`), with n the noise on θ1, θ2, φ. A count of Δ
     and white noise of standard deviation s have the variance Δ²/12 + s²; the covariance P of z

@@ -1,4 +1,4 @@
-"""Margins of laws in words, for the command line and for a law's page."""
+"""Stability margins of laws as text, for the command line and the laws' pages."""
 
 from collections.abc import Iterator
 

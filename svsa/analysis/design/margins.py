@@ -1,4 +1,4 @@
-"""Stability margins of the sampled loop about rest, for any law on the same footing.
+"""Stability margins of the sampled loop about rest, defined equally for all laws.
 
 The loop is opened where the motors' torque reaches the plant, u = C z and z' = A z + B d of
 `SampledLoop`, so that neither the observer nor the law is informed of d:
@@ -81,16 +81,16 @@ class Margins(NamedTuple):
 
     @property
     def is_stable(self) -> bool:
-        """Whether the loop itself is stable; memory that stays where it is counts as stable."""
+        """Whether the loop is stable; constant memory counts as stable."""
         return _is_stable(self.radius)
 
     @property
     def is_switching(self) -> bool:
-        """Whether the tick has no derivative at rest, so that the margins are of an average."""
+        """Whether the law switches at rest (no derivative); the margins are then of an average."""
         return self.kink > KINK
 
     def to_json(self) -> dict[str, Any]:
-        """Numbers with their units in their names; null where there is none."""
+        """Convert to numbers named with their units; null for missing ones."""
         return {
             "is_stable": self.is_stable,
             "is_switching": self.is_switching,
@@ -143,7 +143,7 @@ def _is_stable(radius: float) -> bool:
 
 
 def _close(loop: SampledLoop) -> SampledLoop:
-    """The loop without the states that do not close it, which have no part in a margin."""
+    """Remove the states outside the feedback loop, which do not affect a margin."""
     kept = loop.closing
     A, C = loop.A[np.ix_(kept, kept)], loop.C[:, kept]
     return loop._replace(

@@ -1,4 +1,4 @@
-"""What gains and observer will do, before they are applied: errors, noise, torque, verdict."""
+"""Predicted effect of gains and observer before they are applied: errors, noise, torque."""
 
 import math
 from dataclasses import dataclass
@@ -36,7 +36,7 @@ _KINDS: tuple[Kind, ...] = ("refuse", "warn", "note")
 
 @dataclass(frozen=True)
 class Reason:
-    """One thing to know about a design. code: a word for programs; message: for people."""
+    """A finding about a design. code: for programs; message: for users."""
 
     kind: Kind
     code: str
@@ -45,7 +45,7 @@ class Reason:
 
 @dataclass(frozen=True)
 class TorqueDemand:
-    """What the load asks of the motors in the present configuration.
+    """The motor torques that the load demands in the present configuration.
 
     peak1_nm, peak2_nm: |u| asked for where nothing limits it. limited_s: how long either
     torque is at its limit where it is limited. fault: why that run ends, or "".
@@ -59,7 +59,7 @@ class TorqueDemand:
 
 @dataclass(frozen=True)
 class Prediction:
-    """A design judged. noise: infinite where unstable.
+    """The prediction for a design. noise: infinite if unstable.
 
     steady: of the configuration's law; None where it finds no rest. adds_estimate: whether the law
     takes the run's gains and adds an estimate to them; then fl is what the gains leave alone,
@@ -75,13 +75,13 @@ class Prediction:
 
     @property
     def verdict(self) -> Verdict:
-        """The gravest kind of all reasons; notes are ok."""
+        """The most severe kind among the reasons; notes count as ok."""
         kinds = {reason.kind for reason in self.reasons}
         return "refuse" if "refuse" in kinds else "warn" if "warn" in kinds else "ok"
 
 
 def predict(configuration: Configuration, sigma: float) -> Prediction:
-    """Judge the law of `configuration` with what it is set to at σ = `sigma`, N·m/rad.
+    """Predict the behaviour of the configuration's law at σ = `sigma`, N·m/rad.
 
     The load is the paper's, 2 N·m on link and motors. Noise is that of the encoders that the
     configuration has, or else of the paper's rig.
@@ -122,7 +122,7 @@ def measure_demand(configuration: Configuration) -> TorqueDemand:
 
 
 def _simulate_load(configuration: Configuration, effects: Effects) -> tuple[np.ndarray, str]:
-    """|u1|, |u2| from a moment before the load on, (ticks, 2), and why the run ended, or ""."""
+    """Simulate |u1|, |u2| from just before the load, (ticks, 2), and the fault, or ""."""
     run = Run(
         configuration.changed(
             position=ConstantPosition(), comparisons=(), loads=(), effects=effects

@@ -1,4 +1,4 @@
-"""How far a disturbance that changes takes the link: gains from ẇ to e of the loop about rest.
+"""Position error per disturbance rate: gains from ẇ to e of the loop about rest.
 
 Theorem 1 says that the loop is locally input-to-state stable, without a number. These are gains of
 the *linear* loop, which hold for small motions; an ISS gain of the nonlinear loop is not computed.
@@ -62,7 +62,7 @@ def compute_rate_gain(loop: ClosedLoop) -> RateGain:
 
 
 def compute_formula(configuration: Configuration, sigma: float) -> float | None:
-    """|e| / |ẇ2| of NDOBC in closed form, rad per N·m/s; None for a law with no such formula.
+    """|e| / |ẇ2| of NDOBC in closed form, rad per N·m/s; None for a law without a formula.
 
         e / ẇ2 = (Γ12/β2 + (c3 − D/M)/M) / c0,   Γ12 = (c2 − c3 D/M + (D²/M − σ)/M)/M
 
@@ -82,7 +82,7 @@ def compute_formula(configuration: Configuration, sigma: float) -> float | None:
 
 
 def compute_floor(configuration: Configuration) -> float | None:
-    """What `compute_formula` tends to as β → ∞."""
+    """Limit of `compute_formula` for β → ∞."""
     gains = build_gains(configuration.gains)
     if configuration.law != "ndobc" or gains.p0 <= 0.0:
         return None

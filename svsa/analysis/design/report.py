@@ -1,4 +1,4 @@
-"""All that `svsa stability` tells of a law at one stiffness."""
+"""The report of `svsa stability` on a law at one stiffness."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -28,7 +28,7 @@ DELAYS = {0: IDEAL, 1: RIG, 2: RIG.changed(delay_samples=2)}
 
 
 class Report(NamedTuple):
-    """At σ_d = sigma, N·m/rad. fastest: β, rad/s, by samples of delay, 0 being the ideal loop.
+    """The report at σ_d = sigma, N·m/rad. fastest: β, rad/s, by samples of delay (0: ideal loop).
 
     rigid, deflected: what becomes of the starts of both maps on the paper's rig; empty without a
     map.
@@ -43,7 +43,7 @@ class Report(NamedTuple):
     deflected: dict[Cell, StartOutcome]
 
     def to_json(self) -> dict[str, Any]:
-        """Numbers with their units in their names; null where there is none."""
+        """Convert to numbers named with their units; null for missing ones."""
         loop, gain = self.stability.loop, self.stability.gain
         return {
             "stiffness_nm_per_rad": self.sigma,
@@ -70,7 +70,7 @@ class Report(NamedTuple):
 def build_configuration(
     law: str, pole: float | None, beta: float | None, parameters: Path | None
 ) -> Configuration:
-    """A design at rest, the paper's if no file is given; raises `ParameterError`."""
+    """Build a design at rest, the paper's if no file is given; raises `ParameterError`."""
     design = read_design(parameters) if parameters else load_prototype()
     least = design.limits.stiffness_min_nm_per_rad
     c = Configuration(
@@ -93,7 +93,9 @@ def build_report(
     starts: int,
     report: Callable[[float], None] = lambda share: None,
 ) -> list[Report]:
-    """A report for each stiffness, N·m/rad. report: is given the share of the maps that is done."""
+    """Build a report for each stiffness, N·m/rad. report: receives the finished share of the
+    maps.
+    """
     for sigma in sigmas:
         configuration.limits.check_stiffness("stiffness", sigma, sigma)
     done, total = 0, max(1, 2 * len(sigmas) * starts**2)

@@ -1,4 +1,4 @@
-"""What the 3 kg do at rest, simulated."""
+"""Response to 3 kg, from rest, simulated."""
 
 from typing import NamedTuple
 
@@ -15,7 +15,7 @@ DURATION_S = 0.9
 
 
 class LoadResponse(NamedTuple):
-    """time, s, from the load's onset on, and before it < 0. error: q_d − q, rad. torque1: u1, N·m.
+    """The response. time, s, from the load's onset. error: q_d − q, rad. torque1: u1, N·m.
 
     fault: why it ended early, or "".
     """
@@ -27,7 +27,8 @@ class LoadResponse(NamedTuple):
 
 
 def simulate_load(configuration: Configuration, sigma: float) -> LoadResponse:
-    """The configuration's first lane at rest at q = 0, σ_d = `sigma`, when the paper's load comes.
+    """Simulate the configuration's first lane at rest at q = 0, σ_d = `sigma`, with the paper's
+    load.
 
     With the configuration's own limits and effects.
     """

@@ -1,4 +1,4 @@
-"""How wrong a parameter may be before the closed loop about rest is unstable."""
+"""Ranges of parameter errors for which the closed loop about rest stays stable."""
 
 from collections.abc import Callable
 from functools import partial
@@ -22,7 +22,7 @@ _CLOSE = 1e-4
 
 
 class StableRange(NamedTuple):
-    """True over nominal value of one parameter, all others nominal, with a Hurwitz loop.
+    """The range of one parameter, true over nominal, with a Hurwitz loop; all others nominal.
 
     parameter: its name among `ActuatorParameters`; symbol: the paper's. low, high: None where it
     is stable as far as was looked, from `MIN_RATIO` to `MAX_RATIO`. present: the ratio in
@@ -39,7 +39,8 @@ class StableRange(NamedTuple):
 def find_stable_ranges(
     configuration: Configuration, sigma: float, law: LawDerivatives | None = None
 ) -> list[StableRange]:
-    """Where the loop about rest at σ_d = `sigma`, N·m/rad, is Hurwitz, one parameter at a time.
+    """Find where the loop about rest at σ_d = `sigma`, N·m/rad, is Hurwitz, one parameter at a
+    time.
 
     law: its derivatives, if they are known. Empty where the nominal loop itself is unstable.
     """
@@ -66,7 +67,7 @@ def find_stable_ranges(
 
 
 def find_end(is_stable: Callable[[float], bool], end: float) -> float | None:
-    """The factor from 1 towards `end` up to which all are stable; None if all are."""
+    """Find the factor from 1 towards `end` up to which the loop is stable; None if at all."""
     step = _STRIDE if end > 1.0 else 1.0 / _STRIDE
     inside = outside = 1.0
     while is_stable(outside):

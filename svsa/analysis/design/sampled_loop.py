@@ -128,7 +128,7 @@ def linearize_tick(configuration: Configuration, sigma: float) -> SampledLoop:
 
 
 def _spread(A: np.ndarray, inputs: np.ndarray) -> np.ndarray:
-    """Which states the inputs change, at once or through others. A (n, n), inputs (n, m)."""
+    """Find the states that the inputs affect, directly or indirectly. A (n, n), inputs (n, m)."""
     links = np.abs(A) > _NO_EFFECT
     changed = np.any(np.abs(inputs) > _NO_EFFECT, axis=1)
     for _ in range(len(A)):
@@ -137,7 +137,7 @@ def _spread(A: np.ndarray, inputs: np.ndarray) -> np.ndarray:
 
 
 def find_rest(run: Run) -> LaneState:
-    """The first lane of a run at rest, once its law has begun: many do otherwise at first."""
+    """Return the first lane at rest after its law has started, since many start differently."""
     run.advance(np.empty((1, round(_BEGINNING_S / run.period_s), len(CHANNELS))))
     return run.lanes[0]
 
@@ -187,7 +187,7 @@ class FrequencyResponse(NamedTuple):
 
     @property
     def is_stable(self) -> bool:
-        """Whether the loop settles."""
+        """Whether the loop is stable."""
         return self.radius < 1.0
 
 

@@ -1,4 +1,4 @@
-"""Theorem 1, shown: is the loop stable, how wrong may the model be, what does ẇ cost?"""
+"""Theorem 1 numerically: stability, tolerated model error, and the effect of ẇ."""
 
 import math
 from typing import NamedTuple
@@ -28,7 +28,7 @@ _CLOSE = 0.05
 
 
 class Stability(NamedTuple):
-    """A design about rest at one σ.
+    """Stability results of a design about rest at one σ.
 
     loop: in continuous time, with the true plant. ranges: see `find_stable_ranges`. gain: from
     ẇ2 to e. formula, floor: the same in closed form, and as β → ∞; None for laws other than NDOBC.
@@ -45,7 +45,7 @@ class Stability(NamedTuple):
 
 
 def assess(configuration: Configuration, sigma: float) -> Stability:
-    """All of it for a configuration's first lane at σ_d = `sigma`, N·m/rad; about half a second.
+    """Compute stability of a configuration's first lane at σ_d = `sigma`, N·m/rad, in about 0.5 s.
 
     Raises `ParameterError` for a law that continuous time does not describe: one that switches, or
     whose memory is more than its integral and filters.
@@ -66,7 +66,7 @@ def assess(configuration: Configuration, sigma: float) -> Stability:
 
 
 def _check_continuous(configuration: Configuration, sigma: float, loop: ClosedLoop) -> None:
-    """Checked with the loop itself at a short period: slow poles s = ln z / T, and e at rest."""
+    """Check against the loop itself at a short period: slow poles s = ln z / T, and e at rest."""
     c = configuration
     short = c.changed(effects=IDEAL, sampling=c.sampling.changed(period_s=_SHORT_S))
     sampled = linearize_tick(short, sigma)

@@ -1,4 +1,4 @@
-"""What a constant torque leaves of the errors: FL's by its error dynamics, any law's by a run."""
+"""Steady-state errors under a constant torque: FL's in closed form, any law's by simulation."""
 
 import math
 from typing import NamedTuple
@@ -30,7 +30,7 @@ _DEFLECTION = CHANNEL_INDEX["deflection_rad"]
 
 
 class SteadyError(NamedTuple):
-    """q_d − q, rad, and σ_d − σ, N·m/rad, that stay; deflection: φ there, rad."""
+    """Steady-state q_d − q, rad, and σ_d − σ, N·m/rad; deflection: φ, rad."""
 
     position: float
     stiffness: float
@@ -40,7 +40,7 @@ class SteadyError(NamedTuple):
 def find_steady_error(
     configuration: Configuration, sigma: float, w: Disturbance
 ) -> SteadyError | None:
-    """The errors of the configuration's law at rest under a constant w, whatever the law is.
+    """Find the steady-state errors of the configuration's law under a constant w.
 
     Found by a run at q_d = 0 without counts, noise and friction: the law with what it remembers and
     its estimate, until nothing moves by more than 1e-9 rad and 1e-7 N·m/rad in 0.5 s. None where
@@ -74,7 +74,7 @@ def find_steady_error(
 def compute_fl_steady_error(
     configuration: Configuration, sigma: float, w: Disturbance
 ) -> SteadyError | None:
-    """FL's errors at rest under a constant w; None where there is no rest in the domain.
+    """Compute FL's steady-state errors under a constant w; None without a rest in the domain.
 
     With u = A⁻¹(b − v) in Eq 23 (corrected: Ė = b − A u + D w) the errors obey
 
@@ -95,7 +95,7 @@ def compute_fl_steady_error(
     nominal = build_actuator(configuration.nominal, mu0)
 
     def find_demands(point: np.ndarray) -> tuple[float, float, float]:
-        """(link's torque that is missing, N·m; missing σ, N·m/rad; Γ₁ w) at (φ, θ2)."""
+        """Compute (missing link torque, N·m; missing σ, N·m/rad; Γ₁ w) at (φ, θ2)."""
         x = State(float(point[0]), 0.0, 0.0, 0.0, float(point[1]), 0.0)
         linearization = compute_linearization(nominal, x)
         gain = compute_disturbance_gain(nominal, gains, linearization)

@@ -18,7 +18,7 @@ EXCITATION_DURATION_S = 32.0
 
 
 class Cue(NamedTuple):
-    """A reference to fade over to, so many seconds after the beginning."""
+    """A reference to fade over to, at a time in seconds after the start."""
 
     time_s: float
     kind: Literal["position", "stiffness"]
@@ -63,7 +63,7 @@ EXCITATION = (
 
 
 def build_commands(period_s: float, first_tick: int = 0) -> list[Command]:
-    """The excitation as commands for a run that has reached `first_tick`."""
+    """Build the excitation as commands for a run at `first_tick`."""
     return [
         build_command(first_tick + round(cue.time_s / period_s), cue.kind, cue.reference)
         for cue in EXCITATION

@@ -1,4 +1,4 @@
-"""Output error by multiple shooting: the parameters with which the plant does as recorded.
+"""Output error by multiple shooting: parameters with which the plant reproduces the record.
 
 The record is cut into short segments, each with a start state of its own, so that neither
 drift nor an instability grows (Bock 1983). Levenberg–Marquardt on all unknowns at once; the
@@ -35,7 +35,7 @@ Progress = Callable[[float], None]
 
 
 class Fit(NamedTuple):
-    """What was found.
+    """The result of a fit.
 
     values, deviations: (16,) of `Parameters` and their standard deviations; to what the
     record gives a ten-thousandth of the value is added, for torques between samples. residual:
@@ -51,7 +51,7 @@ class Fit(NamedTuple):
 
 
 def fit(evidence: Evidence, progress: Progress = lambda _: None) -> Fit:
-    """The parameters of a record; `progress` receives the share of the work that is done.
+    """Fit the parameters to a record; `progress` receives the finished share.
 
     A rough pass over some of the segments, then passes over all, each of which weighs the
     angles by what the last one left of them. Raises `IdentificationError` where the model
@@ -85,7 +85,7 @@ def fit(evidence: Evidence, progress: Progress = lambda _: None) -> Fit:
 
 
 def compute_covariance(problem: Problem, point: Point) -> np.ndarray:
-    """Of the parameters: A⁻¹ (Σ s sᵀ + P) A⁻¹.
+    """Compute the covariance of the parameters: A⁻¹ (Σ s sᵀ + P) A⁻¹.
 
     A: their information, that of the prior P with it. s = (1 − A_k A⁻¹)⁻¹ g_k: the score of a
     segment without its own leverage on what was found.
@@ -104,7 +104,7 @@ def compute_covariance(problem: Problem, point: Point) -> np.ndarray:
 def _minimize(
     problem: Problem, point: Point, tolerance: float, report: Callable[[int], None]
 ) -> tuple[Point, np.ndarray]:
-    """Levenberg–Marquardt until the cost falls by less than this share of it.
+    """Minimise by Levenberg–Marquardt until the cost falls by less than this share.
 
     Returns the best point and its squares (segments, 3), see `Normal`.
     """
@@ -129,7 +129,7 @@ def _minimize(
 
 
 def _build_teller(progress: Progress, step: int) -> Callable[[int], None]:
-    """Progress over the iterations of a pass; the number of both is not known in advance."""
+    """Build a progress function over both passes, whose number of iterations is unknown."""
     return lambda iterations: progress(1.0 - 0.5**step * (0.5 + 0.5 * 0.85**iterations))
 
 

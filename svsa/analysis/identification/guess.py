@@ -1,4 +1,4 @@
-"""A first guess of the parameters: the equations of motion in weak form, by least squares.
+"""Initial values of the parameters: equations of motion in weak form, by least squares.
 
 Every term of Eq 1 goes through the same Gaussian window; the derivatives then fall on the
 window, not on the counts of the encoders (as in weak-form regression, e.g. Messenger and
@@ -22,7 +22,7 @@ _SHAPE = {"static_ratio": 1.2, "stribeck": 0.1, "creep1": 0.02, "creep2": 0.02} 
 
 
 def guess_states(evidence: Evidence) -> np.ndarray:
-    """The states (rows, 6) from the measured angles, smoothed."""
+    """Estimate the states (rows, 6) from the smoothed measured angles."""
     angles, width = evidence.angles, 0.5 * _WINDOW_S / evidence.setting.period
     q = angles[:, 0] + angles[:, 2]
     states = np.empty((len(angles), STATES))
@@ -33,7 +33,7 @@ def guess_states(evidence: Evidence) -> np.ndarray:
 
 
 def guess_noise(evidence: Evidence) -> np.ndarray:
-    """Rms of what of θ1, θ2, φ no smooth motion explains, (3,), rad."""
+    """Estimate the rms noise of θ1, θ2, φ as the residual of a smooth motion, (3,), rad."""
     from scipy.signal import savgol_filter  # late: it takes a while
 
     rough = evidence.angles - savgol_filter(evidence.angles, _SMOOTH_ROWS, 3, axis=0)
@@ -41,7 +41,7 @@ def guess_noise(evidence: Evidence) -> np.ndarray:
 
 
 def guess_parameters(evidence: Evidence) -> np.ndarray:
-    """The vector of `Parameters`; what this method cannot see is at a usual value."""
+    """Estimate the vector of `Parameters`; unobservable ones have typical values."""
     period = evidence.setting.period
     width = _WINDOW_S / period
     spring = np.empty((len(evidence.angles), 3))
@@ -86,6 +86,6 @@ def _filter(signal: np.ndarray, width: float, order: int, period: float) -> np.n
 
 
 def _find_inner_rows(evidence: Evidence, margin: int) -> np.ndarray:
-    """All rows of the segments but those that the window joins with an end of the record."""
+    """List the rows of the segments without those whose window exceeds an end."""
     rows = (evidence.segments[:, None] + np.arange(evidence.length)).ravel()
     return rows[(rows >= margin) & (rows < len(evidence.angles) - margin)]

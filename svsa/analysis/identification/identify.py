@@ -1,4 +1,4 @@
-"""Identification: the parameters of Table 1, and of the friction, from a recorded run."""
+"""Identification of the parameters of Table 1 and of friction from a recorded run."""
 
 from typing import Any, NamedTuple
 
@@ -30,7 +30,7 @@ class Estimate(NamedTuple):
 
     @property
     def relative_width(self) -> float:
-        """Half of the interval as a share of the value; infinite for a value of 0."""
+        """Half width of the interval relative to the value; infinite for a value of 0."""
         half = 0.5 * (self.high - self.low)
         return half / abs(self.value) if self.value else float("inf")
 
@@ -55,7 +55,7 @@ ACTUATOR = tuple(name for name in _FOUND if name in ActuatorParameters.model_fie
 
 
 class Identification(NamedTuple):
-    """What a run says of the actuator.
+    """The result of an identification.
 
     estimates: by name, those of `ACTUATOR` (Table 1) and then friction, weight of the link
     and delay of the recorded torque, which are found on the way. residual_rad: rms of θ1,
@@ -76,7 +76,7 @@ class Identification(NamedTuple):
     undetermined: tuple[str, ...]
 
     def build_design(self) -> Design:
-        """The run's design with the identified values as actuator and as nominal model.
+        """Build the run's design with the identified values as actuator and as nominal model.
 
         Raises `IdentificationError` where the run leaves a value undetermined.
         """
@@ -100,7 +100,7 @@ class Identification(NamedTuple):
         )
 
     def to_json(self) -> dict[str, Any]:
-        """As a dict that JSON can hold."""
+        """Convert to a dict for JSON."""
         estimates = {name: estimate._asdict() for name, estimate in self.estimates.items()}
         plain = self._asdict() | {"estimates": estimates}
         del plain["configuration"]
@@ -165,7 +165,7 @@ def identify_evidence(
 
 
 def _find_unmoved(evidence: Evidence) -> set[str]:
-    """Inertia and damping of what did but creep: friction hides them, whatever the fit says."""
+    """Find inertia and damping of bodies that hardly moved: friction dominates them."""
     speeds = np.sqrt(np.mean(guess_states(evidence)[:, 1::2] ** 2, axis=0))
     parts = ("link", "motor1", "motor2")
     return {

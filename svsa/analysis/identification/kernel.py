@@ -1,4 +1,4 @@
-"""The compiled side of identification: the plant through a segment, and how it depends on all.
+"""Compiled identification: simulation of the plant over a segment, and its sensitivities.
 
 The equations are those of the simulated plant; no other compiled function of this room may
 be in another file, since numba's cache follows a change here by this file alone.
@@ -25,7 +25,7 @@ OUTPUTS = 3
 
 
 class Setting(NamedTuple):
-    """What is known beforehand. gamma, mu0, reaction: see `Actuator`.
+    """Known quantities. gamma, mu0, reaction: see `Actuator`.
 
     period: T, s. effects: of the plant, with the lag of the current loop; friction and weight of
     the link are estimated.
@@ -40,14 +40,16 @@ class Setting(NamedTuple):
 
 
 class Torques(NamedTuple):
-    """Of both motors at every sample, (rows, 2), N·m: made then, and asked for until the next."""
+    """Torques of both motors at every sample, (rows, 2), N·m: actual, and commanded until the
+    next.
+    """
 
     made: np.ndarray
     asked: np.ndarray
 
 
 class Parameters(NamedTuple):
-    """All that is estimated, in SI units, in the order of the vector of unknowns.
+    """All estimated parameters, SI units, in the order of the vector.
 
     M … K: see `Actuator`. coulomb, static_ratio, stribeck, creep: of `compute_friction`.
     gravity_moment: m g r of the link, N·m. delay1, delay2: from a recorded torque to the
@@ -83,7 +85,7 @@ def build_parameters(p: np.ndarray) -> Parameters:
 
 @compiled
 def compute_late_value(torques: np.ndarray, row: int, motor: int, shift: float) -> float:
-    """A motor's torque at the sample `row` of a recorded one that is late, N·m.
+    """Return a motor's recorded torque at the sample `row`, delayed, N·m.
 
     torques: (rows, 2), N·m. motor: 0 or 1. shift: by how many periods; between two samples on
     the straight line, beyond the ends the last.
@@ -98,7 +100,7 @@ def compute_late_value(torques: np.ndarray, row: int, motor: int, shift: float) 
 
 @compiled
 def compute_shifted_torque(torques: np.ndarray, row: int, shift1: float, shift2: float) -> Torque:
-    """Both motors' `Torque` at the sample `row`, each late by its own shift, periods."""
+    """Return both motors' `Torque` at the sample `row`, each delayed by its own periods."""
     return Torque(
         compute_late_value(torques, row, 0, shift1), compute_late_value(torques, row, 1, shift2)
     )
@@ -113,7 +115,7 @@ def simulate(
     first: int,
     outputs: np.ndarray,
 ) -> None:
-    """θ1, θ2, φ of the plant from the sample `first` on: outputs (samples, 3), rad, written.
+    """Simulate θ1, θ2, φ from the sample `first` on: outputs (samples, 3), rad, written.
 
     p: (16,) see `Parameters`. start: (6,) the state at the first sample. torques: of the
     whole record, `Torques`.
@@ -152,7 +154,7 @@ def differentiate(
     outputs: np.ndarray,
     slopes: np.ndarray,
 ) -> None:
-    """`simulate`, and the difference quotients by every unknown and by the start.
+    """Simulate, with difference quotients by every parameter and by the start state.
 
     steps: (16 + 6,) of the quotients. outputs: (samples, 3), slopes: (16 + 6, samples, 3),
     both written.
@@ -189,7 +191,7 @@ def compute_unit_torques(setting: Setting, angles: np.ndarray, torques: np.ndarr
 def measure(
     effects: EffectConstants, first_tick: int, states: np.ndarray, measured: np.ndarray
 ) -> None:
-    """What the sensors say of the true angles.
+    """Compute the sensor values of the true angles.
 
     effects: `EffectConstants`. states: (rows, 3) θ1, θ2, φ. measured: (rows, 3), the same as
     measured, written.

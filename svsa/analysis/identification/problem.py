@@ -74,7 +74,7 @@ class Reduced(NamedTuple):
 
 
 class Problem:
-    """The segments of a record, the deviations (3,) they are weighed by, and a weak prior.
+    """The segments of a record, the deviations (3,) as weights, and a weak prior.
 
     held: names of `Parameters` that stay at the centre.
     """
@@ -153,7 +153,9 @@ class Problem:
         )
 
     def sum_up(self, reduced: Reduced, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Information (16, 16) and score (16,) of the parameters: all segments and the prior."""
+        """Sum information (16, 16) and score (16,) of the parameters: all segments and the
+        prior.
+        """
         weight = self.prior_weight
         score = reduced.score.sum(axis=0) + weight * (self._centre - values)
         return reduced.information.sum(axis=0) + np.diag(weight), score
@@ -171,14 +173,14 @@ class Problem:
 
 
 def _share_out(work: Callable[[int], None], count: int) -> None:
-    """Do `work` for every segment on all cores: the compiled part does not hold the GIL."""
+    """Run `work` for every segment on all cores; compiled code releases the GIL."""
     with ThreadPoolExecutor() as pool:
         for _ in pool.map(work, range(count)):
             pass
 
 
 def _bound(values: np.ndarray, step: np.ndarray, period: float) -> np.ndarray:
-    """A step held within bounds; creep no less than the integration can follow."""
+    """Limit a step to bounds; the creep velocity stays large enough for the integration."""
     moved = values + step
     within = np.clip(moved, values / _MAX_FACTOR, values * _MAX_FACTOR)
     p = Parameters(*np.clip(np.where(_ALWAYS_POSITIVE, within, moved), _MIN, _MAX))

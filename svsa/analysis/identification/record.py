@@ -1,4 +1,4 @@
-"""What a record says to identification: measured angles, torques, and where they may be used.
+"""Data for identification from a record: measured angles, torques, usable segments.
 
 Only what a bench knows is read. The angles of a simulated run, which are the true ones, are
 put through the encoders and noise that the run had; those of a bench are measured already.
@@ -36,11 +36,11 @@ _CHANGES = {"actuator": "the plant's parameters", "effects": "the effects"}
 
 
 class IdentificationError(SvsaError):
-    """A run from which the parameters cannot be found, and why."""
+    """The parameters cannot be identified from a run; the message has the reason."""
 
 
 class Evidence(NamedTuple):
-    """The record as identification sees it.
+    """The data of a record for identification.
 
     angles: (rows, 3) θ1, θ2, φ as measured, rad. segments: first rows of the pieces that are
     used, each `length` rows long. loaded: rows under a load.
@@ -56,7 +56,7 @@ class Evidence(NamedTuple):
 
 
 def read_evidence(record: Record) -> Evidence:
-    """The first lane of a record, without the stretches under a load and missed ticks.
+    """Read the first lane of a record, without segments under load and missed ticks.
 
     Raises `IdentificationError` where too little is left, or the plant was changed on the
     way.
@@ -103,7 +103,7 @@ def read_evidence(record: Record) -> Evidence:
 def build_setting(
     configuration: Configuration, mu0: float, period_s: float
 ) -> tuple[Setting, float]:
-    """What is known of the plant, and the time constant of its current loop, s.
+    """Return the known quantities of the plant, and the time constant of its current loop, s.
 
     mu0: lever ratio at θ2 = 0.
     """
@@ -116,13 +116,13 @@ def build_setting(
 
 
 def _hold(rows: np.ndarray, missed: np.ndarray) -> np.ndarray:
-    """Rows that the loop missed as the last before them: the drives hold their currents."""
+    """Fill rows that the loop missed with the previous ones: the drives hold their currents."""
     known = np.where(missed, 0, np.arange(len(rows)))
     return rows[np.maximum.accumulate(known)]
 
 
 def build_torques(recorded: np.ndarray, is_measured: bool, lag: float, period: float) -> Torques:
-    """Torques made and asked for from those recorded (rows, 2), N·m.
+    """Compute actual and commanded torques from the recorded ones (rows, 2), N·m.
 
     A bench records what it asked for, a simulation what the motors make at that instant:
     with the lag, each follows from the other (`compute_lagged_torque`). lag, period: s.
@@ -141,7 +141,7 @@ def build_torques(recorded: np.ndarray, is_measured: bool, lag: float, period: f
 def _find_plant(
     record: Record, configuration: Configuration, commands: Sequence[Command]
 ) -> Configuration:
-    """The configuration with the actuator and effects of the record's samples."""
+    """Return the configuration with the actuator and effects of the record's samples."""
     for command in commands:
         if command.kind not in ("actuator", "effects"):
             continue
@@ -156,7 +156,7 @@ def _find_plant(
 
 
 def find_segments(free: np.ndarray, length: int) -> np.ndarray:
-    """First rows of the whole pieces of `length` rows in the free stretches."""
+    """Return first rows of the complete segments of `length` rows in the usable stretches."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], free, [False]]).astype(int)))
     stretches = zip(edges[::2], edges[1::2], strict=True)
     pieces = [np.arange(first, end - length + 1, length) for first, end in stretches]
