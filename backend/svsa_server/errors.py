@@ -120,7 +120,7 @@ def _refuse_request(request: Request, error: RequestValidationError) -> JSONResp
         if problem["type"] == "json_invalid":
             found = json.JSONDecodeError(problem["ctx"]["error"], str(error.body), rest[0])
             place = f"line {found.lineno}, column {found.colno}"
-            detail = f"The body is no JSON: {found.msg} at {place}."
+            detail = f"The body is not JSON: {found.msg} at {place}."
             return answer_problem(400, "malformed_json", detail)
         (body if where == "body" else others).append(problem | {"loc": rest})
     given, wanted = request.headers.get("content-type"), _find_media_type(request)
@@ -153,7 +153,7 @@ def _refuse_route(request: Request, error: HTTPException) -> JSONResponse:
         message = f"{request.method} is not possible at {path}, but {allowed} is."
     elif status == 400:
         kind = "malformed_json"
-        message = "The body is no JSON that can be read: it is not UTF-8, or nested too deeply."
+        message = "The body is not readable JSON: it is not UTF-8, or nested too deeply."
     else:
         kind, message = "too_large" if status == 413 else "refused", str(error.detail)
     return answer_problem(status, kind, message, headers)

@@ -109,7 +109,7 @@ def _complete_operation(operation: dict[str, Any], needs_secret: bool) -> None:
     if UPGRADED in answers:
         answers["101"] = answers.pop(UPGRADED)
     answers["403"] = _describe(
-        "From a page of another site, for another host than this one, or not for this role"
+        "The request comes from another site, names another host, or the role has no permission"
     )
     if needs_secret:
         operation["security"] = [{SCHEME: []}]
@@ -118,7 +118,7 @@ def _complete_operation(operation: dict[str, Any], needs_secret: bool) -> None:
         )
         answers["429"] = _describe("In a class: too much at once; again after Retry-After")
     if "requestBody" in operation:
-        answers["400"] = _describe("The body is no JSON")
+        answers["400"] = _describe("The body is not JSON")
         answers["413"] = _describe(f"The body is longer than {LONGEST_BODY_BYTES} bytes")
 
 

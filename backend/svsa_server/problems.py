@@ -15,7 +15,7 @@ LONGEST_ECHO = 200
 
 TITLES = {
     "out_of_range": "Values were refused",
-    "malformed_json": "The body is no JSON",
+    "malformed_json": "The body is not JSON",
     "content_type": "The body is of another media type",
     "key_invalid": "The idempotency key has a wrong form",
     "key_reused": "The idempotency key was used for another request",
@@ -70,18 +70,18 @@ class ViolationModel(BaseModel):
 
     name: str = Field(
         examples=["frequency_hz"],
-        description="Path of the field in what was sent, such as comparisons[0].law",
+        description="Path of the field in the request, such as comparisons[0].law",
     )
-    value: Any = Field(examples=[9.0], description="As it was given; cut short when long")
+    value: Any = Field(examples=[9.0], description="Value as sent, shortened if long")
     unit: str = Field(examples=["Hz"])
     bound: str = Field(examples=["at most 5 Hz"])
     limits: dict[str, float] = Field(
         default={},
         examples=[{"le": 5.0}],
-        description="The numbers of the bound in the unit, by ge, gt, le or lt",
+        description="Numeric bounds in the unit, by ge, gt, le or lt",
     )
     finding: str = Field(
-        default="", description="What is wrong, where the bound is not of the value itself"
+        default="", description="Explanation if no bound of the value itself is violated"
     )
     message: str = Field(examples=["frequency_hz is 9.0 Hz: it must be at most 5 Hz."])
 
@@ -92,15 +92,13 @@ class Problem(BaseModel):
     type: str = Field(
         examples=[TYPE_PREFIX + "out_of_range"], description="The kind of problem, for programs"
     )
-    title: str = Field(examples=[TITLES["out_of_range"]], description="The kind in words")
-    status: int = Field(examples=[422], description="Of the answer")
+    title: str = Field(examples=[TITLES["out_of_range"]], description="Title of the kind")
+    status: int = Field(examples=[422], description="HTTP status of the answer")
     detail: str = Field(
         examples=["frequency_hz is 9.0 Hz: it must be at most 5 Hz."],
-        description="What was wrong this time, for people",
+        description="Explanation of this error",
     )
-    violations: list[ViolationModel] = Field(
-        default=[], description="Every value that was refused, where it was values"
-    )
+    violations: list[ViolationModel] = Field(default=[], description="Every rejected value")
 
 
 def build_problem(

@@ -65,13 +65,13 @@ class Limits(Checked):
         "1", "Fault when det A falls below this share of its value at φ = 0", gt=0, lt=1
     )
     stiffness_min_nm_per_rad: Number = quantity(
-        "N·m/rad", "Least stiffness; gives the lower end of μ", gt=0, le=1e4
+        "N·m/rad", "Minimum stiffness; determines the lower end of μ", gt=0, le=1e4
     )
     stiffness_max_nm_per_rad: Number = quantity(
-        "N·m/rad", "Greatest stiffness; gives the upper end of μ", gt=0, le=1e4
+        "N·m/rad", "Maximum stiffness; determines the upper end of μ", gt=0, le=1e4
     )
     lever_ratio_margin: Number = quantity(
-        "1", "How far μ may leave its range before the run ends in a fault", ge=0, le=0.1
+        "1", "Excess of μ over its range at which the run ends in a fault", ge=0, le=0.1
     )
 
     @model_validator(mode="after")

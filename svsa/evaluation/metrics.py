@@ -35,7 +35,7 @@ QUANTITIES = {
     "effort_n2m2_s": ("N²·m²·s", "Integral of u1² + u2²"),
     "work_j": ("J", "Integral of |u1 θ̇1| + |u2 θ̇2|"),
     "torque1_variation_nm_per_s": ("N·m/s", "Total variation of u1 a second"),
-    "limit_share": ("1", "Share of the ticks in which a motor makes its limit"),
+    "limit_share": ("1", "Share of ticks with a motor at its torque limit"),
 }  # fmt: skip
 """Each metric with its unit and meaning; from `measure_from_s` to the end, or to the fault.
 

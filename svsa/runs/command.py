@@ -76,7 +76,10 @@ class _Command(Checked):
     """A command, which holds from the beginning of a tick on."""
 
     tick: Whole = quantity(
-        "", "Tick at whose beginning it holds; a session gives it its own", ge=0, default=0
+        "",
+        "Tick at whose beginning the command takes effect; a session sets its own",
+        ge=0,
+        default=0,
     )
     kind: Any
     argument: Any
@@ -106,7 +109,7 @@ class Set(_Command):
     """Another value of a field of the configuration: a reference is faded over."""
 
     kind: Settable
-    argument: Any = Field(description="The value, as the configuration has it")
+    argument: Any = Field(description="New value of the field")
 
     def __init__(self, kind: str, argument: Any, tick: int = 0) -> None:
         read = _read_value(kind, argument) if kind in _VALUES else argument

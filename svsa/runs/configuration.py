@@ -89,13 +89,13 @@ class Lane(Checked):
 
     law: LawName = quantity("", "Name of a law that is installed")
     gains: Gains | None = quantity(
-        "", "Gains of a law that takes such (FL, NDOBC); left out, those of the run", default=None
+        "", "Gains of a law that uses them (FL, NDOBC); by default those of the run", default=None
     )
     parameters: LaneParameters = quantity(
-        "", "Parameters of a law that has its own; left out, those of the run", default=None
+        "", "Parameters of a law that has its own; by default those of the run", default=None
     )
     observer: ObserverBandwidth | None = quantity(
-        "", "Its observer; left out, that of the run", default=None
+        "", "Observer bandwidth; by default that of the run", default=None
     )
 
     @field_validator("parameters")

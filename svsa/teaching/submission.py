@@ -131,8 +131,8 @@ class SavedLaw(Checked):
     """A law's file and the result of its trial. output: the end of what it printed."""
 
     text: str = quantity("", "Text of a law's Python file")
-    verdict: TrialVerdict = quantity("", "What came of trying it")
-    feedback: str = quantity("", "The same in words")
+    verdict: TrialVerdict = quantity("", "Outcome of the trial run")
+    feedback: str = quantity("", "The outcome in words")
     output: Annotated[str, Field(max_length=LONGEST_OUTPUT)] = quantity(
-        "", "End of what it printed, where it failed", default=""
+        "", "End of its output if it failed", default=""
     )

@@ -52,8 +52,8 @@ async def find_client(
         str | None,
         Header(
             alias=CLIENT_HEADER,
-            description="Who calls: a text that others do not guess, 1 to 40 printable characters"
-            " in percent-encoded UTF-8; see `PUT …/control`, which needs it",
+            description="Client id: an unguessable text of 1 to 40 printable characters in "
+            "percent-encoded UTF-8; required by `PUT …/control`",
         ),
     ] = None,
 ) -> str | None:
@@ -140,11 +140,11 @@ REFUSALS: dict[int | str, dict[str, Any]] = {
         "model": Problem,
         "description": "Not in the present state, or another client is in control",
     },
-    422: {"model": Problem, "description": "Refused values; nothing was changed"},
+    422: {"model": Problem, "description": "Rejected values; nothing was changed"},
 }
 
 CHANGED: dict[int | str, dict[str, Any]] = {
-    412: {"model": Problem, "description": "It was changed meanwhile; see If-Match"}
+    412: {"model": Problem, "description": "Changed by another client meanwhile; see If-Match"}
 }
 BUSY: dict[int | str, dict[str, Any]] = {
     503: {

@@ -29,14 +29,14 @@ class Adversary(Checked):
     """
 
     title: str = quantity("", "What the adversary may do", max_length=200)
-    law: InstalledLaw = quantity("", "Law that is to be hurt", default=PAPERS_LAW)
-    cost: Cost = quantity("", "What it is after: fault, peak, recovery", default="fault")
-    base: dict[str, Any] = quantity("", "Settings that all runs begin from", default={FIGURE: "4a"})
-    duration_s: Number = quantity("s", "How long a run is", gt=0, le=60, default=10.0)
-    measure_from_s: Number = quantity("s", "From when on it is measured", ge=0, default=0.0)
-    terms: Terms = quantity("", "Loads that it may choose")
+    law: InstalledLaw = quantity("", "Law under test", default=PAPERS_LAW)
+    cost: Cost = quantity("", "Cost: fault, peak or recovery", default="fault")
+    base: dict[str, Any] = quantity("", "Initial settings of all runs", default={FIGURE: "4a"})
+    duration_s: Number = quantity("s", "Duration of a run", gt=0, le=60, default=10.0)
+    measure_from_s: Number = quantity("s", "Start of the measured window", ge=0, default=0.0)
+    terms: Terms = quantity("", "Loads that the adversary may apply")
     vary: Annotated[tuple[Variation, ...], Field(max_length=16)] = quantity(
-        "", "Settings that it may perturb", default=()
+        "", "Settings that the adversary may perturb", default=()
     )
 
     @model_validator(mode="before")

@@ -54,10 +54,12 @@ class _Term(Checked):
     """A load whose size, on each body separately, and onset are searched."""
 
     bodies: Annotated[tuple[Body, ...], Field(min_length=1, max_length=3)] = quantity(
-        "", "On what: link, motor1, motor2", default=("link",)
+        "", "Bodies: link, motor1, motor2", default=("link",)
     )
-    torque_nm: Number = quantity("N·m", "Greatest size on each body, either way", gt=0, le=50)
-    start_s: Ends = quantity("s", "Onset, from and to")
+    torque_nm: Number = quantity(
+        "N·m", "Largest magnitude on each body, in both directions", gt=0, le=50
+    )
+    start_s: Ends = quantity("s", "Range of the onset")
 
     @model_validator(mode="after")
     def _check_ends(self) -> Self:
@@ -97,7 +99,7 @@ class PulseTerm(_Term):
     """A torque for a while."""
 
     kind: Literal["pulse"] = "pulse"
-    duration_s: Ends = quantity("s", "How long, from and to")
+    duration_s: Ends = quantity("s", "Range of the duration")
 
     @model_validator(mode="after")
     def _check_duration(self) -> Self:

@@ -32,19 +32,23 @@ class Attack(NamedTuple):
 class Finding(Checked):
     """How a scenario was found."""
 
-    law: LawName = quantity("", "Law that it hurts")
-    cost: str = quantity("", "What was looked for", max_length=40)
+    law: LawName = quantity("", "Law under test")
+    cost: str = quantity("", "Cost of the search", max_length=40)
     outcome: str = quantity("", "Outcome of the law", max_length=200)
-    adversary: str = quantity("", "Among what was searched", max_length=200)
-    method: str = quantity("", "How", max_length=40)
+    adversary: str = quantity("", "Adversary of the search", max_length=200)
+    method: str = quantity("", "Method of the search", max_length=40)
     seed: Whole = quantity("", "Seed of the search", ge=0)
-    at_run: Whole = quantity("", "Which run of the search showed it", ge=1)
+    at_run: Whole = quantity("", "Number of the run that found it", ge=1)
     runs: Whole = quantity("", "Runs of the search", ge=1)
-    version: str = quantity("", "Version that found it", max_length=40)
+    version: str = quantity("", "Version of the lab that found it", max_length=40)
     neighbors: Whole | None = quantity(
-        "", "Random loads near it that were run, each number within 5 % of its range", default=None
+        "",
+        "Number of random loads in its neighborhood, each value within 5 % of its range",
+        default=None,
     )
-    neighbors_hurt: Whole | None = quantity("", "Those that hurt as much", ge=0, default=None)
+    neighbors_hurt: Whole | None = quantity(
+        "", "How many of those degraded the law as much", ge=0, default=None
+    )
 
     @model_validator(mode="before")
     @classmethod
@@ -66,15 +70,15 @@ class LoadScenario(Checked):
     settings: by their paths, as actuator.link_inertia_kg_m2. loads: besides those of the base.
     """
 
-    title: str = quantity("", "The scenario in words", max_length=200)
-    base: dict[str, Any] = quantity("", "What it begins from", default={FIGURE: "4a"})
-    duration_s: Number = quantity("s", "How long it is", gt=0, le=3600, default=DURATION_S)
-    measure_from_s: Number = quantity("s", "From when on it is measured", ge=0, default=0.0)
+    title: str = quantity("", "Title of the scenario", max_length=200)
+    base: dict[str, Any] = quantity("", "Base configuration", default={FIGURE: "4a"})
+    duration_s: Number = quantity("s", "Duration", gt=0, le=3600, default=DURATION_S)
+    measure_from_s: Number = quantity("s", "Start of the measured window", ge=0, default=0.0)
     settings: dict[str, Any] = quantity("", "Settings by their paths", default={})
     loads: Annotated[tuple[Load, ...], Field(max_length=MAX_LOADS)] = quantity(
         "", "Loads", default=()
     )
-    found: Finding | None = quantity("", "How it was found", default=None)
+    found: Finding | None = quantity("", "Origin of the scenario", default=None)
 
     @model_validator(mode="after")
     def _check(self) -> Self:

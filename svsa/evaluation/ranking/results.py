@@ -26,9 +26,9 @@ class Rank(Checked):
     """The rank of a row, and its comparison with the tuned NDOBC."""
 
     key: str = quantity("", "Name of the row")
-    rank: Whole = quantity("", "From 1; rows that do not differ significantly share it", ge=1)
-    only_this: Whole = quantity("", "Trials that only this row held", ge=0)
-    only_ndobc: Whole = quantity("", "Trials that only the tuned NDOBC held", ge=0)
+    rank: Whole = quantity("", "Rank from 1; rows without a significant difference share it", ge=1)
+    only_this: Whole = quantity("", "Trials in which only this row succeeded", ge=0)
+    only_ndobc: Whole = quantity("", "Trials in which only the tuned NDOBC succeeded", ge=0)
     p_value: Number | None = quantity(
         "1", "McNemar's exact test against the tuned NDOBC, corrected by Holm", ge=0, le=1
     )
@@ -38,7 +38,7 @@ class Results(Checked):
     """Rows, and the protocol that they were measured with."""
 
     protocol: str = quantity("", "Version of the protocol")
-    criterion: str = quantity("", "When a trial is held")
+    criterion: str = quantity("", "Success criterion of a trial")
     seed: Whole = quantity("", "Seed of the test set", ge=0)
     trials: Whole = quantity("", "Trials of each family", ge=1)
     duration_s: Number = quantity("s", "Length of a trial")

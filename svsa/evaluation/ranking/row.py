@@ -22,8 +22,8 @@ class FamilyOutcome(Checked):
     """The outcome of the trials of one family."""
 
     trials: Whole = quantity("", "Trials", ge=1)
-    held: Whole = quantity("", "Trials that held", ge=0)
-    success: Number = quantity("1", "Share of the trials that held", ge=0, le=1)
+    held: Whole = quantity("", "Successful trials", ge=0)
+    success: Number = quantity("1", "Success rate", ge=0, le=1)
     success_low: Number = quantity("1", "Lower end of Wilson's 95 % interval", ge=0, le=1)
     success_high: Number = quantity("1", "Upper end of Wilson's 95 % interval", ge=0, le=1)
     faults: dict[str, Whole] = quantity("", "Trials that ended in a fault, by its code")
@@ -41,10 +41,10 @@ class ScenarioOutcome(Checked):
     """The outcome of a fixed scenario over its signs and phases; None where a run ended early."""
 
     scenario: str = quantity("", "Name of the scenario")
-    title: str = quantity("", "The scenario in words")
+    title: str = quantity("", "Title of the scenario")
     runs: Whole = quantity("", "Variants over sign and phase", ge=1)
     faults: Whole = quantity("", "Variants that ended in a fault", ge=0)
-    held: Whole = quantity("", "Variants that held", ge=0)
+    held: Whole = quantity("", "Successful variants", ge=0)
     worst: str = quantity("", "Name of the worst variant")
     median: dict[str, Number | None] = quantity("", "Median of each metric over the variants")
     worst_values: dict[str, Number | None] = quantity("", "Worst value of each metric")
@@ -64,12 +64,14 @@ class Row(Checked):
     law: str = quantity("", "Name of the law")
     variant: Variant = quantity("", "Which parameters")
     version: str = quantity("", "Version of the lab that measured it")
-    tuning: TunedLaw | None = quantity("", "What it was tuned on, and its values", default=None)
+    tuning: TunedLaw | None = quantity(
+        "", "Source and values of the tuned parameters", default=None
+    )
     families: dict[str, FamilyOutcome] = quantity("", "Trials by family")
     scenarios: tuple[ScenarioOutcome, ...] = quantity("", "Fixed scenarios")
     noise: Noise = quantity("", "Torque at rest")
     largest_load_nm: Number = quantity(
-        "N·m", "Largest step on the link up to which all signs and phases held"
+        "N·m", "Largest torque step on the link with success for all signs and phases"
     )
 
     def get_outcome(self, scenario: str) -> ScenarioOutcome:

@@ -36,7 +36,7 @@ class Study(Checked):
     """
 
     title: str = quantity("", "What the study is about", max_length=200)
-    base: dict[str, Any] = quantity("", "Settings that all runs begin from", default={FIGURE: "4a"})
+    base: dict[str, Any] = quantity("", "Initial settings of all runs", default={FIGURE: "4a"})
     laws: tuple[InstalledLaw, ...] = quantity(
         "",
         "Laws, each on the same samples",
@@ -51,10 +51,10 @@ class Study(Checked):
     runs: Whole = quantity("", "How many samples", ge=1, le=MAX_RUNS)
     seed: Whole = quantity("", "Seed of all samples", ge=0, le=2**63 - 1, default=0)
     sampling: Sampling = quantity("", "How is drawn", default="random")
-    duration_s: Number = quantity("s", "How long a run is", gt=0, le=3600, default=DURATION_S)
-    measure_from_s: Number = quantity("s", "From when on it is measured", ge=0, default=0.0)
+    duration_s: Number = quantity("s", "Duration of a run", gt=0, le=3600, default=DURATION_S)
+    measure_from_s: Number = quantity("s", "Start of the measured window", ge=0, default=0.0)
     metrics: tuple[Metric, ...] = quantity(
-        "", "What its table keeps of each run", min_length=1, default=tuple(METRICS)
+        "", "Metrics stored for each run", min_length=1, default=tuple(METRICS)
     )
     success: Success = quantity("", "What counts as success, besides no fault", default=Success())
 

@@ -18,9 +18,7 @@ class _Variation(Checked):
     """A setting by its path in the configuration, see `svsa.evaluation.studies.setting`."""
 
     path: str = quantity("", "Setting that varies, as actuator.link_inertia_kg_m2")
-    relative: Flag = quantity(
-        "", "Whether values are factors of what the study begins from", default=False
-    )
+    relative: Flag = quantity("", "Whether values are factors of the base value", default=False)
 
     @property
     def column(self) -> str:
@@ -90,8 +88,8 @@ class Normal(_Range):
     """Normal with this mean and standard deviation, nothing of it outside low to high."""
 
     kind: Literal["normal"] = "normal"
-    mean: Number = quantity("", "Mean, before it is cut")
-    std: Number = quantity("", "Standard deviation, before it is cut", gt=0)
+    mean: Number = quantity("", "Mean of the distribution before truncation")
+    std: Number = quantity("", "Standard deviation before truncation", gt=0)
 
     @model_validator(mode="after")
     def _check_share(self) -> Self:
@@ -119,7 +117,7 @@ class Normal(_Range):
 class _Listed(_Variation):
     values: tuple[Any, ...] = quantity("", "Values", min_length=1, max_length=MAX_LEVELS)
     names: tuple[str, ...] = quantity(
-        "", "What the values are called; left out, as they are written", default=()
+        "", "Labels of the values; by default the values as written", default=()
     )
 
     @model_validator(mode="after")
@@ -170,8 +168,10 @@ class Steps(_Range):
     """A grid from low to high, evenly or by equal ratios."""
 
     kind: Literal["steps"] = "steps"
-    count: Whole = quantity("", "How many", ge=2, le=MAX_LEVELS)
-    spacing: Literal["linear", "log"] = quantity("", "Even, or by equal ratios", default="linear")
+    count: Whole = quantity("", "Number of values", ge=2, le=MAX_LEVELS)
+    spacing: Literal["linear", "log"] = quantity(
+        "", "Spacing: even, or by equal ratios", default="linear"
+    )
 
     @model_validator(mode="after")
     def _check_positive(self) -> Self:

@@ -21,7 +21,7 @@ class Costs(Checked):
     """What parameters show on the validation trials."""
 
     cost: Number = quantity("1", "Mean over the trials; above the noise limit 5 and more")
-    held: Whole = quantity("", "Trials that held", ge=0)
+    held: Whole = quantity("", "Successful trials", ge=0)
     torque_variation_nm_per_s: Number | None = quantity(
         "N·m/s", "Total variation of u1 at rest; None for a fault at rest"
     )
@@ -33,12 +33,12 @@ class TunedLaw(Checked):
     law: str = quantity("", "Name of the law")
     version: str = quantity("", "Version of the lab that tuned it")
     method: str = quantity("", "How the parameters were searched")
-    candidates: Whole = quantity("", "Candidates that were tried", ge=0)
+    candidates: Whole = quantity("", "Number of candidates evaluated", ge=0)
     trials: Whole = quantity("", "Training trials of each candidate, half of each family", ge=1)
     validation: Whole = quantity("", "Validation trials of the best ten", ge=1)
     seed: Whole = quantity("", "Seed of search, training and validation trials", ge=0)
     noise_limit_nm_per_s: Number = quantity("N·m/s", "Limit of the torque variation at rest")
-    before: Costs = quantity("", "The parameters that the search began from")
+    before: Costs = quantity("", "Initial parameters of the search")
     after: Costs = quantity("", "The tuned parameters")
     values: dict[str, Number] = quantity("", "Tuned values by name")
 

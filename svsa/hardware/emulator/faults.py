@@ -84,7 +84,7 @@ class BusErrors(Checked):
     """Error frames on the bus, one a millisecond."""
 
     kind: Literal["bus_errors"] = "bus_errors"
-    count: Whole = quantity("frames", "How many", ge=1, le=10_000, default=1)
+    count: Whole = quantity("frames", "Number of values", ge=1, le=10_000, default=1)
 
 
 class CurrentOffset(Checked):

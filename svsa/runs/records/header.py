@@ -57,7 +57,7 @@ class RecordHeader(Checked):
     """
 
     format: Whole = quantity("", "Version of this layout", ge=1, default=FORMAT)
-    version: str = quantity("", "Version of svsa that recorded")
+    version: str = quantity("", "Version of svsa that recorded it")
     run_id: str = quantity("", "Identity of the run: letters, digits, - and _")
     created: str = quantity("", "When recording began, UTC, ISO 8601")
     session: str = quantity("", "Session that was recorded")

@@ -18,9 +18,13 @@ class Tolerance(Checked):
     b: any value that the other run has within `time_s` of that moment, and all between them.
     """
 
-    absolute: Number = quantity("", "In the unit of the channel", ge=0, default=0.0)
-    relative: Number = quantity("1", "As a share of the other run's value", ge=0, default=0.0)
-    time_s: Number = quantity("s", "How much earlier or later", ge=0, le=60, default=0.0)
+    absolute: Number = quantity(
+        "", "Absolute tolerance, in the unit of the channel", ge=0, default=0.0
+    )
+    relative: Number = quantity(
+        "1", "Relative tolerance, as a share of the reference value", ge=0, default=0.0
+    )
+    time_s: Number = quantity("s", "Time tolerance", ge=0, le=60, default=0.0)
 
 
 EXACT = Tolerance()

@@ -16,7 +16,7 @@ FeedbackText = Annotated[str, Field(max_length=1000)]
 class Criterion(Checked):
     """A measure, the range in which it earns its points, and the feedback below and above."""
 
-    title: str = quantity("", "What is asked", min_length=1, max_length=200)
+    title: str = quantity("", "Text of the criterion", min_length=1, max_length=200)
     measure: StepName
     low: Number | None = quantity("", "Least value, in its unit", default=None)
     high: Number | None = quantity("", "Greatest value, in its unit", default=None)
@@ -41,21 +41,21 @@ class CriterionResult(Checked):
     sample.
     """
 
-    step: str = quantity("", "Step that it belongs to")
-    name: str = quantity("", "What is asked")
+    step: str = quantity("", "Step of the criterion")
+    name: str = quantity("", "Text of the criterion")
     points: Number = quantity("", "Points", ge=0)
-    max_points: Number = quantity("", "Points that there are", ge=0)
-    feedback: str = quantity("", "What differs, or that it is right")
-    channel: str | None = quantity("", "Channel where to look", default=None)
-    time_s: Number | None = quantity("s", "When, in the run's time", default=None)
+    max_points: Number = quantity("", "Maximum points", ge=0)
+    feedback: str = quantity("", "Feedback")
+    channel: str | None = quantity("", "Channel that shows the result", default=None)
+    time_s: Number | None = quantity("s", "Time in the run that shows the result", default=None)
 
 
 class Judgement(Checked):
     """The judgement of a submission: all criteria of an exercise, in the order of its steps."""
 
     exercise: str = quantity("", "Name of the exercise")
-    points: Number = quantity("", "Points in all", ge=0)
-    max_points: Number = quantity("", "Points that there are", ge=0)
+    points: Number = quantity("", "Total points", ge=0)
+    max_points: Number = quantity("", "Maximum points", ge=0)
     criteria: tuple[CriterionResult, ...] = quantity("", "Points by criterion")
 
 

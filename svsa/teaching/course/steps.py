@@ -36,7 +36,7 @@ class Predict(_Step):
     """
 
     kind: Literal["predict"] = "predict"
-    asks: str = quantity("", "What is predicted", min_length=1, max_length=200)
+    asks: str = quantity("", "Name of the predicted value", min_length=1, max_length=200)
     unit: str = quantity("", "Its unit", max_length=20)
     low: Number = quantity("", "Least plausible value")
     high: Number = quantity("", "Greatest plausible value")

@@ -24,7 +24,7 @@ class VerifiedRun(Checked):
     """A submitted run, and the result of simulating it again."""
 
     run_id: str = quantity("", "Id of the run")
-    description: str = quantity("", "What was verified of it")
+    description: str = quantity("", "Result of the verification")
 
 
 class Grade(Judgement):
@@ -35,12 +35,12 @@ class Grade(Judgement):
     walls, which is no grade for a class.
     """
 
-    student: str = quantity("", "Who submitted it")
-    submission: str = quantity("", "SHA-256 of what was submitted")
-    max_points: Number = quantity("", "Points that there are", gt=0)
-    runs: tuple[VerifiedRun, ...] = quantity("", "Runs, and what was verified", default=())
+    student: str = quantity("", "Student")
+    submission: str = quantity("", "SHA-256 of the submission")
+    max_points: Number = quantity("", "Maximum points", gt=0)
+    runs: tuple[VerifiedRun, ...] = quantity("", "Verified runs", default=())
     seed: str | None = quantity("", "Seed of the trials", default=None)
-    is_isolated: Flag = quantity("", "Whether its law had nothing but its task", default=True)
+    is_isolated: Flag = quantity("", "Whether the law ran in isolation", default=True)
     version: str = quantity("", "Version of the lab", default=__version__)
 
 

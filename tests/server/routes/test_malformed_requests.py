@@ -1,4 +1,4 @@
-"""Requests that are none: what is no JSON, no route or too much, and the form of the refusal."""
+"""Malformed requests: invalid JSON, unknown routes, oversized bodies, and their errors."""
 
 import pytest
 
@@ -46,7 +46,7 @@ def test_malformed_json_is_named_as_such_with_its_place(
     assert answer.headers["Content-Type"] == MEDIA_TYPE
     assert answer.json() == {
         "type": TYPE_PREFIX + kind,
-        "title": "The body is no JSON",
+        "title": "The body is not JSON",
         "status": 400,
         "detail": answer.json()["detail"],
         "violations": [],

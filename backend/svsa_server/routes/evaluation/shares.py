@@ -15,7 +15,7 @@ MAX_SHARES = 256
 router = build_router("/shares", tags=["studies"], responses={422: REFUSALS[422]})
 Counts = Annotated[str, Field(pattern=r"^[0-9]{1,9},[0-9]{1,9}$")]
 _COUNTS = Query(
-    description="How many have the property, and how many do not; once for each share",
+    description="Numbers of successes and failures, once for each proportion",
     max_length=MAX_SHARES,
     examples=[["8,2", "0,81"]],
 )

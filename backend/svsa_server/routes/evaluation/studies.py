@@ -48,7 +48,7 @@ from svsa_server.schemas.evaluation.study import (
 )
 
 router = build_router("/studies", tags=["studies"], responses=REFUSALS)
-_NAME = Path(description="Name of a kept study", examples=["perturbation"])
+_NAME = Path(description="Name of a saved study", examples=["perturbation"])
 Study = Annotated[str, Owned("study"), _NAME]
 ChangedStudy = Annotated[str, Owned("study", changes=True), _NAME]
 LONGEST_END_S = 60.0
@@ -163,7 +163,7 @@ async def read_sensitivity(
 def read_rows(
     study: Study,
     column: Annotated[list[str], Query(max_length=40, description="Names of columns")] = [],  # noqa: B006
-    most: Annotated[int, Query(ge=1, le=MAX_ROWS, description="Rows at most")] = MAX_ROWS,
+    most: Annotated[int, Query(ge=1, le=MAX_ROWS, description="Maximum number of rows")] = MAX_ROWS,
     written: Annotated[
         Literal["binary", "parquet"],
         Query(alias="format", description="parquet: the whole table, once a job of it has ended"),

@@ -45,7 +45,7 @@ class ClaimPart(BaseModel):
 class ClaimState(BaseModel):
     """A figure's run compared with the paper's claim."""
 
-    numbers: list[ClaimNumbersState] = Field(description="Of FL, then of NDOBC")
+    numbers: list[ClaimNumbersState] = Field(description="Numbers of FL, then of NDOBC")
     parts: list[ClaimPart]
 
 
@@ -53,7 +53,7 @@ class ClaimState(BaseModel):
 @allow(OBSERVER)
 def compare_claim(
     hosted: NamedSession,
-    figure: Annotated[Literal["4a", "4b", "5"], Query(description="Figure that the run is of")],
+    figure: Annotated[Literal["4a", "4b", "5"], Query(description="Figure of the run")],
 ) -> ClaimState:
     """Check which parts of the paper's claim hold in a run with FL (lane 1) and NDOBC (lane 2)."""
     run, history = hosted.session.run, hosted.session.journal.history

@@ -17,14 +17,11 @@ class OutcomeState(BaseModel):
     """Outcome of a request."""
 
     outcome: Outcome = Field(
-        description="unknown: it has not come to this server within `known_for_s`; pending: it is"
-        " being carried out"
+        description="unknown: not received within `known_for_s`; pending: being carried out"
     )
-    status: int | None = Field(description="Status of its answer")
-    age_s: float | None = Field(description="How long ago it came, s; null if it is unknown")
-    known_for_s: float = Field(
-        description="Every request with a key that came in the last known_for_s is known, s"
-    )
+    status: int | None = Field(description="HTTP status of its answer")
+    age_s: float | None = Field(description="Age of the request, s; null if unknown")
+    known_for_s: float = Field(description="Period for which all requests with a key are stored, s")
 
 
 @router.get("/{key}")

@@ -50,17 +50,15 @@ def list_runs(
         str,
         Query(
             max_length=LONGEST_SEARCH,
-            description="Words of which each must stand, but for its case, in what the list shows"
-            " of a run besides numbers and times: name, settings, tags, notes, origin; or its id",
+            description="Search words; each must occur, in any case, in name, settings, tags, "
+            "notes or origin of a run; or its id",
         ),
     ] = "",
     tag: Annotated[Facet, Query(description="Only runs with this tag")] = None,
     law: Annotated[
-        Facet, Query(description="Only runs in which this law controlled a lane at some time")
+        Facet, Query(description="Only runs in which this law controlled a lane")
     ] = None,
-    load: Annotated[
-        Facet, Query(description="Only runs with this kind of load on at some time, or none")
-    ] = None,
+    load: Annotated[Facet, Query(description="Only runs with this kind of load, or none")] = None,
     figure: Annotated[
         Facet, Query(description="Only runs with the references of this figure, as 4a")
     ] = None,
@@ -76,7 +74,7 @@ def list_runs(
     ] = "-created",
     page: Annotated[int, Query(ge=1, le=MAX_PAGES)] = 1,
     page_size: Annotated[int, Query(ge=1, le=MAX_PAGE_SIZE)] = 50,
-    trash: Annotated[bool, Query(description="What was deleted instead")] = False,
+    trash: Annotated[bool, Query(description="List the trash instead")] = False,
 ) -> RunList:
     """List the runs, newest first, in pages.
 

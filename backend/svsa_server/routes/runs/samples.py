@@ -37,13 +37,15 @@ def read_samples(
         str | None,
         Query(
             max_length=4000,
-            description="Names with commas between them; left out, those of the plots",
+            description="Comma-separated channel names; by default those of the plots",
             examples=["position_rad,torque1_nm"],
         ),
     ] = None,
     start_s: RunTime = None,
     end_s: RunTime = None,
-    points: Annotated[int, Query(ge=2, le=MAX_POINTS, description="At most so many")] = 2000,
+    points: Annotated[
+        int, Query(ge=2, le=MAX_POINTS, description="Maximum number of points")
+    ] = 2000,
 ) -> Response:
     """Read a segment of the run for a plot, decimated; minima and maxima are preserved."""
     record = runs.open(run_id)

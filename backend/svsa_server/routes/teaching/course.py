@@ -53,7 +53,7 @@ router = build_router(tags=["course"], responses=REFUSALS)
 ExerciseName = Annotated[
     str, Path(description="Name of an exercise", examples=["feedback-linearization"])
 ]
-StepInPath = Annotated[str, Path(description="Name of a step of it", examples=["load"])]
+StepInPath = Annotated[str, Path(description="Name of a step of the exercise", examples=["load"])]
 _AT_HOME = "Student"
 
 

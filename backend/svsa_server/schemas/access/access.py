@@ -30,7 +30,7 @@ class JoinRequest(Checked):
     name: PersonName = quantity("", "Name that all users see, in printable characters")
     code: Annotated[str, Field(max_length=100)] = quantity("", "The class code")
     role: Literal["observer", "operator"] = quantity(
-        "", "An observer only watches, and stops", default="operator"
+        "", "Role; an observer can watch and stop only", default="operator"
     )
 
 
@@ -44,7 +44,7 @@ class TokenRequest(Checked):
     """Request a bearer token for a script."""
 
     role: Literal["observer", "operator"] = quantity(
-        "", "What the script may be; not more than one is oneself", default="operator"
+        "", "Role of the script; at most the caller's own", default="operator"
     )
 
 
@@ -52,7 +52,7 @@ class TokenState(BaseModel):
     """A bearer token, reported once."""
 
     token: str
-    name: str = Field(description="As whom a script with it comes in")
+    name: str = Field(description="Identity of a script with this token")
     role: RoleName
 
 
@@ -63,10 +63,10 @@ class AccessState(BaseModel):
         description="open: everybody on this machine; secret: with the shared secret;"
         " class: with a name and the class code"
     )
-    inside: bool = Field(description="Whether the lab knows who asks")
-    id: str = Field(description="Of the person, in a class; empty elsewhere")
-    name: str = Field(description="Of the person, in a class; empty elsewhere")
-    role: RoleName | None = Field(description="null: not inside")
+    inside: bool = Field(description="Whether the caller is authenticated")
+    id: str = Field(description="Name of the person in a class; otherwise empty")
+    name: str = Field(description="Name of the person in a class; otherwise empty")
+    role: RoleName | None = Field(description="Role of the caller; null if not admitted")
     removed: bool = Field(
         default=False, description="The instructor has removed this person from the class"
     )

@@ -24,8 +24,8 @@ class PersonState(MemberState):
     """A person with a request within the last minute, or an open stream."""
 
     sees: list[str] = Field(
-        description="Sessions that they have a stream of; of private ones only the instructor's to"
-        " know, and their own"
+        description="Sessions with an open stream of this person; private ones are visible to the "
+        "instructor and their owner only"
     )
 
 
@@ -33,7 +33,7 @@ class ClassSession(BaseModel):
     """A private session."""
 
     session: str
-    owner: str = Field(description="Name of who made it; their id where they are gone")
+    owner: str = Field(description="Name of its owner; the id if the owner is gone")
     status: str
     recording: bool
     watching: int
@@ -53,8 +53,10 @@ class ClassCode(BaseModel):
     """A new class code, reported once."""
 
     code: str
-    address: str = Field(description="Where one joins with it; what follows # stays in the browser")
-    is_local: bool = Field(description="Whether only the machine of the lab reaches that address")
+    address: str = Field(
+        description="Address to join with the code; the part after # stays in the browser"
+    )
+    is_local: bool = Field(description="Whether only the lab's own machine reaches that address")
     qr: str = Field(description="The address as a QR code: an image as a data URI")
 
 
@@ -62,18 +64,18 @@ class BroadcastState(BaseModel):
     """Where the settings of the shared session were copied to."""
 
     taken: int
-    refused: list[str] = Field(description="Why not, of each session that refused them")
+    refused: list[str] = Field(description="Reason of each session that rejected the settings")
 
 
 class AuditLine(BaseModel):
     """One entry of the audit log: an executed, rejected or automatic action."""
 
     time: str = Field(description="UTC, ISO 8601")
-    person: str | None = Field(description="Id of the person; null without a login")
+    person: str | None = Field(description="Id of the user; null without a login")
     name: str | None
     role: RoleName | None
-    kind: str = Field(description="What it is about: the tag of its operation")
-    did: str = Field(description="The operation in words")
+    kind: str = Field(description="Kind of action: the tag of its operation")
+    did: str = Field(description="Title of the operation")
     path: str | None = Field(description="Null for an automatic action")
     status: int | None
     refused: bool
@@ -81,7 +83,7 @@ class AuditLine(BaseModel):
         description="Reason of an automatic action or of a failure outside the server"
     )
     session: str | None
-    run_number: int | None = Field(description="That of the session then")
+    run_number: int | None = Field(description="Run of the session at that time")
     tick: int | None = Field(description="Tick of the session when it was answered")
 
 
@@ -89,14 +91,16 @@ class AuditedPerson(BaseModel):
     """A person in the log."""
 
     id: str
-    name: str = Field(description="By which they were known last")
+    name: str = Field(description="Latest name")
 
 
 class AuditPage(BaseModel):
     """A page of the log, the newest first."""
 
     lines: list[AuditLine]
-    total: int = Field(description="Of all pages")
-    until: str = Field(description="Time of the newest line that was there: for the next pages")
-    people: list[AuditedPerson] = Field(description="The last one to do something first")
+    total: int = Field(description="Number of entries on all pages")
+    until: str = Field(
+        description="Time of the newest entry: pass it as `until` for the next pages"
+    )
+    people: list[AuditedPerson] = Field(description="Most recently active first")
     kinds: list[str]

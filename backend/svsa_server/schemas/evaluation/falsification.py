@@ -20,9 +20,9 @@ LONGEST_TEXT = 100_000
 class FalsificationRequest(Checked):
     """A search: an adversary of the package or a given one, and the law under test."""
 
-    kind: Literal["falsification"] = quantity("", "Search for the load that hurts a law most")
+    kind: Literal["falsification"] = quantity("", "Search for the load that degrades a law most")
     adversary: Annotated[str, Field(min_length=1, max_length=64)] | None = quantity(
-        "", "Name of one that comes with the lab", default=None
+        "", "Name of a built-in adversary", default=None
     )
     text: Annotated[str, Field(max_length=LONGEST_TEXT)] | None = quantity(
         "", "An adversary as TOML, in place of a name", default=None
@@ -30,7 +30,9 @@ class FalsificationRequest(Checked):
     definition: Adversary | None = quantity(
         "", "An adversary with all its fields, in place of a name", default=None
     )
-    law: InstalledLaw | None = quantity("", "Law to be hurt; else the adversary's", default=None)
+    law: InstalledLaw | None = quantity(
+        "", "Law under test; by default the adversary's", default=None
+    )
     runs: Whole = quantity("", "Runs at most", ge=1, le=MAX_RUNS, default=20_000)
     seed: Whole = quantity("", "Seed of the search", ge=0, le=2**53 - 1, default=0)
 
@@ -60,8 +62,8 @@ class AdversaryState(BaseModel):
 
     name: str
     title: str
-    text: str = Field(description="Its file, to be changed and sent back")
-    definition: dict[str, Any] = Field(description="The same as JSON")
+    text: str = Field(description="The adversary's TOML file, as a template")
+    definition: dict[str, Any] = Field(description="The adversary as JSON")
 
 
 class FalsificationResult(BaseModel):
@@ -70,16 +72,16 @@ class FalsificationResult(BaseModel):
     law: str
     cost: str
     seed: int
-    adversary: dict[str, Any] = Field(description="Within which bounds it searches")
+    adversary: dict[str, Any] = Field(description="Bounds of the search")
     worst: dict[str, Any] | None = Field(
-        description="The worst so far, as it was found; in `found` how much it hurts, in words"
+        description="The worst case so far; `found` has its outcome in words"
     )
     scenario: dict[str, Any] | None = Field(
-        description="The simplest load that still does it; null before the end"
+        description="The simplest load with the same effect; null before the end"
     )
-    steps: list[str] = Field(description="How it was made simple, step by step")
+    steps: list[str] = Field(description="Steps of the simplification")
     outcomes: list[LawOutcomeState] = Field(
-        description="Of the law, and of another one for comparison"
+        description="Outcomes of the law and of one for comparison"
     )
 
 

@@ -21,15 +21,13 @@ class JobState(BaseModel):
 
     id: str
     kind: Kind
-    title: str = Field(description="What it is about")
+    title: str = Field(description="Title")
     created: str = Field(description="When it was started, ISO 8601 in UTC")
     status: Status = Field(
         description="cancelled: stopped before its end; what is finished is saved"
     )
-    done: int = Field(
-        description="How much is done, in what it counts: candidates, runs, submissions"
-    )
-    total: int = Field(description="Of how much; 0 before it runs")
+    done: int = Field(description="Finished candidates, runs or submissions")
+    total: int = Field(description="Total number; 0 before the job runs")
     rate_per_s: float | None = Field(
         description="Recent rate of `done`, 1/s; null while it is not known"
     )
@@ -38,8 +36,8 @@ class JobState(BaseModel):
     )
     problem: str | None = Field(description="Why it failed")
     result: TuningResult | FalsificationResult | None = Field(
-        description="Of a tuning or falsification; null of other kinds, whose results have their"
-        " own routes: studies, leaderboard, grades"
+        description="Result of a tuning or falsification; null for other kinds, whose results have "
+        "separate routes"
     )
 
 
@@ -47,7 +45,7 @@ class JobList(BaseModel):
     """A page of jobs, the newest first."""
 
     jobs: list[JobState]
-    total: int = Field(description="Jobs on all pages")
+    total: int = Field(description="Number of jobs on all pages")
     page: int
     page_size: int
 

@@ -20,7 +20,7 @@ SCENARIO_EXAMPLE: dict[str, Any] = {
 class ScenarioRuns(Checked):
     """Laws to run in a scenario."""
 
-    scenario: LoadScenario = quantity("", "Loads, and settings")
+    scenario: LoadScenario = quantity("", "Loads and settings")
     laws: Annotated[tuple[InstalledLaw, ...], Field(min_length=1, max_length=MAX_LAWS)] = quantity(
         "", "Laws, each in a separate run"
     )
@@ -38,9 +38,11 @@ class LawOutcomeState(BaseModel):
     """The outcome of a law in a scenario."""
 
     law: str
-    fault: str | None = Field(description="Code of the fault that the run ended in")
-    fault_s: float | None = Field(description="When, s")
-    metrics: dict[str, float | None] = Field(description="SI; of a fault those until then")
+    fault: str | None = Field(description="Code of the fault; null without one")
+    fault_s: float | None = Field(description="Time of the fault, s")
+    metrics: dict[str, float | None] = Field(
+        description="Metrics, SI; up to the fault if there is one"
+    )
 
 
 class LawTraceState(LawOutcomeState):
@@ -53,14 +55,14 @@ class LawTraceState(LawOutcomeState):
 class ScenarioTraceState(BaseModel):
     """A scenario over time, decimated without loss of peaks."""
 
-    description: list[str] = Field(description="Its loads and settings, each in words")
+    description: list[str] = Field(description="Loads and settings in words")
     neighborhood: Estimate | None = Field(
-        description="Of a scenario that was found the share of random loads near it that hurt the"
-        " law as much, with Wilson's interval"
+        description="For a scenario found by a search: share of random loads in its "
+        "neighborhood that degrade the law as much, with Wilson's interval"
     )
     time_s: list[float]
     torque_nm: list[tuple[float, float, float]] = Field(
-        description="Of the loads on link, motor 1 and motor 2; a hung mass is none of them"
+        description="Torques of the loads on link, motor 1 and motor 2, without hanging masses"
     )
     laws: list[LawTraceState]
 
@@ -70,7 +72,7 @@ class SavedScenario(BaseModel):
 
     name: str
     title: str
-    scenario: dict[str, Any] = Field(description="As it would stand in its file")
+    scenario: dict[str, Any] = Field(description="The scenario as in its file")
 
 
 def dump_scenario(scenario: LoadScenario) -> dict[str, Any]:

@@ -35,20 +35,22 @@ class StudyRequest(Checked):
     """A study to run: built-in, saved or given as text, with changes."""
 
     source: Annotated[StudyName, Owned("study source")] | None = quantity(
-        "", "Name of a built-in or a kept study", default=None
+        "", "Name of a built-in or a saved study", default=None
     )
     text: Annotated[str, Field(max_length=LONGEST_TEXT)] | None = quantity(
         "", "A study as TOML, in place of a source", default=None
     )
-    name: StudyName | None = quantity("", "What it is kept by; else its source", default=None)
-    runs: Whole | None = quantity("", "How many samples", ge=1, le=MAX_RUNS, default=None)
+    name: StudyName | None = quantity(
+        "", "Name to save it under; by default that of its source", default=None
+    )
+    runs: Whole | None = quantity("", "Number of samples", ge=1, le=MAX_RUNS, default=None)
     laws: Annotated[tuple[InstalledLaw, ...], Field(min_length=1, max_length=MAX_LAWS)] | None = (
         quantity("", "Laws, each on the same samples", default=None)
     )
     metrics: Annotated[tuple[Metric, ...], Field(min_length=1)] | None = quantity(
-        "", "What its table keeps of each run", default=None
+        "", "Metrics stored for each run", default=None
     )
-    success: Success | None = quantity("", "What counts as success", default=None)
+    success: Success | None = quantity("", "Success criterion", default=None)
 
     @model_validator(mode="after")
     def _check_one(self) -> Self:
@@ -104,30 +106,30 @@ class StudyColumn(BaseModel):
     name: str
     label: str = Field(description="In words, without its unit")
     role: Literal["row", "varied", "outcome", "metric"]
-    unit: str = Field(description="1 of a share; empty of a factor, and where there is none")
+    unit: str = Field(description="Unit; 1 for a share, empty for a factor or without a unit")
     is_text: bool
-    is_log: bool = Field(description="Whether it was drawn by equal ratios")
+    is_log: bool = Field(description="Whether it was sampled logarithmically")
 
 
 class StudyPlan(BaseModel):
     """What a study would run."""
 
-    name: str = Field(description="What it is kept by")
+    name: str = Field(description="Name")
     title: str
     laws: list[str]
     samples: int
-    rows: int = Field(description="Runs: each draw under each law")
-    study: dict[str, Any] = Field(description="All of it, as it would stand in its file")
+    rows: int = Field(description="Number of runs: each sample under each law")
+    study: dict[str, Any] = Field(description="The whole study as TOML")
     columns: list[StudyColumn]
 
 
 class StudyState(StudyPlan):
     """A saved study."""
 
-    created: str = Field(description="When it was begun, ISO 8601 in UTC")
-    version: str = Field(description="Of SVSA Lab, that began it")
-    done: int = Field(description="Rows that are done")
-    job: JobState | None = Field(description="The last of this server that works or worked at it")
+    created: str = Field(description="Start time, ISO 8601 in UTC")
+    version: str = Field(description="Version of SVSA Lab that started it")
+    done: int = Field(description="Number of finished rows")
+    job: JobState | None = Field(description="Latest job of this server for it")
 
 
 class BuiltInStudy(BaseModel):
@@ -135,7 +137,7 @@ class BuiltInStudy(BaseModel):
 
     name: str
     title: str
-    text: str = Field(description="As TOML, to start a new study from")
+    text: str = Field(description="The study as TOML, as a template")
 
 
 class StudyMetric(BaseModel):
@@ -143,14 +145,14 @@ class StudyMetric(BaseModel):
 
     name: str
     label: str = Field(description="In words, without its unit")
-    unit: str = Field(description="1 of a share")
+    unit: str = Field(description="Unit; 1 for a share")
 
 
 class StudyList(BaseModel):
     """All studies that can be read or run, and the metrics of a run."""
 
     built_in: list[BuiltInStudy]
-    saved: list[StudyState] = Field(description="The last begun first")
+    saved: list[StudyState] = Field(description="Saved studies, newest first")
     metrics: list[StudyMetric]
 
 
@@ -158,12 +160,12 @@ class LawOutcome(BaseModel):
     """Results of a law."""
 
     law: str
-    runs: int = Field(description="Without those that were refused")
-    refused: int = Field(description="Samples whose settings do not go together: nothing was run")
-    success: Estimate = Field(description="Share of the runs, with Wilson's interval")
-    faults: dict[str, int] = Field(description="How many runs ended in a fault, by code")
+    runs: int = Field(description="Number of runs without rejected ones")
+    refused: int = Field(description="Rejected samples: their settings are inconsistent")
+    success: Estimate = Field(description="Success rate with Wilson's interval")
+    faults: dict[str, int] = Field(description="Number of faults by code")
     quantiles: dict[str, list[float | None]] = Field(
-        description="5, 50 and 95 % of each metric; null where so many ended in a fault"
+        description="5, 50 and 95 % quantile of each metric; null if so many runs ended in a fault"
     )
 
 
@@ -173,21 +175,23 @@ class LawPair(BaseModel):
     one: str
     other: str
     pairs: int
-    whole: int = Field(description="Pairs of which neither ended in a fault")
+    whole: int = Field(description="Pairs without a fault")
     success: Estimate = Field(
-        description="Difference of the shares, of all pairs, with Tango's interval"
+        description="Difference of the success rates over all pairs, with Tango's interval"
     )
     success_p: float = Field(
-        description="Of McNemar's exact test, corrected by Holm's method over the study's laws"
+        description="p-value of McNemar's exact test, corrected by Holm's method over the "
+        "study's laws"
     )
-    only_one: int = Field(description="Draws on which only the one succeeded")
+    only_one: int = Field(description="Samples on which only one of the laws succeeded")
     only_other: int
     differences: dict[str, Estimate] = Field(
-        description="Mean difference of each metric over the whole pairs, with its BCa interval"
+        description="Mean difference of each metric over pairs without a fault, with its BCa "
+        "interval"
     )
     p_values: dict[str, float | None] = Field(
-        description="Of Wilcoxon's signed-rank test of each metric, corrected by Holm's method over"
-        " the metrics of all laws; null of too few pairs"
+        description="p-value of Wilcoxon's signed-rank test of each metric, corrected by Holm's"
+        " method over the metrics of all laws; null for too few pairs"
     )
 
 
@@ -209,9 +213,9 @@ class SobolIndices(BaseModel):
 
     law: str
     outcome: str
-    samples: int = Field(description="Base samples that were done")
-    first_order: dict[str, Estimate] = Field(description="Its own share of the variance")
-    total_order: dict[str, Estimate] = Field(description="With all its interactions")
+    samples: int = Field(description="Number of finished base samples")
+    first_order: dict[str, Estimate] = Field(description="First-order index: share of the variance")
+    total_order: dict[str, Estimate] = Field(description="Total index, with all interactions")
 
 
 class RowReplay(BaseModel):
@@ -220,7 +224,7 @@ class RowReplay(BaseModel):
     run_id: str
     row: int
     differing: list[str] = Field(
-        description="Metrics that are not to the bit those of the table; empty: all are the same"
+        description="Metrics that differ from the table in any bit; empty if none do"
     )
 
 

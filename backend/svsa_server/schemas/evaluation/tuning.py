@@ -22,13 +22,13 @@ class TuningRequest(Checked):
 
     kind: Literal["tuning"] = quantity("", "Search by CMA-ES, on training trials")
     law: InstalledLaw = quantity("", "Name of a law that is installed")
-    budget: Whole = quantity("", "Candidates to be tried", ge=1, le=MAX_BUDGET, default=BUDGET)
-    seed: Whole = quantity("", "Seed of search and trials", ge=0, le=2**53 - 1, default=0)
-    held: dict[str, Number] = quantity(
-        "", "Parameters of the law that are set and not searched", default={}
+    budget: Whole = quantity(
+        "", "Number of candidates to evaluate", ge=1, le=MAX_BUDGET, default=BUDGET
     )
+    seed: Whole = quantity("", "Seed of search and trials", ge=0, le=2**53 - 1, default=0)
+    held: dict[str, Number] = quantity("", "Fixed parameters, which are not searched", default={})
     session: Annotated[str, Owned("session")] | None = quantity(
-        "", "Session whose design it begins from; left out, the lab's", default=None
+        "", "Session with the initial design; by default the lab's design", default=None
     )
 
 
@@ -45,13 +45,13 @@ class AxisState(BaseModel):
 class CandidateState(BaseModel):
     """A candidate and its results; null if not measured or infinite."""
 
-    number: int = Field(description="0 is the design as it was")
+    number: int = Field(description="Number of the candidate; 0 is the initial design")
     stage: Stage
-    values: list[float] = Field(description="In the order of the axes")
+    values: list[float] = Field(description="Values in the order of the axes")
     cost: float = Field(description="Mean over the trials; above the noise limit 5 and more")
     torque_variation_nm_per_s: float | None = Field(description="Total variation of u1 at rest")
-    held: int = Field(description="Trials that held")
-    trials: int = Field(description="Trials that were run; none above the noise limit")
+    held: int = Field(description="Successful trials")
+    trials: int = Field(description="Trials run; 0 above the noise limit")
     position_error_deg: float | None = Field(description="Median of the rms position errors")
     stiffness_error_percent: float | None = Field(
         description="Median of the rms stiffness errors over σ_d"
@@ -69,18 +69,18 @@ class TuningResult(BaseModel):
     noise_limit_nm_per_s: float | None = Field(
         description="Limit of the torque variation at rest; null before the first candidate"
     )
-    tried: int = Field(description="How many were tried so far, the design as it was among them")
+    tried: int = Field(description="Number of candidates so far, including the initial design")
     candidates: list[CandidateState] = Field(
-        description="From the number `first` on; a list of jobs has none"
+        description="Candidates from number `first` on; empty in a list of jobs"
     )
     finals: list[CandidateState] = Field(
-        description="The design as it was and the best candidates on the validation trials"
+        description="The initial design and the best candidates on the validation trials"
     )
     present: CandidateState | None = Field(description="Null before the first candidate")
     best: CandidateState | None
     best_setting: Lane | None = Field(
-        description="The best as a lane's setting, to be sent to PUT …/lanes/{lane} or, in parts,"
-        " to PUT …/parameters, …/gains and …/observer"
+        description="The best candidate as a lane's setting, for PUT …/lanes/{lane} or, in "
+        "parts, PUT …/parameters, …/gains and …/observer"
     )
 
 

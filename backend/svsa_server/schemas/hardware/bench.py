@@ -16,7 +16,9 @@ class HomingRequest(Checked):
     """Confirm that one axis is at its zero mark."""
 
     step: Axis = quantity("", "Axis at its mark: link, motor1 or motor2")
-    by: Annotated[str, Field(min_length=1, max_length=100)] = quantity("", "Who looked at the mark")
+    by: Annotated[str, Field(min_length=1, max_length=100)] = quantity(
+        "", "Name of the person at the mark"
+    )
 
 
 class HomingState(BaseModel):
@@ -32,36 +34,37 @@ class HomingState(BaseModel):
 class LoopState(BaseModel):
     """The loop's process: its timing statistics since the start."""
 
-    alive: bool = Field(description="It ticks: its process is there, and not silent")
+    alive: bool = Field(description="Whether the loop runs")
     state: LoopStateName = Field(
-        description="silent: its process is there and has not ticked for 0.5 s. gone: its process"
-        " has ended. starting: loop and supervisor are being started, and the bench takes no"
-        " command. not_opened: it did not get ready, and has moved nothing"
+        description="silent: its process runs but has not ticked for 0.5 s. gone: its process has "
+        "ended. starting: loop and supervisor are starting, and the bench accepts no "
+        "command. not_opened: it did not become ready, and nothing has moved"
     )
-    step: str | None = Field(description="What it does while it is being started; null else")
-    starting_s: float | None = Field(description="Since it is being started, s; null else")
+    step: str | None = Field(description="Present step of the start; null otherwise")
+    starting_s: float | None = Field(description="Time since the start began, s; null otherwise")
     silent_s: float | None = Field(
-        description="Since its last tick, s; null while it ticks, and where it has not"
+        description="Time since its last tick, s; null while it runs, or before the first tick"
     )
     stopped_by: Stopper | None = Field(
-        description="Who keeps the drives at zero current in its place; null while it ticks, and"
-        " if neither does"
+        description="Process that holds the drives at zero current instead; null while the loop"
+        " runs, or if none does"
     )
     unreachable: str | None = Field(
-        description="Why the server cannot stop the drives: pull the motors' supply; else null"
+        description="Why the server cannot stop the drives (disconnect the motor supply); null "
+        "otherwise"
     )
     rate_hz: float
     ticks: int
-    skipped_ticks: int = Field(description="Since the loop started")
-    skipped_in_run: int = Field(description="Of those the ones that the present run has missed")
-    lateness_p50_s: float = Field(description="Half of the ticks since the loop started")
+    skipped_ticks: int = Field(description="Late ticks since the loop started")
+    skipped_in_run: int = Field(description="Late ticks of the present run")
+    lateness_p50_s: float = Field(description="Median since the loop started")
     lateness_p99_s: float
     lateness_p999_s: float
     lateness_worst_s: float
-    cost_p99_s: float = Field(description="What a tick takes: read, observe, decide, write")
+    cost_p99_s: float = Field(description="Duration of a tick: read, observe, decide, write")
     lateness_edges_s: list[float] = Field(description="Upper edges of the histogram's bins")
     lateness_counts: list[int]
-    notes: list[str] = Field(description="What of real time the system allowed, and what not")
+    notes: list[str] = Field(description="Real-time settings that the system granted or denied")
 
 
 class MotorState(BaseModel):
@@ -69,9 +72,9 @@ class MotorState(BaseModel):
 
     heat: float = Field(description="1 is the thermal limit; the torque is reduced from 0.9 on")
     lasting_torque_nm: float = Field(description="Continuous rating: the heat stays at 1")
-    allowed_torque_nm: float = Field(description="The greatest torque that its heat allows now")
+    allowed_torque_nm: float = Field(description="Largest torque that heat allows now")
     held_back: bool = Field(
-        description="More than that was asked for, now or within the last half second"
+        description="Whether heat limits the torque, now or within the last 0.5 s"
     )
 
 
@@ -79,9 +82,11 @@ class EnduranceState(BaseModel):
     """A motor that a load overheats: from when on heat limits its torque."""
 
     motor: Literal["motor1", "motor2"]
-    torque_nm: float = Field(description="Asked for under the load, rms")
+    torque_nm: float = Field(description="Torque demanded under the load, rms")
     lasting_torque_nm: float = Field(description="Continuous rating")
-    seconds: float = Field(description="From the load's onset until it is held back, from cold")
+    seconds: float = Field(
+        description="Time from the load's onset until heat limits the torque, starting cold"
+    )
 
 
 class BenchState(BaseModel):
@@ -96,19 +101,21 @@ class BenchState(BaseModel):
     interface: str = Field(description="python-can's interface and channel")
     calibrated_by: str | None
     calibrated_on: str | None = Field(description="ISO 8601")
-    problems: list[str] = Field(description="Why it does not arm; empty if it may")
+    problems: list[str] = Field(
+        description="Reasons why the bench cannot be armed; empty if it can"
+    )
     homing: HomingState
     current_a: tuple[float, float] | None = Field(
-        description="As the drives say; null where no loop ticks that would hear them"
+        description="As reported by the drives; null if the loop does not run"
     )
     motors: tuple[MotorState, MotorState] | None = Field(
-        description="Heat of motor 1 and motor 2; null where no loop ticks that would know it"
+        description="Heat of motor 1 and motor 2; null if the loop does not run"
     )
     ages_s: tuple[float, float, float] = Field(description="Of motor 1, motor 2, deflection")
-    stale_zero_s: float = Field(description="An age above it: zero torque")
-    stale_fault_s: float = Field(description="An age above it: a fault")
-    supervised: bool = Field(description="The supervisor's heartbeat is fresh")
-    operator_required: bool = Field(description="A user must watch while it runs")
+    stale_zero_s: float = Field(description="Above this age: zero torque")
+    stale_fault_s: float = Field(description="Above this age: fault")
+    supervised: bool = Field(description="Whether the supervisor's heartbeat is recent")
+    operator_required: bool = Field(description="Whether a user must watch while the bench runs")
     dead_man: bool = Field(
         description="It runs only while a user holds the switch: any message on the stream of"
         " the user in control, every 0.1 s or as the bench file says"

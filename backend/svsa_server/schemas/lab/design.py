@@ -47,17 +47,17 @@ class LoopNoiseState(BaseModel):
     torque2_rms_nm: float | None
     largest_pole: float = Field(description="Largest |z| of the loop's poles; stable below 1")
     encoders: Literal["session", "rig"] = Field(
-        description="Whose encoders: the session's, or the paper's rig's where it has none"
+        description="Encoders used: the session's, or those of the paper's rig if it has none"
     )
 
 
 class TorqueDemandState(BaseModel):
     """Torques that the load demands, from a simulation of the session's motion."""
 
-    peak_torque1_nm: float = Field(description="Asked for where nothing limits it")
-    peak_torque2_nm: float = Field(description="Asked for where nothing limits it")
-    limited_s: float = Field(description="How long a torque is at its limit")
-    fault: str | None = Field(description="Why the run with the load would end")
+    peak_torque1_nm: float = Field(description="Peak demand without limits")
+    peak_torque2_nm: float = Field(description="Peak demand without limits")
+    limited_s: float = Field(description="Time with a torque at its limit")
+    fault: str | None = Field(description="Fault that the load would cause, or empty")
 
 
 class Prediction(BaseModel):
@@ -65,18 +65,20 @@ class Prediction(BaseModel):
 
     verdict: Literal["ok", "warn", "refuse"]
     reasons: list[ReasonState]
-    stiffness_nm_per_rad: float = Field(description="The σ at which all this holds")
+    stiffness_nm_per_rad: float = Field(description="Stiffness of the prediction")
     position_roots_rad_per_s: list[Root]
     stiffness_roots_rad_per_s: list[Root]
-    law: str = Field(description="Of which law all this is, by its title")
+    law: str = Field(description="Title of the law")
     steady: SteadyStateErrorState | None = Field(
-        description="What the law leaves, simulated without counts, noise and friction until"
-        " nothing moves; null where it finds no rest"
+        description="Steady-state error of the law, simulated without quantisation, noise and "
+        "friction; null if it does not come to rest"
     )
     adds_estimate: bool = Field(
-        description="Whether the law takes these gains and adds an estimate to them; then `fl` is"
-        " the error of the gains alone"
+        description="Whether the law adds an estimate to these gains; then `fl` is the error of"
+        " the gains alone"
     )
-    fl: SteadyStateErrorState | None = Field(description="Null where FL finds no rest")
+    fl: SteadyStateErrorState | None = Field(
+        description="Steady-state error of FL; null if it does not come to rest"
+    )
     noise: LoopNoiseState | None
     demand: TorqueDemandState | None

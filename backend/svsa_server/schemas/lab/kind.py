@@ -21,9 +21,9 @@ class EffectState(BaseModel):
     name: str
     meaning: str
     value: ParameterState | None = Field(
-        description="What it is set to; null of an effect with parameters, which is off as null"
+        description="Present value; null if an effect with parameters is off"
     )
-    parameters: list[ParameterState] = Field(description="What it has while it is on")
+    parameters: list[ParameterState] = Field(description="Parameters while it is on")
 
 
 class EffectsPreset(BaseModel):
@@ -38,7 +38,7 @@ class FormField(BaseModel):
     """A number field of a form."""
 
     parameter: ParameterState
-    first: float = Field(description="What stands there first")
+    first: float = Field(description="Default value")
 
 
 class KindState(BaseModel):
@@ -46,9 +46,9 @@ class KindState(BaseModel):
 
     kind: str
     title: str
-    hint: str = Field(description="What a form says of it, or empty")
+    hint: str = Field(description="Hint for a form, or empty")
     form: list[FormField] | None = Field(
-        description="Of a load besides its torque; null where no form offers it"
+        description="Further fields of a load; null if no form offers it"
     )
 
 
@@ -61,7 +61,7 @@ class Kinds(BaseModel):
     position: list[KindState] = Field(description="References of q_d")
     stiffness: list[KindState] = Field(description="References of σ_d")
     figures: list[FigureState] = Field(description="The paper's simulated figures")
-    faults: list[FaultKindState] = Field(description="What can end a run, why, and what to do")
+    faults: list[FaultKindState] = Field(description="All kinds of faults")
 
 
 def list_kinds() -> Kinds:

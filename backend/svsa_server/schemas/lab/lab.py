@@ -23,7 +23,7 @@ class Health(BaseModel):
     status: Literal["ok"] = "ok"
     version: str
     sessions_silent_s: float = Field(
-        default=0.0, description="For how long no session has responded, s; 0 while they do"
+        default=0.0, description="Time without a response of the sessions, s; 0 while they respond"
     )
 
 
@@ -31,4 +31,4 @@ class Readiness(BaseModel):
     """Whether all functions of the lab are available."""
 
     ready: bool
-    problems: list[str] = Field(description="What is missing and what to do, one sentence each")
+    problems: list[str] = Field(description="Problems, with what to do, one sentence each")

@@ -35,17 +35,17 @@ class LawState(BaseModel):
 
     name: str
     title: str
-    line_style: int = Field(
-        description="Which look its curves have, from 0, where its colour is free"
-    )
+    line_style: int = Field(description="Preferred line style of its curves, from 0")
     summary: str
     equation: str = Field(description="KaTeX")
     source: str = Field(description="Number of the paper's equation, a citation, or empty")
     notes: str = Field(description="Idea, equations and limits in words, or empty")
-    estimate: EstimateSource = Field(description="Whose ŵ it acts on")
-    takes_gains: bool = Field(description="Its parameters are the session's gains, of Eq 25")
-    parameters: list[ParameterState] = Field(description="Its own; none where it takes gains")
-    problem: str | None = Field(description="Why it cannot be used; null where it can")
+    estimate: EstimateSource = Field(description="Source of the estimate ŵ that it uses")
+    takes_gains: bool = Field(description="Whether its parameters are the session's gains (Eq 25)")
+    parameters: list[ParameterState] = Field(
+        description="Parameters of the law; none if it uses gains"
+    )
+    problem: str | None = Field(description="Why the law cannot be used; null if it can")
 
 
 def list_laws() -> list[LawState]:

@@ -23,14 +23,14 @@ class HandoverRequest(Checked):
     """Pass control to a user in the queue."""
 
     to: Annotated[str, Field(max_length=LONGEST_NAME)] = quantity(
-        "", "Id of the person, as `queue.waiting` names it"
+        "", "Id of the user, as in `queue.waiting`"
     )
 
 
 class LockRequest(Checked):
     """Lock or unlock control of a session."""
 
-    locked: Flag = quantity("", "Whether only the instructor may be in control")
+    locked: Flag = quantity("", "Whether only the instructor can take control")
 
 
 class WaitingState(BaseModel):
@@ -43,19 +43,21 @@ class WaitingState(BaseModel):
 class QueueState(BaseModel):
     """The queue for control of a class's shared session."""
 
-    waiting: list[WaitingState] = Field(description="Who gets it next stands first")
+    waiting: list[WaitingState] = Field(description="Users in the queue, the next one first")
     place: int | None = Field(
         description="Place of the caller in the queue, 1 is next; null: not in the queue"
     )
     locked: bool = Field(description="Only the instructor may be in control")
     idle_s: float = Field(
-        description="How long a holder may send no command while the queue is not empty"
+        description="Time without commands after which the lease passes on while users wait"
     )
 
 
 class ControlState(BaseModel):
     """Who may command a session; all users may watch, pause and stop it."""
 
-    holder: str | None = Field(description="Who is in control; null: everybody may command")
-    mine: bool = Field(description="Whether it is the client that this answer is for")
-    watching: int = Field(description="Streams of the session that are open")
+    holder: str | None = Field(
+        description="Holder of the control lease; null: any user may command"
+    )
+    mine: bool = Field(description="Whether the requesting client is the holder")
+    watching: int = Field(description="Number of open streams of the session")

@@ -90,16 +90,16 @@ class FromFalsification(Checked):
     """The scenario found by a falsification, running, with its law and another one."""
 
     source: Literal["falsification"] = quantity("", "A falsification", alias="from")
-    id: Annotated[str, Owned("job")] = quantity("", "Id of its job, which has ended")
+    id: Annotated[str, Owned("job")] = quantity("", "Id of the finished job")
 
 
 class FromScenario(Checked):
     """A scenario, running, with up to four laws in parallel."""
 
     source: Literal["scenario"] = quantity("", "A scenario", alias="from")
-    scenario: LoadScenario = quantity("", "Loads, and settings")
+    scenario: LoadScenario = quantity("", "Loads and settings")
     laws: Annotated[tuple[InstalledLaw, ...], Field(min_length=1, max_length=MAX_LANES)] = quantity(
-        "", "Laws; the first is lane 1"
+        "", "Laws; the first one controls lane 1"
     )
 
     def build_configuration(self) -> Configuration:
@@ -152,7 +152,7 @@ class FigureExperiment(FigureRequest):
     """
 
     source: Literal["figure"] = quantity("", "A figure", alias="from", default="figure")
-    start: Flag = quantity("", "Runs at once; else it is paused at t = 0", default=True)
+    start: Flag = quantity("", "Run immediately; otherwise paused at t = 0", default=True)
 
 
 class ExerciseExperiment(Checked):

@@ -17,13 +17,15 @@ class ParameterState(BaseModel):
     """A parameter: a number or another value."""
 
     name: str
-    symbol: str = Field(description="What it is called in short")
+    symbol: str = Field(description="Symbol")
     meaning: str
-    unit: str = Field(description='"1" or empty where it has none')
+    unit: str = Field(description='Unit; "1" or empty if it has none')
     kind: ParameterKind
-    default: float | bool | str | list[float] | None = Field(description="Null: it must be given")
-    low: float | None = Field(description="Null where nothing bounds it from below")
-    high: float | None = Field(description="Null where nothing bounds it from above")
+    default: float | bool | str | list[float] | None = Field(
+        description="Default value; null if it is required"
+    )
+    low: float | None = Field(description="Lower bound; null if there is none")
+    high: float | None = Field(description="Upper bound; null if there is none")
 
 
 def list_parameters(model: type[BaseModel]) -> list[ParameterState]:

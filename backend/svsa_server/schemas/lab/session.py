@@ -31,7 +31,7 @@ class SpeedRequest(Checked):
     """The speed of session time."""
 
     speed: Annotated[Number, Field(ge=0.05, le=20)] | Literal["max"] = quantity(
-        "1", "Session seconds a wall second, 0.05 to 20, or max for as fast as it goes"
+        "1", "Session seconds per wall second, 0.05 to 20, or max for the maximum speed"
     )
 
 
@@ -44,9 +44,9 @@ class FigureRequest(Checked):
     )
     load: Flag = quantity("", "With the paper's 3 kg load at 5 s", default=True)
     comparisons: tuple[InstalledLane, ...] = quantity(
-        "", "Up to three", max_length=MAX_LANES - 1, default=()
+        "", "Comparison lanes, up to three", max_length=MAX_LANES - 1, default=()
     )
-    effects: Effects = quantity("", "What separates it from a bench", default=IDEAL)
+    effects: Effects = quantity("", "Non-ideal effects", default=IDEAL)
 
     def build_configuration(self, design: Design) -> Configuration:
         """Build the session's configuration with the lab's design; raises `ParameterError`."""
@@ -68,7 +68,7 @@ class LoadState(BaseModel):
 class AddedLoad(LoadState):
     """A load, and when it was added."""
 
-    tick: int = Field(description="At whose beginning it was added")
+    tick: int = Field(description="Tick at whose beginning the load was added")
     time_s: float
 
 
@@ -76,16 +76,18 @@ class SessionProgress(BaseModel):
     """The fields of a session that change with time: its time and its metrics."""
 
     status: Literal["running", "paused", "fault"]
-    run_number: int = Field(description="Counts up whenever a run starts at t = 0")
+    run_number: int = Field(
+        description="Number of the run; incremented whenever a run starts at t = 0"
+    )
     tick: int
     time_s: float
     speed: float | Literal["max"]
-    real_time_factor: float = Field(description="Session seconds a wall second, as measured")
-    accumulated_delay_s: float = Field(description="Wall time given up because ticks came too late")
-    fault: SessionFault | None = Field(description="Held until it is reset or cleared")
-    window: WindowState = Field(description="Since the last change of anything, or the last load")
+    real_time_factor: float = Field(description="Measured speed: session seconds per wall second")
+    accumulated_delay_s: float = Field(description="Wall time skipped because ticks were late")
+    fault: SessionFault | None = Field(description="Present fault, until reset or cleared")
+    window: WindowState = Field(description="Present window: since the last change or load")
     load_window: WindowState | None = Field(
-        description="From the newest load's onset to the next change; null where none came"
+        description="From the newest load's onset to the next change; null without a load"
     )
     lanes: list[LaneState]
     recording: RecordingState | None
@@ -107,11 +109,11 @@ class SessionState(SessionProgress):
 
     session: str
     instance: str = Field(
-        description="Another one for every session, also of the same name: after a server was"
-        " restarted, or a session was ended and opened again"
+        description="Unique id of the session; a new one after a restart of the server, or if a"
+        " session is opened again under the same name"
     )
-    revision: str = Field(description="Of settings and loads: for If-Match of a change of them")
-    branch_of: BranchState | None = Field(description="null unless its run is a branch")
+    revision: str = Field(description="Version of settings and loads, for If-Match")
+    branch_of: BranchState | None = Field(description="Source of a branch; null otherwise")
     note: str = Field(
         description="Note given when the session was opened, such as why a law of the ranking"
         " has no comparison; empty without one"
@@ -122,8 +124,7 @@ class SessionState(SessionProgress):
     )
     control: ControlState
     queue: QueueState | None = Field(
-        description="null where there is no queue: in a lab without a class, and in private"
-        " sessions"
+        description="Queue for control; null in a lab without a class, and in private sessions"
     )
     rate_hz: float
     actuator: ActuatorSummary
@@ -131,8 +132,8 @@ class SessionState(SessionProgress):
     loads: list[LoadState]
     events: list[Event]
     ended_windows: list[EndedWindowState] = Field(
-        description="Those that reach into the last 60 s, the newest last, at most 50; not `window`"
+        description="Ended windows of the last 60 s, the newest last, at most 50; without `window`"
     )
     sample: dict[str, float | None] | None = Field(
-        description="The newest sample, by channel; null where a bench does not know it"
+        description="Newest sample by channel; null if a bench does not know it"
     )

@@ -63,7 +63,9 @@ def build_patch(section: str) -> type[Checked]:
 class LanesRequest(Checked):
     """The controllers of the comparison lanes."""
 
-    comparisons: tuple[InstalledLane, ...] = quantity("", "Up to three", max_length=MAX_LANES - 1)
+    comparisons: tuple[InstalledLane, ...] = quantity(
+        "", "Comparison lanes, up to three", max_length=MAX_LANES - 1
+    )
 
 
 class ParameterFileRequest(Checked):
@@ -95,8 +97,8 @@ class ConfigurationState(BaseModel):
     stiffness: StiffnessReference
     gains: GainsState
     parameters: dict[str, dict[str, Any]] = Field(
-        description="Of laws that have their own, by the law's name: all that were set, and those"
-        " of the laws that control lanes"
+        description="Parameters by law: those that were set, and those of the laws that control"
+        " lanes"
     )
     observer: ObserverBandwidth
     limits: Limits

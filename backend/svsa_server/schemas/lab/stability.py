@@ -19,7 +19,7 @@ class DesignRequest(TriedDesign):
 
     law: InstalledLaw | None = quantity("", "Another law: see GET /laws", default=None)
     stiffness_nm_per_rad: Number | None = quantity(
-        "N·m/rad", "σ_d at which to look; left out, that of now", gt=0, default=None
+        "N·m/rad", "σ_d of the analysis; by default the present value", gt=0, default=None
     )
 
 
@@ -38,17 +38,23 @@ class RegionRequest(DesignRequest):
     null.
     """
 
-    kind: Literal["region"] = quantity("", "From which sampled starts the design comes to rest")
+    kind: Literal["region"] = quantity("", "Sampled region of attraction")
 
     chosen: Slice = quantity(
         "",
-        "rigid: φ0 = φ̇0 = 0; deflected: each start with its own φ0 within ±0.3 rad and φ̇0 within"
-        " ±5 rad/s",
+        "rigid: φ0 = φ̇0 = 0; deflected: random φ0 within ±0.3 rad and φ̇0 within ±5 rad/s for "
+        "each start",
         default="rigid",
     )
-    starts: Whole = quantity("", "Starts along each side", ge=3, le=MAX_STARTS, default=31)
-    first: Whole = quantity("", "First start of this part", ge=0, le=MAX_STARTS**2, default=0)
-    count: Whole = quantity("", "Starts of this part", ge=1, le=MAX_AT_ONCE, default=100)
+    starts: Whole = quantity(
+        "", "Number of initial states along each axis", ge=3, le=MAX_STARTS, default=31
+    )
+    first: Whole = quantity(
+        "", "Index of the first initial state of this part", ge=0, le=MAX_STARTS**2, default=0
+    )
+    count: Whole = quantity(
+        "", "Number of initial states in this part", ge=1, le=MAX_AT_ONCE, default=100
+    )
 
 
 class LoadResponseState(BaseModel):
@@ -57,7 +63,7 @@ class LoadResponseState(BaseModel):
     time_s: list[float]
     position_error_rad: list[float]
     peak_error_rad: float
-    fault: str | None = Field(description="Why the run ended before its time")
+    fault: str | None = Field(description="Why the run ended early")
 
 
 class FrequencyResponseState(BaseModel):
@@ -73,14 +79,13 @@ class ResponseState(BaseModel):
     law: str
     stiffness_nm_per_rad: float
     load: LoadResponseState
-    disturbance: FrequencyResponseState | None = Field(description="Null where it is unstable")
+    disturbance: FrequencyResponseState | None = Field(description="Null if the loop is unstable")
     largest_pole: float = Field(
-        description="Largest |z| of the loop with the sensing named; from 1 on the curves are not"
-        " what it would do there"
+        description="Largest |z| of the loop with this sensing; from 1 on the curves do not apply"
     )
     encoders: Literal["session", "rig"] = Field(
-        description="Whose sensing that is: the session's, or else the paper's rig's, whose counts"
-        " and delay the curves do not have"
+        description="Sensing used for it: the session's, or that of the paper's rig; the curves"
+        " have no quantisation and no delay"
     )
 
 
@@ -89,8 +94,12 @@ class StableRangeState(BaseModel):
 
     parameter: str
     symbol: str
-    low: float | None = Field(description="Null where it is stable down to least_ratio")
-    high: float | None = Field(description="Null where it is stable up to greatest_ratio")
+    low: float | None = Field(
+        description="Lower end of the stable range; null if stable down to least_ratio"
+    )
+    high: float | None = Field(
+        description="Upper end of the stable range; null if stable up to greatest_ratio"
+    )
     present: float
 
 
@@ -100,37 +109,44 @@ class StabilityState(BaseModel):
     law: str
     stiffness_nm_per_rad: float
     poles_rad_per_s: list[Root] = Field(
-        description="Of the closed loop in continuous time, true plant and observer included"
+        description="Poles of the closed loop in continuous time, with true plant and observer"
     )
     slowest_rad_per_s: float = Field(description="Largest real part; stable below 0")
     least_damping: float
     largest_pole: float = Field(description="Largest |z| of the sampled loop; stable below 1")
-    ranges: list[StableRangeState] = Field(description="Empty where it is unstable as it is")
+    ranges: list[StableRangeState] = Field(
+        description="Stable parameter ranges; empty if the loop is unstable"
+    )
     least_ratio: float
     greatest_ratio: float
     ramp_gain_rad_s_per_nm: float | None = Field(
-        description="|e| per ẇ2 that a ramp leaves; null where a constant torque does already"
+        description="Error per unit load rate under a ramp; null if a constant torque causes an"
+        " error"
     )
     l1_gain_rad_s_per_nm: float | None = Field(
         description="L1 gain of the linear loop from ẇ2 to e: the largest error that any w2 of a"
         " bounded rate causes, per rate, for small motions; not an ISS gain of the nonlinear loop"
     )
     formula_rad_s_per_nm: float | None = Field(description="The ramp's gain in closed form, NDOBC")
-    floor_rad_s_per_nm: float | None = Field(description="What the formula tends to as β → ∞")
+    floor_rad_s_per_nm: float | None = Field(description="Limit of the formula for β → ∞")
     is_observed: bool = Field(description="Whether the law acts on the observer")
     fastest_observer_rad_per_s: float | None = Field(
         description="Largest β of a stable sampled loop; null above 1000 or without an observer"
     )
     encoders: Literal["session", "rig"] = Field(
-        description="Whose sensing bounds the observer: the session's, or else the paper's rig's"
+        description="Sensing that bounds the observer: the session's, or that of the paper's rig"
     )
 
 
 class GainRangeState(BaseModel):
     """Factors on one torque for which the loop stays stable, with the other torque unchanged."""
 
-    low: float | None = Field(description="Null where it is stable down to 0.01")
-    high: float | None = Field(description="Null where it is stable up to 100")
+    low: float | None = Field(
+        description="Lower end of the stable range; null if stable down to 0.01"
+    )
+    high: float | None = Field(
+        description="Upper end of the stable range; null if stable up to 100"
+    )
 
 
 class MarginsState(BaseModel):
@@ -139,7 +155,7 @@ class MarginsState(BaseModel):
     law: str
     stiffness_nm_per_rad: float
     encoders: Literal["session", "rig"] = Field(
-        description="Whose sensing and delay: the session's, or else the paper's rig's"
+        description="Sensing and delay used: the session's, or those of the paper's rig"
     )
     is_stable: bool = Field(description="If false, modulus and delay are 0, all else null")
     is_switching: bool = Field(
@@ -148,14 +164,14 @@ class MarginsState(BaseModel):
     largest_pole: float = Field(description="Largest |z| of the poles of the loop")
     modulus: float = Field(description="1/‖S‖∞ over both torques: 1 at best")
     delay_s: float | None = Field(
-        description="Additional delay of both torques, unknown to the observer, at which the loop"
-        " is not stable; null where no delay is"
+        description="Additional delay of both torques, unknown to the observer, that "
+        "destabilises the loop; null if none does"
     )
     torque1_gain: GainRangeState | None
     torque2_gain: GainRangeState | None
     joint_error: float | None = Field(
-        description="√(Σ error²) of the smallest error of M, B1, B2 and Ks together that a search"
-        " found to destabilise the loop; null where none was found"
+        description="Smallest joint error √(Σ error²) of M, B1, B2 and Ks found to destabilise the "
+        "loop; null if none was found"
     )
     joint_errors: dict[str, float] | None = Field(
         description="These errors, true over nominal minus 1, by the paper's symbol"
@@ -168,7 +184,7 @@ class StartOutcomeState(BaseModel):
     row: int
     column: int
     outcome: Literal["rest", "fault", "unsettled"]
-    after_s: float = Field(description="Close for good since then, or the fault's time")
+    after_s: float = Field(description="Settling time, or the time of the fault")
 
 
 class RegionState(BaseModel):
@@ -185,4 +201,4 @@ class RegionState(BaseModel):
     positions_rad: list[float] = Field(description="q0 of the columns")
     velocities_rad_per_s: list[float] = Field(description="q̇0 of the rows")
     outcomes: list[StartOutcomeState]
-    next: int | None = Field(description="Where the next part begins")
+    next: int | None = Field(description="First index of the next part")

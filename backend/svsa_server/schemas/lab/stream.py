@@ -25,11 +25,13 @@ from svsa_server.schemas.lab.session import SessionProgress, SessionState
 class StreamRequest(Checked):
     """The contents of a stream."""
 
-    rate_hz: Number = quantity("Hz", "Samples a second", ge=1, le=10_000, default=200.0)
+    rate_hz: Number = quantity("Hz", "Sample rate", ge=1, le=10_000, default=200.0)
     lanes: tuple[Annotated[Whole, Field(ge=1, le=MAX_LANES)], ...] | None = quantity(
         "", "Numbers of the lanes, from 1; None is all there are", default=(1,)
     )
-    history_s: Number = quantity("s", "Past to send first", ge=0, le=20, default=0.0)
+    history_s: Number = quantity(
+        "s", "Length of the history to send first", ge=0, le=20, default=0.0
+    )
 
 
 class StreamChannel(BaseModel):
@@ -45,13 +47,13 @@ class BatchField(BaseModel):
 
     name: FieldName
     type: FieldType
-    byte: int = Field(description="Of the message, at which it begins")
+    byte: int = Field(description="Offset of the field in the message")
 
 
 class BatchLayout(BaseModel):
     """A binary message, little-endian: header, lane ids, values of each sample."""
 
-    magic: str = Field(default=MAGIC.decode(), description="The text that a batch begins with")
+    magic: str = Field(default=MAGIC.decode(), description="Magic bytes at the start of a batch")
     header_bytes: int = HEADER.size
     header: list[BatchField]
     lane_id: Literal["uint32"] = LANE_ID
@@ -64,7 +66,7 @@ class Hello(BaseModel):
     type: Literal["hello"] = "hello"
     session: str
     period_s: float
-    rate_hz: float = Field(description="Samples a second that are sent at speed 1")
+    rate_hz: float = Field(description="Samples per second at speed 1")
     lanes: list[int] = Field(description="Numbers of the lanes, from 1")
     channels: list[StreamChannel]
     batch: BatchLayout
@@ -153,8 +155,9 @@ def list_stream_parameters() -> list[dict[str, Any]]:
     bounds = StreamRequest.model_json_schema()["properties"]
     words = {
         "lanes": f"`all`, or numbers from 1 to {MAX_LANES} with commas; lane 1 if left out",
-        "channels": "Names with commas between them; left out, those of the plots",
-        "client": "Who watches, as the header SVSA-Client; a browser cannot send that here",
+        "channels": "Comma-separated channel names; by default those of the plots",
+        "client": "Client id, as in the header SVSA-Client, which browsers cannot send with a "
+        "WebSocket",
     }
     schemas = {name: bounds[name] for name in ("rate_hz", "history_s")}
     schemas |= {name: {"type": "string", "description": text} for name, text in words.items()}

@@ -13,14 +13,12 @@ class FaultKindState(BaseModel):
 
     code: str
     number: int | None = Field(
-        description="Its number in compiled code, as study rows hold it; null where it has none"
+        description="Number of the fault in the rows of a study; null if it has none"
     )
-    label: str = Field(description="In a few words")
-    cause: str = Field(description="What happened")
-    advice: str | None = Field(description="What to try; null where its message says it all")
-    where: Literal["bench", "both"] = Field(
-        description="Whether a bench alone ends in it, or a simulated run too"
-    )
+    label: str = Field(description="Short label")
+    cause: str = Field(description="Description")
+    advice: str | None = Field(description="Advice; null if the message is sufficient")
+    where: Literal["bench", "both"] = Field(description="Whether the fault occurs on a bench only")
     within_s: float | None = Field(
         description="Longest time from the cause to zero current; null where no current can flow"
     )
@@ -30,8 +28,8 @@ class RunFault(BaseModel):
     """The fault that ended a run."""
 
     code: str
-    label: str = Field(description="In a few words")
-    message: str = Field(description="In a sentence, with the values that it was about")
+    label: str = Field(description="Short label")
+    message: str = Field(description="Sentence with the values at the fault")
     time_s: float = Field(description="Time of the run")
 
     @classmethod
@@ -51,8 +49,8 @@ class SessionFault(RunFault):
 
     lane: int = Field(description="From 0")
     tick: int
-    values: dict[str, float] = Field(description="SI values, by names with their units")
-    advice: str | None = Field(description="What to try; null where its message says it all")
+    values: dict[str, float] = Field(description="SI values by name with unit")
+    advice: str | None = Field(description="Advice; null if the message is sufficient")
 
 
 def list_faults() -> list[FaultKindState]:

@@ -18,27 +18,25 @@ class Period(BaseModel):
 class SegmentState(Period):
     """A controller (a law with its gains and observer) on a lane, from start to before end."""
 
-    number: int = Field(
-        description="Which controller, counted in the order in which they came in the run"
+    number: int = Field(description="Number of the controller, in order of appearance in the run")
+    name: str = Field(
+        description="Law, with the parameters that distinguish it from others of the same law"
     )
-    name: str = Field(description="Its law, and what tells it from others of the same law")
-    line_style: int = Field(
-        description="Which look its curves have, from 0; shared by no other on screen"
-    )
+    line_style: int = Field(description="Line style of its curves, from 0; unique on screen")
 
 
 class WindowState(Period):
     """A part of the run without changes, from start to before end."""
 
-    kind: WindowKind = Field(description="What began it")
-    label: str = Field(description="What began it, in words; empty for the start of the run")
+    kind: WindowKind = Field(description="Kind of the event that started the window")
+    label: str = Field(description="Event that started the window; empty for the start of the run")
 
 
 class EndedWindowState(WindowState):
     """An ended window, and the metrics of the lanes in it."""
 
     lanes: list[Metrics | None] = Field(
-        description="Of the present lanes in their order; null for one that was not there"
+        description="Metrics of the present lanes, in order; null for a lane that did not exist"
     )
 
 
@@ -49,8 +47,8 @@ class LaneState(BaseModel):
     second after it ended: a twin of a bench that left the domain of the model.
     """
 
-    since_start: Metrics | None = Field(description="Of the whole run, whatever was changed")
-    in_window: Metrics | None = Field(description="Since the last change: of `window`")
+    since_start: Metrics | None = Field(description="Metrics of the whole run, including changes")
+    in_window: Metrics | None = Field(description="Metrics of `window`, since the last change")
     since_load: Metrics | None = Field(
         description="Of `load_window`, with which it ends: of who controls the lane now, on the"
         " lane that it had when the load came; its recovery time is the load's"
@@ -61,7 +59,7 @@ class LaneState(BaseModel):
         " away, and none gets that of a lane that went"
     )
     law: str
-    name: str = Field(description="Of who controls it now")
+    name: str = Field(description="Name of its present controller")
     segments: list[SegmentState] = Field(
-        description="Who controlled it in the last 60 s, the present one last"
+        description="Its controllers in the last 60 s, the present one last"
     )

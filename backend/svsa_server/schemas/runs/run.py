@@ -37,7 +37,7 @@ class RunPatch(Checked):
     model_config = ConfigDict(json_schema_extra={"minProperties": 1})
 
     name: RunName | None = quantity("", "Its name", default=None)
-    tags: Tags | None = quantity("", "Words to find it by, each once", default=None)
+    tags: Tags | None = quantity("", "Tags, each once", default=None)
     notes: Notes | None = quantity("", "Notes", default=None)
     deleted: Literal[False] | None = quantity("", "false: restore it from the trash", default=None)
 
@@ -52,10 +52,10 @@ class BranchOrigin(BaseModel):
     """The recorded run that a run or session continues."""
 
     run_id: str = Field(description="Id of that run")
-    tick: int = Field(description="Tick of it from which this one goes on")
-    title: str | None = Field(description="What it is called; null where it is gone for good")
+    tick: int = Field(description="Tick at which the run branched")
+    title: str | None = Field(description="Title of that run; null if it was deleted permanently")
     time_s: float | None = Field(
-        description="The same moment in its replay, s after its first sample; null as title"
+        description="The same moment in its replay, s after its first sample; null if deleted"
     )
 
 
@@ -64,37 +64,37 @@ class RunSummary(BaseModel):
 
     id: str
     name: str = Field(description="Name given by a user; empty without one")
-    title: str = Field(description="Its name, or without one a title made of its settings")
+    title: str = Field(description="Name, or a title composed of its settings")
     settings: RunSettings | None = Field(
-        description="What it was set to, in words; null while it is recorded"
+        description="Summary of its settings; null while it is recorded"
     )
-    branch_of: BranchOrigin | None = Field(description="The run that it goes on from")
+    branch_of: BranchOrigin | None = Field(description="The run that it continues")
     tags: list[str]
     notes: str
-    revision: str = Field(description="Of name, tags and notes: for If-Match of a change")
+    revision: str = Field(description="Version of name, tags and notes, for If-Match")
     session: str
     created: str = Field(description="UTC, ISO 8601")
-    version: str = Field(description="Version of svsa that recorded")
+    version: str = Field(description="Version of svsa that recorded it")
     state: RunState = Field(
-        description="failed: it ended early; damaged: not all of it can be read. `message` has the"
-        " reason, and what of it opens."
+        description="failed: it ended early; damaged: a part of it is unreadable. `message` has"
+        " the reason, and the readable part."
     )
     message: str
-    note: str = Field(description="That a newer version of svsa recorded it; else empty")
-    plant: PlantKind = Field(description="What lane 1 was; only a simulated run can be branched")
+    note: str = Field(description="Note if a newer version of svsa recorded it; otherwise empty")
+    plant: PlantKind = Field(description="Plant of lane 1; only a simulated run can be branched")
     lanes: list[str]
     period_s: float
     first_tick: int
     ticks: int
     duration_s: float
     bytes: int
-    metrics: list[Metrics] | None = Field(description="Of every lane in `window`")
+    metrics: list[Metrics] | None = Field(description="Metrics of every lane in `window`")
     window: MeasuredWindow | None = Field(
-        description="What `metrics` are of: the window of the last load, or the last window; in it"
-        " nothing was changed. Null as long as the run is recorded, and where that is not known"
+        description="Window of `metrics`: that of the last load, or the last window, without "
+        "changes. Null while the run is recorded, and if unknown"
     )
-    fault: RunFault | None = Field(description="What the run ended in; null if not recorded")
-    deleted: str | None = Field(description="When it went into the trash, UTC")
+    fault: RunFault | None = Field(description="Fault that ended the run; null if not recorded")
+    deleted: str | None = Field(description="Time at which it was moved to the trash, UTC")
 
 
 class IndexProgress(BaseModel):
@@ -102,28 +102,26 @@ class IndexProgress(BaseModel):
 
     model_config = ConfigDict(from_attributes=True)
 
-    done: int = Field(description="Runs that were read")
-    total: int = Field(description="Runs that are new, changed or cut off; 0 while they are found")
+    done: int = Field(description="Number of runs read")
+    total: int = Field(description="Number of runs to read; 0 until it is known")
 
 
 class RunList(BaseModel):
     """A page of runs."""
 
     runs: list[RunSummary]
-    total: int = Field(description="Runs on all pages")
+    total: int = Field(description="Number of runs on all pages")
     page: int
     page_size: int
-    tags: dict[str, int] = Field(description="Every tag in use, and how many runs have it")
+    tags: dict[str, int] = Field(description="Every tag in use, with the number of runs")
     facets: dict[str, dict[str, int]] = Field(
-        description="What the list can be filtered by: facet (tag, law, load, figure, plant),"
-        " value, and how many of all runs outside the trash have it"
+        description="Filters of the list: facet (tag, law, load, figure, plant), value, and the"
+        " number of runs outside the trash"
     )
     indexing: IndexProgress | None = Field(
-        description="While runs are still being added to the list after a start; else null"
+        description="Progress while the list is updated after a start; null otherwise"
     )
-    problem: str | None = Field(
-        description="Why the next recordings may fail: the disk is nearly full; else null"
-    )
+    problem: str | None = Field(description="Warning if the disk is nearly full; null otherwise")
 
 
 class RunCommand(BaseModel):
@@ -143,28 +141,28 @@ class GivenCommand(BaseModel):
 class RunDetails(RunSummary):
     """A run with all data that determine its samples."""
 
-    lane_names: list[str] = Field(description="What to call the lanes: by their laws")
-    segments: list[list[SegmentState]] = Field(description="Of every lane, who controlled it when")
+    lane_names: list[str] = Field(description="Names of the lanes: their laws")
+    segments: list[list[SegmentState]] = Field(description="Controllers of every lane over time")
     windows: list[WindowState] = Field(
-        description="Between the changes of the run; the newest 1000"
+        description="Windows between the changes of the run; the newest 1000"
     )
     seed: int
-    configuration: dict[str, Any] = Field(description="At tick 0")
+    configuration: dict[str, Any] = Field(description="Configuration at tick 0")
     channels: list[Channel]
-    commands: list[RunCommand] = Field(description="The first 1000")
+    commands: list[RunCommand] = Field(description="The first 1000 commands")
     command_count: int
 
 
 class RunOrigin(BaseModel):
     """Configuration and commands that determine the samples of a run bit for bit."""
 
-    configuration: dict[str, Any] = Field(description="At tick 0")
-    commands: list[GivenCommand] = Field(description="In the order in which they were given")
-    first_tick: int = Field(description="Where its record begins; 0 of a session's present run")
-    tick: int = Field(description="How far the run is, or where its record ends")
+    configuration: dict[str, Any] = Field(description="Configuration at tick 0")
+    commands: list[GivenCommand] = Field(description="Commands in order")
+    first_tick: int = Field(description="First tick of the record; 0 for a session's present run")
+    tick: int = Field(description="Present tick of the run, or end of the record")
     period_s: float
     plant: PlantKind
-    defaults: dict[str, Any] = Field(description="Of a new private session, `load` false")
+    defaults: dict[str, Any] = Field(description="Request for a new private session, `load` false")
 
 
 class RunMetrics(BaseModel):
@@ -173,10 +171,12 @@ class RunMetrics(BaseModel):
     start_s: float
     end_s: float
     windows: list[WindowState] = Field(
-        description="The windows that it reaches into: where there is more than one, the numbers"
-        " are of what was before and after a change or a load; empty where that is not known"
+        description="Windows that the segment overlaps: with more than one, the metrics mix "
+        "what was before and after a change or a load; empty if unknown"
     )
-    lanes: dict[str, Metrics | None] = Field(description="null where samples are no numbers")
+    lanes: dict[str, Metrics | None] = Field(
+        description="Metrics of each lane; null if its samples contain NaN"
+    )
 
 
 class RunSamples(BaseModel):
@@ -190,7 +190,7 @@ class RunSamples(BaseModel):
     first_tick: int
     time_s: list[float]
     lanes: dict[str, dict[str, list[float | None]]] = Field(
-        description="By lane and channel; null where a value is no finite number"
+        description="Samples by lane and channel; null if not finite"
     )
 
 
@@ -199,16 +199,16 @@ class SettingDifference(BaseModel):
 
     group: str
     name: str
-    unit: str = Field(description="SI, of values that are numbers")
+    unit: str = Field(description="SI unit of numeric values")
     values: list[str | float | bool | None] = Field(
-        description="Run by run; null where a run has no such setting"
+        description="Value in each run; null if a run has no such setting"
     )
 
 
 class RunDifference(BaseModel):
     """The settings that differ between runs; all others are equal."""
 
-    runs: list[str] = Field(description="Their ids, in the order of the values")
+    runs: list[str] = Field(description="Ids of the runs, in the order of the values")
     titles: list[str]
     differences: list[SettingDifference]
 
@@ -217,7 +217,7 @@ class RecordingRequest(Checked):
     """Name, tags and notes of a recording; they can be changed later."""
 
     name: RunName = quantity("", "Name of the run", default="")
-    tags: Tags = quantity("", "Words to find it by, each once", default=())
+    tags: Tags = quantity("", "Tags, each once", default=())
     notes: Notes = quantity("", "Notes", default="")
 
 

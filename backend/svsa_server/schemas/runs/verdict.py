@@ -19,22 +19,22 @@ class VerdictRequest(Checked):
     """The reference run of a comparison, and the tolerance of each channel."""
 
     other: Annotated[str, Owned("run")] = quantity(
-        "", "Id of the run that it should be", min_length=1, max_length=200
+        "", "Id of the reference run", min_length=1, max_length=200
     )
     tolerances: dict[str, Tolerance] = quantity(
         "", "By channel", default_factory=dict, max_length=MAX_TOLERANCES
     )
     rest: Tolerance | None = quantity(
-        "", "Of every other channel; null: these are not judged", default=EXACT
+        "", "Tolerance of every other channel; null: not judged", default=EXACT
     )
     align: Literal["start", "window"] = quantity(
         "",
-        "What is laid over each other: the first samples, or where the windows of the runs'"
-        " numbers begin, such as their last load",
+        "Alignment: the first samples, or the starts of the measured windows, such as the last "
+        "load",
         default="start",
     )
     points: Annotated[int, Field(ge=0, le=MAX_POINTS)] = quantity(
-        "", "Of each bound of the bands of `tolerances` at most so many; 0: none", default=0
+        "", "Maximum number of points of each bound of a band; 0: no bands", default=0
     )
 
 
@@ -45,17 +45,17 @@ class ChannelJudged(BaseModel):
     channel: str
     unit: str
     held: bool
-    worst_s: float = Field(description="When it leaves the band furthest, or is nearest to it")
-    value: float | None = Field(description="Then; null where it is no finite number")
+    worst_s: float = Field(description="Time of the largest deviation from the band")
+    value: float | None = Field(description="Value at that time; null if not finite")
     low: float | None
     high: float | None
     excess: float | None = Field(
-        description="How far outside then, negative inside; null where one of both is not known"
+        description="Distance outside the band at that time, negative inside; null if unknown"
     )
     outside: list[tuple[float, float]] = Field(
-        description="From when to when it is outside; what is nearly one segment is one"
+        description="Time segments outside the band; neighbouring ones are merged"
     )
-    outside_s: float = Field(description="How long in all, every tick counted")
+    outside_s: float = Field(description="Total time outside the band")
 
 
 class Band(BaseModel):
@@ -79,14 +79,14 @@ class RunVerdict(BaseModel):
     """
 
     held: bool
-    ticks: int = Field(description="So many were compared")
-    compared_s: float = Field(description="As a time")
+    ticks: int = Field(description="Number of ticks compared")
+    compared_s: float = Field(description="The same as a time")
     own_ticks: int
     other_ticks: int
     begin_s: float = Field(description="Time of the first sample compared")
     other_begin_s: float = Field(description="The same of the other run")
     channels: list[ChannelJudged]
-    bands: dict[str, dict[str, Band]] = Field(description="By channel and lane")
+    bands: dict[str, dict[str, Band]] = Field(description="Verdicts by channel and lane")
 
 
 def build_channel_state(verdict: ChannelVerdict) -> ChannelJudged:

@@ -57,16 +57,16 @@ class OptionState(BaseModel):
 class ManualLoadState(BaseModel):
     """A time at which the operator adds or removes a load of a bench by hand."""
 
-    time_s: float = Field(description="Of the run")
-    is_on: bool = Field(description="Whether it is hung then, or taken off")
+    time_s: float = Field(description="Time in the run")
+    is_on: bool = Field(description="Whether the load is added or removed")
 
 
 class BenchStepState(BaseModel):
     """An experiment in its form for a bench."""
 
-    criteria: list[str] = Field(description="What is asked of its run")
-    manual_load: str = Field(description="What the user at the bench does with its loads")
-    manual_loads: list[ManualLoadState] = Field(description="When, in the order of time")
+    criteria: list[str] = Field(description="Criteria of the run")
+    manual_load: str = Field(description="Manual load changes during the run")
+    manual_loads: list[ManualLoadState] = Field(description="Time of the change")
 
 
 class StepState(BaseModel):
@@ -75,23 +75,23 @@ class StepState(BaseModel):
     name: str
     kind: Literal["read", "predict", "experiment", "explain", "submit"]
     title: str
-    html: str = Field(description="Its text; what is of class math is TeX")
+    html: str = Field(description="HTML of its text; elements of class math contain TeX")
     max_points: float
-    asks: str = Field(default="", description="What is predicted")
+    asks: str = Field(default="", description="Name of the predicted value")
     unit: str = ""
     low: float | None = Field(default=None, description="Least plausible value")
     high: float | None = Field(default=None, description="Greatest plausible value")
-    judged_by: str | None = Field(default=None, description="Step whose run judges it")
+    judged_by: str | None = Field(default=None, description="Step whose run decides the prediction")
     options: list[OptionState] = []
-    duration_s: float | None = Field(default=None, description="How long its run is")
-    free: list[str] = Field(default=[], description="What may be chosen before its run")
-    criteria: list[str] = Field(default=[], description="What is asked of its run")
+    duration_s: float | None = Field(default=None, description="Duration of its run")
+    free: list[str] = Field(default=[], description="Free settings before the run")
+    criteria: list[str] = Field(default=[], description="Criteria of the run")
     bench: BenchStepState | None = Field(
-        description="How it is run on a bench; null where it is simulated only"
+        description="Form of the experiment on a bench; null if simulation only"
     )
-    law: bool = Field(default=False, description="Whether a law's file is submitted")
+    law: bool = Field(default=False, description="Whether the submission includes a law's file")
     answer: Answer | None = None
-    is_final: bool = Field(description="Whether the answer cannot be changed any more")
+    is_final: bool = Field(description="Whether the answer is final")
     begun: bool
     run_id: str | None
     done: bool
@@ -107,21 +107,23 @@ class ExerciseSummary(BaseModel):
     goal: str
     minutes: int
     max_points: float
-    law_points: float = Field(description="Points of a law besides, which svsa grade gives")
+    law_points: float = Field(description="Additional points for the law, from `svsa grade`")
     steps: int
     done: int
-    at: str | None = Field(description="Step that was looked at last")
-    submitted_at: str | None = Field(description="When, as ISO 8601; null where it was not")
-    points: float | None = Field(description="Of the submission")
-    changes: int = Field(description="How often one's progress in it was changed")
+    at: str | None = Field(description="Step shown last")
+    submitted_at: str | None = Field(
+        description="Time of the submission, ISO 8601; null if not submitted"
+    )
+    points: float | None = Field(description="Digest of the submission")
+    changes: int = Field(description="Version of the caller's progress")
 
 
 class ExerciseState(ExerciseSummary):
     """An exercise with its steps."""
 
     html: str
-    missing: list[str] = Field(description="Steps that are to be done before it is submitted")
-    law: SavedLaw | None = Field(description="The law that was tried last, which is submitted")
+    missing: list[str] = Field(description="Steps to complete before the submission")
+    law: SavedLaw | None = Field(description="The law tried last, which will be submitted")
     parts: list[StepState]
 
 

@@ -11,15 +11,15 @@ from svsa.teaching.grading.grade import Grade
 class GradingRequest(Checked):
     """Which submissions to grade: those without a grade, or all."""
 
-    again: Flag = quantity("", "Run again also what has its grade", default=False)
+    again: Flag = quantity("", "Grade again submissions that already have a grade", default=False)
 
 
 class GradedSubmissionState(BaseModel):
     """A student's submission of an exercise."""
 
     exercise: str
-    grade: Grade | None = Field(description="Null where it is not graded yet")
-    problem: str = Field(description="Why it got no grade when it was graded last, or empty")
+    grade: Grade | None = Field(description="Grade; null if not graded yet")
+    problem: str = Field(description="Why the latest grading failed, or empty")
 
 
 class StudentState(BaseModel):
@@ -42,7 +42,7 @@ class GradesState(BaseModel):
     """The grades of a class, students sorted by name."""
 
     not_isolated: str | None = Field(
-        description="Why no law is graded on this machine; null where laws can be isolated"
+        description="Why this machine cannot grade laws; null if it can"
     )
     exercises: list[GradedExercise]
     students: list[StudentState]

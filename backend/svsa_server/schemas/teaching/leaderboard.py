@@ -13,24 +13,26 @@ from svsa_server.schemas.evaluation.job import JobState
 class LawSubmission(Checked):
     """A law to be measured in the season."""
 
-    name: EntryName = quantity("", "What it is called on the board", max_length=MAX_NAME)
-    law: LawText = quantity("", "Text of its file, Python: see docs/grading.md")
-    author: Author = quantity(
-        "", "Who submits it; in a class it is the person who asks", max_length=MAX_NAME, default=""
-    )
+    name: EntryName = quantity("", "Name of the entry on the leaderboard", max_length=MAX_NAME)
+    law: LawText = quantity("", "Text of its Python file: see docs/grading.md")
+    author: Author = quantity("", "Author; in a class the caller", max_length=MAX_NAME, default="")
 
 
 class SubmissionState(BaseModel):
     """The state of a submission."""
 
-    key: str = Field(description="Of its entry: SHA-256 of its text")
-    job: JobState | None = Field(description="To be followed; null where it has its entry already")
+    key: str = Field(description="Key of its entry: SHA-256 of the file")
+    job: JobState | None = Field(
+        description="Job that measures it; null if it already has an entry"
+    )
 
 
 class RankedEntry(Entry):
     """An entry with its rank."""
 
-    rank: Whole = quantity("", "By success rate, 1 the best; equal rates share a place", ge=1)
+    rank: Whole = quantity(
+        "", "Rank by success rate, 1 is the best; equal rates share a rank", ge=1
+    )
 
 
 def describe_entries(entries: Sequence[Entry]) -> list[RankedEntry]:
@@ -42,13 +44,15 @@ def describe_entries(entries: Sequence[Entry]) -> list[RankedEntry]:
 class LeaderboardState(BaseModel):
     """A season and its entries, the best first."""
 
-    suite: str = Field(description="Version of the suite; scores compare within one")
+    suite: str = Field(
+        description="Version of the trials; results are comparable within one version"
+    )
     began: str | None = Field(
         description="When the season began, UTC, ISO 8601; null before its first measurement"
     )
     not_isolated: str | None = Field(
-        description="Why this machine takes no law, as it cannot isolate one; null where it can"
+        description="Why this machine cannot isolate a law; null if it can"
     )
-    runs: int = Field(description="How many runs a law is put through")
+    runs: int = Field(description="Number of runs for each law")
     entries: list[RankedEntry]
-    missing: list[str] = Field(description="Laws of the lab that are not measured on it yet")
+    missing: list[str] = Field(description="Installed laws without an entry")

@@ -20,7 +20,7 @@ class SeriesLoad(AnyLoad):
 
     kind: Literal["series"] = "series"
     time_s: Annotated[tuple[Number, ...], Field(min_length=2, max_length=MAX_SERIES_POINTS)] = (
-        quantity("s", "Times since onset, growing from ≥ 0")
+        quantity("s", "Times since onset, increasing from ≥ 0")
     )
     torque_nm: Annotated[
         tuple[TorqueTriple, ...], Field(min_length=2, max_length=MAX_SERIES_POINTS)

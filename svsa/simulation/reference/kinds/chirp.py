@@ -84,7 +84,9 @@ class _Chirp(AnyReference):
     taper_s: Number = quantity(
         "s", "Time in which the amplitude rises, and falls at the end", ge=0.1, le=60, default=0.25
     )
-    transition_s: Number = quantity("s", "Time to fade over from the old reference", **TRANSITION)
+    transition_s: Number = quantity(
+        "s", "Duration of the transition from the previous reference", **TRANSITION
+    )
 
     @model_validator(mode="after")
     def _check_taper(self) -> Self:

@@ -17,7 +17,9 @@ class ConstantPosition(AnyPosition):
     position_rad: Number = quantity(
         "rad", "Position reference", ge=-FULL_TURN_RAD, le=FULL_TURN_RAD, default=0.0
     )
-    transition_s: Number = quantity("s", "Time to fade over from the old reference", **TRANSITION)
+    transition_s: Number = quantity(
+        "s", "Duration of the transition from the previous reference", **TRANSITION
+    )
 
     def get_shape(self) -> Shape:
         """Its row of the stack."""
@@ -35,7 +37,9 @@ class ConstantStiffness(AnyStiffness):
 
     kind: Literal["constant"] = "constant"
     stiffness_nm_per_rad: Number = quantity("N·m/rad", "Stiffness reference", gt=0, le=1e4)
-    transition_s: Number = quantity("s", "Time to fade over from the old reference", **TRANSITION)
+    transition_s: Number = quantity(
+        "s", "Duration of the transition from the previous reference", **TRANSITION
+    )
 
     def get_shape(self) -> Shape:
         """Its row of the stack."""

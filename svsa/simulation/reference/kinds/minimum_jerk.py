@@ -33,7 +33,9 @@ class _MinimumJerk(AnyReference):
     duration_s: Number = quantity(
         "s", "Duration T of the movement", symbol="Duration", ge=0.05, le=3600
     )
-    transition_s: Number = quantity("s", "Time to fade over from the old reference", **TRANSITION)
+    transition_s: Number = quantity(
+        "s", "Duration of the transition from the previous reference", **TRANSITION
+    )
 
     def _build_curve(self, start: float, end: float) -> Curve:
         way, rate = end - start, 1.0 / self.duration_s
@@ -51,11 +53,9 @@ class MinimumJerkPosition(_MinimumJerk, AnyPosition):
     }
 
     start_rad: Number = quantity(
-        "rad", "Where it begins", symbol="From", ge=-FULL_TURN_RAD, le=FULL_TURN_RAD, default=0.0
+        "rad", "Start value", symbol="From", ge=-FULL_TURN_RAD, le=FULL_TURN_RAD, default=0.0
     )
-    end_rad: Number = quantity(
-        "rad", "Where it ends", symbol="To", ge=-FULL_TURN_RAD, le=FULL_TURN_RAD
-    )
+    end_rad: Number = quantity("rad", "End value", symbol="To", ge=-FULL_TURN_RAD, le=FULL_TURN_RAD)
 
     @model_validator(mode="after")
     def _check_speed(self) -> Self:
@@ -78,11 +78,9 @@ class MinimumJerkStiffness(_MinimumJerk, AnyStiffness):
     }
 
     start_nm_per_rad: Number = quantity(
-        "N·m/rad", "Where it begins", symbol="From", gt=0, le=MAX_NM_PER_RAD
+        "N·m/rad", "Start value", symbol="From", gt=0, le=MAX_NM_PER_RAD
     )
-    end_nm_per_rad: Number = quantity(
-        "N·m/rad", "Where it ends", symbol="To", gt=0, le=MAX_NM_PER_RAD
-    )
+    end_nm_per_rad: Number = quantity("N·m/rad", "End value", symbol="To", gt=0, le=MAX_NM_PER_RAD)
 
     def get_shape(self) -> Shape:
         """Its row of the stack."""

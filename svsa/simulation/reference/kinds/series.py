@@ -41,9 +41,11 @@ class _Series(AnyReference):
 
     kind: Literal["series"] = "series"
     time_s: Annotated[tuple[Number, ...], _Rows] = quantity(
-        "s", f"Times since the beginning, growing from ≥ 0, up to {MAX_ROWS}"
+        "s", f"Times since the start, increasing from ≥ 0, up to {MAX_ROWS}"
     )
-    transition_s: Number = quantity("s", "Time to fade over from the old reference", **TRANSITION)
+    transition_s: Number = quantity(
+        "s", "Duration of the transition from the previous reference", **TRANSITION
+    )
 
 
 class SeriesPosition(_Series, AnyPosition):

@@ -50,7 +50,9 @@ class SinePosition(AnyPosition):
     amplitude_rad: Number = quantity("rad", "Amplitude", ge=0, le=FULL_TURN_RAD)
     frequency_hz: Number = quantity("Hz", "Frequency f", ge=0, le=5)
     phase_rad: Number = quantity("rad", "Phase", ge=-FULL_TURN_RAD, le=FULL_TURN_RAD, default=0.0)
-    transition_s: Number = quantity("s", "Time to fade over from the old reference", **TRANSITION)
+    transition_s: Number = quantity(
+        "s", "Duration of the transition from the previous reference", **TRANSITION
+    )
 
     def get_shape(self) -> Shape:
         """Its row of the stack."""
@@ -70,7 +72,9 @@ class SineStiffness(AnyStiffness):
     amplitude_nm_per_rad: Number = quantity("N·m/rad", "Amplitude", ge=0, le=1e4)
     frequency_hz: Number = quantity("Hz", "Frequency f", ge=0, le=5)
     phase_rad: Number = quantity("rad", "Phase", ge=-FULL_TURN_RAD, le=FULL_TURN_RAD, default=0.0)
-    transition_s: Number = quantity("s", "Time to fade over from the old reference", **TRANSITION)
+    transition_s: Number = quantity(
+        "s", "Duration of the transition from the previous reference", **TRANSITION
+    )
 
     def get_shape(self) -> Shape:
         """Its row of the stack."""

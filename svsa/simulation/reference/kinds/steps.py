@@ -34,9 +34,11 @@ class _Steps(AnyReference):
     """
 
     kind: Literal["steps"] = "steps"
-    time_s: _Times = quantity("s", "When each level begins, growing from ≥ 0")
+    time_s: _Times = quantity("s", "Start time of each level, increasing from ≥ 0")
     rise_s: Number = quantity("s", "Duration of each rise", ge=0.05, le=60, default=0.2)
-    transition_s: Number = quantity("s", "Time to fade over from the old reference", **TRANSITION)
+    transition_s: Number = quantity(
+        "s", "Duration of the transition from the previous reference", **TRANSITION
+    )
 
     def _build_curve(self, points: Points) -> Curve:
         check_points(points, least_gap_s=self.rise_s, gap="rise_s")
