@@ -1,4 +1,4 @@
-"""What can go wrong, each with name, value, unit and bound.
+"""The project's errors, each with name, value, unit and bound.
 
 One root, `SvsaError`. Bad input is a `ParameterError`; a run that leaves the domain of
 the model ends in a `Fault`, which is data, and a `FaultError` where the caller does not read it.
@@ -22,7 +22,7 @@ class SvsaError(Exception):
 
 @dataclass(frozen=True)
 class Violation:
-    """One refused value: its name, the value as given, its unit and the bound it broke.
+    """One rejected value: its name, the value as given, its unit and the violated bound.
 
     `name` is the path of the field from what was given down, as `motor1.gear_ratio`.
     `limits` are the numbers of the bound in `unit`, by ge, gt, le or lt; empty where it is no
@@ -47,13 +47,13 @@ class Violation:
         return f"{self.name} is {_shorten(self.value)}{unit}: it must be {self.bound}."
 
     def within(self, path: str) -> Self:
-        """The violation as it is called from the value that holds this one at `path`."""
+        """Return the violation with its name prefixed by `path`."""
         joint = "." if path and self.name and not self.name.startswith("[") else ""
         return replace(self, name=path + joint + self.name)
 
 
 class ParameterError(SvsaError, ValueError):
-    """Values that were refused; nothing was changed. file: where they stand, or ""."""
+    """Rejected values; nothing was changed. file: their file, or ""."""
 
     def __init__(self, *violations: Violation, file: str = "") -> None:
         self.violations, self.file = violations, file
@@ -61,25 +61,25 @@ class ParameterError(SvsaError, ValueError):
         super().__init__(f"{file}: {reported}" if file else reported)
 
     def __reduce__(self) -> tuple[Callable[..., Self], tuple[Violation, ...]]:
-        """To another process and back with every violation."""
+        """Support pickling with every violation."""
         return partial(type(self), file=self.file), self.violations
 
     def within(self, path: str) -> "ParameterError":
-        """The same refusal, its fields called from the value that holds them at `path`."""
+        """Return the error with its fields' names prefixed by `path`."""
         return ParameterError(*(violation.within(path) for violation in self.violations))
 
 
 class StateError(SvsaError):
-    """A call that does not fit what the session is doing, and what would fit."""
+    """A call that the present state of the session does not allow; the message has the remedy."""
 
 
 class SecurityError(SvsaError):
-    """A deployment that would leave the lab open to strangers."""
+    """A deployment that unauthenticated clients could reach."""
 
 
 @dataclass(frozen=True)
 class Fault:
-    """A run that left the domain of the model: when, why, and the values in it.
+    """The end of a run: when, why, and the values.
 
     `lane` counts from 0. `values` maps channel names (with their unit in the name) to SI values.
     """
@@ -93,7 +93,7 @@ class Fault:
 
 
 class FaultError(SvsaError):
-    """A run ended in a fault before its time; `fault` has the values."""
+    """A run ended in a fault; `fault` has the values."""
 
     def __init__(self, fault: Fault) -> None:
         self.fault = fault
@@ -105,7 +105,7 @@ def _is_number(value: Any) -> bool:
 
 
 def _shorten(value: Any, longest: int = 80) -> str:
-    """As Python writes it, but numbers to six digits; cut where it is long, a path never."""
+    """Format a value as Python does, numbers to six digits, shortened if long (never a path)."""
     if isinstance(value, Path):
         return repr(str(value))
     if isinstance(value, float) and len(repr(value)) > _LONGEST_NUMBER:
@@ -118,12 +118,12 @@ def _shorten(value: Any, longest: int = 80) -> str:
 
 
 def settle_number(value: float, digits: int) -> float:
-    """The number with so many digits: where machines differ in the last one, the same."""
+    """Round a number to so many digits, so that all machines print the same."""
     return float(f"{value:.{digits}g}")
 
 
 def write_number(value: float) -> str:
-    """The number to six digits, in groups of three where it is large."""
+    """Format a number to six digits, large ones in groups of three."""
     text = f"{value:g}"
     digits, _, exponent = text.partition("e")
     if not exponent:

@@ -1,4 +1,4 @@
-"""How the compiled loop calls a law that it was not compiled with.
+"""Calls of a law by the address of its compiled function, from a loop compiled without it.
 
 A law is compiled for itself, once for each layout of its constants and of its memory, and called
 by its address: numbers by value, records by address. The loop knows neither.
@@ -48,7 +48,7 @@ class BoundLaw(NamedTuple):
 
 
 class Call(NamedTuple):
-    """A bound law with a memory, as addresses: valid as long as the arrays behind them live."""
+    """A bound law with a memory, as addresses: valid while the arrays behind them exist."""
 
     function: int
     nominal: int
@@ -60,7 +60,7 @@ class Call(NamedTuple):
 
 @cache
 def is_measuring(control: Any) -> bool:
-    """Whether a law's function takes the ninth argument, what was measured; inspected once.
+    """Whether a law's function has a ninth argument, the measurement; inspected once.
 
     Raises `ParameterError` where it takes neither eight nor nine.
     """
@@ -82,7 +82,7 @@ def bind(
 
 @cache
 def _compile(control: Any, measuring: bool, *records: np.dtype) -> int:
-    """The address at which C would call the function, compiled for records of these layouts."""
+    """Compile the function for records of these layouts, and return its C address."""
     given = _GIVEN if measuring else _GIVEN[:-1]
     signature = _TORQUE(*map(numba.from_dtype, records), *given)
     control.compile(signature)
@@ -94,7 +94,7 @@ def _compile(control: Any, measuring: bool, *records: np.dtype) -> int:
 def _build_call(
     typing: Any, function: Any, nominal: Any, constants: Any, memory: Any, given: Any
 ) -> Any:
-    """Call the function at an address as C would. given: a tuple of what comes after the memory."""
+    """Call the function at an address like C. given: a tuple of the arguments after the memory."""
     kinds = _GIVEN[: len(given)]
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
@@ -129,7 +129,7 @@ _read_word: Any = intrinsic(_build_read)
 
 @compiled
 def build_call(law: BoundLaw, memory: np.ndarray) -> Call:
-    """`Call` of a `BoundLaw` with a memory, words of 64 bits."""
+    """Build the `Call` of a `BoundLaw` with a memory, words of 64 bits."""
     return Call(
         law.function,
         law.nominal.ctypes.data,
@@ -150,7 +150,7 @@ def compute_law(
     period: float,
     measured: Positions,
 ) -> Torque:
-    """What the law asks for, `Torque`, N·m, before limits; its memory goes on by a period.
+    """Compute the law's torque, `Torque`, N·m, before limits, and advance its memory by a period.
 
     call: `Call`. x: x̂, `State`. reference: `Reference`. estimate: ŵ of the observer,
     `Disturbance`, N·m. applied: `Torque` of the last period, N·m. period: T, s. measured:
@@ -166,7 +166,7 @@ def compute_law(
 
 @compiled
 def read_estimate(call: Call, estimate: Disturbance) -> Disturbance:
-    """The ŵ that the law acts on, `Disturbance`, N·m: its own, or the observer's."""
+    """Read the ŵ that the law uses, `Disturbance`, N·m: its own, or the observer's."""
     if call.is_own:
         return Disturbance(
             _read_word(call.memory, 0), _read_word(call.memory, 1), _read_word(call.memory, 2)

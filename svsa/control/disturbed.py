@@ -1,4 +1,4 @@
-"""The linearization under ŵ: how both outputs move where the load is as it is estimated."""
+"""The linearization under ŵ: derivatives of both outputs with the estimated disturbance."""
 
 from typing import NamedTuple
 

@@ -1,4 +1,4 @@
-"""Flatness: q_d and σ_d, with their derivatives, are motions and torques of the whole actuator."""
+"""Flatness: q_d, σ_d and their derivatives determine motions and torques of the actuator."""
 
 from typing import NamedTuple
 
@@ -16,7 +16,7 @@ NEWTON_STEPS = 4
 
 
 class Flat(NamedTuple):
-    """Where both motors have to be for the reference, rad, rad/s; the torques for it, N·m.
+    """Motor positions, rad, velocities, rad/s, and torques, N·m, that follow the reference.
 
     mu: s there, of the SVSA μ.
     """
@@ -32,7 +32,7 @@ class Flat(NamedTuple):
 
 @compiled
 def compute_flat(nominal: AnyActuator, reference: Reference) -> Flat:
-    """The motion and the torques of an undisturbed nominal actuator that follows the reference.
+    """Compute motion and torques with which the undisturbed nominal actuator follows the reference.
 
     τ_e = −M q̈_d − D q̇_d; Newton for (φ, μ) with τ_e(φ, μ) = τ_e and σ(φ, μ) = σ_d; their rates
     through J = [[σ, τ_μ], [σ_φ, σ_μ]]; u from Eq 1. Returns `Flat`.

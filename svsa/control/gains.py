@@ -15,7 +15,9 @@ FASTEST_POLE_RAD_PER_S = 1000.0
 
 
 class Gains(LawParameters):
-    """Coefficients of Eq 25. Both polynomials must be Hurwitz; refused with their roots."""
+    """Coefficients of Eq 25. Both polynomials must be Hurwitz; otherwise rejected with their
+    roots.
+    """
 
     must_be_stable: ClassVar[bool] = True
 
@@ -34,7 +36,7 @@ class Gains(LawParameters):
         return cls(position_coefficients=(c0, c1, c2, c3), stiffness_coefficients=(s0, s1))
 
     def describe(self) -> dict[str, str]:
-        """Where the poles of either polynomial lie together, rad/s."""
+        """Describe the poles of both polynomials, rad/s."""
         (c0, *_), (s0, _) = self.position_coefficients, self.stiffness_coefficients
         return {"ωq": f"{c0**0.25:.3g}", "ωσ": f"{s0**0.5:.3g}"}
 
@@ -70,7 +72,7 @@ class Gains(LawParameters):
 
 
 class TriedGains(Gains):
-    """Gains to be looked at, stable or not, and to fail in simulation.
+    """Gains to evaluate, stable or not; the simulation may fail.
 
     Neither a file nor a record brings them: what is read there are `Gains`.
     """
@@ -107,7 +109,7 @@ def _find_roots(coefficients: tuple[float, ...]) -> tuple[complex, ...]:
 
 
 def describe_roots(roots: Sequence[complex]) -> str:
-    """Roots as they are read, rad/s: "24.4 ± 24.4j, -60", a conjugate pair once."""
+    """Format roots, rad/s: "24.4 ± 24.4j, -60", a conjugate pair once."""
     return ", ".join(
         f"{root.real:.4g}" if root.imag == 0.0 else f"{root.real:.4g} ± {root.imag:.4g}j"
         for root in roots
@@ -116,5 +118,5 @@ def describe_roots(roots: Sequence[complex]) -> str:
 
 
 def _say(roots: Sequence[complex], finding: str) -> str:
-    """The finding with the gravest of these roots, which stands for its conjugate too."""
+    """Format the finding with its most critical root, which represents its conjugate as well."""
     return f"{describe_roots([max(roots, key=lambda root: (root.real, root.imag))])} {finding}"

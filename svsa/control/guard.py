@@ -1,4 +1,4 @@
-"""Guards of a law: what the spring and the spiral bear, before a torque is asked for.
+"""Limits within a law: commanded torques that keep spring and spiral within their range.
 
 A distance d to a bound is approached no faster than d̈ = −2l ḋ − l² d, which ends at the bound.
 """
@@ -21,7 +21,7 @@ def guard_deflection(
     rate: float,
     u1: float,
 ) -> float:
-    """The u1 next to the one asked for that keeps |φ| below its bound, N·m.
+    """Return the nearest u1 that keeps |φ| below its bound, N·m.
 
     −2l φ̇ − l²(b + φ) ≤ φ̈ ≤ −2l φ̇ + l²(b − φ) with φ̈ = q̈ − (F4 + ŵ4 + u1)/B1. F: F_n(x̂),
     `InternalTorque`. w: ŵ. ddq: q̈ under ŵ, rad/s². bound: b, rad. rate: l, rad/s.
@@ -45,7 +45,7 @@ def guard_lever(
     rate: float,
     u2: float,
 ) -> float:
-    """The u2 next to the one asked for that keeps μ between two bounds, N·m.
+    """Return the nearest u2 that keeps μ between two bounds, N·m.
 
     −2l μ̇ − l²(μ − μ_min) ≤ μ̈ ≤ −2l μ̇ + l²(μ_max − μ) with μ̈ = μ'(F6 + ŵ6 + u2)/B2. mu: μ.
     rate: l, rad/s; slow enough for the motor to stop the lever. Else as `guard_deflection`.

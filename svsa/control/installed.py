@@ -26,24 +26,24 @@ BASELINE = "fl"
 
 @cache
 def _find_entries() -> dict[str, EntryPoint]:
-    """By name, the paper's laws first, the others in the order of the alphabet."""
+    """Find entry points by name, the paper's laws first, the others in alphabetical order."""
     entries = entry_points(group=GROUP)
     names = sorted(entries.names, key=lambda name: (name != PAPERS_LAW, name != BASELINE, name))
     return {name: next(iter(entries.select(name=name))) for name in names}
 
 
 def list_law_names() -> tuple[str, ...]:
-    """The names of the laws that are installed: the paper's, its baseline, then the others."""
+    """List the installed laws: the paper's, its baseline, then the others."""
     return tuple(_find_entries())
 
 
 def list_law_line_styles() -> dict[str, int]:
-    """Of every law that is installed the look that is its own in every picture, from 0."""
+    """List the line style of every installed law, from 0, equal in all pictures."""
     return {name: line_style for line_style, name in enumerate(list_law_names())}
 
 
 def check_installed(name: str) -> str:
-    """The name; raises `ParameterError` where no law of that name is installed."""
+    """Return the name; raises `ParameterError` if no law of that name is installed."""
     if name not in _find_entries():
         raise ParameterError(Violation("", name, "", _say_installed()))
     return name
@@ -80,7 +80,7 @@ def get_law(name: str) -> Law:
 
 @cache
 def _load_law(name: str) -> Law | str:
-    """Import a law once in a process; return why it does not work where it does not.
+    """Import a law once per process; return the error if it fails.
 
     A failed import is kept too: a second attempt takes as long as the first, and a bench's loop
     that reads a law's name has no time for one.
@@ -99,7 +99,7 @@ def _load_law(name: str) -> Law | str:
 
 
 def is_usable(name: str) -> bool:
-    """Whether a law of this name is installed here and loads."""
+    """Whether a law of this name is installed and loads."""
     try:
         return bool(get_law(name))
     except (ParameterError, LawError):
@@ -107,7 +107,7 @@ def is_usable(name: str) -> bool:
 
 
 def get_title(name: str) -> str:
-    """How a law is called in a legend; one that is not installed, or does not load, says so."""
+    """Return the title of a law in a legend; it marks a law that is missing or does not load."""
     if is_usable(name):
         return get_law(name).title
     if name == OWN_LAW:
@@ -116,7 +116,7 @@ def get_title(name: str) -> str:
 
 
 def get_notes(name: str) -> str:
-    """What the file of a law says of it: idea, equations, what it assumes, where it fails.
+    """Return the documentation of a law's file: idea, equations, assumptions, limits.
 
     Empty for a law that cannot be used, or that says nothing.
     """
@@ -126,12 +126,12 @@ def get_notes(name: str) -> str:
 
 
 def has_own_parameters(name: str) -> bool:
-    """Whether a law has parameters of its own, and does not take the gains of the run."""
+    """Whether a law has its own parameters instead of the gains of the run."""
     return not is_usable(name) or get_law(name).parameters is not Gains
 
 
 def read_parameters(name: str, given: Any) -> LawParameters:
-    """Parameters of the law of this name; those of a law that cannot be used stay as they are.
+    """Read the parameters of a law; those of an unavailable law stay unread.
 
     Raises `ParameterError` for what are none.
     """

@@ -1,4 +1,4 @@
-"""What a control law is: all that the lab knows of one, said by the law itself."""
+"""The definition of a control law: everything that the lab knows about it."""
 
 import re
 from collections.abc import Callable, Iterator
@@ -23,11 +23,11 @@ _ESTIMATE = ("w2", "w4", "w6")
 
 
 class LawError(StateError):
-    """A law that is installed and cannot be used."""
+    """An installed law cannot be used."""
 
 
 class Setting(NamedTuple):
-    """What a law is set into. nominal: of the model. domain: where it holds.
+    """What a law is set up for. nominal: constants of the model. domain: where it is valid.
 
     torque1_max, torque2_max: N·m, infinite where nothing limits. period: T, s.
     """
@@ -40,7 +40,7 @@ class Setting(NamedTuple):
 
 
 class Nothing(NamedTuple):
-    """The constants of a law without parameters, the memory of one that remembers nothing."""
+    """The constants of a law without parameters, or the memory of a law without memory."""
 
     nothing: float = 0.0
 
@@ -99,11 +99,11 @@ class Law:
         return pack(self.memory())
 
     def start_memory(self) -> np.ndarray:
-        """What it remembers at the start, as words of 64 bits."""
+        """Return the initial memory, as words of 64 bits."""
         return self._start.view(np.float64).copy()
 
     def bind(self, parameters: LawParameters, setting: Setting) -> BoundLaw:
-        """The law as the compiled loop calls it; compiled where it has not been before.
+        """Bind the law for the compiled loop; compiles it if necessary.
 
         Raises `LawError` where the law's own code fails at it.
         """
@@ -143,7 +143,7 @@ class Law:
 
     @contextmanager
     def _blame(self) -> Iterator[None]:
-        """Report an error in the law's own code as `LawError` with the law's name."""
+        """Raise an error of the law's own code as `LawError` with the law's name."""
         try:
             yield
         except SvsaError:
@@ -155,7 +155,7 @@ class Law:
 
 
 def _name_front(memory: np.dtype) -> tuple[str, ...]:
-    """The names of the numbers that a memory begins with, in the tuple that stands first in it."""
+    """Name the leading numbers of a memory by the tuple at its beginning."""
     names = memory.names or ()
     first = memory[names[0]] if names else memory
     return _name_front(first) if first.names else names

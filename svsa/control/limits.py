@@ -1,4 +1,4 @@
-"""Torque limits: what the motors are really asked for."""
+"""Torque limits of the motors."""
 
 from svsa.actuators.elasticity import Actuator, AnyActuator, ElasticActuator
 from svsa.actuators.kinds import choose_kind
@@ -42,7 +42,7 @@ _limit = choose_kind(_limit_of_svsa, _limit_of_energy)
 
 @compiled
 def limit_motors(plant: AnyActuator, torque: Torque, most: Torque) -> Torque:
-    """`limit_torque` of the real motors: of antagonistic ones ua and ub, not their sum.
+    """Limit the torques of the real motors: for antagonistic ones ua and ub, not their sum.
 
     plant: its constants. torque: u1 and u2, N·m. most: limits of motor 1 (a) and motor 2 (b), N·m.
     """
@@ -67,5 +67,5 @@ _at_limit = choose_kind(_at_limit_of_svsa, _at_limit_of_energy)
 
 @compiled
 def are_at_limit(plant: AnyActuator, torque: Torque, most: Torque) -> bool:
-    """Whether a real motor makes at least its share `most`, N·m. Arguments: as `limit_motors`."""
+    """Whether a real motor is at or above its share `most`, N·m. Arguments: as `limit_motors`."""
     return _at_limit(plant, torque, most)

@@ -1,4 +1,4 @@
-"""Small matrices for the design of a law: the same bits on every machine.
+"""Small matrix functions for the design of a law, bit-identical on every machine.
 
 A library takes another order of operations on each processor, and a law whose gains come from it
 other bits; here every sum is taken from the first term to the last, by numpy's additions and
@@ -16,7 +16,7 @@ MAX_RICCATI = 1e100
 
 
 def weigh(bound: float) -> float:
-    """1/bound²: what a quadratic cost weighs an error by that may be as large as the bound."""
+    """1/bound²: weight of an error in a quadratic cost (Bryson's rule)."""
     return 1.0 / (bound * bound)
 
 

@@ -1,4 +1,4 @@
-"""The parameters of a law: checked values that can say in short what tells them from others."""
+"""Parameters of a law: checked values with a short text that distinguishes them."""
 
 from typing import Any, ClassVar
 
@@ -14,7 +14,7 @@ class LawParameters(Checked):
     """
 
     def describe(self) -> dict[str, str]:
-        """Each value to three digits, by its symbol: what a legend tells laws apart by."""
+        """Format each value to three digits with its symbol, for a legend."""
         described: dict[str, str] = {}
         for name, field in type(self).model_fields.items():
             extra = field.json_schema_extra
@@ -24,12 +24,12 @@ class LawParameters(Checked):
 
 
 class UnreadParameters(LawParameters):
-    """The parameters of a law that is not installed here, as they were written."""
+    """The parameters of a law that is not installed, as they were written."""
 
     model_config: ClassVar[ConfigDict] = ConfigDict(extra="allow")
 
     def describe(self) -> dict[str, str]:
-        """Each value to three digits, by its name."""
+        """Format each value to three digits with its name."""
         return {name: _tell(value) for name, value in (self.model_extra or {}).items()}
 
 

@@ -1,4 +1,4 @@
-"""Inputs of a law in plain Python: time, reference, x̂ and ŵ, and by name what else it takes.
+"""Arguments of a law in plain Python: time, reference, x̂ and ŵ, and named further ones.
 
 Imports nothing of the lab: the law's side reads this file too.
 """
@@ -13,7 +13,7 @@ _ALWAYS = 4
 
 
 def find_named(law: Callable[..., Any]) -> tuple[str, ...]:
-    """Which of `NAMED` a law takes, after its first four arguments or as keywords.
+    """Find which of `NAMED` a law takes, after its first four arguments or as keywords.
 
     Raises `TypeError` where it cannot be called so.
     """

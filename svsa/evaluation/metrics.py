@@ -57,7 +57,7 @@ HELD = (
 
 
 def check_metric(name: str) -> str:
-    """The name; raises `ParameterError` where nothing of that name is measured."""
+    """Return the name; raises `ParameterError` if there is no such metric."""
     if name not in METRICS:
         raise ParameterError(Violation("", name, "", f"one of {', '.join(METRICS)}"))
     return name

@@ -12,17 +12,17 @@ LINE_S = 10.0
 
 
 class Report(Protocol):
-    """What `show_progress` yields."""
+    """The progress function of `show_progress`."""
 
     def __call__(self, done: float, description: str = "", total: int | None = None) -> None:
-        """Show how much is done; an empty description and a total of None leave the last."""
+        """Show the progress; an empty description or a total of None keeps the last one."""
 
 
 @contextmanager
 def show_progress(
     console: Console, description: str, total: int | None = None, unit: str = "runs"
 ) -> Iterator[Report]:
-    """Show a bar until the work ends; where the console is no terminal, a line every 10 s.
+    """Show a progress bar until the work ends; without a terminal, print a line every 10 s.
 
     Args:
         console: Where the bar is shown.

@@ -1,4 +1,4 @@
-"""A scenario: one run that any law can be put through, as a value with a name."""
+"""A scenario: a named run that any law can control."""
 
 from typing import NamedTuple
 

@@ -1,4 +1,4 @@
-"""Search of the unit cube: CMA-ES, started again where it has converged, or random points.
+"""Search of the unit cube: CMA-ES with restarts after convergence, or random points.
 
 N. Hansen, "The CMA Evolution Strategy: A Tutorial" (2016), by the package `cmaes`. A generation is
 judged as one batch. Chance is Philox, keyed by the seed and the number of the start.
@@ -34,7 +34,7 @@ def search(
     step: float = STEP,
     start: np.ndarray | None = None,
 ) -> None:
-    """Ask `judge` of one generation after another, until it raises.
+    """Pass one generation after another to `judge`, until it raises.
 
     Args:
         method: CMA-ES, or random points.
@@ -65,7 +65,7 @@ def _draw(size: int, seed: int, generation: int) -> Iterator[np.ndarray]:
 def _climb(
     mean: np.ndarray, step: float, random: np.random.Generator, judge: Judge, generation: int
 ) -> None:
-    """One start of CMA-ES, until it has converged."""
+    """Run CMA-ES once, until it has converged."""
     from cmaes import CMA
 
     optimizer = CMA(

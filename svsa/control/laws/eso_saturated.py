@@ -36,7 +36,7 @@ from svsa.numerics.simd.choice import choose
 
 
 class Observers(LawParameters):
-    """The surfaces, the observers, and how fast what saturation took is forgotten."""
+    """The surfaces, the observers, and the decay of the saturation compensation."""
 
     position_pole_rad_per_s: Number = quantity(
         "rad/s", "λ of s = (d/dt + λ)³ e, and of its approach", symbol="λ", ge=5, le=150,
@@ -75,7 +75,7 @@ class Constants(NamedTuple):
 
 
 class Memory(NamedTuple):
-    """q, sigma: what the observers hold, the last element d. y: asked last, and what of A.
+    """q, sigma: states of the observers, the last one is d. y: last demand, and terms of A.
 
     drift, a: of the linearization when the torque was asked for. zeta1, zeta2: taken off.
     """
@@ -126,7 +126,7 @@ def build(parameters: Observers, setting: Setting) -> Constants:
 def observe_position(
     gains: Gains5, z: np.ndarray, ξ: Linearization, y: float, is_started: bool, T: float
 ) -> None:
-    """The chain of q a period on, under the y that was made, rad/s⁴, then corrected by q."""
+    """Advance the observer of q by a period under the actual y, rad/s⁴, and correct it by q."""
     z0, z1, z2, z3, d = z[0], z[1], z[2], z[3], z[4]
     a = y + d
     p3 = z3 + T * a
@@ -145,7 +145,7 @@ def observe_position(
 def observe_stiffness(
     gains: Gains3, z: np.ndarray, ξ: Linearization, y: float, is_started: bool, T: float
 ) -> None:
-    """The chain of σ a period on, under the y that was made, then corrected by σ."""
+    """Advance the observer of σ by a period under the actual y, and correct it by σ."""
     z0, z1, d = z[0], z[1], z[2]
     a = y + d
     p0 = z0 + T * (z1 + 0.5 * T * a)

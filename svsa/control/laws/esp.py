@@ -1,4 +1,4 @@
-"""Elastic structure preserving control (ESP): the spring stays, damped, with the motor as its base.
+"""Elastic structure preserving control (ESP): it keeps the spring, damped, with the motor as base.
 
 New motor coordinates η are chosen such that the closed loop is again a link on a spring:
 M ë' + (D + D_d) ė' = −τ_η + w2 − ŵ2 and B1 η̈ = τ_η − K_P η − K_D η̇, e' = q − q_d. With ŵ it
@@ -98,7 +98,7 @@ def build(parameters: Structure, setting: Setting) -> Constants:
 
 @compiled
 def compute_quadratic(spring: SpringDerivatives, dphi: float, dmu: float) -> float:
-    """What of τ̈_e comes from velocities, N·m/s²: τ_φφ φ̇² + 2 τ_φμ φ̇ μ̇ + τ_μμ μ̇²."""
+    """Velocity-dependent part of τ̈_e, N·m/s²: τ_φφ φ̇² + 2 τ_φμ φ̇ μ̇ + τ_μμ μ̇²."""
     return (
         spring.sigma_phi * dphi * dphi
         + 2.0 * spring.sigma_mu * dphi * dmu

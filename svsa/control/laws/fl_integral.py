@@ -1,4 +1,4 @@
-"""FL with integral action: what the model does not know is integrated away, without an observer."""
+"""FL with integral action: integrates model errors away, without an observer."""
 
 from typing import NamedTuple
 
@@ -16,7 +16,7 @@ from svsa.numerics.simd.choice import choose
 
 
 class IntegralPoles(LawParameters):
-    """Where all poles of either error polynomial lie, on the real axis."""
+    """The position of all poles of either error polynomial on the real axis."""
 
     position_pole_rad_per_s: Number = quantity(
         "rad/s", "a of (s + a)⁵, the position's", symbol="a", ge=5, le=150, default=54.6
@@ -49,7 +49,7 @@ class Integrals(NamedTuple):
 
 
 def build(poles: IntegralPoles, setting: Setting) -> Constants:
-    """The coefficients of (s + a)⁵ and (s + p)³; the lowest one is the integral's."""
+    """Build the coefficients of (s + a)⁵ and (s + p)³; the lowest one is the integral's."""
     a, p = poles.position_pole_rad_per_s, poles.stiffness_pole_rad_per_s
     return Constants(
         p0=5.0 * a**4,

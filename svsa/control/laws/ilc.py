@@ -1,4 +1,4 @@
-"""Iterative learning: FL, and a correction that is learned from period to period.
+"""Iterative learning control: FL with a correction that is learned from period to period.
 
 c ← (1 − q)(c + γ e(t + lead)) + q c̄ and u = A⁻¹(b − v + c0 c): what repeats with the period, a load
 as well as a wrong model, is learned away without an observer. c̄ is the mean of a point's
@@ -24,7 +24,7 @@ KNOTS = 1000
 
 
 class Learning(LawParameters):
-    """FL's poles, the period that is learned over, and how."""
+    """FL's poles, and period and filter of the learning."""
 
     position_pole_rad_per_s: Number = quantity(
         "rad/s", "a of (s + a)⁴, the position's", symbol="a", ge=5, le=150, default=60.0
@@ -91,7 +91,7 @@ def read_correction(corrections: np.ndarray, knot: int, share: float) -> float:
 
 @compiled
 def learn(constants: Constants, corrections: np.ndarray, knot: int, error: float) -> None:
-    """Correct at a knot what led to this error, in place."""
+    """Update the correction of the knot that caused this error, in place."""
     q = constants.smoothing
     neighbours = 0.5 * (corrections[(knot - 1) % KNOTS] + corrections[(knot + 1) % KNOTS])
     own = corrections[knot % KNOTS] + constants.learned * error

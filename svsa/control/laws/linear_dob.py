@@ -1,4 +1,4 @@
-"""A linear disturbance observer: the chain linearized at σ_d, one Q-filter a body.
+"""A linear disturbance observer: chain linearized at σ_d, one Q-filter per body.
 
 Ohnishi's observer and pole placement, as in a textbook: F = (−D q̇ − σ_d φ, −D1 θ̇1 + σ_d φ,
 −D2 θ̇2). What the spring does beyond σ_d φ, and its reaction on the stiffness motor, is disturbance

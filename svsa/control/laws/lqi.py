@@ -47,7 +47,7 @@ WEIGHT1_NM, WEIGHT2_NM = 15.0, 5.0
 
 
 class Weights(LawParameters):
-    """What error is worth a motor's whole torque (Bryson's rule), 15 and 5 N·m."""
+    """The error that justifies a motor's full torque (Bryson's rule), 15 and 5 N·m."""
 
     position_rad: Number = quantity(
         "rad", "Error of the position", symbol="e_q", ge=1e-3, le=10, default=0.104
@@ -104,7 +104,7 @@ def solve_regulator(
 
 
 class Chain(NamedTuple):
-    """What of the nominal model and the period decides the gains: not s0."""
+    """The nominal values and the period that determine the gains: all except s0."""
 
     actuator: AnyActuator
     period: float
@@ -162,7 +162,9 @@ def _solve_at(sigma: float, weights: tuple[float, ...], chain: Chain) -> list[fl
 
 @compiled
 def interpolate(table: tuple[float, ...], place: float) -> float:
-    """A gain at a place among `STIFFNESSES`, 0 … 9, on straight lines; at the ends as there."""
+    """Interpolate a gain linearly at a position 0 … 9 in `STIFFNESSES`; constant beyond the
+    ends.
+    """
     found = table[0]
     for i in range(9):
         share = least(greatest(place - i, 0.0), 1.0)

@@ -47,7 +47,7 @@ MAX_SWING_NM = 10.0
 
 
 class ScheduledPoles(YieldingPoles):
-    """NDOBC-W's, in calm and at a surprise, and what becomes of them where it is loud."""
+    """NDOBC-W's poles, calm and after a large residual, and their reduction under oscillation."""
 
     position_pole_rad_per_s: Number = quantity(
         "rad/s", "a₀ of (s + a)⁴ in calm and at a surprise, no motor being at its limit",
@@ -194,7 +194,7 @@ class Memory(NamedTuple):
 
 
 def build(parameters: ScheduledPoles, setting: Setting) -> Constants:
-    """The ends between which the bandwidth is reduced, and the limits that it may count on."""
+    """Build the bounds of the bandwidth, and the limits that the law uses."""
     p, period = parameters, setting.period
     a, omega = p.position_pole_rad_per_s, p.observer_rad_per_s
     omega_calm = min(omega, p.calm_observer_rad_per_s)
@@ -228,7 +228,7 @@ def build(parameters: ScheduledPoles, setting: Setting) -> Constants:
 
 @compiled
 def feel_shaking(constants: Constants, memory: np.record, torque: Torque) -> None:
-    """s² with the second difference of the torque that is asked for, N·m; memory: written."""
+    """Update s² with the second difference of the commanded torque, N·m; memory: written."""
     du1, du2 = torque.u1 - memory.u1, torque.u2 - memory.u2
     ddu1, ddu2 = du1 - memory.du1, du2 - memory.du2
     most = CAP * constants.s0
@@ -239,7 +239,7 @@ def feel_shaking(constants: Constants, memory: np.record, torque: Torque) -> Non
 
 @compiled
 def feel_surprise(constants: Constants, memory: np.record, r: Disturbance) -> None:
-    """ε, G and n² with the newest residual, N·m; memory: written."""
+    """Update ε, G and n² with the newest residual, N·m; memory: written."""
     c, felt2, felt4, felt6 = constants, memory.felt2, memory.felt4, memory.felt6
     felt2 = felt2 + c.felt * (r.w2 - felt2)
     felt4 = felt4 + c.felt * (r.w4 - felt4)
@@ -279,7 +279,8 @@ def control(
     applied: Torque,
     period: float,
 ) -> Torque:
-    """u = A⁻¹(y − drift under ŵ), N·m, of poles that are fast at a surprise and slow in shaking.
+    """u = A⁻¹(y − drift under ŵ), N·m, with fast poles after large residuals, slow ones in
+    oscillation.
 
     constants: `Constants`. memory: `Memory`. Else as `Law` says.
     """

@@ -130,7 +130,7 @@ class Memory(NamedTuple):
 
 
 def build(parameters: YieldingPoles, setting: Setting) -> Constants:
-    """The shares of both ends of a period, and the limits that it may count on."""
+    """Build the gains of both ends of a period, and the limits that the law uses."""
     a = parameters.position_pole_rad_per_s
     kept = exp(-parameters.observer_rad_per_s * setting.period)
     return Constants(
@@ -160,7 +160,7 @@ def govern_stiffness(
     w: Disturbance,
     period: float,
 ) -> tuple[float, float, float]:
-    """What is added to σ_d, σ̇_d and σ̈_d so that the spring bears the load that is there.
+    """Compute the addition to σ_d, σ̇_d and σ̈_d with which the spring bears the present load.
 
     Wanted is σ_d (n/c)^1.25, n = |ŵ2 − M q̈_d − D q̇_d| the torque that it has to give and c what
     it gives at a share of its limit of deflection; followed critically damped, up faster than down.
@@ -240,7 +240,7 @@ def yield_poles(
     a_most: float,
     period: float,
 ) -> Torque:
-    """u = A⁻¹(y − drift under ŵ), N·m, of the fastest poles that the motors can follow.
+    """u = A⁻¹(y − drift under ŵ), N·m, with the fastest poles that the motors can follow.
 
     constants: with what `Constants` has but the observer's shares. memory: with what `Memory`
     has, written. w: ŵ, whose rate is in memory.observed. a_most: what a is at most now, rad/s.

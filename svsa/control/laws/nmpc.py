@@ -1,4 +1,4 @@
-"""Model predictive control in flat coordinates, condensed: torque limits are part of the plan.
+"""Model predictive control in flat coordinates, condensed, with torque limits as constraints.
 
 In y = (q⁗, σ̈) the actuator is two chains of integrators, exactly (Eq 17–23), so that the nonlinear
 problem is one quadratic one a chain: over ten blocks of 5 ms
@@ -43,7 +43,7 @@ SWEEPS = 3
 
 
 class Horizon(LawParameters):
-    """What error is worth what effort, and the observer."""
+    """Weights of error and effort, and the observer."""
 
     position_rad: Number = quantity(
         "rad", "Error of the position that is worth the unit of snap", symbol="e_q", ge=1e-3, le=10,
@@ -96,7 +96,7 @@ class Constants(NamedTuple):
 
 
 class Memory(NamedTuple):
-    """The observer, and both plans: y relative to what the reference has, a block each."""
+    """The observer, and both plans: y relative to the reference, one value per block."""
 
     observed: Observed = Observed()
     position: Row = (0.0,) * BLOCKS
@@ -154,7 +154,7 @@ def build(parameters: Horizon, setting: Setting) -> Constants:
 
 @compiled
 def plan(problem: Plan, blocks: np.ndarray, e: tuple[float, ...], low: float, high: float) -> float:
-    """Sweeps of projected Gauss–Seidel from the plan of the last tick, in place.
+    """Improve the plan of the last tick by sweeps of projected Gauss–Seidel, in place.
 
     e: error and its rates. low, high: bounds of every block's input. Returns the first block's.
     """

@@ -12,7 +12,7 @@ from svsa.inputs.checked import Number, quantity
 
 
 class MotorPoles(LawParameters):
-    """Two motors with a spring and a damper each."""
+    """Poles of both motors, each with a virtual spring and damper."""
 
     motor1_rad_per_s: Number = quantity(
         "rad/s", "ω1 of the principal motor's loop", symbol="ω1", ge=1, le=300, default=107.8
@@ -25,7 +25,7 @@ class MotorPoles(LawParameters):
 
 
 def build(parameters: MotorPoles, setting: Setting) -> Constants:
-    """Those of a PID that neither integrates nor looks at the link."""
+    """Build the constants of a PID without integrals and without link feedback."""
     without = {
         "position_integral_per_s": 0.0,
         "link_rad_per_s": 0.0,

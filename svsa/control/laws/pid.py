@@ -1,4 +1,4 @@
-"""PID on both motors about the flat motion: what most benches have, with a feedforward.
+"""PID on both motors about the flat motion, with feedforward, as on most benches.
 
 u1 = u1ff + B1 [ω1² (θ1d + I1 − θ1) + 2ζ1 ω1 (θ̇1d − θ̇1)] + M (kq² e + 2 kq ė), İ1 = ki1 e, and
 u2 = u2ff + B2 [ω2² (θ2d + I2 − θ2) + 2ζ2 ω2 (θ̇2d − θ̇2)], İ2 = ki2 e_σ/g. The loop is closed on the
@@ -25,7 +25,7 @@ from svsa.numerics.simd.choice import choose
 
 
 class MotorGains(LawParameters):
-    """Two motors with a spring and a damper each, and what is integrated."""
+    """Virtual spring and damper of both motors, and the integral gains."""
 
     motor1_rad_per_s: Number = quantity(
         "rad/s", "ω1 of the principal motor's loop", symbol="ω1", ge=1, le=300, default=37.7
@@ -64,7 +64,7 @@ class Constants(NamedTuple):
 
 
 class Integrals(NamedTuple):
-    """How far the motors are moved on, rad."""
+    """Integrated corrections of the motor positions, rad."""
 
     motor1: float = 0.0
     motor2: float = 0.0
@@ -98,7 +98,7 @@ def control(
     applied: Torque,
     period: float,
 ) -> Torque:
-    """See above, N·m, before limits; each integral stands still while its motor is at its limit."""
+    """See above, N·m, before limits; an integral stops while its motor is at its limit."""
     c, d = constants, compute_flat(nominal, reference)
     e, de = reference.q - x.q, reference.dq - x.dq
     u1 = (

@@ -1,4 +1,4 @@
-"""Prescribed performance without a model: every error is held in a funnel that narrows with time.
+"""Model-free prescribed performance control: every error stays in a narrowing funnel.
 
 The funnel of each step decays from its initial to its final width,
 
@@ -45,7 +45,7 @@ EDGE = 0.99
 
 
 class Funnels(LawParameters):
-    """A final width and a gain a step, and how the funnels narrow to them."""
+    """Final width and gain of each step, and the rate of narrowing."""
 
     initial_ratio: Number = quantity(
         "1", "r: initial over final width of every funnel", symbol="r", ge=1, le=20, default=3.0
@@ -121,7 +121,7 @@ def build(parameters: Funnels, setting: Setting) -> Constants:
 
 @compiled
 def push_inside(error: float, width: float) -> float:
-    """ρ ε(e/ρ): the error, the more of it the nearer to the edge of its funnel."""
+    """ρ ε(e/ρ): the transformed error, which grows towards the edge of its funnel."""
     x = least(greatest(error / width, -EDGE), EDGE)
     return 0.5 * width * log((1.0 + x) / (1.0 - x))
 
@@ -137,7 +137,7 @@ def control(
     applied: Torque,
     period: float,
 ) -> Torque:
-    """See above; of the actuator it knows the spring only, for τ_e, σ and g. N·m."""
+    """See above; uses only the spring's model, for τ_e, σ and g. N·m."""
     c = constants
     wide = 1.0 + (c.ratio - 1.0) * memory.left
     memory.left *= c.kept

@@ -1,4 +1,4 @@
-"""Adaptive networks of radial basis functions: what the load is, learned over (q, q̇).
+"""Adaptive networks of radial basis functions: the load as a learned function of (q, q̇).
 
 ŵ_i = W_iᵀ φ(q, q̇), one network a body; NDOBC compensates what they say (Eq 24). W is adapted by how
 far each body's velocity is from its prediction, both poles at ω, so that a network is an observer
@@ -28,7 +28,7 @@ CENTRES = len(POSITIONS_RAD) * len(VELOCITIES_RAD_PER_S)
 
 
 class Network(LawParameters):
-    """Poles on the real axis, and how fast and how finely the networks learn."""
+    """Poles on the real axis, and rate and resolution of the learning."""
 
     position_pole_rad_per_s: Number = quantity(
         "rad/s", "a of (s + a)⁴, the position's", symbol="a", ge=5, le=150, default=63.7
@@ -103,7 +103,7 @@ def control(
     applied: Torque,
     period: float,
 ) -> Torque:
-    """The networks learn from the last period, then Eq 24 with what they say; `Torque`, N·m."""
+    """Update the networks from the last period, then Eq 24 with their estimate; `Torque`, N·m."""
     c = constants
     is_started = memory.is_started > 0.0
     F_old = compute_internal_torque(nominal, memory.x)

@@ -24,7 +24,7 @@ from svsa.numerics.simd.choice import choose
 
 
 class Sliding(LawParameters):
-    """The surfaces, how fast a load may change, and the layer about each surface.
+    """The surfaces, the bound of the load's rate, and the layer about each surface.
 
     Of 1024 Sobol points (λ 50–100, p 25–90, L1 1.5e6–4e7, L2 2e4–4e5, L0 6e3–5e4, layers 7–60 ms)
     and 4034 more between and about the best of them, four hold every column of the prototypes'

@@ -1,1 +1,1 @@
-"""What the controller believes about what it cannot measure."""
+"""Observers: estimates of unmeasured states and disturbances."""

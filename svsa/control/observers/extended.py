@@ -1,4 +1,4 @@
-"""The extended-state observer: a position, its velocity, and what accelerates it besides."""
+"""The extended-state observer: a position, its velocity, and its unmodelled acceleration."""
 
 from typing import NamedTuple
 

@@ -1,4 +1,4 @@
-"""Observers that a law brings itself: they stand at the front of its memory.
+"""Observers that are part of a law, stored at the front of its memory.
 
 They use the inputs of the law, x̂ and the actual torque, and so do not wind up.
 """
@@ -34,13 +34,13 @@ class Observed(NamedTuple):
 
 @compiled
 def get_observed(memory: np.record) -> Disturbance:
-    """ŵ as `Disturbance`, N·m."""
+    """Return ŵ as `Disturbance`, N·m."""
     return Disturbance(memory.w2, memory.w4, memory.w6)
 
 
 @compiled
 def remember_state(memory: np.record, x: State) -> None:
-    """Keep x̂, `State`, for the period to come."""
+    """Store x̂, `State`, for the next period."""
     memory.x.q, memory.x.dq = x.q, x.dq
     memory.x.theta1, memory.x.dtheta1 = x.theta1, x.dtheta1
     memory.x.theta2, memory.x.dtheta2 = x.theta2, x.dtheta2
@@ -83,7 +83,7 @@ def observe_unexplained(
     torque: Torque,
     period: float,
 ) -> Disturbance:
-    """`observe_disturbance` with F at both ends by a model of one's own, `InternalTorque`, N·m."""
+    """`observe_disturbance` with F at both ends from the law's own model, `InternalTorque`, N·m."""
     r = compute_residual(nominal, memory, x, F_old, F_new, torque, period)
     return correct_observed(memory, share, rate_share, x, r, period)
 
@@ -98,7 +98,7 @@ def compute_residual(
     torque: Torque,
     period: float,
 ) -> Disturbance:
-    """r of `observe_disturbance`, `Disturbance`, N·m; 0 where there was no period before."""
+    """r of `observe_disturbance`, `Disturbance`, N·m; 0 without a previous period."""
     seen = compute_unexplained_mean(nominal, memory.x, F_old, x, F_new, torque, period)
     is_started = memory.is_started > 0.0
     return Disturbance(

@@ -16,7 +16,7 @@ def build_measured_state(measurement: Measurement) -> State:
 def correct(
     position: float, velocity: float, measured: float, decay: float, period: float
 ) -> tuple[float, float]:
-    """Both moved towards the measured position (rad), critically damped.
+    """Correct position and velocity towards the measured position (rad), critically damped.
 
     With p = e^(−ωT) for the corner ω: position += (1 − p²) r, velocity += (1 − p)²/T · r, r =
     measured − position. Both errors then decay as p^k. decay: p. period: T, s.

@@ -1,4 +1,4 @@
-"""The falsifier: within bounds, what hurts a law most, and the simplest load that still does it.
+"""The falsifier: search within bounds for the load that degrades a law most, then simplify it.
 
 found = svsa.falsify.falsify(svsa.falsify.read_adversary("impulse"))
 svsa.falsify.write_scenario("worst.toml", found.scenario)

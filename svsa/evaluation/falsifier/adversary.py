@@ -1,4 +1,4 @@
-"""An adversary as a value: which loads it may choose, what it may perturb, and what it is after."""
+"""An adversary as a value: permitted loads, permitted perturbations, and the cost."""
 
 from collections.abc import Sequence
 from typing import Annotated, Any, Literal, Self
@@ -21,7 +21,7 @@ Cost = Literal["fault", "peak", "recovery"]
 
 
 class Adversary(Checked):
-    """Bounds on loads and perturbations, under which a law is hurt. Raises `ParameterError`.
+    """Bounds on loads and perturbations that may degrade a law. Raises `ParameterError`.
 
     terms: loads that come together. vary: settings that are perturbed, as of a study, but no grids;
     what a run begins from is their nominal value. cost: a fault; or the greatest position error, or
@@ -63,15 +63,15 @@ class Adversary(Checked):
 
     @property
     def size(self) -> int:
-        """How many numbers are searched."""
+        """Number of search variables."""
         return sum(len(term.axes) for term in self.terms) + len(self.vary)
 
     def build_base(self) -> Configuration:
-        """The run without any of it."""
+        """Build the run without loads and perturbations of the adversary."""
         return build_base(self.base, self.law)
 
     def build_attack(self, base: Configuration, shares: Sequence[float]) -> Attack:
-        """What it does at these shares of its ranges, 0 to 1. base: see `build_base`."""
+        """Build the attack at these shares of the ranges, 0 to 1. base: see `build_base`."""
         loads, at = [], 0
         for term in self.terms:
             axes = term.axes
@@ -86,12 +86,12 @@ class Adversary(Checked):
         return Attack(tuple(loads), settings)
 
     def admits(self, attack: Attack) -> bool:
-        """Whether every load of an attack is one of its terms, or less of one."""
+        """Whether every load of an attack is within the bounds of a term."""
         return all(any(admits(term, load) for term in self.terms) for load in attack.loads)
 
 
 def _draw(variation: Variation, present: Any, share: float) -> Any:
-    """What a setting becomes at a share of its range."""
+    """Return a setting's value at a share of its range."""
     (drawn,) = variation.draw(np.array([share]))
     value = scale(variation, present, drawn)
     return settle_number(value, DIGITS) if isinstance(value, float) else value

@@ -1,4 +1,4 @@
-"""`svsa falsify`: find the load that hurts a law most, keep it, put other laws through it."""
+"""`svsa falsify`: find the load that degrades a law most, save it, run other laws under it."""
 
 import os
 from collections.abc import Callable
@@ -47,7 +47,7 @@ def search_command(
     picture: _Picture = None,
     as_json: _Json = False,
 ) -> None:
-    """Search for what hurts most, shrink it, keep it. Ctrl-C keeps the worst so far."""
+    """Search for the worst load, simplify it and save it. Ctrl-C saves the worst so far."""
     from svsa.evaluation.falsifier.falsification import falsify as find
     from svsa.evaluation.falsifier.file import (
         forget_search,
@@ -96,7 +96,7 @@ def run_command(
     picture: _Picture = None,
     as_json: _Json = False,
 ) -> None:
-    """Put laws through a scenario that was kept."""
+    """Run laws in a saved scenario."""
     from svsa.evaluation.falsifier.description import describe_neighborhood
     from svsa.evaluation.falsifier.file import open_scenario
     from svsa.evaluation.falsifier.measure import list_baselines
@@ -116,7 +116,7 @@ def run_command(
 
 @falsify.command("list")
 def list_command() -> None:
-    """The adversaries that come with the package."""
+    """List the built-in adversaries."""
     from svsa.evaluation.falsifier.file import list_adversaries, read_adversary
 
     table = Table("adversary", "what it may do", "after", "numbers", title_justify="left")

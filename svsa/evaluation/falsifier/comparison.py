@@ -9,7 +9,7 @@ from svsa.evaluation.falsifier.falsification import falsify
 
 
 class SeedResult(NamedTuple):
-    """For a seed the run of the first fault, None without one, and the greatest severity."""
+    """The run of the first fault of one seed, None without one, and the largest severity."""
 
     seed: int
     cma_run: int | None

@@ -1,4 +1,4 @@
-"""Descriptions of outcomes, loads and counterexamples in a few words."""
+"""Short descriptions of outcomes, loads and counterexamples."""
 
 import math
 from typing import Any
@@ -20,12 +20,12 @@ NUMBERS = {
 
 
 def format_run_number(template: str, value: float) -> str:
-    """The number in its words, with a minus sign and no hyphen."""
+    """Format a number in a text with a minus sign instead of a hyphen."""
     return template.format(value).replace("-", "−")
 
 
 def describe_outcome(measured: Measured, row: int, cost: Cost) -> str:
-    """The fault that a run ended in, or how much it hurt."""
+    """Describe the fault of a run, or its severity."""
     fault = measured.outcome["fault"][row]
     if fault == REFUSED:
         return "refused: its settings do not go together"
@@ -33,14 +33,14 @@ def describe_outcome(measured: Measured, row: int, cost: Cost) -> str:
 
 
 def describe_worst(cost: Cost, severity: float) -> str:
-    """How much the worst run of a search hurts so far, which fault it is not yet known."""
+    """Describe the severity of a search's worst run so far."""
     if math.isinf(severity):
         return "a fault" if severity > 0.0 else "settings that do not go together"
     return format_severity(cost, severity)
 
 
 def format_severity(cost: Cost, severity: float) -> str:
-    """How much a run without a fault hurts, with its unit; see `measure.judge`."""
+    """Format the severity of a run without a fault with its unit; see `measure.judge`."""
     if cost == "fault":
         return f"no fault, strain {severity:.3g}"
     metric = METRIC[cost]
@@ -48,7 +48,7 @@ def format_severity(cost: Cost, severity: float) -> str:
 
 
 def describe_neighborhood(finding: Finding | None) -> str:
-    """The share of random loads near a counterexample that hurt as much; empty of none."""
+    """Describe the share of random loads near a counterexample with equal effect; empty if none."""
     share = finding and finding.neighborhood
     if finding is None or share is None:
         return ""
@@ -59,12 +59,12 @@ def describe_neighborhood(finding: Finding | None) -> str:
 
 
 def describe_attack(attack: Attack) -> str:
-    """Loads and settings in one line."""
+    """Describe loads and settings in one line."""
     return "; ".join(list_attack(attack)) or "nothing"
 
 
 def list_attack(attack: Attack) -> list[str]:
-    """Each of its loads, and each of its settings, in words."""
+    """List each load and each setting as text."""
     loads = [_describe_load(load) for load in attack.loads]
     settings = [f"{path} = {_format_value(value)}" for path, value in attack.settings.items()]
     return [*loads, *settings]

@@ -1,4 +1,4 @@
-"""The falsifier: search an adversary's ranges for what hurts most, then make it simple."""
+"""The falsifier: search an adversary's ranges for the largest cost, then simplify the result."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -21,12 +21,12 @@ RUNS, MAX_RUNS = 20_000, 1_000_000
 
 
 class FalsifierError(SvsaError):
-    """A search that cannot begin."""
+    """A search that cannot start."""
 
 
 @dataclass(frozen=True)
 class Falsified:
-    """What a search found.
+    """The result of a search.
 
     severities: of each run how much it hurt, infinite for a fault, see `measure.judge`; with them
     a search that was broken off goes on. run: number of the worst, from 1 on; the first fault.
@@ -50,17 +50,17 @@ class Falsified:
 
     @property
     def severity(self) -> float:
-        """How much the worst run hurts."""
+        """Severity of the worst run."""
         return float(self.severities[self.run - 1])
 
     @property
     def is_fault(self) -> bool:
-        """Whether it is a fault that was found."""
+        """Whether the worst run ended in a fault."""
         return math.isinf(self.severity)
 
     @property
     def scenario(self) -> LoadScenario:
-        """The simplest of it as a scenario."""
+        """The simplified attack as a scenario."""
         simple = self.shrunk
         return _describe(
             self.adversary,
@@ -73,7 +73,7 @@ class Falsified:
 
     @property
     def as_found(self) -> LoadScenario:
-        """The worst as it was found, before it was made simple."""
+        """The worst attack before simplification."""
         return replace(self, shrunk=None, neighborhood=None).scenario
 
 
@@ -113,11 +113,11 @@ def _describe(
 
 
 class _EndedError(Exception):
-    """The search is not to go on."""
+    """The search ends."""
 
 
 class _Search:
-    """The runs of a search, counted against its bound; those known from before are not run.
+    """The runs of a search, counted against its limit; known ones are not repeated.
 
     on_worse: called with each run that hurts more than all before it: its number, and what it did.
     """
@@ -136,7 +136,7 @@ class _Search:
         self._on_worse = on_worse
 
     def judge(self, shares: np.ndarray) -> np.ndarray:
-        """How much each of a generation hurts; raises `_EndedError` where that ends the search."""
+        """Compute the severity of each attack of a generation; raises `_EndedError` at the end."""
         done = len(self.severities)
         if done >= self._runs:
             raise _EndedError
@@ -171,7 +171,7 @@ def falsify(
     is_cancelled: Callable[[], bool] = lambda: False,
     is_shrunk: bool = True,
 ) -> Falsified:
-    """Search for what hurts the adversary's law most, and shrink it to the simplest that does.
+    """Search for the attack with the largest cost, and simplify it with the same effect.
 
     The search ends at the first fault, than which nothing is worse. The same arguments give the
     same result. At Ctrl-C the worst so far is returned as it is.

@@ -27,7 +27,7 @@ SEARCH_SUFFIX = ".search"
 
 
 def list_adversaries() -> dict[str, str]:
-    """The adversaries that come with the package: name and title, fewest terms first."""
+    """List the built-in adversaries: name and title, fewest terms first."""
     paths = sorted(ADVERSARY_FOLDER.glob("*.toml"))
     read = {path.stem: read_toml(path, ADVERSARY_FILE) for path in paths}
     simplest = sorted(read, key=lambda name: len(read[name]["terms"]))
@@ -35,7 +35,7 @@ def list_adversaries() -> dict[str, str]:
 
 
 def read_adversary(source: str | Path, **changes: Any) -> Adversary:
-    """The adversary of a file that ends in .toml, or one of the package's by its name.
+    """Read an adversary from a .toml file, or a built-in one by its name.
 
     changes: fields in place of the file's. Raises `ParameterError` with file and lines.
     """
@@ -49,17 +49,17 @@ def read_adversary(source: str | Path, **changes: Any) -> Adversary:
 
 
 def parse_adversary(text: str, **changes: Any) -> Adversary:
-    """The adversary of a TOML text; changes: fields in place of its own."""
+    """Parse an adversary in TOML; changes: fields to replace."""
     return build_checked(Adversary, parse_toml(text, ADVERSARY_FILE, ""), text, "", changes)
 
 
 def read_scenario(path: str | Path) -> LoadScenario:
-    """A scenario that was kept; raises `ParameterError` with file and lines."""
+    """Read a saved scenario; raises `ParameterError` with file and lines."""
     return read_checked(LoadScenario, Path(path), SCENARIO_FILE)
 
 
 def write_scenario(path: str | Path, scenario: LoadScenario) -> None:
-    """Keep a scenario where `read_scenario` finds it."""
+    """Save a scenario for `read_scenario`."""
     Path(path).write_text(format_scenario(scenario), encoding="utf-8")
 
 
@@ -69,12 +69,12 @@ def format_scenario(scenario: LoadScenario) -> str:
 
 
 def find_scenarios_folder() -> Path:
-    """Where scenarios are kept."""
+    """Return the folder of saved scenarios."""
     return find_data_folder() / "scenarios"
 
 
 def list_scenarios() -> dict[str, LoadScenario]:
-    """Those that are kept and can be read, by name."""
+    """List the saved scenarios that are readable, by name."""
     found = {}
     for path in sorted(find_scenarios_folder().glob(f"*{_SUFFIX}")):
         try:
@@ -85,7 +85,7 @@ def list_scenarios() -> dict[str, LoadScenario]:
 
 
 def keep_scenario(name: str, scenario: LoadScenario) -> Path:
-    """Keep a scenario by a name; the file that it is in.
+    """Save a scenario under a name; return its file.
 
     Raises `ParameterError` for a name that is none, and where another scenario has it.
     """
@@ -99,12 +99,12 @@ def keep_scenario(name: str, scenario: LoadScenario) -> Path:
 
 
 def is_kept(name: str) -> bool:
-    """Whether a scenario is kept by this name; raises `ParameterError` for one that is none."""
+    """Whether a scenario is saved under this name; raises `ParameterError` for an invalid name."""
     return _locate(name).exists()
 
 
 def open_scenario(source: str) -> LoadScenario:
-    """The scenario of a file that ends in .toml, or the one that is kept by this name.
+    """Read a scenario from a .toml file, or a saved one by its name.
 
     Raises `ParameterError` where there is none, and with file and lines for what is wrong in it.
     """
@@ -118,7 +118,7 @@ def open_scenario(source: str) -> LoadScenario:
 
 
 def forget_scenario(name: str) -> bool:
-    """Delete what is kept by a name; whether there was anything."""
+    """Delete a saved scenario; return whether it existed."""
     path = _locate(name)
     is_there = path.exists()
     path.unlink(missing_ok=True)
@@ -133,7 +133,7 @@ def _locate(name: str) -> Path:
 def keep_search(
     path: Path, adversary: Adversary, seed: int, method: Method, severities: np.ndarray
 ) -> Path:
-    """Keep what a search has run that writes to `path`; the file where it is."""
+    """Save the runs of a search that writes to `path`; return the file."""
     kept_path = path.with_name(path.name + SEARCH_SUFFIX)
     reported = _describe_search(adversary, seed, method)
     content = reported | {"severities": [_write_severity(value) for value in severities.tolist()]}
@@ -142,7 +142,7 @@ def keep_search(
 
 
 def read_search(path: Path, adversary: Adversary, seed: int, method: Method) -> np.ndarray:
-    """What was run of the same search; nothing where there is none, or another one."""
+    """Read the runs of the same search; none if there is no file or it is of another search."""
     kept_path = path.with_name(path.name + SEARCH_SUFFIX)
     try:
         kept = json.loads(kept_path.read_text(encoding="utf-8"))
@@ -154,7 +154,7 @@ def read_search(path: Path, adversary: Adversary, seed: int, method: Method) -> 
 
 
 def forget_search(path: Path) -> None:
-    """Delete what was kept of a search that is done."""
+    """Delete the saved runs of a finished search."""
     path.with_name(path.name + SEARCH_SUFFIX).unlink(missing_ok=True)
 
 

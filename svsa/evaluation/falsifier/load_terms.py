@@ -1,4 +1,4 @@
-"""What an adversary may put on the actuator: a family of loads, as numbers between bounds."""
+"""Load terms of an adversary: families of loads with bounded parameters."""
 
 import math
 from collections.abc import Sequence
@@ -23,7 +23,7 @@ Ends = tuple[Number, Number]
 
 
 class Axis(NamedTuple):
-    """A number that is searched, in even shares or in equal ratios from low to high."""
+    """A search variable, scaled linearly or logarithmically from low to high."""
 
     low: float
     high: float
@@ -51,7 +51,7 @@ class Axis(NamedTuple):
 
 
 class _Term(Checked):
-    """A load whose size, on each body separately, and onset are searched."""
+    """A load whose size on each body and onset are searched."""
 
     bodies: Annotated[tuple[Body, ...], Field(min_length=1, max_length=3)] = quantity(
         "", "Bodies: link, motor1, motor2", default=("link",)
@@ -75,28 +75,28 @@ class _Term(Checked):
 
     @property
     def size(self) -> Axis:
-        """The range of the size on each body, N·m."""
+        """Range of the size on each body, N·m."""
         return Axis(-self.torque_nm, self.torque_nm)
 
     @property
     def ranges(self) -> dict[str, Axis]:
-        """The range of every other number, by its name in the load."""
+        """Ranges of the other parameters, by name in the load."""
         return {"start_s": Axis(*self.start_s)}
 
     @property
     def axes(self) -> tuple[Axis, ...]:
-        """The numbers that are searched: the size on each body, then those of `ranges`."""
+        """Search variables: the size on each body, then those of `ranges`."""
         return (*(self.size for _ in self.bodies), *self.ranges.values())
 
 
 class StepTerm(_Term):
-    """A torque from its onset on."""
+    """A torque step."""
 
     kind: Literal["step"] = "step"
 
 
 class PulseTerm(_Term):
-    """A torque for a while."""
+    """A torque pulse."""
 
     kind: Literal["pulse"] = "pulse"
     duration_s: Ends = quantity("s", "Range of the duration")
@@ -113,7 +113,7 @@ class PulseTerm(_Term):
 
 
 class SineTerm(_Term):
-    """A sine from its onset on, its phase searched too."""
+    """A sine from its onset on, with its phase as search variable."""
 
     kind: Literal["sine"] = "sine"
     frequency_hz: Ends = quantity("Hz", "Frequency, from and to")
@@ -143,7 +143,7 @@ _LOADS: dict[str, type[ConstantLoad | PulseLoad | SineLoad]] = {
 
 
 def build_load(term: Term, values: Sequence[float]) -> Load:
-    """The load of a term at these values, in the order of its axes."""
+    """Build the load of a term from values in the order of its axes."""
     sizes = dict(zip(term.bodies, values, strict=False))
     numbers: dict[str, Any] = dict(zip(term.ranges, values[len(term.bodies) :], strict=True))
     torque: Any = tuple(sizes.get(body, 0.0) for body in BODIES)
@@ -151,7 +151,7 @@ def build_load(term: Term, values: Sequence[float]) -> Load:
 
 
 def admits(term: Term, load: Load) -> bool:
-    """Whether a load is within the bounds of a term; every phase is."""
+    """Whether a load is within the bounds of a term, with any phase."""
     if not isinstance(load, ConstantLoad | PulseLoad | SineLoad):
         return False
     if type(load) is not _LOADS[term.kind]:

@@ -1,4 +1,4 @@
-"""What a load does to a law: many runs at once, and how much each hurts."""
+"""Severity of attacks on a law, for many runs at once."""
 
 from collections.abc import Sequence
 from typing import Any, NamedTuple
@@ -24,7 +24,7 @@ REFUSAL = -np.inf
 
 
 class Measured(NamedTuple):
-    """Outcomes of runs. severity: of each, see `judge`. outcome: see `measure_runs`."""
+    """Outcomes of runs. severity: see `judge`. outcome: see `measure_runs`."""
 
     severity: np.ndarray
     outcome: dict[str, Any]
@@ -33,14 +33,14 @@ class Measured(NamedTuple):
 def measure_attacks(
     adversary: Adversary, base: Configuration, attacks: Sequence[Attack], duration_s: float
 ) -> Measured:
-    """Run attacks side by side."""
+    """Run attacks as a vectorised batch."""
     configurations = [_apply(attack, base) for attack in attacks]
     outcome = measure_runs(configurations, duration_s, adversary.measure_from_s, Success())
     return Measured(judge(outcome, adversary.cost, duration_s, base.limits), outcome)
 
 
 def judge(outcome: dict[str, Any], cost: Cost, duration_s: float, limits: Limits) -> np.ndarray:
-    """How much each run hurts: infinite for a fault, else the cost's metric, in its unit.
+    """Compute the severity of each run: infinite for a fault, else the metric of the cost.
 
     A run that does not recover hurts more than any that does, by its error at the end.
     """
@@ -58,7 +58,7 @@ def judge(outcome: dict[str, Any], cost: Cost, duration_s: float, limits: Limits
 
 
 def hurts_as_much(measured: Measured, found: Measured) -> np.ndarray:
-    """Which runs hurt as much as one that was found: a fault, or 95 % of its cost.
+    """Whether each run is as severe as the one found: a fault, or 95 % of its cost.
 
     Returns:
         Shape (n,), bool.
@@ -67,7 +67,7 @@ def hurts_as_much(measured: Measured, found: Measured) -> np.ndarray:
 
 
 def _strain(outcome: dict[str, Any], limits: Limits) -> np.ndarray:
-    """How near a whole run is to a fault: peak torques over their limits, and ‰ of time at them.
+    """Compute how close a run is to a fault: peak torques over their limits, and ‰ of time at them.
 
     A law that loses its actuator fights for it first. Errors tell less: of impulses on NDOBC with
     the rig's effects those that end in a fault, made 3 % smaller, stand behind a quarter of all
@@ -88,12 +88,12 @@ def _apply(attack: Attack, base: Configuration) -> Configuration | None:
 
 
 def list_baselines(law: str) -> tuple[str, str]:
-    """A law and the one it is compared with: NDOBC; NDOBC with the paper's own comparison."""
+    """List a law and its baseline: NDOBC; for NDOBC the paper's baseline."""
     return law, BASELINE if law == PAPERS_LAW else PAPERS_LAW
 
 
 class LawOutcome(NamedTuple):
-    """How a law went through a scenario. fault_s: when it ended; both None without a fault."""
+    """The outcome of a law in a scenario. fault_s: time of the fault; None without a fault."""
 
     law: str
     fault: str | None
@@ -102,7 +102,7 @@ class LawOutcome(NamedTuple):
 
 
 def run_scenario(scenario: LoadScenario, laws: Sequence[str]) -> list[LawOutcome]:
-    """Put laws through a scenario; raises `ParameterError` for one that is not installed."""
+    """Run laws in a scenario; raises `ParameterError` for one that is not installed."""
     runs = [scenario.build_configuration(check_installed(law)) for law in laws]
     found = measure_runs(runs, scenario.duration_s, scenario.measure_from_s, Success())
     rows = zip(laws, runs, found["fault"], found["fault_tick"], strict=True)

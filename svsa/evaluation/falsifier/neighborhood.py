@@ -1,4 +1,4 @@
-"""How isolated a counterexample is: how many random loads in its neighborhood hurt as much."""
+"""The neighborhood of a counterexample: how many random loads near it have the same effect."""
 
 from typing import NamedTuple
 
@@ -19,7 +19,7 @@ WIDTH = 0.05
 
 
 class Neighborhood(NamedTuple):
-    """Random loads around a counterexample. hurt: those that hurt the law as much."""
+    """Random loads around a counterexample. hurt: how many degraded the law as much."""
 
     runs: int
     hurt: int
@@ -65,7 +65,7 @@ def measure_neighborhood(
 def _find_axis(
     adversary: Adversary, base: Configuration, attack: Attack, place: Place
 ) -> Axis | None:
-    """The range in which the adversary searches a number of an attack; None: one of a list."""
+    """Find the range of an attack's parameter; None if it is a choice from a list."""
     if place.load is not None:
         load = attack.loads[place.load]
         term = next(term for term in adversary.terms if admits(term, load))

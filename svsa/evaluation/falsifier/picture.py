@@ -1,4 +1,4 @@
-"""A scenario as a picture: the load, and the errors of several laws."""
+"""A figure of a scenario: loads, and errors of several laws."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -18,7 +18,7 @@ BEFORE_S = 1.0
 
 
 def save_picture(scenario: LoadScenario, laws: Sequence[str], path: Path) -> None:
-    """The torques of the loads, position error and stiffness error; × is where a run faulted."""
+    """Draw the loads' torques, position error and stiffness error; × marks a fault."""
     traced = trace_scenario(scenario, laws)
     times = traced.time_s
     picture = Picture(figsize=(9.0, 7.0), layout="constrained")

@@ -1,4 +1,4 @@
-"""A scenario that was kept: loads and settings that any law can be put through."""
+"""A saved scenario: loads and settings in which any law can run."""
 
 from collections.abc import Mapping
 from typing import Annotated, Any, NamedTuple, Self
@@ -18,19 +18,19 @@ from svsa.simulation.plant.loads import Load
 
 
 class Attack(NamedTuple):
-    """Loads, and settings by their paths, in place of those that a run begins from."""
+    """Loads, and settings by path, that change a base run."""
 
     loads: tuple[Load, ...]
     settings: Mapping[str, Any]
 
     def apply(self, base: Configuration) -> Configuration:
-        """The run with them; raises `ParameterError` where they do not go together."""
+        """Apply the attack to a run; raises `ParameterError` if the result is inconsistent."""
         changed = change_settings(base, self.settings) if self.settings else base
         return changed.model_copy(update={"loads": (*changed.loads, *self.loads)})
 
 
 class Finding(Checked):
-    """How a scenario was found."""
+    """The origin of a scenario in a search."""
 
     law: LawName = quantity("", "Law under test")
     cost: str = quantity("", "Cost of the search", max_length=40)
@@ -57,14 +57,14 @@ class Finding(Checked):
 
     @property
     def neighborhood(self) -> Interval | None:
-        """The share of random loads near it that hurt as much; None where none were run."""
+        """Share of random loads near it with equal effect; None if none were run."""
         if not self.neighbors or self.neighbors_hurt is None:
             return None
         return estimate_share(self.neighbors_hurt, self.neighbors)
 
 
 class LoadScenario(Checked):
-    """Loads on a run, and settings of it, with a name. Raises `ParameterError`.
+    """Loads and settings of a run, with a name. Raises `ParameterError`.
 
     base: the configuration that it begins from, as of a study: `figure`, and settings in its place.
     settings: by their paths, as actuator.link_inertia_kg_m2. loads: besides those of the base.
@@ -88,11 +88,11 @@ class LoadScenario(Checked):
 
     @property
     def attack(self) -> Attack:
-        """What it does to the run that it begins from."""
+        """The attack of the scenario on its base run."""
         return Attack(self.loads, self.settings)
 
     def build_configuration(self, law: str) -> Configuration:
-        """The run under a law; raises `ParameterError`."""
+        """Build the run under a law; raises `ParameterError`."""
         base = build_base(self.base, law)
         check_load_count(len(base.loads) + len(self.loads))
         for path, value in self.settings.items():
@@ -101,7 +101,7 @@ class LoadScenario(Checked):
 
 
 def check_setting(base: Configuration, path: str, value: Any) -> None:
-    """Raise `ParameterError` where a path is none, or the value none for it."""
+    """Raise `ParameterError` for an invalid path or an invalid value for it."""
     try:
         change_settings(base, {path: value})
     except ParameterError as error:
@@ -113,7 +113,7 @@ def check_setting(base: Configuration, path: str, value: Any) -> None:
 
 
 def check_load_count(count: int) -> None:
-    """Raise `ParameterError` for more loads than a run takes, those of its base among them."""
+    """Raise `ParameterError` for more loads than a run supports, including its base's."""
     if count > MAX_LOADS:
         bound = f"at most {MAX_LOADS}, those of base among them"
         raise ParameterError(Violation("loads", count, "", bound))

@@ -1,4 +1,4 @@
-"""The simplest attack that still hurts as much: every step of the way is verified by a run.
+"""Simplification of an attack with the same effect, each step verified by a run.
 
 In the manner of delta debugging (Zeller and Hildebrandt, "Simplifying and isolating failure-
 inducing input", 2002): what can be left out is, then every number is made smaller and rounder.
@@ -31,14 +31,14 @@ AFTER_S, GRID_S = 0.5, 0.5
 
 
 class Step(NamedTuple):
-    """An attack, and in words what makes it simpler than the one before."""
+    """An attack, and the description of its simplification."""
 
     attack: Attack
     reported: str
 
 
 class Place(NamedTuple):
-    """Where a number stands: in a field of a load, on a body; load None: a setting by its path."""
+    """The position of a number: a field of a load, on a body; load None: a setting by its path."""
 
     load: int | None
     name: str
@@ -46,7 +46,7 @@ class Place(NamedTuple):
 
 
 def list_removals(attack: Attack) -> list[Step]:
-    """Without one of its loads, with a setting as it was, with a load off one of its bodies."""
+    """List attacks with one load, one perturbed setting or one body removed."""
     loads, settings = attack
     removed = [
         Step(attack._replace(loads=(*loads[:at], *loads[at + 1 :])), f"without the {load.kind}")
@@ -62,7 +62,7 @@ def list_removals(attack: Attack) -> list[Step]:
 
 
 def list_places(attack: Attack) -> Iterator[tuple[Place, float]]:
-    """Every number of it, but for a size of zero."""
+    """List all numbers of an attack except sizes of zero."""
     for at, load in enumerate(attack.loads):
         for name, value in load:
             if name == "torque_nm":
@@ -77,7 +77,7 @@ def list_places(attack: Attack) -> Iterator[tuple[Place, float]]:
 
 
 def list_smaller(attack: Attack, place: Place, base: Configuration) -> list[Step]:
-    """Ever less of a size, a length or a setting, the least first; no phase.
+    """List smaller values of a size, duration or setting, smallest first; not of a phase.
 
     A size goes to zero, a setting to what it is without the attack. base: the run without it.
     """
@@ -92,7 +92,7 @@ def list_smaller(attack: Attack, place: Place, base: Configuration) -> list[Step
 
 
 def list_rounder(attack: Attack, place: Place, base: Configuration) -> list[Step]:
-    """The number with fewer digits, the fewest first; a setting never farther from the base's."""
+    """List values with fewer digits, fewest first; settings stay as close to the base's."""
     value, nominal = dict(list_places(attack))[place], _get_nominal(place, base)
     rounded = dict.fromkeys(settle_number(value, digits) for digits in DIGITS)
     return [
@@ -108,7 +108,7 @@ def _get_nominal(place: Place, base: Configuration) -> float:
 
 
 def replace_number(attack: Attack, place: Place, value: float) -> Attack:
-    """The attack with another number at a place."""
+    """Replace a number of the attack."""
     if place.load is None:
         return attack._replace(settings={**attack.settings, place.name: value})
     load, new = attack.loads[place.load], value
@@ -122,7 +122,7 @@ def replace_number(attack: Attack, place: Place, value: float) -> Attack:
 
 
 def _set(attack: Attack, place: Place, value: float) -> Step:
-    """With another number at a place, and in words which one."""
+    """Replace a number, and describe the step."""
     changed = replace_number(attack, place, value)
     if place.load is None:
         return Step(changed, f"{place.name} = {value:g}")
@@ -138,7 +138,7 @@ def _count_bodies(load: Load) -> int:
 
 
 class Shrunk(NamedTuple):
-    """The simplest that was found. runs: it took. steps: what was done, in words."""
+    """The simplest attack. runs: number of runs needed. steps: descriptions of the steps."""
 
     attack: Attack
     duration_s: float
@@ -148,7 +148,7 @@ class Shrunk(NamedTuple):
 
 
 def shrink(adversary: Adversary, base: Configuration, attack: Attack, found: Measured) -> Shrunk:
-    """Make an attack simple that was measured as `found`, within the adversary's bounds.
+    """Simplify an attack that was measured as `found`, within the adversary's bounds.
 
     What it must keep: the same fault, or 95 % of what it was searched by.
     """
@@ -166,7 +166,7 @@ def shrink(adversary: Adversary, base: Configuration, attack: Attack, found: Mea
 
 
 class _Shrinking:
-    """An attack on the way to its simplest."""
+    """The state of a simplification."""
 
     def __init__(
         self, adversary: Adversary, base: Configuration, attack: Attack, found: Measured
@@ -176,19 +176,21 @@ class _Shrinking:
         self._adversary, self._base, self._found = adversary, base, found
 
     def measure(self, attacks: Sequence[Attack], duration_s: float | None = None) -> Measured:
-        """Run these, and count them."""
+        """Run these attacks, and count the runs."""
         self.runs += len(attacks)
         return measure_attacks(self._adversary, self._base, attacks, duration_s or self.duration_s)
 
     def remove(self) -> bool:
-        """Leave out one thing after another, as long as any can be; whether anything was."""
+        """Remove one item after another while the effect remains; return whether any was
+        removed.
+        """
         before = self.attack
         while self.simplify(list_removals(self.attack)):
             pass
         return self.attack != before
 
     def simplify(self, steps: Sequence[Step]) -> bool:
-        """Go the first of these steps that holds; whether there is one."""
+        """Take the first of these steps that keeps the effect; return whether there is one."""
         allowed = [step for step in steps if self._adversary.admits(step.attack)]
         if not allowed:
             return False
@@ -201,7 +203,7 @@ class _Shrinking:
         return True
 
     def shorten_run(self) -> None:
-        """End the run soon after its fault."""
+        """Shorten the run to end soon after its fault."""
         tick = self.measure([self.attack]).outcome["fault_tick"][0]
         if tick is None:
             return
@@ -213,7 +215,7 @@ class _Shrinking:
             self.steps.append(f"the run ends at {shorter:g} s")
 
     def _keeps(self, measured: Measured) -> np.ndarray:
-        """Which of these hurt as what was found does."""
+        """Return which of these attacks keep the effect."""
         fault = self._found.outcome["fault"][0]
         if fault is not None:
             return np.array([one == fault for one in measured.outcome["fault"]])

@@ -1,4 +1,4 @@
-"""A scenario over time: the torques of its loads, and the errors of laws under them."""
+"""A scenario over time: torques of its loads, and errors of laws."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -32,7 +32,7 @@ class ScenarioTrace(NamedTuple):
 
 
 def trace_scenario(scenario: LoadScenario, laws: Sequence[str]) -> ScenarioTrace:
-    """Run laws, at least one, through a scenario; raises `ParameterError` for one not installed."""
+    """Run laws, at least one, in a scenario; raises `ParameterError` for one not installed."""
     runs = [scenario.build_configuration(check_installed(law)) for law in laws]
     times, torque = sample_torque(runs[0], scenario.duration_s)
     traces = (_trace(law, run, scenario.duration_s) for law, run in zip(laws, runs, strict=True))

@@ -1,1 +1,1 @@
-"""The ranking: every law on the same plant, limits, noise and loads, and what comes of it."""
+"""The ranking: every law on the same plant, limits, noise and loads."""

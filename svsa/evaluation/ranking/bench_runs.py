@@ -21,7 +21,7 @@ NUMBERS = tuple(RecoveryErrors.model_fields)
 
 
 class BenchRun(Checked):
-    """What a law shows in one figure; no number where the bench ended it with a fault."""
+    """The result of a law in one figure; a number is missing if the bench stopped with a fault."""
 
     law: str = quantity("", "Name of the law")
     figure: str = quantity("", "Key of the figure: 6a, 6b or 7")
@@ -30,7 +30,7 @@ class BenchRun(Checked):
     errors: RecoveryErrors = quantity("", "Position errors")
 
     def is_no_worse(self, comparison: "BenchRun", number: str) -> bool:
-        """Whether this number is there, and no greater than the comparison's if that is there."""
+        """Whether the number exists and is not greater than the baseline's."""
         mine, theirs = (getattr(one.errors, number) for one in (self, comparison))
         return mine is not None and (theirs is None or mine <= theirs)
 
@@ -53,16 +53,16 @@ class BenchRuns(Checked):
         return tuple(found[key] for key in BENCH_FIGURES if key in found)
 
     def choose(self, laws: Sequence[str]) -> Self:
-        """The runs of these laws, in this order."""
+        """Return the runs of these laws, in this order."""
         return self.changed(runs=tuple(run for law in laws for run in self.list_runs(law)))
 
     def renew(self, newer: Self) -> Self:
-        """With the runs of `newer` in place of those of the same law and figure."""
+        """Return the runs with those of `newer` replacing the same law and figure."""
         runs = {(run.law, run.figure): run for run in (*self.runs, *newer.runs)}
         return self.changed(runs=tuple(runs.values()))
 
     def to_json(self, comparison: str) -> dict[str, Any]:
-        """What `svsa ranking bench --json` prints."""
+        """Convert to the JSON of `svsa ranking bench --json`."""
         return {
             "comparison": comparison,
             "laws": [self._describe_law(law, comparison) for law in self.laws],
@@ -77,13 +77,13 @@ class BenchRuns(Checked):
         return {"law": law, "figures": figures, "no_worse": no_worse, "numbers": count}
 
     def count_no_worse(self, law: str, comparison: str) -> tuple[int, int]:
-        """In how many numbers a law is no worse than its comparison, and of how many."""
+        """Count in how many numbers a law is not worse than its baseline, and of how many."""
         pairs = self.pair(law, comparison)
         held = [one.is_no_worse(other, number) for one, other in pairs for number in NUMBERS]
         return sum(held), len(held)
 
     def pair(self, law: str, comparison: str) -> tuple[tuple[BenchRun, BenchRun], ...]:
-        """The runs of a law, each with its comparison's, in the figures that both have."""
+        """Pair the runs of a law with its baseline's, in the figures that both have."""
         theirs = {run.figure: run for run in self.list_runs(comparison)}
         mine = self.list_runs(law)
         return tuple((run, theirs[run.figure]) for run in mine if run.figure in theirs)

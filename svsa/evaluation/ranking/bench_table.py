@@ -1,4 +1,4 @@
-"""The paper's bench figures under each law, as text: on a terminal and on a law's page."""
+"""The results in the paper's bench figures as text, for the terminal and the laws' pages."""
 
 from rich.box import SIMPLE_HEAD
 from rich.table import Table
@@ -21,7 +21,7 @@ def format_run_number(run: BenchRun, number: str, unit: bool = True) -> str:
 
 
 def build_table(runs: BenchRuns, comparison: str) -> Table:
-    """A row a law; bold where it is no worse than the comparison."""
+    """Build a table with one row per law; bold: not worse than the baseline."""
     figures = [run.figure for run in runs.list_runs(comparison)]
     table = Table(
         box=SIMPLE_HEAD,
@@ -55,7 +55,7 @@ def _build_cell(run: BenchRun, comparison: BenchRun, number: str) -> Text:
 
 
 def format_bench(runs: BenchRuns, comparison: str) -> str:
-    """A row a law as Markdown, a figure a cell: before / peak / settled / recovery."""
+    """Format one row per law as Markdown, a figure per cell: before / peak / steady / recovery."""
     figures = [run.figure for run in runs.list_runs(comparison)]
     titles = [f"{figure.upper()}: {' / '.join(SHORT.values())} s" for figure in figures]
     head = ("law", *titles, f"no worse than {get_title(comparison)}")
@@ -72,7 +72,7 @@ def format_bench(runs: BenchRuns, comparison: str) -> str:
 
 
 def build_section(runs: BenchRuns, law: str) -> list[str]:
-    """Lines of a law's page: its numbers next to NDOBC's; none where it was not measured."""
+    """Build the section of a law's page compared with NDOBC; empty without results."""
     if law not in runs.laws:
         return []
     lines = [

@@ -1,4 +1,4 @@
-"""Entries: what has a row in the ranking, a law with parameters."""
+"""Rows of the ranking: a law with parameters."""
 
 from typing import Literal, NamedTuple
 
@@ -34,40 +34,40 @@ class Entry(NamedTuple):
 
     @property
     def tuning(self) -> TunedLaw | None:
-        """What it was tuned on; None for parameters that were not tuned."""
+        """The tuning of its parameters; None for parameters without one."""
         return load_tuned_laws().get(self.law) if self.variant == "tuned" else None
 
     @property
     def key(self) -> str:
-        """Its name among the rows."""
+        """Key of its row."""
         return DECLARED if self.variant == "declared" else self.law
 
     def build_configuration(self, scenario: Scenario) -> Configuration:
-        """Its run of a scenario."""
+        """Build its run of a scenario."""
         own = {name: getattr(self.design, name) for name in ("gains", "observer", "parameters")}
         return scenario.build_configuration(self.law).changed(**own)
 
     def build_lane(self) -> Lane:
-        """Its controller as a lane of any run."""
+        """Build its controller as a lane."""
         if has_own_parameters(self.law):
             return Lane(law=self.law, parameters=self.design.parameters.get(self.law))
         return Lane(law=self.law, gains=self.design.gains, observer=self.design.observer)
 
 
 def get_entry_title(key: str) -> str:
-    """The title of a row: the law's, and of NDOBC which of its two."""
+    """Return the title of a row; for NDOBC with the variant."""
     if key == DECLARED:
         return f"{get_title(PAPERS_LAW)}, declared gains"
     return get_title(key)
 
 
 def get_reference(law: str) -> str:
-    """The key of the row that a law is compared with: NDOBC tuned; for NDOBC, as declared."""
+    """Return the key of the row to compare with: NDOBC tuned; for it, NDOBC as declared."""
     return DECLARED if law == PAPERS_LAW else PAPERS_LAW
 
 
 def build_entry(key: str) -> Entry:
-    """The entry of a row's key; raises `ParameterError` for a law that is not installed."""
+    """Build the entry of a row's key; raises `ParameterError` for a law that is not installed."""
     if key == DECLARED:
         return Entry(PAPERS_LAW, "declared", load_prototype())
     tuned = load_tuned_laws().get(check_installed(key))
@@ -77,5 +77,5 @@ def build_entry(key: str) -> Entry:
 
 
 def list_entry_keys() -> list[str]:
-    """The keys of all rows: NDOBC as declared, then every installed law."""
+    """List the keys of all rows: NDOBC as declared, then every installed law."""
     return [DECLARED, *list_law_names()]

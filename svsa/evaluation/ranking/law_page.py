@@ -1,4 +1,4 @@
-"""The page of a law: its idea and needs from its own file, every number from the results."""
+"""The documentation page of a law: text of its own file, numbers of the results."""
 
 import math
 import re
@@ -56,7 +56,9 @@ PAPERS_LOAD = "rig_4a"
 
 
 def build_law_page(results: Results, bench: BenchRuns, name: str, margins: str) -> str:
-    """The page of a law, Markdown. bench: runs on the emulator. margins: see `build_margins`."""
+    """Build the page of a law, Markdown. bench: runs on the emulator. margins: see
+    `build_margins`.
+    """
     law = get_law(name)
     rows = [row for row in results.rows if row.law == name]
     shown = rows if name == PAPERS_LAW else [*rows, results.get_row(PAPERS_LAW)]
@@ -162,7 +164,7 @@ def _build_trials(row: Row) -> list[str]:
 
 
 def _compare_with_ndobc(results: Results, rows: list[Row]) -> list[str]:
-    """Where the tuned law is worse than NDOBC tuned, and where it is better: medians."""
+    """Compare the medians of the tuned law with those of tuned NDOBC."""
     ndobc = results.get_row(PAPERS_LAW)
     if rows[0].key == ndobc.key or rows[0].tuning is None:
         return []
@@ -197,7 +199,7 @@ _COMPARED = (
 
 
 def _read_compared(row: Row) -> tuple[float | None, ...]:
-    """What `_COMPARED` lists, of a row."""
+    """Read the compared medians of a row."""
     load, family = row.get_outcome(PAPERS_LOAD).median, row.families["A"]
     peak, rms = load[PEAK], family.get_median(RMS)
     return (
@@ -243,7 +245,7 @@ def _list_needs(law: Law) -> list[str]:
 
 
 def _build_parameters(law: Law, rows: list[Row]) -> list[str]:
-    """Parameters with defaults and tuned values."""
+    """Build the table of parameters with defaults and tuned values."""
     tuned = next((row.tuning.values for row in rows if row.tuning), {})
     if law.parameters is Gains:
         values = ", ".join(f"{name} {value:.4g}" for name, value in tuned.items())
@@ -285,7 +287,9 @@ def _describe_costs(costs: Costs) -> str:
 
 
 def describe_provenance(results: Results) -> str:
-    """Version, protocol, trials and seed of the results, and the command that repeats them."""
+    """Describe version, protocol, trials and seed of the results, and the command to repeat
+    them.
+    """
     versions = " and ".join(sorted({row.version for row in results.rows}))
     return (
         f"Simulated by SVSA Lab {versions}; protocol {results.protocol}, {results.trials} trials of"

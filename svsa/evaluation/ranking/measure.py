@@ -1,4 +1,4 @@
-"""Measuring an entry: trials as vectorised batches, fixed scenarios run by run."""
+"""Measurement of an entry: trials as vectorised batches, fixed scenarios run by run."""
 
 import math
 from collections import Counter
@@ -53,7 +53,9 @@ class TrialSet:
         self._parts: dict[int, RunSet] = {}
 
     def run(self, entry: Entry, report: Report) -> np.ndarray:
-        """`SUMMARY` of all trials, of A and B in turns. report: receives the share that is done."""
+        """Return the `SUMMARY` of all trials, of A and B in turns. report: receives the finished
+        share.
+        """
         total, parts = 2 * self.trials, []
         for first in range(0, total, AT_ONCE):
             count = min(AT_ONCE, total - first)
@@ -68,7 +70,7 @@ class TrialSet:
 
 
 def measure_entry(entry: Entry, test_set: TrialSet, report: Report = lambda done: None) -> Row:
-    """The row of an entry. report: receives the share that is done."""
+    """Measure the row of an entry. report: receives the finished share."""
     summaries = test_set.run(entry, lambda done: report(0.7 * done))
     families = {
         family: build_family_outcome(summaries[number :: len(FAMILIES)])
@@ -162,7 +164,9 @@ def measure_noise(entry: Entry) -> Noise:
 
 
 def find_largest_load(entry: Entry) -> float:
-    """The largest step on the link up to which all signs and phases held, N·m; 0 for none."""
+    """Find the largest torque step on the link with success for all signs and phases, N·m; 0 if
+    none.
+    """
     count = 0
     while (count + 1) * STEP_NM <= MAX_STEP_NM:
         fixed = build_link_steps((count + 1) * STEP_NM)
@@ -173,7 +177,7 @@ def find_largest_load(entry: Entry) -> float:
 
 
 def round_number(value: float) -> float | None:
-    """The value to six digits; None for one that is not finite."""
+    """Round to six digits; None for a value that is not finite."""
     return float(f"{value:.{DIGITS}g}") if math.isfinite(value) else None
 
 

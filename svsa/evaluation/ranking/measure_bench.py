@@ -1,4 +1,4 @@
-"""Laws in the paper's bench figures on the emulator, several at once."""
+"""The paper's bench figures with several laws on the emulator, in parallel."""
 
 import os
 import signal
@@ -27,7 +27,7 @@ ReportOf = Callable[[int, float], None]
 def measure_on_bench(
     laws: Sequence[str], figures: Sequence[str], report: Report = lambda done: None
 ) -> BenchRuns:
-    """Runs of laws in figures, by as many processes as there are processors.
+    """Run laws in figures, in as many processes as there are processors.
 
     report: is given the share that is done. Raises `MissingExtraError` without the extra `bench`.
     """
@@ -46,7 +46,9 @@ def measure_on_bench(
 
 
 def measure_run(number: int, job: Job, report: ReportOf) -> BenchRun:
-    """A law in a figure of 20 s, its load at 5 s. report: is given `number` and the share done."""
+    """Run a law in a figure of 20 s, load at 5 s. report: receives `number` and the finished
+    share.
+    """
     from svsa.hardware.emulator.experiment import run_on_emulator
 
     law, figure = job
@@ -76,7 +78,7 @@ def build_recovery_errors(result: Result) -> RecoveryErrors:
 def _measure_side_by_side(
     jobs: Sequence[Job], workers: int, report: ReportOf
 ) -> tuple[BenchRun, ...]:
-    """In processes of their own, which report their progress through a queue.
+    """Run processes in parallel, which report their progress through a queue.
 
     Ctrl-C reaches this process only; the runs end at their next report, and with them their
     emulators.

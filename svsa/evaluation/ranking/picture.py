@@ -1,4 +1,4 @@
-"""Pictures of the ranking: errors against effort, a law compared with NDOBC, where NDOBC loses."""
+"""Figures of the ranking: errors over effort, a law compared with NDOBC, failures of NDOBC."""
 
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -22,7 +22,7 @@ STIFFNESS_RMS, TORQUE_RMS = "rms_stiffness_error_nm_per_rad", "rms_torque1_nm"
 
 
 class Shown(NamedTuple):
-    """A scenario, and the times of it that are drawn, s."""
+    """A scenario, and the time range that is drawn, s."""
 
     title: str
     scenario: Scenario
@@ -30,7 +30,7 @@ class Shown(NamedTuple):
 
 
 def save_pareto(results: Results, path: Path) -> None:
-    """Median position error against median stiffness error of family A; effort is the size."""
+    """Draw median position error over median stiffness error of family A; marker size is effort."""
     picture = Picture(figsize=(9.0, 6.0), dpi=110, layout="constrained")
     axes = picture.subplots()
     points: list[tuple[str, float, float]] = []
@@ -56,7 +56,7 @@ def save_pareto(results: Results, path: Path) -> None:
 
 
 def _label_points(axes: Axes, points: list[tuple[str, float, float]]) -> None:
-    """Write a label next to each point, moved up until it covers no other, with a line to it."""
+    """Label each point, moved up until labels do not overlap, with a line to the point."""
     height, width = 13.0, 6.0  # of a line and of a character, pixels
     taken: list[tuple[float, float, float]] = []
     right = axes.bbox.x1
@@ -78,7 +78,9 @@ def _label_points(axes: Axes, points: list[tuple[str, float, float]]) -> None:
 
 
 def save_losses(path: Path) -> None:
-    """Where NDOBC with the declared gains loses: its errors next to those of FL and NDOBC-W."""
+    """Draw failures of NDOBC with the declared gains: its errors next to those of FL and
+    NDOBC-W.
+    """
     runs = (
         Shown("The load comes off", find_scenario("load_removal.positive.0"), (4.8, 6.5)),
         Shown("2.5 N·m on the link", find_scenario("link_step_2.5.positive.0"), (4.8, 6.5)),
@@ -95,7 +97,7 @@ def save_losses(path: Path) -> None:
 
 
 def save_law(results: Results, key: str, path: Path) -> None:
-    """A row compared with NDOBC: two runs, and the trials' errors."""
+    """Draw a row compared with NDOBC: two runs, and the trials' errors."""
     picture = Picture(figsize=(11.0, 3.6), layout="constrained")
     rig, removal, trials = picture.subplots(1, 3)
     shown = (

@@ -1,4 +1,4 @@
-"""What is written from the results: the laws' pages and their index."""
+"""Documentation written from the results: the laws' pages and their index."""
 
 from pathlib import Path
 
@@ -73,7 +73,7 @@ def build_index(results: Results, bench: BenchRuns) -> str:
 
 
 def describe_results(results: Results) -> str:
-    """What follows from the results, in sentences."""
+    """Describe the main results in sentences."""
     first = [rank.key for rank in results.ranks if rank.rank == 1]
     compared = [rank for rank in results.ranks if rank.p_value is not None]
     differing = [rank for rank in compared if (rank.p_value or 0.0) < SIGNIFICANT]

@@ -1,4 +1,4 @@
-"""Results of the ranking as a file: protocol, rows, ranks. Page, README and laws' pages show it."""
+"""Results of the ranking as a file: protocol, rows, ranks; the source of page and documents."""
 
 from collections.abc import Callable, Iterator, Sequence
 from functools import cache
@@ -105,7 +105,7 @@ def compute_ranks(rows: Sequence[Row]) -> tuple[Rank, ...]:
 
 
 def _read_held(row: Row) -> np.ndarray:
-    """Whether each trial held, (trials,), family after family."""
+    """Read the success of each trial, (trials,), family after family."""
     return np.concatenate(
         [
             np.unpackbits(np.frombuffer(bytes.fromhex(one.held_bits), np.uint8))[: one.trials]
@@ -129,7 +129,7 @@ def measure_entries(
     known: Sequence[Row] = (),
     report: Callable[[str, float], None] = lambda key, done: None,
 ) -> Iterator[Results]:
-    """Results after each entry, those of `known` rows with the same parameters included.
+    """Yield results after each entry, including `known` rows with the same parameters.
 
     report: receives the key of an entry and the share of it that is done.
     """

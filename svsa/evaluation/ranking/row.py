@@ -1,4 +1,4 @@
-"""A row of the ranking: what a law with its parameters showed on trials and fixed scenarios."""
+"""A row of the ranking: results of a law with its parameters on trials and fixed scenarios."""
 
 from svsa.evaluation.ranking.entry import Variant
 from svsa.evaluation.tuning.tuned_law import TunedLaw

@@ -1,4 +1,4 @@
-"""Fixed scenarios: single runs that every law goes through, at both signs and 8 phases.
+"""Fixed scenarios: single runs for every law, with both signs and 8 phases.
 
 All track the paper's 60° at 0.2 Hz unless they say so. The sign is that of the load, or of the
 motion where the load has none. Rig effects are `svsa.simulation.plant.effects.RIG`: encoders, a
@@ -71,7 +71,7 @@ def _sine(torque: Torque, frequency_hz: float) -> Loads:
 
 
 def _removal(torque: Torque) -> Loads:
-    """The load from 3 s before, taken off at the onset."""
+    """Build the removal of a load that was applied 3 s before."""
     return lambda start_s, sign: (
         PulseLoad(torque_nm=_scale(torque, sign), start_s=start_s - 3.0, duration_s=3.0),
     )
@@ -102,7 +102,7 @@ def _build(
     after_s: float = 6.0,
     phases: int = PHASES,
 ) -> FixedScenario:
-    """Variants of a load that comes on at `LOAD_TIME_S` and each later phase of the motion."""
+    """Build variants of a load with onset `LOAD_TIME_S` and at later phases of the motion."""
     return FixedScenario(
         name,
         title,
@@ -134,7 +134,7 @@ def _build_motion(sign: float) -> SinePosition:
 
 
 def _build_turn(degrees: int) -> FixedScenario:
-    """A step of the reference, from 0."""
+    """Build a step of the reference, from 0."""
     name, title = f"turn_{degrees}", f"Reference step of {degrees}° in 0.2 s"
     return FixedScenario(
         name,
@@ -155,7 +155,7 @@ def _build_turn(degrees: int) -> FixedScenario:
 
 
 def _build_repetitive() -> FixedScenario:
-    """The motion with loads that repeat with its period, measured from the eighth period on."""
+    """Build the motion with periodic loads of equal period, measured from the eighth period on."""
     title = "Repeating load, eighth to twelfth period"
     tracks = {
         "sine": (SineLoad, {"frequency_hz": 1.0}),
@@ -180,7 +180,7 @@ def _build_repetitive() -> FixedScenario:
 
 @cache
 def build_fixed_scenarios() -> tuple[FixedScenario, ...]:
-    """All fixed scenarios but the link steps."""
+    """Build all fixed scenarios except the link steps."""
     noise = RIG.changed(noise=SensorNoise(motor_std_rad=1e-4, deflection_std_rad=1e-3))
     unmodelled = RIG.changed(
         friction=Friction(), current_lag=CurrentLag(time_constant_s=0.002), gravity=LinkGravity()
@@ -207,7 +207,7 @@ def build_fixed_scenarios() -> tuple[FixedScenario, ...]:
 
 
 def build_link_steps(torque_nm: float) -> FixedScenario:
-    """A step of torque on the link, rig, σ = 15."""
+    """Build torque steps on the link, rig effects, σ = 15."""
     return _build(
         f"link_step_{torque_nm:g}",
         f"{torque_nm:g} N·m on the link, rig, σ = 15",

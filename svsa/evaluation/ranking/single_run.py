@@ -1,4 +1,4 @@
-"""One run of the ranking, shown with a comparison."""
+"""One run of the ranking with a baseline, for display."""
 
 from typing import NamedTuple
 
@@ -11,7 +11,7 @@ from svsa.runs.result.simulate import simulate
 
 
 class ShownRun(NamedTuple):
-    """A run to be shown. titles: of its lanes. alone: why it has no comparison; empty if it has."""
+    """A run for display. titles: of its lanes. alone: why it has no baseline; empty if it has."""
 
     configuration: Configuration
     titles: tuple[str, ...]
@@ -35,7 +35,7 @@ def build_shown_run(scenario: Scenario, key: str) -> ShownRun:
 
 
 def explain_alone(scenario: Scenario, name: str, key: str, ticks: int) -> str:
-    """Why the entry of a key cannot be the comparison of a run with so many ticks; empty if it can.
+    """Explain why an entry cannot be the baseline of a run of so many ticks; empty if it can.
 
     name: of the law that is shown.
     """

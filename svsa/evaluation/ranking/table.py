@@ -1,4 +1,4 @@
-"""The ranking's table as text: one row an entry."""
+"""The ranking's table as text: one row per entry."""
 
 from collections.abc import Iterable
 
