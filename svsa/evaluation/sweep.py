@@ -114,7 +114,7 @@ def sweep(
 
 
 def _list_values(name: str, values: Any) -> list[Any]:
-    """The values of a setting; raises `ParameterError` for a value that is no list of some."""
+    """List the values of a setting; raises `ParameterError` unless it is a non-empty list."""
     is_listed = not isinstance(values, str | Mapping | Checked) and isinstance(values, Iterable)
     listed = list(values) if is_listed else []
     if not listed:
@@ -123,7 +123,7 @@ def _list_values(name: str, values: Any) -> list[Any]:
 
 
 def _change(configuration: Configuration, case: Mapping[str, Any]) -> Configuration:
-    """The configuration of one case; a law in plain Python is not in it."""
+    """Build the configuration of one case, without a law in plain Python."""
     plain = {name: case[name] for name in (LAW, SEED) if name in case}
     if callable(plain.get(LAW)):
         del plain[LAW]

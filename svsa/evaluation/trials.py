@@ -1,4 +1,4 @@
-"""Trials: random scenarios of two families, and the sets that laws are tuned on.
+"""Trials: random scenarios of two families, and the training and validation sets.
 
 Family A is the paper's: 60° of motion, loads on the link, inertias ±50 %, effects of the rig with
 friction and noise. Family B is wider: stiffness from 12 to 120 N·m/rad that may vary, spring and
@@ -112,12 +112,12 @@ def build_trial(family: Family, name: str, seed: int, number: int) -> Scenario:
 
 
 def build_training(seed: int, count: int) -> tuple[Scenario, ...]:
-    """The trials that a candidate is tried on; half of each family."""
+    """Build the training trials of a candidate; half of each family."""
     return build_set("training", seed, count)
 
 
 def build_validation(seed: int, count: int) -> tuple[Scenario, ...]:
-    """The trials that the best candidates are chosen on; half of each family."""
+    """Build the validation trials of the best candidates; half of each family."""
     return build_set("validation", seed, count)
 
 
@@ -129,7 +129,7 @@ def build_set(name: str, seed: int, count: int, first: int = 0) -> tuple[Scenari
 
 @cache
 def build_rest() -> tuple[Scenario, ...]:
-    """Runs at rest with the rig's noise, whose torque is the law's noise; friction holds nothing.
+    """Build runs at rest with the rig's noise, without friction, to measure torque noise.
 
     Four stiffnesses with one and with two samples of delay.
     """
@@ -170,7 +170,7 @@ def list_mean_stiffnesses(scenarios: Sequence[Scenario]) -> np.ndarray:
 
 
 def _draw_position(random: np.random.Generator, is_wide: bool) -> SinePosition:
-    """A sine to either side first; at the load's onset its phase is anything between 0 and 2π."""
+    """Draw a sine in a random direction, with a uniform phase at the load's onset."""
     turns = float(random.uniform(0.2, 0.7))
     amplitude = float(random.uniform(20.0, 70.0)) if is_wide else 60.0
     return SinePosition(

@@ -15,7 +15,7 @@ would not get on for minutes."""
 
 
 def start_workers(most: int, jobs_each: int | None = None) -> ProcessPoolExecutor:
-    """At most so many, each started when first needed, and restarted after `jobs_each` jobs."""
+    """Start at most so many workers on demand, each restarted after `jobs_each` jobs."""
     return ProcessPoolExecutor(
         most, choose_start(), _begin, (dict(os.environ),), max_tasks_per_child=jobs_each
     )
@@ -23,8 +23,8 @@ def start_workers(most: int, jobs_each: int | None = None) -> ProcessPoolExecuto
 
 @cache
 def choose_start() -> BaseContext:
-    """How they begin: as copies of a process that has read once what this one had by then, in
-    a fiftieth of the time, and in memory that they share.
+    """Choose the start method: fork from a prepared process, in a fiftieth of the time of a new
+    start.
 
     Elsewhere than on Linux each reads all for itself: libraries of macOS start threads as they are
     read, and Windows has no copies.
@@ -37,14 +37,14 @@ def choose_start() -> BaseContext:
 
 
 def _begin(environment: dict[str, str]) -> None:
-    """As this process was when it asked: what the worker is a copy of may be older."""
+    """Set up a worker as its parent is now: the process that it is forked from may be older."""
     os.environ.clear()
     os.environ.update(environment)
     give_way()
 
 
 def give_way() -> None:
-    """Leave the processor to others and Ctrl-C to the parent, and end with it, however it ends.
+    """Lower the priority, leave Ctrl-C to the parent, and end when it ends.
 
     A worker's own workers have its priority, and no lower one.
     """

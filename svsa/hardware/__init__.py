@@ -1,1 +1,1 @@
-"""The real actuator: two drives on CAN, an encoder, and what keeps it safe."""
+"""The real actuator: two drives on CAN, an encoder, and its safety functions."""

@@ -1,4 +1,4 @@
-"""The calibration record: what was found out about a bench, when and by whom.
+"""The calibration record of a bench: signs, scales and zero counts, with date and name.
 
 It is stored next to the bench file, as NAME.calibration.toml, and holds for that bench file only:
 a fingerprint of the motors, the deflection encoder and the home marks ties the two together.
@@ -22,7 +22,7 @@ SUFFIX = ".calibration.toml"
 
 
 class Calibration(Checked):
-    """Date, name and findings. The zero counts hold at the zero marks."""
+    """Date, name and results. The zero counts hold at the zero marks."""
 
     date: str = quantity("", "When, ISO 8601 with its zone")
     by: str = quantity("", "Who made it", min_length=1, max_length=100)
@@ -32,7 +32,7 @@ class Calibration(Checked):
 
 
 def compute_fingerprint(bench: BenchFile) -> str:
-    """Of what a calibration depends on: motors, deflection encoder and home marks."""
+    """Compute a fingerprint of everything a calibration depends on: motors, encoder, home marks."""
     parts = bench.model_dump(mode="json", include={"motor1", "motor2", "deflection", "home"})
     for motor in (parts["motor1"], parts["motor2"]):
         # A bench from before there was a choice of drives keeps its calibration.
@@ -42,7 +42,7 @@ def compute_fingerprint(bench: BenchFile) -> str:
 
 
 def get_calibration_path(bench: BenchFile) -> Path:
-    """Where the record of this bench lies."""
+    """Return the path of the bench's record."""
     path = Path(bench.path)
     return path.with_name(path.stem + SUFFIX)
 
@@ -73,7 +73,7 @@ def write_calibration(bench: BenchFile, calibration: Calibration) -> Path:
 
 
 def note_signs(bench: BenchFile, right: bool) -> None:
-    """Write into the record of this bench whether its signs were seen to be right.
+    """Store in the record of this bench whether its signs were confirmed.
 
     Does nothing without a record, or with one that was made for other settings.
     """
@@ -83,7 +83,7 @@ def note_signs(bench: BenchFile, right: bool) -> None:
 
 
 def list_problems(bench: BenchFile, calibration: Calibration | None) -> list[str]:
-    """Why this bench does not arm, in words; empty if it may."""
+    """List the reasons why this bench cannot be armed; empty if it can."""
     problems = [f"uncalibrated: {missing}" for missing in bench.find_missing()]
     if calibration is None:
         problems.append("uncalibrated: there is no calibration record; run `svsa bench-home`")

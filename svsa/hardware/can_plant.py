@@ -1,4 +1,4 @@
-"""The bench as a plant: read and written once a tick, over any bus that python-can knows."""
+"""The bench as a plant: read and written once per tick, over any bus of python-can."""
 
 import contextlib
 import math
@@ -76,17 +76,17 @@ class CanPlant:
 
     @property
     def problems(self) -> list[str]:
-        """Why it does not arm, in words."""
+        """Reasons why it cannot be armed."""
         return self._machine.problems
 
     @property
     def homing_step(self) -> Axis | None:
-        """The axis whose mark is confirmed next, or None when all are."""
+        """The axis to confirm next, or None if all are confirmed."""
         return self._machine.homing.next_step
 
     @property
     def emulated(self) -> bool:
-        """Whether the bus said that there is no machine behind it."""
+        """Whether the bus reported an emulator."""
         return self._sensing.emulated
 
     @property
@@ -95,7 +95,7 @@ class CanPlant:
         return self._guard.motors
 
     def open(self) -> None:
-        """Open bus and encoder, and reset the drives, which may hold an old current for ever.
+        """Open bus and encoder, and reset the drives, which may hold an old current.
 
         Raises `SvsaError` with what to do, and holds neither then.
         """
@@ -167,21 +167,21 @@ class CanPlant:
         self._machine.fail(Alarm(code, message, values))
 
     def catch_up(self) -> None:
-        """Take what has come since `open`: thousands of frames where the loop took long to load."""
+        """Read the frames since `open`: thousands if the loop took long to load."""
         self._sensing.catch_up(self._get_bus(), self._clock.now())
 
     def listen(self) -> None:
-        """Fetch the frames that have come before a tick is due: less is left to do in it."""
+        """Read waiting frames before a tick is due, so that less is left in the tick."""
         self._sensing.listen(self._get_bus())
 
     def read(self, now: float, known: State) -> Reading:
-        """What has come since the last tick. known: x̂ now, whose velocities bridge the ages."""
+        """Read the bench for this tick. known: x̂ now, whose velocities compensate the ages."""
         return self._sensing.read(self._get_bus(), now, known)
 
     def write(
         self, now: float, limited: Torque, known: State, estimate: Disturbance, missed: int
     ) -> Torque:
-        """Send what may be sent of `limited`; returns the torque that was really sent, N·m.
+        """Send the permitted part of `limited`; return the torque actually sent, N·m.
 
         known: x̂. estimate: ŵ, N·m. missed: ticks lost before this one.
         """
@@ -205,7 +205,7 @@ class CanPlant:
         return sent
 
     def _send(self, number: int, torque: float, now: float) -> float:
-        """To one drive what is due; the torque that it holds from now on, N·m."""
+        """Send one drive's command; return the torque that it holds from now on, N·m."""
         drive, scale = self._drives[number], self._scales[number]
         if drive.phase is not Phase.READY:
             drive.advance(self._get_bus(), now)
@@ -217,7 +217,7 @@ class CanPlant:
         return self._guard.motors[number].last
 
     def _silence(self, now: float) -> None:
-        """Zero current in every tick, and after the first of them the reset of every drive."""
+        """Send zero current in every tick, and after the first of them the reset of every drive."""
         bus = self._get_bus()
         if self._zero_sent and not self._reset_sent and self._is_open(now):
             self._send_resets(bus)
@@ -229,7 +229,7 @@ class CanPlant:
         self._zero_sent = self._zero_sent or all(reached)
 
     def _try_zero(self, bus: can.BusABC, drive: Drive, now: float) -> bool:
-        """Send zero current; whether it was sent. A failure does not affect the other drive."""
+        """Send zero current; return success. A failure does not affect the other drive."""
         try:
             return drive.send_zero(bus, now)
         except BUS_TROUBLE:
@@ -263,7 +263,7 @@ class CanPlant:
         return self._count_stops() > self._stops_known
 
     def _count_stops(self) -> int:
-        """How often the supervisor has stopped the drives."""
+        """Count how often the supervisor has stopped the drives."""
         return self._beats.stops if self._beats is not None else 0
 
     def _find_age(self, slot: Slot) -> float:
@@ -273,7 +273,7 @@ class CanPlant:
         return 0.0 if slot == "supervisor" and self.emulated else math.inf
 
     def close(self) -> None:
-        """Zero current, reset the drives, and let go of bus and encoder."""
+        """Send zero current, reset the drives, and close bus and encoder."""
         self._sensing.source.close()
         if self._bus is None:
             return

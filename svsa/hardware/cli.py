@@ -1,4 +1,4 @@
-"""`svsa bench-check` and `svsa bench-home`: a bench tried out, and its zero written down."""
+"""`svsa bench-check` and `svsa bench-home`: test and zero a bench."""
 
 import contextlib
 import getpass
@@ -74,7 +74,7 @@ def bench_home(
         typer.Option(help="Name of the user who looks at the marks; asked for if left out."),
     ] = None,
 ) -> None:
-    """Write the calibration record of a bench: who saw it at its zero marks, and its zero."""
+    """Write the calibration record of a bench: observer of the zero marks, and zero counts."""
     require_extra("bench")
     from svsa.hardware.calibration import list_problems
     from svsa.hardware.file import read_bench
@@ -101,7 +101,7 @@ def bench_home(
 
 @contextlib.contextmanager
 def _interrupted_once() -> Iterator[None]:
-    """A terminated check leaves the bench as one ended by Ctrl-C does.
+    """Handle SIGTERM like Ctrl-C, so that the bench is left in the same state.
 
     A second Ctrl-C does not interrupt the ramp-down of the currents.
     """

@@ -1,4 +1,4 @@
-"""The time of a bench: the wall clock, or an emulator's own, in lockstep, paced by the wall."""
+"""The clock of a bench: wall time, or an emulator's time in lockstep."""
 
 import ctypes
 import math
@@ -23,11 +23,11 @@ SPIN_S = 0.00015
 
 
 class ClockError(SvsaError):
-    """A clock that does not go on."""
+    """A clock that has stopped."""
 
 
 class BenchClock(Protocol):
-    """What the loop waits on. Times are s from any fixed origin."""
+    """The clock of the loop. Times are s from an arbitrary origin."""
 
     def bind(self, bus: can.BusABC) -> None:
         """Use this bus: `convert` turns the times of its frames into those of this clock."""
@@ -38,7 +38,7 @@ class BenchClock(Protocol):
         ...
 
     def wait_until(self, deadline: float) -> None:
-        """Return at this time, or at once if it is past."""
+        """Wait until this time; return at once if it is past."""
         ...
 
     def take_frames(self) -> list[can.Message]:
@@ -50,7 +50,7 @@ class BenchClock(Protocol):
         ...
 
     def find_lateness(self, deadline: float) -> float:
-        """How long ago, by the clock on the wall, this deadline was due, s."""
+        """Return the lateness of a deadline in wall time, s."""
         ...
 
 
@@ -123,7 +123,7 @@ class WallClock:
 
 
 class LockstepClock:
-    """An emulator's time, which goes on when it is waited for and not otherwise."""
+    """An emulator's time, which advances only while the loop waits for it."""
 
     def __init__(self) -> None:
         self._bus: can.BusABC | None = None
@@ -140,7 +140,7 @@ class LockstepClock:
         return self._now_us * 1e-6
 
     def wait_until(self, deadline: float) -> None:
-        """Let the emulator go on to this time; its frames are kept for `take_frames`."""
+        """Let the emulator advance to this time; its frames are stored for `take_frames`."""
         wanted = round(deadline * 1e6)
         if wanted > self._now_us:
             self._now_us = self._advance(wanted)
@@ -178,7 +178,7 @@ class LockstepClock:
         return timestamp
 
     def find_lateness(self, deadline: float) -> float:
-        """Nothing is late where time waits."""
+        """Return 0: in lockstep nothing is late."""
         return 0.0
 
 
@@ -187,7 +187,7 @@ CATCH_UP_S = 0.05
 
 
 class PacedClock(LockstepClock):
-    """`LockstepClock` in real time, or slower: the wall is `_ahead_s` ahead of the emulator.
+    """`LockstepClock` limited to real time: at most `_ahead_s` ahead of the wall clock.
 
     On a busy machine, loop and emulator become slow together: feedback stays as recent as on a
     bench, and no tick is missed. Separate processes, such as heartbeats, still use the wall clock.
@@ -199,7 +199,7 @@ class PacedClock(LockstepClock):
         self._ahead_s = -math.inf
 
     def wait_until(self, deadline: float) -> None:
-        """Let the emulator go on to this time, once it is due on the wall.
+        """Let the emulator advance to this time, once it is due in wall time.
 
         An emulator that had no loop for a while went on alone: its time is not waited for again.
         """
@@ -213,11 +213,11 @@ class PacedClock(LockstepClock):
         self._ahead_s = min(self._ahead_s, self._wall.now() - self.now())
 
     def find_lateness(self, deadline: float) -> float:
-        """How long ago this deadline was due on the wall, s, as far as it is made up for."""
+        """Return the lateness of a deadline in wall time, s, as far as it was compensated."""
         return self._wall.now() - (deadline + self._ahead_s)
 
 
 def choose_clock(bench: BenchFile) -> BenchClock:
-    """The clock that a bench goes by: the wall's, unless its emulator waits for the loop."""
+    """Choose the clock of a bench: wall time, unless its emulator waits for the loop."""
     is_lockstep = bench.emulator is not None and bench.emulator.lockstep
     return PacedClock() if is_lockstep else WallClock()

@@ -1,4 +1,4 @@
-"""A DBC file of the bench, so that standard tools decode what was captured from its bus.
+"""DBC file of a bench, with which CAN tools decode captured traffic.
 
 Made by cantools from what the families of the two drives describe and from the deflection
 encoder's frame: nothing in it is written twice.

@@ -1,4 +1,4 @@
-"""A frame on the emulated bus, and what an emulated bench sends that no real one does.
+"""Frames of the emulated bus, and messages that only an emulated bench sends.
 
 Both identifiers are extended (29 bits), from the end of the range, which no known drive uses: no
 drive takes them for a command.

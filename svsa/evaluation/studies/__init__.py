@@ -1,1 +1,1 @@
-"""Studies: many perturbed runs of every law, and what can be said of them."""
+"""Studies: many runs of every law with varied settings, and their statistics."""

@@ -46,7 +46,7 @@ def run_command(
         ),
     ] = None,
 ) -> None:
-    """Run a study, or go on with one. Ctrl-C keeps what is done."""
+    """Run or continue a study. Ctrl-C keeps the finished part."""
     from svsa.evaluation.studies.store import count_done, keep_study
 
     if scheduler is not None:
@@ -67,7 +67,7 @@ def run_command(
 
 
 def _find_study(source: str, runs: int | None) -> "tuple[str, Study]":
-    """What to run: a file or a built-in one, else one that was begun before by this name."""
+    """Find the study to run: a file, a built-in one, or a saved one of this name."""
     from svsa.evaluation.studies.file import find_study_file, read_study
     from svsa.evaluation.studies.store import is_kept, open_study
 
@@ -78,7 +78,7 @@ def _find_study(source: str, runs: int | None) -> "tuple[str, Study]":
 
 
 def _check_cluster(scheduler: str, workers: int | None) -> None:
-    """Check that Dask is installed, and that --workers is only given for a local cluster."""
+    """Check that Dask is installed, and that --workers is given for a local cluster only."""
     require_extra("cluster")
     from svsa.evaluation.studies.cluster import LOCAL
 
@@ -93,7 +93,7 @@ def _run(
     scheduler: str | None,
     report: Report,
 ) -> bool:
-    """Run what is not done, here or on a cluster; whether all is done then."""
+    """Run the missing part, here or on a cluster; return whether the study is complete."""
     from svsa.evaluation.studies.execution import WORKERS, run_study
 
     def progress(done: int, total: int) -> None:
@@ -115,7 +115,7 @@ def _describe_repeat(source: str, **options: object) -> str:
 
 @study.command("list")
 def list_command() -> None:
-    """The studies that come with the package, and those that were begun here."""
+    """List the built-in and the saved studies."""
     from svsa.evaluation.studies.file import list_built_in
     from svsa.evaluation.studies.store import count_done, list_studies
 
@@ -195,7 +195,7 @@ def compare_command(
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
 ) -> None:
-    """Laws on the same samples: the first less each other, or each less itself in another study."""
+    """Compare laws on the same samples, or the same laws in two studies."""
     from svsa.evaluation.studies.store import open_study, read_rows
     from svsa.evaluation.studies.summary import compare_laws, pair_studies
     from svsa.evaluation.studies.tables import build_pairing_table, write_json
@@ -221,7 +221,7 @@ def replay_command(
     keep: Annotated[bool, typer.Option(help="Put it among the recorded runs.")] = True,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
 ) -> None:
-    """Run one row of a study again, with all its samples, as a recorded run of this machine."""
+    """Run one row of a study again, with all its samples, as a recorded run."""
     from svsa.evaluation.metrics import METRICS
     from svsa.evaluation.studies.replay import record_replay, replay_row
     from svsa.evaluation.studies.store import open_study

@@ -1,4 +1,4 @@
-"""Past one machine: the parts of a study run by the workers of a Dask cluster.
+"""Studies on a cluster: parts computed by the workers of a Dask cluster.
 
 A part is a function of the study and its samples alone, so that one whose worker was lost is run
 again by another. Parts come as the bytes that are stored: the client only writes them.
@@ -46,7 +46,7 @@ not answer in time; and, once it has seen that, a part that was cancelled and it
 
 
 class Cluster:
-    """The workers of a Dask scheduler, wherever they are."""
+    """The workers of a Dask scheduler."""
 
     def __init__(self, client: Client, address: str) -> None:
         self._client, self._address = client, address
@@ -54,7 +54,9 @@ class Cluster:
         self.count_threads()
 
     def count_threads(self, again: str = "") -> int:
-        """Threads of all workers, at least 1; raises `StudyError` where the scheduler is lost."""
+        """Count the threads of all workers, at least 1; raises `StudyError` if the scheduler is
+        lost.
+        """
         if time.monotonic() - self._counted > COUNTED_S or not self._threads:
             with self._ask(again):
                 counted: Any = self._client.nthreads()
@@ -63,12 +65,12 @@ class Cluster:
         return self._threads
 
     def choose_rows_a_part(self, rows: int) -> int:
-        """How many rows each part of so many has, within `MIN_ROWS_A_PART` … `MAX_ROWS_A_PART`."""
+        """Choose the rows per part, within `MIN_ROWS_A_PART` … `MAX_ROWS_A_PART`."""
         share = rows // (PARTS_A_THREAD * self.count_threads())
         return min(MAX_ROWS_A_PART, max(MIN_ROWS_A_PART, share))
 
     def run_parts(self, stored: StoredStudy, spans: Iterator[Span]) -> Iterator[Part]:
-        """The parts of these spans; after an interruption those that are done.
+        """Yield the parts of these spans; after an interruption the finished ones.
 
         Raises `StudyError` where the scheduler is lost, where workers ended over a part again and
         again, and where a worker has another version of svsa, or none.
@@ -105,7 +107,7 @@ class Cluster:
 
     @contextmanager
     def _ask(self, again: str, asked: Future | None = None) -> Iterator[None]:
-        """`StudyError` where the scheduler is lost, but not for an error of the work asked for."""
+        """Raise `StudyError` if the scheduler is lost, but pass on errors of the work."""
         try:
             yield
         except LOST:
@@ -132,7 +134,7 @@ class Cluster:
 
 
 def _run_same_version(version: str, study: Study, first: int, count: int) -> bytes:
-    """A part, run by a worker; raises `StudyError` where it is of another version."""
+    """Run a part on a worker; raises `StudyError` if its version differs."""
     if version != __version__:
         raise StudyError(
             f"A worker on {socket.gethostname()} has svsa {__version__}, and the study is run by"
@@ -143,7 +145,7 @@ def _run_same_version(version: str, study: Study, first: int, count: int) -> byt
 
 @contextmanager
 def open_cluster(scheduler: str, workers: int) -> Iterator[Cluster]:
-    """The cluster of the scheduler at an address, such as tcp://10.0.0.1:8786.
+    """Connect to the scheduler at an address, such as tcp://10.0.0.1:8786.
 
     `LOCAL`: one of so many processes of this machine, reached from it alone, that ends with this.
     Raises `ParameterError` for what is no address, and `StudyError` where no scheduler answers
@@ -182,14 +184,14 @@ def open_cluster(scheduler: str, workers: int) -> Iterator[Cluster]:
 
 
 class _GiveWay(WorkerPlugin):
-    """A worker of this machine has a low priority, and leaves Ctrl-C to its parent."""
+    """Give a local worker a low priority, and leave Ctrl-C to its parent."""
 
     def setup(self, worker: Any) -> None:
         give_way()
 
 
 def _check_scheduler(address: str) -> None:
-    """That a scheduler answers there; its client would try for long and say less."""
+    """Check that a scheduler answers; its client would retry for long without a clear message."""
     try:
         scheme, _ = parse_address(address, strict=True)
         host, port = get_address_host_port(address, strict=True)

@@ -1,4 +1,4 @@
-"""Execution of a study: spans of samples run by workers, their rows written to its folder."""
+"""Execution of a study: spans of samples computed by workers and written to its folder."""
 
 import os
 from collections.abc import Callable, Iterator
@@ -41,7 +41,7 @@ def run_study(
     is_cancelled: Callable[[], bool] = lambda: False,
     run_parts: RunParts | None = None,
 ) -> bool:
-    """Run what is not done of a study; whether all of it is done then.
+    """Run the missing part of a study; return whether it is then complete.
 
     workers: processes; 0 runs it in this one. is_cancelled: asked before each part; where it says
     so, and at Ctrl-C, the parts that are being worked at are waited for and kept (on a cluster
@@ -69,7 +69,7 @@ def run_study(
 
 
 def _cut(spans: list[Span], length: int, is_cancelled: Callable[[], bool]) -> Iterator[Span]:
-    """Spans no longer than this many samples, until they are cancelled."""
+    """Cut spans into pieces of at most this many samples, until cancelled."""
     for first, stop in spans:
         for begin in range(first, stop, length):
             if is_cancelled():
@@ -78,14 +78,14 @@ def _cut(spans: list[Span], length: int, is_cancelled: Callable[[], bool]) -> It
 
 
 def run_here(stored: StoredStudy, spans: Iterator[Span]) -> Iterator[Part]:
-    """The parts of these spans, run in this process."""
+    """Yield the parts of these spans, computed in this process."""
     for first, stop in spans:
         yield (first, stop), run_part(stored.study, first, stop - first)
 
 
 def run_in_processes(workers: int, stored: StoredStudy, spans: Iterator[Span]) -> Iterator[Part]:
-    """The parts of these spans, run by processes of low priority; after an interruption those that
-    were being worked at.
+    """Yield the parts of these spans, computed by processes of low priority; after an
+    interruption those in progress.
     """
     with start_workers(workers) as pool:
         begun: dict[Future[bytes], Span] = {}

@@ -1,4 +1,4 @@
-"""A study as a file, TOML or Python, and those that come with the package."""
+"""Study files, TOML or Python, and the built-in studies."""
 
 import runpy
 import traceback
@@ -15,7 +15,7 @@ _BUILT_IN = Path(__file__).parent / "builtin"
 
 
 def list_built_in() -> dict[str, str]:
-    """The studies that come with the package: name and title."""
+    """List the built-in studies: name and title."""
     return {
         path.stem: str(read_toml(path, STUDY_FILE)["title"])
         for path in sorted(_BUILT_IN.glob("*.toml"))
@@ -23,7 +23,7 @@ def list_built_in() -> dict[str, str]:
 
 
 def find_study_file(source: str | Path) -> Path | None:
-    """The file that is meant: by its name with .toml or .py, or one of the package's by its own."""
+    """Find a study file: by its name with .toml or .py, or a built-in one by its name."""
     path = Path(source)
     if path.suffix in (".toml", ".py"):
         return path
@@ -31,7 +31,7 @@ def find_study_file(source: str | Path) -> Path | None:
 
 
 def read_study(source: str | Path, runs: int | None = None) -> tuple[str, Study]:
-    """The name and the study of a file, or of one that comes with the package.
+    """Read the name and the study of a file, or of a built-in one.
 
     A Python file makes a `Study` called `STUDY`. runs: in place of the file's. Raises
     `ParameterError` with the file, and the lines of a TOML file, for what cannot be read and for
@@ -50,7 +50,7 @@ def read_study(source: str | Path, runs: int | None = None) -> tuple[str, Study]
 
 
 def parse_study(text: str, place: str = "", **changes: Any) -> Study:
-    """The study in a TOML text, with changes in place of what it says.
+    """Parse a study in TOML, with changes replacing its fields.
 
     Raises `ParameterError` as `read_study`, with `place` as the file's name.
     """
@@ -73,7 +73,7 @@ def _run_python(path: Path) -> Study:
 
 
 def _find_place(path: Path, error: BaseException) -> str:
-    """The file, and the last line of it that was at work."""
+    """Find the file, and its last line in the traceback."""
     frames = traceback.extract_tb(error.__traceback__)
     lines = [frame.lineno for frame in frames if Path(frame.filename) == path]
     return f"{path}, line {lines[-1]}" if lines else str(path)

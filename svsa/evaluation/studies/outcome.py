@@ -1,4 +1,4 @@
-"""The outcome of each run: its fault, its metrics, and the bounds that it must keep to succeed."""
+"""Outcomes of runs: fault, metrics, and the bounds of the success criterion."""
 
 from typing import Any
 
@@ -20,13 +20,13 @@ _FIELDS: Any = {
 
 
 class Success(create_model("_Bounds", __base__=Checked, **_FIELDS)):
-    """What a run must keep besides its domain: of any metric at most so much.
+    """The success criterion: upper bounds of metrics, besides the absence of a fault.
 
     What is left out is not asked. A run that has no such value, as one that never recovers, fails.
     """
 
     def list_bounds(self) -> dict[str, float]:
-        """The greatest value of each metric that is asked for."""
+        """List the upper bound of each bounded metric."""
         return {name: value for name, value in self if value is not None}
 
 
@@ -37,7 +37,7 @@ REFUSED = "refused"
 def build_outcome(
     summaries: np.ndarray, periods: np.ndarray, begin_s: float, success: Success
 ) -> dict[str, Any]:
-    """Of each run its fault with its time, whether it succeeded, and its metrics.
+    """Compute fault with time, success, and metrics of each run.
 
     fault: None without one. fault_tick: None without a fault.
     """
@@ -56,7 +56,7 @@ def build_outcome(
 
 
 def build_refused(count: int) -> dict[str, Any]:
-    """As `build_outcome`, of runs that were not begun."""
+    """Build the outcomes of rejected runs, as `build_outcome`."""
     nothing = np.zeros(count, dtype=SUMMARY)
     outcome = build_outcome(nothing, np.ones(count), 0.0, Success())
     return outcome | {"fault": [REFUSED] * count, "succeeded": np.zeros(count, dtype=bool)}

@@ -1,4 +1,4 @@
-"""A study in pictures: distributions, where it succeeds, what decides it, and its worst runs."""
+"""Figures of a study: distributions, success, sensitivities, and the worst runs."""
 
 import math
 import textwrap
@@ -43,7 +43,7 @@ LAWLESS = ("#000000", "#666666", "#aaaaaa")
 def save_pictures(
     stored: StoredStudy, rows: pa.Table, indices: Sequence[Sensitivity], folder: Path
 ) -> list[Path]:
-    """One PNG of each kind that the study has something for, in `folder`; their paths.
+    """Save one PNG for each applicable kind of figure in `folder`; return their paths.
 
     Raises `OSError` where the folder cannot be written.
     """
@@ -65,7 +65,7 @@ def save_pictures(
 
 
 def draw_distributions(study: Study, rows: pa.Table) -> Picture:
-    """Which share of all runs lies below a value; what ended in a fault never does."""
+    """Draw cumulative distributions over all runs; runs with a fault never count as below."""
     picture = Picture(figsize=(9.0, 7.0), layout="constrained")
     _entitle(picture, study.title)
     names = [name for name in DISTRIBUTED if name in study.metrics] or study.metrics[:PANELS]
@@ -92,7 +92,7 @@ def draw_distributions(study: Study, rows: pa.Table) -> Picture:
 
 
 def draw_success(study: Study, rows: pa.Table, x: str, y: str) -> Picture:
-    """The share of runs that succeeded over two settings, a panel a law; grey: no run there."""
+    """Draw the success rate over two settings, one panel per law; grey: no run."""
     picture = Picture(figsize=(4.4 * len(study.laws) + 0.8, 4.4), layout="constrained")
     _entitle(picture, study.title)
     panels = picture.subplots(1, len(study.laws), squeeze=False, sharex=True, sharey=True)[0]
@@ -117,7 +117,7 @@ def draw_success(study: Study, rows: pa.Table, x: str, y: str) -> Picture:
 
 
 def draw_sensitivity(indices: Sequence[Sensitivity]) -> Picture:
-    """Bars of Sobol indices with their intervals, the greatest first."""
+    """Draw Sobol indices with their intervals as bars, the largest first."""
     picture = Picture(figsize=(8.0, 0.9 + 3.0 * len(indices)), layout="constrained")
     panels = picture.subplots(len(indices), 1, squeeze=False)[:, 0]
     for axes, one in zip(panels, indices, strict=True):
@@ -146,7 +146,7 @@ def draw_sensitivity(indices: Sequence[Sensitivity]) -> Picture:
 
 
 def draw_worst(stored: StoredStudy, rows: pa.Table) -> Picture:
-    """The position error of the worst runs of each law, run again: faults first, the earliest."""
+    """Draw the position error of the worst runs of each law, run again: earliest faults first."""
     study = stored.study
     picture = Picture(figsize=(8.0, 0.9 + 2.4 * len(study.laws)), layout="constrained")
     _entitle(picture, f"{study.title}: the {WORST} worst runs of each law")
@@ -169,14 +169,14 @@ def draw_worst(stored: StoredStudy, rows: pa.Table) -> Picture:
 
 
 def _entitle(picture: Picture, title: str) -> None:
-    """A title in lines no wider than the picture."""
+    """Wrap a title to the width of the figure."""
     picture.suptitle(
         "\n".join(textwrap.wrap(title, int(_LETTERS_AN_INCH * picture.get_figwidth())))
     )
 
 
 def find_worst(rows: pa.Table, metrics: Sequence[str], count: int = WORST) -> list[int]:
-    """The worst rows: those that ended in a fault, the earliest first, then the greatest peaks.
+    """Find the worst rows: faults, earliest first, then the largest peaks.
 
     metrics: those of the table; without the peaks the first of them counts.
     """
@@ -192,7 +192,7 @@ def find_worst(rows: pa.Table, metrics: Sequence[str], count: int = WORST) -> li
 
 
 def _find_edges(study: Study, rows: pa.Table, column: str) -> np.ndarray:
-    """Between the values of a grid; else bins of one width between the ends."""
+    """Compute bin edges: between the values of a grid; otherwise of equal width."""
     levels = next(one.levels for one in study.vary if one.column == column)
     if len(levels) > 1:
         at = np.log(np.sort(levels)) if _is_log(study, column) else np.sort(levels)

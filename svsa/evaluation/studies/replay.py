@@ -1,4 +1,4 @@
-"""A row of a study as the run that it was: every sample, and the same metrics to the bit."""
+"""Replay of a study's row: every sample of its run, with the same metrics to the bit."""
 
 import struct
 from typing import Any, NamedTuple
@@ -21,7 +21,7 @@ from svsa.runs.result.simulate import simulate
 
 
 class Replay(NamedTuple):
-    """A row and its run. kept: as it stands in the table. metrics: of the run's samples, all."""
+    """A row and its run. kept: the row of the table. metrics: of the replayed samples."""
 
     row: int
     kept: dict[str, Any]
@@ -31,7 +31,7 @@ class Replay(NamedTuple):
 
     @property
     def differing(self) -> list[str]:
-        """The metrics that are not to the bit those of the table, and the fault where it is."""
+        """The metrics, and the fault, that differ from the table in any bit."""
         kept = [name for name in METRICS if name in self.kept]
         names = [name for name in kept if not _is_same(self.kept[name], self.metrics[name])]
         fault = self.result.fault
@@ -64,7 +64,7 @@ def replay_row(stored: StoredStudy, row: int) -> Replay:
 
 
 def measure_samples(result: Result, begin_s: float, end_s: float) -> dict[str, float]:
-    """The metrics of a run's samples between two times, to the bits that a batch comes to.
+    """Compute the metrics of a run's samples between two times, bit-identical to a batch.
 
     end_s: when it was to end; a run in a fault has ended before.
     """
@@ -77,7 +77,7 @@ def measure_samples(result: Result, begin_s: float, end_s: float) -> dict[str, f
 def record_replay(
     stored: StoredStudy, replay: Replay, catalogue: Catalogue, owner: str = ""
 ) -> RunEntry:
-    """Put the run into the catalogue, where the lab shows it as any recorded one.
+    """Add the run to the catalogue, where the lab shows it like any recorded run.
 
     owner: id of who asked for it, in a class.
     """

@@ -1,4 +1,4 @@
-"""What is drawn for each run: a function of the study's seed and the run's number alone.
+"""Samples of a study: functions of its seed and the number of the run only.
 
 So neither how runs are put together, nor their order, nor the machine or a new start changes them.
 """
@@ -28,12 +28,12 @@ class ParameterSamples(NamedTuple):
 
     @property
     def size(self) -> int:
-        """How many there are."""
+        """Number of samples."""
         return len(self.seeds)
 
 
 def draw(study: Study, first: int, count: int) -> ParameterSamples:
-    """The samples `first` to `first + count − 1` of a study.
+    """Draw the samples `first` to `first + count − 1` of a study.
 
     Draws of one grid, and of one set for sensitivity, have the same chance: what differs between
     them is what varies.
@@ -56,7 +56,7 @@ def draw(study: Study, first: int, count: int) -> ParameterSamples:
 
 
 def _make_words(study: Study, begin: int, end: int) -> np.ndarray:
-    """(samples, words) of 64 bits: of each sample a seed and one for each variation.
+    """Compute (samples, words) of 64 bits: per sample a seed and a word for each variation.
 
     Philox, a function of key and counter: a sample's words do not depend on those before it.
     """
@@ -66,7 +66,7 @@ def _make_words(study: Study, begin: int, end: int) -> np.ndarray:
 
 
 def _make_shares(study: Study, words: np.ndarray, begin: int, end: int) -> np.ndarray:
-    """(2, samples, variations) from 0 to 1: of a sample, and of the other one of its pair.
+    """Compute (2, samples, variations) from 0 to 1: a sample, and its pair for Sobol indices.
 
     The second is another one for sensitivity only.
     """

@@ -1,4 +1,4 @@
-"""One setting of a run, called by its path: `loads[0].torque_nm[1]`, `effects.friction`."""
+"""Settings of a run by path: `loads[0].torque_nm[1]`, `effects.friction`."""
 
 import re
 import typing
@@ -18,7 +18,7 @@ Step = str | int
 
 
 class _Part(dict[Step, Any]):
-    """What changes within a value: of each step from there what becomes of it."""
+    """The changes below a value: for each next step of the path its new value."""
 
 
 _PART = re.compile(r"[A-Za-z_]\w*|\[\d+\]")
@@ -31,7 +31,7 @@ NOT_VARIED = ("law", "comparisons", "seed")
 
 
 def scale_position_poles(gains: Gains, bandwidth: float) -> Gains:
-    """The poles of the position error as they lie, their geometric mean at `bandwidth`, rad/s."""
+    """Scale the poles of the position error to the geometric mean `bandwidth`, rad/s."""
     scale = bandwidth / gains.position_coefficients[0] ** 0.25
     c0, c1, c2, c3 = gains.position_coefficients
     scaled = (c0 * scale**4, c1 * scale**3, c2 * scale**2, c3 * scale)
@@ -39,7 +39,7 @@ def scale_position_poles(gains: Gains, bandwidth: float) -> Gains:
 
 
 def scale_stiffness_poles(gains: Gains, bandwidth: float) -> Gains:
-    """The poles of the stiffness error as they lie, their geometric mean at `bandwidth`, rad/s."""
+    """Scale the poles of the stiffness error to the geometric mean `bandwidth`, rad/s."""
     scale = bandwidth / gains.stiffness_coefficients[0] ** 0.5
     c0, c1 = gains.stiffness_coefficients
     return gains.changed(stiffness_coefficients=(c0 * scale**2, c1 * scale))
@@ -58,7 +58,7 @@ _READ_SCALED: dict[str, Callable[[Gains], float]] = {
 
 @cache
 def parse_path(path: str) -> tuple[Step, ...]:
-    """Names and indices of a path; raises `ParameterError` where it is none, or not to be varied.
+    """Parse names and indices of a path; raises `ParameterError` if it is invalid or fixed.
 
     Of the path itself the violation has no name.
     """
@@ -74,7 +74,7 @@ def parse_path(path: str) -> tuple[Step, ...]:
 
 
 def read_setting(configuration: Configuration, path: str) -> Any:
-    """The value at a path; raises `ParameterError` where there is none, which says what there is.
+    """Read the value at a path; raises `ParameterError` with the existing names.
 
     An effect that is off is None, and its fields have the values that it has when switched on.
     """
@@ -83,7 +83,7 @@ def read_setting(configuration: Configuration, path: str) -> Any:
 
 
 def walk_to_setting(configuration: Configuration, path: str) -> Iterator[tuple[Any, Step, Any]]:
-    """Each step of a path, after what it is taken from and before where it leads.
+    """Yield each step of a path with the value before and after it.
 
     Raises `ParameterError` as `read_setting`.
     """
@@ -98,7 +98,7 @@ def walk_to_setting(configuration: Configuration, path: str) -> Iterator[tuple[A
 
 
 def change_settings(configuration: Configuration, changes: Mapping[str, Any]) -> Configuration:
-    """The configuration with these values at their paths.
+    """Return the configuration with these values at their paths.
 
     A number given to a list of numbers is that of each. A table changes what it names and leaves
     the rest; one with a `kind` takes the place of what was there. An effect that was off is
@@ -139,14 +139,14 @@ def _get_named(path: str, given: Any) -> Any:
 
 
 def _find_parts(given: Any) -> Any:
-    """A table without a kind as what changes within a value."""
+    """Interpret a table without a kind as changes within a value."""
     if isinstance(given, Mapping) and "kind" not in given:
         return _Part({name: _find_parts(inner) for name, inner in given.items()})
     return given
 
 
 def _change(whole: Configuration, value: Any, change: Any) -> Any:
-    """What becomes of `value`, a part of `whole`."""
+    """Apply a change to `value`, a part of `whole`."""
     if not isinstance(change, _Part):
         is_number = isinstance(change, int | float) and not isinstance(change, bool)
         if isinstance(value, tuple) and value and is_number and isinstance(value[0], int | float):
@@ -168,7 +168,7 @@ def _change(whole: Configuration, value: Any, change: Any) -> Any:
 
 
 def _step_into(whole: Configuration, value: Any, step: Step) -> Any:
-    """The value below `value`, a part of `whole`; raises `ParameterError` where there is none."""
+    """Return a value below `value`, a part of `whole`; raises `ParameterError` if there is none."""
     if isinstance(value, tuple) and isinstance(step, int) and step < len(value):
         return value[step]
     if isinstance(value, Gains) and step in SCALED:
@@ -181,7 +181,7 @@ def _step_into(whole: Configuration, value: Any, step: Step) -> Any:
 
 
 def _describe_steps(value: Any) -> str:
-    """What there is below a value."""
+    """Describe the names below a value."""
     if isinstance(value, tuple):
         return (
             f"an index from [0] to [{len(value) - 1}]" if value else "left out: the list is empty"
@@ -192,7 +192,7 @@ def _describe_steps(value: Any) -> str:
 
 
 def _switch_on(value: Any, name: str) -> Any:
-    """What an optional field of `value` is by default where it is on; None for any other."""
+    """Return the default of an optional field when it is switched on; None for any other."""
     for branch in typing.get_args(type(value).model_fields[name].annotation):
         if isinstance(branch, type) and issubclass(branch, Checked):
             return branch()

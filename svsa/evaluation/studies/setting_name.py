@@ -1,4 +1,4 @@
-"""What a setting is called in words, and in what unit it is: as its field declares them."""
+"""Label and unit of a setting, from its field's declaration."""
 
 from typing import NamedTuple
 
@@ -16,20 +16,20 @@ _ANGULAR = "rad/s"
 
 
 class SettingName(NamedTuple):
-    """words: as "Output link inertia M". unit: empty of what has none, and of a factor."""
+    """words: such as "Output link inertia M". unit: empty for a factor or without a unit."""
 
     words: str
     unit: str
 
 
 def name_variation(base: Configuration, variation: Variation) -> SettingName:
-    """What varies from this base; of a factor with ×."""
+    """Name a varied setting; a factor with ×."""
     name = name_setting(base, variation.path)
     return SettingName(f"{name.words} ×", "") if variation.relative else name
 
 
 def name_setting(configuration: Configuration, path: str) -> SettingName:
-    """The setting at a path; raises `ParameterError` where there is none.
+    """Name the setting at a path; raises `ParameterError` if there is none.
 
     The name contains "Nominal" for the controllers' model, the law of a law's parameter, and the
     number of a load where there are several.

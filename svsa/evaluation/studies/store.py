@@ -1,4 +1,4 @@
-"""Where a study is kept: its text, the parts that are done, and the one table of all of them.
+"""Storage of a study: its text, the finished parts, and one table of all parts.
 
 A part is a file that is there as a whole or not at all. What is done is what is there: so a study
 goes on where it was left, however it was left, with parts of any size.
@@ -36,11 +36,11 @@ Span = tuple[int, int]
 
 
 class StudyError(SvsaError):
-    """A study that cannot be kept, read or gone on with; what is done stays."""
+    """A study that cannot be saved, read or continued; finished parts stay."""
 
 
 class StoredStudy(NamedTuple):
-    """A study and its folder. owner: id of who began it, in a class; empty elsewhere."""
+    """A study and its folder. owner: id of the person who started it, in a class; else empty."""
 
     name: str
     study: Study
@@ -51,19 +51,19 @@ class StoredStudy(NamedTuple):
 
 
 def check_name(name: str) -> None:
-    """Raise `ParameterError` for a name by which nothing can be kept."""
+    """Raise `ParameterError` for an invalid name."""
     if not _NAME.fullmatch(name):
         bound = "1 to 64 letters, digits, -, _ or ., the first no sign"
         raise ParameterError(Violation("name", name, "", bound))
 
 
 def find_studies_folder() -> Path:
-    """The folder of the studies, next to that of the runs."""
+    """Return the folder of the studies, next to that of the runs."""
     return find_data_folder() / "studies"
 
 
 def keep_study(name: str, study: Study, root: Path | None = None, owner: str = "") -> StoredStudy:
-    """The study of this name, begun, or gone on with; more runs may be asked for than before.
+    """Save a new study, or continue one, possibly with more runs.
 
     owner: of one that is begun; one that is gone on with keeps its own.
 
@@ -98,13 +98,13 @@ def keep_study(name: str, study: Study, root: Path | None = None, owner: str = "
 
 
 def is_kept(name: str, root: Path | None = None) -> bool:
-    """Whether there is a study of this name."""
+    """Whether a study of this name exists."""
     is_name = _NAME.fullmatch(name) is not None
     return is_name and ((root or find_studies_folder()) / name / STUDY_FILE).exists()
 
 
 def open_study(name: str, root: Path | None = None) -> StoredStudy:
-    """The study of this name; raises `StudyError` where there is none, or it cannot be read."""
+    """Open a study; raises `StudyError` if it does not exist or is unreadable."""
     root = root or find_studies_folder()
     folder = root / name
     try:
@@ -120,7 +120,7 @@ def open_study(name: str, root: Path | None = None) -> StoredStudy:
 
 
 def _translate_definition(written: dict[str, Any]) -> dict[str, Any]:
-    """Give the metrics of a former study their present names."""
+    """Translate metrics of an earlier version to the present names."""
     present = dict(written)
     if "success" in present:
         present["success"] = translate_fields(present["success"], METRICS)
@@ -130,7 +130,7 @@ def _translate_definition(written: dict[str, Any]) -> dict[str, Any]:
 
 
 def read_owner(name: str, root: Path | None = None) -> str | None:
-    """Return the id of the person who began a study, without building the study.
+    """Return the id of a study's owner, without building the study.
 
     Args:
         name: Of the study.
@@ -150,7 +150,7 @@ def read_owner(name: str, root: Path | None = None) -> str | None:
 
 
 def list_studies(root: Path | None = None) -> list[StoredStudy]:
-    """Every study that was begun and can be read, by name."""
+    """List the saved studies that are readable, by name."""
     root = root or find_studies_folder()
     found = []
     for path in sorted(root.glob(f"*/{STUDY_FILE}")):
@@ -162,7 +162,7 @@ def list_studies(root: Path | None = None) -> list[StoredStudy]:
 
 
 def measure_bytes(owner: str, root: Path | None = None) -> int:
-    """What the studies of one owner take on the disk."""
+    """Compute the disk space of one owner's studies, bytes."""
     folders = [one.folder for one in list_studies(root) if one.owner == owner]
     files = (path for folder in folders for path in folder.rglob("*"))
     return sum(path.stat().st_size for path in files if path.is_file())
@@ -190,12 +190,12 @@ def delete_study(stored: StoredStudy) -> None:
 
 
 def write_part(stored: StoredStudy, span: Span, content: bytes) -> None:
-    """Keep the rows of these samples, a Parquet file."""
+    """Save the rows of these samples in a Parquet file."""
     replace_file(stored.folder / PARTS / f"{span[0]:010d}-{span[1]:010d}.parquet", content)
 
 
 def list_parts(stored: StoredStudy) -> list[tuple[Span, Path]]:
-    """The files that hold rows, each with its samples, in order; what another holds is left out."""
+    """List the files with rows, each with its samples, in order, without overlaps."""
     parts: list[tuple[Span, Path]] = []
     table = stored.folder / TABLE_FILE
     if table.exists():
@@ -210,7 +210,7 @@ def list_parts(stored: StoredStudy) -> list[tuple[Span, Path]]:
 
 
 def find_missing(stored: StoredStudy) -> list[Span]:
-    """The stretches of samples that are not done."""
+    """Find the spans of samples that are not finished."""
     missing: list[Span] = []
     reached = 0
     for (first, stop), _ in list_parts(stored):
@@ -223,12 +223,12 @@ def find_missing(stored: StoredStudy) -> list[Span]:
 
 
 def count_done(stored: StoredStudy) -> int:
-    """How many samples are done."""
+    """Count the finished samples."""
     return sum(stop - first for (first, stop), _ in list_parts(stored))
 
 
 def join_parts(stored: StoredStudy) -> Path | None:
-    """Put what is done from the first draw on into one table; its path, None where nothing is.
+    """Join the rows from the first sample on in one table; return its path, None without rows.
 
     In the order of the rows, and in groups of one size: neither the order in which parts came nor
     their sizes show.
@@ -255,7 +255,7 @@ def join_parts(stored: StoredStudy) -> Path | None:
 
 
 def _regroup(paths: list[Path]) -> Iterator[pa.Table]:
-    """The rows of these files in tables of `ROWS_A_GROUP`, the last one shorter."""
+    """Regroup the rows in tables of `ROWS_A_GROUP`, the last one shorter."""
     waiting: list[pa.Table] = []
     for path in paths:
         with pq.ParquetFile(path) as file:
@@ -278,12 +278,12 @@ def _read_part(path: Path, columns: list[str] | None) -> pa.Table:
 
 
 def _translate(table: pa.Table) -> pa.Table:
-    """Give the columns of a former study their present names."""
+    """Translate columns of an earlier version to the present names."""
     return table.rename_columns([METRICS.get(name, name) for name in table.column_names])
 
 
 def read_rows(stored: StoredStudy, columns: list[str] | None = None) -> pa.Table:
-    """All rows that are done, of some columns or of all; raises `StudyError` where none is."""
+    """Read some or all columns of the finished rows; raises `StudyError` without rows."""
     tables = [_read_part(path, columns) for _, path in list_parts(stored)]
     if not tables:
         raise StudyError(f"Of study {stored.name} nothing is done: `svsa study run` it first.")

@@ -1,4 +1,4 @@
-"""A study as a value: what varies, how many runs, under which laws, and what counts as success."""
+"""A study as a value: variations, number of runs, laws and success criterion."""
 
 import math
 from collections.abc import Mapping
@@ -23,7 +23,7 @@ Sampling = Literal["random", "sobol", "sensitivity"]
 
 
 class Study(Checked):
-    """Runs of one actuator with varied settings, the same samples under each law.
+    """Runs of one actuator with varied settings, and the same samples under each law.
 
     base: the configuration that all begin from: `figure` of the paper, and settings in its place.
     actuators: if the actuator varies (`vary` with the path "actuator" and names as values), of each
@@ -110,19 +110,19 @@ class Study(Checked):
 
     @property
     def cells(self) -> int:
-        """How many samples belong to one sample: those of the grid, or of the base sample's set."""
+        """Number of samples in a cell: of the grid, or of a set of Sobol samples."""
         if self.sampling == "sensitivity":
             return len(self.vary) + 2
         return math.prod(len(variation.levels) or 1 for variation in self.vary)
 
     @property
     def sample_count(self) -> int:
-        """How many samples there are, each of which every law runs."""
+        """Number of samples; every law runs each of them."""
         return self.runs * self.cells
 
     @property
     def row_count(self) -> int:
-        """How many runs there are."""
+        """Number of runs."""
         return self.sample_count * len(self.laws)
 
     @property
@@ -162,14 +162,14 @@ def _is_actuator(variation: Variation) -> TypeGuard[Choice | Grid]:
 
 
 def check_measured(measure_from_s: float, duration_s: float) -> None:
-    """Raise `ParameterError` where a run ends before it is measured."""
+    """Raise `ParameterError` if a run ends before its measured window."""
     if not measure_from_s < duration_s:
         bound = f"less than duration_s, {duration_s:g} s"
         raise ParameterError(Violation("measure_from_s", measure_from_s, "s", bound))
 
 
 def build_base(base: Mapping[str, Any], law: str) -> Configuration:
-    """A figure and settings in its place, under a law; raises `ParameterError`."""
+    """Build a figure with changed settings under a law; raises `ParameterError`."""
     changes = {name: value for name, value in base.items() if name != FIGURE}
     try:
         figure = get_simulated_figure(base.get(FIGURE, "4a"))
@@ -179,7 +179,7 @@ def build_base(base: Mapping[str, Any], law: str) -> Configuration:
 
 
 def check_variation(base: Configuration, variation: Variation, name: str) -> None:
-    """Raise `ParameterError` where a value at an end is none for its setting."""
+    """Raise `ParameterError` if a bound of a variation is invalid for its setting."""
     try:
         present = read_setting(base, variation.path)
     except ParameterError as error:
@@ -202,7 +202,7 @@ def check_variation(base: Configuration, variation: Variation, name: str) -> Non
 
 
 def scale(variation: Variation, present: Any, value: Any) -> Any:
-    """What a setting becomes whose value in the base is `present`."""
+    """Return the factor-scaled value of a setting whose base value is `present`."""
     if not variation.relative:
         return value
     return tuple(one * value for one in present) if isinstance(present, tuple) else present * value

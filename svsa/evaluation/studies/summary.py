@@ -1,4 +1,4 @@
-"""Results of a study: of each law, of pairs of laws, and sensitivity to what varied.
+"""Statistics of a study: results of laws, differences of laws, sensitivities.
 
 A run that ended in a fault has no error that is comparable with that of a whole run: among the
 quantiles it stands beyond every value, and in paired differences both runs must be whole.
@@ -47,7 +47,7 @@ class LawSummary(NamedTuple):
 
 
 class Pairing(NamedTuple):
-    """One law less another on the same samples.
+    """The difference of two laws on the same samples.
 
     success: difference of the shares, of all pairs, with Tango's interval. only_one, only_other:
     samples on which only one of them succeeded. differences: of each metric that both keep the mean
@@ -87,7 +87,7 @@ class Sensitivity(NamedTuple):
 
 
 def summarize_laws(study: Study, rows: pa.Table) -> list[LawSummary]:
-    """Of each law in the study's order."""
+    """Summarize each law, in the study's order."""
     return [
         _summarize_law(law, study.metrics, rows.filter(pc.field(LAW) == law)) for law in study.laws
     ]
@@ -116,21 +116,21 @@ def _summarize_law(law: str, metrics: Sequence[str], rows: pa.Table) -> LawSumma
 
 
 def _rank(metric: str, rows: pa.Table, ended: np.ndarray) -> np.ndarray:
-    """The metric of each run, infinite where it ended in a fault, or never recovered."""
+    """Return the metric of each run, infinite after a fault or if it never recovered."""
     values = rows[metric].to_numpy()
     never = np.isnan(values) if metric == RECOVERY else np.zeros(len(values), dtype=bool)
     return np.where(ended | never, np.inf, values)
 
 
 def compare_laws(study: Study, rows: pa.Table) -> list[Pairing]:
-    """The study's first law less each other one, on the same samples."""
+    """Compare the study's first law with each other one on the same samples."""
     first, *others = study.laws
     sides = {law: rows.filter(pc.field(LAW) == law) for law in study.laws}
     return _correct([pair_rows(sides[first], sides[law], first, law) for law in others])
 
 
 def pair_studies(first: StoredStudy, second: StoredStudy) -> list[Pairing]:
-    """Each law that both have, in the first less in the second, on the same samples.
+    """Compare each law that both studies have, on the same samples.
 
     Raises `StudyError` where the two did not draw the same.
     """
@@ -153,7 +153,7 @@ def pair_studies(first: StoredStudy, second: StoredStudy) -> list[Pairing]:
 
 
 def _correct(pairings: list[Pairing]) -> list[Pairing]:
-    """Pairings with their p-values corrected by Holm's method: successes, and metrics of all."""
+    """Correct the p-values of successes and of all metrics by Holm's method."""
     successes = correct_holm([one.success_p for one in pairings])
     metrics = iter(correct_holm([p for one in pairings for p in one.p_values.values()]))
     return [
@@ -163,7 +163,7 @@ def _correct(pairings: list[Pairing]) -> list[Pairing]:
 
 
 def pair_rows(one: pa.Table, other: pa.Table, name: str, other_name: str) -> Pairing:
-    """Rows of the same samples, in the same order, one less the other; p-values uncorrected."""
+    """Compare rows of the same samples, in the same order; p-values uncorrected."""
     if one[DRAW].to_pylist() != other[DRAW].to_pylist():
         raise StudyError(f"{name} and {other_name} have not run the same samples yet.")
     refused = np.zeros(len(one), dtype=bool)
@@ -194,7 +194,7 @@ def pair_rows(one: pa.Table, other: pa.Table, name: str, other_name: str) -> Pai
 
 
 def estimate_sensitivity(study: Study, rows: pa.Table, law: str, outcome: str) -> Sensitivity:
-    """Sobol indices of an outcome, a metric or `succeeded`, under a law, as `Sensitivity`.
+    """Estimate Sobol indices of a metric or of `succeeded` under a law.
 
     Saltelli et al. 2010 on the sets that were done. Raises `StudyError` for a study that was not
     drawn for it, of a metric where a run has none or ended in a fault, and where nothing varies.

@@ -54,7 +54,7 @@ def build_summary_tables(
 
 
 def build_pairing_table(pairing: Pairing) -> Table:
-    """One law less another: differences with intervals, and p-values corrected by Holm's method."""
+    """Build a table of differences with intervals, and p-values corrected by Holm's method."""
     table = Table("metric", "unit", "mean difference", "95 %", "p (Holm)", title_justify="left")
     ends = format_ends(pairing.success, lambda x: f"{100 * x:+.2f}")
     table.title = (
@@ -71,7 +71,7 @@ def build_pairing_table(pairing: Pairing) -> Table:
 
 
 def format_ends(one: Interval, format_one: Callable[[float], str]) -> str:
-    """The ends of an interval, or that the data support none."""
+    """Format an interval; a dash if the data support none."""
     return "–" if math.isnan(one.low) else f"{format_one(one.low)} to {format_one(one.high)}"
 
 
@@ -81,7 +81,7 @@ def format_p(value: float) -> str:
 
 
 def build_sensitivity_table(one: Sensitivity) -> Table:
-    """Sobol indices, the greatest share first, with upper bounds of their intervals."""
+    """Build a table of Sobol indices, largest first, with upper bounds of their intervals."""
     table = Table("what varies", "its own share", "with interactions", title_justify="left")
     table.title = f"Sobol indices of {one.outcome} under {one.law}, {one.samples} base samples"
     table.title += "; intervals as if points were independent: upper bounds"
@@ -96,12 +96,12 @@ def build_sensitivity_table(one: Sensitivity) -> Table:
 
 
 def format_metric(name: str) -> str:
-    """A metric in words, without its unit."""
+    """Format a metric's name, without its unit."""
     return _UNIT.sub("", name).replace("_", " ")
 
 
 def format_value(metric: str, value: float) -> str:
-    """A metric's value in the unit that people read, to three digits."""
+    """Format a metric's value in its displayed unit, to three digits."""
     if math.isinf(value):
         return "never" if metric == RECOVERY else "fault"
     if math.isnan(value):
@@ -110,17 +110,17 @@ def format_value(metric: str, value: float) -> str:
 
 
 def convert_shown(metric: str, values: Any) -> Any:
-    """A metric's value, or an array of them, in the unit of `format_unit`."""
+    """Convert a metric's value, or an array, to the displayed unit of `format_unit`."""
     return np.degrees(values) if METRICS[metric] in _DEGREES else values
 
 
 def format_unit(metric: str) -> str:
-    """The unit of `format_value`."""
+    """Return the displayed unit of `format_value`."""
     return _DEGREES.get(METRICS[metric], METRICS[metric])
 
 
 def format_share(share: Interval) -> str:
-    """A share in percent with its interval, to so many digits that what differs reads so.
+    """Format a share in percent with its interval, with enough digits to show differences.
 
     Of a million runs that all succeeded the lower end is no 100 %.
     """
@@ -137,12 +137,12 @@ def format_share(share: Interval) -> str:
 
 
 def write_json(value: Any) -> None:
-    """Print as JSON; of a number that is not finite null, as JSON knows no such number."""
+    """Print as JSON; numbers that are not finite are null."""
     print(json.dumps(make_plain(value), indent=2))
 
 
 def make_plain(value: Any) -> Any:
-    """What JSON can say: of tuples with names objects, of a number that is not finite null."""
+    """Convert for JSON: named tuples to objects, numbers that are not finite to null."""
     if isinstance(value, tuple) and hasattr(value, "_asdict"):
         return make_plain(value._asdict())  # pyright: ignore[reportAttributeAccessIssue]
     if isinstance(value, dict):

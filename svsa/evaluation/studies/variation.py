@@ -1,4 +1,4 @@
-"""How one setting varies from run to run: a share from 0 to 1 becomes a value."""
+"""Variations of a setting: a share from 0 to 1 is converted to a value."""
 
 import math
 from typing import Annotated, Any, Literal, Self
@@ -15,19 +15,19 @@ _BETWEEN = 0.37
 
 
 class _Variation(Checked):
-    """A setting by its path in the configuration, see `svsa.evaluation.studies.setting`."""
+    """A variation of a setting; its path: see `svsa.evaluation.studies.setting`."""
 
     path: str = quantity("", "Setting that varies, as actuator.link_inertia_kg_m2")
     relative: Flag = quantity("", "Whether values are factors of the base value", default=False)
 
     @property
     def column(self) -> str:
-        """What its values are called: the path, of factors with `.factor`."""
+        """Column name of its values: the path, for factors with `.factor`."""
         return f"{self.path}.factor" if self.relative else self.path
 
     @property
     def levels(self) -> tuple[Any, ...]:
-        """The values that are gone through one by one; of what is drawn none."""
+        """Values of a grid in order; none for a random variation."""
         return ()
 
     def draw(self, shares: np.ndarray) -> list[Any]:
@@ -40,7 +40,7 @@ class _Variation(Checked):
         return True
 
     def label(self, drawn: list[Any]) -> list[Any]:
-        """What stands for drawn values in a table."""
+        """Return the table's entry for drawn values."""
         return drawn
 
 
@@ -63,7 +63,7 @@ class _Range(_Variation):
 
 
 class Uniform(_Range):
-    """Every value from low to high alike."""
+    """Uniform between low and high."""
 
     kind: Literal["uniform"] = "uniform"
 
@@ -73,7 +73,7 @@ class Uniform(_Range):
 
 
 class LogUniform(_Range):
-    """The logarithm uniform."""
+    """Log-uniform between low and high."""
 
     kind: Literal["log_uniform"] = "log_uniform"
     low: Number = quantity("", "Least", gt=0)
@@ -85,7 +85,7 @@ class LogUniform(_Range):
 
 
 class Normal(_Range):
-    """Normal with this mean and standard deviation, nothing of it outside low to high."""
+    """Normal with this mean and standard deviation, truncated to low … high."""
 
     kind: Literal["normal"] = "normal"
     mean: Number = quantity("", "Mean of the distribution before truncation")
@@ -107,7 +107,7 @@ class Normal(_Range):
         return _settle(np.clip(values, self.low, self.high))
 
     def _cut(self) -> tuple[float, float]:
-        """Where its range begins in the whole distribution, and how much of it that is."""
+        """Return start and size of its range within the whole distribution."""
         from scipy.special import ndtr  # late: it takes a while
 
         begin, end = ndtr([(end - self.mean) / self.std for end in (self.low, self.high)])
@@ -137,14 +137,14 @@ class _Listed(_Variation):
         return not self.names and all(_is_number(value) for value in self.values)
 
     def label(self, drawn: list[Any]) -> list[Any]:
-        """What stands for drawn values in a table: names, numbers, or how they are written."""
+        """Return the table's entry for drawn values: names, numbers, or their text."""
         labels = self.names or (self.values if self.is_numeric else tuple(map(str, self.values)))
         named = {id(value): label for value, label in zip(self.values, labels, strict=True)}
         return [named[id(value)] for value in drawn]
 
 
 class Choice(_Listed):
-    """One of these, each as often."""
+    """One of these values with equal probability."""
 
     kind: Literal["choice"] = "choice"
 
@@ -165,7 +165,7 @@ class Grid(_Listed):
 
 
 class Steps(_Range):
-    """A grid from low to high, evenly or by equal ratios."""
+    """A grid from low to high, with equal steps or equal ratios."""
 
     kind: Literal["steps"] = "steps"
     count: Whole = quantity("", "Number of values", ge=2, le=MAX_LEVELS)
@@ -200,7 +200,7 @@ def _pick(values: tuple[Any, ...], shares: np.ndarray) -> list[Any]:
 
 
 def _settle(values: np.ndarray) -> list[float]:
-    """To twelve digits, in which no machine's logarithm differs from another's."""
+    """Round to twelve digits, so that logarithms of all machines agree."""
     return [settle_number(value, _DIGITS) for value in values]
 
 

@@ -1,4 +1,4 @@
-"""A stretch of a study's samples, run under every law: the rows of its table."""
+"""Rows of a study's table: a span of samples, run under every law."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -17,7 +17,7 @@ ROW, DRAW, LAW, SEED = "row", "draw", "law", "seed"
 
 
 def build_schema(study: Study) -> pa.Schema:
-    """The columns of a study's table: one row a run.
+    """Build the columns of a study's table: one row per run.
 
     row: the run's number, by draw and then by law. fault_tick: null without a fault.
     """
@@ -40,7 +40,7 @@ def build_schema(study: Study) -> pa.Schema:
 
 
 def list_repeating(schema: pa.Schema) -> Any:  # pyarrow declares a bool and takes names
-    """The columns of which Parquet keeps each value once: names, and no numbers, drawn or measured.
+    """List the columns that Parquet stores as a dictionary: names, but no numbers.
 
     To look whether a number is there already is most of what writing it would cost.
     """
@@ -48,7 +48,7 @@ def list_repeating(schema: pa.Schema) -> Any:  # pyarrow declares a bool and tak
 
 
 def run_part(study: Study, first: int, count: int) -> bytes:
-    """The rows of the samples `first` to `first + count − 1` as a Parquet file."""
+    """Compute the rows of the samples `first` to `first + count − 1` as a Parquet file."""
     sink = pa.BufferOutputStream()
     rows = run_trials(study, first, count)
     pq.write_table(rows, sink, use_dictionary=list_repeating(rows.schema))
@@ -56,14 +56,14 @@ def run_part(study: Study, first: int, count: int) -> bytes:
 
 
 def run_trials(study: Study, first: int, count: int) -> pa.Table:
-    """The rows of the samples `first` to `first + count − 1`."""
+    """Compute the rows of the samples `first` to `first + count − 1`."""
     samples, schema = draw(study, first, count), build_schema(study)
     tables = [_run_law(study, samples, number, schema) for number in range(len(study.laws))]
     return pa.concat_tables(tables).sort_by(ROW).combine_chunks()
 
 
 def _run_law(study: Study, samples: ParameterSamples, number: int, schema: pa.Schema) -> pa.Table:
-    """The rows of one of the study's laws."""
+    """Compute the rows of one law."""
     law = study.laws[number]
     outcome = measure_runs(
         build_configurations(study, law, samples),
@@ -94,7 +94,7 @@ def measure_runs(
     measure_from_s: float,
     success: Success,
 ) -> dict[str, Any]:
-    """The outcome of each run, see `build_outcome`; None: its settings were refused."""
+    """Compute the outcome of each run, see `build_outcome`; None: rejected settings."""
     run = [index for index, built in enumerate(configurations) if built is not None]
     built = [one for one in configurations if one is not None]
     outcome = build_refused(len(configurations))
@@ -107,7 +107,7 @@ def measure_runs(
 
 
 def _fill_in(outcome: dict[str, Any], rows: list[int], found: dict[str, Any]) -> dict[str, Any]:
-    """The outcome with what was found of some rows in their places."""
+    """Insert the outcomes of some rows at their positions."""
     filled: dict[str, Any] = {}
     for name, values in outcome.items():
         filled[name] = np.array(values, dtype=object) if isinstance(values, list) else values

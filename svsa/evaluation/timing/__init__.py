@@ -1,1 +1,1 @@
-"""What the loop costs: `svsa benchmark`."""
+"""Measurement of the loop's cost: `svsa benchmark`."""

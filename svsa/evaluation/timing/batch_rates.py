@@ -1,4 +1,4 @@
-"""How many runs a second a batch does: with each effect of a bench, and on two cores."""
+"""Runs per second of a batch: with each non-ideal effect, and on two cores."""
 
 import time
 from collections.abc import Mapping
@@ -26,7 +26,7 @@ SWITCHED: Mapping[str, Effects] = {
 def measure_effects(
     configuration: Configuration, lanes: int, duration_s: float, repeats: int
 ) -> dict[str, float]:
-    """Runs a second and core, by CPU time, under each of `SWITCHED`.
+    """Measure runs per second and core, by CPU time, under each of `SWITCHED`.
 
     Counted are ticks: a run that ends in a fault counts as the part that was run.
     """
@@ -42,7 +42,7 @@ def measure_effects(
 
 
 def measure_two_cores(batch: Batch, ticks: int, repeats: int) -> float:
-    """How many times the runs of one thread two threads do in the same time, at best.
+    """Measure the speed-up of two threads over one, at best.
 
     By the wall clock, in turns with one alone: it speaks only where two cores have nothing else to
     do.

@@ -1,4 +1,4 @@
-"""What a tick of a bench's loop costs as it is called from Python, without its I/O."""
+"""Cost of a tick of a bench's loop called from Python, without I/O."""
 
 import time
 from typing import NamedTuple
@@ -41,7 +41,7 @@ class TickCost(NamedTuple):
 
 
 class BenchTicks:
-    """The loop of a bench under the law of a run, given what was measured in that run.
+    """The loop of a bench under the law of a run, with that run's measurements.
 
     samples: (ticks, channels). asked: what the law asks for at the last tick, N·m, (2,).
     """
@@ -57,7 +57,7 @@ class BenchTicks:
         self._row = np.empty(len(CHANNELS))
 
     def run_tick(self, tick: int) -> float:
-        """One tick; how long it took, s."""
+        """Run one tick; return its duration, s."""
         self._measured[:] = self._y[tick]
         u1, u2 = self._u[tick]
         begin = time.perf_counter_ns()
@@ -67,7 +67,7 @@ class BenchTicks:
 
 
 def measure_law_tick(law: str = PAPERS_LAW, repeats: int = 5) -> TickCost:
-    """What a tick costs under a law over Figure 4A and its load.
+    """Measure the cost of a tick under a law in Figure 4A with its load.
 
     Each tick counts with its least cost of so many repetitions: it does the same work each time,
     and what is more is the machine's.
@@ -91,7 +91,7 @@ def measure_law_tick(law: str = PAPERS_LAW, repeats: int = 5) -> TickCost:
 
 
 def measure_laws(repeats: int = 5) -> dict[str, TickCost]:
-    """What a tick costs under each law that is installed, by its name."""
+    """Measure the cost of a tick under each installed law."""
     return {law: measure_law_tick(law, repeats) for law in list_law_names()}
 
 

@@ -1,4 +1,4 @@
-"""`svsa benchmark`: the cost of the loop next to a C loop of the same work in the same minute.
+"""`svsa benchmark`: cost of the loop compared with a C loop of the same work.
 
 Times are CPU times, the least of many, ours and C's one after the other in turns, so that only
 their ratio speaks: it is hardly moved by what else the machine does, nor by how fast it is.
@@ -97,7 +97,7 @@ def run_c(loop: CLoop, run: Run, samples: np.ndarray) -> int:
 
 
 def run_c_lanes(loop: CLoop, run: Run, ticks: int) -> tuple[np.ndarray, np.ndarray]:
-    """Σ and greatest of the position error's square and size over so many ticks, of 32 lanes."""
+    """Run 32 lanes; return Σ and maximum of the squared and absolute position errors."""
     constants = np.repeat(list_c_constants(run)[:, None], LANES, axis=1)
     squares, peaks = np.empty(LANES), np.empty(LANES)
     loop.run_lanes(_point(constants), ctypes.c_long(ticks), _point(squares), _point(peaks))
@@ -105,7 +105,7 @@ def run_c_lanes(loop: CLoop, run: Run, ticks: int) -> tuple[np.ndarray, np.ndarr
 
 
 def measure(repeats: int = REPEATS) -> dict[str, Any]:
-    """The figures of `svsa benchmark` but for what compiling and starting cost.
+    """Measure the figures of `svsa benchmark` except compilation and start.
 
     What needs the C loop is None where there is none (see `build_c_loop`).
     """
@@ -146,7 +146,7 @@ def measure(repeats: int = REPEATS) -> dict[str, Any]:
 
 
 def measure_start() -> dict[str, float]:
-    """CPU seconds of `svsa compile` where nothing is compiled, then of a first run in Python."""
+    """Measure CPU seconds of `svsa compile` without a cache, then of a first run in Python."""
     costs = []
     with tempfile.TemporaryDirectory(prefix="svsa-bench-") as folder:
         for program in (COMPILE, FIRST_RUN):

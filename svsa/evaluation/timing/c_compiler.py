@@ -1,4 +1,4 @@
-"""The machine's C compiler, for what is compared with C."""
+"""The machine's C compiler, for comparisons with C."""
 
 import os
 import shutil
@@ -7,5 +7,5 @@ FLAGS = ("-O3", "-march=native", "-fno-math-errno", "-fno-trapping-math")
 
 
 def find_c_compiler() -> str | None:
-    """$CC, or cc where there is one."""
+    """Return $CC, or cc if it exists."""
     return os.environ.get("CC") or shutil.which("cc")

@@ -1,4 +1,4 @@
-"""Works measured in turns, so that what else the machine does costs each of them the same."""
+"""Measurements in turns, so that other load affects all of them equally."""
 
 import time
 from collections.abc import Callable, Mapping
@@ -7,7 +7,7 @@ import numpy as np
 
 
 def measure_in_turns(works: Mapping[str, Callable[[], object]], repeats: int) -> dict[str, float]:
-    """The least CPU time of each, s; every one once before, which does not count."""
+    """Return the minimum CPU time of each, s, after one uncounted run."""
     least = dict.fromkeys(works, np.inf)
     for turn in range(repeats + 1):
         for name, work in works.items():

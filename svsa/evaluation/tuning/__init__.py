@@ -1,1 +1,1 @@
-"""Search for the parameters of a control law."""
+"""Tuning of the parameters of a control law."""

@@ -1,4 +1,4 @@
-"""`svsa tune`: search laws' parameters, and write them where they can be used."""
+"""`svsa tune`: search a law's parameters, and write them to a parameter file."""
 
 import json
 from pathlib import Path
@@ -54,7 +54,7 @@ def tune(
         bool, typer.Option("--json", help="Print everything that was tried as JSON, write no file.")
     ] = False,
 ) -> None:
-    """Tune a law, or all laws for the ranking. Ctrl-C ends the search and keeps the best so far.
+    """Tune a law, or all laws for the ranking. Ctrl-C ends the search and saves the best so far.
 
     With --all, laws that have a result of the same budget are left as they are, and a search that
     was interrupted continues from its checkpoint.
@@ -90,7 +90,7 @@ def tune(
 
 
 def _tune_all(budget: int, trials: int, validation: int, seed: int, output: Path | None) -> None:
-    """Tune every installed law, one after the other, with a checkpoint each."""
+    """Tune every installed law in turn, with a checkpoint each."""
     from svsa.evaluation.tuning.file import describe_candidate, read_checkpoint
     from svsa.evaluation.tuning.tuned_law import (
         FOLDER,
@@ -143,7 +143,7 @@ def _tune_all(budget: int, trials: int, validation: int, seed: int, output: Path
 
 
 class _Follow:
-    """Shows the candidates of one search on a bar."""
+    """Shows the candidates of a search on a progress bar."""
 
     def __init__(self, report: Report, title: str) -> None:
         self._report, self._title = report, title
@@ -155,7 +155,7 @@ class _Follow:
 
 
 def _save(tuned: "Tuned", path: Path) -> None:
-    """Write the parameter file and print what was found."""
+    """Write the parameter file and print the result."""
     from svsa.evaluation.tuning.file import format_tuned
 
     path.write_text(format_tuned(tuned), encoding="utf-8")

@@ -1,4 +1,4 @@
-"""A search as a parameter file, as JSON, and as a checkpoint to go on from."""
+"""Results of a search as parameter file, JSON and checkpoint."""
 
 import json
 from pathlib import Path
@@ -26,7 +26,7 @@ def format_tuned(tuned: Tuned) -> str:
 
 
 def describe_search(tuned: Tuned) -> str:
-    """The search in a line: law, budget, trials, seed, cost before and after, versions."""
+    """Describe the search in a line: law, budget, trials, seed, costs, versions."""
     tried = len(tuned.candidates) - 1
     share = f"{tried} candidates" if tuned.is_complete else f"{tried} of {tuned.budget} candidates"
     held = ", ".join(f"{name} = {value:g}" for name, value in tuned.space.held.items())
@@ -41,7 +41,7 @@ def describe_search(tuned: Tuned) -> str:
 
 
 def describe_tuned(tuned: Tuned) -> dict[str, Any]:
-    """What a search found, as JSON."""
+    """Convert the result of a search to JSON."""
     return {
         "law": tuned.space.law,
         "budget": tuned.budget,
@@ -64,7 +64,7 @@ def describe_tuned(tuned: Tuned) -> dict[str, Any]:
 
 
 def describe_candidate(candidate: Candidate) -> dict[str, Any]:
-    """A candidate as JSON; what is infinite, as after a fault, is None."""
+    """Convert a candidate to JSON; infinite values, as after a fault, are None."""
     judged = {
         name: None if value is not None and abs(value) == float("inf") else value
         for name, value in candidate.judgment._asdict().items()
@@ -74,7 +74,7 @@ def describe_candidate(candidate: Candidate) -> dict[str, Any]:
 
 
 def read_checkpoint(path: Path) -> list[Candidate]:
-    """The candidates before validation, a line each, without a last line that is not whole."""
+    """Read the candidates before validation, one per line, without an incomplete last line."""
     if not path.exists():
         return []
     whole, _, _ = path.read_text(encoding="utf-8").rpartition("\n")

@@ -1,4 +1,4 @@
-"""How good a candidate is: one cost and one noise limit for every law.
+"""Evaluation of a candidate: one cost and one noise limit for every law.
 
 cost = mean over trials of log10(rms e / 1°) + log10(rms e_σ / σ_d), plus 2 where a trial is not
 held, at most 3; a trial that ends in a fault costs between 3 and 4, more the earlier it ends. The
@@ -34,7 +34,7 @@ _MIN_ERROR_DEG, _MIN_SHARE = 1e-3, 1e-4
 
 
 class Judgment(NamedTuple):
-    """What a candidate shows.
+    """The result of a candidate.
 
     Attributes:
         cost: Mean over the trials; above the noise limit 5 and more.
@@ -54,7 +54,7 @@ class Judgment(NamedTuple):
 
 
 class TrialSet:
-    """Trials as one batch, for one law after another."""
+    """Trials as one batch, for any law."""
 
     def __init__(self, scenarios: Sequence[Scenario]) -> None:
         self.size = len(scenarios)
@@ -62,7 +62,7 @@ class TrialSet:
         self._sigmas = list_mean_stiffnesses(scenarios)
 
     def judge(self, law: str, design: Design, variation: float) -> Judgment:
-        """What a law shows on the trials. variation: of its torque at rest, N·m/s."""
+        """Evaluate the law on the trials. variation: of its torque at rest, N·m/s."""
         summaries = self._runs.run(law, DURATION_S, LOAD_S, design)
         metrics = compute_metrics(summaries, np.full(self.size, design.sampling.period_s), LOAD_S)
         error = np.degrees(metrics["rms_position_error_rad"])
@@ -108,7 +108,7 @@ def find_noise_limit() -> float:
 
 
 def judge(trials: TrialSet, law: str, design: Design) -> Judgment:
-    """What a law with the parameters of a design shows at rest and, below the limit, on trials."""
+    """Evaluate a law with a design: noise at rest and, below the limit, cost on trials."""
     variation, limit = measure_variation(law, design), find_noise_limit()
     if not math.isfinite(variation):
         return Judgment(NO_REST, variation)

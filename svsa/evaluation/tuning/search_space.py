@@ -1,4 +1,4 @@
-"""What is searched of a law's parameters, out of what the law declares of them."""
+"""Search space of a law's parameters, from the declarations of the law."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -20,7 +20,7 @@ OBSERVER = "observer_rad_per_s"
 
 
 class Axis(NamedTuple):
-    """A number to be searched. place: of which entry of a tuple, or None. low, high: in `unit`."""
+    """A search variable. place: index in a tuple, or None. low, high: in `unit`."""
 
     name: str
     place: int | None
@@ -31,11 +31,11 @@ class Axis(NamedTuple):
 
     @property
     def label(self) -> str:
-        """As it is called where one is written to a line: "k[0]" of a tuple."""
+        """Label of the variable: "k[0]" for an entry of a tuple."""
         return self.name if self.place is None else f"{self.name}[{self.place}]"
 
     def compute_value(self, share: float) -> float:
-        """The value at a share of the range, in equal ratios where the range has a ratio."""
+        """Return the value at a share of the range, logarithmic if the range is."""
         share = min(max(share, 0.0), 1.0)
         if self.low > 0.0:
             value = self.low * math.exp(share * math.log(self.high / self.low))
@@ -43,7 +43,7 @@ class Axis(NamedTuple):
         return self.low + share * (self.high - self.low)
 
     def compute_share(self, value: float) -> float:
-        """At which share of the range a value lies; 0 or 1 beyond its ends."""
+        """Return the share of a value in the range; 0 or 1 beyond its ends."""
         value = min(max(value, self.low), self.high)
         if self.low > 0.0:
             return math.log(value / self.low) / math.log(self.high / self.low)
@@ -51,24 +51,24 @@ class Axis(NamedTuple):
 
 
 class Space(NamedTuple):
-    """The numbers of a law that are searched, and those that are held at another value."""
+    """The searched and the fixed parameters of a law."""
 
     law: str
     axes: tuple[Axis, ...]
     held: dict[str, Any]
 
     def place(self, shares: Sequence[float] | np.ndarray) -> tuple[float, ...]:
-        """The values at shares of the axes, (axes,), from 0 to 1."""
+        """Return the values at shares of the axes, (axes,), from 0 to 1."""
         pairs = zip(self.axes, shares, strict=True)
         return tuple(axis.compute_value(float(share)) for axis, share in pairs)
 
     def compute_shares(self, values: Sequence[float]) -> np.ndarray:
-        """The shares of the axes at which values lie, (axes,)."""
+        """Return the shares of values, (axes,)."""
         pairs = zip(self.axes, values, strict=True)
         return np.array([axis.compute_share(value) for axis, value in pairs])
 
     def set_design(self, design: Design, values: Sequence[float]) -> Design:
-        """The design with these values for this law."""
+        """Return the design with these values for this law."""
         given: dict[str, Any] = {}
         for axis, value in zip(self.axes, values, strict=True):
             if axis.place is None:
@@ -86,7 +86,7 @@ class Space(NamedTuple):
         return design.changed(**changes)
 
     def read_values(self, design: Design) -> tuple[float, ...]:
-        """The values that the law has in a design, in the order of the axes."""
+        """Read the law's values in a design, in the order of the axes."""
         if has_own_parameters(self.law):
             model = get_law(self.law).parameters
             set_to = design.parameters.get(self.law) or model(**self.held)
@@ -105,7 +105,7 @@ class Space(NamedTuple):
 
 
 def build_space(law: str, held: Mapping[str, Any] | None = None) -> Space:
-    """The space of a law: every number that it declares, but for those held.
+    """Build the search space of a law: every declared number except the fixed ones.
 
     All laws are searched alike: a pole (…_pole_rad_per_s) from 20 to 80 rad/s, the observer of the
     load (observer_rad_per_s) from 20 to 150, else a fifth to five times the default; never beyond

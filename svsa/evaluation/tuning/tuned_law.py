@@ -1,4 +1,4 @@
-"""Tuned laws as files: what each was tuned on, and the values that the ranking uses."""
+"""Files of tuned laws: provenance and values, as used by the ranking."""
 
 from collections.abc import Iterator
 from functools import cache
@@ -18,7 +18,7 @@ FOLDER = Path(__file__).parent / "tuned"
 
 
 class Costs(Checked):
-    """What parameters show on the validation trials."""
+    """The costs of parameters on the validation trials."""
 
     cost: Number = quantity("1", "Mean over the trials; above the noise limit 5 and more")
     held: Whole = quantity("", "Successful trials", ge=0)
@@ -55,7 +55,7 @@ class TunedLaw(Checked):
 
 
 def build_tuned_law(tuned: Tuned) -> TunedLaw:
-    """The file's content of a search that is complete."""
+    """Build the file's content from a complete search."""
     before, after = (
         Costs(
             cost=one.judgment.cost,
@@ -90,7 +90,7 @@ def write_tuned_law(folder: Path, tuned: TunedLaw) -> None:
 
 
 def list_tuned_laws(folder: Path = FOLDER) -> Iterator[TunedLaw]:
-    """The tuned laws of a folder; raises `ParameterError` for a file that is none."""
+    """List the tuned laws in a folder; raises `ParameterError` for an invalid file."""
     for path in sorted(folder.glob("*.json")):
         try:
             yield TunedLaw.model_validate_json(path.read_bytes())
@@ -101,5 +101,5 @@ def list_tuned_laws(folder: Path = FOLDER) -> Iterator[TunedLaw]:
 
 @cache
 def load_tuned_laws() -> dict[str, TunedLaw]:
-    """The laws that were tuned for the published ranking, by name."""
+    """Load the tuned laws of the published ranking, by name."""
     return {one.law: one for one in list_tuned_laws()}

@@ -1,4 +1,4 @@
-"""Tuning a law: CMA-ES from its present parameters, then the best candidates on other trials."""
+"""Tuning by CMA-ES from the present parameters; the best candidates run on validation trials."""
 
 from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
@@ -26,7 +26,7 @@ Stage = Literal["present", "search", "validation"]
 
 
 class Candidate(NamedTuple):
-    """Parameters that were tried, in the order of the space's axes, and what they showed."""
+    """Evaluated parameters, in the order of the space's axes, with results."""
 
     number: int
     stage: Stage
@@ -36,7 +36,7 @@ class Candidate(NamedTuple):
 
 @dataclass(frozen=True)
 class Tuned:
-    """What a search found.
+    """The result of a search.
 
     Attributes:
         space: What was searched.
@@ -62,22 +62,22 @@ class Tuned:
 
     @property
     def start(self) -> Candidate:
-        """The present parameters."""
+        """Cost of the initial parameters."""
         return self.candidates[0]
 
     @property
     def best(self) -> Candidate:
-        """The least cost on the validation trials, or on the training trials without those."""
+        """Minimum cost on the validation trials, or on the training trials without those."""
         return min(self.finals or self.candidates, key=lambda one: one.judgment.cost)
 
     @property
     def design(self) -> Design:
-        """The present design with the best parameters of the law."""
+        """The initial design with the best parameters of the law."""
         return self.space.set_design(self.present, self.best.values)
 
 
 class _EndedError(Exception):
-    """The search is not to go on."""
+    """The search ends."""
 
 
 def tune(
@@ -93,7 +93,7 @@ def tune(
     on_candidate: Callable[[Candidate], None] = lambda _: None,
     is_cancelled: Callable[[], bool] = lambda: False,
 ) -> Tuned:
-    """Search a law's parameters for the least cost, see `svsa.evaluation.tuning.judge`.
+    """Search a law's parameters for the minimum cost, see `svsa.evaluation.tuning.judge`.
 
     Every law alike: CMA-ES from the present parameters, generations of 16, started again at random
     parameters where it has converged. Then the ten best candidates and the present parameters are
@@ -163,7 +163,7 @@ class _Search:
         self._is_cancelled = is_cancelled
 
     def run(self, seed: int) -> None:
-        """Try the present parameters, then search until the budget is used up."""
+        """Evaluate the present parameters, then search until the budget is used up."""
         training = TrialSet(build_training(seed, self._trials))
         present = self._space.read_values(self._design)
         self._try(training, "present", [present])
@@ -181,7 +181,7 @@ class _Search:
             search("cma", len(start), seed, judge_generation, GENERATION, STEP, start)
 
     def validate(self, seed: int, count: int) -> list[Candidate]:
-        """The present parameters and the best candidates on the validation trials."""
+        """Evaluate the present parameters and the best candidates on the validation trials."""
         trials = TrialSet(build_validation(seed, count))
         best = sorted(self.candidates[1:], key=lambda one: one.judgment.cost)
         chosen = list({one.values: one for one in (self.candidates[0], *best)}.values())
@@ -193,7 +193,7 @@ class _Search:
         return finals
 
     def _try(self, trials: TrialSet, stage: Stage, values: list[tuple[float, ...]]) -> list[float]:
-        """The costs of candidates, in their order. Raises `_EndedError`."""
+        """Evaluate candidates in order. Raises `_EndedError`."""
         costs = []
         with ThreadPoolExecutor(WORKERS) as pool:
             first = len(self.candidates)

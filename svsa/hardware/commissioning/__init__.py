@@ -1,4 +1,4 @@
-"""The bench check: file, bus, drives, encoders, signs and latency, one step after another.
+"""The bench check: file, bus, drives, encoders, signs and latency, step by step.
 
 Each step says what was measured and, where that is not right, what to do about it. Every step
 is bounded in time, and however the check ends the drives are left at zero current.
@@ -43,7 +43,7 @@ def check_bench(
     opener: BusOpener = open_bus,
     now: Clock = time.monotonic,
 ) -> Generator[CheckStep, None, None]:
-    """The steps of the check, each yielded when it is done.
+    """Yield the steps of the check, each when it is finished.
 
     move: also turn both motors a little, by short pulses of at most 15 % of their nominal
     current, and compare signs and magnitudes of currents, motors and deflection. watch: asked

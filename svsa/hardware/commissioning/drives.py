@@ -1,4 +1,4 @@
-"""Is the bus in order, do both drives answer, and do they take the current mode?"""
+"""Check the bus, the answers of both drives, and their change to current mode."""
 
 import numpy as np
 
@@ -22,7 +22,7 @@ RESET_S = 0.02
 
 
 def describe_wiring(bench: BenchFile) -> str:
-    """What of the wiring to look at."""
+    """Describe the wiring to check."""
     presets = dict.fromkeys(
         get_family(motor.drive).advice.wiring for motor in (bench.motor1, bench.motor2)
     )
@@ -34,7 +34,7 @@ def describe_wiring(bench: BenchFile) -> str:
 
 
 def check_bus(probe: Probe) -> CheckStep:
-    """Listen only: error frames, and whether another program commands the drives."""
+    """Listen only: detect error frames and other programs that command the drives."""
     traffic = probe.listen(QUIET_S)
     bus = probe.bench.bus
     emulated = ", EMULATED: no machine is behind this bus" if probe.emulated else ""
@@ -56,12 +56,12 @@ def check_bus(probe: Probe) -> CheckStep:
 
 
 def advise_on_bus(bench: BenchFile) -> str:
-    """What to look at where the bus does not open or is full of errors."""
+    """Advise on a bus that does not open or has many errors."""
     return f"{advise_on_adapter(bench.bus)} Then the wiring: {describe_wiring(bench)}."
 
 
 def check_drive(probe: Probe, name: str) -> CheckStep:
-    """Ask many times: does the drive answer, and how soon."""
+    """Query a drive repeatedly; measure whether and how fast it answers."""
     title = f"{name}: drive {probe.drives[name].place}"
     probe.drain()
     delays = []
@@ -95,7 +95,7 @@ def check_drive(probe: Probe, name: str) -> CheckStep:
 
 
 def _advise_on_silence(probe: Probe, name: str) -> str:
-    """Ask every address, and say where a drive does answer."""
+    """Query every address, and report at which a drive answers."""
     traffic = probe.ask_everywhere(name)
     place, advice = probe.drives[name].place, probe.families[name].advice
     if traffic.places:
@@ -116,7 +116,7 @@ def _advise_on_silence(probe: Probe, name: str) -> str:
 
 
 def bring_up(probe: Probe) -> CheckStep:
-    """The start-up of both drives, as when the bench is armed, and zero current."""
+    """Start up both drives as when arming, and send zero current."""
     title, begin = "mode sequence", probe.now()
     obstinate: set[str] = set()
     probe.begin()

@@ -16,7 +16,7 @@ REST_CURRENT = 0.03
 
 
 def check_feedback(probe: Probe, traffic: Traffic) -> Iterator[CheckStep]:
-    """How regularly the feedback frames of each drive come."""
+    """Check the regularity of each drive's feedback frames."""
     wanted = 1.0 / probe.bench.timing.period_s
     safety, wiring = probe.bench.safety, describe_wiring(probe.bench)
     for name, drive in probe.drives.items():
@@ -51,7 +51,7 @@ def check_feedback(probe: Probe, traffic: Traffic) -> Iterator[CheckStep]:
 
 
 def check_deflection(probe: Probe, traffic: Traffic) -> CheckStep:
-    """Whether counts come at all, and how often."""
+    """Check whether and how often counts arrive."""
     source = probe.bench.deflection.source
     title = f"deflection encoder ({source})"
     if probe.encoder_failure is not None:
@@ -72,7 +72,7 @@ def check_deflection(probe: Probe, traffic: Traffic) -> CheckStep:
 
 
 def check_rest(probe: Probe, traffic: Traffic) -> CheckStep:
-    """At zero current nothing moves and no current flows."""
+    """Check that at zero current nothing moves and no current flows."""
     spreads, currents, strong = {}, {}, []
     for name, motor in probe.motors.items():
         heard = traffic.feedback[name]

@@ -1,4 +1,4 @@
-"""How long a current takes from being sent to being seen, over many small steps."""
+"""Latency from sending a current to reading it in the feedback, over many small steps."""
 
 import numpy as np
 
@@ -13,7 +13,7 @@ LOST_S = 0.03
 
 
 def check_latency(probe: Probe, name: str) -> CheckStep:
-    """From sending a current to reading it in the feedback, over many small steps."""
+    """Measure the latency from sending a current to reading it in the feedback."""
     title = f"{name}: latency"
     nominal_ma = 1e3 * probe.motors[name].nominal_current_a
     current = round(min(max(CURRENT * nominal_ma, MIN_MA), 0.15 * nominal_ma))

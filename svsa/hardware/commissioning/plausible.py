@@ -1,4 +1,4 @@
-"""Values of a bench file that are allowed, and that no such bench has."""
+"""Plausibility of a bench file: permitted values that no such bench has."""
 
 import math
 from collections.abc import Iterator

@@ -1,4 +1,4 @@
-"""The bench as its check hears it: all that is said on the bus in a given time.
+"""The bus traffic of a bench for its check.
 
 Every wait ends by the clock, and whatever was switched on is at zero current and reset when
 the probe is closed.
@@ -69,14 +69,14 @@ class Probe:
             self.encoder_failure = str(error)
 
     def listen(self, duration_s: float) -> Traffic:
-        """All that is said from now on, for this long."""
+        """Record all traffic for this time."""
         traffic = Traffic()
         for _ in self.follow(duration_s, traffic):
             pass
         return traffic
 
     def follow(self, duration_s: float, traffic: Traffic) -> Iterator[None]:
-        """The same, with a stop after each frame, to leave early."""
+        """Record traffic, and yield after each frame so that the caller can stop early."""
         end = self.now() + duration_s
         while (left := end - self.now()) > 0.0:
             wait = self._query()
@@ -87,13 +87,13 @@ class Probe:
             yield
 
     def drain(self) -> None:
-        """Forget what has come in so far."""
+        """Discard the traffic so far."""
         end, discarded = self.now() + 0.5, Traffic()
         while self.now() < end and (message := self._receive(0.0)) is not None:
             self._take(message, discarded)
 
     def _query(self) -> float:
-        """Keep feedback coming, once in a period, of the drives that send none automatically.
+        """Query drives that do not send feedback automatically once per period.
 
         Returns:
             The time until the next query, s.
@@ -108,12 +108,12 @@ class Probe:
         return max(0.0, self._query_at_s - now)
 
     def ask(self, name: str) -> None:
-        """Send a drive what it answers in any state."""
+        """Send a query that a drive answers in any state."""
         with self._sending():
             self.drives[name].ask(self._get_bus(), self.now())
 
     def ask_everywhere(self, name: str) -> Traffic:
-        """Ask every address that a drive of this motor's family can have."""
+        """Query every possible address of this motor's drive family."""
         traffic = Traffic()
         for question in self.families[name].list_questions():
             with self._sending():
@@ -131,7 +131,7 @@ class Probe:
             drive.begin()
 
     def advance(self) -> bool:
-        """Send what is due of the start-up; whether it goes on."""
+        """Send the due frames of the start-up; return whether it continues."""
         on = False
         for drive in self.drives.values():
             if drive.phase not in (Phase.READY, Phase.SILENT):
@@ -150,7 +150,7 @@ class Probe:
             drive.send_current(self._get_bus(), current_ma, self.now())
 
     def release(self) -> None:
-        """Zero current and reset for the drives, if any was commanded, until they are silent.
+        """Send zero current and resets to commanded drives until they are silent.
 
         The last frames must also have left: an adapter behind a socket loses what is on its way
         when it is closed too soon.

@@ -1,4 +1,4 @@
-"""Short pulses of current, and what a motor and the deflection did of each.
+"""Short pulses of current, and the resulting motion of motor and deflection.
 
 The pulses grow from 1 % to 15 % of the motor's nominal current and get shorter as they grow, so
 that a motor whose encoder is dead gets no more impulse than one that works. A motor that has
@@ -53,7 +53,7 @@ NO_TRACE = Trace(*(np.zeros(0) for _ in Trace._fields))
 
 
 class Pulse(NamedTuple):
-    """What a pulse did. current_ma, duration_s: commanded.
+    """The result of a pulse. current_ma, duration_s: commanded.
 
     moved, deflected: largest change of counts, either way. measured_ma: largest feedback of
     the current, with its sign. errors: of the drive. unheard_s: longest time of the pulse without
@@ -71,7 +71,7 @@ class Pulse(NamedTuple):
 
 
 class Turn(NamedTuple):
-    """A pulse, and the same one the other way."""
+    """A pulse and its reverse."""
 
     forth: Pulse
     back: Pulse
@@ -93,7 +93,7 @@ class Turn(NamedTuple):
 
 
 def turn_a_little(probe: Probe, name: str) -> Turn:
-    """Turn a motor with growing strength until a turn is conclusive; returns the last.
+    """Pulse a motor with increasing strength until the result is conclusive; return the last.
 
     A turn that was not followed, because computer or bus paused, is repeated.
     """
@@ -112,7 +112,7 @@ def turn_a_little(probe: Probe, name: str) -> Turn:
 
 
 def turn_farther(probe: Probe, name: str, turn: Turn) -> Turn:
-    """Turn a motor once more with the next current, until it or the spring has gone far enough.
+    """Pulse a motor with the next current until it or the spring has moved far enough.
 
     Only for a motor that a turn has shown to move and count: no impulse bounds these pulses.
     """
@@ -149,7 +149,7 @@ def _get_most_counts(motor: MotorSettings) -> float:
 
 
 def _pulse(probe: Probe, name: str, current_ma: int, duration_s: float) -> Pulse:
-    """A current for this long, or until the motor or the spring has gone far enough."""
+    """Command a current for this time, or until motor or spring has moved far enough."""
     before = _await_rest(probe, name)
     if not (before.feedback.get(name) and before.deflection):
         return Pulse(current_ma, duration_s)
@@ -185,7 +185,7 @@ def _pulse(probe: Probe, name: str, current_ma: int, duration_s: float) -> Pulse
 
 
 def _await_rest(probe: Probe, name: str) -> Traffic:
-    """The traffic of 20 ms: the last ones before the motor is at rest, or after 0.5 s."""
+    """Wait until the motor is at rest, at most 0.5 s; return the traffic of the last 20 ms."""
     end = probe.now() + REST_S
     while True:
         traffic = probe.listen(0.02)

@@ -20,14 +20,16 @@ _WAYS = {
 def ask_directions(
     turns: Mapping[str, Turn], watch: Callable[[str], bool] | None
 ) -> dict[str, bool]:
-    """Whether each motor that has moved was seen to turn the positive way first."""
+    """Ask the user in which direction each moved motor turned first."""
     if watch is None:
         return {}
     return {name: watch(f"Did {name} turn first {_WAYS[name]}?") for name in turns}
 
 
 def judge_motor(bench: BenchFile, name: str, turn: Turn, seen: bool | None) -> CheckStep:
-    """The sign of a motor; seen: whether it turned the positive way first, None if not known."""
+    """Judge the sign of a motor; seen: whether it turned the positive way first, None if
+    unknown.
+    """
     title, sign = f"{name}: sign", getattr(bench, name).sign
     follows = turn.forth.moved * turn.forth.current_ma > 0
     measured = (
@@ -95,7 +97,7 @@ def judge_deflection(bench: BenchFile, turn: Turn, link: LinkFit, seen: bool | N
 def judge_signs(
     bench: BenchFile, turns: Mapping[str, Turn], link: LinkFit | None, seen: Mapping[str, bool]
 ) -> Iterator[CheckStep]:
-    """The signs of all that has moved; link: None where the deflection was not measured."""
+    """Judge the signs of all moved motors; link: None if the deflection was not measured."""
     for name, turn in turns.items():
         yield judge_motor(bench, name, turn, seen.get(name))
         if name == "motor1" and link is not None:

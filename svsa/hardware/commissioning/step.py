@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 
 class Result(StrEnum):
-    """How a step ended: right, usable with a remark, or not usable."""
+    """The result of a step: ok, usable with a warning, or unusable."""
 
     OK = "ok"
     WARN = "warn"
@@ -13,7 +13,7 @@ class Result(StrEnum):
 
 
 class CheckStep(NamedTuple):
-    """A step's name, its result, what was measured with its unit, and what to do about it."""
+    """A step's name, its result, the measured values with units, and the remedy."""
 
     name: str
     result: Result

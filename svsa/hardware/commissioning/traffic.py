@@ -1,11 +1,11 @@
-"""What the bench check hears of a bench in some time."""
+"""Traffic of a bench recorded by its check."""
 
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
 
 class HeardFeedback(NamedTuple):
-    """A drive's feedback: when it was read, the time it is stamped with, and what it said."""
+    """A drive's feedback: time of reading, timestamp, and content."""
 
     time_s: float
     stamp_s: float
@@ -25,7 +25,7 @@ class Counts(NamedTuple):
 
 @dataclass
 class Traffic:
-    """What was heard in some time, of each motor by its name.
+    """Recorded traffic, by motor.
 
     answers: when its drive answered. engaged: whose drive sent feedback from the mode in which it
     makes torque. errors: how many its drive reported. commanded: whose drive another program sends

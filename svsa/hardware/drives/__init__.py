@@ -1,1 +1,1 @@
-"""Families of drives, each in a folder of its own, and what the bench expects of each."""
+"""Families of drives, one folder each, and their common interface."""

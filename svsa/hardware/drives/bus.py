@@ -91,7 +91,7 @@ def _describe_failure(settings: BusSettings, error: Exception) -> BusError:
 
 
 def advise_on_adapter(settings: BusSettings) -> str:
-    """What to look at where the bus does not open, or is lost."""
+    """Advise on a bus that does not open, or is lost."""
     if settings.interface == "socketcand":
         host, port = (settings.options.get(name, "(not given)") for name in ("host", "port"))
         return (
@@ -112,21 +112,21 @@ def advise_on_adapter(settings: BusSettings) -> str:
 
 
 def prepare_bus(settings: BusSettings) -> None:
-    """Import what opening this bus takes, so that it is quick once it is urgent."""
+    """Import everything needed to open this bus, so that opening is fast later."""
     if settings.interface in can.interfaces.BACKENDS:
         with contextlib.suppress(ImportError, OSError):
             importlib.import_module(can.interfaces.BACKENDS[settings.interface][0])
 
 
 def _ask_for_server(settings: BusSettings) -> None:
-    """Raise `OSError` where nothing listens: python-can's socketcand would go on trying."""
+    """Raise `OSError` if nothing listens: python-can's socketcand would retry forever."""
     host, port = settings.options.get("host"), settings.options.get("port")
     if settings.interface == "socketcand" and host and port:
         socket.create_connection((host, port)).close()
 
 
 def _choose_options(settings: BusSettings) -> dict[str, Any]:
-    """As written; an slcan adapter is not waited for: 1 ms of its own would be a whole tick."""
+    """Choose options as written; for slcan without a wait of 1 ms, which would be a whole tick."""
     options: dict[str, Any] = {"timeout": 0.0} if settings.interface == _SLCAN else {}
     if settings.fd:
         options |= {"fd": True, "data_bitrate": settings.data_bitrate}
@@ -134,7 +134,7 @@ def _choose_options(settings: BusSettings) -> dict[str, Any]:
 
 
 def take_waiting(bus: can.BusABC, settings: BusSettings, most: int) -> Iterator[can.Message]:
-    """The messages that have come, at most so many, without waiting for one.
+    """Read waiting messages, at most so many.
 
     An slcan adapter acknowledges every command, and python-can returns None for that: there,
     the end is several None in a row.

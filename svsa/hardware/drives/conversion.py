@@ -1,4 +1,4 @@
-"""Between the drives' whole numbers and SI: torque and current, counts and angle."""
+"""Conversion between the drives' integers and SI: torque and current, counts and angle."""
 
 import math
 from typing import NamedTuple
@@ -9,7 +9,7 @@ MA_PER_A = 1000.0
 
 
 class MotorScale(NamedTuple):
-    """One motor: N·m at the gearbox output for a mA, rad at the output for a count."""
+    """Scales of one motor: N·m at the gearbox output per mA, rad at the output per count."""
 
     torque_per_ma: float
     angle_per_count: float
@@ -39,7 +39,7 @@ def build_deflection_scale(deflection: DeflectionSettings) -> float:
 
 
 class Unwrapped:
-    """Counts that go on where a counter of `bits` bits wraps around.
+    """A counter of `bits` bits, unwrapped.
 
     start: the first reading is taken as the nearest to it that the counter can mean.
     """
@@ -49,10 +49,10 @@ class Unwrapped:
         self._start = self.counts = start
 
     def update(self, raw: int) -> int:
-        """The whole counts after this reading: the nearest that agree with it."""
+        """Return the unwrapped count nearest to the last one."""
         self.counts += (raw - self.counts + self._half) % self._whole - self._half
         return self.counts
 
     def reset(self) -> None:
-        """Begin again at the start."""
+        """Restart at the initial count."""
         self.counts = self._start

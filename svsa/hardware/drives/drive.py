@@ -1,4 +1,4 @@
-"""What a drive is to the bench: the interface that every family of drives implements.
+"""The interface of a drive that every family implements.
 
 The plant, the supervisor, the third line, the bench check and the emulator use this interface and
 know no frame. A drive takes a current in mA and reports counts and a current: torque, angle, sign
@@ -23,7 +23,7 @@ GATE_JITTER_S = 0.0001
 
 
 class StopFrames(NamedTuple):
-    """What takes the torque off a drive without knowing its state.
+    """Frames that remove the torque of a drive in any state.
 
     zero: zero current, sent first. reset: leaves the mode, so that nothing but a new start-up makes
     torque; it may reach several drives at once.
@@ -39,7 +39,7 @@ def compute_key(message: can.Message) -> int:
 
 
 class Drive(ABC):
-    """One drive: brought to READY, given a current in each tick, and listened to.
+    """One drive: started up to READY, commanded each tick, and read.
 
     No method waits. Methods that send raise what the bus raises.
 
@@ -69,22 +69,22 @@ class Drive(ABC):
         self._forget()
 
     def _forget(self) -> None:
-        """Forget what the drive has reported."""
+        """Discard the drive's reports."""
         self.heard_s: float | None = None
         self.counts = self.current_ma = self.answers = self.errors = 0
         self.engaged = self.zeroed = False
 
     def is_open(self, now: float) -> bool:
-        """Whether the last command was long enough ago for another."""
+        """Whether enough time has passed since the last command."""
         return now - self.sent_s >= self.gap_s - GATE_JITTER_S
 
     @abstractmethod
     def begin(self) -> None:
-        """Reset the drive at the next `advance`, and go on from there to READY."""
+        """Reset the drive at the next `advance`, and start it up to READY."""
 
     @abstractmethod
     def advance(self, bus: can.BusABC, now: float) -> None:
-        """Send what is due of the start-up; called in each tick until READY or SILENT."""
+        """Send the due frames of the start-up; called each tick until READY or SILENT."""
 
     @abstractmethod
     def send_current(self, bus: can.BusABC, current_ma: int, now: float) -> bool:
@@ -101,7 +101,7 @@ class Drive(ABC):
 
     @abstractmethod
     def send_zero(self, bus: can.BusABC, now: float) -> bool:
-        """Take the torque off; repeated in each tick of a fault, after a reset too.
+        """Remove the torque; repeated in each tick of a fault, also after a reset.
 
         Returns:
             False if the last command was too short ago: then nothing was sent.
@@ -109,7 +109,7 @@ class Drive(ABC):
 
     @abstractmethod
     def take(self, message: can.Message, time_s: float) -> None:
-        """Read a frame with one of `heard_ids`; any bytes are possible.
+        """Read a frame with one of `heard_ids`; its bytes may be arbitrary.
 
         Args:
             message: The frame.
@@ -118,19 +118,19 @@ class Drive(ABC):
 
     @abstractmethod
     def ask(self, bus: can.BusABC, now: float) -> None:
-        """Send what the drive answers in any state, and what makes no torque."""
+        """Send a query that the drive answers in any state without producing torque."""
 
     def query(self, bus: can.BusABC, now: float) -> None:
-        """Have feedback sent while the current stays as it is; nothing if it is pushed."""
+        """Request feedback without changing the current; no effect if it is pushed."""
         return
 
     @abstractmethod
     def describe_error(self) -> str:
-        """What the drive has reported, as it continues "the drive …"."""
+        """Describe the drive's error, to follow "the drive …"."""
 
 
 def merge_stops(*stops: StopFrames) -> list[can.Message]:
-    """The frames that stop several drives: all zero currents, then each reset once."""
+    """Merge the stop frames of several drives: all zero currents, then each reset once."""
     frames: dict[tuple[int, bytes], can.Message] = {}
     for each in (*(stop.zero for stop in stops), *(stop.reset for stop in stops)):
         for frame in each:

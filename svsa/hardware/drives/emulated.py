@@ -1,4 +1,4 @@
-"""What an emulated drive is to the emulator: the interface that every family implements.
+"""The interface of an emulated drive that every family implements.
 
 The base class has what is of the motor and its encoder; a family adds its protocol, written from
 the maker's manual.
@@ -15,7 +15,7 @@ from svsa.inputs.checked import Checked, Number, Whole, quantity
 
 
 class EmulatorClock(Checked):
-    """When a part speaks: every whole ms of its own clock, which began at `phase_s`."""
+    """The clock of a node: every whole ms, starting at `phase_s`."""
 
     phase_s: Number = quantity("s", "First beat after the emulator's start", ge=0, le=0.001)
     drift: Number = quantity("1", "How much longer its ms is", ge=-0.01, le=0.01, default=0.0)
@@ -52,7 +52,7 @@ class EmulatedMotor(EmulatorClock):
 
 
 class Motion(NamedTuple):
-    """Of a motor at the gearbox output: velocity, rad/s, and torque, N·m."""
+    """Motion of a motor at the gearbox output: velocity, rad/s, and torque, N·m."""
 
     velocity: float
     torque: float
@@ -108,7 +108,7 @@ class EmulatedDrive(ABC):
         """
 
     def list_pushed(self, beat: int, motion: Motion) -> list[Frame]:
-        """The frames that the drive sends unasked at this ms of its clock."""
+        """List the frames that the drive pushes at this ms of its clock."""
         return []
 
     def build_error(self) -> Frame | None:
@@ -116,11 +116,11 @@ class EmulatedDrive(ABC):
         return None
 
     def expire(self, time_us: int) -> bool:
-        """Stop if commands have not come for too long; whether the torque has changed by that."""
+        """Stop if commands are overdue; return whether the torque has changed."""
         return False
 
     def zero_counter(self) -> None:
-        """Take the position as it is for zero."""
+        """Set the present position as zero."""
         self._zero = self._raw
 
     @property
@@ -130,7 +130,7 @@ class EmulatedDrive(ABC):
 
     @property
     def heard(self) -> bool:
-        """Whether what it says reaches the bus."""
+        """Whether its frames reach the bus."""
         return self.powered and self.plugged
 
     @property
@@ -143,7 +143,7 @@ class EmulatedDrive(ABC):
         return self.motor_sign * current * self.motor.torque_nm_per_a / 1000.0
 
     def look(self, angle: float) -> None:
-        """Count the motor's encoder at this angle of the output, rad."""
+        """Update the motor's encoder at this output angle, rad."""
         if not self.frozen:
             turns = angle * self.motor.gear_ratio / (2.0 * math.pi)
             self._raw = self.encoder_sign * math.floor(turns * self.motor.counts_per_rev + 0.5)

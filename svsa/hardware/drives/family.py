@@ -1,4 +1,4 @@
-"""A family of drives: one value that says all that the bench needs to know of it.
+"""A drive family: one value with everything that the bench needs to know about it.
 
 A package announces it as an entry point of the group `svsa.drives`, as `robomodule` is.
 """
@@ -22,7 +22,7 @@ HOST = "host"
 
 
 class Advice(NamedTuple):
-    """What `svsa bench-check` says of the drives of a family.
+    """Advice of `svsa bench-check` on drives of a family.
 
     supply: "… is on and within …". wiring: what their maker presets on the bus. factory: the
     address of a new one. mode: what to look at where the mode is not taken. error: where a drive

@@ -1,10 +1,10 @@
-"""How far a drive is on its way from off to READY."""
+"""Progress of a drive from off to READY."""
 
 from enum import StrEnum
 
 
 class Phase(StrEnum):
-    """How far the sequence is."""
+    """The phase of the start-up."""
 
     OFF = "off"
     RESET = "reset"

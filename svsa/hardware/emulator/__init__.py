@@ -1,1 +1,1 @@
-"""The emulator: a process that behaves on the wire as the bench does."""
+"""The emulator: a process that behaves like the bench on the CAN bus."""

@@ -38,7 +38,7 @@ def emulator(
         ),
     ] = 0.0,
 ) -> None:
-    """Emulate the bench on the wire: two drives, an encoder and the actuator, on CAN.
+    """Emulate the bench on CAN: two drives, an encoder and the actuator.
 
     Clients connect as to a socketcand server (python-can's interface `socketcand`), or to a printed
     terminal as to a slcan adapter, which carries CAN FD too. Reachable from this machine only.

@@ -1,4 +1,4 @@
-"""Commands that change the emulator from outside: JSON lines over TCP on this machine.
+"""Commands that control the emulator from outside: JSON lines over TCP on this machine.
 
     {"do": "load", "load": {"kind": "mass"}, "at_s": 5.0}    {"do": "set_loads", "loads": [...]}
     {"do": "fault", "fault": {"kind": "freeze", "node": "deflection"}}
@@ -27,11 +27,11 @@ _FAULT = TypeAdapter(EmulatorFault)
 
 
 class EmulatorError(SvsaError):
-    """The emulator refused, or is not there."""
+    """The emulator rejected a command, or is not reachable."""
 
 
 class ControlServer:
-    """Serves the control port for an emulator; never waits."""
+    """The server of an emulator's control port; never blocks."""
 
     def __init__(self, emulator: Emulator, host: str, port: int) -> None:
         self._rig = emulator
@@ -41,11 +41,11 @@ class ControlServer:
         self.port = int(self._listener.getsockname()[1])
 
     def sources(self) -> list[socket.socket]:
-        """What to select on."""
+        """Sockets to select on."""
         return [self._listener, *self._clients]
 
     def poll(self) -> None:
-        """Do what clients ask for."""
+        """Execute the clients' commands."""
         with contextlib.suppress(BlockingIOError):
             client, _ = self._listener.accept()
             client.setblocking(False)
@@ -77,7 +77,7 @@ class ControlServer:
 
 
 def answer(emulator: Emulator, line: bytes) -> dict[str, Any]:
-    """Do what one line says, and what to answer; nothing it says breaks the emulator."""
+    """Execute one line and return its answer; invalid lines have no effect."""
     try:
         wanted = json.loads(line)
         if not isinstance(wanted, dict):
@@ -123,7 +123,7 @@ def _do(emulator: Emulator, wanted: dict[str, Any]) -> dict[str, Any]:
 
 
 def describe(emulator: Emulator) -> dict[str, Any]:
-    """The truth of this moment: time, state, torques, drives."""
+    """Return the true state: time, state, torques, drives."""
     made, x = emulator.mechanics.torque, emulator.mechanics.read(emulator.now_us)
     return {
         "time_s": emulator.now_us * 1e-6,
@@ -159,7 +159,7 @@ class EmulatorControl:
         self._file = self._socket.makefile("rwb")
 
     def ask(self, do: str, **fields: Any) -> dict[str, Any]:
-        """One command and its answer."""
+        """Send a command and return its answer."""
         try:
             self._file.write(json.dumps({"do": do, **fields}).encode() + b"\n")
             self._file.flush()
@@ -172,31 +172,31 @@ class EmulatorControl:
         return reported
 
     def set_loads(self, loads: tuple[Load, ...]) -> None:
-        """These loads, and no others, are on from now on."""
+        """Set exactly these loads."""
         self.ask("set_loads", loads=[_LOAD.dump_python(load, mode="json") for load in loads])
 
     def load(self, load: Load, at_s: float | None = None) -> None:
-        """Put a load on, now or at a time of the emulator."""
+        """Apply a load, now or at an emulator time."""
         self.ask("load", load=_LOAD.dump_python(load, mode="json"), at_s=at_s)
 
     def fault(self, fault: EmulatorFault, at_s: float | None = None) -> None:
-        """Make something go wrong, now or at a time of the emulator."""
+        """Inject a fault, now or at an emulator time."""
         self.ask("fault", fault=fault.model_dump(mode="json"), at_s=at_s)
 
     def clear_faults(self) -> None:
-        """Everything works again."""
+        """Remove all faults."""
         self.ask("clear_faults")
 
     def home(self) -> None:
-        """Set the mechanism to its marks by hand."""
+        """Move the mechanism to its zero marks, as by hand."""
         self.ask("home")
 
     def read_state(self) -> dict[str, Any]:
-        """See `describe`."""
+        """Read the state, see `describe`."""
         return self.ask("state")
 
     def close(self) -> None:
-        """Leave."""
+        """Disconnect."""
         self._file.close()
         self._socket.close()
 

@@ -46,7 +46,7 @@ Said = tuple[int, Frame, Any]
 
 
 class Emulator:
-    """The bench on the wire. `advance_to` returns what was said meanwhile.
+    """The emulated bench. `advance_to` returns the frames sent meanwhile.
 
     now_us: µs. frames: how many have been on the bus.
     """
@@ -81,7 +81,7 @@ class Emulator:
         return self._events[0][0]
 
     def advance_to(self, time_us: int) -> list[Said]:
-        """Go on to this time; the frames said until then, (µs, frame, who sent it or None)."""
+        """Advance to this time; return the frames until then, (µs, frame, sender or None)."""
         while self._events[0][0] <= time_us:
             self.now_us, _, happen = heapq.heappop(self._events)
             happen()
@@ -90,11 +90,11 @@ class Emulator:
         return said
 
     def receive(self, frame: Frame, sender: Any) -> None:
-        """A client's frame, now; the others hear it when it has been on the bus."""
+        """Receive a client's frame now; others receive it after its transmission."""
         self._request(frame, sender)
 
     def schedule(self, at_us: int, happen: Callable[[], None]) -> None:
-        """Do something at that time, or now where it is past."""
+        """Schedule an action at that time, or now if it is past."""
         self._at(max(at_us, self.now_us), happen)
 
     def add_load(self, load: Load) -> None:
@@ -102,17 +102,17 @@ class Emulator:
         self.mechanics.add_load(self.now_us, load.changed(start_s=None))
 
     def set_loads(self, loads: Sequence[Load]) -> None:
-        """These loads and no others are on, from now on."""
+        """Set exactly these loads from now on."""
         self.mechanics.clear_loads(self.now_us)
         for load in loads:
             self.add_load(load)
 
     def home(self) -> None:
-        """Set the mechanism to its marks, as an operator does by hand, and release it."""
+        """Move the mechanism to its marks, as an operator does by hand, and release it."""
         self.mechanics.home(self.now_us)
 
     def inject(self, fault: EmulatorFault) -> None:
-        """Make something go wrong, from now on."""
+        """Inject a fault now."""
         match fault:
             case DropFrames():
                 self._drops[fault.node] = fault.probability
@@ -144,7 +144,7 @@ class Emulator:
         self._drive()
 
     def clear_faults(self) -> None:
-        """Everything works again; a drive that was off begins as after a reset."""
+        """Remove all faults; a drive that was off starts as after a reset."""
         self._drops.clear()
         self._delays.clear()
         self.encoder.repair()
@@ -163,12 +163,12 @@ class Emulator:
         heapq.heappush(self._events, (time_us, self._order, happen))
 
     def _drive(self) -> None:
-        """Set the torques that the drives' current loops aim at."""
+        """Set the target torques of the drives' current loops."""
         one, two = self.drives.values()
         self.mechanics.set_target(self.now_us, Torque(one.target_nm, two.target_nm))
 
     def _beat_at(self, clock: EmulatorClock, number: int, happen: Callable[[int], None]) -> None:
-        """Have it happen at every ms of this clock, from beat `number` on."""
+        """Schedule an action at every ms of this clock, from beat `number` on."""
 
         def beat() -> None:
             self._beat_at(clock, number + 1, happen)
@@ -178,14 +178,14 @@ class Emulator:
         self._at(round(elapsed), beat)
 
     def _feed(self, name: str, drive: EmulatedDrive, beat: int) -> None:
-        """What a drive sends unasked at this ms of its clock."""
+        """Send a drive's pushed frames of this ms of its clock."""
         for frame in drive.list_pushed(beat, self._observe(name, drive)):
             self._send(name, frame)
         if drive.expire(self.now_us):
             self._drive()
 
     def _observe(self, name: str, drive: EmulatedDrive) -> Motion:
-        """Count a motor's encoder now; how the motor moves."""
+        """Update a motor's encoder; return the motion of the motor."""
         x, torque = self.mechanics.read(self.now_us), self.mechanics.torque
         if name == "motor1":
             drive.look(x.theta1)

@@ -1,4 +1,4 @@
-"""The emulated deflection encoder: a node that sends its counts unasked."""
+"""The emulated deflection encoder: a node that pushes its counts."""
 
 import math
 
@@ -20,14 +20,14 @@ class EncoderNode:
         self.repair()
 
     def fail(self, frozen: bool) -> None:
-        """Stay where the counts are, or go the wrong way."""
+        """Freeze or reverse the counts."""
         if frozen:
             self._frozen = True
         else:
             self._turned = -self._turned
 
     def repair(self) -> None:
-        """Work as it should."""
+        """Return to correct counts."""
         self._frozen, self._turned = False, 1
 
     def build_frame(self, angle: float) -> Frame:

@@ -1,4 +1,4 @@
-"""Between an emulator and its clients: frames in, time on at request, frames out."""
+"""Exchange between an emulator and its clients: frames in both directions, and lockstep time."""
 
 from typing import Any
 
@@ -31,7 +31,7 @@ class Exchange:
         self.asked = 0
 
     def serve(self, server: FrameServer) -> None:
-        """Do what has come; who is new is greeted before the first frame of theirs acts."""
+        """Process waiting input; new clients are greeted before their first frame acts."""
         heard = server.poll()
         for client in server.take_arrivals():
             greeting = Frame(EMULATED_ID, EMULATED_DATA, extended=True)
@@ -41,7 +41,7 @@ class Exchange:
         self._flush()
 
     def advance_to(self, time_us: int) -> None:
-        """Let the emulator go on to this time, and say what it says meanwhile."""
+        """Advance the emulator to this time, and send its frames."""
         self._advance_to(time_us)
         self._flush()
 
@@ -51,7 +51,7 @@ class Exchange:
                 server.send(frame, self._stamp(said_us), but=sender)
 
     def _flush(self) -> None:
-        """All that a client is said for one reason goes in one write: it wakes up once."""
+        """Send all of a client's frames in one write, so that it wakes up once."""
         for server in self._servers:
             server.flush()
 
@@ -59,7 +59,7 @@ class Exchange:
         return self._origin_s + time_us * 1e-6
 
     def _take(self, server: FrameServer, client: Any, frame: Frame) -> None:
-        """A client's frame: a command to a drive, or the request to let time go on."""
+        """Process a client's frame: a command to a drive, or a request to advance time."""
         if not (frame.extended and frame.can_id == ADVANCE_ID):
             self._rig.receive(frame, client)
             return

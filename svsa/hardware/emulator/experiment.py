@@ -63,14 +63,14 @@ class LockstepBench:
         return self._clock.now()
 
     def tick(self, count: int = 1) -> None:
-        """So many periods."""
+        """Run so many periods."""
         for _ in range(count):
             self._deadline += self.bench.timing.period_s
             self._clock.wait_until(self._deadline)
             self.loop.tick(self.now())
 
     def tick_until(self, status: BenchStatus, longest_s: float = ARMING_S) -> None:
-        """Periods until the bench has this status; raises `FaultError` or `StateError`."""
+        """Run until the bench has this status; raises `FaultError` or `StateError`."""
         end = self.now() + longest_s
         while self.plant.status is not status:
             if self.plant.fault is not None:
@@ -80,7 +80,7 @@ class LockstepBench:
             self.tick()
 
     def prepare(self) -> None:
-        """Arm, and confirm the zero marks at which the emulator stands."""
+        """Arm, and confirm the zero marks of the emulator."""
         self.plant.arm(self.now())
         self.tick_until(BenchStatus.READY)
         while (step := self.plant.homing_step) is not None:
@@ -88,11 +88,11 @@ class LockstepBench:
         self.tick(round(SETTLING_S / self.bench.timing.period_s))
 
     def start(self) -> None:
-        """Begin the run at tick 0."""
+        """Start the run at tick 0."""
         self.loop.start(self.now())
 
     def close(self) -> None:
-        """Leave the drives at zero current."""
+        """Set zero current."""
         self.plant.close()
 
 

@@ -1,4 +1,4 @@
-"""What can go wrong on a bench, one model each, to be injected on demand."""
+"""Faults of an emulated bench, one model each, injected on demand."""
 
 from typing import Annotated, Literal
 

@@ -1,4 +1,4 @@
-"""What every server of frames to clients offers.
+"""The interface of all servers that carry frames to clients.
 
 A server only carries: it hears frames from its clients and says frames to them. What a frame
 that one client sends does to the others is the bus's affair: the emulator says it to all with
@@ -12,14 +12,16 @@ from svsa.hardware.emulation import Frame
 
 
 class FrameServer(Protocol):
-    """Single-threaded, never blocking: `select` on `sources`, `poll`, `send`, then `flush`."""
+    """A single-threaded, non-blocking server: `select` on `sources`, `poll`, `send`, then
+    `flush`.
+    """
 
     def sources(self) -> list[Any]:
-        """What to select on for reading, now; it changes as clients come and go."""
+        """Sockets to select on for reading; they change as clients connect and disconnect."""
         ...
 
     def wait_s(self) -> float | None:
-        """How long select may sleep before `poll` has something to do; None is for ever."""
+        """Time until `poll` is due, s; None: no limit."""
         ...
 
     def poll(self) -> list[tuple[Any, Frame]]:
@@ -27,12 +29,12 @@ class FrameServer(Protocol):
         ...
 
     def take_arrivals(self) -> list[Any]:
-        """Clients that began to listen since the last call: the emulator greets them."""
+        """Return clients that connected since the last call: the emulator greets them."""
         ...
 
     @property
     def listening(self) -> int:
-        """How many clients listen."""
+        """Number of connected clients."""
         ...
 
     def send(self, frame: Frame, time_s: float, to: Any = None, but: Any = None) -> None:
@@ -40,11 +42,11 @@ class FrameServer(Protocol):
         ...
 
     def flush(self) -> None:
-        """Have what was said go, as far as it goes: until then it may be kept."""
+        """Send buffered messages as far as possible without blocking."""
         ...
 
     def close(self) -> None:
-        """Let every client go."""
+        """Disconnect every client."""
         ...
 
 
@@ -54,7 +56,7 @@ RETRY_S = 0.002
 
 
 class Outbox:
-    """Keeps what is said, in order, for `flush`: many short texts go in one write.
+    """Buffers messages in order for `flush`: many short texts in one write.
 
     write: a non-blocking write of some of the bytes, as `os.write`; how many went.
     """
@@ -65,11 +67,11 @@ class Outbox:
 
     @property
     def wait_s(self) -> float | None:
-        """When to `flush` again; None where nothing is kept."""
+        """Time until the next `flush`, s; None if nothing is buffered."""
         return RETRY_S if self._kept else None
 
     def push(self, text: bytes) -> None:
-        """Say this. Raises `OSError` for a client that has left, or has long read nothing."""
+        """Buffer a message. Raises `OSError` for a client that has left or long read nothing."""
         if len(self._kept) + len(text) > MAX_BYTES:
             raise ConnectionError("the client does not read")
         self._kept += text
@@ -77,7 +79,7 @@ class Outbox:
             self.flush()
 
     def flush(self) -> None:
-        """Say what was kept, as far as it goes. Raises `OSError` for a client that has left."""
+        """Send buffered messages. Raises `OSError` for a client that has left."""
         try:
             while self._kept:
                 del self._kept[: self._write(self._kept)]
@@ -85,5 +87,5 @@ class Outbox:
             return
 
     def clear(self) -> None:
-        """Forget what was kept."""
+        """Discard the buffer."""
         self._kept.clear()

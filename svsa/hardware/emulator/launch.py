@@ -1,4 +1,4 @@
-"""Start an emulator as a process of its own, and end it."""
+"""Start and end of an emulator in its own process."""
 
 import contextlib
 import re
@@ -14,7 +14,7 @@ _READY = re.compile(r"socketcand 127\.0\.0\.1:(\d+), slcan (\S+) (\S+), control 
 
 
 class RunningEmulator(NamedTuple):
-    """Where an emulator is: the port of socketcand, two terminals of slcan, the control port."""
+    """Addresses of an emulator: socketcand port, two slcan terminals, control port."""
 
     port: int
     slcan: str
@@ -28,7 +28,9 @@ class RunningEmulator(NamedTuple):
 def start_emulator(
     lockstep: bool = True, idle_s: float = 120.0, *options: str
 ) -> Iterator[RunningEmulator]:
-    """An emulator on free ports of this machine, ended at the end; raises `EmulatorError`."""
+    """Start an emulator on free ports of this machine, ended with the block; raises
+    `EmulatorError`.
+    """
     command = [
         sys.executable,
         "-m",

@@ -1,4 +1,4 @@
-"""The mechanism between two instants: the true plant, on a grid of 100 µs.
+"""The emulated mechanism: the true plant, integrated on a grid of 100 µs.
 
 The current loops take a new target at the next point of the grid, as a loop of 10 kHz does.
 Between two events all periods are one compiled call.
@@ -34,7 +34,7 @@ _PERIOD_S = GRID_US * 1e-6
 
 
 class _Plant(NamedTuple):
-    """What stays as it is: the true actuator, its effects, its stops."""
+    """Constants: the true actuator, its effects, its stops."""
 
     actuator: Actuator
     bench: EffectConstants
@@ -42,7 +42,7 @@ class _Plant(NamedTuple):
 
 
 class _Moving(NamedTuple):
-    """State; actual torque of the motors, and the torque that they aim at, N·m."""
+    """State; actual torque of the motors, and the torque of their current loops' targets, N·m."""
 
     x: State = AT_REST
     torque: Torque = NO_TORQUE
@@ -65,7 +65,7 @@ def _coast_on(
 
 
 class Mechanics:
-    """The actuator, what its motors make, and what hangs on it; begins at rest at home.
+    """The actuator, its motors' torques and its loads; starts at rest at home.
 
     torque: what the motors make at the last point of the grid, target: what they are asked
     for, N·m at the gearbox outputs.
@@ -98,11 +98,11 @@ class Mechanics:
 
     @property
     def load_count(self) -> int:
-        """How many loads hang on the emulator or are still to come."""
+        """Number of present and scheduled loads."""
         return sum(load.end_tick > self._tick for load in self._loads)
 
     def read(self, time_us: int) -> State:
-        """x at this time; between two points of the grid it goes on with its velocities."""
+        """Return x at this time, extrapolated with its velocities between grid points."""
         self._coast(time_us // GRID_US)
         since = time_us * 1e-6 - self._tick * _PERIOD_S
         x = self._x
@@ -118,14 +118,14 @@ class Mechanics:
         )
 
     def set_target(self, time_us: int, target: Torque) -> None:
-        """Ask the motors for this torque, N·m, from the next point of the grid on."""
+        """Set the motors' target torque, N·m, from the next grid point on."""
         if target != self.target:
             self._coast(-(-time_us // GRID_US))
             self.target = target
             self._asked[:] = target
 
     def add_load(self, time_us: int, load: Load) -> int:
-        """Hang a load on; its `start_s` is the emulator's time. Returns its number.
+        """Add a load; its `start_s` is emulator time. Return its number.
 
         Raises `StateError` where too many hang there.
         """
@@ -139,13 +139,13 @@ class Mechanics:
         return self._load_count
 
     def clear_loads(self, time_us: int) -> None:
-        """Take every load off, also those still to come."""
+        """Remove all loads, including scheduled ones."""
         self._coast(-(-time_us // GRID_US))
         self._loads = ()
         self._table = build_load_table(())
 
     def home(self, time_us: int) -> None:
-        """Put the mechanism to its zero marks, at rest, as an operator does by hand."""
+        """Move the mechanism to its zero marks, at rest, as an operator does by hand."""
         self._coast(-(-time_us // GRID_US))
         self._state[:] = self._x = AT_REST
 

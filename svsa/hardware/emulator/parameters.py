@@ -1,4 +1,4 @@
-"""The emulated bench as a value: Table 1's plant, and what stands around it on a bench."""
+"""The emulated bench as a value: the plant of Table 1, and its drives and encoders."""
 
 from functools import cache
 from pathlib import Path
@@ -53,7 +53,7 @@ def build_motor(number: int, drive: str = DEFAULT_DRIVE) -> EmulatedMotor:
 
 
 class EmulatorParameters(Checked):
-    """All that the emulated bench is made of; left out, the prototype of Table 1.
+    """All parameters of the emulated bench; by default the prototype of Table 1.
 
     The parts speak at different moments of each ms, none of them at the loop's. Supply
     voltage is taken as ample: no back-EMF limits the current.

@@ -63,7 +63,7 @@ class EmulatorProcess:
                 return
 
     def _go_on_alone(self, now: float) -> None:
-        """Go on in real time if no client has requested time for `alone_s`."""
+        """Continue in real time if no client has requested time for `alone_s`."""
         if self._exchange.asked != self._asked:
             self._asked = self._exchange.asked
             self._alone_since, self._left_us = now + self._alone_s, self._rig.now_us

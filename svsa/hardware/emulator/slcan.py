@@ -34,7 +34,7 @@ _VERSION, _SERIAL_NUMBER = b"V1013\r", b"NSVSA\r"
 
 
 class SlcanServer:
-    """A `FrameServer` whose one client is the program that opens the terminal at `path`."""
+    """A `FrameServer` with one client, the program that opens the terminal at `path`."""
 
     def __init__(self) -> None:
         self._ours, self._theirs = os.openpty()
@@ -58,11 +58,11 @@ class SlcanServer:
         return [self._ours]
 
     def wait_s(self) -> float | None:
-        """Until more may go of what the client has still to be said."""
+        """Time until more of the client's buffered output may be sent, s."""
         return self._outbox.wait_s
 
     def poll(self) -> list[tuple[Any, Frame]]:
-        """Frames that the client has sent; everything else is answered."""
+        """Read the client's frames; other commands are answered."""
         self.flush()
         try:
             self._unread += os.read(self._ours, 65536)
@@ -80,11 +80,11 @@ class SlcanServer:
         return frames
 
     def flush(self) -> None:
-        """Have the client be said what it has still to be said, as far as it reads."""
+        """Send the client's buffered output, as far as it reads."""
         self._outbox.flush()
 
     def _answer(self, line: str) -> tuple[bytes, Frame | None]:
-        """What a line is answered with, and the frame in it."""
+        """Return the answer to a line, and the frame in it."""
         if line in _FACTS:
             return _FACTS[line], None
         if not self._channel:
@@ -110,7 +110,7 @@ class SlcanServer:
         return BELL, None
 
     def _set(self, line: str) -> bytes:
-        """A setting; they are taken while the channel is closed."""
+        """Apply a setting; accepted while the channel is closed."""
         if line in ("O", "L"):
             self._channel, self._arrived = line, True
             self._flags = 0
@@ -121,12 +121,12 @@ class SlcanServer:
         return OK
 
     def take_arrivals(self) -> list[Any]:
-        """Itself, where the channel was opened since the last call."""
+        """Return itself if the channel was opened since the last call."""
         arrived, self._arrived = self._arrived, False
         return [self] if arrived else []
 
     def send(self, frame: Frame, time_s: float, to: Any = None, but: Any = None) -> None:
-        """Say a frame at the emulator's time; times go along, in ms modulo a minute, after Z1."""
+        """Send a frame with its emulator time; after Z1 with a timestamp, ms modulo a minute."""
         if not self._channel or but is self or (to is not None and to is not self):
             return
         if frame.error:
@@ -139,14 +139,14 @@ class SlcanServer:
         self._write(f"{name}{length:X}{frame.data.hex().upper()}{stamp}\r".encode())
 
     def _write(self, text: bytes) -> None:
-        """A client that has long read nothing has left: the channel is closed."""
+        """Write to the client; closes the channel if it has long read nothing."""
         try:
             self._outbox.push(text)
         except OSError:
             self._close_channel()
 
     def _close_channel(self) -> None:
-        """What was not read is not for who opens the channel next."""
+        """Discard unread output when the channel is closed."""
         self._channel = ""
         self._outbox.clear()
         termios.tcflush(self._theirs, termios.TCIFLUSH)

@@ -1,4 +1,4 @@
-"""A socketcand server: frames as text over TCP, as python-can's `socketcand` speaks it.
+"""A socketcand server: frames as text over TCP, for python-can's `socketcand`.
 
 Source: github.com/linux-can/socketcand, its protocol and `state_raw.c`. An identifier of eight
 digits is extended, of three standard; `< frame ID s.µs DATA >` has its data in one word, where
@@ -63,7 +63,7 @@ class SocketcandServer:
         return [self._listener, *(client.connection for client in self._clients)]
 
     def wait_s(self) -> float | None:
-        """Until the next client may be said frames, or more of what it has still to be said."""
+        """Time until a client's buffered output may be sent, s."""
         now = time.monotonic()
         waits = [wait for client in self._clients if (wait := client.outbox.wait_s) is not None]
         waits += [
@@ -74,7 +74,7 @@ class SocketcandServer:
         return max(0.0, min(waits)) if waits else None
 
     def poll(self) -> list[tuple[Any, Frame]]:
-        """Frames that clients have sent; who left is forgotten."""
+        """Read the clients' frames; disconnected clients are removed."""
         ready = select.select(self.sources(), [], [], 0.0)[0]
         if self._listener in ready:
             self._greet()
@@ -93,7 +93,7 @@ class SocketcandServer:
         return frames
 
     def flush(self) -> None:
-        """A client that does not read is let go: the bus does not wait for it."""
+        """Send buffered output; a client that does not read is disconnected."""
         for client in list(self._clients):
             try:
                 client.outbox.flush()
@@ -115,7 +115,7 @@ class SocketcandServer:
         self._write(client, b"< hi >")
 
     def _read(self, client: _Client) -> list[Frame]:
-        """The frames in what has come; raises `ValueError` for what is no protocol at all."""
+        """Parse the received frames; raises `ValueError` for invalid data."""
         chunk = client.connection.recv(65536)
         if not chunk:
             raise ConnectionError
@@ -135,7 +135,7 @@ class SocketcandServer:
         return frames
 
     def _answer(self, client: _Client, text: str) -> Frame | None:
-        """Do what a tag asks for; a command that does not exist here is answered with an error."""
+        """Execute a tag; an unknown command is answered with an error."""
         if client.raw_since is not None:
             sent = _SEND.fullmatch(text)
             if sent and len(words := sent[3].split()) == int(sent[2]):
@@ -165,7 +165,7 @@ class SocketcandServer:
         return arrivals
 
     def send(self, frame: Frame, time_s: float, to: Any = None, but: Any = None) -> None:
-        """Say a frame at the emulator's time to all who listen, to one, or to all but one."""
+        """Send a frame with its emulator time to all clients, to one, or to all but one."""
         if to is not None:
             chosen = [to] if to in self._clients else []
         else:
@@ -182,7 +182,7 @@ class SocketcandServer:
                 self._write(client, text.encode())
 
     def _write(self, client: _Client, text: bytes) -> None:
-        """As `flush`, of a client that has long read nothing."""
+        """Write to a client; disconnects one that has long read nothing."""
         try:
             client.outbox.push(text)
         except OSError:
@@ -194,7 +194,7 @@ class SocketcandServer:
             self._clients.remove(client)
 
     def close(self) -> None:
-        """Let every client go."""
+        """Disconnect every client."""
         for client in list(self._clients):
             self._drop(client)
         self._listener.close()

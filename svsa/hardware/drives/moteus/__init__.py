@@ -1,4 +1,4 @@
-"""The frames of the moteus controllers: CAN FD, each command answered by one reply.
+"""The frames of moteus controllers: CAN FD, each command answered by one reply.
 
 Source: mjbots, moteus documentation, "CAN Protocol" and "Register Reference" (2025). An identifier
 is 16 bits, `reply << 15 | source << 8 | destination`, extended if it is above 0x7FF. A frame is a

@@ -1,4 +1,4 @@
-"""A moteus controller: how it is brought to take torques, and what it last replied.
+"""A moteus controller: its start-up, its commands and its last reply.
 
 OFF → RESET (stopped, 0.1 s) → MODE → READY. It reports only when it is asked: each command asks.
 """
@@ -119,17 +119,17 @@ class MoteusDrive(Drive):
         return True
 
     def send_zero(self, bus: can.BusABC, now: float) -> bool:
-        """Stop the controller: zero torque, and it takes no other until it is started up again."""
+        """Stop the controller: zero torque, and no other until it is started up again."""
         self.sent_s = now
         bus.send(self._stop)
         return True
 
     def ask(self, bus: can.BusABC, now: float) -> None:
-        """Ask for a reply, and command nothing."""
+        """Request a reply without a command."""
         bus.send(self._query)
 
     def query(self, bus: can.BusABC, now: float) -> None:
-        """Command the last current again, so that the controller replies and does not time out."""
+        """Repeat the last current, so that the controller replies and does not time out."""
         self.send_current(bus, self._held_ma, now)
 
     def describe_error(self) -> str:

@@ -1,4 +1,4 @@
-"""What a bench file and an emulator's file say of a moteus controller."""
+"""Settings of a moteus controller in a bench file and in an emulator's file."""
 
 from typing import ClassVar
 

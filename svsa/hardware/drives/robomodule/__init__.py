@@ -1,4 +1,4 @@
-"""The frames of the RoboModule drives: numbers to eight bytes and back, nothing else.
+"""The frames of RoboModule drives: conversion of numbers to eight bytes and back.
 
 Source: RoboModule RMDS CAN manual, edition of July 2018. Standard identifiers
 `group << 8 | number << 4 | command`, always 8 bytes, big-endian, two's complement, unused bytes

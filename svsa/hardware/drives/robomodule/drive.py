@@ -1,4 +1,4 @@
-"""A RoboModule drive: how it is brought to current mode, and what it last said.
+"""A RoboModule drive: its start-up to current mode, its commands and its last feedback.
 
 OFF → RESET (500 ms) → CONFIG → MODE (500 ms) → READY, by time; READY needs the echo of the
 online check and feedback that flows. Commands to a drive are 1 ms apart.
@@ -99,7 +99,7 @@ class RoboModuleDrive(Drive):
             self._await_answer(bus, now, now - self._until)
 
     def _await_answer(self, bus: can.BusABC, now: float, waited: float) -> None:
-        """In its mode, the drive must echo and its feedback flow; ask again where not."""
+        """Wait for echo and feedback of a drive in its mode; query again if they are missing."""
         if self.answers and self.heard_s is not None:
             self.phase = Phase.READY
         elif waited >= FIRST_ANSWER_S:

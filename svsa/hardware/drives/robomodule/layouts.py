@@ -1,4 +1,4 @@
-"""Where the fields of each message lie in its eight bytes, and what they may be.
+"""Layout of each message's eight bytes, with the range of each field.
 
 `LAYOUTS` is the one place that knows: the codec, the DBC file and the emulated drive all read it.
 """

@@ -1,4 +1,4 @@
-"""What is said between a RoboModule drive and its master.
+"""The messages between a RoboModule drive and its master.
 
 Messages are named tuples and so compare as tuples (`Reset() == Online()`): tell them apart by
 their type or their `command`.
