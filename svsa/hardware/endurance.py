@@ -1,4 +1,4 @@
-"""How long the motors of a bench bear a load, before it is hung."""
+"""Time for which the motors of a bench bear a load, computed before it is added."""
 
 import math
 from collections.abc import Iterable
@@ -20,7 +20,7 @@ Motor = Literal["motor1", "motor2"]
 
 
 class Endurance(NamedTuple):
-    """A motor that a load is too much for. torque_nm: rms that is asked for.
+    """A motor that a load overheats. torque_nm: demanded rms torque.
 
     lasting_torque_nm: what it bears for ever. seconds: from the load's onset, the motor cold, until
     heat holds its torque back.
@@ -35,7 +35,7 @@ class Endurance(NamedTuple):
 def find_endurance(
     bench: BenchFile, configuration: Configuration, loads: Iterable[Load]
 ) -> Endurance | None:
-    """The motor that heat holds back first under these loads, or None where neither is in 30 s.
+    """Find the motor that heat limits first under these loads; None if neither within 30 s.
 
     The bench's simulated twin moves as the configuration says and is given the loads after 2 s; its
     torques warm windings that are cold then, in steps of 10 ms. None, too, where the run ends in
@@ -73,7 +73,9 @@ def find_endurance(
 
 
 def _warm(windings: tuple[Winding, Winding], asked: np.ndarray) -> Literal[0, 1] | None:
-    """Heat after one step with torques (ticks, 2), N·m; the motor that it holds back, or None."""
+    """Advance the heat by a step with torques (ticks, 2), N·m; return the limited motor, or
+    None.
+    """
     for number, winding in enumerate(windings):
         torque = np.abs(asked[:, number])
         if winding.find_held_back(float(np.max(torque))) is not None:
@@ -83,6 +85,6 @@ def _warm(windings: tuple[Winding, Winding], asked: np.ndarray) -> Literal[0, 1]
 
 
 def _advance(run: Run, seconds: float) -> np.ndarray:
-    """u1, u2 of so long, (ticks, 2); fewer where the run has ended."""
+    """Compute u1, u2 for this time, (ticks, 2); fewer if the run has ended."""
     samples = np.empty((1, round(seconds / run.period_s), len(CHANNELS)))
     return samples[0, : run.advance(samples)][:, TORQUES]

@@ -1,4 +1,4 @@
-"""A bench as its file describes it: bus, drives, motors, encoders, timing and safety.
+"""A bench as described by its file: bus, drives, motors, encoders, timing and safety.
 
 What belongs to a particular motor or encoder has no silent default: a bench whose winding,
 gearbox, efficiency, sign or counts are not given can be checked, but does not arm.
@@ -19,13 +19,13 @@ PERIODS_S = (0.001, 0.002)
 
 
 class HomeSettings(Checked):
-    """What holds at the zero marks."""
+    """Values at the zero marks."""
 
     lever_ratio: Number = quantity("1", "μ at the stiffness motor's zero mark", gt=0, lt=1)
 
 
 class TimingSettings(Checked):
-    """The loop's period and what lies between measuring and acting."""
+    """Period of the loop, and delays between measurement and action."""
 
     period_s: Number = quantity("s", "Control period T, 0.001 or 0.002", default=0.001)
     latency_s: Number = quantity("s", "From a tick to its current", ge=0, le=0.002, default=0.0004)
@@ -117,7 +117,7 @@ class BenchFile(Checked):
     path: str = quantity("", "The file itself", default="")
 
     def find_missing(self) -> list[str]:
-        """What is not known of the bench yet, and without which it does not arm."""
+        """List missing values without which the bench cannot be armed."""
         wanted = {
             "motor1": ("counts_per_rev", "gear_ratio", "torque_constant_nm_per_a", "efficiency"),
             "motor2": ("counts_per_rev", "gear_ratio", "torque_constant_nm_per_a", "efficiency"),

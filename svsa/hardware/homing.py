@@ -1,4 +1,4 @@
-"""The guided zero: link, principal motor and stiffness motor, each confirmed at its mark.
+"""Homing by hand: link, principal motor and stiffness motor, each confirmed at its mark.
 
 A drive's reset takes its position as zero, so the marks are confirmed after every arming:
 the mechanism stands at its marks when the drives are reset. What outlives a power cycle is
@@ -14,7 +14,7 @@ Axis = Literal["link", "motor1", "motor2"]
 
 
 class HomingStep(NamedTuple):
-    """An axis and what to look at before it is confirmed."""
+    """An axis, and the instruction before it is confirmed."""
 
     name: Axis
     instruction: str
@@ -29,18 +29,18 @@ DONE = "All axes are at home."
 
 
 class Homing:
-    """What has been confirmed since the drives were last reset."""
+    """The axes confirmed since the drives were last reset."""
 
     def __init__(self) -> None:
         self.confirmed: dict[str, str] = {}
 
     @property
     def next_step(self) -> Axis | None:
-        """The axis to confirm next, or None when all are."""
+        """Return the axis to confirm next, or None if all are confirmed."""
         return next((step.name for step in STEPS if step.name not in self.confirmed), None)
 
     def confirm(self, step: str, by: str) -> None:
-        """That `by` has seen this axis at its mark; raises `StateError` out of turn."""
+        """Confirm that `by` has seen this axis at its mark; raises `StateError` if out of order."""
         names = [known.name for known in STEPS]
         if step not in names:
             raise ParameterError(Violation("step", step, "", "one of " + ", ".join(names)))
@@ -54,10 +54,10 @@ class Homing:
         self.confirmed[step] = by
 
     def reset(self) -> None:
-        """Forget: the drives have been reset."""
+        """Discard all confirmations: the drives have been reset."""
         self.confirmed.clear()
 
 
 def get_instruction(step: str | None) -> str:
-    """What to look at, in words."""
+    """Return the instruction of a step."""
     return next((known.instruction for known in STEPS if known.name == step), DONE)

@@ -1,4 +1,4 @@
-"""What a tick finds of a bench."""
+"""The readings of a tick of a bench."""
 
 from typing import NamedTuple
 

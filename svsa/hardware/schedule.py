@@ -1,4 +1,4 @@
-"""What of real time the operating system allows, and what not, in words."""
+"""Real-time priority and locked memory, as far as the operating system grants them."""
 
 import ctypes
 import gc
@@ -11,7 +11,7 @@ _MCL_CURRENT, _MCL_FUTURE = 1, 2
 
 
 def request_real_time(priority: int) -> list[str]:
-    """Ask for SCHED_FIFO, locked memory and no garbage collection; says what was granted."""
+    """Request SCHED_FIFO, locked memory and no garbage collection; return what was granted."""
     gc.collect()
     gc.freeze()
     gc.disable()
@@ -19,7 +19,7 @@ def request_real_time(priority: int) -> list[str]:
 
 
 def request_priority(priority: int) -> str:
-    """Ask for SCHED_FIFO for this thread; says what was granted."""
+    """Request SCHED_FIFO for this thread; return what was granted."""
     if not hasattr(os, "sched_setscheduler"):
         return "ordinary priority: this system has no SCHED_FIFO"
     try:

@@ -1,4 +1,4 @@
-"""What a bench says: frames and counts in, one reading a tick out, and what went wrong."""
+"""Readings of a bench: frames and counts as input, one reading per tick, and alarms."""
 
 import contextlib
 import math
@@ -66,23 +66,23 @@ class Sensing:
         self.emulated = self.lost = False
 
     def forget_alarm(self) -> None:
-        """What went wrong before counts no longer."""
+        """Discard the alarm."""
         self._alarm = None
 
     def catch_up(self, bus: can.BusABC, now: float) -> None:
-        """Take the frames that came before the loop ran: too many for one tick."""
+        """Read the frames from before the loop ran: too many for one tick."""
         with contextlib.suppress(*BUS_TROUBLE):
             for message in take_waiting(bus, self._settings, MAX_FRAMES_UNHEARD):
                 self._take(message, now)
 
     def listen(self, bus: can.BusABC) -> None:
-        """Fetch what has come so far, for the next `read`; trouble is left for it to find."""
+        """Read waiting frames for the next `read`, which reports errors."""
         with contextlib.suppress(*BUS_TROUBLE):
             room = MAX_FRAMES_A_TICK - len(self._early)
             self._early += take_waiting(bus, self._settings, room)
 
     def read(self, bus: can.BusABC, now: float, known: State) -> Reading:
-        """What has come since the last tick. known: x̂ now, whose velocities bridge the ages."""
+        """Return the reading of this tick. known: x̂ now, whose velocities compensate the ages."""
         self._drain(bus, now)
         one, two = self._drives
         heard1, heard2, heard3 = one.heard_s, two.heard_s, self._read_deflection(now)
@@ -110,7 +110,7 @@ class Sensing:
         return Reading(measurement, self.current_a, self.ages_s, counts)
 
     def _bridge(self, angle: float, velocity: float, age: float, known: float) -> float:
-        """An angle (rad) of that age now, or, where that is too long ago, what is known of it.
+        """Extrapolate an angle (rad) of that age to now; if it is too old, use x̂.
 
         With it moved on for longer, an error of the velocity would come back as a greater one.
         """
@@ -120,7 +120,7 @@ class Sensing:
         return angle + velocity * age
 
     def find_new_counts(self) -> NewCounts | None:
-        """Those of this tick; None where one is too old for x̂ to follow it."""
+        """Return the counts new in this tick; None if one is too old for x̂."""
         if max(self.ages_s) > self._fresh_s:
             return None
         one, two, three = (
@@ -130,7 +130,7 @@ class Sensing:
         return one, two, three
 
     def find_angle(self, step: str) -> float:
-        """How far an axis (a step of the homing) is from zero, rad; 0 where it is unknown."""
+        """Return the angle of a homing axis from zero, rad; 0 if unknown."""
         y = self._measurement
         if y is None:
             return 0.0
@@ -138,7 +138,7 @@ class Sensing:
         return angles.get(step, 0.0)
 
     def _drain(self, bus: can.BusABC, now: float) -> None:
-        """Take every frame that waits; the bus's trouble becomes an alarm."""
+        """Read every waiting frame; convert errors of the bus to an alarm."""
         early, self._early = self._early, []
         for message in (*self._clock.take_frames(), *early):
             self._take(message, now)
@@ -151,7 +151,7 @@ class Sensing:
             self._sound("bus_error", f"The bus failed: {error}.")
 
     def _take(self, message: can.Message, now: float) -> None:
-        """One frame, to whom it is for; remote frames and frames of others are passed over."""
+        """Pass a frame to its receiver; remote and foreign frames are ignored."""
         if message.is_error_frame:
             self._sound(
                 "bus_error", "The bus reported an error frame: check wiring and termination."
@@ -180,7 +180,7 @@ class Sensing:
             self._sound("foreign_command", words)
 
     def _read_deflection(self, now: float) -> float | None:
-        """When the deflection was last heard of, and its counts up to then."""
+        """Return the time of the last deflection reading, and its counts."""
         try:
             found = self.source.read(now)
         except EncoderError as error:
@@ -196,7 +196,7 @@ class Sensing:
             self._alarm = Alarm(code, message, {})
 
     def find_alarm(self) -> Alarm | None:
-        """The first thing that is wrong with the bus, the encoder or a drive, or None."""
+        """Return the first alarm of bus, encoder or drives, or None."""
         if self._alarm is not None:
             return self._alarm
         for name, drive in zip(("motor1", "motor2"), self._drives, strict=True):

@@ -17,7 +17,7 @@ Sign = Literal[-1, 1]
 
 
 class BusSettings(Checked):
-    """What python-can is given; `options` goes to `can.Bus` as it is."""
+    """Arguments for python-can; `options` goes to `can.Bus` unchanged."""
 
     interface: str = quantity("", "Interface of python-can: socketcan, slcan, pcan, socketcand …")
     channel: str = quantity("", "Channel of that interface, as can0 or /dev/ttyACM0")
@@ -37,7 +37,7 @@ class BusSettings(Checked):
 
 
 class MotorSettings(Checked):
-    """A motor and its drive. Torque is at the gearbox output; None is not known yet.
+    """A motor and its drive. Torque is at the gearbox output; None: not known yet.
 
     The family of the drive adds its own fields: its address, and what it is configured with.
     """
@@ -66,12 +66,12 @@ class MotorSettings(Checked):
 
     @property
     def place(self) -> str:
-        """The address of the drive, in words."""
+        """The address of the drive, for display."""
         return ""
 
 
 class DeflectionSettings(Checked):
-    """The deflection encoder; `options` is what its source needs."""
+    """The deflection encoder; `options` are the settings of its source."""
 
     source: Literal["can", "serial", "nidaqmx", "replay"] = quantity("", "Where counts come from")
     counts_per_rev: Whole | None = quantity(

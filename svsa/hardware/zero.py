@@ -1,4 +1,4 @@
-"""The zero of the deflection encoder: read while the spring is relaxed, and written down."""
+"""The zero of the deflection encoder, read while the spring is relaxed."""
 
 import time
 from datetime import datetime
@@ -27,7 +27,7 @@ STILL_COUNTS = 2
 def calibrate(
     bench: BenchFile, homing: Homing, opener: BusOpener = open_bus, now: Clock = time.monotonic
 ) -> tuple[Path, Calibration]:
-    """Read the zero and write the record; signs that were confirmed for this bench stay so.
+    """Read the zero and write the record; confirmed signs of this bench are kept.
 
     Raises `StateError` while a mark is unconfirmed or the deflection moves, `BusError` and
     `EncoderError` where it cannot be read. An older record is replaced.

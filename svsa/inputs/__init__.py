@@ -1,1 +1,1 @@
-"""Values and files that users give: checked, with units, limits and clear errors."""
+"""User input: values and files, validated with units, limits and clear errors."""

@@ -1,4 +1,4 @@
-"""The base of every value that a user may set: frozen, checked, with units and bounds.
+"""The base class of all values that users set: immutable, validated, with units and bounds.
 
 Built on pydantic: a field declares its unit, bounds and meaning once, and the Python
 API, the TOML files, the REST schema and every error message speak from that one place.
@@ -54,7 +54,7 @@ class Checked(BaseModel):
 
     @classmethod
     def _name_positional(cls, positional: tuple[Any, ...]) -> dict[str, Any]:
-        """The value of `main`; raises `TypeError` with the names where there is another one."""
+        """Assign the positional argument `main`; raises `TypeError` with the names for more."""
         if not positional:
             return {}
         if len(positional) == 1 and cls.main:
@@ -63,7 +63,7 @@ class Checked(BaseModel):
         raise TypeError(f"Values have names here: {cls.__name__}({names}).")
 
     def changed(self, **changes: Any) -> Self:
-        """A copy with these fields replaced, checked again; itself where nothing is changed."""
+        """Return a validated copy with these fields replaced; itself if nothing changes."""
         values = dict(self)
         if all(name in values and _is_same(values[name], new) for name, new in changes.items()):
             return self
@@ -71,7 +71,7 @@ class Checked(BaseModel):
 
 
 def _is_same(present: Any, new: Any) -> bool:
-    """Equal, and not only as 1 and True are."""
+    """Whether values are equal and of the same type (1 and True differ)."""
     return type(present) is type(new) and present == new
 
 
@@ -98,7 +98,7 @@ def quantity(
 
 
 class Quantity(NamedTuple):
-    """What `quantity` declared."""
+    """The declaration made by `quantity`."""
 
     unit: str
     meaning: str
@@ -107,7 +107,7 @@ class Quantity(NamedTuple):
 
 
 def read_quantity(model: type[BaseModel], name: str) -> Quantity:
-    """What a field was declared with; of one without that its name is the meaning."""
+    """Return a field's declaration; without one, its name is its meaning."""
     field = model.model_fields[name]
     extra: Any = field.json_schema_extra if isinstance(field.json_schema_extra, dict) else {}
     unit = extra.get("unit", "")

@@ -1,4 +1,4 @@
-"""Pydantic's errors in the words of a `Violation`: field, value, unit and bound."""
+"""Conversion of pydantic's errors to `Violation`: field, value, unit and bound."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -12,7 +12,7 @@ from svsa.inputs.nearest import suggest
 
 
 def explain(error: ValidationError, model: type[BaseModel] | None = None) -> list[Violation]:
-    """What is wrong with the fields of `model`, each called by its path from there.
+    """Explain a validation error of `model`, with the path of each field.
 
     model: left out where the error is about a single value.
     """
@@ -22,7 +22,7 @@ def explain(error: ValidationError, model: type[BaseModel] | None = None) -> lis
 def explain_problems(
     problems: Sequence[Any], fields: Mapping[str, FieldInfo] | None = None
 ) -> list[Violation]:
-    """Pydantic's problems (dicts with loc, type, ctx, msg, input) as violations.
+    """Convert pydantic's problems (dicts with loc, type, ctx, msg, input) to violations.
 
     fields: one of them begins each loc; None where all is about one value. Of a value that fits
     none of several types, only the error of the nearest type is reported.
@@ -71,7 +71,7 @@ def _is_noise(
 
 
 def _join(path: tuple[Any, ...], violations: list[Violation]) -> list[Violation]:
-    """One violation for a value that is of none of the types a union takes."""
+    """Build one violation for a value that matches no type of a union."""
     first, *others = violations or [None]
     if first is None or not others or any(other.name != _write(path) for other in violations):
         return violations
@@ -144,7 +144,7 @@ _MISMATCHES = {*_KINDS, "literal_error"} - {"missing", "extra_forbidden", "finit
 
 
 def _describe_range(field: FieldInfo | None, unit: str) -> str:
-    """For a value of the wrong type, the range as well, so that one answer is enough."""
+    """Describe the range for a value of the wrong type, so that one answer is sufficient."""
     parts = [
         f"{words} {write_number(getattr(bound, name))}{unit}"
         for bound in (field.metadata if field else [])

@@ -1,4 +1,4 @@
-"""Which optional dependencies and which release of the library are installed."""
+"""Installed optional dependencies, and the installed release."""
 
 import sys
 from importlib.metadata import PackageNotFoundError, version
@@ -29,16 +29,16 @@ MODULES: dict[Extra, tuple[str, ...]] = {
 
 
 class MissingExtraError(SvsaError, ImportError):
-    """A package is missing that comes with an extra; the message says how to install it."""
+    """A package of an extra is missing; the message names the extra to install."""
 
 
 def list_missing(extra: Extra) -> list[str]:
-    """The packages of this extra that are not installed."""
+    """List the missing packages of an extra."""
     return [module for module in MODULES[extra] if not _is_there(module)]
 
 
 def require_extra(extra: Extra) -> None:
-    """Raise `MissingExtraError` where a package of this extra is not installed."""
+    """Raise `MissingExtraError` if a package of an extra is missing."""
     if missing := list_missing(extra):
         raise MissingExtraError(
             f"This needs {', '.join(missing)}, which is not installed:"

@@ -1,4 +1,4 @@
-"""Who else may use a file: other accounts, and, by a lock on it, other processes.
+"""Access to files: closed to other accounts, and locked against other processes.
 
 The system takes a lock back when its process dies.
 """
@@ -10,7 +10,7 @@ from pathlib import Path
 
 
 def close_to_others(path: Path) -> None:
-    """Create a file if it is missing, and take every right on it from other accounts.
+    """Create a file if it is missing, and remove all permissions of other accounts.
 
     The rights of the owner and of its group stay. Where they cannot be changed, nothing is done:
     what opens the file next says why it cannot be used.
@@ -28,21 +28,21 @@ def close_to_others(path: Path) -> None:
 if sys.platform == "win32":
 
     def take_lock(descriptor: int) -> None:
-        """Without such locks one process at a time may write in a folder of ours."""
+        """Do nothing: on this system only one process may write in a data folder."""
 
     def try_lock(descriptor: int) -> bool:
-        """Without such locks there is no waiting."""
+        """Return True: on this system there are no locks."""
         return True
 
 else:
     import fcntl
 
     def take_lock(descriptor: int) -> None:
-        """Wait for the lock, and hold it until this is closed or its process is killed."""
+        """Wait for the lock, and hold it until closed or the process ends."""
         fcntl.flock(descriptor, fcntl.LOCK_EX)
 
     def try_lock(descriptor: int) -> bool:
-        """As `take_lock`, but False where another has it."""
+        """Take the lock as `take_lock`; return False if another process has it."""
         try:
             fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:

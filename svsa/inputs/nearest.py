@@ -1,11 +1,11 @@
-"""Names that may have been meant by one that does not exist."""
+"""Suggestions for misspelt names."""
 
 import difflib
 from collections.abc import Iterable
 
 
 def find_nearest(name: str, known: Iterable[str], count: int = 3) -> list[str]:
-    """The known names that are most like this one, the most like first.
+    """Find the known names that are most similar, the most similar first.
 
     Args:
         name: What was written.
@@ -21,6 +21,6 @@ def find_nearest(name: str, known: Iterable[str], count: int = 3) -> list[str]:
 
 
 def suggest(name: str, known: Iterable[str]) -> str:
-    """The known name that is nearest to a wrong one, to be appended to a message; "" for none."""
+    """Return a suggestion to append to a message, the most similar name; "" for none."""
     nearest = find_nearest(name, known, 1)
     return f"; the nearest is {nearest[0]}" if nearest else ""

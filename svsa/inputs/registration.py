@@ -1,4 +1,4 @@
-"""Kinds that are found: a file in a folder adds one, and no other code lists it."""
+"""Registration by file: a file in a folder adds a kind, and no other code lists it."""
 
 from importlib import import_module
 from pkgutil import iter_modules

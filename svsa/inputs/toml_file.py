@@ -1,4 +1,4 @@
-"""A TOML file that a person has written, read with the error that a person can act on."""
+"""TOML files of users, with errors that name file, line and remedy."""
 
 import re
 import tomllib
@@ -18,7 +18,7 @@ _KEY = re.compile(r"\s*([\w.\-\s\"']+?)\s*=")
 
 
 def read_toml(path: Path | str, kind: str) -> dict[str, Any]:
-    """What is in a file; raises `ParameterError` that calls it by its kind, as "bench file"."""
+    """Read a file; raises `ParameterError` that names its kind, such as "bench file"."""
     try:
         text = Path(path).read_text(encoding="utf-8")
     except FileNotFoundError:
@@ -31,7 +31,7 @@ def read_toml(path: Path | str, kind: str) -> dict[str, Any]:
 
 
 def parse_toml(text: str, kind: str, name: Path | str) -> dict[str, Any]:
-    """What is in the text of a file of this name or path; raises `ParameterError`."""
+    """Parse a file's text; raises `ParameterError`."""
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
@@ -44,7 +44,7 @@ def parse_toml(text: str, kind: str, name: Path | str) -> dict[str, Any]:
 def build_checked(
     kind: type[_Kind], sections: dict[str, Any], text: str, place: str, changes: dict[str, Any]
 ) -> _Kind:
-    """Build a checked value from the sections of a TOML text.
+    """Build a validated value from the sections of a TOML text.
 
     Args:
         kind: Class of the value.
@@ -67,7 +67,9 @@ def build_checked(
 def read_checked(
     kind: type[_Kind], path: Path, called: str, changes: dict[str, Any] | None = None
 ) -> _Kind:
-    """Build a checked value from a TOML file, as `build_checked`; called: as "study file"."""
+    """Build a validated value from a TOML file, as `build_checked`; called: such as "study
+    file".
+    """
     sections = read_toml(path, called)
     return build_checked(kind, sections, path.read_text("utf-8"), str(path), changes or {})
 
@@ -77,7 +79,7 @@ def _refuse(kind: str, name: Path | str, error: Exception | str) -> ParameterErr
 
 
 def _describe_comma(error: tomllib.TOMLDecodeError, text: str) -> str | None:
-    """The advice for a decimal comma in the line that does not parse; None for another cause."""
+    """Return advice on a decimal comma in an invalid line; None for another cause."""
     place = _PLACE.search(str(error))
     line = text.splitlines()[int(place[1]) - 1] if place else ""
     comma = _COMMA.search(line)
@@ -88,7 +90,7 @@ def _describe_comma(error: tomllib.TOMLDecodeError, text: str) -> str | None:
 
 
 def find_lines(text: str, names: Iterable[str]) -> list[int]:
-    """The lines where values stand in a readable TOML text, by paths as `vary[1].low`; from 1 on.
+    """Find the line numbers of values in a TOML text, by paths such as `vary[1].low`.
 
     Of a value that is not there the line of what should hold it; of none of both no line.
     """
@@ -109,7 +111,7 @@ def find_lines(text: str, names: Iterable[str]) -> list[int]:
 
 
 def _follow(table: str, counts: Counter[str]) -> str:
-    """A table's path, within the last item of each list that it lies in."""
+    """Return a table's path, within the last item of each list on it."""
     *outer, last = table.split(".")
     path = ""
     for part in outer:
@@ -119,7 +121,7 @@ def _follow(table: str, counts: Counter[str]) -> str:
 
 
 def describe_place(place: str, text: str, names: Iterable[str]) -> str:
-    """Where these values stand in a text, as an error tells it: "mine.toml, lines 3 and 7".
+    """Describe where values are in a text, for an error: "mine.toml, lines 3 and 7".
 
     place: the name of its file, or "".
     """

@@ -1,4 +1,4 @@
-"""Arrays that compiled code looks at without keeping them alive.
+"""Arrays that compiled code uses without owning them.
 
 numba counts every reference to an array with an atomic operation, also each time that a tuple of
 arrays is passed on: in a loop of a few hundred operations that is most of the time.

@@ -1,4 +1,4 @@
-"""How a compiled function returns tuples and arrays to Python, also if a signal handler raises.
+"""Return of tuples and arrays from compiled functions, safe if a signal handler raises.
 
 numba builds a named tuple by calling its class, and finds that class and the type of an array
 with functions of its own that are written in Python. Python runs signal handlers in Python code,
@@ -76,13 +76,13 @@ def _box_array(kind: Any, value: Any, context: Any) -> Any:
 
 
 def _if_found(builder: ir.IRBuilder, found: Any) -> Any:
-    """Code for the case that this object is there."""
+    """Generate code for the case that this object exists."""
     return builder.if_then(cgutils.is_not_null(builder, found), likely=True)
 
 
 @cache
 def replace_boxing() -> None:
-    """Have numba use the functions of this module in all that it compiles from now on."""
+    """Make numba use this module in all later compilations."""
     import_module("numba.core.boxing")  # registers those that are replaced: 18 ms of a start
     # The table is an internal of numba, whose minor version is pinned for such reasons.
     _boxers.functions |= {

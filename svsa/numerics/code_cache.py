@@ -1,4 +1,4 @@
-"""Where compiled code is kept between starts, and when it goes.
+"""The cache of compiled code: its location and its cleanup.
 
 A folder for each file with compiled functions, in it one for each text that the file and what it
 imports have had. Other processes and other versions of the lab use the same folders. The age of a
@@ -34,7 +34,7 @@ class _Locator(UserProvidedCacheLocator):
     """The folder of `SharedCache`; one that cannot be written is read, as that of an image."""
 
     def ensure_cache_path(self) -> None:
-        """Make the folder, unless it can only be read."""
+        """Create the folder, unless it is read-only."""
         with contextlib.suppress(OSError):
             super().ensure_cache_path()
 
@@ -53,7 +53,7 @@ class SharedCache(FunctionCache):
     _impl_class = _Implementation
 
     def save_overload(self, sig: Any, data: Any) -> None:
-        """Add a function's code for the types `sig`, where the folder can be written."""
+        """Store a function's code for the types `sig`, if the folder is writable."""
         with _hold(Path(self.cache_path)):
             if os.access(self.cache_path, os.W_OK):
                 super().save_overload(sig, data)
@@ -68,7 +68,7 @@ class SharedCache(FunctionCache):
 
 @contextlib.contextmanager
 def _hold(folder: Path) -> Iterator[None]:
-    """Hold the lock of a folder; hold nothing if the folder cannot be locked."""
+    """Hold the lock of a folder; do nothing if it cannot be locked."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
         # The folder itself is locked: it exists before any file of the cache, and the system
@@ -86,14 +86,14 @@ def _hold(folder: Path) -> Iterator[None]:
 
 
 def choose_root() -> Path:
-    """`SVSA_CACHE`, or the user's cache folder."""
+    """Return `SVSA_CACHE`, or the user's cache folder."""
     if chosen := os.environ.get("SVSA_CACHE"):
         return Path(chosen)
     return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "svsa"
 
 
 def open_folder(module: str, fingerprint: str) -> Path | None:
-    """The folder of a module's code with this fingerprint; None where none can be made.
+    """Return the folder of a module's code with this fingerprint; None if it cannot be created.
 
     One that exists and cannot be written is used for reading.
     """
@@ -120,7 +120,7 @@ def _remove_texts(folder: Path) -> None:
 
 @cache
 def _remove_abandoned(root: Path) -> None:
-    """Remove abandoned folders, once in a process; keep those that are not of this cache."""
+    """Remove abandoned folders, once per process; keep foreign ones."""
     for folder in list(root.iterdir()):
         texts = _list_texts(folder)
         if texts is not None and all(_is_older(text, ABANDONED_S) for text in texts):
@@ -128,7 +128,7 @@ def _remove_abandoned(root: Path) -> None:
 
 
 def _list_texts(folder: Path) -> list[Path] | None:
-    """The folders whose times show the last use of this one; None if it is not of this cache."""
+    """List the folders whose times show the last use of one; None if it is foreign."""
     if _OF_EARLIER_VERSION.fullmatch(folder.name) and folder.is_dir():
         return [folder]
     if not _OF_FILE.fullmatch(folder.name) or not folder.is_dir():

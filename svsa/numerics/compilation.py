@@ -1,4 +1,4 @@
-"""How the equations become machine code: one decorator, one cache.
+"""Compilation of equations to machine code: one decorator, one cache.
 
 Every equation is a pure function compiled by numba, without the GIL and without
 fast-math (the order of operations is the order written, and a product that is added is fused as
@@ -98,7 +98,7 @@ def _find_imported(file: Path) -> frozenset[Path]:
 
 
 def find_sources(file: Path) -> list[Path]:
-    """The files that decide what the compiled functions of a file become.
+    """Find the files that determine the compiled functions of a file.
 
     The file, what it imports of the library, and so on; of a package outside every file.
     """
@@ -131,12 +131,12 @@ def _compute_fingerprint(file: Path) -> str:
 
 @cache
 def _open_cache(module: str, file: Path) -> Path | None:
-    """The cache folder of a file's functions; None where there is none and none can be made."""
+    """Open the cache folder of a file's functions; None if there is none."""
     return open_folder(module, _compute_fingerprint(file))
 
 
 def compiled(function: Callable[..., Any]) -> Any:
-    """The function as machine code for the types that it is called with; a decorator.
+    """Compile the function for the types of its arguments; a decorator.
 
     What other compiled functions call is compiled apart, without what takes Python's values in and
     out again: that would be a third of all the compiling. It is prepared once it is called so.
@@ -171,12 +171,12 @@ def _compile_into(folder: Path | None, function: Callable[..., Any], **options: 
 
 
 def find_fingerprint(function: Callable[..., Any]) -> str:
-    """What changes with the text that a function of a file is made of."""
+    """Compute a fingerprint of everything that a function depends on."""
     return _compute_fingerprint(Path(function.__code__.co_filename))
 
 
 def specialize(function: Callable[..., Any], name: str, **given: Any) -> Any:
-    """The function compiled with these in place of the globals of its file.
+    """Compile the function with replacements of its file's globals.
 
     name: identifies the given values in the cache; each set of values needs its own name.
     """
@@ -201,7 +201,7 @@ class _CompilationListener(event.Listener):
 
 
 def watch_compilation(report: Callable[[str], None]) -> contextlib.AbstractContextManager[None]:
-    """While this is open, `report` gets the name of every function once it is compiled.
+    """Call `report` with the name of every function compiled within this context.
 
     Functions that are loaded from the cache are not reported: that takes no time.
     """
@@ -209,7 +209,7 @@ def watch_compilation(report: Callable[[str], None]) -> contextlib.AbstractConte
 
 
 def is_compiled_before(function: Any) -> bool:
-    """Whether an earlier start left this compiled function in the cache as it is now."""
+    """Whether the cache has the present version of this compiled function."""
     python = function.py_func
     file = Path(python.__code__.co_filename)
     folder = _open_cache(python.__module__, file) if file.exists() else None

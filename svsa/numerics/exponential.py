@@ -1,4 +1,4 @@
-"""eˣ, its logarithm and what is made of them, the same bits on every machine.
+"""Exponentials and logarithms, bit-identical on every machine.
 
 Of additions, multiplications and exact scalings by powers of 2, as in `svsa.numerics.trigonometry`:
 

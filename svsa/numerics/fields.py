@@ -1,4 +1,4 @@
-"""One field of a named tuple replaced, in compiled functions only."""
+"""Replacement of one field of a named tuple, in compiled functions."""
 
 from collections.abc import Callable
 from typing import Any, cast

@@ -1,4 +1,4 @@
-"""a·b + c with one rounding: written out, and put in for every product that is added to something.
+"""Fused multiply-add: explicit, and substituted for every sum with a product.
 
 What a processor's multiply-add gives and LLVM's `llvm.fma` promises: the exact a·b + c, rounded
 once. A machine without the instruction calls libm's `fma`, slower and with the same bits. numba
@@ -48,13 +48,13 @@ fma = cast("Callable[[float, float, float], float]", _fma)
 
 
 def multiply_add(a: Any, b: Any, c: Any) -> Any:
-    """a·b + c in compiled functions: fused where the outcome is a float64, else as it is."""
+    """Compute a·b + c in compiled functions: fused if the result is a float64."""
     return a * b + c
 
 
 @overload(multiply_add, jit_options=INLINED)
 def choose_multiply_add(a: Any, b: Any, c: Any) -> Any:
-    """`fma` for numbers of which one is a float64 or a vector."""
+    """Choose `fma` if one of the numbers is a float64 or a vector."""
 
     # The pass runs before types are known, so it also rewrites sums of integers. Here, with the
     # types known, these keep their plain form.
@@ -72,7 +72,7 @@ def choose_multiply_add(a: Any, b: Any, c: Any) -> Any:
 
 @register_pass(mutates_CFG=False, analysis_only=False)
 class _FuseProducts(FunctionPass):
-    """a·b + c, a·b − c and c − a·b, where a·b is used for nothing else, become one call."""
+    """Replaces a·b + c, a·b − c and c − a·b, if a·b has no other use, by one call."""
 
     _name = "svsa_fuse_products"
 
@@ -104,7 +104,7 @@ def _list_used(statement: Any) -> list[ir.Var]:
 
 
 def _fuse_block(block: ir.Block, used: Counter[str]) -> bool:
-    """Rewrite the sums of one block; whether there were any."""
+    """Rewrite the sums of one block; return whether there were any."""
     products: dict[str, Any] = {}
     gone: list[Any] = []
     body: list[Any] = []
@@ -133,7 +133,7 @@ def _fuse_block(block: ir.Block, used: Counter[str]) -> bool:
 def _build_call(
     scope: Any, total: Any, product: Any, other: ir.Var, is_right: bool
 ) -> list[ir.Assign]:
-    """The statements of `multiply_add` in place of the sum or difference `total`."""
+    """Build the statements of `multiply_add` that replace the sum or difference `total`."""
     a, b, c, location = product.lhs, product.rhs, other, total.loc
     statements: list[ir.Assign] = []
 
@@ -155,13 +155,13 @@ _SUMS = (operator.add, operator.sub)
 
 
 class FusingCompiler(CompilerBase):
-    """The compiler of numba with products fused into the sums that they are part of.
+    """numba's compiler with products fused into their sums.
 
     What it compiles returns to Python as `svsa.numerics.boxing` has it.
     """
 
     def define_pipelines(self) -> list[Any]:
-        """The passes of numba, and the fusing right after a function is read."""
+        """Return numba's passes with the fusing pass right after a function is read."""
         replace_boxing()
         passes = DefaultPassBuilder.define_nopython_pipeline(self.state)
         # numba inlines in a later pass. Fused after that, the bits of an equation would depend on

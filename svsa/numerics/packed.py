@@ -1,4 +1,4 @@
-"""Constants as one record: what compiled code reads by name, at the cost of one argument.
+"""Constants in one record: read by name in compiled code, passed as one argument.
 
 A compiled function takes a named tuple apart number by number at every call from Python. Where
 that costs more than the equations do, the tuple goes in as a record of an array, with the same
@@ -23,12 +23,12 @@ def pack(values: tuple[Any, ...]) -> np.ndarray:
 
 
 def pack_all(rows: Sequence[tuple[Any, ...]]) -> np.ndarray:
-    """`pack` of many tuples of one kind: a record each, shape (rows,)."""
+    """Pack many tuples of one kind: one record each, shape (rows,)."""
     return np.array(list(rows), dtype=_build_dtype(_find_kind(rows[0])))
 
 
 def view_field(record: np.ndarray, name: str) -> np.ndarray:
-    """The numbers of one field of a packed tuple that has no whole numbers, in order: a view."""
+    """Return a view of the numbers of one field of a packed tuple without integers."""
     fields, size = cast(dict[str, Any], record.dtype.fields), np.dtype(np.float64).itemsize
     dtype, offset = fields[name][:2]
     first = offset // size
@@ -36,7 +36,7 @@ def view_field(record: np.ndarray, name: str) -> np.ndarray:
 
 
 def _find_kind(values: Any) -> Kind:
-    """What a tuple is made of: names with their kinds, a count of numbers, or a number's type."""
+    """Return the structure of a tuple: names with kinds, a count of numbers, or a number's type."""
     if not isinstance(values, tuple):
         return np.int64 if isinstance(values, int) else np.float64
     names = getattr(values, "_fields", None)

@@ -1,4 +1,4 @@
-"""Where the counts of the deflection encoder come from: one source a file."""
+"""Sources of the deflection encoder's counts, one per file."""
 
 from svsa.errors import ParameterError
 from svsa.hardware.encoders.source import DeflectionSource
@@ -6,7 +6,7 @@ from svsa.hardware.settings import DeflectionSettings
 
 
 def read_source(settings: DeflectionSettings) -> DeflectionSource:
-    """The source that the bench file names, not yet open.
+    """Build the source named in the bench file, not yet open.
 
     Raises `ParameterError` for wrong options of it.
     """

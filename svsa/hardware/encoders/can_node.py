@@ -1,4 +1,4 @@
-"""An encoder that sends its counts on the CAN bus unasked."""
+"""An encoder that pushes its counts on the CAN bus."""
 
 import can
 
@@ -7,7 +7,7 @@ from svsa.inputs.checked import Checked, Flag, Whole, quantity
 
 
 class CanNodeSettings(Checked):
-    """Where in which frame the counts lie."""
+    """Identifier of the frame, and position of the counts in it."""
 
     id: Whole = quantity("", "Identifier of the frame", ge=0, le=0x1FFFFFFF)
     extended: Flag = quantity("", "A 29-bit identifier", default=False)
@@ -18,7 +18,7 @@ class CanNodeSettings(Checked):
 
 
 class CanNode:
-    """Counts from frames that the encoder sends automatically."""
+    """Counts from frames that the encoder pushes."""
 
     def __init__(self, settings: CanNodeSettings) -> None:
         if settings.width % 8 or settings.offset + settings.width // 8 > 8:
@@ -33,10 +33,10 @@ class CanNode:
         self._newest: tuple[int, float] | None = None
 
     def open(self) -> None:
-        """Nothing to open: the bus is the plant's."""
+        """Do nothing: the plant opens the bus."""
 
     def feed(self, message: can.Message, time_s: float) -> bool:
-        """Take the counts of a frame of this node.
+        """Read the counts of a frame of this node.
 
         A short frame, a request for one (remote frame) or an error frame has no counts.
         """
@@ -56,9 +56,9 @@ class CanNode:
         return ours
 
     def read(self, now_s: float) -> tuple[int, float] | None:
-        """The newest counts and the time of their frame."""
+        """Return the newest counts and the time of their frame."""
         return self._newest
 
     def close(self) -> None:
-        """Forget."""
+        """Discard the counts."""
         self._newest = None

@@ -1,4 +1,4 @@
-"""An encoder at a counter of an NI card, as the paper's PCI-6259: read when asked.
+"""An encoder at a counter of an NI card, such as the paper's PCI-6259, read on demand.
 
 `pip install 'svsa-lab[nidaqmx]'` and NI's driver are needed; both are looked for at `open` only.
 """
@@ -72,7 +72,7 @@ class NidaqmxCounter:
         return False
 
     def read(self, now_s: float) -> tuple[int, float] | None:
-        """The counts of this moment; raises `EncoderError` where the card does not answer."""
+        """Read the present counts; raises `EncoderError` if the card does not answer."""
         if self._task is None:
             return None
         try:
@@ -82,7 +82,7 @@ class NidaqmxCounter:
         return round(angle * self._counts_a_rad), now_s
 
     def close(self) -> None:
-        """Give the counter back."""
+        """Release the counter."""
         if self._task is not None:
             self._task.close()
             self._task = None

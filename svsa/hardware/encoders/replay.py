@@ -1,4 +1,4 @@
-"""Counts from a file, for trying out a bench without its encoder."""
+"""Counts from a file, to test a bench without its encoder."""
 
 from pathlib import Path
 
@@ -10,13 +10,13 @@ from svsa.inputs.checked import Checked, quantity
 
 
 class ReplaySettings(Checked):
-    """The file: CSV, a row "time_s,counts" each reading, times growing from 0."""
+    """The file: CSV with a row "time_s,counts" per reading, times increasing from 0."""
 
     file: str = quantity("", "CSV file of readings")
 
 
 class Replay:
-    """The readings of a file, from the first call of `read` on; the last one stays."""
+    """The readings of a file, from the first call of `read` on; the last one is repeated."""
 
     bits = 32
 
@@ -27,7 +27,7 @@ class Replay:
         self._start: float | None = None
 
     def open(self) -> None:
-        """Read the file; raises `EncoderError` where it is not readable."""
+        """Read the file; raises `EncoderError` if it is not readable."""
         try:
             rows = np.loadtxt(self._path, delimiter=",", skiprows=1, ndmin=2)
             self._times, self._counts = rows[:, 0], rows[:, 1].astype(np.int64)
@@ -42,11 +42,11 @@ class Replay:
         return False
 
     def read(self, now_s: float) -> tuple[int, float] | None:
-        """The reading of the time since the first call, as if it were new."""
+        """Return the reading of the time since the first call, as if it were new."""
         if self._start is None:
             self._start = now_s
         place = int(np.searchsorted(self._times, now_s - self._start, side="right")) - 1
         return (int(self._counts[max(place, 0)]), now_s) if len(self._counts) else None
 
     def close(self) -> None:
-        """Nothing is open."""
+        """Do nothing."""

@@ -1,4 +1,4 @@
-"""An encoder behind a serial line: one reading a line of text, or fixed binary words."""
+"""An encoder on a serial line: one reading per line of text, or binary words."""
 
 import re
 
@@ -15,7 +15,7 @@ _NUMBER = re.compile(rb"[+-]?[0-9]{1,10}")
 
 
 class SerialLineSettings(Checked):
-    """The line and how counts are written on it."""
+    """The serial port and the format of the counts."""
 
     port: str = quantity("", "Serial port, as /dev/ttyUSB0 or COM3")
     baudrate: Whole = quantity("bit/s", "Rate", ge=1200, le=12_000_000, default=1_000_000)
@@ -28,7 +28,7 @@ class SerialLineSettings(Checked):
 
 
 class SerialLine:
-    """Counts from a device that sends them unasked; damaged ones are skipped."""
+    """Counts pushed by a device; damaged ones are skipped."""
 
     bits = 32
 
@@ -55,7 +55,7 @@ class SerialLine:
         return False
 
     def read(self, now_s: float) -> tuple[int, float] | None:
-        """The newest reading that has come in; raises `EncoderError` where the line is gone."""
+        """Return the newest reading; raises `EncoderError` if the connection is lost."""
         if self._line is None:
             return None
         try:
@@ -68,7 +68,7 @@ class SerialLine:
         return self._newest
 
     def _take_line(self) -> int | None:
-        """The newest whole line that is a number; the first may have lost its beginning."""
+        """Return the newest complete numeric line; the first may be truncated."""
         *lines, rest = self._unread.split(b"\n")
         self._unread = bytearray(rest[-_LONGEST_LINE:])
         whole = lines if self._begun else lines[1:]
@@ -79,7 +79,7 @@ class SerialLine:
         return None
 
     def _take_word(self) -> int | None:
-        """The newest word whose sum is right."""
+        """Return the newest word with a correct checksum."""
         counts, unread = None, self._unread
         while (start := unread.find(_MARKER)) >= 0 and len(unread) >= start + _WORD_BYTES:
             content, total = unread[start + 1 : start + 5], unread[start + 5]
@@ -93,7 +93,7 @@ class SerialLine:
         return counts
 
     def close(self) -> None:
-        """Close the port, and forget what came."""
+        """Close the port, and discard the buffer."""
         if self._line is not None:
             self._line.close()
             self._line = None

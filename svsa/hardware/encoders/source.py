@@ -1,4 +1,4 @@
-"""What every source of the deflection's counts can do."""
+"""The interface of all sources of deflection counts."""
 
 from typing import Protocol
 
@@ -8,11 +8,11 @@ from svsa.errors import SvsaError
 
 
 class EncoderError(SvsaError):
-    """A source of counts that cannot be opened or read; the message says what to do."""
+    """The source of counts cannot be opened or read; the message has the remedy."""
 
 
 class DeflectionSource(Protocol):
-    """Counts of the deflection encoder, with the time at which they were true.
+    """Counts of the deflection encoder, with the time of their measurement.
 
     Scale, sign, zero and unwrapping are the plant's; see `svsa.hardware.drives.conversion`.
     bits: width after which the counts wrap around.
@@ -21,11 +21,11 @@ class DeflectionSource(Protocol):
     bits: int
 
     def open(self) -> None:
-        """Begin; raises `EncoderError`."""
+        """Open the source; raises `EncoderError`."""
         ...
 
     def feed(self, message: can.Message, time_s: float) -> bool:
-        """A frame of the bus and its time (s); whether it was this encoder's."""
+        """Process a frame of the bus with its time (s); return whether it was this encoder's."""
         ...
 
     def read(self, now_s: float) -> tuple[int, float] | None:
@@ -36,5 +36,5 @@ class DeflectionSource(Protocol):
         ...
 
     def close(self) -> None:
-        """End."""
+        """Close the source."""
         ...

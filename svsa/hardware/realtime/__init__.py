@@ -1,1 +1,1 @@
-"""The loop that drives a bench: a process of its own, and the session that watches it."""
+"""The real-time loop of a bench in its own process, and its connection to the session."""

@@ -1,4 +1,4 @@
-"""What a bench runs on: the references and gains of a configuration, the bench's own design."""
+"""The configuration of a bench: references and gains of a run, with the bench's own design."""
 
 from collections.abc import Iterable
 
@@ -23,7 +23,7 @@ MAX_LOAD_POINTS = 1000
 
 
 def read_bench_design(bench: BenchFile) -> Design:
-    """The design of a bench: its parameter file, or the prototype, at the bench's period."""
+    """Read the design of a bench: its parameter file, or the prototype, at the bench's period."""
     design = read_design(bench.design.file) if bench.design.file else load_prototype()
     sampling = design.sampling.changed(period_s=bench.timing.period_s)
     return design.changed(sampling=sampling)
@@ -64,12 +64,12 @@ def build_bench_configuration(bench: BenchFile, wanted: Configuration) -> Config
 
 
 def read_actuation(bench: BenchFile) -> Actuation:
-    """From a torque that is decided to one that acts, as the bench's file has it."""
+    """Read delay and lag of the torque from the bench's file."""
     return Actuation(bench.timing.latency_s, bench.timing.current_lag_s)
 
 
 def check_takes_no_time(reference: AnyReference) -> None:
-    """Raise `StateError` for a curve that the loop could not take in between two ticks.
+    """Raise `StateError` for a curve that the loop cannot process between two ticks.
 
     One of 200 points takes it 2 ms, one of 2000 points 7 ms: long enough to lose the bench.
     """
@@ -82,7 +82,7 @@ def check_takes_no_time(reference: AnyReference) -> None:
 
 
 def check_loads(loads: Iterable[Load]) -> None:
-    """Check that the loop of a bench can read these loads while it ticks.
+    """Check that the loop of a bench can process these loads while it ticks.
 
     A series of 1000 points takes it 1.5 ms, one of 20 000 points 30 ms, and its message is longer
     than the link to the loop holds.
@@ -102,7 +102,7 @@ def check_loads(loads: Iterable[Load]) -> None:
 
 
 def build_guard(bench: BenchFile) -> Guard:
-    """The limits of a bench, with the torques and the domain of its design."""
+    """Build the limits of a bench, with torques and domain of its design."""
     design = read_bench_design(bench)
     require_svsa(design.nominal, "a bench")
     return Guard(

@@ -1,4 +1,4 @@
-"""Start the processes of a bench, the loop and its supervisor, and talk with the loop.
+"""Start of the processes of a bench, loop and supervisor, and communication with the loop.
 
 Everything waits by `rest` only: a caller with other work passes its own function.
 """
@@ -38,15 +38,15 @@ COLD = (0.0, 0.0)
 
 
 def keep_quiet(step: str, seconds: float) -> None:
-    """Report nothing of a loop that starts."""
+    """Ignore the progress of a starting loop."""
 
 
 class BenchError(StateError):
-    """The processes of a bench could not be started, or are gone or silent."""
+    """The processes of a bench could not be started, have ended, or are silent."""
 
 
 class BenchProcesses:
-    """The loop and the supervisor of one bench, each a process that is being started.
+    """The loop and the supervisor of one bench, each in a starting process.
 
     `memory`: see `LoopMemory`. rest: lets time pass while they start, answer or end. `events`:
     messages of the loop that were not read yet. `notes`: what real time was granted. `step`:
@@ -88,11 +88,11 @@ class BenchProcesses:
 
     @property
     def age_s(self) -> float:
-        """Since they were started, s."""
+        """Time since the start, s."""
         return time.monotonic() - self._begun_s
 
     def wait_until_ready(self, silence_s: float, report: Teller) -> None:
-        """Wait as long as the loop gets on: a first compilation takes what it takes.
+        """Wait while the loop makes progress: a first compilation has no time limit.
 
         report: hears what it is doing, with the seconds since its start. Raises `BenchError` where
         the loop cannot open the bench, ends, or says nothing for silence_s; both are ended then.
@@ -135,12 +135,12 @@ class BenchProcesses:
 
     @property
     def supervisor_alive(self) -> bool:
-        """Whether the supervisor's process runs: a bench without it does not get ready."""
+        """Whether the supervisor's process runs: without it the bench does not become ready."""
         return self._supervisor.poll() is None
 
     @property
     def silence_s(self) -> float:
-        """Since the loop's last tick, s; 0 where it has not begun, or has ended in order."""
+        """Time since the loop's last tick, s; 0 before the first one, or after a regular end."""
         age = self.beats.age_s("loop")
         return 0.0 if math.isinf(age) else age
 
@@ -150,7 +150,7 @@ class BenchProcesses:
         return self.alive and self.silence_s <= self.patience_s
 
     def request(self, wanted: str, argument: Any = None) -> dict[str, Any]:
-        """Have the loop do something between two ticks, and rest until it answers.
+        """Send a request for the loop to execute between two ticks, and wait for its answer.
 
         Raises what the loop refused with (`ParameterError`, `StateError`), and `BenchError`
         where it is silent or does not answer in time; a command that comes too late is not
@@ -179,7 +179,7 @@ class BenchProcesses:
         raise BenchError(f"The loop of the bench did not answer within {self.patience_s:g} s.")
 
     def report(self, wanted: str, argument: Any = None) -> None:
-        """As `request`, without waiting to hear what becomes of it."""
+        """Send a request as `request`, without waiting for its answer."""
         if self.listens:
             with contextlib.suppress(LinkClosedError):
                 self._send(wanted, argument, time.monotonic() + self.patience_s)
@@ -198,14 +198,14 @@ class BenchProcesses:
         return self._number
 
     def take_events(self) -> list[dict[str, Any]]:
-        """What the loop has said since the last time."""
+        """Return the loop's events since the last call."""
         with contextlib.suppress(LinkClosedError):
             self._read()
         events, self.events = self.events, []
         return events
 
     def _read(self) -> None:
-        """Take what has come: events, and the answers that a request waits for."""
+        """Read events, and the answer that a request waits for."""
         for message in self._link.receive():
             if "event" in message:
                 self.events.append(message)
@@ -226,12 +226,12 @@ class BenchProcesses:
         self._wait(self._supervisor)
 
     def free(self) -> None:
-        """Let go of the memory: nothing of it can be read any more."""
+        """Release the shared memory, which is unreadable afterwards."""
         self.memory.close()
         self.beats.close()
 
     def _wait(self, process: subprocess.Popen[bytes]) -> None:
-        """Rest until a process has ended; one that hangs is killed."""
+        """Wait until a process has ended; kill one that hangs."""
         end = time.monotonic() + END_S
         while process.poll() is None and time.monotonic() < end:
             self._rest(_REST_S)

@@ -1,4 +1,4 @@
-"""Messages between server and loop: JSON lines over a socket pair, never waited for."""
+"""Messages between server and loop: JSON lines over a socket pair, non-blocking."""
 
 import json
 import select
@@ -14,7 +14,7 @@ class LinkClosedError(ConnectionError):
 
 
 class Link:
-    """One end. Neither sending nor receiving waits, unless a timeout is given."""
+    """One end of the link. Neither sending nor receiving waits, unless a timeout is given."""
 
     def __init__(self, end: socket.socket) -> None:
         end.setblocking(False)
@@ -24,7 +24,7 @@ class Link:
 
     @classmethod
     def from_descriptor(cls, descriptor: int) -> "Link":
-        """The end that a parent process has passed on."""
+        """Open the end passed by a parent process."""
         return cls(socket.socket(fileno=descriptor))
 
     def fileno(self) -> int:
@@ -40,7 +40,7 @@ class Link:
         self.flush()
 
     def flush(self) -> None:
-        """Send what an earlier `send` could not."""
+        """Send the remainder of an earlier `send`."""
         while self._unsent:
             try:
                 sent = self._socket.send(self._unsent)
@@ -51,7 +51,7 @@ class Link:
             del self._unsent[:sent]
 
     def receive(self, timeout_s: float = 0.0) -> list[dict[str, Any]]:
-        """The messages that have come, in order; raises `LinkClosedError` at the end."""
+        """Return the received messages in order; raises `LinkClosedError` at the end."""
         if timeout_s > 0.0:
             select.select([self._socket], [], [], timeout_s)
         try:

@@ -1,4 +1,4 @@
-"""The loop on a bench, tick by tick: read → follow → decide → write → publish.
+"""The loop on a bench, tick by tick: read, observe, control, write, publish.
 
 The same pieces as on the simulated plant, around a plant that is read and written. It
 knows neither processes nor shared memory: a test or an experiment runs it in lockstep, the
@@ -42,11 +42,11 @@ _NOTHING = pack(Carried())
 
 
 class Plant(Protocol):
-    """A plant that is read and written, in the states of a bench."""
+    """A plant that is read and written, with the states of a bench."""
 
     @property
     def status(self) -> BenchStatus:
-        """Where it is."""
+        """State of the bench."""
         ...
 
     def start(self, now: float) -> None:
@@ -54,38 +54,38 @@ class Plant(Protocol):
         ...
 
     def read(self, now: float, known: State) -> Reading:
-        """What has come since the last tick. known: x̂ now."""
+        """Read the bench. known: x̂ now."""
         ...
 
     def write(
         self, now: float, limited: Torque, known: State, estimate: Disturbance, missed: int
     ) -> Torque:
-        """Send what may be sent of `limited`; returns the torque that was really sent, N·m."""
+        """Send the permitted part of `limited`; return the torque actually sent, N·m."""
         ...
 
 
 class SampleSink(Protocol):
-    """Where samples go: shared memory, or an array."""
+    """The destination of samples: shared memory, or an array."""
 
     def begin_run(self, number: int) -> None:
-        """Samples from now on are those of run `number`, from tick 0."""
+        """Start run `number`: samples from now on are its, from tick 0."""
         ...
 
     def get_row(self, tick: int) -> np.ndarray:
-        """Where the sample of this tick goes; then `commit` it."""
+        """Return the row for this tick's sample; then `commit` it."""
         ...
 
     def commit(self, tick: int) -> None:
-        """The row of this tick is written."""
+        """Mark the row of this tick as written."""
         ...
 
     def skip(self, first: int, ticks: int) -> None:
-        """These ticks, from tick `first` on, were missed: their rows are NaN, not committed."""
+        """Skip missed ticks, from tick `first` on: their rows are NaN and not committed."""
         ...
 
 
 class BenchLoop:
-    """Controller and observer on a bench. `run` holds what is set; `tick` is one period.
+    """Controller and observer on a bench. `run` has the settings; `tick` is one period.
 
     plant: open. actuation: from a torque that is decided to one that acts. mu0: lever ratio at the
     zero marks. configuration: its references, law, gains and observer are used; see
@@ -118,13 +118,13 @@ class BenchLoop:
         self._forget()
 
     def _forget(self) -> None:
-        """Know nothing of the state: the next measurement is where it begins."""
+        """Discard the state: it restarts from the next measurement."""
         self._is_known = False
         self._carried[:] = _NOTHING
         self.run.lanes[0].memory[:] = get_law(self.run.configuration.law).start_memory()
 
     def load(self, configuration: Configuration) -> None:
-        """Use this configuration from the next start on; raises `StateError` in motion."""
+        """Use this configuration from the next start on; raises `StateError` during motion."""
         if self.plant.status in MOVING:
             raise StateError("The bench is moving: stop it before another run is loaded.")
         x = State(*self._known.tolist())
@@ -133,7 +133,7 @@ class BenchLoop:
         self.run = Run(configuration, start=Start(self._mu0, near), bind=self._bind)
 
     def start(self, now: float) -> Start:
-        """Begin a run at tick 0 from the measured position; raises `StateError`.
+        """Start a run at tick 0 from the measured position; raises `StateError`.
 
         The references fade in from the measured position and stiffness, and ŵ begins at
         zero, so that the first torque is about zero.
@@ -157,17 +157,17 @@ class BenchLoop:
         return start
 
     def read_motion(self) -> dict[str, list[float]]:
-        """x̂ and the torques on their way, by the names in `MOTION`."""
+        """Return x̂ and the delayed torques, by the names in `MOTION`."""
         return {name: view_field(self._carried, name).tolist() for name in MOTION}
 
     def know(self, motion: Mapping[str, Sequence[float]]) -> None:
-        """Take the state that `read_motion` returned, in place of a first measurement."""
+        """Set the state that `read_motion` returned, instead of a first measurement."""
         for name in MOTION:
             view_field(self._carried, name)[:] = motion[name]
         self._is_known = True
 
     def change(self, command: Command) -> int:
-        """Give the run a command now; returns the tick at which it holds.
+        """Apply a command now; return the tick at which it takes effect.
 
         Raises `ParameterError` or `StateError`, and then nothing has changed. A law that brings its
         own ŵ begins with the present one: from zero it would drop the load that is held.
@@ -180,14 +180,14 @@ class BenchLoop:
         return self.run.tick
 
     def warm_up(self) -> None:
-        """Have every compiled piece loaded before time counts."""
+        """Load every compiled function before real time matters."""
         self._decide(Measurement(0.0, 0.0, 0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
         pass_ticks(self._constants, self.run.inputs, self._carried, self.run.tick, 1)
         self._publish(NO_TORQUE, self._scratch)
         self._forget()
 
     def tick(self, now: float, missed: int = 0) -> None:
-        """One period. now: time of the plant's clock, s. missed: ticks lost before it.
+        """Run one period. now: plant clock, s. missed: ticks lost before it.
 
         A run's time goes on with that of the world: a tick that was missed has its number, and
         no sample. Tick 0 is the first that a run has, and finds the bench as `start` did. Where
@@ -220,7 +220,7 @@ class BenchLoop:
     def _decide(
         self, y: Measurement, ages_s: tuple[float, float, float]
     ) -> tuple[State, Disturbance, Torque]:
-        """x̂, ŵ and the limited torque of the law. A first y gives a state at rest."""
+        """Compute x̂, ŵ and the law's limited torque. A first y gives a state at rest."""
         if not self._is_known:
             self._known[:] = (y.theta1 + y.phi, 0.0, y.theta1, 0.0, y.theta2, 0.0)
             self._is_known = True
@@ -234,7 +234,7 @@ class BenchLoop:
         return State(*known.tolist()), Disturbance(*estimate.tolist()), Torque(*limited.tolist())
 
     def _connect(self) -> None:
-        """Pack what is constant as the run has it now, its law with the memory of that."""
+        """Pack the constants of the present run, and its law with its memory."""
         run = self.run
         blocks, law, memory = run.blocks[0], run.laws[0], run.lanes[0].memory
         self._connected = blocks, law, memory  # the constants hold the addresses of these arrays

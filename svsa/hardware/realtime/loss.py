@@ -1,4 +1,4 @@
-"""What has become of a bench's loop that does not tick, and who has stopped the drives."""
+"""Causes of a bench's silent loop, and the process that stopped the drives."""
 
 import math
 from typing import Literal, NamedTuple
@@ -17,7 +17,7 @@ _WHAT = {
 
 
 class Loss(NamedTuple):
-    """code: of `svsa.actuators.faults.LOSSES`. message: what happened and what was done, in words.
+    """code: in `svsa.actuators.faults.LOSSES`. message: cause and action taken.
 
     stopped_by: who keeps the drives at zero current; None while that is not done. problem: why
     the server cannot.
@@ -30,12 +30,12 @@ class Loss(NamedTuple):
 
 
 def is_supervised(processes: BenchProcesses) -> bool:
-    """Whether the supervisor's process is there and its heartbeat fresh."""
+    """Whether the supervisor's process runs and its heartbeat is recent."""
     return processes.supervisor_alive and processes.beats.age_s("supervisor") < SUPERVISED_S
 
 
 def find_loss(processes: BenchProcesses) -> Loss | None:
-    """What is lost, as far as the server knows; None while the loop ticks."""
+    """Find what was lost, as far as the server knows; None while the loop ticks."""
     if processes.failure is not None:
         return Loss("bench_not_opened", f"{processes.failure} Restart the loop.", None, None)
     if processes.listens:

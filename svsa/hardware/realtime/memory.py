@@ -1,4 +1,4 @@
-"""What the loop's process shares with the server: samples in a ring, and how it does.
+"""Shared memory of loop and server: a ring of samples, and the loop's statistics.
 
 One writer, one reader, no lock: a sample is written before the count that announces it.
 """
@@ -58,7 +58,7 @@ class LoopMemory:
 
     @classmethod
     def create(cls) -> Self:
-        """A new block, zeroed; who created it also removes it at `close`."""
+        """Create a zeroed block; its creator also removes it at `close`."""
         block = create_block(_LAYOUT.itemsize)
         memory = cls(block, owner=True)
         memory.fields[...] = np.zeros((), _LAYOUT)
@@ -71,21 +71,21 @@ class LoopMemory:
 
     @property
     def number(self) -> int:
-        """Of the present run."""
+        """Number of the present run."""
         return int(self.fields["run"])
 
     def count(self, number: int) -> int:
-        """How many samples of run `number` there are; 0 where another has begun."""
+        """Return the number of samples of run `number`; 0 if another run has started."""
         return int(self.fields["end_tick"]) if number == self.number else 0
 
     def begin_run(self, number: int) -> None:
-        """Samples from now on are those of this run, from tick 0."""
+        """Start a run: samples from now on are its, from tick 0."""
         # The count before the number: a reader that sees the new run must not find the old count.
         self.fields["end_tick"] = self.fields["skipped_in_run"] = 0
         self.fields["run"] = number
 
     def get_row(self, tick: int) -> np.ndarray:
-        """Where the sample of this tick goes; then `commit` it."""
+        """Return the row for this tick's sample; then `commit` it."""
         return self._rows[tick % CAPACITY_TICKS]
 
     def commit(self, tick: int) -> None:
@@ -104,7 +104,7 @@ class LoopMemory:
         rows[:] = self._rows[ticks]
 
     def close(self) -> None:
-        """Let go of the block, and remove it where it was created."""
+        """Release the block, and remove it if it was created here."""
         del self.fields, self._rows
         self._block.close()
         if self._owner:
@@ -112,12 +112,12 @@ class LoopMemory:
 
 
 def add_to_histogram(histogram: np.ndarray, value_s: float) -> None:
-    """Count a time (s) into its bin."""
+    """Add a time (s) to its bin."""
     histogram[np.searchsorted(LATENESS_EDGES_S, value_s)] += 1
 
 
 def read_quantile(histogram: np.ndarray, share: float) -> float:
-    """The upper edge (s) below which this share of the counts lies; 0 where there is none."""
+    """Return the upper edge (s) of the bin with this quantile; 0 without counts."""
     total = int(histogram.sum())
     if not total:
         return 0.0
@@ -126,18 +126,18 @@ def read_quantile(histogram: np.ndarray, share: float) -> float:
 
 
 class SampleArray:
-    """All samples of one run in an array that no other process reads."""
+    """All samples of one run in an array of this process."""
 
     def __init__(self, ticks: int) -> None:
         self.samples = np.empty((ticks, len(CHANNELS)))
         self.number = self.done = 0
 
     def begin_run(self, number: int) -> None:
-        """Begin again at tick 0."""
+        """Restart at tick 0."""
         self.number, self.done = number, 0
 
     def get_row(self, tick: int) -> np.ndarray:
-        """The row of this tick; beyond the end, one that is thrown away."""
+        """Return the row of this tick; beyond the end, a row that is discarded."""
         return self.samples[tick] if tick < len(self.samples) else np.empty(len(CHANNELS))
 
     def commit(self, tick: int) -> None:
@@ -149,7 +149,7 @@ class SampleArray:
         self.samples[first : first + ticks] = np.nan
 
     def count(self, number: int) -> int:
-        """How many samples of run `number` there are."""
+        """Return the number of samples of run `number`."""
         return self.done if number == self.number else 0
 
     def read(self, first: int, rows: np.ndarray) -> None:

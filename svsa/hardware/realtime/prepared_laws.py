@@ -1,4 +1,4 @@
-"""The laws of a bench's loop: compiled and loaded before READY, only looked up in a tick.
+"""The laws of a bench's loop, compiled and loaded before READY, so that a tick only looks them up.
 
 To import, compile or load a law takes 10 to 100 ms, and so do the constants of some laws (LQI
 solves twenty Riccati equations). A tick has 1 ms. The loop's process therefore loads every law
@@ -44,7 +44,7 @@ class UnpreparedLawError(StateError):
 
 
 class PreparedLaws:
-    """Bind laws for the loop; after `close`, only from what was prepared before.
+    """Binds laws for the loop; after `close`, only prepared ones.
 
     Attributes:
         refused: Why a law cannot be used on this bench, by its name.
@@ -57,7 +57,7 @@ class PreparedLaws:
         self._is_closed = False
 
     def close(self) -> None:
-        """Import, compile and compute nothing from now on."""
+        """Forbid imports, compilation and computation of constants from now on."""
         self._is_closed = True
 
     def bind(self, configuration: Configuration, lane: Lane, blocks: Blocks) -> BoundLaw:
@@ -89,7 +89,7 @@ class PreparedLaws:
         return self._bound[key]
 
     def add(self, computed: dict[str, Any]) -> None:
-        """Take in constants that another process has computed.
+        """Add constants computed by another process.
 
         Args:
             computed: As `compute_constants` returns it.
@@ -125,7 +125,7 @@ class PreparedLaws:
 
 
 def compute_constants(wanted: dict[str, Any]) -> dict[str, Any]:
-    """Compute the constants of a law that a loop lacks, in a process that may take its time.
+    """Compute the constants of a law that a loop lacks, outside the loop's process.
 
     Args:
         wanted: Of an `UnpreparedLawError`.

@@ -1,4 +1,4 @@
-"""The loop's process: absolute deadlines, one tick each, messages between two ticks.
+"""The loop's process: ticks at absolute deadlines, messages between two ticks.
 
     python -m svsa.hardware.realtime.process BENCH MEMORY HEARTBEATS DESCRIPTOR
 
@@ -60,7 +60,9 @@ class LoopProcess:
         self._ending = False
 
     def run(self) -> None:
-        """Tick until the server ends it, or is gone and the bench is at rest."""
+        """Tick until the server ends the process, or the server is lost and the bench is at
+        rest.
+        """
         period = self._loop.run.period_s
         self._plant.catch_up()
         deadline = self._clock.now()
@@ -91,7 +93,7 @@ class LoopProcess:
             self._tell()
 
     def _note(self, lateness: float, cost: float, missed: int) -> None:
-        """How punctual this tick was, and what was read, for the server to see."""
+        """Publish the timing of this tick and the readings for the server."""
         fields = self._fields
         add_to_histogram(fields["lateness"], lateness)
         add_to_histogram(fields["cost"], cost)
@@ -109,7 +111,7 @@ class LoopProcess:
             fields["ages_s"] = self._loop.reading.ages_s
 
     def _listen(self) -> None:
-        """Do what the server asks; a server that is gone or hangs stops the bench."""
+        """Execute the server's requests; stop the bench if the server is lost or hangs."""
         if self._link is None:
             return
         try:
@@ -175,7 +177,7 @@ class LoopProcess:
         return {}
 
     def _tell(self) -> None:
-        """Say what has changed of the bench's state."""
+        """Report changes of the bench's state."""
         plant = self._plant
         held_back = [motor.name for motor in plant.motors if motor.held_back is not None]
         state = (
@@ -205,11 +207,11 @@ class Progress:
         self._functions = 0
 
     def __call__(self, step: str) -> None:
-        """The loop begins this step."""
+        """Report that this step starts."""
         self._link.send({"event": "starting", "step": step})
 
     def count_function(self, name: str) -> None:
-        """One more function is compiled."""
+        """Count one compiled function."""
         self._functions += 1
         self(f"compiling the loop, once: {self._functions} functions, {name} the last")
 

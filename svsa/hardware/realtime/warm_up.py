@@ -1,4 +1,4 @@
-"""Every command that a bench takes while its loop runs, carried out once before the first tick.
+"""Execution of every command of a bench once before the first tick, to load its code.
 
 The first use of a law, of a kind of reference or of an effect imports modules, loads machine code
 from the cache, and compiles what is not there. That takes up to 100 ms, and a tick has 1 ms.
@@ -23,7 +23,7 @@ _TORQUE_NM = [0.1, 0.0, 0.0]
 
 
 def warm_up(loop: BenchLoop, laws: PreparedLaws, report: Callable[[str], None]) -> None:
-    """Use every law and every kind of command once, and leave the loop as it was.
+    """Use every law and every kind of command once, and restore the loop.
 
     From then on `laws` looks up what is prepared, and computes nothing. A law that fails is
     refused with its reason; the others are not affected.
@@ -53,7 +53,7 @@ def warm_up(loop: BenchLoop, laws: PreparedLaws, report: Callable[[str], None]) 
 
 
 def _use(loop: BenchLoop, kind: str, argument: Any) -> None:
-    """Give the loop a command as its link does, and compute a tick."""
+    """Send the loop a command as its link does, and compute a tick."""
     loop.change(read_command({"tick": 0, "kind": kind, "argument": argument}))
     loop.warm_up()
 

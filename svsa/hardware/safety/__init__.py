@@ -1,1 +1,1 @@
-"""What watches a bench, and what is done when something is wrong."""
+"""Safety functions of a bench: checks, limits, and reactions to faults."""

@@ -32,11 +32,11 @@ class FaultLatch:
 
     @property
     def fault(self) -> Fault | None:
-        """The fault that is held; None if there is none."""
+        """The latched fault; None if there is none."""
         return self._fault
 
     def take(self, fault: Fault) -> bool:
-        """Hold a fault, unless the one that is held counts.
+        """Latch a fault, unless the present one has priority.
 
         Args:
             fault: The fault that was found or reported.
@@ -51,10 +51,10 @@ class FaultLatch:
         return held is None or held.code != fault.code
 
     def clear(self) -> None:
-        """Hold no fault."""
+        """Clear the latched fault."""
         self._fault = None
 
     def clear_reported(self) -> None:
-        """Hold no fault that the loop has reported; a loss stays."""
+        """Clear a fault that the loop has reported; a loss stays."""
         if self._fault is not None and self._fault.code not in LOSSES:
             self._fault = None

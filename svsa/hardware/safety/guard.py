@@ -1,4 +1,4 @@
-"""The limits of one tick on a bench: what of a torque may be sent, and what ends the run."""
+"""The limits of one tick on a bench: permitted torque, and conditions that end the run."""
 
 import math
 from collections import deque
@@ -33,7 +33,7 @@ class Vibration:
         self._tick, self._sign = 0, 0
 
     def update(self, velocity: float) -> bool:
-        """Whether the motor has turned around ten times within 0.5 s, 2 rad/s to each side.
+        """Update with a tick; return whether the motor reversed ten times within 0.5 s at ±2 rad/s.
 
         velocity: in this tick, rad/s at the output.
         """
@@ -47,7 +47,7 @@ class Vibration:
         return len(seen) == REVERSALS and self._tick - seen[0] <= self._window
 
     def reset(self) -> None:
-        """Forget: a new run begins."""
+        """Reset for a new run."""
         self._reversals.clear()
         self._sign = 0
 
@@ -73,21 +73,21 @@ class MotorGuard:
 
     @property
     def held_back(self) -> HeldBack | None:
-        """What heat takes of its torque, now or within the last half second; None for nothing."""
+        """Torque reduction by heat, now or within the last half second; None without."""
         return self._holding.present
 
     def begin(self) -> None:
-        """A new run begins; its heat is that of the runs before."""
+        """Start a new run; heat carries over from earlier runs."""
         self._holding.forget()
 
     def warm(self, current_a: float, seconds: float) -> None:
-        """Heat after so long with what was sent last; current_a: as the drive says."""
+        """Update the heat after this time with the last command; current_a: as reported."""
         made = abs(current_a) * self.winding.scale
         self.winding.warm(max(abs(self.last), made), seconds)
         self._holding.pass_time(seconds)
 
     def limit(self, torque: float, angle: float, period: float) -> float:
-        """The torque (N·m) that may be sent: limit, rate, heat, and no way out of its ends."""
+        """Return the permitted torque (N·m): limit, rate, heat, and position ends."""
         self._holding.note(self.winding.find_held_back(torque))
         most = self.winding.allow()
         torque = min(max(torque, -most), most)
@@ -102,7 +102,7 @@ class MotorGuard:
         return torque
 
     def check(self, angle: float, velocity: float) -> Alarm | None:
-        """What is wrong with the motor, or None."""
+        """Return the motor's fault, or None."""
         name, motor = self.name, self._motor
         if abs(velocity) > motor.speed_max_rad_per_s:
             return _exceeded(
@@ -122,7 +122,7 @@ class MotorGuard:
         return None
 
     def find_overload(self) -> Alarm | None:
-        """The alarm of a winding that is warmer than any commanded torque can make it, or None."""
+        """Return the alarm of a winding hotter than commanded torques explain, or None."""
         heat = self.winding.heat
         if heat <= OVERLOAD:
             return None
@@ -130,7 +130,7 @@ class MotorGuard:
         return _exceeded("overload", words, f"{self.name}_heat", heat, OVERLOAD, "")
 
     def explain(self, alarm: Alarm) -> Alarm:
-        """An alarm that came while heat held the motor back says so first."""
+        """Prefix an alarm with the reduction by heat, if there was one."""
         held = self.held_back
         if held is None:
             return alarm
@@ -164,20 +164,20 @@ class Guard:
         check_packed_domain(self._bounds, _STILL)  # compiled here, not in the first tick that runs
 
     def limit(self, limited: Torque, known: State) -> Torque:
-        """What of `limited` may be sent, N·m."""
+        """Return the permitted part of `limited`, N·m."""
         return Torque(
             self.motor1.limit(limited.u1, known.theta1, self._period),
             self.motor2.limit(limited.u2, known.theta2, self._period),
         )
 
     def note(self, sent: Torque, current_a: tuple[float, float]) -> None:
-        """What was sent in this period, N·m, and the currents that the drives say they make."""
+        """Note the torque sent in this period, N·m, and the reported currents."""
         for motor, torque, current in zip(self.motors, sent, current_a, strict=True):
             motor.last = torque
             motor.warm(current, self._period)
 
     def pass_ticks(self, missed: int, held_s: float, current_a: tuple[float, float]) -> None:
-        """Nothing was sent for so many periods: a drive holds its last current meanwhile.
+        """Note periods without a command: a drive holds its last current meanwhile.
 
         held_s: for so long at most, s; the supervisor then sent zero current. current_a: as the
         drives say now.
@@ -190,11 +190,11 @@ class Guard:
                 motor.warm(current, seconds - held_s)
 
     def find_overload(self) -> Alarm | None:
-        """The motor that is too warm, or None."""
+        """Return the alarm of an overheated motor, or None."""
         return self.motor1.find_overload() or self.motor2.find_overload()
 
     def check(self, limited: Torque, known: State, estimate: Disturbance) -> Alarm | None:
-        """Why the run ends, or None. known: x̂. estimate: ŵ, N·m."""
+        """Return the alarm that ends the run, or None. known: x̂. estimate: ŵ, N·m."""
         # First of all: every comparison below is false with NaN.
         if not math.isfinite(limited.u1 + limited.u2 + sum(known) + sum(estimate)):
             return Alarm("not_finite", "A torque or a state was not a finite number.", {})
@@ -216,7 +216,7 @@ class Guard:
         )
 
     def begin(self) -> None:
-        """A new run begins."""
+        """Start a new run."""
         self._standstill.reset()
         for motor in self.motors:
             motor.begin()
@@ -272,7 +272,7 @@ class Guard:
 
 
 def _exceeded(code: str, subject: str, name: str, value: float, most: float, unit: str) -> Alarm:
-    """subject: what exceeds its limit, for people; name: the same for scripts."""
+    """subject: the quantity above its limit, for users; name: the same for scripts."""
     words = f"{subject} {value:.4g} {unit}: the limit is {most:.4g} {unit}."
     return Alarm(
         code, words.replace(" :", ":").replace(" .", "."), {name: value, f"{name}_limit": most}

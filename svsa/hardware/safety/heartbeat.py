@@ -1,4 +1,4 @@
-"""Heartbeats of the processes of a bench, in shared memory: who was alive when.
+"""Heartbeats of the processes of a bench, in shared memory.
 
 Also how often the supervisor has stopped the drives: a loop that was late learns why.
 """
@@ -30,7 +30,7 @@ class Heartbeats:
 
     @classmethod
     def create(cls) -> Self:
-        """A new block without a beat; who created it also removes it at `close`."""
+        """Create a block without a beat; its creator also removes it at `close`."""
         block = create_block(8 * (len(SLOTS) + 1))
         beats = cls(block, owner=True)
         beats._times[:], beats._stops[:] = 0.0, 0
@@ -42,21 +42,21 @@ class Heartbeats:
         return cls(attach_block(name), owner=False)
 
     def beat(self, slot: Slot) -> None:
-        """The slot is alive now."""
+        """Write a beat of the slot."""
         self._times[SLOTS.index(slot)] = time.monotonic()
 
     def end(self, slot: Slot) -> None:
-        """The slot has ended in order, and is not waited for."""
+        """Mark the slot as ended regularly, so that it is not missed."""
         self._times[SLOTS.index(slot)] = 0.0
 
     def age_s(self, slot: Slot) -> float:
-        """How long ago this slot beat, s; infinite where it has not begun."""
+        """Return the age of the slot's beat, s; infinite before the first one."""
         last = float(self._times[SLOTS.index(slot)])
         return time.monotonic() - last if last else math.inf
 
     @property
     def stops(self) -> int:
-        """How often the supervisor has begun to stop the drives."""
+        """Number of times that the supervisor started to stop the drives."""
         return int(self._stops[0])
 
     def count_stop(self) -> None:
@@ -64,7 +64,7 @@ class Heartbeats:
         self._stops[0] += 1
 
     def close(self) -> None:
-        """Let go of the block, and remove it where it was created."""
+        """Release the block, and remove it if it was created here."""
         del self._times, self._stops
         self._block.close()
         if self._owner:
@@ -72,7 +72,7 @@ class Heartbeats:
 
 
 def create_block(size: int) -> shared_memory.SharedMemory:
-    """A new block of shared memory, bytes; raises `StateError` where the system has none."""
+    """Create a block of shared memory, bytes; raises `StateError` if the system has none."""
     try:
         return shared_memory.SharedMemory(create=True, size=size)
     except OSError as error:
@@ -84,14 +84,14 @@ def create_block(size: int) -> shared_memory.SharedMemory:
 
 
 def check_shared_memory() -> None:
-    """Raise `StateError` where neither a bench nor a worker process could be started."""
+    """Raise `StateError` if neither a bench nor a worker process can start."""
     block = create_block(1)
     block.close()
     block.unlink()
 
 
 def attach_block(name: str) -> shared_memory.SharedMemory:
-    """A block of shared memory that another process made and will remove.
+    """Attach a block of shared memory that another process created and will remove.
 
     Python's resource tracker would remove it when this process ends: it is unregistered there.
     """

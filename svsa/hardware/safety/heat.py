@@ -1,4 +1,4 @@
-"""The heat of a motor's winding (I²t): what it allows, and how long it has held a torque back."""
+"""Heat of a motor's winding (I²t): the torque that it allows, and its reduction."""
 
 import math
 from typing import NamedTuple
@@ -23,14 +23,14 @@ def _compute_scale(motor: MotorSettings) -> float:
 
 
 class HeldBack(NamedTuple):
-    """A torque that heat did not allow, of what the motor gives cold, and what it did, N·m."""
+    """A torque that heat reduced, of what the cold motor gives, and the resulting one, N·m."""
 
     commanded_nm: float
     allowed_nm: float
 
 
 class Winding:
-    """The heat h of one winding, 1 is all it bears, and the torque that it allows.
+    """Heat h of one winding, 1 at its limit, and the torque that it allows.
 
     ḣ = ((τ/τ_n)² − h)/T and |τ| ≤ τ_n + (τ_p − τ_n) (1 − h)/(1 − 0.9) for 0.9 ≤ h ≤ 1, with the
     torques τ_n, τ_p of nominal and peak current: at τ_n, which it bears for ever, heat stays at 1.
@@ -46,26 +46,26 @@ class Winding:
         self.heat = 0.0
 
     def warm(self, torque: float, seconds: float) -> None:
-        """Heat after so long with this torque, N·m; of one that changes its rms."""
+        """Update the heat after this time with this torque, N·m (its rms if it varies)."""
         share = (torque / self.lasting_nm) ** 2
         # The exact solution for a constant torque, so that many missed ticks are one step.
         self.heat += -expm1(-seconds / self._time_s) * (share - self.heat)
 
     def allow(self) -> float:
-        """The greatest torque that it allows now, N·m."""
+        """Return the largest torque allowed now, N·m."""
         if self.heat <= WARM:
             return self.cold_nm
         room = max((1.0 - self.heat) / (1.0 - WARM), 0.0)
         return min(self.cold_nm, self.lasting_nm + room * (self._peak - self.lasting_nm))
 
     def find_held_back(self, torque: float) -> HeldBack | None:
-        """How heat reduces a commanded torque, N·m; None if it does not."""
+        """Return the reduction of a commanded torque by heat, N·m; None without."""
         asked, allowed = min(abs(torque), self.cold_nm), self.allow()
         return HeldBack(asked, allowed) if asked > allowed else None
 
 
 class HoldingBack:
-    """Whether heat holds a motor's torque back, now or within the last half second."""
+    """Whether heat reduces a motor's torque, now or within the last half second."""
 
     def __init__(self) -> None:
         self._newest: HeldBack | None = None
@@ -73,25 +73,25 @@ class HoldingBack:
 
     @property
     def present(self) -> HeldBack | None:
-        """The newest torque that was held back; None where it was longer ago."""
+        """The latest reduced torque; None if it was longer ago."""
         return self._newest if self._since_s <= LINGERS_S else None
 
     def note(self, held: HeldBack | None) -> None:
-        """What heat took of the torque of this tick."""
+        """Note the reduction of the torque of this tick."""
         if held is not None:
             self._newest, self._since_s = held, 0.0
 
     def pass_time(self, seconds: float) -> None:
-        """So long later."""
+        """Advance the time."""
         self._since_s += seconds
 
     def forget(self) -> None:
-        """A new run begins."""
+        """Reset for a new run."""
         self._since_s = math.inf
 
 
 def describe_held_back(name: str, held: HeldBack, winding: Winding) -> str:
-    """Of what heat took, as the first sentence of a fault that came then. name: of the axis."""
+    """Describe a reduction by heat, as the first sentence of a later fault. name: of the axis."""
     motor = AXIS_WORDS[name]
     return (
         f"{motor.capitalize()} was held back by heat: its winding had {100.0 * winding.heat:.0f} %"
@@ -102,5 +102,5 @@ def describe_held_back(name: str, held: HeldBack, winding: Winding) -> str:
 
 
 def describe_heat(name: str, is_on: bool) -> str:
-    """That heat begins to hold a motor back, or ends to, as an event."""
+    """Describe the start or the end of a reduction by heat, as an event."""
     return f"{AXIS_WORDS[name].capitalize()} held back by heat{'' if is_on else ': no more'}"

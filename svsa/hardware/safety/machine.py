@@ -1,4 +1,4 @@
-"""The states of a bench: what may be sent in each, and how one leads to the next.
+"""The state machine of a bench: permitted commands of each state, and its transitions.
 
     OFF → RESET → CONFIG → MODE → READY → RUN → RAMP → READY        any → FAULT → OFF
 
@@ -37,7 +37,7 @@ class BenchStatus(StrEnum):
 
 
 class Conditions(NamedTuple):
-    """What the bench was found to be in at a tick.
+    """The conditions of a bench in a tick.
 
     phase: of the drive that is behind. ages_s: of motor 1, motor 2, deflection; infinite
     before the first. missed: ticks lost before this one. supervisor_age_s, operator_age_s:
@@ -65,7 +65,7 @@ MOVING = (BenchStatus.RUN, BenchStatus.RAMP)
 
 
 class Machine:
-    """The state of a bench. problems: why it does not arm, in words."""
+    """The state of a bench. problems: reasons why it cannot be armed."""
 
     def __init__(self, bench: BenchFile, guard: Guard, problems: list[str]) -> None:
         self.status = BenchStatus.OFF
@@ -83,14 +83,14 @@ class Machine:
         return self._latch.fault
 
     def check_arming(self) -> None:
-        """Raise `StateError` unless OFF, or READY to be armed again, and calibrated."""
+        """Raise `StateError` unless calibrated, and OFF or READY."""
         if self.status not in (BenchStatus.OFF, BenchStatus.READY):
             raise StateError(f"The bench is {self.status}: it is armed from OFF or READY.")
         if self.problems:
             raise StateError("The bench does not arm. " + "; ".join(self.problems) + ".")
 
     def arm(self) -> None:
-        """Allow the drives' sequence; raises `StateError` as `check_arming` does."""
+        """Start up the drives; raises `StateError` as `check_arming` does."""
         self.check_arming()
         self.homing.reset()
         self.status = BenchStatus.RESET
@@ -102,7 +102,7 @@ class Machine:
         self.homing.confirm(step, by)
 
     def start(self, operator_age_s: float) -> None:
-        """RUN from now on; raises `StateError` unless READY, at home and the switch held."""
+        """Enter RUN; raises `StateError` unless READY, homed, and with the switch held."""
         if self.status is not BenchStatus.READY:
             raise StateError(f"The bench is {self.status}: it starts from READY; arm it first.")
         if self.homing.next_step is not None:
@@ -114,7 +114,7 @@ class Machine:
         self._guard.begin()
 
     def stop(self) -> None:
-        """Ramp to zero torque; nothing where it does not run."""
+        """Ramp to zero torque; no effect unless running."""
         if self.status is BenchStatus.RUN:
             self.status = BenchStatus.RAMP
 
@@ -126,7 +126,7 @@ class Machine:
         self.status = BenchStatus.OFF
 
     def fail(self, alarm: Alarm) -> None:
-        """Latch a fault, unless there is one; its time is that of the run."""
+        """Latch a fault, unless there is one; its time is the run's."""
         time_s = self._tick * self._period
         self._latch.take(Fault(alarm.code, 0, self._tick, time_s, alarm.message, alarm.values))
         self.status = BenchStatus.FAULT
@@ -134,7 +134,7 @@ class Machine:
     def update(
         self, conditions: Conditions, limited: Torque, known: State, estimate: Disturbance
     ) -> Torque:
-        """The torque that may be sent in this tick, N·m; the state goes on.
+        """Update the state; return the permitted torque of this tick, N·m.
 
         limited: torque of the law, N·m. known: x̂. estimate: ŵ.
         """
@@ -170,7 +170,7 @@ class Machine:
         return self._guard.limit(Torque(share * limited.u1, share * limited.u2), known)
 
     def _find_alarm(self, conditions: Conditions) -> Alarm | None:
-        """What of the bench itself ends its run, in the states in which it is watched."""
+        """Return the alarm that the bench's conditions cause in the monitored states."""
         if self.status in (BenchStatus.OFF, BenchStatus.FAULT):
             return None
         # Before the alarms of the bus: the frames of the supervisor would be taken for those of
@@ -206,7 +206,7 @@ class Machine:
 
 
 def _describe_lateness(late_s: float, waits_s: float) -> Alarm:
-    """The alarm for drives that the frames of the supervisor have stopped."""
+    """Describe the alarm for drives stopped by frames of the supervisor."""
     late_s = max(late_s, waits_s)
     words = (
         f"The control loop was {1e3 * late_s:.0f} ms late. The supervisor, which waits"

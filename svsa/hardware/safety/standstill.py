@@ -1,4 +1,4 @@
-"""An encoder that stands still while the torque on its axis changes: frozen, or its cable is off.
+"""Detection of a stuck encoder: constant counts while the torque on its axis changes.
 
 An axis at rest is in balance: the torque that the observer estimates there changes by no more than
 friction can balance. If the counts have stopped although the axis moves, ŵ grows against the
@@ -16,19 +16,19 @@ _AXES = (("motor1", "w4"), ("motor2", "w6"), ("deflection", "w2"))
 
 
 class Standstill:
-    """Compares ŵ with what it was when the counts last changed. most: N·m of difference."""
+    """Compares ŵ with its value at the last change of the counts. most: difference, N·m."""
 
     def __init__(self, most: float) -> None:
         self._most = most
         self.reset()
 
     def reset(self) -> None:
-        """Forget: a new run begins."""
+        """Reset for a new run."""
         self._counts: list[int | None] = [None, None, None]
         self._torques = [0.0, 0.0, 0.0]
 
     def check(self, counts: NewCounts | None, estimate: Disturbance) -> Alarm | None:
-        """The axis whose encoder must be wrong, or None: what is late is not frozen.
+        """Return the axis with a stuck encoder, or None; a late reading is not stuck.
 
         counts: None where they are too old for x̂ to follow them. estimate: ŵ, N·m.
         """

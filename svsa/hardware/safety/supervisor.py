@@ -1,4 +1,4 @@
-"""The supervisor: a process with a bus of its own that stops the drives when the loop dies.
+"""The supervisor: a process with its own bus that stops the drives if the loop fails.
 
     python -m svsa.hardware.safety.supervisor BENCH HEARTBEATS
 
@@ -30,7 +30,7 @@ _MAX_FRAMES = 500
 
 
 class Supervisor:
-    """Watches the loop's heartbeat. silenced: whether it has taken over."""
+    """Monitors the loop's heartbeat. silenced: whether it has taken over."""
 
     def __init__(self, bench: BenchFile, bus: can.BusABC, beats: Heartbeats) -> None:
         self._bus, self._beats = bus, beats
@@ -41,7 +41,7 @@ class Supervisor:
         self.silenced = False
 
     def watch(self) -> None:
-        """One look: stop the drives where the loop is silent, and beat while the bus is heard.
+        """Check once: stop the drives if the loop is silent; beat while the bus is alive.
 
         A bus can be lost without an error: a supervisor that hears nothing on it cannot act.
         """
@@ -68,22 +68,22 @@ class Supervisor:
             sys.stdout.flush()
 
     def listen(self) -> bool:
-        """Take what has come off the bus; whether there was anything."""
+        """Read waiting frames; return whether there were any."""
         return bool(list(take_waiting(self._bus, self._settings, _MAX_FRAMES)))
 
     def stop_drives(self) -> None:
-        """Zero current to both, and reset all."""
+        """Send zero current to both drives, and reset all."""
         for frame in self._frames:
             self._bus.send(frame)
 
     def is_orphaned(self, parent: int) -> bool:
-        """Whether its work is done: the parent is gone, and the loop was silent for long."""
+        """Whether the parent has ended and the loop was silent for long."""
         age = self._beats.age_s("loop")
         return os.getppid() != parent and age > ORPHANED_S
 
 
 def main(arguments: list[str]) -> int:
-    """Watch until SIGTERM; return 1 if the bus cannot be opened or is lost."""
+    """Monitor until SIGTERM; return 1 if the bus cannot be opened or is lost."""
     path, name = arguments
     parent = os.getppid()
     ended: list[int] = []

@@ -1,4 +1,4 @@
-"""The third line: the process that started loop and supervisor stops the drives if both are gone.
+"""The last stop: the process that started loop and supervisor stops the drives if both are lost.
 
 Without a supervisor the loop stops the drives, and without the loop the supervisor does.
 Without both the drives would hold their last current for ever: the process that started them,
@@ -30,7 +30,7 @@ STOP_S = 10.0
 
 
 class Intervention(NamedTuple):
-    """after_s: from the loop's last tick to the first frame, s; None while none was sent.
+    """after_s: from the loop's last tick to the first frame, s; None before a frame.
 
     problem: why the drives cannot be reached now, in words, or None.
     """
@@ -40,7 +40,7 @@ class Intervention(NamedTuple):
 
 
 class ThirdLine:
-    """A thread that watches both processes until `stop`. intervention: None while not needed."""
+    """A thread that monitors both processes until `stop`. intervention: None if not needed."""
 
     def __init__(
         self,
@@ -60,7 +60,7 @@ class ThirdLine:
         self._thread.start()
 
     def stop(self, rest: Callable[[float], None] = time.sleep) -> None:
-        """Watch no more, and let go of the bus; `rest` lets time pass until that is done."""
+        """Stop monitoring, and release the bus; `rest` lets time pass meanwhile."""
         self._ended.set()
         end = time.monotonic() + STOP_S
         while self._thread.is_alive() and time.monotonic() < end:
@@ -74,7 +74,7 @@ class ThirdLine:
                 self._intervene()
 
     def _is_needed(self) -> bool:
-        """Whether neither is left. A loop that has not begun, or ended in order, is not missed."""
+        """Whether both are lost. A loop that has not started, or ended regularly, is not."""
         silent_s = self._beats.age_s("loop")
         if math.isinf(silent_s) or silent_s <= self._loop_s:
             self._looks = 0
@@ -102,7 +102,7 @@ class ThirdLine:
             self._ended.wait(RETRY_S)
 
     def _stop_drives(self) -> None:
-        """As the supervisor does, on the loop's own way to the bus; raises where it fails."""
+        """Send the supervisor's frames on the loop's own path to the bus; raises on failure."""
         bus = open_bus(self._bench.bus)
         try:
             supervisor = Supervisor(self._bench.changed(supervisor_bus=None), bus, self._beats)

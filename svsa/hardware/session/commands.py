@@ -1,4 +1,4 @@
-"""How a command reaches the loop of a bench, and from which tick on it holds."""
+"""Commands to the loop of a bench, and the ticks at which they take effect."""
 
 import time
 from collections.abc import Callable
@@ -22,7 +22,7 @@ Ask = Callable[[str, object], dict[str, Any]]
 
 
 class BenchCommands:
-    """Gives commands to the loop, and enters each at the tick at which the loop has taken it.
+    """Sends commands to the loop, and enters each at the tick reported by the loop.
 
     journal: of the present run. ask: raises what the loop refuses with. is_moving: whether the
     bench moves. rest: lets time pass.
@@ -36,18 +36,18 @@ class BenchCommands:
 
     @property
     def is_pending(self) -> bool:
-        """Whether the loop has still to answer: what comes after that tick is not taken in yet."""
+        """Whether the loop has not answered yet: later samples are not read meanwhile."""
         return self._pending > 0
 
     def change(self, command: Command) -> None:
-        """Give the run a command."""
+        """Send a command."""
         self._journal.check(command)
         if isinstance(command, ApplyLoad):
             check_loads((command.argument,))
         self._journal.enter(self._give(self._complete(command)))
 
     def patch(self, build: Callable[[Configuration], Command]) -> None:
-        """`change`, once the loop has answered to every change before; unless all is so already.
+        """`change` after the loop has answered earlier changes; no effect if nothing would change.
 
         Raises `StateError` where it has not answered to all of them within `LONGEST_CHANGES_S`.
         """
@@ -68,7 +68,7 @@ class BenchCommands:
             self._rest(CHANGING_S)
 
     def _complete(self, command: Command) -> Command:
-        """The command as a bench takes it: lane 2 is its twin, whatever the others are."""
+        """Adapt the command for a bench: lane 2 is its twin in any case."""
         if command.kind == "lane" and command.argument.lane == TWIN + 1:
             raise StateError(
                 f"Lane {TWIN + 1} is the bench's simulated twin, which has the law and the gains"
@@ -82,7 +82,7 @@ class BenchCommands:
         return command
 
     def _give(self, command: Command) -> Command:
-        """The command at the tick at which the loop has taken it."""
+        """Apply the command at the tick reported by the loop."""
         if isinstance(command, Set) and command.kind in _REFERENCES and self._is_moving():
             check_takes_no_time(command.argument)
         self._pending += 1

@@ -1,4 +1,4 @@
-"""A bench's record followed again: what it measured and sent, through the bench's own loop.
+"""Verification of a bench's record: its measurements through the bench's own loop.
 
 A bench cannot be run again. But its loop consists of functions of what was measured and what was
 sent, so that everything else in the record must be the same when it is computed again.
@@ -25,7 +25,7 @@ _HALF_STEP = 0.5 + 1e-6
 
 
 class Verified(NamedTuple):
-    """What holds of a bench's record.
+    """The result of verifying a bench's record.
 
     ticks, missed: samples, and those of them that the loop was too late for. lanes: simulated ones
     in parallel. share_as_limited: of the samples in which the torque sent is the limited torque of
@@ -40,7 +40,7 @@ class Verified(NamedTuple):
 
     @property
     def description(self) -> str:
-        """The same in words."""
+        """The result as a sentence."""
         what = "an emulator" if self.plant == "emulated" else "a bench"
         with_lane = {0: "", 1: ", and the simulated lane"}.get(
             self.lanes, f", and the {self.lanes} simulated lanes"
@@ -56,7 +56,7 @@ class Verified(NamedTuple):
 
 
 class RecordedPlant:
-    """A bench that measures and sends what it did. limited: the law's, (ticks, 2)."""
+    """A plant with recorded measurements and torques. limited: the law's, (ticks, 2)."""
 
     status = BenchStatus.RUN
 
@@ -67,7 +67,7 @@ class RecordedPlant:
         self.tick = 0
 
     def start(self, now: float) -> None:
-        """It runs."""
+        """Do nothing: the plant runs."""
 
     def read(self, now: float, known: State) -> Reading:  # noqa: D102
         y = Measurement(*self._measured[self.tick])
@@ -109,7 +109,7 @@ def verify_bench_record(record: Record) -> Verified:
 
 
 def _follow(loop: BenchLoop, plant: RecordedPlant, commands: list[Command], record: Record) -> None:
-    """Every tick of the bench again, with the commands that it was given."""
+    """Run every tick of the bench again, with its commands."""
     later, end = list(commands), record.tick_count
     is_missed = np.isnan(plant.sent[:, 0])
     while loop.run.tick < end:
@@ -125,7 +125,7 @@ def _follow(loop: BenchLoop, plant: RecordedPlant, commands: list[Command], reco
 
 
 def _compare(record: Record, again: np.ndarray, samples: np.ndarray) -> None:
-    """Raise `RecordError` at the first sample that is another. Both (lanes, ticks, channels)."""
+    """Raise `RecordError` at the first different sample. Both (lanes, ticks, channels)."""
     differs = again.view(np.uint64) != np.ascontiguousarray(samples).view(np.uint64)
     if not differs.any():
         return

@@ -1,4 +1,4 @@
-"""What the loop of a bench reports, its latched fault, and its heat as events of the run."""
+"""Reports of a bench's loop: its latched fault, and heat as events of the run."""
 
 from collections.abc import Iterable
 from typing import Any
@@ -19,7 +19,7 @@ class HeatEvents:
         self._axes: frozenset[str] = frozenset()
 
     def log(self, axes: Iterable[str], moving: bool, journal: Journal) -> None:
-        """Log what has changed; a bench at rest asks nothing of its motors, so that none ends.
+        """Log changes of the reduction by heat; at rest nothing is demanded, so none ends.
 
         axes: which are held back now.
         """
@@ -33,7 +33,7 @@ class HeatEvents:
 
 
 class BenchReport:
-    """States, each taken in once, and the fault that is latched; what they say enters the journal.
+    """Applies each state report once, keeps the latched fault, and logs events in the journal.
 
     `loop_status`: the loop's own word. `problems`: what is not known yet of the bench or not right
     with it. `homing_step`: the axis whose mark is next, None where all were confirmed.
@@ -45,14 +45,14 @@ class BenchReport:
         self.begin()
 
     def begin(self) -> None:
-        """The loop was restarted: it has reported nothing yet."""
+        """Reset for a restarted loop."""
         self.loop_status = BenchStatus.OFF
         self.homing_step: Axis | None = STEPS[0].name
         self._heat = HeatEvents()
         self._latch = FaultLatch()
 
     def clear(self) -> None:
-        """Hold no fault any more."""
+        """Clear the fault."""
         self._latch.clear()
 
     @property
@@ -62,17 +62,17 @@ class BenchReport:
 
     @property
     def status(self) -> BenchStatus:
-        """As the loop says; FAULT where it cannot be believed any more."""
+        """State reported by the loop; FAULT if the report is outdated."""
         return self.loop_status if self.fault is None else BenchStatus.FAULT
 
     def look_for_stop(self, states: list[dict[str, Any]]) -> None:
-        """A ramp begins a window before its first sample is taken in."""
+        """Start a window at a ramp, before its first sample is read."""
         ramps = any(reported["status"] == BenchStatus.RAMP for reported in states)
         if ramps and self.loop_status is BenchStatus.RUN:
             self._journal.begin_stop()
 
     def take(self, states: list[dict[str, Any]]) -> None:
-        """Take the reports of the loop, in their order."""
+        """Apply the reports of the loop in order."""
         for reported in states:
             self.problems, self.homing_step = reported["problems"], reported["homing_step"]
             self._heat.log(
@@ -86,7 +86,7 @@ class BenchReport:
             self._journal.version += 1
 
     def look_for_loss(self) -> None:
-        """Latch what has become of a loop that does not tick, as far as it is known."""
+        """Latch the loss of a loop that does not tick, as far as it is known."""
         loss, run = self._loop.find_lasting_loss(), self._journal.run
         if loss is None:
             return

@@ -1,4 +1,4 @@
-"""A run whose first lane is a bench, with its `BenchStart`: samples of its twins are simulated."""
+"""A run whose first lane is a bench; its twins are simulated."""
 
 from typing import TYPE_CHECKING, Protocol
 
@@ -27,14 +27,14 @@ TWIN = 1
 
 
 class SampleSource(Protocol):
-    """Where the bench's loop leaves its samples, as `LoopMemory`. number: of its present run."""
+    """The source of a bench's samples, such as `LoopMemory`. number: of its present run."""
 
     @property
     def number(self) -> int:  # noqa: D102
         ...
 
     def count(self, number: int) -> int:
-        """How many samples of run `number` there are."""
+        """Return the number of samples of run `number`."""
         ...
 
     def read(self, first: int, rows: np.ndarray) -> None:
@@ -68,12 +68,12 @@ class BenchRun(Run):
         super().__init__(configuration, start=start)
 
     def count_ready(self) -> int:
-        """How many samples of the bench wait to be read."""
+        """Return the number of samples of the bench to be read."""
         there = 0 if self._number is None else self._memory.count(self._number)
         return max(0, there - self.tick)
 
     def advance(self, samples: np.ndarray) -> int:
-        """Read and simulate so many ticks as `samples` (lanes, ticks, channels) has room for.
+        """Read and simulate as many ticks as `samples` (lanes, ticks, channels) has.
 
         How many were done: no more than the bench has done.
         """
@@ -99,7 +99,7 @@ class BenchRun(Run):
         rows[ticks:, 0] = (self.tick + np.arange(ticks, len(rows))) * self.period_s
 
     def change(self, command: Command) -> ScheduledLoad | None:
-        """As `Run.change`; a new comparison begins where the twin is."""
+        """Apply a command as `Run.change`; a new comparison starts from the twin's state."""
         if command.kind != "comparisons":
             return super().change(command)
         origins = find_origins(self.configuration.comparisons, command.argument)

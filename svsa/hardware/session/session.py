@@ -1,4 +1,4 @@
-"""A session whose first lane is a bench, seen from the server."""
+"""The session of a bench in the server."""
 
 import time
 from collections.abc import Callable
@@ -64,7 +64,7 @@ class BenchSession:
         self._commands = BenchCommands(self.journal, self._ask, self._is_moving, rest)
 
     def _build_still_run(self, configuration: Configuration) -> BenchRun:
-        """A run that stands still until the processes are ready, and after."""
+        """Build a run without motion, for the time until the processes are ready."""
         still = Start(self.bench.home.lever_ratio, AT_REST)
         return BenchRun(configuration, still, self.loop.memory, is_still=True)
 
@@ -73,7 +73,7 @@ class BenchSession:
         self.journal.begin(run)
 
     def open(self, notify: Teller = keep_quiet) -> None:
-        """Wait until the bench may be armed; raises `BenchError` where it cannot be opened.
+        """Wait until the bench can be armed; raises `BenchError` if it cannot be opened.
 
         notify: hears what the loop does meanwhile.
         """
@@ -89,24 +89,24 @@ class BenchSession:
 
     @property
     def version(self) -> int:
-        """That of the journal."""
+        """Version of the journal."""
         return self.journal.version
 
     @property
     def bench_status(self) -> BenchStatus:
-        """As the loop says; FAULT where it cannot be believed any more."""
+        """State reported by the loop; FAULT if the report is outdated."""
         return self.report.status
 
     @property
     def status(self) -> Status:
-        """Running while the bench moves, fault until it is cleared, else paused."""
+        """running during motion, fault until it is cleared, else paused."""
         if self.fault is not None:
             return "fault"
         return "running" if self.bench_status in MOVING else "paused"
 
     @property
     def emulated(self) -> bool | None:
-        """As the bus says; None before it was listened to."""
+        """Whether the bus reported an emulator; None before it was read."""
         return self.loop.emulated
 
     def _is_moving(self) -> bool:
@@ -124,11 +124,13 @@ class BenchSession:
 
     @property
     def pace(self) -> Pace:
-        """A bench has the speed of the world."""
+        """Real-time pace."""
         return Pace()
 
     def load(self, configuration: Configuration) -> None:
-        """Use its law, references and loads from the next start on; `StateError` in motion."""
+        """Use law, references and loads from the next start on; raises `StateError` during
+        motion.
+        """
         self._load(build_bench_configuration(self.bench, configuration))
 
     def _load(self, configuration: Configuration) -> None:
@@ -139,7 +141,7 @@ class BenchSession:
         self._begin(self._build_still_run(configuration))
 
     def reset(self) -> None:
-        """Begin again at t = 0 at the next start; raises `StateError` in motion."""
+        """Restart at t = 0 at the next start; raises `StateError` during motion."""
         self._load(self.journal.build_restart())
 
     def arm(self) -> None:
@@ -150,7 +152,7 @@ class BenchSession:
         self._ask("arm")
 
     def confirm_home(self, step: str, by: str) -> None:
-        """Confirm that an axis is at its zero mark; by: who confirms it."""
+        """Confirm that an axis is at its zero mark; by: name of the observer."""
         self._ask("home", {"step": step, "by": by})
 
     def clear(self) -> None:
@@ -163,7 +165,7 @@ class BenchSession:
         self.journal.version += 1
 
     def restart(self) -> None:
-        """End loop and supervisor, by force if they do not respond, and restart both.
+        """Restart loop and supervisor, by force if they do not respond.
 
         Raises `StateError` in motion, and `BenchError` where the bench cannot be opened.
         """
@@ -185,7 +187,7 @@ class BenchSession:
         self._begin(self._build_still_run(configuration))
 
     def prepare_recording(self) -> None:
-        """As `Session.prepare_recording`, once it is known whether the bench is emulated."""
+        """Check as `Session.prepare_recording`, once it is known whether the bench is emulated."""
         self.loop.check_started()
         if self.emulated is None:
             raise StateError("It is not known yet whether the bench is emulated: ask again.")
@@ -202,7 +204,7 @@ class BenchSession:
         self.journal.stop_recording()
 
     def start(self) -> None:
-        """Begin a run; raises `StateError` unless READY, at home and watched."""
+        """Start a run; raises `StateError` unless READY, homed and watched."""
         if self.bench.safety.needs_watcher and not self.watched:
             raise StateError("No client watches this bench: open the page or a stream of it first.")
         answer = self._ask("start")
@@ -223,11 +225,11 @@ class BenchSession:
             self._ask("stop", "stopped by hand")
 
     def halt(self, why: str = PROGRAM_ERROR) -> None:
-        """Ramp to zero torque, without waiting for the loop to say that it does."""
+        """Ramp to zero torque, without waiting for the loop's report."""
         self.loop.processes.report("stop", why)
 
     def quick_stop(self) -> None:
-        """The quick stop: zero current now, latched, even where the loop does not listen."""
+        """Quick stop: zero current, latched, even if the loop does not respond."""
         # Through shared memory first: that needs no answer of the loop.
         self.stop_from_keyboard()
         self.report.look_for_loss()
@@ -235,27 +237,27 @@ class BenchSession:
             self._ask("quick_stop", "quick stop")
 
     def stop_from_keyboard(self) -> None:
-        """The quick stop, without waiting for the loop to say that it does it."""
+        """Quick stop without waiting for the loop's report."""
         self.loop.request_quick_stop()
 
     def hear_operator(self) -> None:
-        """The operator holds the dead-man's switch."""
+        """Note a message of the operator, which holds the dead-man's switch."""
         self.loop.processes.beats.beat("operator")
 
     def step(self, ticks: int) -> None:
-        """Refused: a bench has no single ticks."""
+        """Raise `StateError`: a bench has no single ticks."""
         raise StateError("A bench runs in real time: it cannot go by single ticks.")
 
     def set_speed(self, factor: float) -> None:
-        """Refused: a bench has the speed of the world."""
+        """Raise `StateError`: a bench runs in real time."""
         raise StateError("A bench runs in real time: its speed cannot be changed.")
 
     def burst(self, now: float) -> None:
-        """As `wake`: a bench does not go faster than time."""
+        """Update as `wake`: a bench runs in real time."""
         self.wake(now)
 
     def wake(self, now: float) -> None:
-        """Take in what the bench has done since the last time; waits for nothing."""
+        """Read what the bench has done since the last call; does not block."""
         if self.loop.starting:
             return
         self.loop.processes.beats.beat("server")
@@ -272,7 +274,7 @@ class BenchSession:
             self.loop.processes.report("stop", "no client watches")
 
     def _ask(self, wanted: str, argument: object = None) -> dict[str, Any]:
-        """Have the loop do it; what it says of its state is known when this returns."""
+        """Send a request to the loop; its state is up to date on return."""
         answer = self.loop.ask(wanted, argument)
         reported = self.loop.take_states()
         self.report.look_for_stop(reported)
@@ -280,15 +282,15 @@ class BenchSession:
         return answer
 
     def change(self, command: Command) -> None:
-        """Give the run a command, at the tick at which the loop has taken it."""
+        """Apply a command at the tick reported by the loop."""
         self._commands.change(command)
 
     def set(self, command: Command) -> None:
-        """`change`, unless everything is so already."""
+        """Apply a command unless nothing would change."""
         self._commands.patch(lambda _: command)
 
     def patch(self, build: Callable[[Configuration], Command]) -> None:
-        """`set`, once the loop has answered to every change before."""
+        """Apply `set` after the loop has answered earlier changes."""
         self._commands.patch(build)
 
     def close(self) -> None:

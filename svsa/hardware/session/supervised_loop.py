@@ -1,4 +1,4 @@
-"""The loop of a bench and its supervisor, as a session starts, asks and loses them."""
+"""The loop of a bench and its supervisor, as used by a session."""
 
 import time
 from collections.abc import Callable
@@ -29,7 +29,7 @@ LISTENED_S = 3.0 * EMULATED_PERIOD_S
 
 
 class SupervisedLoop:
-    """Both processes, which `launch` starts and restarts.
+    """Both processes, started and restarted by `launch`.
 
     path: of the bench file. bench: that file. rest: lets time pass where a command waits.
     `starting`: they refuse commands until `open` returns. `memory`: see `LoopMemory`.
@@ -59,7 +59,7 @@ class SupervisedLoop:
             self.starting = False
 
     def restart(self, launch: Callable[[], None]) -> None:
-        """End both processes, by force where they do not listen, have them launched, and open.
+        """End both processes, by force if they do not respond, start them, and open.
 
         The motors are as warm as the loop before left them: how long they cooled is unknown.
         """
@@ -82,12 +82,12 @@ class SupervisedLoop:
 
     @property
     def loss(self) -> Loss | None:
-        """What has become of the loop where it does not tick, and who stopped the drives."""
+        """Loss of a loop that does not tick, and the process that stopped the drives."""
         return None if self.starting else find_loss(self.processes)
 
     @property
     def emulated(self) -> bool | None:
-        """Whether the bus says that no machine is behind it; None before it was listened to."""
+        """Whether the bus reported an emulator; None before it was read."""
         if self.memory.fields["emulated"]:
             return True
         listened_s = int(self.memory.fields["ticks"]) * self._timing.period_s
@@ -95,11 +95,11 @@ class SupervisedLoop:
 
     @property
     def supervised(self) -> bool:
-        """Whether the supervisor is there and its heartbeat fresh."""
+        """Whether the supervisor runs and its heartbeat is recent."""
         return is_supervised(self.processes)
 
     def find_lasting_loss(self) -> Loss | None:
-        """As `loss`, once it is known who stops the drives, or could have been."""
+        """Return `loss` once it is known who stops the drives."""
         loss = self.loss
         is_unknown = loss is not None and loss.stopped_by is None
         return None if is_unknown and 0.0 < self.processes.silence_s < UNKNOWN_S else loss
@@ -113,7 +113,7 @@ class SupervisedLoop:
             )
 
     def ask(self, wanted: str, argument: object = None) -> dict[str, Any]:
-        """Have the loop do it, and rest until it answers.
+        """Send a request to the loop, and wait for its answer.
 
         Constants of a law that the loop lacks are computed here: it has no time for it.
         """
@@ -127,10 +127,10 @@ class SupervisedLoop:
         return self.processes.request(wanted, argument)
 
     def take_states(self) -> list[dict[str, Any]]:
-        """The states that the loop has reported since the last call."""
+        """Return the states reported since the last call."""
         events = self.processes.take_events()
         return [event for event in events if event["event"] == "state"]
 
     def request_quick_stop(self) -> None:
-        """The quick stop from any thread, through shared memory alone."""
+        """Request a quick stop from any thread, through shared memory alone."""
         self.memory.fields["quick_stop"] = 1

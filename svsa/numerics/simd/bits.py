@@ -1,4 +1,4 @@
-"""Eight whole numbers of 64 bits side by side, for what is drawn by counter."""
+"""Eight unsigned 64-bit integers in parallel, for counter-based random numbers."""
 
 import operator
 from typing import Any
@@ -14,10 +14,10 @@ from svsa.numerics.simd.number import DOUBLES, VECTOR, WIDTH, define, learn, spr
 
 
 class Bits(types.Type):
-    """Eight whole numbers ≥ 0, modulo 2⁶⁴. One of them converts to eight of it."""
+    """Eight integers ≥ 0, modulo 2⁶⁴. One integer converts to eight."""
 
     def can_convert_from(self, typingctx: Any, other: Any) -> Any:
-        """A whole number for all eight."""
+        """Convert an integer to all eight."""
         return Conversion.safe if other == types.uint64 else None
 
 

@@ -1,4 +1,4 @@
-"""The words that take the place of `if`, `min` and `max` in an equation that vectors go through.
+"""Replacements of `if`, `min` and `max` for vectorised equations.
 
 What differs from element to element is no branch: both sides are computed, and each element takes
 its own.
@@ -35,7 +35,7 @@ def greatest(a: Any, b: Any) -> Any:
 
 
 def some(condition: Any) -> bool:
-    """Whether it holds in any element."""
+    """Whether the condition holds in any element."""
     return condition
 
 
@@ -53,7 +53,7 @@ def _unify(context: Any, condition: Any, a: Any, b: Any) -> Any:
 
 
 def list_kinds(kind: Any) -> list[Any]:
-    """The kinds that a tuple's is made of."""
+    """List the types of a tuple's elements."""
     return list(kind)
 
 
@@ -69,7 +69,7 @@ learn(choose, _choose_signature)
 
 @lower_builtin(choose, types.Any, types.Any, types.Any)
 def _lower_choose(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-    """Part by part of a tuple, so that each is chosen for itself."""
+    """Generate code that selects each element of a tuple."""
 
     def generate(kind: Any, kind_a: Any, a: Any, kind_b: Any, b: Any) -> Any:
         if not isinstance(kind, types.BaseTuple):

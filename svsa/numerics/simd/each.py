@@ -1,4 +1,4 @@
-"""A function of floats called for one element after the other: for what cannot go side by side."""
+"""Calls of a function of floats for each element, for code that cannot be vectorised."""
 
 from collections.abc import Callable
 from typing import Any, cast
@@ -75,7 +75,7 @@ put = cast("Callable[[Any, int, Any], Any]", _put)
 
 
 def call_where(condition: Any, function: Any, arguments: Any, otherwise: Any) -> Any:
-    """function(*arguments) where the condition holds, else `otherwise`: in each element for itself.
+    """Call function(*arguments) if the condition holds, else `otherwise`, per element.
 
     The function is compiled, takes floats and returns one, or a tuple of them, as `otherwise` is.
     It is not called for an element in which the condition does not hold.
@@ -85,7 +85,7 @@ def call_where(condition: Any, function: Any, arguments: Any, otherwise: Any) ->
 
 @overload(call_where, jit_options=INLINED)
 def choose_call(condition: Any, function: Any, arguments: Any, otherwise: Any) -> Any:
-    """Once for a float, in a loop for a vector."""
+    """Call once for a float, in a loop for a vector."""
 
     def call_once(condition: Any, function: Any, arguments: Any, otherwise: Any) -> Any:
         return function(*arguments) if condition else otherwise

@@ -1,4 +1,4 @@
-"""Eight doubles side by side as one number of compiled functions, and eight truths of them.
+"""A number type of eight doubles for compiled functions, and its type of eight booleans.
 
 numba compiles a function for the types that it is called with: an equation that is written for one
 actuator takes a float, or `VECTOR`, and an element gets the bits that the float would. Every
@@ -39,7 +39,7 @@ class Vector(types.Type):
 
 
 class Mask(types.Type):
-    """Eight truths. A truth converts to eight of it."""
+    """Eight booleans. A boolean converts to eight."""
 
     def can_convert_from(self, typingctx: Any, other: Any) -> Any:
         """A truth for all eight."""
@@ -80,7 +80,7 @@ def _spread_truth(context: Any, builder: Any, fromty: Any, toty: Any, value: Any
 
 
 def learn(operation: Any, choose_signature: Callable[..., Any]) -> None:
-    """Let compiled functions know which kinds an operation takes, besides those that it took.
+    """Register the types that an operation accepts, in addition to earlier ones.
 
     choose_signature: (typing context, *kinds) → signature, None where it does not take them.
     """
@@ -98,7 +98,7 @@ def learn(operation: Any, choose_signature: Callable[..., Any]) -> None:
 def define(
     operation: Any, generate: Callable[..., Any], result: types.Type, *operands: types.Type
 ) -> None:
-    """Let compiled functions know an operation where one of its operands is a vector.
+    """Register an operation with a vector operand.
 
     generate: (builder, *values) → value, LLVM code.
     """
@@ -120,7 +120,7 @@ def define(
 
 
 def call_vector(name: str) -> Callable[..., Any]:
-    """LLVM's function of this name on vectors of doubles."""
+    """Call LLVM's function of this name on vectors of doubles."""
 
     def generate(builder: Any, *values: Any) -> Any:
         kind = ir.FunctionType(DOUBLES, [DOUBLES] * len(values))

@@ -1,4 +1,4 @@
-"""Powers of 2 put into a double and taken out of it, in floats and in vectors: exact."""
+"""Extraction and insertion of powers of 2 in floats and vectors, exactly."""
 
 from collections.abc import Callable
 from typing import Any, cast

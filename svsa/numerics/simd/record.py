@@ -1,4 +1,4 @@
-"""Tuples and records of vectors: constants read by their layout, a memory by name."""
+"""Tuples and records of vectors: constants by layout, memory by name."""
 
 import operator
 from dataclasses import dataclass
@@ -25,21 +25,21 @@ _INDEX = ir.IntType(64)
 
 @dataclass(frozen=True)
 class Column:
-    """A number of each run's own: in this row of an array (rows, 8)."""
+    """A number of each run, in this row of an array (rows, 8)."""
 
     row: int
 
 
 @dataclass(frozen=True)
 class Shared:
-    """A number that is the same in all eight: the first one of this row."""
+    """A number that is equal in all eight runs: the first one of this row."""
 
     row: int
 
 
 @dataclass(frozen=True)
 class Word:
-    """A whole number of each run's own, as bits in this row of an array (rows, 8)."""
+    """An integer of each run, as bits in this row of an array (rows, 8)."""
 
     row: int
 
