@@ -1,1 +1,1 @@
-"""A run as a value: configuration, commands, who controlled what, and how well."""
+"""Runs as values: configuration, commands, timeline, metrics, records and results."""

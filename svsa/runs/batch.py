@@ -1,4 +1,4 @@
-"""Many configurations at once, eight side by side: what a sweep of parameters is made of."""
+"""Vectorised runs: many configurations at once, eight in parallel, for sweeps of parameters."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -26,7 +26,7 @@ from svsa.simulation.reference.transition import Stack, build_stack
 def run_configurations(
     configurations: Sequence[Configuration], duration_s: float, begin_s: float = 0.0, steps: int = 1
 ) -> np.ndarray:
-    """Every configuration's first lane from t = 0; an array (runs,) of `SUMMARY`, in their order.
+    """Run every configuration's first lane from t = 0; return an array (runs,) of `SUMMARY`.
 
     The same bits as a separate run of each. begin_s: when measuring begins. steps: Runge–Kutta
     steps a period.
@@ -46,7 +46,8 @@ def run_group(
     duration_s: float,
     begin_s: float = 0.0,
 ) -> np.ndarray:
-    """At most eight alike configurations (see `find_alike`) under a controller in plain Python.
+    """Run at most eight compatible configurations (see `find_alike`) with a plain Python
+    controller.
 
     Args:
         configurations: Their laws do not count.
@@ -67,7 +68,7 @@ def run_group(
 
 
 def find_alike(configurations: Sequence[Configuration]) -> list[list[int]]:
-    """The numbers of those that can run side by side."""
+    """Find the configurations that can run together, by number."""
     alike: dict[tuple[object, ...], list[int]] = {}
     for number, c in enumerate(configurations):
         kinds = _find_kind(c.actuator), _find_kind(c.nominal)
@@ -77,12 +78,12 @@ def find_alike(configurations: Sequence[Configuration]) -> list[list[int]]:
 
 
 def _find_kind(actuator: MechanismParameters) -> tuple[str, str]:
-    """What of an actuator is part of the machine code."""
+    """Return the part of an actuator that the machine code depends on."""
     return get_mechanism_name(actuator), getattr(actuator, "reaction_torque", "")
 
 
 class RunSet:
-    """Configurations that run side by side under any law and design; what they share is built once.
+    """Configurations that run together under any law and design; shared inputs are built once.
 
     Their own laws, gains, observers and parameters do not count.
     """
@@ -97,7 +98,7 @@ class RunSet:
     def run(
         self, law: str, duration_s: float, begin_s: float = 0.0, design: Design | None = None
     ) -> np.ndarray:
-        """Run all from t = 0; an array (runs,) of `SUMMARY`, in their order.
+        """Run all from t = 0; return an array (runs,) of `SUMMARY`.
 
         begin_s: when measuring begins. design: of gains, observer and parameters; if left out, each
         configuration's own.
@@ -140,7 +141,7 @@ class _Part(NamedTuple):
 
 
 def build_run_batch(configurations: Sequence[Configuration], steps: int = 1) -> Batch:
-    """The first lanes of configurations of one law, each under its own references and loads.
+    """Build the first lanes of configurations of one law, each with its references and loads.
 
     Their sampling, delay and way of the reaction torque are the same.
     """
@@ -153,7 +154,7 @@ def _build_part(configurations: Sequence[Configuration], steps: int) -> _Part:
 
 
 def _build_inputs(configurations: Sequence[Configuration]) -> list[Inputs]:
-    """The references and loads of each; built once where they are the same values."""
+    """Build references and loads of each run; equal ones are built once."""
     stacks: dict[int, Stack] = {}
     tables: dict[tuple[int, ...], LoadTable] = {}
 

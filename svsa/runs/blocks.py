@@ -1,4 +1,4 @@
-"""A lane of a configuration as constants of the compiled loop."""
+"""Conversion of a lane's configuration to constants of the compiled loop."""
 
 import math
 from collections.abc import Callable
@@ -22,7 +22,7 @@ Bind: TypeAlias = Callable[[Configuration, Lane, Blocks], BoundLaw]
 
 
 class Connection(NamedTuple):
-    """What the loop is given for one lane, and what it was made of.
+    """The constants of the loop for one lane, and their sources.
 
     parts: the settings that `build_blocks` reads. control: the law's name, parameters, `Setting`.
     """
@@ -53,7 +53,7 @@ def build_blocks(configuration: Configuration, lane: Lane, mu0: float, steps: in
 
 
 def bind_law(configuration: Configuration, lane: Lane, blocks: Blocks) -> BoundLaw:
-    """The law of one lane among its blocks; compiled where it has not been before."""
+    """Bind the law of one lane; compiles it if necessary."""
     return get_law(lane.law).bind(configuration.get_parameters(lane), build_setting(blocks))
 
 
@@ -70,7 +70,7 @@ def connect_lane(
     steps: int,
     bind: Bind,
 ) -> Connection:
-    """Build the blocks of one lane and bind its law, as far as either is another than before.
+    """Build the blocks of one lane and bind its law, as far as either has changed.
 
     Args:
         before: What the lane had until now; None for a new lane.
@@ -100,12 +100,12 @@ def connect_lane(
 
 
 def build_setting(blocks: Blocks) -> Setting:
-    """What a law is set into by these blocks."""
+    """Build the setting of a law from these blocks."""
     b = blocks
     return Setting(b.nominal, b.domain, b.torque1_max, b.torque2_max, b.period)
 
 
 def compute_start_ratio(configuration: Configuration) -> float:
-    """s0 (μ0 of the SVSA) of a run that starts at rest: σ(0) = σ_d(0) at θ2 = 0."""
+    """Compute s0 (μ0 of the SVSA) of a run from rest: σ(0) = σ_d(0) at θ2 = 0."""
     actuator, sigma = configuration.actuator, compute_start_value(configuration.stiffness)
     return compute_coordinate_for_stiffness(build_actuator(actuator, 0.0), sigma)

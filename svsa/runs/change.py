@@ -1,4 +1,4 @@
-"""Changes of a run at moments that are known before, as typed values."""
+"""Changes of a run at known times, as typed values."""
 
 from collections.abc import Iterable
 from typing import Self
@@ -18,7 +18,7 @@ from svsa.simulation.reference.kinds import PositionReference, StiffnessReferenc
 
 
 class Change(Checked):
-    """What becomes different at a time of a run; what is left out stays.
+    """The changes at a time of a run; fields left out keep their values.
 
     A law, gains, parameters of laws, an observer, a reference of position or stiffness, the true
     plant, the nominal model or effects hold from the first tick at or after `at_s`; a load comes on
@@ -47,14 +47,14 @@ class Change(Checked):
         return self
 
     def list_given(self) -> dict[str, object]:
-        """What is changed: the kind of its command, and its argument."""
+        """List the changes: kind of the command, and argument."""
         return {name: value for name, value in self if name != "at_s" and value is not None}
 
 
 def build_commands(
     changes: Iterable[Change], period_s: float, duration_s: float
 ) -> tuple[Command, ...]:
-    """The commands of these changes, in the order of time, at whole ticks of `period_s`.
+    """Build the commands of these changes, ordered by time, at whole ticks of `period_s`.
 
     Raises `ParameterError` for a time after the run's end, and what is no `Change`.
     """

@@ -1,4 +1,4 @@
-"""The claims of the paper on its simulated figures: their numbers, and which parts hold.
+"""The paper's claims about its simulated figures: numbers, and which parts hold.
 
 The paper gives neither gains nor limits, so the order of the errors confirms a figure and their
 size does not. A part therefore compares errors with each other, or with a bound that is far from
@@ -21,7 +21,8 @@ AS_BEFORE, MUCH, FAR = 2.0, 10.0, 100.0
 
 
 class ClaimNumbers(NamedTuple):
-    """What one law did in a figure, in the windows of `svsa.runs.paper`; NaN if it did not last.
+    """The numbers of one law in a figure, in the windows of `svsa.runs.paper`; NaN if it ended
+    early.
 
     before_deg, steady_deg: rms position error before the load and long after it, degrees. peak_deg:
     greatest position error at the load, degrees. stiffness_before_nm_per_rad,
@@ -36,7 +37,7 @@ class ClaimNumbers(NamedTuple):
 
 
 def measure_claim(measured: np.ndarray, period_s: float) -> ClaimNumbers:
-    """The numbers of one law.
+    """Compute the numbers of one law.
 
     Args:
         measured: The run from t = 0 on, (ticks, channels), SI. Columns:

@@ -1,4 +1,4 @@
-"""Commands: what may change a run, as values that can be written down and given again.
+"""Commands: changes of a run, as values that can be stored and repeated.
 
 A change of a setting is one command, `Set(field, value)`, and `fold` alone says what becomes of a
 configuration: for a run, its timeline, its record and a script that repeats it. In a record, over
@@ -63,7 +63,7 @@ _OF_LANES: dict[str, Any] = {
 
 
 def _build_value(field: str) -> type[BaseModel]:
-    """A model of the value of a settable field, as its only `argument`."""
+    """Build a model with a settable field as its only `argument`."""
     known = Configuration.model_fields.get(field)
     value: Any = (_OF_LANES[field], ...) if known is None else (known.annotation, known)
     return create_model(field, argument=value)
@@ -73,7 +73,7 @@ _VALUES = {field: _build_value(field) for field in get_args(Settable)}
 
 
 class _Command(Checked):
-    """A command, which holds from the beginning of a tick on."""
+    """A command, which takes effect at the beginning of a tick."""
 
     tick: Whole = quantity(
         "",
@@ -93,20 +93,20 @@ class _Command(Checked):
 
     @property
     def label(self) -> str:
-        """How its event reads."""
+        """Label of its event."""
         return COMMANDS[self.kind]
 
     def at(self, tick: int) -> Self:
-        """The same command at another tick."""
+        """Return the same command at another tick."""
         return self.model_copy(update={"tick": tick})
 
     def to_json(self) -> dict[str, Any]:
-        """As a dict that JSON can hold; see `read_command`."""
+        """Convert to a dict for JSON; see `read_command`."""
         return self.model_dump(mode="json")
 
 
 class Set(_Command):
-    """Another value of a field of the configuration: a reference is faded over."""
+    """A new value of a field of the configuration; references are faded in."""
 
     kind: Settable
     argument: Any = Field(description="New value of the field")
@@ -117,21 +117,21 @@ class Set(_Command):
 
 
 class ApplyLoad(_Command):
-    """A load now, or at its `start_s`; its number in the run is that of its command."""
+    """A load, now or at its `start_s`; its number in the run is that of its command."""
 
     kind: Literal["load"] = "load"
     argument: Load
 
 
 class RemoveLoad(_Command):
-    """The load of this number off."""
+    """The removal of the load of this number."""
 
     kind: Literal["unload"] = "unload"
     argument: Whole
 
 
 class Stop(_Command):
-    """A bench's torque goes to zero on a ramp from here on; simulated lanes go on."""
+    """Ramp of a bench's torque to zero; simulated lanes continue."""
 
     kind: Literal["stop"] = "stop"
     argument: None = None
@@ -188,7 +188,7 @@ def list_changes(
 
 
 def is_held(configuration: Configuration, command: Command) -> bool:
-    """Whether everything that a command sets is so already; raises as `fold`.
+    """Whether the configuration already has the values of a command; raises as `fold`.
 
     Never of a load or a stop: each one is another.
     """
@@ -196,7 +196,7 @@ def is_held(configuration: Configuration, command: Command) -> bool:
 
 
 def _replace_laws(laws: tuple[str, ...], comparisons: tuple[Lane, ...]) -> tuple[Lane, ...]:
-    """The comparisons under these laws of the first lanes; gains and observers stay theirs."""
+    """Replace the laws of the first lanes; gains and observers are kept."""
     lanes = 1 + len(comparisons)
     if len(laws) > lanes:
         bound = f"1 to {lanes} laws, one a lane from the first on"
@@ -206,7 +206,7 @@ def _replace_laws(laws: tuple[str, ...], comparisons: tuple[Lane, ...]) -> tuple
 
 
 def _replace_lane(setting: LaneSetting, comparisons: tuple[Lane, ...]) -> tuple[Lane, ...]:
-    """The comparisons with another controller of one of them."""
+    """Replace the controller of one comparison lane."""
     lanes, at = 1 + len(comparisons), setting.lane - 2
     if setting.lane > lanes:
         bound = f"2 to {lanes}, of the lanes that run" if lanes > 1 else "none: one lane runs"
@@ -222,7 +222,7 @@ def build_command(tick: int, kind: str, argument: Any) -> Command:
 
 
 def read_command(written: Any) -> Command:
-    """A command from its `to_json`; raises `ParameterError` for anything else."""
+    """Read a command from its `to_json`; raises `ParameterError` for anything else."""
     if not isinstance(written, dict):
         raise ParameterError(Violation("command", written, "", "an object with named fields"))
     given: dict[str, Any] = {"tick": None, "kind": None, "argument": None} | written
@@ -239,6 +239,6 @@ def _read_value(field: str, given: Any) -> Any:
 
 
 def _rename(violation: Violation, kind: str) -> Violation:
-    """What is wrong with a part of the argument has its own name, the whole is called `kind`."""
+    """Name the violations of an argument by its parts, and of the whole argument by `kind`."""
     name = violation.name.removeprefix("argument.")
     return replace(violation, name=kind if name == "argument" else name)

@@ -1,4 +1,4 @@
-"""A run as a value: parameters, design, references and loads; TOML files in and out."""
+"""The configuration of a run: parameters, design, references and loads, with TOML files."""
 
 from collections.abc import Callable
 from functools import cache
@@ -45,8 +45,8 @@ class Sampling(Checked):
 
 
 class Design(Checked):
-    """What a parameter file holds: plant, nominal model, gains, parameters of laws, observer,
-    limits, sampling.
+    """The content of a parameter file: plant, nominal model, gains, laws, observer, limits,
+    sampling.
     """
 
     actuator: InstalledActuator
@@ -70,13 +70,15 @@ class Design(Checked):
         return self
 
     def find_parameters(self, lane: "Lane") -> LawParameters | None:
-        """What the law of a lane was set to: the lane's own, or the design's; None."""
+        """Return the parameters that were set for a lane's law: the lane's or the design's;
+        None.
+        """
         if has_own_parameters(lane.law):
             return lane.parameters or self.parameters.get(lane.law)
         return lane.gains or self.gains
 
     def get_parameters(self, lane: "Lane") -> LawParameters:
-        """What the law of a lane is set to: the lane's own, the design's, or its defaults.
+        """Return the parameters of a lane's law: the lane's, the design's, or the defaults.
 
         Raises `ParameterError` for a law that is not installed and not set either.
         """
@@ -85,7 +87,7 @@ class Design(Checked):
 
 
 class Lane(Checked):
-    """A controller with a plant of its own: same references, loads and noise as the others."""
+    """A controller with its own plant: same references, loads and noise as the others."""
 
     law: LawName = quantity("", "Name of a law that is installed")
     gains: Gains | None = quantity(
@@ -105,7 +107,7 @@ class Lane(Checked):
         return given if given is None or law is None else read_parameters(law, given)
 
     def controlled_by(self, law: str) -> Self:
-        """The lane with another law: gains and observer stay, parameters go with their law."""
+        """Return the lane with another law: gains and observer are kept, parameters are not."""
         return self if law == self.law else self.changed(law=law, parameters=None)
 
 
@@ -117,7 +119,7 @@ class LaneSetting(Checked):
 
 
 class Configuration(Design):
-    """Everything that decides a run, besides the commands given while it runs."""
+    """Everything that determines a run, except the commands during it."""
 
     law: LawName = quantity("", "Name of a law that is installed", default=PAPERS_LAW)
     comparisons: tuple[Lane, ...] = quantity(
@@ -145,17 +147,17 @@ class Configuration(Design):
 
     @property
     def lanes(self) -> tuple[Lane, ...]:
-        """The run's own controller and its comparisons."""
+        """All lanes: the run's own controller and its comparisons."""
         return (Lane(law=self.law), *self.comparisons)
 
     def list_parameters(self) -> dict[str, LawParameters]:
-        """Of laws that have their own: what was set, and what those of the lanes are set to."""
+        """List the parameters by law: those that were set, and those of the lanes' laws."""
         laws = dict.fromkeys((*(lane.law for lane in self.lanes), *self.parameters))
         own = (law for law in laws if is_usable(law) and has_own_parameters(law))
         return {law: self.get_parameters(Lane(law=law)) for law in own}
 
     def with_design(self, design: Design) -> Self:
-        """With another design; parameters of laws that it does not name stay."""
+        """Return the configuration with another design; unnamed laws keep their parameters."""
         parameters = {**self.parameters, **design.parameters}
         return self.changed(**(dict(design) | {"parameters": parameters}))
 

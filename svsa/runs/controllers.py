@@ -1,4 +1,4 @@
-"""The controller of a lane, a law with its gains and its observer: identity and name."""
+"""Identity and name of a lane's controller: a law with its gains and its observer."""
 
 from collections import Counter
 from collections.abc import Iterable, Sequence
@@ -13,7 +13,7 @@ BENCH_LANES = ("Bench", "Twin")
 
 
 class Controller(NamedTuple):
-    """What a curve is drawn of and named by.
+    """The identity and the name of a curve.
 
     place: "Bench" or "Twin" on a bench, else "". observer: None where the law does not act on
     it. copy: 1, and more for a lane with the same controller as another one.
@@ -29,7 +29,7 @@ class Controller(NamedTuple):
 def list_controllers(
     configuration: Configuration, is_bench: bool, before: Sequence[Controller | None] = ()
 ) -> list[Controller]:
-    """Of every lane. before: who controlled it until now, which keeps the number of its copy."""
+    """List the controllers of all lanes. before: former controllers, which keep their numbers."""
     places = (*BENCH_LANES, *[""] * len(configuration.lanes)) if is_bench else None
     alone = [
         _build(configuration, lane, places[number] if places else "")
@@ -49,7 +49,7 @@ def list_controllers(
 
 
 def name_controllers(controllers: Iterable[Controller]) -> dict[Controller, str]:
-    """A name for each: place and law, and where one law is there twice what tells them apart."""
+    """Name each controller: lane and law, and for equal laws the differing parameters."""
     described = {one: _describe(one) for one in dict.fromkeys(controllers)}
     alike: dict[tuple[str, str], list[dict[str, str]]] = {}
     for one, numbers in described.items():
@@ -77,13 +77,13 @@ def _is_copy_of(held: Controller | None, controller: Controller) -> bool:
 
 
 def _find_differing(described: Sequence[dict[str, str]]) -> set[str]:
-    """The symbols of the numbers in which these differ, or that not all of them have."""
+    """Return the symbols of the numbers that differ between controllers or that some lack."""
     symbols = {symbol for numbers in described for symbol in numbers}
     return {symbol for symbol in symbols if len({numbers.get(symbol) for numbers in described}) > 1}
 
 
 def _describe(controller: Controller) -> dict[str, str]:
-    """Its numbers by their symbols; β is the observer's, rad/s."""
+    """Format its numbers with symbols; β is the observer's, rad/s."""
     betas = controller.observer.bandwidth_rad_per_s if controller.observer else ()
     shown = betas[:1] if len(set(betas)) == 1 else betas
     beta = {"β": "/".join(f"{beta:.3g}" for beta in shown)} if betas else {}
@@ -91,7 +91,7 @@ def _describe(controller: Controller) -> dict[str, str]:
 
 
 def _number_doubles(names: dict[Controller, str]) -> dict[Controller, str]:
-    """Names that are still the same are numbered in the order in which they came."""
+    """Number names that are still equal, in order of appearance."""
     seen = Counter[str]()
     numbered: dict[Controller, str] = {}
     for controller, name in names.items():

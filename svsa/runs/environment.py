@@ -1,4 +1,4 @@
-"""The actuator as an environment of Gymnasium; needs the extra `gym`."""
+"""The actuator as an environment of Gymnasium (extra `gym`)."""
 
 # ruff: noqa: E402
 from pathlib import Path
@@ -78,7 +78,7 @@ class ActuatorEnv(gymnasium.Env[np.ndarray, np.ndarray]):
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[np.ndarray, dict[str, Any]]:
-        """Begin an episode from rest.
+        """Start an episode from rest.
 
         Args:
             seed: Of the environment's random numbers. Each episode takes the seed of its sensor

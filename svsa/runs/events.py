@@ -1,4 +1,4 @@
-"""What happened to a run, in words: the same while it runs and of its record."""
+"""Events of a run, live or recorded, as text."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ from svsa.simulation.plant.loads import Load
 
 @dataclass(frozen=True)
 class Event:
-    """Something that changed the run: when, of what kind, and in words."""
+    """An event: time, kind and label."""
 
     tick: int
     time_s: float
@@ -28,7 +28,7 @@ def list_events(
     fault: Fault | None = None,
     reported: Iterable[Event] = (),
 ) -> list[Event]:
-    """The events of a run that was given these commands, in the order of time.
+    """List the events of a run with these commands, in order of time.
 
     A load that comes and goes is one event each, whether it was planned or commanded; one that
     never ends has an end at no tick of the run. fault: what the run ended in, or None. reported:
@@ -56,7 +56,7 @@ def list_events(
 
 
 def find_law(command: Command) -> LawName | None:
-    """The law that a command gives to the first lane, or None."""
+    """Return the law that a command gives to the first lane, or None."""
     match command:
         case Set(kind="law", argument=law) | Set(kind="laws", argument=(law, *_)):
             return law
@@ -64,7 +64,7 @@ def find_law(command: Command) -> LawName | None:
 
 
 def describe_change(command: Command, law: LawName) -> str:
-    """A change in a few words; law: the one that controlled the first lane before."""
+    """Describe a change in a few words; law: previous law of the first lane."""
     given = find_law(command)
     if given is not None and given != law:
         return f"{get_title(law)} → {get_title(given)}"
@@ -79,10 +79,10 @@ def describe_change(command: Command, law: LawName) -> str:
 
 
 def describe_onset(load: Load) -> str:
-    """A load that comes on."""
+    """Describe the onset of a load."""
     return f"{load.name()} on"
 
 
 def describe_end(load: Load) -> str:
-    """A load that ends or is taken off."""
+    """Describe the end or the removal of a load."""
     return f"{load.name()} off"

@@ -1,4 +1,4 @@
-"""Why a run ended: the fault in words and numbers."""
+"""The fault that ended a run, with the values that violated a bound."""
 
 from svsa.actuators.domain import (
     DEFLECTION_LIMIT,
@@ -17,7 +17,7 @@ from svsa.simulation.loop.lane import Blocks
 
 
 def build_fault(code: int, lane: int, tick: int, blocks: Blocks, x: State, name: str = "") -> Fault:
-    """The fault of the domain code `code` at the state x, with the values that broke it.
+    """Build the fault of the domain code `code` at the state x, with the violating values.
 
     name: of the lane, by its law, where several run.
     """
@@ -78,5 +78,5 @@ def _describe(code: int, time: float, blocks: Blocks, x: State) -> tuple[dict[st
 
 
 def _keep_finite(values: dict[str, float]) -> dict[str, float]:
-    """JSON has no word for NaN: a value that is not finite is left out."""
+    """Drop values that are not finite, which JSON cannot represent."""
     return {name: value for name, value in values.items() if abs(value) < float("inf")}

@@ -1,4 +1,4 @@
-"""Control laws in Python that keep a state: each run begins with a fresh one."""
+"""Stateful control laws in Python: each run starts with a fresh copy."""
 
 import pickle
 import weakref
@@ -58,7 +58,7 @@ def begin_run(law: type[object] | Controller) -> Iterator[Controller]:
 
 
 def _read_state(law: object) -> bytes | None:
-    """The attributes as bytes, or None if they cannot be compared."""
+    """Read the attributes as bytes, or None if they cannot be compared."""
     try:
         weakref.ref(law)
         return pickle.dumps(vars(law))

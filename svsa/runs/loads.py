@@ -1,4 +1,4 @@
-"""The loads of a run: when each was on, by one rule for the run and its record."""
+"""Active loads of a run over time, by one rule for runs and records."""
 
 from collections.abc import Iterable
 
@@ -11,7 +11,7 @@ Loads = tuple[ScheduledLoad, ...]
 def give_load(
     loads: Loads, number: int, load: Load, tick: int, period: float
 ) -> tuple[ScheduledLoad, Loads]:
-    """One more load at a tick: as it is on then, and all loads with it.
+    """Add a load at a tick; return it with its absolute times, and all loads.
 
     number: the one that it gets. A push sent while one is on changes that one instead. period: s.
     """
@@ -25,7 +25,7 @@ def give_load(
 def follow_loads(
     planned: Iterable[Load], changes: Iterable[tuple[int, Load | int]], period: float
 ) -> Loads:
-    """Every load of a run, with the ticks at which it came and went.
+    """List every load of a run, with its first and last tick.
 
     planned: those of its configuration. changes: tick, and the load applied or the number of
     the one removed. A push that was sent again is one load, as it was sent last.

@@ -1,4 +1,4 @@
-"""Metrics of a run or a stretch of it: errors, disturbance and step response, control effort."""
+"""Metrics of a run or a part of it: errors, disturbance and step response, control effort."""
 
 import math
 from collections.abc import Mapping
@@ -89,17 +89,17 @@ class Metrics:
     torque2_noise_nm: float | None
 
     def to_dict(self) -> dict[str, float | None]:
-        """The metrics by name, as JSON or a row of a table has them."""
+        """Convert to a dict by name, for JSON or a table."""
         return dict(vars(self))
 
     @property
     def is_finite(self) -> bool:
-        """Whether all metrics that are defined are finite: the lane did not end."""
+        """Whether all defined metrics are finite, that is, the lane did not end."""
         return all(value is None or math.isfinite(value) for value in vars(self).values())
 
 
 def derive_metrics(tally: Mapping[str, Any], counts: Any, periods: Any) -> dict[str, Any]:
-    """The metrics that follow from the sums and peaks of a `Tally`, of one run or of many.
+    """Compute the metrics that follow from sums and peaks of a `Tally`, of one run or many.
 
     Args:
         tally: The fields of a `Tally`, numbers or (runs,).
@@ -136,7 +136,7 @@ class _LastSamples(NamedTuple):
 
 
 class RunningMetrics:
-    """Metrics that grow with the samples; kept are sums, peaks and the last 0.5 s."""
+    """Metrics that are updated with new samples, from sums, peaks and the last 0.5 s."""
 
     def __init__(self, period_s: float) -> None:
         self._period = period_s
@@ -147,11 +147,11 @@ class RunningMetrics:
         self._newest = np.empty((0, len(MEASURED)))
 
     def update(self, samples: np.ndarray) -> None:
-        """Take in more rows of samples (ticks, channels), in the order of time."""
+        """Update with more rows of samples (ticks, channels), in order of time."""
         self.update_measured(samples[:, _COLUMNS])
 
     def update_measured(self, values: np.ndarray) -> None:
-        """As `update`, with the columns `MEASURED` only."""
+        """Update as `update`, with the columns `MEASURED` only."""
         if not len(values):
             return
         # One layout: for another the functions would be compiled again.
@@ -168,7 +168,7 @@ class RunningMetrics:
         self._newest = np.concatenate([self._newest, values[-settled:]])[-settled:]
 
     def summarize(self) -> Metrics | None:
-        """The metrics so far; None before the first sample."""
+        """Return the metrics so far; None before the first sample."""
         followed, period = self._followed, self._period
         if not followed.passed:
             return None

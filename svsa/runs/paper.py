@@ -18,7 +18,7 @@ STEADY_S = (8.0, 20.0)
 
 
 class Figure(NamedTuple):
-    """One figure: its key, title, references, load, and what the paper claims of it."""
+    """A figure: its key, title, references, load, and the paper's claim."""
 
     key: str
     title: str
@@ -30,7 +30,7 @@ class Figure(NamedTuple):
     def build_configuration(
         self, law: str = "ndobc", load: bool = True, design: Design | None = None
     ) -> Configuration:
-        """The run behind the figure; load: with the paper's 3 kg at 5 s.
+        """Build the run of the figure; load: with the paper's 3 kg at 5 s.
 
         design: parameters, gains and limits; the paper's if left out.
         """

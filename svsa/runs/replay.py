@@ -1,4 +1,4 @@
-"""What a configuration and the commands given say of a run: every sample again, and its loads."""
+"""Replay of a run from configuration and commands: every sample, and its loads."""
 
 from collections.abc import Iterable, Iterator
 
@@ -28,7 +28,7 @@ def play(
     room: np.ndarray | None = None,
     stretch_ticks: int = STRETCH_TICKS,
 ) -> Iterator[tuple[Run, np.ndarray]]:
-    """Go on with a run, each command given at its tick.
+    """Continue a run, with each command at its tick.
 
     Yields the run after every stretch, with the stretch's samples (lanes, ticks, channels),
     until `end_tick` or the run's fault. Same configuration and commands: same bits. room:
@@ -50,7 +50,7 @@ def play(
 
 
 def build_run_at(configuration: Configuration, commands: Iterable[Command], tick: int) -> Run:
-    """The run as it stood at the beginning of `tick`, commands of that tick not yet given.
+    """Build the run at the beginning of `tick`, before the commands of that tick.
 
     Raises `StateError` where the run ended before.
     """
@@ -65,7 +65,7 @@ def build_run_at(configuration: Configuration, commands: Iterable[Command], tick
 def simulate_again(
     configuration: Configuration, commands: Iterable[Command], first_tick: int, ticks: int
 ) -> Iterator[np.ndarray]:
-    """The samples of a recorded run once more, bit for bit: stretches (lanes, ticks, channels).
+    """Yield the samples of a recorded run, bit-identical, in stretches (lanes, ticks, channels).
 
     first_tick: where the record begins. ticks: how many it holds.
     """
@@ -76,7 +76,7 @@ def simulate_again(
 
 
 def list_loads(configuration: Configuration, commands: Iterable[Command]) -> Loads:
-    """Every load of a run, with the ticks at which it came and went."""
+    """List every load of a run, with its first and last tick."""
     changes = [
         (one.tick, one.argument) for one in commands if isinstance(one, ApplyLoad | RemoveLoad)
     ]

@@ -1,4 +1,4 @@
-"""One run: a configuration, the state it has reached, and the changes made on the way."""
+"""A run: a configuration, its present state, and the changes so far."""
 
 import math
 from collections.abc import Sequence
@@ -31,7 +31,7 @@ from svsa.simulation.reference.transition import Stack, build_stack, push_trajec
 
 
 class Start(NamedTuple):
-    """Where a run begins that finds the actuator as it is.
+    """The start of a run from a measured state of the actuator.
 
     mu0: lever ratio at θ2 = 0, a fact of how the actuator was assembled. x: `State` at t = 0.
     """
@@ -96,11 +96,11 @@ class Run:
 
     @property
     def time_s(self) -> float:
-        """The time of the next tick, s."""
+        """Time of the next tick, s."""
         return self.tick * self.period_s
 
     def advance(self, samples: np.ndarray) -> int:
-        """Run so many ticks as `samples` (lanes, ticks, channels) has; how many were done.
+        """Advance as many ticks as `samples` (lanes, ticks, channels) has; return the number done.
 
         Fewer than asked means that the run has ended: `fault` says why. All lanes end with
         the first of them that leaves the domain of the model.
@@ -126,7 +126,7 @@ class Run:
         return done
 
     def _name_lane(self, number: int) -> str:
-        """The law of a lane, with its number where another has the same; "" where it is alone."""
+        """Name a lane's law, with a number if another has the same; "" for a single lane."""
         laws = [get_law(lane.law).title for lane in self.configuration.lanes]
         if len(laws) == 1:
             return ""
@@ -134,7 +134,9 @@ class Run:
         return f"{law} ({number + 1})" if laws.count(law) > 1 else law
 
     def _advance_lane(self, number: int, rows: np.ndarray) -> tuple[LaneState, int, int]:
-        """One lane from the present tick on; the first comes last, so that it is asked once."""
+        """Advance one lane from the present tick on; the first lane is last, so that it is
+        called once.
+        """
         blocks, inputs, law = self.blocks[number], self.inputs, self.laws[number]
         own = None if number else self._controller
         kind = law.function if own is None else "own", blocks.steps
@@ -147,7 +149,7 @@ class Run:
         return advance_in_slices(run, kind, self.lanes[number], self.tick, rows)
 
     def change(self, command: Command) -> ScheduledLoad | None:
-        """Give the run a command now, whatever tick it names; refused, it changes nothing.
+        """Apply a command now, whatever its tick; if rejected, nothing changes.
 
         Args:
             command: A reference is faded over. A law that comes remembers nothing, the same law
@@ -193,7 +195,7 @@ class Run:
         self.configuration = after
 
     def add_load(self, load: Load) -> ScheduledLoad:
-        """Apply a load now or at its `start_s`; raises `StateError` when there are too many.
+        """Apply a load now or at its `start_s`; raises `StateError` if there are too many.
 
         A push sent while one is on changes that one, which is returned. Each command counts,
         so that a load's number is that of its command.
@@ -213,7 +215,7 @@ class Run:
         return given
 
     def remove_load(self, number: int) -> ScheduledLoad:
-        """Take a load off; raises `StateError` when there is none of that number."""
+        """Remove a load; raises `StateError` if there is none of that number."""
         for load in self.loads:
             if load.number == number:
                 self.loads = tuple(kept for kept in self.loads if kept is not load)
@@ -223,7 +225,7 @@ class Run:
         raise StateError(f"There is no load {number}; loads here: {numbers}.")
 
     def _connect(self, c: Configuration, origins: Sequence[int | None]) -> None:
-        """Give the loop what a configuration says; a law that fails at it changes nothing.
+        """Update the loop's constants for a configuration; if a law fails, nothing changes.
 
         origins: of every lane the one that it continues.
         """
@@ -240,7 +242,7 @@ class Run:
 
 
 def find_origins(before: Sequence[Lane], after: Sequence[Lane]) -> list[int | None]:
-    """For each lane the number of the lane that it continues, 0 being the first; None is new.
+    """Return for each lane the number of the lane that it continues, from 0; None for a new one.
 
     before, after: the comparisons of a run.
     """
@@ -255,7 +257,7 @@ def find_origins(before: Sequence[Lane], after: Sequence[Lane]) -> list[int | No
 
 
 def check_laws(configuration: Configuration) -> None:
-    """Raise `ParameterError` where a lane's law is not installed."""
+    """Raise `ParameterError` if a lane's law is not installed."""
     for number, lane in enumerate(configuration.lanes):
         try:
             check_installed(lane.law)
@@ -264,7 +266,7 @@ def check_laws(configuration: Configuration) -> None:
 
 
 def check_lasting_loads(configuration: Configuration) -> None:
-    """Raise `ParameterError` for a stiffness that is not possible under the loads that last."""
+    """Raise `ParameterError` for a stiffness that is impossible under the lasting loads."""
     c, torque = configuration, 0.0
     for load in c.loads:
         if load.acts_as == TORQUE and load.factor is None and math.isinf(load.get_duration()):
@@ -275,12 +277,12 @@ def check_lasting_loads(configuration: Configuration) -> None:
 
 
 def _follow_law(lane: LaneState, before: str, law: str) -> LaneState:
-    """The lane under a law: what the law before remembered is no other law's."""
+    """Return the lane under another law, with that law's initial memory."""
     return lane if law == before else lane._replace(memory=get_law(law).start_memory())
 
 
 def _build_stacks(configuration: Configuration, start: Start) -> tuple[Stack, Stack]:
-    """Both references, faded in from where the actuator stands; σ from inside its range."""
+    """Build both references, faded in from the actuator's position; σ from inside its range."""
     c, x = configuration, start.x
     plant = build_actuator(c.actuator, start.mu0)
     sigma = compute_stiffness_of(plant, compute_coordinate(plant, x.theta2), x.q - x.theta1)

@@ -1,4 +1,4 @@
-"""Settings as a script may write them, and the checked values that they stand for.
+"""Abbreviated settings in scripts, and their conversion to checked values.
 
 What is unambiguous is accepted: a number for a constant, one load for a list, a part of some
 parameters. Files and REST take the full form only.
@@ -60,7 +60,7 @@ class Settings(TypedDict, total=False):
 
 
 class _Form:
-    """What a setting is, and what to write where it is none."""
+    """The expected form of a setting, for an error message."""
 
     def __init__(self, kind: Any, cure: str, is_partial: bool = False) -> None:
         self.kind, self.cure, self.is_partial = kind, cure, is_partial
@@ -106,7 +106,7 @@ _LISTED = str | Mapping | Checked
 def change_configuration(
     configuration: Configuration, given: Mapping[str, Any], keywords: Iterable[str] = ()
 ) -> Configuration:
-    """The configuration with these settings.
+    """Return the configuration with these settings.
 
     Args:
         configuration: What is changed.
@@ -165,7 +165,7 @@ def read_mechanism(name: str) -> dict[str, Any]:
 
 
 def read_setting(name: str, given: Any, present: Any) -> Any:
-    """The checked value that a script means.
+    """Convert an abbreviated setting to its checked value.
 
     Args:
         name: Of the setting, as "stiffness".

@@ -1,4 +1,4 @@
-"""How an output follows the first step of its reference: rise time, overshoot, settling time."""
+"""Step response of an output: rise time, overshoot, settling time."""
 
 import math
 from typing import NamedTuple
@@ -19,7 +19,7 @@ _UNSETTLED, _CONSTANT, _MOVING, _FOLLOWED, _OVER = 0.0, 1.0, 2.0, 3.0, 4.0
 
 
 class _State(NamedTuple):
-    """Of a search for a step, and of the response to it.
+    """State of the search for a step, and of the response.
 
     phase: whether the reference has yet to be constant for 0.5 s, is constant, moves, has made a
     step, or the response is over. reference, output: the newest known. held: ticks for which the
@@ -64,7 +64,7 @@ class _Bounds(NamedTuple):
 
 @compiled
 def _follow_output(state: _State, output: float, settled: float) -> _State:
-    """The response with its next tick."""
+    """Update the response with the next tick."""
     s = state
     share = (output - s.start) / (s.target - s.start)
     rise_from, rise_to = s.rise_from, s.rise_to
@@ -85,7 +85,7 @@ def _follow_output(state: _State, output: float, settled: float) -> _State:
 
 @compiled
 def _follow_reference(state: _State, reference: float, output: float, bounds: _Bounds) -> _State:
-    """The search for a step with its next tick."""
+    """Update the search for a step with the next tick."""
     s, phase, held, moved = state, state.phase, state.held + 1.0, state.moved + 1.0
     start, first, low, high = s.start, s.first, s.low, s.high
     if reference != s.reference:
@@ -116,7 +116,7 @@ def _follow_reference(state: _State, reference: float, output: float, bounds: _B
 def _follow(
     state: _State, outputs: np.ndarray, references: np.ndarray, errors: np.ndarray, bounds: _Bounds
 ) -> _State:
-    """The state with more samples. outputs: those since the reference moves, written here."""
+    """Update the state with samples. outputs: those since the reference moves, written here."""
     for i in range(references.shape[0]):
         if state.phase == _OVER:
             break
@@ -179,17 +179,19 @@ class StepResponse:
 
     @property
     def overshoot_share(self) -> float | None:
-        """Largest excess over the new level until settled, of the step; None before 90 % of it."""
+        """Largest excess over the new level until settled, relative to the step; None before 90
+        %.
+        """
         return None if self._state.rise_to < 0.0 else self._state.highest
 
     @property
     def settling_time_s(self) -> float | None:
-        """Until the output has stayed within 2 % of the step around the new level for 0.5 s, s."""
+        """Time until the output stays within 2 % of the step around the new level for 0.5 s, s."""
         recovered = self._state.recovered
         return None if recovered < 0.0 else recovered * self._period
 
     def update(self, references: np.ndarray, errors: np.ndarray, is_start: bool) -> None:
-        """Take in more samples; one that a loop missed is NaN and counts as the one before it.
+        """Update with more samples; a missed one (NaN) counts as the one before it.
 
         Args:
             references: (ticks,).

@@ -1,4 +1,4 @@
-"""The plant tick by tick, under motor torques from outside: for a controller or an agent."""
+"""The plant tick by tick, with external motor torques, for a controller or an agent."""
 
 import math
 from pathlib import Path
@@ -36,7 +36,7 @@ MAX_STEP_TICKS = 1_000_000
 
 
 class Observation(NamedTuple):
-    """What a controller knows at the beginning of a tick: the arguments of a law in plain Python.
+    """The inputs of a controller at the beginning of a tick: arguments of a law in plain Python.
 
     Attributes:
         time_s: Time of the run, s.
@@ -66,7 +66,7 @@ def _return_held(
     applied: Torque,
     period: float,
 ) -> Torque:
-    """The torque in the memory, as `svsa.control.law.Law.control`."""
+    """Return the torque in the memory, as `svsa.control.law.Law.control`."""
     return Torque(memory.u1, memory.u2)
 
 
@@ -181,7 +181,7 @@ class Stepper:
         return reference.q - x.q, reference.sigma - compute_stiffness_of(plant, mu, x.q - x.theta1)
 
     def _find_fault(self) -> Fault | None:
-        """The fault that the next tick would begin with."""
+        """Return the fault at the beginning of the next tick, or None."""
         run, blocks, x = self._run, self._run.blocks[0], self._run.lanes[0].x
         code = check_domain(blocks.domain, blocks.plant, x)
         return None if code == INSIDE else build_fault(code, 0, run.tick, blocks, x)

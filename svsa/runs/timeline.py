@@ -1,4 +1,4 @@
-"""What a run was from when on: who controlled its lanes, and between which changes.
+"""The timeline of a run: controllers of its lanes, and windows between changes.
 
 A session follows its run with it; of a recorded run the same is read from its configuration and
 its commands.
@@ -36,7 +36,7 @@ WindowKind = Literal["start", "load", "unload", "change", "stop"]
 
 @dataclass(frozen=True)
 class Window:
-    """A part of a run in which nothing was changed; ticks first … end − 1, end None: until now.
+    """A part of a run without changes; ticks first … end − 1, end None: until now.
 
     kind: what began it: the run, a load that came on, one that was taken off, or a change of
     reference, law, gains, observer, effects, plant, model or lanes, or a bench's ramp to zero
@@ -90,11 +90,13 @@ class Timeline:
 
     @property
     def window(self) -> Window:
-        """The present one."""
+        """The present window."""
         return self.windows[-1]
 
     def take(self, command: Command) -> list[int | None] | None:
-        """A command was given; for one that changed lanes, what each continues (None: new)."""
+        """Apply a command; for one that changed lanes, with the lane that each continues (None:
+        new).
+        """
         before, origins = self._configuration, None
         self._configuration = fold(before, command, self._is_bench)
         if command.kind == "comparisons":
@@ -117,26 +119,26 @@ class Timeline:
         return origins
 
     def begin_load(self, load: Load, tick: int) -> None:
-        """A load acts from this tick on."""
+        """Note the onset of a load at this tick."""
         self._begin("load", load.name(), tick)
         self.load_window = self.window
         self.load_numbers = [lane[-1].number for lane in self.lanes]
 
     def take_off(self, load: Load, tick: int) -> None:
-        """A load that acted was taken off by hand."""
+        """Note the removal of an active load."""
         self._begin("unload", describe_end(load), tick)
 
     def list_segments(
         self, first_tick: float = 0, most: int = MAX_STRETCHES
     ) -> list[list[Segment]]:
-        """Of every lane those that reach beyond a tick, the newest ones where there are more."""
+        """List each lane's segments that reach beyond a tick, at most the newest ones."""
         return [
             [one for one in lane if one.end_tick is None or one.end_tick > first_tick][-most:]
             for lane in self.lanes
         ]
 
     def name_segments(self, lanes: Sequence[Sequence[Segment]]) -> dict[int, str]:
-        """By its number, a name for everybody who controlled these lanes in these segments.
+        """Name each controller, by number, that controlled these lanes in these segments.
 
         They are named together, in the order in which they came; kept until others are asked for.
         """
@@ -148,7 +150,7 @@ class Timeline:
         return self._names
 
     def list_windows(self, first_tick: int, end_tick: int) -> list[Window]:
-        """Those that reach into the ticks first … end − 1."""
+        """List the windows that overlap the ticks first … end − 1."""
         return [
             window
             for window in self.windows
@@ -191,7 +193,7 @@ class Timeline:
                 )
 
     def _find_line_style(self, controller: Controller, present: Sequence[Controller]) -> int:
-        """The one that it has, else the first of its law's color that no kept controller has.
+        """Return a controller's line style, or the first of its law's color that is free.
 
         While a different law has that color, and for a law that is not installed, the color is
         another one: of no other law whose curves are kept, else of none that controls a lane now.
@@ -229,7 +231,7 @@ def read_timeline(
     ticks: tuple[int, int],
     is_bench: bool = False,
 ) -> Timeline:
-    """The timeline of a run that was given these commands.
+    """Build the timeline of a run with these commands.
 
     ticks: from which tick on segments are kept, and how far the run went. Raises
     `ParameterError` or `StateError` for commands that this run cannot have had.
@@ -262,7 +264,7 @@ def read_timeline(
 
 
 def _join(before: str, label: str) -> str:
-    """What happened at one tick in one label, each once; what is too much for one is left out."""
+    """Join the labels of one tick without repetition, shortened to the maximum length."""
     if label in before or before.endswith(_MORE):
         return before
     if len(before) + len(label) > LONGEST_LABEL:
@@ -271,7 +273,7 @@ def _join(before: str, label: str) -> str:
 
 
 def _end(lane: list[Segment], tick: int) -> None:
-    """The present segment ends; one that has only begun was none."""
+    """End the present segment; one without ticks is dropped."""
     if lane[-1].first_tick == tick:
         lane.pop()
     elif lane[-1].end_tick is None:

@@ -1,4 +1,4 @@
-"""How well every lane does: since the start of the run, in each window of it, under the load."""
+"""Metrics of every lane: since the start of the run, in each window, and under load."""
 
 from collections import deque
 from collections.abc import Sequence
@@ -13,14 +13,14 @@ MAX_ENDED = 50
 
 
 class EndedWindow(NamedTuple):
-    """What became of the lanes in a window that has ended; None for one that was not there."""
+    """Metrics of the lanes in an ended window; None for a lane that did not exist."""
 
     first_tick: int
     lanes: list[Metrics | None]
 
 
 class WindowMetrics:
-    """Metrics of every lane, None for one that was not there when they began.
+    """Metrics of every lane, None for one that did not exist at the start of the window.
 
     `since_load` are those of the newest load's window and end with it; `ended` the newest windows
     that something was changed after, of at least one tick each.
@@ -35,14 +35,14 @@ class WindowMetrics:
         self._first_tick = 0
 
     def update(self, samples: np.ndarray) -> None:
-        """Take in more samples (lanes, ticks, channels)."""
+        """Update with more samples (lanes, ticks, channels)."""
         for lanes in (self.since_start, self.in_window):
             for lane, running in enumerate(lanes):
                 if running is not None:
                     running.update(samples[lane])
 
     def begin_window(self, tick: int) -> None:
-        """Something was changed: another window from this tick on."""
+        """Start another window at this tick."""
         if tick > self._first_tick:
             lanes = [running and running.summarize() for running in self.in_window]
             self.ended.append(EndedWindow(self._first_tick, lanes))
@@ -50,12 +50,12 @@ class WindowMetrics:
         self.in_window = self._begin(len(self.in_window))
 
     def begin_load(self, tick: int) -> None:
-        """A load came on."""
+        """Note the onset of a load."""
         self.begin_window(tick)
         self.since_load = self.in_window
 
     def rearrange(self, origins: Sequence[int | None], is_fresh: bool) -> None:
-        """Lane i continues lane origins[i], None is new; is_fresh: before the first tick."""
+        """Assign lane i the metrics of lane origins[i], None for a new one."""
 
         def arrange(lanes: Lanes) -> Lanes:
             new = self._begin(len(origins)) if is_fresh else [None] * len(origins)

@@ -1,1 +1,1 @@
-"""Records of runs: written while they go on, recovered after a crash, read back."""
+"""Records of runs: written during the run, recovered after a crash, read back."""

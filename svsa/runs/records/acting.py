@@ -1,4 +1,4 @@
-"""What acted on a recorded run: every setting from its first sample to its last, every load."""
+"""Settings and loads of a recorded run over time."""
 
 from dataclasses import dataclass
 from typing import Any, get_args
@@ -26,7 +26,7 @@ SETTINGS = (*(name for name in get_args(Settable) if name not in _SEVERAL), *_FI
 
 @dataclass(frozen=True)
 class Acting:
-    """Settings by their names in the configuration, each as (tick, value) in order of time.
+    """Settings by name in the configuration, each as (tick, value) in order of time.
 
     The first value is the one at the first sample. A value is None where this version cannot
     read it. loads: those that were on during at least one sample, with the ticks at which they
@@ -37,12 +37,12 @@ class Acting:
     loads: Loads | None
 
     def get_values(self, setting: str) -> list[Any]:
-        """What the setting was, one value after another."""
+        """Return the values of a setting in order."""
         return [value for _, value in self.settings[setting]]
 
 
 def read_acting(header: RecordHeader, commands: Commands, first_tick: int, ticks: int) -> Acting:
-    """What acted on the record of `ticks` samples from `first_tick` on.
+    """Read settings and loads of the record of `ticks` samples from `first_tick` on.
 
     A command at a sample's tick acts on that sample: one given after the last acted on none.
     """
@@ -66,7 +66,7 @@ def read_acting(header: RecordHeader, commands: Commands, first_tick: int, ticks
 def _read_changes(
     written: dict[str, Any], comparisons: tuple[Lane, ...] | None, is_bench: bool
 ) -> dict[str, Any]:
-    """What a command changes, as `fold` does; None for what this version cannot read."""
+    """Return the changes of a command, as `fold` does; None if this version cannot read it."""
     kind = written.get("kind")
     if not isinstance(kind, str) or kind not in get_args(Settable):
         return {}
@@ -77,7 +77,7 @@ def _read_changes(
 
 
 def _drop_repeated(values: list[tuple[int, Any]]) -> tuple[tuple[int, Any], ...]:
-    """Without those that are as the one before."""
+    """Drop entries equal to their predecessor."""
     kept = (at for at in range(len(values)) if at == 0 or values[at][1] != values[at - 1][1])
     return tuple(values[at] for at in kept)
 

@@ -1,4 +1,4 @@
-"""What a run of a bench began from: a file of its own in the record, where there is one.
+"""The start state of a bench's run, in a separate file of its record.
 
 With it, and the samples as they were measured and sent, every other number of the run can be worked
 out again.
@@ -17,7 +17,7 @@ START_FILE = "bench-start.json"
 
 @dataclass(frozen=True)
 class BenchStart:
-    """What of a bench's run is in none of its samples.
+    """The start values of a bench's run that its samples do not contain.
 
     mu0: lever ratio at the zero marks. latency_s, lag_s: from a torque that is decided to one that
     acts. torque_step_nm: of both motors, of the least step of current that their drives know.
@@ -37,17 +37,17 @@ _START = TypeAdapter(BenchStart)
 
 
 def write_start(folder: Path, start: BenchStart) -> None:
-    """Say what the run began from; raises `OSError`."""
+    """Write the start state; raises `OSError`."""
     replace_file(folder / START_FILE, dump_start(start))
 
 
 def dump_start(start: BenchStart) -> bytes:
-    """The start as JSON."""
+    """Convert the start state to JSON."""
     return _START.dump_json(start)
 
 
 def read_start(folder: Path) -> BenchStart | None:
-    """What the run began from; None for a simulated one, and if it was not written.
+    """Read the start state; None for a simulated run, and if it was not written.
 
     Raises `RecordError` where the file is damaged.
     """

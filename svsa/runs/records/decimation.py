@@ -1,4 +1,4 @@
-"""Samples thinned out for a plot, no peak lost."""
+"""Decimation of samples for a plot without loss of peaks."""
 
 from typing import NamedTuple
 
@@ -6,7 +6,7 @@ import numpy as np
 
 
 class Decimated(NamedTuple):
-    """Rows for a plot. stride: ticks that two rows stand for, or 1.
+    """Rows for a plot. stride: ticks that two rows represent, or 1.
 
     rows: index of the sample at whose time a row stands. values: (rows, …).
     """
@@ -17,7 +17,7 @@ class Decimated(NamedTuple):
 
 
 def decimate(values: np.ndarray, points: int) -> Decimated:
-    """At most `points` (≥ 2) rows of values (ticks, …): least and greatest of every stretch.
+    """Decimate values (ticks, …) to at most `points` (≥ 2) rows: minimum and maximum per stretch.
 
     Both in the order in which they come; NaN counts only where there is nothing else.
     """
@@ -40,7 +40,7 @@ def decimate(values: np.ndarray, points: int) -> Decimated:
 def _find_first(
     values: np.ndarray, wanted: np.ndarray, starts: np.ndarray, stride: int
 ) -> np.ndarray:
-    """Where in its stretch each wanted value comes first."""
+    """Return the position of each value's first occurrence in its stretch."""
     place = np.arange(len(values)) % stride
     place = place.reshape(-1, *[1] * (values.ndim - 1))
     spread = np.repeat(wanted, stride, axis=0)[: len(values)]

@@ -1,4 +1,4 @@
-"""What of the settings differs between recorded runs, in names and units that people know."""
+"""Settings that differ between recorded runs, with labels and units."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -43,7 +43,7 @@ _SAME_POLE = 0.01
 
 @dataclass(frozen=True)
 class Difference:
-    """A setting that is not the same in every run.
+    """A setting that differs between runs.
 
     group, name: as people say it. unit: SI, of a value that is a number, else "". values: run
     by run; None where a run has no such setting.
@@ -56,7 +56,7 @@ class Difference:
 
 
 def compare_settings(records: Sequence[Record]) -> tuple[Difference, ...]:
-    """What differs between these records, group by group; nothing where all were set alike.
+    """List the differences of these records by group; empty if all settings are equal.
 
     Compared are the settings at the first sample of each, the loads that were on, and what was
     changed in between, with times from the first sample on.
@@ -90,7 +90,7 @@ def _list_rows(record: Record) -> Rows:
 
 
 def _flatten(setting: str, value: Any) -> Iterator[tuple[tuple[str, str], Value]]:
-    """Names, units and values of a setting, down to its last number."""
+    """List names, units and values of all numbers of a setting."""
     if value is None:
         yield (_TITLES[setting], ""), UNKNOWN
     elif setting == "law":
@@ -136,7 +136,7 @@ def _flatten_observer(observer: Any, lane: str) -> Iterator[tuple[tuple[str, str
 
 
 def format_poles(roots: Sequence[complex]) -> str:
-    """Poles to three digits, one of four at one place as "−60 (4×)"."""
+    """Format poles to three digits, a fourfold one as "−60 (4×)"."""
     texts: list[str] = []
     for root in roots:
         real = f"{root.real:.3g}".replace("-", "−")

@@ -1,4 +1,4 @@
-"""Words of files written before a renaming: the only place that knows them.
+"""Translation of files from before a renaming: the only place with former names.
 
 A record, or the progress of a student, keeps the words of its time. The reader translates them
 once, so that everything behind it knows the present words only.
@@ -31,7 +31,7 @@ SCENARIOS = {"unloading": "load_removal", "draw_": "trial_", "unloading_": "load
 
 
 def translate_fields(written: Any, words: dict[str, str]) -> Any:
-    """Rename the fields of an object; anything else is returned as it is.
+    """Rename the fields of an object; return anything else unchanged.
 
     Args:
         written: A value read from JSON.
@@ -43,7 +43,7 @@ def translate_fields(written: Any, words: dict[str, str]) -> Any:
 
 
 def translate_results(written: Any) -> Any:
-    """Rename the fields of a grade or an entry of the leaderboard, and the scenarios in it.
+    """Rename the fields of a grade or a leaderboard entry, and the scenarios in it.
 
     Args:
         written: A value read from JSON.
@@ -64,6 +64,6 @@ def _translate_scenario(name: str) -> str:
 
 
 def translate_command(command: dict[str, Any]) -> dict[str, Any]:
-    """Rename the kind of a command as it was written."""
+    """Rename the kind of a stored command."""
     kind = command.get("kind")
     return command | {"kind": KINDS[kind]} if kind in KINDS else command

@@ -1,4 +1,4 @@
-"""What a record says of itself before its first sample: version, run, lanes, channels, design."""
+"""The header of a record: version, run, lanes, channels, design."""
 
 import json
 import os
@@ -38,19 +38,19 @@ _CHANNEL = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,62}", re.ASCII)
 
 
 class RecordError(SvsaError):
-    """A record that cannot be written, found or read; what is on the disk stays as it is."""
+    """A record cannot be written, found or read; existing files stay unchanged."""
 
 
 @dataclass(frozen=True)
 class BranchPoint:
-    """Where a branch left another run: that run's id, and the tick from which it goes on."""
+    """The origin of a branch: the id of a run, and the tick from which it continues."""
 
     run_id: str
     tick: int
 
 
 class RecordHeader(Checked):
-    """Everything about a record but its commands and samples; JSON in `header.json`.
+    """All metadata of a record except commands and samples; JSON in `header.json`.
 
     With `configuration` (which holds the seed) and the commands, a simulated run can be
     simulated again. Raises `ParameterError` for a wrong value.
@@ -106,7 +106,7 @@ class RecordHeader(Checked):
 
 
 def build_header(configuration: Configuration, lane_count: int, **known: Any) -> RecordHeader:
-    """The header of a record that begins now, under a new id.
+    """Build the header of a new record, with a new id.
 
     Args:
         configuration: of the run at tick 0.
@@ -130,12 +130,12 @@ def build_header(configuration: Configuration, lane_count: int, **known: Any) ->
 
 
 def build_run_id() -> str:
-    """An id for a new run: the time in UTC, and a random number so that no two are the same."""
+    """Build an id for a new run: UTC time and a random number."""
     return f"{datetime.now(UTC):%Y%m%d-%H%M%S}-{secrets.token_hex(4)}"
 
 
 def read_header(folder: Path) -> RecordHeader:
-    """The header in a record's folder; raises `RecordError` where there is none to read."""
+    """Read the header in a record's folder; raises `RecordError` if there is none."""
     path = folder / HEADER_FILE
     try:
         return parse_header(path.read_text(encoding="utf-8"))
@@ -146,7 +146,7 @@ def read_header(folder: Path) -> RecordHeader:
 
 
 def parse_header(text: str) -> RecordHeader:
-    """A header from its JSON; raises `RecordError` for anything else."""
+    """Parse a header from its JSON; raises `RecordError` for anything else."""
     try:
         written = json.loads(text)
     except ValueError as error:
@@ -182,7 +182,7 @@ def describe_newer(version: str) -> str:
 
 
 def _read_release(version: str) -> tuple[int, ...]:
-    """The numbers of a version, to be compared: of 0.10.0 (0, 10)."""
+    """Parse a version for comparison: "0.10.0" is (0, 10)."""
     numbers = [int(number) for number in re.findall(r"\d{1,9}", version.partition("+")[0])]
     while numbers and numbers[-1] == 0:
         numbers.pop()
@@ -190,12 +190,12 @@ def _read_release(version: str) -> tuple[int, ...]:
 
 
 def write_header(folder: Path, header: RecordHeader) -> None:
-    """Write or replace the header as a whole, so that a crash leaves the old or the new one."""
+    """Write or replace the header atomically."""
     replace_file(folder / HEADER_FILE, header.to_json().encode())
 
 
 def replace_file(path: Path, content: bytes) -> None:
-    """Put `content` at `path` in one step; raises `OSError` with the old file in place."""
+    """Replace a file atomically; raises `OSError` with the old file in place."""
     # Process and thread are in the name, so that two writers do not share a draft.
     draft = path.with_name(f"{path.name}.{os.getpid()}-{threading.get_ident()}.tmp")
     try:
@@ -209,7 +209,7 @@ def replace_file(path: Path, content: bytes) -> None:
 
 
 def is_run_id(text: str) -> bool:
-    """Whether `text` may name a run's folder."""
+    """Whether `text` is a valid name of a run's folder."""
     return _RUN_ID.fullmatch(text) is not None
 
 
@@ -221,7 +221,7 @@ def _is_time(text: str) -> bool:
 
 
 def check_texts(name: str, tags: tuple[str, ...], notes: str) -> None:
-    """Raise `ParameterError` where a name, tag or note is too long or no text at all."""
+    """Raise `ParameterError` for a name, tag or note that is too long or not a text."""
     check_text("name", name, LONGEST_NAME)
     check_text("notes", notes, LONGEST_NOTES)
     if len(tags) > MAX_TAGS or len(set(tags)) < len(tags):

@@ -1,4 +1,4 @@
-"""The window of a recorded run that is measured: one law a lane, and no change in it."""
+"""The measured window of a recorded run: one law per lane, without changes."""
 
 import json
 from collections.abc import Iterable
@@ -33,7 +33,7 @@ class MeasuredWindow:
 
 
 def trace_record(record: Record) -> Timeline | None:
-    """The timeline of a recorded run; None if its commands do not determine its lanes."""
+    """Trace the timeline of a recorded run; None if its commands do not determine its lanes."""
     try:
         configuration, commands = read_origin(record)
         ticks = record.first_tick, record.first_tick + record.tick_count
@@ -45,7 +45,7 @@ def trace_record(record: Record) -> Timeline | None:
 
 
 def find_measured_window(record: Record) -> MeasuredWindow | None:
-    """The window of the last load that came on in the record; without one, the last window.
+    """Find the window of the last load in the record; without a load, the last window.
 
     A bench's ramp to zero torque is measured only if there is nothing else: no law commanded it.
     Where this version cannot read what was changed, the whole record if that was nothing, else
@@ -72,7 +72,7 @@ def find_measured_window(record: Record) -> MeasuredWindow | None:
 def summarize(
     lanes: Iterable[RunningMetrics], window: MeasuredWindow
 ) -> tuple[Metrics, ...] | None:
-    """The metrics of every lane, which has taken in the window; None where they are no numbers.
+    """Compute the metrics of every lane over the window; None for lanes with NaN.
 
     A load that ended within the window has no steady-state error under load.
     """
@@ -87,7 +87,7 @@ def summarize(
 
 
 def measure(record: Record, window: MeasuredWindow) -> tuple[Metrics, ...] | None:
-    """The metrics of every lane in the window, a segment at a time.
+    """Update the metrics of every lane over the window, in stretches.
 
     None without the channels for it, or with samples that are no numbers.
     """
@@ -104,7 +104,7 @@ def measure(record: Record, window: MeasuredWindow) -> tuple[Metrics, ...] | Non
 
 
 def write_metrics(record: Record) -> str:
-    """The measured window of a record and each lane's `Metrics` in it, as JSON; "null" without."""
+    """Convert the measured window of a record and its metrics to JSON; "null" without a window."""
     window = find_measured_window(record)
     found = None if window is None else measure(record, window)
     if window is None or found is None:
@@ -125,7 +125,7 @@ def _build(record: Record, window: Window, lanes: tuple[str, ...]) -> MeasuredWi
 
 
 def _name_lanes(timeline: Timeline, tick: int) -> tuple[str, ...]:
-    """Who controlled each lane at a tick."""
+    """Name the controller of each lane at a tick."""
     lanes = timeline.list_segments()
     names = timeline.name_segments(lanes)
     present = [[one for one in lane if one.first_tick <= tick] or lane for lane in lanes]

@@ -1,4 +1,4 @@
-"""The bench's events and the fault of a recorded run, each a file of its record."""
+"""Events of a bench and the fault of a recorded run, one file each."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -14,17 +14,17 @@ _EVENTS = TypeAdapter(tuple[Event, ...])
 
 
 def write_events(folder: Path, events: Sequence[Event]) -> None:
-    """Write the reported events, in the order of time; raises `OSError`."""
+    """Write the reported events in order of time; raises `OSError`."""
     replace_file(folder / EVENTS_FILE, dump_events(events))
 
 
 def dump_events(events: Sequence[Event]) -> bytes:
-    """The events as JSON."""
+    """Convert the events to JSON."""
     return _EVENTS.dump_json(tuple(events))
 
 
 def read_events(folder: Path) -> tuple[Event, ...]:
-    """The reported events; none if none were written, as by an older version.
+    """Read the reported events; empty if there is no file, as of an older version.
 
     Raises `RecordError` where the file is damaged.
     """
@@ -41,7 +41,7 @@ _FAULT = TypeAdapter(Fault)
 
 
 def write_fault(folder: Path, fault: Fault | None) -> None:
-    """Say that the run ended in this fault, or in none; raises `OSError`."""
+    """Write the fault of a run, or that it had none; raises `OSError`."""
     if fault is None:
         (folder / FAULT_FILE).unlink(missing_ok=True)
     else:
@@ -49,12 +49,12 @@ def write_fault(folder: Path, fault: Fault | None) -> None:
 
 
 def dump_fault(fault: Fault) -> bytes:
-    """The fault as JSON."""
+    """Convert the fault to JSON."""
     return _FAULT.dump_json(fault)
 
 
 def read_fault(folder: Path) -> Fault | None:
-    """The fault that the run ended in; None if it ended otherwise, or if it was not written.
+    """Read the fault of a run; None if there was none or it was not written.
 
     Raises `RecordError` where the file is damaged.
     """

@@ -1,4 +1,4 @@
-"""The finished samples: one Parquet file that describes its own content."""
+"""Samples of a finished record: one self-describing Parquet file."""
 
 import contextlib
 import io
@@ -47,7 +47,7 @@ class Finished(NamedTuple):
 
 
 def finish(folder: Path) -> Finished:
-    """Turn the stream of an ended recording into Parquet; harmless where that is done.
+    """Convert the stream of an ended recording to Parquet; no effect if done before.
 
     Samples and commands that were cut off by a crash are left out. Raises `RecordError`
     where header, commands or samples are damaged or the disk is full: nothing is lost then.
@@ -86,7 +86,9 @@ def write_parquet(
     start: BenchStart | None = None,
     events: Sequence[Event] = (),
 ) -> None:
-    """Write samples as Parquet: float64 exact, zstd, checksums; all else of the record inside."""
+    """Write samples as Parquet: float64 exact, zstd, checksums, with the whole record's
+    metadata.
+    """
     schema = build_schema(header)
     lines = [{"tick": tick, "command": command} for tick, command in commands]
     inside = {**schema.metadata, COMMANDS_KEY: json.dumps(lines).encode()}
@@ -130,7 +132,7 @@ def unpack_parquet(content: bytes, folder: Path) -> None:
 
 
 def open_parquet(folder: Path) -> pq.ParquetFile:
-    """The finished file of a record; raises `RecordError` where it is damaged or missing."""
+    """Open the finished file of a record; raises `RecordError` if it is damaged or missing."""
     try:
         return pq.ParquetFile(folder / PARQUET_FILE, page_checksum_verification=True)
     except FileNotFoundError:
@@ -140,7 +142,7 @@ def open_parquet(folder: Path) -> pq.ParquetFile:
 
 
 def read_commands(folder: Path) -> tuple[Commands, int]:
-    """The commands and how many bytes of their file are whole lines.
+    """Read the commands, and the number of bytes that are complete lines.
 
     A last line without its end is what a crash leaves, and left out. Raises `RecordError`.
     """
@@ -165,12 +167,12 @@ def read_commands(folder: Path) -> tuple[Commands, int]:
 
 
 def write_command(tick: int, command: dict[str, Any]) -> bytes:
-    """A command as a line of the file; raises `TypeError` or `ValueError` if JSON cannot."""
+    """Convert a command to a line; raises `TypeError` or `ValueError` if JSON cannot hold it."""
     return json.dumps({"tick": int(tick), "command": command}).encode() + b"\n"
 
 
 def cut_commands(folder: Path) -> Commands:
-    """The commands; a last line that was cut off is cut from the file too."""
+    """Read the commands, and truncate an incomplete last line."""
     commands, whole = read_commands(folder)
     path = folder / COMMANDS_FILE
     with contextlib.suppress(OSError):
@@ -180,7 +182,7 @@ def cut_commands(folder: Path) -> Commands:
 
 
 def measure_bytes(folder: Path) -> int:
-    """How much of the disk a record takes."""
+    """Return the disk space of a record, bytes."""
     total = 0
     for path in folder.iterdir():
         with contextlib.suppress(FileNotFoundError):  # a draft that took its place meanwhile
@@ -195,7 +197,7 @@ def _check(value: Any, kind: Callable[..., Any]) -> Any:
 
 
 def _group(batches: Batches) -> Iterator[list[pa.RecordBatch]]:
-    """Batches in groups of at least `ROWS_A_GROUP` rows, but for the last."""
+    """Group batches to at least `ROWS_A_GROUP` rows each, except the last group."""
     group: list[pa.RecordBatch] = []
     rows = 0
     for batch in batches:

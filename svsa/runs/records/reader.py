@@ -1,4 +1,4 @@
-"""A record read back: finished, still growing, or cut off; whole or a stretch at a time."""
+"""Reading of records: finished, growing or interrupted; completely or in stretches."""
 
 import contextlib
 from collections.abc import Callable, Iterator, Sequence
@@ -63,18 +63,18 @@ class Record:
 
     @cached_property
     def samples(self) -> np.ndarray:
-        """All samples, (ticks, lanes, channels), float64, as they were recorded bit for bit."""
+        """All samples, (ticks, lanes, channels), float64, bit-identical to the recorded ones."""
         parts = [samples for _, samples in self.iterate()]
         shape = (0, len(self.header.lanes), len(self.header.channels))
         return np.concatenate(parts) if parts else np.empty(shape)
 
     @property
     def duration_s(self) -> float:
-        """How long the record is, s."""
+        """Duration of the record, s."""
         return self.tick_count * self.header.period_s
 
     def iterate(self) -> Iterator[tuple[int, np.ndarray]]:
-        """Stretches of the samples in order: first tick and (ticks, lanes, channels)."""
+        """Yield stretches of the samples in order: first tick and (ticks, lanes, channels)."""
         tick = self.first_tick
         for batch in self.iterate_batches():
             yield tick, read_batch(self.header, batch)
@@ -83,14 +83,14 @@ class Record:
     def iterate_batches(
         self, columns: Sequence[str] | None = None, start: int = 0, stop: int | None = None
     ) -> Iterator[pa.RecordBatch]:
-        """Rows start … stop of some columns of the file (see `stream`) or of all."""
+        """Yield rows start … stop of some or all columns of the file (see `stream`)."""
         stop = self.tick_count if stop is None else min(stop, self.tick_count)
         return self._read(columns, start, stop)
 
     def read_channels(
         self, channels: Sequence[str], start: int = 0, stop: int | None = None
     ) -> np.ndarray:
-        """Rows start … stop of some channels, (ticks, lanes, channels)."""
+        """Read rows start … stop of some channels, (ticks, lanes, channels)."""
         lanes = self.header.lanes
         names = [[name_column(lane, channel) for channel in channels] for lane in lanes]
         wanted = list(dict.fromkeys(name for row in names for name in row))
@@ -102,7 +102,7 @@ class Record:
 
 
 def name_column(lane: str, channel: str) -> str:
-    """The column of the file that holds a channel of a lane."""
+    """Return the file's column of a channel of a lane."""
     return TIME if channel == TIME else f"{lane}.{channel}"
 
 
@@ -113,14 +113,14 @@ def build_record(
     samples: np.ndarray,
     fault: Fault | None = None,
 ) -> Record:
-    """A record of samples (ticks, lanes, channels) in memory, to export as one from a disk."""
+    """Build a record in memory from samples (ticks, lanes, channels), for export."""
     batch = build_batch(header, build_schema(header), first_tick, samples)
     parts = [batch.slice(row, ROWS_A_GROUP) for row in range(0, len(samples), ROWS_A_GROUP)]
     return Record(header, list(commands), first_tick, len(samples), _read_from(parts), fault)
 
 
 def open_record(folder: Path) -> Record:
-    """The record in a folder, its samples read on demand; raises `RecordError`.
+    """Open the record in a folder; samples are read on demand; raises `RecordError`.
 
     Of one that is being recorded, or was cut off, everything that is whole.
     """
@@ -142,7 +142,7 @@ def open_record(folder: Path) -> Record:
 
 
 def _read_unfinished(folder: Path, header: RecordHeader) -> list[pa.RecordBatch] | None:
-    """What is whole in the stream of a record; None where its Parquet file has taken its place."""
+    """Read the complete batches of a stream; None if a Parquet file has replaced it."""
     # The Parquet file first: for a moment both are there, and then it is the whole one.
     if (folder / PARQUET_FILE).exists() or not (folder / STREAM_FILE).exists():
         return None
@@ -155,7 +155,7 @@ def _read_unfinished(folder: Path, header: RecordHeader) -> list[pa.RecordBatch]
 
 
 def recover(folder: Path) -> Finished | None:
-    """Finish a record that a crash left; None while a process records it.
+    """Finish a record after a crash; None while a process records it.
 
     Raises `RecordError` where it is damaged; its files are left as they are then.
     """
@@ -164,7 +164,7 @@ def recover(folder: Path) -> Finished | None:
 
 
 def count_readable_rows(folder: Path) -> int:
-    """How many samples of a finished record can be read, from the first on."""
+    """Count the readable samples of a finished record, from the first on."""
     rows = 0
     with contextlib.suppress(RecordError), open_parquet(folder) as file:
         for batch in _explain(file.iter_batches(ROWS_A_GROUP, columns=None), folder):
@@ -205,7 +205,7 @@ def _read_from_parquet(folder: Path) -> ReadBatches:
 
 
 def _slice(batch: pa.RecordBatch, row: int, start: int, stop: int) -> pa.RecordBatch:
-    """The rows start … stop of a batch whose first row is `row`."""
+    """Return the rows start … stop of a batch whose first row is `row`."""
     first = max(0, start - row)
     return batch.slice(first, max(0, min(batch.num_rows, stop - row) - first))
 
@@ -219,7 +219,7 @@ def _explain(batches: Iterator[pa.RecordBatch], folder: Path) -> Iterator[pa.Rec
 
 @contextlib.contextmanager
 def claim(folder: Path) -> Iterator[bool]:
-    """Lock a record's stream to finish the record; the system unlocks it if the process dies.
+    """Lock a record's stream to finish the record; the lock ends with the process.
 
     Yields:
         False while any process, this one included, writes the record.

@@ -1,4 +1,4 @@
-"""Record a run while it is computed: the loop passes samples on, one thread writes them.
+"""Recording of a running run: the loop passes samples on, and one thread writes them.
 
 What is passed on is with the operating system 0.2 s later, so that a process killed at
 any moment loses less than 0.5 s. The loop never waits: a disk that is full, gone or too
@@ -30,7 +30,7 @@ _COMMAND_BYTES = 200
 
 @dataclass(frozen=True)
 class RecordStatus:
-    """The state of a recording. ticks, bytes: what the operating system has."""
+    """The state of a recording. ticks, bytes: passed to the operating system."""
 
     state: Literal["recording", "failed", "closed"]
     message: str
@@ -39,7 +39,7 @@ class RecordStatus:
 
 
 class Recorder:
-    """A recording into a new folder; raises `RecordError` where that cannot be made.
+    """A recording into a new folder; raises `RecordError` if it cannot be created.
 
     What it is given is taken without waiting, and without raising: see `status`. It is for one
     thread, that of the run.
@@ -81,11 +81,11 @@ class Recorder:
 
     @property
     def fault(self) -> Fault | None:
-        """The fault that the recorded run has ended in so far."""
+        """The fault of the recorded run so far."""
         return self._fault
 
     def write_command(self, tick: int, command: dict[str, Any]) -> None:
-        """A command given at the beginning of `tick`, before the samples it acts on."""
+        """Write a command of the beginning of `tick`, before the samples that it affects."""
         try:
             line = write_command(tick, command)
         except (TypeError, ValueError, RecursionError) as error:
@@ -94,7 +94,7 @@ class Recorder:
             self._hand_over(tick, line, len(line) + _COMMAND_BYTES)
 
     def write_start(self, start: BenchStart) -> None:
-        """A run of a bench begins from this."""
+        """Write the start state of a bench's run."""
         if self._failure is None and not self._close_asked.is_set():
             self._start = start
 
@@ -111,17 +111,17 @@ class Recorder:
             self._hand_over(first_tick, copy, copy.nbytes)
 
     def write_fault(self, fault: Fault | None) -> None:
-        """The run has ended in this fault; None: the fault was cleared before a run began."""
+        """Write the run's fault; None: it was cleared before a run started."""
         if self._failure is None and not self._close_asked.is_set():
             self._fault = fault
 
     def write_event(self, event: Event) -> None:
-        """An event that the bench reported; those of commands and loads follow from these."""
+        """Write an event reported by the bench; events of commands and loads are derived."""
         if self._failure is None and not self._close_asked.is_set():
             self._events = (*self._events, event)
 
     def close(self, wait_s: float = LONGEST_CLOSE_S) -> RecordStatus:
-        """End the recording and finish its file; waits at most `wait_s`.
+        """End the recording and finish its file; wait at most `wait_s`.
 
         A file that takes longer is finished in the background, or by `recover` at the next
         start.
@@ -145,7 +145,7 @@ class Recorder:
             self._failure = message
 
     def _work(self) -> None:
-        """The writer's thread: write every 0.2 s until closed or failed, then finish."""
+        """Run the writer's thread: write every 0.2 s until closed or failed, then finish."""
         try:
             while not self._close_asked.wait(FLUSH_PERIOD_S) and self._failure is None:
                 self._write_queue()
@@ -167,7 +167,7 @@ class Recorder:
         self._ended = True
 
     def _write_queue(self) -> None:
-        """Commands before the samples they act on; as few batches as there may be."""
+        """Write commands before the samples that they affect, in as few batches as possible."""
         while self._queue:
             lines: list[bytes] = []
             parts: list[np.ndarray] = []

@@ -1,4 +1,4 @@
-"""A record compared with its own simulation: the same configuration, seed and commands."""
+"""Comparison of a record with its own simulation: same configuration, seed and commands."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -36,7 +36,7 @@ def read_origin(record: Record) -> tuple[Configuration, list[Command]]:
 
 
 def check_simulated(record: Record) -> None:
-    """Raise `RecordError` for a run of a bench, of a function, or of other integration steps."""
+    """Raise `RecordError` for a bench's run, a Python controller, or other integration steps."""
     header = record.header
     if header.plant != "simulated":
         raise RecordError(
@@ -56,7 +56,7 @@ def check_simulated(record: Record) -> None:
 
 
 def compare_with_simulation(record: Record) -> Comparison:
-    """Simulate a recorded run again from its record alone and compare every bit.
+    """Simulate a recorded run again from its record, and compare every bit.
 
     Raises `RecordError` for a run of `check_simulated`, and where it was recorded with other
     channels than this version has.

@@ -1,4 +1,4 @@
-"""The settings of a recorded run in a few words: the columns of a list of runs, and a name.
+"""Summary of a recorded run's settings: columns of the list of runs, and a name.
 
 Everything is said of the samples that were recorded and of nothing else: a law that was
 switched to before the first sample, or a load planned for after the last, is not named.
@@ -72,7 +72,7 @@ class RunSettings:
 def describe_settings(
     header: RecordHeader, commands: Commands, first_tick: int, ticks: int
 ) -> RunSettings:
-    """The settings of the record of `ticks` samples from `first_tick` on.
+    """Summarize the settings of the record of `ticks` samples from `first_tick` on.
 
     Never raises: what this version cannot read is left out, and "?" where it was changed to that.
     """
@@ -150,7 +150,7 @@ def _find_figure(acting: Acting, on_bench: bool) -> tuple[str, bool]:
 
 
 def _describe_laws(acting: Acting, header: RecordHeader) -> str:
-    """Lane by lane, with every law that it had; a bench's second lane is its twin."""
+    """Describe each lane with its laws over time; a bench's second lane is its twin."""
     every = [lanes or () for lanes in acting.get_values("comparisons")]
     if any(1 + len(lanes) != len(header.lanes) for lanes in every):
         every = [()]
@@ -182,7 +182,7 @@ def _describe_loads(acting: Acting) -> str:
 
 
 def _count(text: str, texts: Sequence[str]) -> str:
-    """Two pushes are "pulse (2×)", so that no one reads the sum of two that came in turn."""
+    """Count equal loads: "pulse (2×)", so that two in turn do not read as a sum."""
     return f"{text} ({texts.count(text)}×)" if texts.count(text) > 1 else text
 
 

@@ -1,4 +1,4 @@
-"""Samples on the disk while a run goes on: an Arrow IPC stream that may be cut off anywhere.
+"""Samples on disk during a run: an Arrow IPC stream that is readable if truncated anywhere.
 
 Columns of the stream and of the finished Parquet file: tick (int64), time_s, then
 "<lane>.<channel>" (float64). A message is: ffffffff, int32 length of the metadata, the
@@ -25,7 +25,7 @@ _LONGEST_BODY = 1 << 31
 
 
 class Column(NamedTuple):
-    """A column of the file and where its values are in the samples."""
+    """A column of the file and its position in the samples."""
 
     name: str
     lane: int
@@ -34,7 +34,7 @@ class Column(NamedTuple):
 
 
 def list_columns(header: RecordHeader) -> list[Column]:
-    """The columns after tick; time is one for all lanes, the channels of the rest per lane."""
+    """List the columns after tick: one time for all lanes, the other channels per lane."""
     time = [
         Column(TIME, 0, index, channel.unit)
         for index, channel in enumerate(header.channels)
@@ -49,7 +49,7 @@ def list_columns(header: RecordHeader) -> list[Column]:
 
 
 def build_schema(header: RecordHeader) -> pa.Schema:
-    """The schema of stream and file: a unit on every column, the header in the metadata."""
+    """Build the schema of stream and file: units of columns, and the header as metadata."""
     columns = {column.name: column.unit for column in list_columns(header)}
     fields = [pa.field("tick", pa.int64(), nullable=False, metadata={"unit": "1"})]
     fields += [
@@ -62,7 +62,7 @@ def build_schema(header: RecordHeader) -> pa.Schema:
 def build_batch(
     header: RecordHeader, schema: pa.Schema, first_tick: int, samples: np.ndarray
 ) -> pa.RecordBatch:
-    """Samples (ticks, lanes, channels) as a batch of the header's schema, bit for bit."""
+    """Build a batch of the header's schema from samples (ticks, lanes, channels)."""
     ticks = np.arange(first_tick, first_tick + len(samples), dtype=np.int64)
     rows = np.ascontiguousarray(samples.transpose(1, 2, 0))
     arrays = {column.name: rows[column.lane, column.channel] for column in list_columns(header)}
@@ -71,13 +71,13 @@ def build_batch(
 
 
 def _wrap(values: np.ndarray) -> pa.Array:
-    """The values as a column, not copied; `pa.array` would import pandas, for half a second."""
+    """Wrap values as a column without a copy; `pa.array` would import pandas, for 0.5 s."""
     kind = pa.int64() if values.dtype == np.int64 else pa.float64()
     return pa.Array.from_buffers(kind, len(values), [None, pa.py_buffer(values)])
 
 
 def get_values(batch: pa.RecordBatch, column: str) -> np.ndarray:
-    """A column of a batch, not copied, read-only; without pandas as well."""
+    """Return a column of a batch without a copy, read-only, without importing pandas."""
     array = batch.column(column)
     kind = np.int64 if array.type == pa.int64() else np.float64
     if not len(array):
@@ -86,7 +86,7 @@ def get_values(batch: pa.RecordBatch, column: str) -> np.ndarray:
 
 
 def read_batch(header: RecordHeader, batch: pa.RecordBatch) -> np.ndarray:
-    """The samples of a batch again, (ticks, lanes, channels), bit for bit."""
+    """Return the samples of a batch, (ticks, lanes, channels), bit-identical."""
     shape = (batch.num_rows, len(header.lanes), len(header.channels))
     samples = np.empty(shape)
     for column in list_columns(header):
@@ -97,7 +97,7 @@ def read_batch(header: RecordHeader, batch: pa.RecordBatch) -> np.ndarray:
 
 
 def write_all(descriptor: int, content: bytes | memoryview) -> None:
-    """Hand everything to the operating system; on failure cut off what was half written."""
+    """Write everything to the operating system; on failure truncate the partial write."""
     start, rest = os.lseek(descriptor, 0, os.SEEK_END), memoryview(content)
     try:
         while len(rest):
@@ -110,7 +110,7 @@ def write_all(descriptor: int, content: bytes | memoryview) -> None:
 
 
 def read_stream(path: Path, header: RecordHeader) -> Iterator[pa.RecordBatch]:
-    """Every whole batch of a stream, also of one that is cut off in its last message.
+    """Read every complete batch of a stream, even if its last message is truncated.
 
     Raises `RecordError` where the file is not what a recorder wrote.
     """
@@ -167,7 +167,7 @@ def _read_messages(file: pa.NativeFile, path: Path) -> Iterator[pa.Message]:
 
 
 def _read_body_length(metadata: bytes, path: Path, start: int) -> int:
-    """Field 3 of the flatbuffer `Message`: bodyLength, int64; absent means 0."""
+    """Read field 3 of the flatbuffer `Message`: bodyLength, int64; absent means 0."""
     try:
         (root,) = struct.unpack_from("<I", metadata)
         (back,) = struct.unpack_from("<i", metadata, root)

@@ -1,4 +1,4 @@
-"""Whether a run is another within tolerances: channel by channel, in value and in time."""
+"""Comparison of a run with a reference run: tolerances per channel, in value and time."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ from svsa.runs.records.stream import TIME
 
 
 class Tolerance(Checked):
-    """By how much a channel may differ: |a − b| ≤ absolute + relative · |b|.
+    """Tolerance of a channel: |a − b| ≤ absolute + relative · |b|.
 
     b: any value that the other run has within `time_s` of that moment, and all between them.
     """
@@ -74,7 +74,7 @@ def judge(
     rest: Tolerance | None = EXACT,
     begins: tuple[int, int] = FROM_THE_FIRST,
 ) -> Verdict:
-    """Judge a run against another, lane by lane.
+    """Compare a run with a reference run, lane by lane.
 
     tolerances: by channel. rest: of channels that are not among them; None leaves those out.
     begins: the samples of both that are laid over each other first, and compared from then on.
@@ -144,7 +144,7 @@ def _judge_channels(
 
 
 def _find_segments(is_outside: np.ndarray) -> list[tuple[int, int]]:
-    """First and last tick of each segment; see `ChannelVerdict.outside`."""
+    """Find first and last tick of each segment; see `ChannelVerdict.outside`."""
     ticks = np.flatnonzero(is_outside)
     if not len(ticks):
         return []
@@ -154,14 +154,14 @@ def _find_segments(is_outside: np.ndarray) -> list[tuple[int, int]]:
 
 
 def read_channel(run: Record, name: str, begin: int, ticks: int) -> np.ndarray:
-    """So many samples of a channel from the sample `begin` on, (ticks, lanes)."""
+    """Read samples of a channel from the sample `begin` on, (ticks, lanes)."""
     return run.read_channels([name], begin, begin + ticks)[:, :, 0]
 
 
 def build_band(
     values: np.ndarray, tolerance: Tolerance, reach: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Least and greatest value that a run may have at each of these (ticks, …).
+    """Compute lower and upper bound of the band at each of these (ticks, …).
 
     reach: of the tolerance in time, in samples. NaN where within reach nothing is known.
     """

@@ -1,4 +1,4 @@
-"""References, loads and effects of a run in a few words, as they stand in a list of runs."""
+"""Short texts for references, loads and effects of a run, for lists of runs."""
 
 from collections.abc import Iterable, Sequence
 
@@ -14,7 +14,7 @@ _ARROW = " → "
 
 
 def follow(texts: Iterable[str]) -> str:
-    """Texts that followed one another; of many the first and the last."""
+    """Join successive texts; of many the first and the last."""
     steps: list[str] = []
     for text in texts:
         if not steps or steps[-1] != text:
@@ -25,17 +25,17 @@ def follow(texts: Iterable[str]) -> str:
 
 
 def describe_reference(reference: AnyReference | None) -> str:
-    """q_d: "60° 0.2 Hz", "held at 20°"; σ_d in N·m/rad: "60", "35 ± 1"."""
+    """Describe q_d: "60° 0.2 Hz", "held at 20°"; or σ_d in N·m/rad: "60", "35 ± 1"."""
     return UNKNOWN if reference is None else reference.describe()
 
 
 def describe_lanes(lanes: Sequence[Lane]) -> str:
-    """Controllers side by side: "FL", "FL vs NDOBC (own gains)"."""
+    """Describe parallel controllers: "FL", "FL vs NDOBC (own gains)"."""
     return VERSUS.join(f"{describe_law(lane.law)}{_describe_own(lane)}" for lane in lanes)
 
 
 def describe_law(name: str) -> str:
-    """The title of a law, or the name of one that cannot be used here."""
+    """Return the title of a law, or the name of one that is unavailable."""
     return get_law(name).title if is_usable(name) else name
 
 
@@ -44,7 +44,7 @@ def _describe_own(lane: Lane) -> str:
 
 
 def describe_effects(effects: Effects | None) -> str:
-    """ideal, rig or full as on the page; else what is switched on."""
+    """Describe effects: ideal, rig or full as on the page; otherwise those that are on."""
     if effects is None:
         return UNKNOWN
     preset = find_preset(effects)

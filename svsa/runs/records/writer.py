@@ -1,4 +1,4 @@
-"""The files of a growing record, written by one thread, and a finished record in one call."""
+"""Writer of a growing record's files, and of a finished record in one call."""
 
 import os
 import shutil
@@ -23,7 +23,7 @@ _FLAGS = os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_APPEND | getattr(os, "O_BINAR
 
 
 class RecordWriter:
-    """A new folder with header, commands and samples; raises `RecordError` if it cannot be.
+    """A new folder with header, commands and samples; raises `RecordError` if it cannot be created.
 
     Whatever a method returned from is with the operating system and outlives the process.
     Methods raise `OSError` where the disk fails; then all that was whole before is still.
@@ -52,12 +52,12 @@ class RecordWriter:
             raise RecordError(f"Cannot record into {folder}: {error}.") from None
 
     def write_lines(self, lines: bytes) -> int:
-        """Append lines of `write_command`; returns their bytes."""
+        """Append lines of `write_command`; return their bytes."""
         write_all(self._commands, lines)
         return len(lines)
 
     def write_samples(self, first_tick: int, samples: np.ndarray) -> int:
-        """Append samples (ticks, lanes, channels); returns the bytes they took."""
+        """Append samples (ticks, lanes, channels); return their bytes."""
         if TIME in self.header.channel_names:
             times = samples[:, :, self.header.channel_names.index(TIME)]
             if not np.array_equal(times, times[:, :1].repeat(times.shape[1], 1), equal_nan=True):
@@ -68,7 +68,7 @@ class RecordWriter:
         return len(content)
 
     def finish(self) -> Finished:
-        """Close the files and make the Parquet file; raises `RecordError` if it cannot be."""
+        """Close the files and write the Parquet file; raises `RecordError` on failure."""
         try:
             write_all(self._stream, END_OF_STREAM)
         except OSError as error:
@@ -83,7 +83,7 @@ class RecordWriter:
         return self._descriptors[-1]
 
     def release(self) -> None:
-        """Let go of the files as they are."""
+        """Close the files unfinished."""
         for descriptor in self._descriptors:
             os.close(descriptor)
         self._descriptors.clear()

@@ -1,1 +1,1 @@
-"""Whole runs in hand, simulated, on the emulator or recorded: numbers and pictures."""
+"""Results of whole runs, simulated, on the emulator or recorded: numbers and figures."""

@@ -1,4 +1,4 @@
-"""The channels of a run by name, for people, for completion by Tab and for type checkers."""
+"""Channels of a run by name, for completion in editors and for type checkers."""
 
 from typing import TYPE_CHECKING, Literal
 
@@ -86,7 +86,7 @@ class Channels:
             return self.samples[:, CHANNEL_INDEX[name]]
 
     def __getitem__(self, name: ChannelName) -> np.ndarray:
-        """A channel; raises `ParameterError` that names those that are spelt alike."""
+        """Return a channel; raises `ParameterError` with similar names."""
         if name not in CHANNEL_INDEX:
             bound = f"the name of a channel{find_near(name)}"
             raise ParameterError(Violation("channel", name, "", bound))
@@ -97,7 +97,7 @@ class Channels:
 
 
 def find_near(name: str) -> str:
-    """What may have been meant, to be added to a sentence; "" where nothing is near."""
+    """Suggest the nearest channel name, to append to a sentence; "" if none is near."""
     near = find_nearest(str(name), CHANNEL_NAMES)
     if not near:
         return f"; there are {', '.join(CHANNEL_NAMES)}"

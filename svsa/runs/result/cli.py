@@ -1,4 +1,4 @@
-"""`svsa compare`: whether a recorded run is another within tolerances."""
+"""`svsa compare`: compare a recorded run with a reference run within tolerances."""
 
 import json
 import math
@@ -35,7 +35,9 @@ def compare(
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
 ) -> None:
-    """Judge a run against another. Exit code 0: held; 1: not; 2: they cannot be compared."""
+    """Compare a run with a reference run. Exit code 0: within tolerance; 1: not; 2: not
+    comparable.
+    """
     from svsa.runs.records.header import describe_newer
     from svsa.runs.result.recorded import compare_runs, find_record
 
@@ -84,7 +86,7 @@ def read_tolerances(path: Path) -> "dict[str, Tolerance]":
 
 
 def build_verdict_table(verdict: "Verdict") -> list[Table | str]:
-    """A row a channel with its worst moment, and the verdict in a line."""
+    """Build a table with each channel's worst moment, and the verdict in a line."""
     table = Table("lane", "channel", "unit", "held", "worst at", "value", "band")
     for one in verdict.channels:
         held = "yes" if one.held else "NO"
@@ -101,7 +103,7 @@ def build_verdict_table(verdict: "Verdict") -> list[Table | str]:
 
 
 def _plain(value: Any) -> Any:
-    """Of numbers that are not finite null, as JSON knows no such number."""
+    """Replace numbers that are not finite by null, for JSON."""
     if isinstance(value, dict):
         return {key: _plain(inner) for key, inner in value.items()}
     if isinstance(value, list | tuple):

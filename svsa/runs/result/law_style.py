@@ -1,4 +1,4 @@
-"""How a law is called and drawn in pictures and tables."""
+"""Names and styles of laws in figures and tables."""
 
 from typing import Any
 
@@ -12,7 +12,7 @@ OWN_COLOR = "#000000"
 
 
 def style_law(law: str) -> dict[str, Any]:
-    """How the curves of a law look, as the page draws it: in its own color.
+    """Return the style of a law's curves, in the same color as on the page.
 
     Twenty looks of which no two share both colour and dash; neighbours share neither. What is no
     installed law is drawn in black.
@@ -27,5 +27,5 @@ def style_law(law: str) -> dict[str, Any]:
 
 
 def name_law(law: str) -> str:
-    """What controlled, in words: a law's title, "own controller", or a lane as it was called."""
+    """Name a controller: a law's title, "own controller", or the lane's own name."""
     return get_title(law) if NAME.fullmatch(law) else law

@@ -1,4 +1,4 @@
-"""One run at a glance, as a picture."""
+"""The overview figure of one run."""
 
 from collections.abc import Collection, Iterable
 
@@ -15,7 +15,7 @@ CHANNEL_COLORS = ("#0072B2", "#D55E00", "#009E73")
 def plot_run(
     run: Channels, stretches: Iterable[tuple[str, slice]], changes_s: Collection[float]
 ) -> Picture:
-    """One run: position, its error, stiffness, torques, disturbance true and estimated.
+    """Plot one run: position, its error, stiffness, torques, disturbance true and estimated.
 
     stretches: the laws that controlled, each with its rows. changes_s: when it was changed, s.
     """

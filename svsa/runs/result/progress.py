@@ -1,4 +1,4 @@
-"""The progress of one long run: a callback, or a bar on a terminal."""
+"""Progress of one long run: a callback, or a bar on a terminal."""
 
 import sys
 import threading
@@ -21,7 +21,7 @@ def hide_progress() -> None:
 
 @contextmanager
 def follow_progress(title: str, given: Follow | None) -> Iterator[Follow]:
-    """What is to be called with the share of a run that is done.
+    """Return the function to call with the finished share of a run.
 
     Args:
         title: of the bar.

@@ -1,4 +1,4 @@
-"""Recorded runs in a script: list them, open one, simulate it again, compare it, export it.
+"""Recorded runs in scripts: list, open, simulate again, compare, export.
 
 Where a run is an argument, it is its id in this machine's catalogue, its folder, or a `Result`.
 """
@@ -162,7 +162,7 @@ def compare_runs(
 
 
 def export_run(run: str | Path | Result, kind: str, target: Path | str) -> None:
-    """Write a run for other programs.
+    """Export a run to another format.
 
     Args:
         run: Id or folder of a recorded run, or a result of `svsa.simulate`.

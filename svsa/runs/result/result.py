@@ -1,4 +1,4 @@
-"""A run as one holds it in hand: its samples by name, numbers, tables and pictures."""
+"""The result of a run: samples by name, metrics, tables and figures."""
 
 import base64
 import html
@@ -56,7 +56,7 @@ class Result(Channels):
 
     @property
     def units(self) -> dict[str, str]:
-        """The unit of every channel."""
+        """Unit of every channel."""
         return {channel.name: channel.unit for channel in CHANNELS}
 
     @property
@@ -173,7 +173,7 @@ class Result(Channels):
 
     @cached_property
     def _picture(self) -> bytes | None:
-        """None where there is nothing to draw, or nothing to draw with."""
+        """Draw the figure for notebooks; None without samples or without matplotlib."""
         stream = io.BytesIO()
         if not len(self.samples) or list_missing("plot"):
             return None
@@ -181,7 +181,7 @@ class Result(Channels):
         return stream.getvalue()
 
     def _tell(self) -> dict[str, str]:
-        """What the run was, as attributes that every format of a file can hold."""
+        """Describe the run as attributes that every file format can hold."""
         reported = {"law": self.law, "configuration": self.configuration.model_dump_json()}
         if self.name:
             reported["name"] = self.name
@@ -190,7 +190,7 @@ class Result(Channels):
         return reported
 
     def _describe(self) -> tuple[str, str]:
-        """The run in two lines: what it is, and how it went."""
+        """Describe the run in two lines: setup and outcome."""
         period = self.configuration.sampling.period_s
         comparison = (
             f" compared with {', '.join(name_law(r.law) for r in self.comparisons)}"
@@ -230,7 +230,9 @@ def build_results(
     plant: PlantKind = "simulated",
     steps: int = 1,
 ) -> Result:
-    """The first lane's result with those of its comparisons. samples: (lanes, ticks, channels)."""
+    """Build the first lane's result with those of its comparisons. samples: (lanes, ticks,
+    channels).
+    """
     of_all = tuple(command for command in commands if command.kind != "law")
     (rows, law), *others = zip(samples, laws, strict=True)
     comparisons = tuple(Result(configuration, r, fault, (), of, of_all, name) for r, of in others)

@@ -1,4 +1,4 @@
-"""A result as a record, so that what takes recorded runs takes simulated ones too."""
+"""Conversion of results to records, so that simulated runs can be used like recorded ones."""
 
 from pathlib import Path
 from typing import Any
@@ -19,7 +19,7 @@ SESSION = "script"
 
 
 def build_result_record(result: Result, **known: Any) -> Record:
-    """The record of a result, in memory.
+    """Build the record of a result, in memory.
 
     Args:
         result: A whole run. Its first lane's law is `OWN_LAW` in the record where a function
@@ -56,7 +56,7 @@ def save_run(
     tags: tuple[str, ...] = (),
     notes: str = "",
 ) -> Path:
-    """Write a result as a record, which holds the same samples bit for bit.
+    """Write a result as a record with bit-identical samples.
 
     Args:
         result: What `simulate` returned, with its comparisons.
@@ -87,7 +87,7 @@ def save_run(
 
 
 def record_result(result: Result, catalogue: Catalogue, **known: Any) -> RunEntry:
-    """Write a result into a catalogue, where the lab shows it as any recorded run.
+    """Add a result to a catalogue, where the lab shows it like any recorded run.
 
     known: as of `build_result_record`.
     """

@@ -1,4 +1,4 @@
-"""A whole run at once, as fast as it goes."""
+"""Simulation of a whole run at full speed."""
 
 from collections.abc import Sequence
 from contextlib import nullcontext
@@ -40,7 +40,7 @@ def simulate(
     progress: Follow | None = None,
     **changes: Unpack[Settings],
 ) -> Result:
-    """Simulate a run from rest and return everything that happened.
+    """Simulate a run from rest and return its result.
 
     Args:
         experiment: A figure of the paper ("4a", "4b", "5") or a `Configuration`.

@@ -1,4 +1,4 @@
-"""Samples as a table of pandas and as a dataset of xarray, with units in the attributes."""
+"""Samples as pandas and xarray tables, with units in the attributes."""
 
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
@@ -16,7 +16,7 @@ TIME = "time_s"
 
 
 def build_dataframe(samples: np.ndarray, reported: Mapping[str, str]) -> "pandas.DataFrame":
-    """A row for each tick and a column for each channel.
+    """Build a table with a row per tick and a column per channel.
 
     Args:
         samples: All channels of a run, shape (ticks, channels).
@@ -37,7 +37,7 @@ def build_dataframe(samples: np.ndarray, reported: Mapping[str, str]) -> "pandas
 
 
 def build_dataset(samples: np.ndarray, reported: Mapping[str, str]) -> "xarray.Dataset":
-    """A variable a channel along `time_s`, each with `units` and `long_name`.
+    """Build a variable per channel along `time_s`, each with `units` and `long_name`.
 
     Raises `MissingExtraError` where xarray, of the extra of that name, is not installed.
     """

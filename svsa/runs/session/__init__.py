@@ -1,1 +1,1 @@
-"""What people start, pause, change and watch: a simulated run, or a bench."""
+"""Sessions: a simulated run, or a bench, that users start, pause, change and watch."""

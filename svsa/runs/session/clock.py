@@ -1,4 +1,4 @@
-"""Wall time to ticks: how many are due, at what speed, and what happens when late."""
+"""Conversion of wall time to due ticks, with speed and lateness."""
 
 from typing import NamedTuple
 
@@ -7,7 +7,7 @@ _SMOOTHING = 0.1
 
 
 class Pace(NamedTuple):
-    """How session time goes against that of the wall.
+    """Session time relative to wall time.
 
     speed: session seconds a wall second, as asked for; infinite for as fast as it goes.
     real_time_factor: as it goes. accumulated_delay_s: wall time that was given up, s.
@@ -19,7 +19,7 @@ class Pace(NamedTuple):
 
 
 class SimulationClock:
-    """Tells how many ticks are due. Wall time (s, any monotonic origin) enters only here.
+    """Computes the number of due ticks. Wall time (s, monotonic) enters the simulation only here.
 
     A session that cannot keep up stretches time: a backlog of more than 0.25 s is given
     up, added to `accumulated_delay_s`, and no tick is skipped.
@@ -35,27 +35,27 @@ class SimulationClock:
 
     @property
     def pace(self) -> Pace:
-        """As it is now."""
+        """Present pace."""
         return Pace(self.speed, self.real_time_factor, self.accumulated_delay_s)
 
     def begin(self) -> None:
-        """Stop, and forget what was given up: a run begins."""
+        """Stop, and reset the lateness: a run starts."""
         self.stop()
         self.accumulated_delay_s = 0.0
 
     def stop(self) -> None:
-        """Owe nothing, and count again from the next question on."""
+        """Stop, and count again from the next call on."""
         self._last, self._owed_s, self.real_time_factor = None, 0.0, 0.0
 
     def count_burst(self, ticks: int, now: float) -> None:
-        """Ticks that were run without asking, as fast as it goes: how fast that was."""
+        """Count ticks that were run at full speed, and measure that speed."""
         if self._last is not None and now > self._last:
             factor = ticks * self._period / (now - self._last)
             self.real_time_factor += _SMOOTHING * (factor - self.real_time_factor)
         self._last = now
 
     def take_due_ticks(self, now: float) -> int:
-        """The whole ticks due at `now`; they count as done."""
+        """Return the whole ticks due at `now`, which count as done."""
         if self._last is None:
             self._last, self.real_time_factor = now, 1.0
         elapsed = max(now - self._last, 0.0)

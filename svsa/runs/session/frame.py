@@ -1,4 +1,4 @@
-"""A batch of samples as it goes over a stream: a header, the lanes' identities, float32 values."""
+"""The binary format of a batch of samples: header, lane ids, float32 values."""
 
 import struct
 from collections.abc import Iterable
@@ -41,14 +41,16 @@ class Batch(NamedTuple):
 def pack_batch(
     run: int, first_tick: int, stride: int, missed: int, lane_ids: Iterable[int], rows: np.ndarray
 ) -> bytes:
-    """Samples as bytes; stride: ticks from one to the next. rows: (count, lanes, channels)."""
+    """Pack samples; stride: ticks from one to the next. rows: (count, lanes, channels)."""
     ids = np.fromiter(lane_ids, _LANE_ID)
     header = HEADER.pack(MAGIC, run, first_tick, stride, len(rows), missed, len(ids))
     return header + ids.tobytes() + rows.astype(_VALUE).tobytes()
 
 
 def unpack_batch(message: bytes, channels: int) -> Batch:
-    """What `pack_batch` has packed, of so many channels; raises `SvsaError` for anything else."""
+    """Unpack a batch of `pack_batch` with so many channels; raises `SvsaError` for anything
+    else.
+    """
     try:
         magic, run, first, stride, count, missed, lanes = HEADER.unpack_from(message)
         ids = np.frombuffer(message, _LANE_ID, lanes, HEADER.size)

@@ -1,4 +1,4 @@
-"""The newest samples of a run, in a ring that never grows."""
+"""The newest samples of a run in a ring of fixed size."""
 
 from collections.abc import Sequence
 
@@ -17,22 +17,24 @@ class History:
 
     @property
     def first_tick(self) -> int:
-        """The oldest tick that is still held."""
+        """Oldest tick in the ring."""
         return max(0, self.end_tick - self._capacity)
 
     def get_free_rows(self, lanes: int, ticks: int) -> np.ndarray:
-        """Room for the next samples, (lanes, up to `ticks`, channels); then `commit` them."""
+        """Return rows for the next samples, (lanes, up to `ticks`, channels); then `commit`
+        them.
+        """
         start = self.end_tick % self._capacity
         return self._rows[:lanes, start : start + ticks]
 
     def commit(self, ticks: int) -> None:
-        """The first `ticks` rows got from `get_free_rows` are written."""
+        """Mark the first `ticks` rows from `get_free_rows` as written."""
         self.end_tick += ticks
 
     def read(
         self, first_tick: int, stride: int, columns: list[int], lanes: list[int]
     ) -> np.ndarray:
-        """Every stride-th sample from first_tick on, (count, lanes, columns), copied.
+        """Copy every stride-th sample from first_tick on, (count, lanes, columns).
 
         first_tick must not be older than the history holds.
         """
@@ -40,18 +42,18 @@ class History:
         return self._rows[np.array(lanes)[None, :, None], ticks[:, None, None], columns]
 
     def read_newest(self, lane: int = 0) -> np.ndarray | None:
-        """The newest sample of a lane, or None before the first."""
+        """Return the newest sample of a lane, or None before the first."""
         if not self.end_tick:
             return None
         return self._rows[lane, (self.end_tick - 1) % self._capacity]
 
     def rearrange(self, origins: Sequence[int | None]) -> None:
-        """Give lane i the past of lane origins[i]; a new lane, None, has none: NaN."""
+        """Assign lane i the past of lane origins[i]; a new lane, None, has NaN."""
         self._rows[: len(origins)] = self._rows[[origin or 0 for origin in origins]]
         for lane, origin in enumerate(origins):
             if origin is None:
                 self._rows[lane] = np.nan
 
     def clear(self) -> None:
-        """Forget everything; the next sample is that of tick 0."""
+        """Discard all samples; the next one is that of tick 0."""
         self.end_tick = 0

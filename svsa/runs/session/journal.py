@@ -1,4 +1,4 @@
-"""The run that a session is on, and what is kept of it: samples, events, lanes, metrics, record."""
+"""The present run of a session with its samples, events, lanes, metrics and record."""
 
 import math
 from collections import deque
@@ -28,11 +28,11 @@ HangLoads = Callable[[tuple[Load, ...]], None]
 
 
 def hang_nothing(loads: tuple[Load, ...]) -> None:
-    """A simulation needs no operator to hang its loads."""
+    """Do nothing: a simulation needs no operator for its loads."""
 
 
 class Journal:
-    """The present run of a session, advanced and changed here alone, and what is kept of it.
+    """The present run of a session, advanced and changed only here, with its history.
 
     `initial` and `commands` say everything that decides the run's samples. `version` grows
     with every change, not with time. `timeline` says who controlled which lane from when on, and
@@ -50,7 +50,7 @@ class Journal:
         self.begin(run)
 
     def begin(self, run: Run) -> None:
-        """Keep this run from now on, from its first tick."""
+        """Replace the run, at its first tick."""
         self.initial = run.configuration
         self.commands: list[Command] = []
         self.branch_of: BranchPoint | None = None
@@ -64,16 +64,16 @@ class Journal:
         self.version += 1
 
     def build_restart(self) -> Configuration:
-        """Everything as it is set now, and no load but those planned at first."""
+        """Build the run restarted with the present settings and the initially planned loads."""
         return self.run.configuration.changed(loads=self.initial.loads)
 
     def check_recordable(self) -> None:
-        """Raise `StateError` where it is being recorded already."""
+        """Raise `StateError` if the run is already being recorded."""
         if self.recorder is not None:
             raise StateError("The session is being recorded already: stop that recording first.")
 
     def start_recording(self, recorder: Recorder) -> None:
-        """Give the recorder the commands and events so far, and every sample from now on."""
+        """Pass commands and events so far to the recorder, and every sample from now on."""
         self.check_recordable()
         for command in self.commands:
             recorder.write_command(command.tick, command.to_json())
@@ -91,14 +91,14 @@ class Journal:
             self.version += 1
 
     def check(self, command: Command) -> None:
-        """Raise `StateError` where the command may not be given now."""
+        """Raise `StateError` if the command is not allowed now."""
         if len(self.commands) >= MAX_COMMANDS:
             raise StateError(f"{MAX_COMMANDS} changes were made to this run: reset it first.")
         if command.kind == "comparisons" and self.recorder is not None:
             raise StateError("A recording has the same lanes throughout: stop it first.")
 
     def enter(self, command: Command) -> None:
-        """Give the run a command at its tick; refused as the run does, it changes nothing."""
+        """Apply a command to the run at its tick; if the run rejects it, nothing changes."""
         loads = {load.number: load for load in self.run.loads}
         before = self.run.configuration
         answer = self.run.change(command)
@@ -122,7 +122,7 @@ class Journal:
                 self.log(command.kind, describe_change(command, before.law))
 
     def _follow(self, command: Command) -> None:
-        """Lanes have the past of those that they continue; in a new window metrics restart."""
+        """Give lanes the past that they continue; in a new window metrics restart."""
         window = self.timeline.window
         origins = self.timeline.take(command)
         if origins is not None:
@@ -132,24 +132,24 @@ class Journal:
             self.metrics.begin_window(self.run.tick)
 
     def log(self, kind: str, label: str) -> None:
-        """Enter an event at the present tick."""
+        """Log an event at the present tick."""
         self.events.append(Event(self.run.tick, self.run.time_s, kind, label))
         self.version += 1
 
     def report(self, kind: str, label: str) -> None:
-        """Enter what a bench says of itself at the present tick: a record keeps it too."""
+        """Log a bench's own event at the present tick, also in a record."""
         self.log(kind, label)
         self._reported.append(self.events[-1])
         if self.recorder is not None:
             self.recorder.write_event(self.events[-1])
 
     def begin_stop(self) -> None:
-        """A bench ramps to zero torque: its error from now on is none of the window before."""
+        """Start a window for a bench's ramp to zero, whose error belongs to no other window."""
         if self.timeline.window.kind != "stop":
             self.enter(Stop(tick=self.run.tick))
 
     def log_fault(self, fault: Fault, ends_run: bool = True) -> None:
-        """A fault is an event; one that ends the run is the end of its recording, too.
+        """Log a fault; a fault that ends the run also ends its recording.
 
         A fault of a bench at rest is at the run's last tick. Where the event of a fault is there
         already, such as of the one that ended the run, it keeps its name.
@@ -162,14 +162,14 @@ class Journal:
             self.log("fault", label_fault(fault.code))
 
     def refine_fault(self, fault: Fault) -> None:
-        """Extend the description of the reported fault, also in a record that has it."""
+        """Extend the description of the present fault, also in a record."""
         written = self.recorder.fault if self.recorder is not None else None
         if self.recorder is not None and written is not None and written.code == fault.code:
             self.recorder.write_fault(fault)
         self.version += 1
 
     def advance(self, ticks: int) -> None:
-        """Run `ticks` ticks, in stretches that end where a load comes or goes.
+        """Advance by `ticks` ticks, in stretches that end at the start or end of a load.
 
         A bench may have fewer samples than expected: the run then stays at its last one.
         """

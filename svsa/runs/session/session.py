@@ -1,4 +1,4 @@
-"""What people start, pause, change, watch and record: a simulated session or a bench."""
+"""The interface of a session, simulated or on a bench."""
 
 from collections.abc import Callable
 from typing import Literal, Protocol
@@ -19,7 +19,7 @@ Status = Literal["running", "paused", "fault"]
 
 
 class Session(Protocol):
-    """A run with a journal of it. Not safe across threads.
+    """A run with its journal. Not thread-safe.
 
     `journal`: what is kept of the run. `watched`: set by its host, whether any client watches it.
     `closed`: ended for good.
@@ -32,44 +32,44 @@ class Session(Protocol):
 
     @property
     def run(self) -> Run:
-        """The present run, of the journal."""
+        """The present run."""
         ...
 
     @property
     def version(self) -> int:
-        """Grows with every change, not with time."""
+        """A number that grows with every change, not with time."""
         ...
 
     @property
     def plant(self) -> PlantKind:
-        """What lane 1 runs on."""
+        """The plant of lane 1."""
         ...
 
     @property
     def status(self) -> Status:
-        """running, paused, or fault, which it leaves only by a command."""
+        """running, paused, or fault, which only a command leaves."""
         ...
 
     @property
     def fault(self) -> Fault | None:
-        """Why the run has ended, or what has stopped the bench; None while it is sound."""
+        """The fault that ended the run or stopped the bench; None without."""
         ...
 
     @property
     def pace(self) -> Pace:
-        """How session time goes against that of the wall."""
+        """Session time relative to wall time."""
         ...
 
     def load(self, configuration: Configuration) -> None:
-        """Begin a new run of this configuration at t = 0; a recording ends with its run."""
+        """Start a new run of this configuration at t = 0; a recording ends with its run."""
         ...
 
     def reset(self) -> None:
-        """Begin again at t = 0 with everything as it is set now and no load but planned ones."""
+        """Restart at t = 0 with the present settings and the planned loads."""
         ...
 
     def start(self) -> None:
-        """Run from now on; raises `StateError` where it may not."""
+        """Run; raises `StateError` if it is not allowed."""
         ...
 
     def pause(self) -> None:
@@ -77,7 +77,7 @@ class Session(Protocol):
         ...
 
     def halt(self, why: str = PROGRAM_ERROR) -> None:
-        """As `pause`, at once, whatever else goes on, without waiting for it."""
+        """Pause at once, without waiting for completion."""
         ...
 
     def quick_stop(self) -> None:
@@ -85,31 +85,31 @@ class Session(Protocol):
         ...
 
     def stop_from_keyboard(self) -> None:
-        """The quick stop, from any thread."""
+        """Quick stop from any thread."""
         ...
 
     def hear_operator(self) -> None:
-        """The watching client holds the dead-man's switch."""
+        """Note a message of the watching client, which holds the dead-man's switch."""
         ...
 
     def step(self, ticks: int) -> None:
-        """Run so many ticks at once; `StateError` unless paused."""
+        """Run so many ticks at once; raises `StateError` unless paused."""
         ...
 
     def set_speed(self, factor: float) -> None:
-        """Session seconds a wall second, infinite for as fast as it goes."""
+        """Set session seconds per wall second; infinite: full speed."""
         ...
 
     def wake(self, now: float) -> None:
-        """Take the run to `now` (monotonic wall time, s); waits for nothing."""
+        """Advance the run to `now` (monotonic wall time, s); does not block."""
         ...
 
     def burst(self, now: float) -> None:
-        """Run some ticks without waiting for them to be due, where the speed is infinite."""
+        """Run some ticks before they are due, if the speed is infinite."""
         ...
 
     def change(self, command: Command) -> None:
-        """Give the run a command now, whatever tick it names; refused, it changes nothing.
+        """Apply a command now, whatever its tick; if rejected, nothing changes.
 
         A reference that is followed already begins again, faded over.
         Raises `ParameterError` or `StateError` as the run does.
@@ -117,22 +117,22 @@ class Session(Protocol):
         ...
 
     def set(self, command: Command) -> None:
-        """`change`, but nothing at all where everything is so already: no fade, event or window."""
+        """Apply a command unless nothing would change: then no transition, event or window."""
         ...
 
     def patch(self, build: Callable[[Configuration], Command]) -> None:
-        """`set` by what `build` makes of the configuration as it is then."""
+        """Apply `set` with the command that `build` derives from the present configuration."""
         ...
 
     def prepare_recording(self) -> None:
-        """Before a record is made: raises `StateError` where the session cannot be recorded.
+        """Raise `StateError` if the session cannot be recorded.
 
         Of a bench that stands its next run is recorded: the one that has ended is forgotten.
         """
         ...
 
     def start_recording(self, recorder: Recorder) -> None:
-        """Give the recorder all commands so far, and every sample from now on."""
+        """Pass all commands so far to the recorder, and every sample from now on."""
         ...
 
     def stop_recording(self) -> None:
@@ -140,12 +140,12 @@ class Session(Protocol):
         ...
 
     def close(self) -> None:
-        """End it permanently, its recording first, and notify its clients."""
+        """End the session permanently, its recording first, and notify its clients."""
         ...
 
 
 def take_loads_off(session: Session) -> None:
-    """Take every load off."""
+    """Remove all loads."""
     for load in session.run.loads:
         session.change(RemoveLoad(argument=load.number))
 
@@ -154,7 +154,7 @@ class Hands:
     """An operator, who gets no commands; a simulated one follows them."""
 
     def hang(self, loads: tuple[Load, ...]) -> None:
-        """These loads and no others are on."""
+        """Set exactly these loads."""
 
     def set_to_marks(self) -> None:
         """Set the mechanism to its zero marks, before it is armed."""

@@ -1,4 +1,4 @@
-"""A simulated run that people start, pause, change, watch and record."""
+"""The session of a simulated run."""
 
 from collections.abc import Callable, Iterable
 from typing import Self
@@ -17,7 +17,7 @@ BURST_TICKS = 2_000
 
 
 class SimulatedSession:
-    """A `Session` of a simulated run: a clock says which ticks are due."""
+    """A `Session` of a simulated run: a clock determines the due ticks."""
 
     def __init__(self, name: str, configuration: Configuration) -> None:
         self.name = name
@@ -35,7 +35,7 @@ class SimulatedSession:
         tick: int,
         run_id: str | None = None,
     ) -> Self:
-        """A session, paused, that goes on from a recorded run as it stood at `tick`.
+        """Create a paused session that continues a recorded run from `tick`.
 
         The run is simulated again from its start. run_id: id of the run, for clients that ask
         where the session comes from. Raises `StateError` where it had ended before.
@@ -59,7 +59,7 @@ class SimulatedSession:
 
     @property
     def version(self) -> int:
-        """That of the journal."""
+        """Version of the journal."""
         return self.journal.version
 
     @property
@@ -69,7 +69,7 @@ class SimulatedSession:
 
     @property
     def fault(self) -> Fault | None:
-        """Why the run has ended, or None."""
+        """The fault that ended the run, or None."""
         return self.run.fault
 
     @property
@@ -81,58 +81,58 @@ class SimulatedSession:
 
     @property
     def pace(self) -> Pace:
-        """That of the clock."""
+        """Pace of the clock."""
         return self.clock.pace
 
     def load(self, configuration: Configuration) -> None:
-        """Begin a new run of this configuration at t = 0; running or paused as before."""
+        """Start a new run of this configuration at t = 0; running or paused as before."""
         run = Run(configuration)
         self.journal.stop_recording()
         self.clock.begin()
         self.journal.begin(run)
 
     def reset(self) -> None:
-        """Begin again at t = 0 with everything as it is set now and no load but planned ones."""
+        """Restart at t = 0 with the present settings and the planned loads."""
         self.load(self.journal.build_restart())
 
     def start(self) -> None:
-        """Run from now on; raises `StateError` after a fault."""
+        """Run; raises `StateError` after a fault."""
         if self.run.fault is not None:
             raise StateError(f"The run ended in a fault; reset it first. {self.run.fault.message}")
         self._running = True
         self.journal.version += 1
 
     def pause(self) -> None:
-        """Stop after the present tick; the state stays."""
+        """Pause after the present tick; the state is kept."""
         self._running = False
         self.clock.stop()
         self.journal.version += 1
 
     def halt(self, why: str = PROGRAM_ERROR) -> None:
-        """As `pause`, which waits for nothing."""
+        """Pause."""
         self.pause()
 
     def quick_stop(self) -> None:
-        """A simulation pauses, and says that it was stopped."""
+        """Pause, and report the stop."""
         if self.status == "running":
             self.pause()
             self.journal.log("quick_stop", "Quick stop")
 
     def stop_from_keyboard(self) -> None:
-        """A simulation has nothing to guard against."""
+        """Do nothing: a simulation needs no guard."""
 
     def hear_operator(self) -> None:
-        """A simulation has no dead-man's switch."""
+        """Do nothing: a simulation has no dead-man's switch."""
 
     def step(self, ticks: int) -> None:
-        """Run so many ticks at once; only while paused, else `StateError`."""
+        """Run so many ticks at once; raises `StateError` unless paused."""
         if self.status != "paused":
             raise StateError(f"The session is {self.status}: pause it to go by single ticks.")
         self._advance(ticks)
         self.journal.version += 1
 
     def set_speed(self, factor: float) -> None:
-        """Session seconds a wall second."""
+        """Set session seconds per wall second."""
         self.clock.speed = factor
         self.journal.version += 1
 
@@ -142,7 +142,7 @@ class SimulatedSession:
             self._advance(self.clock.take_due_ticks(now))
 
     def burst(self, now: float) -> None:
-        """Run some ticks without waiting for them to be due: as fast as it goes."""
+        """Run some ticks before they are due, at full speed."""
         if self.status == "running":
             self._advance(BURST_TICKS)
             self.clock.count_burst(BURST_TICKS, now)
@@ -153,22 +153,22 @@ class SimulatedSession:
             self.clock.stop()
 
     def change(self, command: Command) -> None:
-        """Give the run a command at its present tick."""
+        """Apply a command at the present tick."""
         self.journal.check(command)
         self.journal.enter(command.at(self.run.tick))
 
     def set(self, command: Command) -> None:
-        """`change`, unless everything is so already."""
+        """Apply a command unless nothing would change."""
         self.patch(lambda _: command)
 
     def patch(self, build: Callable[[Configuration], Command]) -> None:
-        """`set` by what `build` makes of the present configuration."""
+        """Apply `set` with the command that `build` derives from the present configuration."""
         command = build(self.run.configuration)
         if not is_held(self.run.configuration, command):
             self.change(command)
 
     def prepare_recording(self) -> None:
-        """As `Journal.check_recordable`."""
+        """Check as `Journal.check_recordable`."""
         self.journal.check_recordable()
 
     def start_recording(self, recorder: Recorder) -> None:
@@ -180,7 +180,7 @@ class SimulatedSession:
         self.journal.stop_recording()
 
     def close(self) -> None:
-        """End the session for good."""
+        """End the session permanently."""
         self.journal.stop_recording()
         self.pause()
         self.closed = True

@@ -1,1 +1,1 @@
-"""The control loop, compiled: many ticks a call, tick by tick, and around a measured plant."""
+"""The compiled control loop: many ticks per call, tick by tick, and with a measured plant."""

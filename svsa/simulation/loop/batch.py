@@ -1,4 +1,4 @@
-"""Many runs at once: the tick of the loop on eight side by side, and of each run a summary.
+"""Vectorised runs: the loop's tick for eight runs in parallel, with a summary of each.
 
 What one run computes of its samples is summed up as it goes, and nothing is kept. A run has the
 bits of the same run alone, see `svsa.numerics.simd.number`. The law is compiled in, for itself once
@@ -78,7 +78,7 @@ class Start(NamedTuple):
 
 
 class Beginning(NamedTuple):
-    """What a run is made of. constants: of its law."""
+    """The components of a run. constants: of its law."""
 
     blocks: Blocks
     constants: tuple[Any, ...]
@@ -86,7 +86,7 @@ class Beginning(NamedTuple):
 
 
 class Batch(NamedTuple):
-    """Runs of one law, eight to a group; the last group repeats its last.
+    """Runs of one law, eight per group; the last group repeats its last run.
 
     control: of the law, None where it is called by its address. memory: its layout,
     see `lay_out_record`. layout: a `Beginning` of `svsa.numerics.simd.record`, see `build_reader`.
@@ -112,7 +112,7 @@ def build_batch(
     laws: Sequence[BoundLaw],
     inputs: Inputs,
 ) -> Batch:
-    """Runs of a law with these blocks and constants, one of each a run.
+    """Build runs of a law from blocks and constants, one of each per run.
 
     laws: the law bound to each, of one that is not `is_for_vectors`, which has no constants then.
     inputs: of all, see `join_inputs`. Raises `ParameterError` where the period or a whole number,
@@ -130,7 +130,9 @@ def build_batch(
 def pack_beginnings(
     blocks: Sequence[Blocks], constants: Sequence[tuple[Any, ...]], memory: np.ndarray
 ) -> tuple[Beginning, np.ndarray]:
-    """The layout of runs, and their numbers (groups, rows, 8). memory: of the law at the start."""
+    """Return the layout of runs, and their numbers (groups, rows, 8). memory: initial, of the
+    law.
+    """
     start = Start(*build_lane_state(memory)[:-1])
     runs = [Beginning(*parts, start) for parts in zip(blocks, constants, strict=True)]
     numbers = pack_all(runs).view(np.float64).reshape(len(runs), -1)
@@ -138,7 +140,7 @@ def pack_beginnings(
 
 
 def _lay_out(values: Any, name: str, columns: Iterator[np.ndarray], rows: Iterator[int]) -> Any:
-    """The layout of one run's numbers. columns: of each number its bits in all runs."""
+    """Return the layout of one run's numbers. columns: of each number its bits in all runs."""
     if isinstance(values, tuple):
         names = getattr(values, "_fields", ("",) * len(values))
         inner = [f"{name}.{one}" for one in names]
@@ -163,7 +165,7 @@ def _lay_out(values: Any, name: str, columns: Iterator[np.ndarray], rows: Iterat
 
 
 def run_batch(batch: Batch, ticks: int, begin: int = 0) -> np.ndarray:
-    """Run so many ticks from the start; an array (runs,) of `SUMMARY`.
+    """Run so many ticks from the start; return an array (runs,) of `SUMMARY`.
 
     begin: the tick at which measuring begins. Does not hold the GIL, and handles signals between
     slices.
@@ -250,7 +252,7 @@ def advance_groups(
     start_row: int,
     results: np.ndarray,
 ) -> None:
-    """Run every group from the tick `first` to before `stop`.
+    """Advance every group from the tick `first` to before `stop`.
 
     rows, memories: see `Batch`; written, so that the next call goes on at `stop`. begin, end: of
     what is measured. start_row: where `Start` begins in the rows. results: (groups, fields, 8), of
@@ -286,7 +288,7 @@ def advance_groups(
 
 @compiled
 def write(rows: np.ndarray, first: int, values: tuple[float, ...]) -> int:
-    """Write a tuple of vectors into rows (n, 8) from `first` on; returns the row after them."""
+    """Write a tuple of vectors into rows (n, 8) from `first` on; return the next row."""
     for i in range(len(values)):
         store(rows, first + i, values[i])
     return first + len(values)

@@ -1,4 +1,4 @@
-"""The references and loads of many runs as arrays, so that each has its own."""
+"""References and loads of vectorised runs, as arrays."""
 
 from collections.abc import Sequence
 
@@ -16,7 +16,7 @@ from svsa.simulation.reference.transition import A, Stack, compute_row
 
 
 def group(values: np.ndarray) -> np.ndarray:
-    """(runs, …) → (groups, …, 8); the last group repeats its last run."""
+    """Reshape (runs, …) to (groups, …, 8); the last group repeats its last run."""
     groups = -(-len(values) // WIDTH)
     filled = np.concatenate([values, np.repeat(values[-1:], groups * WIDTH - len(values), axis=0)])
     grouped = filled.reshape(groups, WIDTH, *values.shape[1:])
@@ -24,7 +24,7 @@ def group(values: np.ndarray) -> np.ndarray:
 
 
 def join_inputs(runs: Sequence[Inputs]) -> Inputs:
-    """The `Inputs` of runs that begin with their references: rows (groups, n, columns, 8).
+    """Join the `Inputs` of runs from t = 0: rows (groups, n, columns, 8).
 
     What runs have in common, the same stack or table, is there once.
     """
@@ -40,7 +40,7 @@ def join_inputs(runs: Sequence[Inputs]) -> Inputs:
 
 
 def _join(parts: Sequence[Stack] | Sequence[LoadTable], kind: int, first: int) -> list[np.ndarray]:
-    """Rows of every run, and behind one another what they point into.
+    """Join rows of every run, and concatenate the arrays that they point into.
 
     kind: of the rows, the number they begin with, that point there, by their column `first`.
     Runs with fewer rows get rows of zeros.
@@ -63,7 +63,7 @@ def _join(parts: Sequence[Stack] | Sequence[LoadTable], kind: int, first: int) -
 
 
 def slice_inputs(inputs: Inputs, groups: slice) -> Inputs:
-    """The `Inputs` of some groups of runs (see `join_inputs`)."""
+    """Return the `Inputs` of some groups of runs (see `join_inputs`)."""
     p, s, loads = inputs.position, inputs.stiffness, inputs.loads
     return Inputs(
         p._replace(rows=p.rows[groups]),
@@ -74,7 +74,7 @@ def slice_inputs(inputs: Inputs, groups: slice) -> Inputs:
 
 @compiled
 def pick_inputs(inputs: Inputs, group: int) -> Inputs:
-    """The `Inputs` of one group of runs, borrowed, of those of all (see `join_inputs`)."""
+    """Return the `Inputs` of one group, borrowed from those of all (see `join_inputs`)."""
     p, s, loads = inputs.position, inputs.stiffness, inputs.loads
     return Inputs(
         Stack(borrow(p.rows[group]), borrow(p.breaks), borrow(p.coefficients)),
@@ -85,6 +85,6 @@ def pick_inputs(inputs: Inputs, group: int) -> Inputs:
 
 @compiled
 def read_first_reference(inputs: Inputs, time: float) -> Reference:
-    """`Reference` at `time` (s) of runs whose references are on since t = 0: nothing fades."""
+    """Compute `Reference` at `time` (s) of runs whose references are on since t = 0."""
     p, s = compute_row(inputs.position, 0, time), compute_row(inputs.stiffness, 0, time)
     return Reference(p.d0, p.d1, p.d2, p.d3, p.d4, s.d0, s.d1, s.d2)

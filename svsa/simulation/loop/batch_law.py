@@ -1,4 +1,4 @@
-"""The law of eight runs: all at once, or one after the other where it looks at its numbers.
+"""The law of eight runs: vectorised, or run by run if it branches on its values.
 
 A law with an `if`, or an index, by what differs from run to run does not compile for vectors. It
 is called by its address, as the loop of one run does; the rest of the tick is computed at once.
@@ -26,7 +26,7 @@ from svsa.simulation.loop.stepwise import EXCHANGED, ask_python
 def is_for_vectors(
     control: Any, nominal: Actuator, constants: tuple[Any, ...], memory: Any
 ) -> bool:
-    """Whether a law's function compiles for vectors; compiled where it has not been before.
+    """Whether a law's function compiles for vectors; compiles it if necessary.
 
     memory: its layout, see `lay_out_record`.
     """
@@ -57,7 +57,7 @@ def _compile(control: Any, nominal: Any, constants: Any, memory: Any) -> bool:
 
 
 class Addresses(NamedTuple):
-    """A `BoundLaw` as addresses: valid as long as its arrays live."""
+    """A `BoundLaw` as addresses: valid while its arrays exist."""
 
     function_address: int
     nominal_address: int
@@ -66,13 +66,13 @@ class Addresses(NamedTuple):
 
 
 def find_addresses(law: BoundLaw) -> Addresses:
-    """`Addresses` of a law; the caller must keep its arrays alive."""
+    """Return `Addresses` of a law; the caller must keep its arrays alive."""
     words = law.nominal.ctypes.data, law.constants.ctypes.data
     return Addresses(law.function, *words, int(law.is_measuring))
 
 
 class GroupLaw(NamedTuple):
-    """The law of eight runs. constants: its own, or `Addresses`. is_measuring: as of `BoundLaw`."""
+    """The law of eight runs. constants: values, or `Addresses`. is_measuring: as of `BoundLaw`."""
 
     nominal: Actuator
     constants: Any
@@ -80,7 +80,7 @@ class GroupLaw(NamedTuple):
 
 
 class GroupCall(NamedTuple):
-    """A `GroupLaw` with its memory, for those that run."""
+    """A `GroupLaw` with its memory, for the active runs."""
 
     nominal: Actuator
     constants: Any
@@ -91,7 +91,7 @@ class GroupCall(NamedTuple):
 
 @compiled
 def open_group_call(law: GroupLaw, memory: Any, runs: bool) -> GroupCall:
-    """`GroupCall` of a law for this tick."""
+    """Build the `GroupCall` of a law for this tick."""
     return GroupCall(law.nominal, law.constants, memory, law.is_measuring, runs)
 
 
@@ -105,7 +105,7 @@ def compute_one_by_one(
     period: float,
     measured: Positions,
 ) -> Torque:
-    """u of those that run, `Torque`, N·m; 0 of the others, whose law is not called.
+    """Compute u of the active runs one by one, `Torque`, N·m; 0 for ended ones.
 
     group: with the `Addresses` of every run's law, which has the nominal model, too; its memory is
     (8, words), written. Else as `svsa.control.call.compute_law`.
@@ -138,7 +138,7 @@ def compute_one_by_one(
 
 
 class PythonLaw(NamedTuple):
-    """A law of eight runs that is one function in Python, by its address.
+    """The law of eight runs as one Python function, by its address.
 
     It is called once a tick with the address of rows (8, `WORDS`), see `compute_in_python`.
     """
@@ -161,7 +161,7 @@ def compute_in_python(
     period: float,
     measured: Positions,
 ) -> Torque:
-    """u of those that run, `Torque`, N·m; 0 of the others: one call of Python for all eight.
+    """Compute u of the active runs, `Torque`, N·m, by one call of Python; 0 for ended ones.
 
     group: with a `PythonLaw`. Its memory holds rows (8, `WORDS`): 1.0 where the run needs an
     answer, the arguments of the law, and its answer. Else as `svsa.control.call.compute_law`.
@@ -185,7 +185,7 @@ def compute_in_python(
 
 @compiled
 def fill(row: np.ndarray, first: int, values: tuple[float, ...]) -> int:
-    """Write a tuple of numbers into a row from `first` on; returns the place after them."""
+    """Write a tuple of numbers into a row from `first` on; return the next position."""
     for i in range(len(values)):
         row[first + i] = values[i]
     return first + len(values)
@@ -205,7 +205,7 @@ def compute_side_by_side(
     period: float,
     measured: Positions,
 ) -> Torque:
-    """u of all eight at once, `Torque`, N·m: `law` compiled for vectors."""
+    """Compute u of all eight, `Torque`, N·m, by `law` compiled for vectors."""
     nominal, constants, memory = group.nominal, group.constants, group.memory
     if is_reported:
         return law(nominal, constants, memory, x, reference, estimate, applied, period, measured)

@@ -1,4 +1,4 @@
-"""Eight runs side by side with a controller in plain Python, which is asked once a tick for all."""
+"""Eight runs in parallel with a plain Python controller, called once a tick for all."""
 
 import ctypes
 from collections.abc import Callable, Sequence
@@ -24,7 +24,7 @@ _Call = ctypes.CFUNCTYPE(None, ctypes.c_void_p)
 def run_batch_stepwise(
     blocks: Sequence[Blocks], inputs: Inputs, controller: GroupController, ticks: int, begin: int
 ) -> np.ndarray:
-    """Run at most eight runs from the start, each with the bits of the same run alone.
+    """Run at most eight runs from the start, bit-identical to single runs.
 
     Args:
         blocks: Of each run; period, delay and steps are the same in all.

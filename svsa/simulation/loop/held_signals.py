@@ -1,4 +1,4 @@
-"""Signals that wait during a compiled call that calls Python functions.
+"""Deferral of signals during a compiled call that calls Python functions.
 
 Python runs the handler of a signal in such a function. An exception that the handler raises cannot
 pass through the compiled call: ctypes prints it and drops it.
@@ -13,18 +13,18 @@ from typing import Any
 
 
 class HeldSignals:
-    """Signals that have arrived and wait for their handlers."""
+    """Signals that have arrived, for deferred handling."""
 
     def __init__(self) -> None:
         self.handlers: dict[int, Callable[[int, FrameType | None], Any]] = {}
         self._waiting: list[tuple[int, FrameType | None]] = []
 
     def hold(self, number: int, frame: FrameType | None) -> None:
-        """Let a signal wait; the handler of all signals for the time being."""
+        """Store a signal; the temporary handler of all signals."""
         self._waiting.append((number, frame))
 
     def handle(self) -> None:
-        """Call the handlers of the signals that wait; raises what they raise."""
+        """Call the handlers of stored signals; raises their errors."""
         while self._waiting:
             number, frame = self._waiting.pop(0)
             self.handlers[number](number, frame)
@@ -32,7 +32,7 @@ class HeldSignals:
 
 @contextmanager
 def hold_signals() -> Iterator[HeldSignals]:
-    """Hold the signals that have a handler in Python until `handle`, at the latest to the end.
+    """Defer signals with a Python handler until `handle`, at the latest to the end.
 
     Python runs handlers in the main thread only: in another thread there is nothing to hold.
     """

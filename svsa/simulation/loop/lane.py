@@ -1,4 +1,4 @@
-"""What a lane of the loop is made of, what comes in, and what it carries from tick to tick."""
+"""A lane of the loop: its blocks, its inputs, and its state."""
 
 from typing import NamedTuple
 
@@ -43,7 +43,7 @@ class Blocks(NamedTuple):
 
 
 class Inputs(NamedTuple):
-    """What comes from outside: the stacks of both references and the table of loads."""
+    """Inputs of a lane: both references and the table of loads."""
 
     position: Stack
     stiffness: Stack
@@ -69,7 +69,7 @@ class LaneState(NamedTuple):
 
 
 class Action(NamedTuple):
-    """What a torque begins in a tick.
+    """The effects of a torque in a tick.
 
     limited: the delay's queue with it. delayed: what is due of it now. actual: what the motors make
     of that at once, N·m. load: `ExternalLoad`. rate: ẋ under both.
@@ -83,7 +83,7 @@ class Action(NamedTuple):
 
 
 def build_lane_state(memory: np.ndarray, x: State = AT_REST) -> LaneState:
-    """A lane at its start. memory: of its law. x: where its plant is, which is known."""
+    """Build the initial state of a lane. memory: of its law. x: known state of its plant."""
     # The length is part of the type: with a queue as long as the delay, each delay would compile
     # the loop again.
     limited = (0.0,) * (2 * MAX_DELAY_SAMPLES + 2)
@@ -110,7 +110,7 @@ def borrow_law(law: BoundLaw) -> BoundLaw:
 
 @compiled
 def remember(lane: LaneState, memory: np.ndarray) -> LaneState:
-    """The lane with another memory of its law."""
+    """Return the lane with another memory of its law."""
     return LaneState(
         lane.x, lane.known, lane.estimate, lane.actual, lane.applied, lane.limited, memory
     )

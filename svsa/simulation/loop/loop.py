@@ -66,7 +66,7 @@ def read_reference(inputs: Inputs, time: float) -> Reference:
 
 @compiled
 def open_call(law: BoundLaw, memory: np.ndarray, runs: bool) -> Call:
-    """`Call` of a law for this tick. runs: whether the lane runs, which it does here."""
+    """Build the `Call` of a law for this tick. runs: whether the lane runs; here it does."""
     return build_call(law, memory)
 
 
@@ -74,7 +74,7 @@ def open_call(law: BoundLaw, memory: np.ndarray, runs: bool) -> Call:
 def delay(
     effects: EffectConstants, limited: tuple[float, ...], torque: Torque
 ) -> tuple[tuple[float, ...], Torque]:
-    """The queue of limited torques with this one in front, and the torque that is due now."""
+    """Append this torque to the queue of limited torques; return queue and due torque."""
     limited = (torque.u1, torque.u2) + limited[:-2]  # noqa: RUF005  numba knows no unpacking here
     # Without a delay the queue is not read: part of what brought a run from 3.8 to 1.2 times C.
     if effects.delay_samples == 0:
@@ -127,7 +127,7 @@ def observe(
 def observe_state(
     blocks: Blocks, known: State, estimate: Disturbance, applied: Torque, measurement: Measurement
 ) -> State:
-    """x̂ with this `Measurement`. known, estimate, applied: as in `observe`."""
+    """Compute x̂ from this `Measurement`. known, estimate, applied: as in `observe`."""
     measured, estimates = build_measured_state(measurement), blocks.decay > 0.0
     # `some` skips the estimator if no run needs it; in a vector `choose` decides for each run.
     if not some(estimates):
@@ -140,7 +140,7 @@ def observe_state(
 
 @compiled
 def sense(blocks: Blocks, lane: LaneState, x: State, applied: Torque, tick: int) -> State:
-    """x̂ at `tick`, of the plant's state x: x itself where the sensors are perfect."""
+    """Compute x̂ at `tick` from the plant's state x: x itself with perfect sensors."""
     # Perfect sensors return x itself: θ1 + (q − θ1) would differ from q in the last bit.
     differs = (blocks.decay > 0.0) | are_inexact(blocks.effects)
     if not some(differs):
@@ -152,7 +152,7 @@ def sense(blocks: Blocks, lane: LaneState, x: State, applied: Torque, tick: int)
 
 @compiled
 def measure(blocks: Blocks, call: Call, x: State, tick: int) -> Positions:
-    """The measured `Positions` for a law that takes them; for any other law those of x itself."""
+    """Compute measured `Positions` for a law that takes them; otherwise those of x."""
     if call.is_measuring:
         return read_positions(blocks.effects, x, tick)
     return build_positions(x)
@@ -206,7 +206,7 @@ def run_tick(
 
 @compiled
 def hold(runs: bool, reached: LaneState, lane: LaneState) -> LaneState:
-    """`LaneState` of those that run, and of those that have ended as they were."""
+    """Select the new `LaneState` of active runs and the old one of ended runs."""
     return LaneState(
         choose(runs, reached.x, lane.x),
         choose(runs, reached.known, lane.known),
@@ -220,7 +220,7 @@ def hold(runs: bool, reached: LaneState, lane: LaneState) -> LaneState:
 
 @compiled
 def act(blocks: Blocks, inputs: Inputs, lane: LaneState, torque: Torque, tick: int) -> Action:
-    """`Action` of a torque within the limits, N·m: delay, drive, loads and what they do at once."""
+    """Compute the `Action` of a limited torque, N·m: delay, drive and loads."""
     effects, time = blocks.effects, tick * blocks.period
     limited, delayed = delay(effects, lane.limited, torque)
     load = compute_load(inputs.loads, tick, blocks.period, time)
@@ -234,7 +234,7 @@ def act(blocks: Blocks, inputs: Inputs, lane: LaneState, torque: Torque, tick: i
 def move(
     blocks: Blocks, inputs: Inputs, lane: LaneState, F: InternalTorque, action: Action, tick: int
 ) -> tuple[LaneState, InternalTorque]:
-    """The rest of the tick: plant, read, observer. Returns `LaneState` and F_n(x̂) at its end."""
+    """Complete the tick: plant, read, observer. Returns `LaneState` and F_n(x̂) at its end."""
     plant, nominal, effects, period = blocks.plant, blocks.nominal, blocks.effects, blocks.period
     start, delayed, load = lane.actual, action.delayed, action.load
     table, steps = inputs.loads, blocks.steps
@@ -257,7 +257,7 @@ def move(
 def advance(
     blocks: Blocks, law: BoundLaw, inputs: Inputs, lane: LaneState, first: int, samples: np.ndarray
 ) -> tuple[LaneState, int, int]:
-    """Many ticks in one call that does not hold the GIL: one for each row of `samples`.
+    """Run many ticks without the GIL: one per row of `samples`.
 
     law: `BoundLaw`. lane: `LaneState` at the tick `first`, which stays as it is. samples: (ticks,
     channels), written. Returns (lane, ticks done, code): a code other than `INSIDE` says why the

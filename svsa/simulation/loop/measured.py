@@ -1,4 +1,4 @@
-"""The loop's pieces where the plant is a bench: what is measured takes the place of x.
+"""The loop's functions for a bench: measurements replace the plant's state.
 
 A tick on a bench is read → follow → decide → write → publish → predict: the loop of
 `svsa.simulation.loop.loop`, cut open where the bench is read.
@@ -31,14 +31,14 @@ from svsa.simulation.plant.effects.current_lag import compute_late_torque
 
 
 class Actuation(NamedTuple):
-    """From a torque that is decided to one that acts. latency, lag: s (see `CurrentLag`)."""
+    """Delay and lag of a commanded torque. latency, lag: s (see `CurrentLag`)."""
 
     latency: float
     lag: float
 
 
 class BenchConstants(NamedTuple):
-    """The constants of a bench's loop. call: its law with the memory of that."""
+    """The constants of a bench's loop. call: its law with memory."""
 
     blocks: Blocks
     actuation: Actuation
@@ -46,7 +46,7 @@ class BenchConstants(NamedTuple):
 
 
 class Carried(NamedTuple):
-    """The numbers of a bench's loop.
+    """The state of a bench's loop.
 
     Carried from tick to tick: known, estimate: x̂ and ŵ. actual: what the motors make now, N·m.
     before, sent: the torques sent last but one and last, N·m. expected: x̂ a period later.
@@ -75,7 +75,7 @@ def read_state(x: np.record) -> State:
 
 @compiled
 def store_state(packed: np.record, x: State) -> None:
-    """`State` into a packed one."""
+    """Store `State` in a packed one."""
     packed.q, packed.dq = x.q, x.dq
     packed.theta1, packed.dtheta1 = x.theta1, x.dtheta1
     packed.theta2, packed.dtheta2 = x.theta2, x.dtheta2
@@ -89,19 +89,19 @@ def read_disturbance(w: np.record) -> Disturbance:
 
 @compiled
 def store_disturbance(packed: np.record, w: Disturbance) -> None:
-    """`Disturbance` into a packed one."""
+    """Store `Disturbance` in a packed one."""
     packed.w2, packed.w4, packed.w6 = w.w2, w.w4, w.w6
 
 
 @compiled
 def store_torque(packed: np.record, torque: Torque) -> None:
-    """`Torque`, or a packed one, into a packed one."""
+    """Store `Torque`, or a packed one, in a packed one."""
     packed.u1, packed.u2 = torque.u1, torque.u2
 
 
 @compiled
 def find_late_torque(constants: np.record, carried: np.record) -> tuple[Torque, Torque]:
-    """What the motors make a period later, and what acts until then, as `Torque`s, N·m."""
+    """Compute the motors' torque a period later, and the mean until then, as `Torque`s, N·m."""
     c, actuation = carried, constants.actuation
     return compute_late_torque(
         Torque(c.actual.u1, c.actual.u2),
@@ -117,7 +117,7 @@ def find_late_torque(constants: np.record, carried: np.record) -> tuple[Torque, 
 def follow_and_decide(
     constants: np.ndarray, inputs: np.ndarray, carried: np.ndarray, tick: int
 ) -> None:
-    """A period later: x̂, ŵ and actual torque from the measurement, reference and limited torque.
+    """Advance a period: x̂, ŵ and actual torque from the measurement, reference and limited torque.
 
     constants, carried: `BenchConstants` and `Carried`, packed. Nothing is sent yet.
     """
@@ -146,7 +146,7 @@ def follow_and_decide(
 def publish_and_predict(
     constants: np.ndarray, carried: np.ndarray, u1: float, u2: float, tick: int, sample: np.ndarray
 ) -> None:
-    """What was sent (u1, u2, N·m) is carried on, `publish_measured` into `sample`, `predict`."""
+    """Store the sent torque (u1, u2, N·m), `publish_measured` into `sample`, then `predict`."""
     k, c = constants[0], carried[0]
     # Kept before it is replaced: it acts until the new torque arrives (`latency`).
     store_torque(c.before, c.sent)
@@ -159,7 +159,7 @@ def publish_and_predict(
 def pass_ticks(
     constants: np.ndarray, inputs: np.ndarray, carried: np.ndarray, first: int, count: int
 ) -> None:
-    """`count` periods in which the loop did not run: x̂ goes on with ŵ and the torque last sent.
+    """Advance `count` periods without the loop: x̂ with ŵ and the last torque sent.
 
     If x̂ were held, the motion of several periods would count as that of one period, which is a
     wrong velocity. The law, which may have an observer of its own, is called for these ticks,
@@ -181,7 +181,7 @@ def pass_ticks(
 
 @compiled
 def predict(constants: np.record, carried: np.record) -> State:
-    """x̂ as it is expected a period later, with the velocities of half the ages before.
+    """Predict x̂ a period later, with the velocities at half the ages before.
 
     A count of age a is then brought to its tick by y + v(t − a/2) a, right to the second
     order. Returns `State`.

@@ -1,4 +1,4 @@
-"""One sample of a tick, written into its row."""
+"""Writing of one tick's sample into its row."""
 
 from collections.abc import Callable
 from typing import Any, cast

@@ -1,4 +1,4 @@
-"""Long compiled work in slices: Python handles signals, such as Ctrl-C, between two calls only."""
+"""Compiled work in slices, because Python handles signals such as Ctrl-C between calls only."""
 
 import time
 from collections.abc import Callable, Hashable, Iterator
@@ -46,7 +46,7 @@ def cut(kind: Hashable, ticks: int) -> Iterator[tuple[int, int]]:
 def advance_in_slices(
     advance: Advance, kind: Hashable, lane: LaneState, first: int, samples: np.ndarray
 ) -> tuple[LaneState, int, int]:
-    """Run a lane in slices, with the same bits as in one call.
+    """Advance a lane in slices, bit-identical to one call.
 
     Args:
         advance: what runs it.

@@ -1,4 +1,4 @@
-"""The same loop with a controller in plain Python, which the compiled loop calls once a tick.
+"""The loop with a plain Python controller, called once a tick by the compiled loop.
 
 For the compiled loop the controller is a law as any other. The memory of that law holds the
 arguments, and its function calls Python. Hence the samples are the same.
@@ -43,7 +43,7 @@ _Call = ctypes.CFUNCTYPE(None, ctypes.c_void_p)
 
 
 class _Exchange(NamedTuple):
-    """The arguments of the controller, and its answer."""
+    """Arguments and result of the controller."""
 
     reference: Reference
     x: State
@@ -63,7 +63,7 @@ class _Address(NamedTuple):
 
 
 def _build_ask(typing: Any, address: Any, reported: Any) -> Any:
-    """Call the function at an address with that of a record, or with an address."""
+    """Build a call of the function at an address with a record's address, or with an address."""
     is_address = isinstance(reported, types.Integer)
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
@@ -93,7 +93,7 @@ def _compute_commanded(
     period: float,
     measured: Positions,
 ) -> Torque:
-    """What the controller answers, as `svsa.control.law.Law.control`."""
+    """Return the controller's torque, as `svsa.control.law.Law.control`."""
     to = reported.reference
     to.q, to.dq, to.ddq, to.dddq, to.ddddq = reference[:5]
     to.sigma, to.dsigma, to.ddsigma = reference[5:]
@@ -115,7 +115,7 @@ def advance_stepwise(
     samples: np.ndarray,
     controller: Controller,
 ) -> tuple[LaneState, int, int]:
-    """As `svsa.simulation.loop.loop.advance`, with the torque from `controller`.
+    """Advance as `svsa.simulation.loop.loop.advance`, with the torque from `controller`.
 
     What the controller raises is raised. Raises `ParameterError` where it returns anything but two
     numbers, or has a parameter that does not exist.

@@ -1,4 +1,4 @@
-"""What is summed up of a run of a batch as it goes, in place of its samples."""
+"""The running summary of a vectorised run, instead of its samples."""
 
 import math
 from typing import Any, NamedTuple
@@ -29,7 +29,8 @@ class Window(NamedTuple):
 
 
 class Tally(NamedTuple):
-    """Of a run's measured ticks: sums of squares and sizes, peaks and what came last, SI.
+    """Summary of a run's measured ticks: sums of squares and absolute values, peaks, last values,
+    SI.
 
     steady_state_squares, stiffness_steady_squares: of the errors in the last 0.5 s.
     position_last_peak, share_last_peak: of the last 1 s; a share is |σ_d − σ|/σ_d. recovered: the
@@ -65,7 +66,7 @@ class Tally(NamedTuple):
 
 
 class Kept(NamedTuple):
-    """What a batch keeps of its ticks: the `Tally` of those in the `Window`."""
+    """The summary of a vectorised run: the `Tally` of the ticks in the `Window`."""
 
     tally: Tally
     window: Window
@@ -105,7 +106,7 @@ def follow_recovery(
     inside: float,
     recovered: float,
 ) -> tuple[float, float]:
-    """The 2 % rule of the recovery time, by one tick: the only place where it is computed.
+    """Update the 2 % rule of the recovery time by one tick; the only implementation of it.
 
     counts: whether the tick is measured. error: |q_d − q| at it, rad. peak: the largest so far,
     rad. passed: measured ticks including this one. settled: ticks in 0.5 s. inside: the measured
@@ -118,7 +119,7 @@ def follow_recovery(
 
 
 class Moment(NamedTuple):
-    """What the metrics are of, at one tick.
+    """The quantities of one tick that metrics use.
 
     position, stiffness: errors q_d − q, rad, and σ_d − σ, N·m/rad. sigma: σ_d, N·m/rad. u1, u2:
     actual torque, N·m. dtheta1, dtheta2: motor velocities, rad/s.
@@ -142,7 +143,7 @@ def add_moment(
     moment: Moment,
     tick: int,
 ) -> Tally:
-    """`Tally` with one tick, where it `runs`. is_limited: whether a motor is at its limit."""
+    """Add one tick to the `Tally`, if it `runs`. is_limited: whether a motor is at its limit."""
     t, m = tally, moment
     e, s = choose(runs, abs(m.position), 0.0), choose(runs, abs(m.stiffness), 0.0)
     u1, u2 = choose(runs, abs(m.u1), 0.0), choose(runs, abs(m.u2), 0.0)
@@ -196,7 +197,7 @@ def measure(
     torque: Torque,
     tick: int,
 ) -> Tally:
-    """`Tally` with the tick that begins at x, where it `runs`, of each lane.
+    """Add the tick that begins at x to the `Tally` of each running lane.
 
     torque: what the motors make, N·m.
     """
@@ -224,7 +225,7 @@ def publish_tally(
     tick: int,
     kept: Kept,
 ) -> Kept:
-    """`Kept` with this tick, as `svsa.simulation.loop.publish.publish` writes its sample."""
+    """Add this tick to `Kept`, in place of `svsa.simulation.loop.publish.publish`."""
     window = kept.window
     tally = measure(kept.tally, runs, window, blocks, reference, lane.x, action.actual, tick)
     return Kept(tally, window)

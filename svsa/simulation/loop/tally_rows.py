@@ -1,4 +1,4 @@
-"""The `Tally` of samples: of a whole run at once, or while they come."""
+"""The `Tally` of samples: of a whole run, or incrementally."""
 
 import math
 from typing import NamedTuple
@@ -49,7 +49,7 @@ class Recovery(NamedTuple):
 
 
 class Followed(NamedTuple):
-    """What is summed up of the samples of a run while they come.
+    """The incremental summary of a run's samples.
 
     tally: of the known samples. position, stiffness: recovery of either error. passed, known: how
     many samples came, and how many of them have numbers. stiffness_absolute: sum of |σ_d − σ|,
@@ -67,14 +67,14 @@ class Followed(NamedTuple):
 
 
 def start_following() -> Followed:
-    """`Followed` before the first sample."""
+    """Return `Followed` before the first sample."""
     outside = Recovery(0.0, -1.0, math.inf)
     return Followed(start_tally(0.0), outside, outside, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 @compiled
 def follow_samples(followed: Followed, rows: np.ndarray, window: Window) -> Followed:
-    """`Followed` with more samples.
+    """Update `Followed` with more samples.
 
     A sample that the loop of a bench missed is NaN. It is in no sum and no peak; for the recovery
     an error stays as it was last known.
@@ -114,7 +114,7 @@ def follow_samples(followed: Followed, rows: np.ndarray, window: Window) -> Foll
 
 @compiled
 def sum_up(samples: np.ndarray, blocks: Blocks, begin: int, end: int) -> Tally:
-    """`Tally` of the samples (ticks, channels) of one run of `end` ticks, to a batch's bits.
+    """Compute the `Tally` of one run's samples (ticks, channels), bit-identical to a batch.
 
     begin: the tick at which measuring begins. Fewer samples than ticks: the run ended early.
     """

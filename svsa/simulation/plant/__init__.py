@@ -1,1 +1,1 @@
-"""The simulated actuator and what the world does to it."""
+"""The simulated actuator with loads and non-ideal effects."""

@@ -1,4 +1,4 @@
-"""The plant over control periods: classical Runge–Kutta steps of order 4, mechanical stops."""
+"""Integration of the plant: classical Runge–Kutta steps of order 4, mechanical stops."""
 
 from typing import NamedTuple
 
@@ -34,7 +34,7 @@ class Stops(NamedTuple):
 
 @compiled
 def hit_stops(stops: Stops, x: State, inertia: float, inertia1: float) -> State:
-    """The state after an inelastic hit, or x as it is between the stops.
+    """Return the state after an inelastic impact, or x if it is between the stops.
 
     The stiffness motor stands still at its stop. At the stop of the deflection link and
     principal motor go on with the velocity of their common momentum. stops: `Stops`. x:
@@ -62,7 +62,7 @@ def hit_stops(stops: Stops, x: State, inertia: float, inertia1: float) -> State:
 def compute_plant_load(
     effects: EffectConstants, table: LoadTable, x: State, tick: int, period: float, time: float
 ) -> ExternalLoad:
-    """All that acts on the plant besides the motors: loads and effects such as friction.
+    """Compute the total load on the plant: loads and effects such as friction.
 
     effects: `EffectConstants`. table: `LoadTable`. x: `State`. Returns `ExternalLoad`.
     """
@@ -152,7 +152,7 @@ def integrate_from(
 def follow_load(
     table: LoadTable, before: ExternalLoad, tick: int, period: float, time: float
 ) -> ExternalLoad:
-    """The load at `time` (s) in the period of `tick`; `before` where none of them changes."""
+    """Compute the load at `time` (s) in the period of `tick`; `before` if none changes."""
     return compute_load(table, tick, period, time) if table.changing else before
 
 
@@ -169,8 +169,7 @@ def coast(
     period: float,
     count: int,
 ) -> tuple[State, Torque]:
-    """x and the motors' torque `count` periods after `tick`, the delayed torque held (RK4, one step
-    each).
+    """Advance x and torque `count` periods, with the delayed torque held (RK4, one step each).
 
     actuator: `Actuator`, the true plant. effects: `EffectConstants`. stops: `Stops`. x: `State`.
     torque: `Torque` that the motors make at the beginning, delayed: `Torque` asked of them,

@@ -1,4 +1,4 @@
-"""The loads of a session as a table, and what the plant feels of it in the compiled loop."""
+"""The loads of a session as a table for the compiled loop."""
 
 import math
 from collections.abc import Iterable
@@ -68,7 +68,7 @@ def schedule_load(number: int, load: Load, tick: int, period: float) -> Schedule
 def continue_push(
     loads: Iterable[ScheduledLoad], load: Load, tick: int, period: float
 ) -> ScheduledLoad | None:
-    """The push that is on, as `load` changes it from `tick` on; None where it changes none.
+    """Return the active push as changed by `load` from `tick` on; None if it changes none.
 
     Number and onset stay, so that a push is one load from its beginning to its end.
     """
@@ -116,7 +116,7 @@ def _compute_next(kind: float, rows: np.ndarray, i: int, since: float) -> float:
 
 
 def _chain() -> Any:
-    """One compiled function of all factors, as `resistance` has one of all effects."""
+    """Chain all factors in one compiled function, as `resistance` does for effects."""
     compute = _compute_none
     for load, number in _CODES.items():
         given = {"before": compute, "factor": load.factor, "code": float(number)}

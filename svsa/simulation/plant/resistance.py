@@ -1,4 +1,4 @@
-"""What the plant has of its own besides the motors: every effect that acts as a force on it."""
+"""Forces on the plant from non-ideal effects."""
 
 from typing import Any
 
@@ -22,7 +22,7 @@ def _add_next(effects: EffectConstants, x: State, load: ExternalLoad) -> Externa
 
 
 def _chain() -> Any:
-    """One compiled function of all: no list is read and no function pointer called in a tick."""
+    """Chain all of them in one compiled function without lists and function pointers."""
     add = _add_nothing
     for effect in EFFECTS:
         if effect.resist is not None:

@@ -1,4 +1,4 @@
-"""Sensors: the measured state, in counts and with noise."""
+"""Sensor models: quantised and noisy measurements of the state."""
 
 from svsa.actuators.signals import Measurement, Positions, State
 from svsa.numerics.compilation import compiled
@@ -10,7 +10,7 @@ from svsa.simulation.plant.effects.noise import add_noise
 
 @compiled
 def are_inexact(effects: EffectConstants) -> bool:
-    """Whether the sensors have counts or noise; else what is measured is the state itself."""
+    """Whether the sensors have quantisation or noise; otherwise the state itself is measured."""
     counts, noise = effects.encoders, effects.noise
     steps, stds = (
         counts.motor_step + counts.deflection_step,
@@ -21,7 +21,7 @@ def are_inexact(effects: EffectConstants) -> bool:
 
 @compiled
 def build_positions(x: State) -> Positions:
-    """What perfect sensors say of x, `Positions`."""
+    """Return the `Positions` of perfect sensors."""
     return Positions(x.q, x.theta1, x.theta2)
 
 
@@ -37,7 +37,7 @@ def read_positions(effects: EffectConstants, x: State, tick: int) -> Positions:
 
 @compiled
 def read_sensors(effects: EffectConstants, x: State, tick: int) -> Measurement:
-    """θ1, θ2 from the motor encoders and φ from the deflection encoder; velocities as known.
+    """Measure θ1, θ2 by the motor encoders and φ by the deflection encoder; velocities if known.
 
     effects: `EffectConstants`. x: `State` at the start of `tick`. Returns `Measurement`.
     """

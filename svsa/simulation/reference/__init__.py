@@ -1,1 +1,1 @@
-"""What the actuator is asked to follow."""
+"""References of position and stiffness."""

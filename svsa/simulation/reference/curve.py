@@ -1,4 +1,4 @@
-"""A piecewise polynomial of time, held before its beginning and after its end; checked points."""
+"""A piecewise polynomial of time, constant before its start and after its end."""
 
 import math
 from collections.abc import Callable
@@ -30,11 +30,11 @@ class Curve:
 
     @property
     def start(self) -> float:
-        """The value up to the first break."""
+        """Value before the first break."""
         return float(self.coefficients[0, 0])
 
     def sample(self, order: int) -> tuple[np.ndarray, np.ndarray]:
-        """Times (s) and the derivative of this order at them.
+        """Sample times (s) and the derivative of this order.
 
         They are 8 in each piece and its end, and the time from which the last value is held.
         """
@@ -50,7 +50,7 @@ class Curve:
 
     @cached_property
     def range(self) -> tuple[float, float]:
-        """Least and greatest value, to what the samples show; a break's own where it is one."""
+        """Minimum and maximum of the samples, and of breaks."""
         values, ends = self.sample(0)[1], self.coefficients[:, 0]
         close = ROUNDING * (1.0 + np.abs(ends).max())
         low, high = (
@@ -71,7 +71,7 @@ def build_curve(pieces: list[tuple[float, tuple[float, ...]]]) -> Curve:
 def check_curve(
     name: str, curve: Curve, unit: str, factor: float, bounds: tuple[float, ...]
 ) -> None:
-    """Raise `ParameterError` where |r| or a derivative of a curve is greater than its bound.
+    """Raise `ParameterError` if |r| or a derivative of a curve exceeds its bound.
 
     bounds: of the orders 0, 1, …, in the curve's own unit. unit, factor: those in which the
     error speaks, and what they are in the curve's own unit.
@@ -92,7 +92,7 @@ def _index(name: str, number: int) -> str:
 
 
 class Points(NamedTuple):
-    """Values at times (s), with the name and unit in which errors speak of them.
+    """Values at times (s), with the name and unit for errors.
 
     place: how a point is called, from its name and its number from 0.
     """
@@ -105,7 +105,7 @@ class Points(NamedTuple):
 
 
 def check_points(points: Points, least_gap_s: float, gap: str = "") -> None:
-    """Raise `ParameterError` unless there is a finite value for each time and times grow.
+    """Raise `ParameterError` unless times increase and each has a finite value.
 
     least_gap_s: between two times, s. gap: the name of the field that asks for it, if one does.
     """

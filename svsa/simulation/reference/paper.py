@@ -1,4 +1,4 @@
-"""The references of the paper's figures, and the figure that a pair of references belongs to.
+"""The references of the paper's figures, and identification of a figure by them.
 
 Figures 4A, 4B and 5 are simulated; 6A, 6B and 7 have the same references on a bench.
 """
@@ -36,7 +36,9 @@ ON_BENCH = {"4a": "6a", "4b": "6b", "5": "7"}
 
 
 def find_figure(references: References, on_bench: bool = False) -> str | None:
-    """The key of the figure with these references, however they are faded in; None for none."""
+    """Find the key of the figure with these references, whatever their transition; None for
+    none.
+    """
     asked = [_get_course(reference) for reference in references]
     for key, figure in FIGURE_REFERENCES.items():
         if asked == [_get_course(reference) for reference in figure]:

@@ -1,4 +1,4 @@
-"""Samples of a reference alone, without a controller that follows it."""
+"""Samples of a reference, without simulating a controller."""
 
 import numpy as np
 
@@ -13,7 +13,7 @@ MAX_POINTS = 1_000_000
 
 
 def sample_reference(reference: AnyReference, points: int = 400) -> tuple[np.ndarray, np.ndarray]:
-    """Sample a reference with its derivatives from its beginning to its end.
+    """Sample a reference with its derivatives from its start to its end.
 
     A sine is sampled over two periods, a constant over 1 s. There is no transition from another
     reference.
@@ -36,5 +36,7 @@ def sample_reference(reference: AnyReference, points: int = 400) -> tuple[np.nda
 
 
 def find_duration(reference: AnyReference) -> float:
-    """How long a reference moves, s, 10⁶ at most; of a sine two periods, of what is still 1 s."""
+    """Compute the duration of a reference, s, at most 10⁶; two periods of a sine, 1 s of a
+    constant.
+    """
     return min(reference.get_shape().duration or STILL_S, LONGEST_S)

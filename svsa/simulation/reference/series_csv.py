@@ -1,4 +1,4 @@
-"""A series from a CSV: a column of times and one of angles or of stiffness, named in its head.
+"""Time series from CSV: a column of times and one of angles or stiffness, named in the header.
 
 time_s,position_deg          or position_rad, or stiffness_nm_per_rad
 0,0
@@ -61,7 +61,7 @@ def read_series(path: Path | str) -> SeriesPosition | SeriesStiffness:
 
 
 def parse_series(text: str) -> SeriesPosition | SeriesStiffness:
-    """The reference in the text of a CSV; the column's name says the unit.
+    """Parse the reference in a CSV text; the column's name defines the unit.
 
     Raises `ParameterError` that names the row (the head is row 1), value, unit and bound.
     """
@@ -97,7 +97,7 @@ def parse_series(text: str) -> SeriesPosition | SeriesStiffness:
 
 
 def _build(points: Points) -> SeriesPosition | SeriesStiffness:
-    """The reference, checked first in the words and the unit of the file."""
+    """Build the reference; values are checked first in the unit of the file."""
     name, unit, times, values, place = points
     _, factor, lowest, bounds = COLUMNS[name]
     least, most = lowest / factor, bounds[0] / factor

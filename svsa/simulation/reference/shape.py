@@ -1,4 +1,4 @@
-"""What a reference is for the loop: one row of numbers, and where it needs one a curve."""
+"""The loop's form of a reference: one row of numbers, and a curve if needed."""
 
 import math
 from typing import NamedTuple
@@ -46,5 +46,5 @@ class Shape(NamedTuple):
 
 
 def build_curve_shape(curve: Curve) -> Shape:
-    """The shape of a curve: it holds its first value before, and its last one after."""
+    """Build the shape of a curve, constant before its first and after its last value."""
     return Shape((), curve.range, curve.start, float(curve.breaks[-1]), curve)

@@ -1,4 +1,4 @@
-"""From any running reference to another without a jump in any derivative used.
+"""Transition between references without a jump in any derivative used.
 
 The old reference r_a and the new one r_b run on side by side and are faded:
 r = r_a + w(t) (r_b − r_a), with a weight w of degree 9 whose first four derivatives are
@@ -48,12 +48,12 @@ _EMPTY = Stack(np.empty((0, 3 + MAX_NUMBERS)), np.empty(0), np.empty((0, DEGREE 
 
 
 def build_stack(trajectory: AnyReference) -> Stack:
-    """A reference that runs from t = 0."""
+    """Build a reference from t = 0."""
     return _append(_EMPTY, trajectory, 0.0, 0.0)
 
 
 def push_trajectory(stack: Stack, trajectory: AnyReference, time: float) -> Stack:
-    """The stack with `trajectory` fading in from `time` (s) on, finished fades dropped.
+    """Fade in `trajectory` from `time` (s) on; finished transitions are dropped.
 
     Raises `StateError` while `MAX_FADES` changes are still fading.
     """
@@ -81,7 +81,7 @@ def _append(stack: Stack, trajectory: AnyReference, start: float, fade: float) -
 
 
 def _drop(stack: Stack, count: int) -> Stack:
-    """The stack without its first rows and their curves."""
+    """Drop the first rows of the stack and their curves."""
     rows, gone = stack.rows[count:].copy(), stack.rows[:count]
     length = int(gone[gone[:, KIND] == CURVE, B].sum())
     rows[rows[:, KIND] == CURVE, A] -= length
@@ -107,7 +107,7 @@ def _compute_next(kind: float, numbers: tuple[float, ...], value: Derivatives) -
 
 
 def _chain() -> Any:
-    """One compiled function of all kinds: no function pointer is called in a tick."""
+    """Chain all kinds in one compiled function without function pointers."""
     chained = _compute_none
     for function, number in _CODES.items():
         given = {"before": chained, "compute": function, "code": float(number)}

@@ -1,1 +1,1 @@
-"""The runs on this machine: an index in SQLite over the folders of their records."""
+"""The catalogue of runs on this machine: a SQLite index of their folders."""

@@ -1,4 +1,4 @@
-"""What can still be read of a damaged record."""
+"""The readable parts of a damaged record."""
 
 from pathlib import Path
 
@@ -8,7 +8,7 @@ from svsa.runs.records.reader import count_readable_rows
 
 
 def describe_readable(folder: Path) -> str:
-    """One sentence: which parts of a damaged record can be read.
+    """Describe the readable parts of a damaged record in one sentence.
 
     Args:
         folder: The record's folder.

@@ -1,4 +1,4 @@
-"""The table of runs in SQLite: an index that can be built again from the folders of the runs."""
+"""The table of runs in SQLite: an index that can be rebuilt from the folders of the runs."""
 
 import contextlib
 import dataclasses
@@ -24,7 +24,7 @@ _NEVER_NULL = ("created", "name", "session", "duration_s", "bytes", "plant")
 
 
 class Database:
-    """The table of runs; a connection a call, so that threads and processes may share it."""
+    """The table of runs; one connection per call, safe for threads and processes."""
 
     def __init__(self, path: Path) -> None:
         self._path = path
@@ -39,7 +39,7 @@ class Database:
         self._keep_open()
 
     def add(self, *entries: RunEntry) -> None:
-        """Add runs; one that is known stays as it is."""
+        """Add runs; known ones stay unchanged."""
         with self._connect() as connection:
             connection.execute("BEGIN IMMEDIATE")
             for entry in entries:
@@ -48,7 +48,7 @@ class Database:
                     put_branches(connection, entry.id)
 
     def change(self, run_id: str, changes: dict[str, Any]) -> RunEntry:
-        """Replace these fields of a run and no others; raises `UnknownRunError`."""
+        """Replace these fields of a run only; raises `UnknownRunError`."""
         return self.revise(run_id, lambda _: changes)
 
     def revise(self, run_id: str, decide: Callable[[RunEntry], dict[str, Any]]) -> RunEntry:
@@ -73,12 +73,12 @@ class Database:
         return changed
 
     def get(self, run_id: str) -> RunEntry:
-        """The run of this id; raises `UnknownRunError`."""
+        """Return the run of this id; raises `UnknownRunError`."""
         with self._connect() as connection:
             return get(connection, run_id)
 
     def forget(self, run_id: str) -> None:
-        """Take a run out of the table."""
+        """Remove a run from the table."""
         with self._connect() as connection:
             connection.execute("DELETE FROM runs WHERE id = ?", (run_id,))
             connection.execute("DELETE FROM entries WHERE id = ?", (run_id,))
@@ -86,7 +86,7 @@ class Database:
             put_branches(connection, run_id)
 
     def query(self, query: Query) -> RunPage:
-        """A page of the runs that the query is for."""
+        """Return a page of the runs that match the query."""
         where, values = _build_condition(query)
         window = (query.page_size, (query.page - 1) * query.page_size)
         order = build_order(query.sort)
@@ -105,7 +105,7 @@ class Database:
         return RunPage(entries, total, query.page, query.page_size)
 
     def list_facets(self, reader: Reader | None = None) -> dict[str, dict[str, int]]:
-        """What the runs outside the trash can be filtered by: facet, value, how many runs."""
+        """List the filters for runs outside the trash: facet, value, number of runs."""
         select, values = "SELECT facet, value, runs FROM counts WHERE runs > 0", []
         if reader is not None:
             readable, values = _build_readable(reader)
@@ -122,20 +122,20 @@ class Database:
         return facets
 
     def measure_bytes(self, owner: str) -> int:
-        """What the runs of one owner take, those in the trash too."""
+        """Return the bytes of one owner's runs, including the trash."""
         select = "SELECT coalesce(sum(bytes), 0) FROM runs WHERE owner = ?"
         with self._connect() as connection:
             (taken,) = connection.execute(select, (owner,)).fetchone()
             return taken
 
     def find(self, run_ids: Iterable[str]) -> dict[str, RunEntry]:
-        """Those of these runs that are known, by id."""
+        """Return those of these runs that are known, by id."""
         with self._connect() as connection:
             known = [run_id for run_id in set(run_ids) if has(connection, run_id)]
             return {run_id: get(connection, run_id) for run_id in known}
 
     def list_known(self) -> dict[str, tuple[str, bool, str]]:
-        """For every run its state, whether it is in the trash, and `RunEntry.files`."""
+        """List each run's state, whether it is in the trash, and `RunEntry.files`."""
         select = "SELECT id, state, trash, files FROM runs"
         with self._connect() as connection:
             rows = connection.execute(select)
@@ -143,7 +143,7 @@ class Database:
 
     @contextlib.contextmanager
     def _connect(self) -> Iterator[sqlite3.Connection]:
-        """A transaction; raises `CatalogueError` where the database cannot be used."""
+        """Open a transaction; raises `CatalogueError` if the database is unusable."""
         try:
             connection = sqlite3.connect(self._path, timeout=BUSY_TIMEOUT_S)
             try:
@@ -169,7 +169,7 @@ class Database:
             connection.close()
 
     def _keep_open(self) -> None:
-        """Keep one idle connection: the last one to close deletes the files of the write-ahead log.
+        """Keep one idle connection: closing the last one deletes the files of the write-ahead log.
 
         On a disk that has become full they could not be made again, and not even a list be read.
         """
@@ -179,7 +179,7 @@ class Database:
             idle.execute("SELECT count(*) FROM runs").fetchone()
 
     def _set_aside(self) -> None:
-        """Keep a database that is none under another name; the folders hold all it knew."""
+        """Rename an invalid database; the folders have all its data."""
         number = 1
         while (aside := self._path.with_name(f"{self._path.name}.damaged-{number}")).exists():
             number += 1
@@ -212,7 +212,7 @@ def _build_readable(reader: Reader) -> tuple[str, list[Any]]:
 
 
 def build_order(sort: str) -> str:
-    """ORDER BY of a sort of `Query`; what is not known comes last, whichever way it goes."""
+    """Build the ORDER BY of a `Query`; unknown values come last in both directions."""
     column, down = sort.removeprefix("-"), " DESC" if sort.startswith("-") else ""
     last = "" if column in _NEVER_NULL else " NULLS LAST"
     return f"{column}{down}{last}, id{down}"

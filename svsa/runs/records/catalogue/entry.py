@@ -1,4 +1,4 @@
-"""A run as the catalogue knows it, and what may be asked of the list."""
+"""A run in the catalogue, and queries of the list."""
 
 import hashlib
 import json
@@ -39,15 +39,15 @@ LONGEST_SEARCH = 200
 
 
 class CatalogueError(SvsaError):
-    """The folder or the database of the runs cannot be used; no run is lost by it."""
+    """The folder or the database of the runs is unusable; no run is lost."""
 
 
 class UnknownRunError(SvsaError):
-    """A run was named that the catalogue does not have."""
+    """No run of this id is in the catalogue."""
 
 
 class ChangedRunError(SvsaError):
-    """A run's name, tags or notes are no longer those that were to be changed."""
+    """A run's name, tags or notes were changed since they were read."""
 
 
 @dataclass(frozen=True)
@@ -90,28 +90,28 @@ class RunEntry:
 
     @property
     def title(self) -> str:
-        """What it is called: by people, or by its settings, or by its id."""
+        """Its name, or its settings, or its id."""
         return self.name or (self.settings.name if self.settings else "") or self.id
 
     @property
     def note(self) -> str:
-        """That a newer version of svsa recorded it; empty for any other run."""
+        """Note that a newer version of svsa recorded it; empty otherwise."""
         return describe_newer(self.version)
 
     @property
     def revision(self) -> str:
-        """Another one for every other name, tags and notes."""
+        """A tag that changes with name, tags and notes."""
         written = json.dumps([self.name, self.tags, self.notes])
         return hashlib.sha256(written.encode()).hexdigest()[:16]
 
     @property
     def figure(self) -> str:
-        """The figure as the list shows it; "" for none."""
+        """The figure as shown in the list; "" for none."""
         return self.settings.figure_name if self.settings else ""
 
     @property
     def facets(self) -> list[tuple[str, str]]:
-        """By what it is filtered: (facet, value)."""
+        """Its filter values: (facet, value)."""
         known = self.settings
         values = {
             "tag": self.tags,
@@ -125,7 +125,7 @@ class RunEntry:
 
 @dataclass(frozen=True)
 class RunPage:
-    """A page of the list; total counts the runs of all pages."""
+    """A page of the list; total: runs of all pages."""
 
     runs: tuple[RunEntry, ...]
     total: int
@@ -134,7 +134,7 @@ class RunPage:
 
 
 class Reader(NamedTuple):
-    """The person a list is for, in a class: own runs, shared ones, those without owner."""
+    """The person that a list is for, in a class: own, shared and unowned runs."""
 
     person: str
     open_session: str
@@ -142,7 +142,7 @@ class Reader(NamedTuple):
 
 @dataclass(frozen=True)
 class Query:
-    """What of the list is asked for; raises `ParameterError` for what cannot be.
+    """A query of the list; raises `ParameterError` if it is invalid.
 
     search: every word in it must stand, as it is written but for its case, in what a row of the
     list shows of a run besides numbers and times: name, settings, tags, notes, the run it
@@ -179,23 +179,23 @@ class Query:
 
     @property
     def words(self) -> list[str]:
-        """What is searched for, so that the case of no alphabet matters."""
+        """The normalised search words."""
         return fold(self.search).split()
 
     @property
     def facets(self) -> list[tuple[str, str]]:
-        """The filters that are given: (facet, value)."""
+        """The given filters: (facet, value)."""
         given = [(facet, getattr(self, facet)) for facet in FACETS]
         return [(facet, make_storable(value)) for facet, value in given if value is not None]
 
 
 def write_entry(entry: RunEntry) -> str:
-    """An entry as JSON."""
+    """Convert an entry to JSON."""
     return msgspec.json.encode(replace(entry, message=make_storable(entry.message))).decode()
 
 
 def read_entry(text: str) -> RunEntry:
-    """An entry from `write_entry`.
+    """Read an entry from `write_entry`.
 
     Without metrics of a window that was not written. Without window, metrics and files if an older
     version computed fewer metrics: `index_runs` then computes them again from the samples.
@@ -227,10 +227,10 @@ def _read(kind: Any, written: Any) -> Any:
 
 
 def fold(text: str) -> str:
-    """The text for a search in which neither case nor the way an accent is stored matters."""
+    """Normalise a text for a search that ignores case and the encoding of accents."""
     return unicodedata.normalize("NFC", make_storable(text)).casefold()
 
 
 def make_storable(text: str) -> str:
-    """The text with halves of characters, which no database stores, replaced."""
+    """Replace unpaired surrogates, which no database stores."""
     return text.encode("utf-8", "replace").decode()

@@ -1,4 +1,4 @@
-"""Bring the catalogue and the folders of the runs back together after a crash."""
+"""Reconciliation of the catalogue with the folders of the runs after a crash."""
 
 import contextlib
 import dataclasses
@@ -25,7 +25,7 @@ GONE = "Its folder is gone."
 
 
 def index_runs(database: Database, runs: Path, trash: Path) -> Iterator[tuple[int, int]]:
-    """Finish every unfinished record, register every unknown folder, mark what is damaged or gone.
+    """Finish unfinished records, register unknown folders, mark damaged and missing runs.
 
     A record whose files have not changed since it was described is not read again.
 
@@ -57,7 +57,7 @@ def index_runs(database: Database, runs: Path, trash: Path) -> Iterator[tuple[in
 
 
 def settle(database: Database, folder: Path, entry: RunEntry, failure: str) -> RunEntry:
-    """The entry of a recording as it is: ended, if no process writes it any more.
+    """Return the entry of a recording in its present state: ended if no process writes it.
 
     Args:
         database: Takes the entry of an ended recording, if its disk has room.
@@ -80,7 +80,7 @@ def settle(database: Database, folder: Path, entry: RunEntry, failure: str) -> R
 
 
 def _recover_run(database: Database, folder: Path, deleted: bool, state: str) -> None:
-    """Finish and enter one run, but no folder that a recording had only begun to make."""
+    """Finish and register one run, but not a folder whose recording never started."""
     if not state:
         # The process died before its first byte: there is nothing to recover, or it records just
         # now.
@@ -102,7 +102,7 @@ def _recover_run(database: Database, folder: Path, deleted: bool, state: str) ->
 
 
 def _miss(places: tuple[Path, ...], _: RunEntry) -> dict[str, Any]:
-    """What changes of an entry whose folder was not found; nothing where it has moved."""
+    """Return the changes of an entry without a folder; none if it has moved."""
     # Looked for again under the lock: the run may have moved to the trash, or out of it.
     if any(place.exists() for place in places):
         return {}
@@ -110,7 +110,7 @@ def _miss(places: tuple[Path, ...], _: RunEntry) -> dict[str, Any]:
 
 
 def describe(folder: Path, failure: str = "") -> dict[str, Any]:
-    """What an entry says of an ended record: every sample of it is read.
+    """Build the entry of an ended record from every sample of it.
 
     Args:
         folder: The record's folder.
@@ -141,7 +141,7 @@ def describe(folder: Path, failure: str = "") -> dict[str, Any]:
 
 
 def read_files(folder: Path) -> str:
-    """Another text for other files, and for another version of svsa, which may read more."""
+    """Compute a text that changes with the files, and with the version of svsa."""
     size = newest = 0
     for path in folder.iterdir():
         with contextlib.suppress(FileNotFoundError):  # a draft that took its place meanwhile
@@ -151,7 +151,7 @@ def read_files(folder: Path) -> str:
 
 
 def _describe(record: Record) -> dict[str, Any]:
-    """What is read from the record itself: how it was set, how well it did, and in which window."""
+    """Read settings, metrics and measured window from the record."""
     window = find_measured_window(record)
     metrics = None if window is None else measure(record, window)
     if metrics is None:
@@ -169,7 +169,7 @@ def _describe(record: Record) -> dict[str, Any]:
 
 
 def build_entry(folder: Path) -> RunEntry:
-    """An entry from the record's header; where that is damaged, one that at least names it."""
+    """Build an entry from the record's header; if that is damaged, one with the name only."""
     created = datetime.fromtimestamp(folder.stat().st_mtime, UTC).isoformat(timespec="seconds")
     entry = RunEntry(id=folder.name, name=folder.name, created=created)
     with contextlib.suppress(SvsaError):
@@ -181,7 +181,7 @@ def build_entry(folder: Path) -> RunEntry:
 
 
 def _finish(folder: Path, entry: RunEntry) -> dict[str, Any]:
-    """What changes of the entry by finishing its record; nothing while a process records it."""
+    """Finish a record and return the changes of its entry; none while it is recorded."""
     failure = ""
     if (folder / STREAM_FILE).exists():
         failure = CUT_OFF

@@ -1,4 +1,4 @@
-"""The runs on this machine: find, name, tag, delete and take back.
+"""Runs on this machine: find, name, tag, delete and restore.
 
 SVSA_DATA holds runs/<id> (see `recorder`), trash/<id>, and catalogue.sqlite, which is only
 an index: its content is in the folders too, and `recover` builds it again from them.
@@ -65,11 +65,11 @@ class Catalogue:
         self._is_indexing = False
 
     def close(self) -> None:
-        """Let go of the database file, which is otherwise kept open; the catalogue stays usable."""
+        """Close the database file; the catalogue stays usable."""
         self._database.close()
 
     def record(self, header: RecordHeader) -> Recorder:
-        """Begin to record a run and put it into the list; raises `RecordError`."""
+        """Start to record a run and add it to the list; raises `RecordError`."""
         # The folder before the entry: after a crash in between, `recover` enters the folder.
         recorder = Recorder(self._runs / header.run_id, header)
         try:
@@ -81,12 +81,12 @@ class Catalogue:
         return recorder
 
     def register(self, header: RecordHeader) -> RunEntry:
-        """Put a run whose folder is there into the list."""
+        """Add an existing run's folder to the list."""
         self._database.add(build_entry(self._runs / header.run_id))
         return self._database.get(header.run_id)
 
     def finish(self, run_id: str, status: RecordStatus | None = None) -> RunEntry:
-        """A recording has ended: measure what it holds. status: what its recorder says last.
+        """Measure a run whose recording has ended. status: the recorder's last status.
 
         Reads the whole record: not for the thread of the loop. A record whose file is not
         finished yet stays "recording" until it is, or until the next `recover`.
@@ -99,13 +99,13 @@ class Catalogue:
         return entry
 
     def get(self, run_id: str) -> RunEntry:
-        """What the list says of a run, in the trash or not."""
+        """Return the entry of a run, in the trash or not."""
         if not is_run_id(run_id):
             raise UnknownRunError(f"There is no run {run_id!r:.80}.")
         return self._settle(self._database.get(run_id))
 
     def open(self, run_id: str) -> Record:
-        """The record of a run; raises `RecordError` where it cannot be read."""
+        """Open the record of a run; raises `RecordError` if it is unreadable."""
         return open_record(self.find_folder(run_id))
 
     def update(
@@ -117,7 +117,7 @@ class Catalogue:
         notes: str | None = None,
         expected: str | None = None,
     ) -> RunEntry:
-        """Change what is given; raises `ParameterError` for a wrong value.
+        """Change the given fields; raises `ParameterError` for an invalid value.
 
         expected: the revision that is to be changed; raises `ChangedRunError` where it has
         changed meanwhile.
@@ -147,24 +147,24 @@ class Catalogue:
         return self._database.revise(run_id, write)
 
     def query(self, query: Query) -> RunPage:
-        """The page of the list that `query` asks for."""
+        """Return the page of the list that `query` selects."""
         page = self._database.query(query)
         return dataclasses.replace(page, runs=tuple(map(self._settle, page.runs)))
 
     def list_facets(self, reader: Reader | None = None) -> dict[str, dict[str, int]]:
-        """What the list can be filtered by: facet, value, on how many runs (see `Query`)."""
+        """List the filters of the list: facet, value, number of runs (see `Query`)."""
         return self._database.list_facets(reader)
 
     def measure_bytes(self, owner: str) -> int:
-        """What the runs of one owner take on the disk, those in the trash too."""
+        """Return the disk space of one owner's runs, bytes, including the trash."""
         return self._database.measure_bytes(owner)
 
     def find(self, run_ids: Iterable[str]) -> dict[str, RunEntry]:
-        """Those of these runs that the list has, in the trash or not, by id."""
+        """Return those of these runs that exist, in the trash or not, by id."""
         return self._database.find(run_ids)
 
     def delete(self, run_id: str) -> RunEntry:
-        """Put a run into the trash; raises `StateError` while it is recorded."""
+        """Move a run to the trash; raises `StateError` while it is recorded."""
         self.get(run_id)
 
         def throw_away(entry: RunEntry) -> dict[str, Any]:
@@ -178,7 +178,7 @@ class Catalogue:
         return self._database.revise(run_id, throw_away)
 
     def restore(self, run_id: str) -> RunEntry:
-        """Take a run out of the trash."""
+        """Restore a run from the trash."""
         self.get(run_id)
 
         def take_back(entry: RunEntry) -> dict[str, Any]:
@@ -189,7 +189,7 @@ class Catalogue:
         return self._database.revise(run_id, take_back)
 
     def purge(self, run_id: str) -> None:
-        """Delete a run in the trash for good; raises `StateError` for one that is not there."""
+        """Delete a run in the trash permanently; raises `StateError` for one that is not there."""
         if self.get(run_id).deleted is None:
             raise StateError(f"Run {run_id} is not in the trash: delete it first.")
         try:
@@ -203,7 +203,7 @@ class Catalogue:
         self._database.forget(run_id)
 
     def check(self, run_id: str) -> None:
-        """Read a run whole, and list it as damaged if it is; for a run that was not readable."""
+        """Read a run completely, and mark it as damaged if it is."""
         entry = self.get(run_id)
         if entry.state in ("complete", "failed"):
             changes = describe(self._locate(entry))
@@ -211,7 +211,7 @@ class Catalogue:
                 self._database.change(run_id, changes)
 
     def index(self) -> Iterator[tuple[int, int]]:
-        """Finish what a crash cut off, and enter what the database lacks; for every start.
+        """Finish interrupted records, and add missing entries; yields progress; for every start.
 
         The catalogue may be used at the same time.
 
@@ -225,22 +225,22 @@ class Catalogue:
             self._is_indexing = False
 
     def recover(self) -> None:
-        """Do all of `index` at once."""
+        """Run `index` completely."""
         for _ in self.index():
             pass
 
     def find_folder(self, run_id: str) -> Path:
-        """The folder that a run is in, in the trash or not."""
+        """Return the folder of a run, in the trash or not."""
         if not is_run_id(run_id):
             raise UnknownRunError(f"There is no run {run_id!r:.80}.")
         return self._locate(self._database.get(run_id))
 
     def list(self, search: str = "", **wanted: Any) -> RunPage:
-        """A page of the list, by the fields of `Query`; raises `ParameterError` as it does."""
+        """Return a page of the list, by the fields of `Query`; raises `ParameterError`."""
         return self.query(Query(search, **wanted))
 
     def _settle(self, entry: RunEntry) -> RunEntry:
-        """An entry without "recording" if its recording has ended, as on a full disk."""
+        """Return an entry with "recording" removed if its recording has ended."""
         if entry.state != "recording":
             return entry
         recorder = self._recorders.get(entry.id)
@@ -254,7 +254,7 @@ class Catalogue:
 
 
 def find_data_folder() -> Path:
-    """Where runs are kept: SVSA_DATA, or .local/share/svsa in the user's home."""
+    """Return the folder of runs: SVSA_DATA, or .local/share/svsa in the user's home."""
     given = os.environ.get(DATA_VARIABLE)
     return Path(given).expanduser() if given else Path.home() / ".local" / "share" / "svsa"
 

@@ -1,4 +1,4 @@
-"""The tables of the catalogue: columns to sort and filter by, and the entries as they are.
+"""The tables of the catalogue: columns to sort and filter by, and the entries.
 
 Format 7. A catalogue of format 1 has no settings, one of 2 has metrics of whole records, one of 3
 has no owners, one of 4 has a former word for the steady-state error, one of 5 has fewer metrics,
@@ -99,7 +99,7 @@ def _build(connection: sqlite3.Connection) -> None:
 
 
 def put(connection: sqlite3.Connection, entry: RunEntry) -> None:
-    """Write a run, known or new, into every table."""
+    """Write a run into every table, replacing a known one."""
     trash = int(entry.deleted is not None)
     row = _build_row(entry, trash) | {"search": _build_search(connection, entry)}
     columns, places = ", ".join(row), ", ".join("?" * len(row))
@@ -112,14 +112,14 @@ def put(connection: sqlite3.Connection, entry: RunEntry) -> None:
 
 
 def put_branches(connection: sqlite3.Connection, run_id: str) -> None:
-    """Write the runs again that branched from this one, since they show its name."""
+    """Rewrite the runs that branched from this one, since they show its name."""
     select = "SELECT id FROM runs WHERE branch_run = ?"
     for (branch,) in connection.execute(select, (run_id,)).fetchall():
         put(connection, get(connection, branch))
 
 
 def get(connection: sqlite3.Connection, run_id: str) -> RunEntry:
-    """The run of this id; raises `UnknownRunError`."""
+    """Return the run of this id; raises `UnknownRunError`."""
     found = _find(connection, run_id)
     if found is None:
         raise UnknownRunError(f"There is no run {run_id!r:.80}.")
@@ -127,7 +127,7 @@ def get(connection: sqlite3.Connection, run_id: str) -> RunEntry:
 
 
 def has(connection: sqlite3.Connection, run_id: str) -> bool:
-    """Whether there is a run of this id."""
+    """Whether a run of this id exists."""
     return _find(connection, run_id) is not None
 
 
@@ -164,12 +164,12 @@ def _build_row(entry: RunEntry, trash: int) -> dict[str, Any]:
 
 
 def _order(text: str) -> str | None:
-    """A text so that the alphabet has "Group 9" before "Group 10"; None for an empty one."""
+    """Build a sort key that orders "Group 9" before "Group 10"; None for an empty text."""
     return _NUMBER.sub(lambda digits: digits[0].zfill(_DIGITS), fold(text)) or None
 
 
 def _build_search(connection: sqlite3.Connection, entry: RunEntry) -> str:
-    """What a row of the list shows of the run, a line each, so that no word spans two."""
+    """Build the searchable text of a row, one line per item, so that no word spans two."""
     texts = [entry.title, *entry.tags, entry.notes, entry.message]
     texts += [label_fault(entry.fault.code)] if entry.fault else []
     if settings := entry.settings:

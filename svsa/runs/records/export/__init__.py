@@ -1,1 +1,1 @@
-"""Records in the formats of other programs."""
+"""Export of records to other file formats."""

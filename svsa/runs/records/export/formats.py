@@ -1,4 +1,4 @@
-"""A record in the formats of other programs: CSV, Parquet, MAT (MATLAB, Octave), MCAP.
+"""Export formats: CSV, Parquet, MAT (MATLAB, Octave), MCAP.
 
 A package above the library adds formats by the entry point group `svsa.exports` (the server adds
 "html").
@@ -41,7 +41,7 @@ LONGEST_FILE_NAME = 80
 
 
 class ExportKind(NamedTuple):
-    """A format: ending of its files, media type, and what writes a record into a stream."""
+    """A format: file extension, media type, and its writer."""
 
     ending: str
     media_type: str
@@ -79,7 +79,7 @@ def export(record: Record, kind: str, target: Path | str | IO[bytes]) -> None:
 
 
 def get_kind(kind: str) -> ExportKind:
-    """The format of this name; raises `ParameterError` with those there are."""
+    """Return the format of this name; raises `ParameterError` with the existing ones."""
     if kind in EXPORT_KINDS:
         return EXPORT_KINDS[kind]
     added = entry_points(group=GROUP)
@@ -90,7 +90,7 @@ def get_kind(kind: str) -> ExportKind:
 
 
 def build_file_name(record: Record, kind: str) -> str:
-    """A file name that every system takes: from the run's name, and its id."""
+    """Build a portable file name from the run's name and its id."""
     name = record.header.name
     plain = "".join(letter if letter.isascii() and letter.isalnum() else "_" for letter in name)
     words = "_".join(word for word in plain.split("_") if word)[:LONGEST_FILE_NAME].strip("_")

@@ -1,4 +1,4 @@
-"""MAT, version 5: a struct a lane with a column a channel; for MATLAB and GNU Octave.
+"""MAT, version 5: one struct per lane, one column per channel; for MATLAB and GNU Octave.
 
 Texts are ASCII, since Octave cuts others short: a unit reads N*m/rad, a letter it lacks ?.
 `jsondecode(run.header_json)` gives every text as it is, and `jsondecode(run.metrics_json)` the
@@ -52,7 +52,7 @@ def write_mat(record: Record, stream: IO[bytes]) -> None:
 
 
 def build_identifiers(texts: Iterable[str]) -> list[str]:
-    """For each text a name that MATLAB takes for a variable, all different."""
+    """Build a distinct MATLAB identifier for each text."""
     taken: list[str] = []
     for text in texts:
         letters = [letter if letter.isascii() and letter.isalnum() else "_" for letter in text]

@@ -1,4 +1,4 @@
-"""MCAP for Foxglove: joint states and all channels as time series, a topic of each a lane.
+"""MCAP for Foxglove: joint states and all channels as time series, a topic of each per lane.
 
 `foxglove.JointStates` is one of Foxglove's own schemas, by which its 3D view knows joints.
 For plots Foxglove takes numbers of any JSON schema, so `svsa.Sample` names every channel
@@ -78,14 +78,14 @@ def _iterate_rows(record: Record) -> Iterator[tuple[int, list[list[float]]]]:
 
 
 def _build_state(joint: Joint, sample: dict[str, float]) -> dict[str, Any]:
-    """A `foxglove.JointState`, which leaves out what is unknown or no number."""
+    """Build a `foxglove.JointState` without unknown values."""
     channels = {"position": joint.position, "velocity": joint.velocity, "effort": joint.effort}
     values = {key: sample.get(channel, math.nan) for key, channel in channels.items()}
     return {"name": joint.name} | {k: value for k, value in values.items() if math.isfinite(value)}
 
 
 def _add_topics(writer: Writer, header: RecordHeader) -> list[tuple[int, int]]:
-    """For every lane its topic of samples and its topic of joint states."""
+    """Add the topics of samples and of joint states for every lane."""
     sample_schema = _add_schema(writer, build_sample_schema(header))
     state_schema = _add_schema(writer, JOINT_STATES)
     topics = []

@@ -1,4 +1,4 @@
-"""What the messages of an MCAP file hold, as JSON schemas."""
+"""JSON schemas of the messages in an MCAP file."""
 
 from typing import Any
 
@@ -57,7 +57,7 @@ EVENT: dict[str, Any] = {
 
 
 def build_sample_schema(header: RecordHeader) -> dict[str, Any]:
-    """Every channel of a sample with its label and unit; null stands for no finite number."""
+    """Build the schema of a sample: every channel with label and unit; null if not finite."""
     channels = {
         channel.name: {
             "type": ["number", "null"],

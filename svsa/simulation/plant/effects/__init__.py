@@ -1,4 +1,4 @@
-"""Effects: what separates the ideal simulation from a bench, one switch and one file each.
+"""Non-ideal effects, one switch and one file each.
 
 Left out, an effect is off. Parameter error is the difference between the actuator and the
 nominal model; a hung mass is a load.
@@ -25,7 +25,7 @@ EFFECTS: tuple[Effect, ...] = tuple(
 if TYPE_CHECKING:
 
     class Effects(Checked):
-        """Everything that a bench has and an ideal simulation has not."""
+        """The non-ideal effects of a bench."""
 
         def __init__(self, /, **values: Any) -> None: ...
 
@@ -54,19 +54,19 @@ PRESETS: dict[PresetName, Effects] = {"ideal": IDEAL, "rig": RIG, "full": EVERY}
 
 
 def find_preset(effects: Effects) -> PresetName | None:
-    """The preset that switches on the same effects, whatever their values; None for a mixture."""
+    """Find the preset with the same effects on, whatever their values; None for a mixture."""
     kind = _list_kinds(effects)
     return next((name for name, preset in PRESETS.items() if _list_kinds(preset) == kind), None)
 
 
 def _list_kinds(effects: Effects) -> list[object]:
-    """Of each effect whether it is on; of one without parameters its value."""
+    """List for each effect whether it is on; for one without parameters its value."""
     values = (getattr(effects, effect.name) for effect in EFFECTS)
     return [True if isinstance(value, Checked) else value for value in values]
 
 
 def describe_preset(name: PresetName) -> str:
-    """What a preset switches on, in a sentence."""
+    """Describe the effects of a preset in a sentence."""
     if name == "ideal":
         return "Every state known exactly, torque at once. The model's parameters still differ."
     phrases = ", ".join(effect.phrase for effect in EFFECTS if effect.preset == name)
@@ -82,7 +82,7 @@ NO_EFFECTS = EffectConstants(*(effect.off for effect in _IN_LOOP))
 def build_effect_constants(
     effects: Effects, seed: int, actuator: ActuatorParameters, period_s: float
 ) -> EffectConstants:
-    """The constants of the effects, of those that are on and of those that are off."""
+    """Build the constants of all effects, on or off."""
     surroundings = Surroundings(seed, actuator, period_s)
     return EffectConstants(*(_build_constants(one, effects, surroundings) for one in _IN_LOOP))
 

@@ -1,4 +1,4 @@
-"""The torque acts some samples late: the loop keeps the limited torques in a queue."""
+"""Delay of the torque by samples: the loop keeps a queue of limited torques."""
 
 from svsa.inputs.checked import Whole, quantity
 from svsa.simulation.plant.effects.effect import Effect, Surroundings

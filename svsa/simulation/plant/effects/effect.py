@@ -1,4 +1,4 @@
-"""What a non-ideal effect is: its file describes it, the lab reads the rest from there."""
+"""The description of a non-ideal effect in its own file, read by the lab."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ PresetName = Literal["ideal", "rig", "full"]
 
 
 class Surroundings(NamedTuple):
-    """What the constants of an effect may depend on: seed of the run, plant, period (s)."""
+    """Inputs of an effect's constants: seed of the run, plant, period (s)."""
 
     seed: int
     actuator: ActuatorParameters
@@ -52,5 +52,5 @@ class Effect:
     resist: Any = None
 
     def describe(self, value: Any) -> str:
-        """Words for its value; empty where it is off."""
+        """Describe its value; empty if it is off."""
         return "" if value == self.field.default else self.words.format(value)

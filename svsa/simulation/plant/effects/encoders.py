@@ -1,4 +1,4 @@
-"""Positions in whole counts."""
+"""Quantised encoder positions."""
 
 import math
 from typing import NamedTuple
@@ -12,7 +12,7 @@ from svsa.simulation.plant.effects.effect import Effect, Surroundings
 
 
 class Encoders(Checked):
-    """Positions in whole counts: of both motors before their gearbox, and of the deflection."""
+    """Quantised positions: of both motors before their gearbox, and of the deflection."""
 
     motor_counts_per_rev: Whole = quantity(
         "1", "Motor counts a turn", symbol="Counts, motors", ge=4, le=10**7, default=2000
@@ -42,7 +42,7 @@ def _build(encoders: Encoders, _: Surroundings) -> EncoderConstants:
 
 @compiled
 def quantize(angle: float, step: float) -> float:
-    """The angle in whole counts of `step` (rad), rounded to the nearest; as it is for step 0."""
+    """Round the angle to the nearest multiple of `step` (rad); unchanged for step 0."""
     counts = step > 0.0
     if not some(counts):
         return angle

@@ -1,4 +1,4 @@
-"""Torques between the limits of the configuration: on unless switched off."""
+"""Torque limits of the configuration, on by default."""
 
 from svsa.inputs.checked import Flag, quantity
 from svsa.simulation.plant.effects.effect import Effect

@@ -1,4 +1,4 @@
-"""Loads: what a student can do to the actuator, a kind in each file."""
+"""Loads on the actuator, one kind per file."""
 
 from typing import TYPE_CHECKING, Annotated, TypeAlias, Union
 

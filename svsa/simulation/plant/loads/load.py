@@ -1,4 +1,4 @@
-"""What a load is: its file describes it, the lab reads the rest from there."""
+"""The description of a load in its own file, read by the lab."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -45,24 +45,24 @@ class AnyLoad(Checked):
     start_s: Number | None = quantity("s", "Session time of onset", ge=0, le=1e6, default=None)
 
     def get_duration(self) -> float:
-        """How long it lasts, s; infinite unless the load says otherwise."""
+        """Return its duration, s; infinite by default."""
         return math.inf
 
     def get_hung_mass(self) -> float:
-        """The mass that it hangs on the link, kg."""
+        """Return the hanging mass, kg."""
         return 0.0
 
     def describe(self) -> str:
-        """A few words, as in the name of a run."""
+        """Describe it in a few words, as in the name of a run."""
         return self.kind
 
     def name(self) -> str:
-        """Words for the beginning of a label."""
+        """Return the beginning of its label."""
         words = self.describe()
         return words[:1].upper() + words[1:]
 
     def fill(self, row: np.ndarray) -> None:
-        """Write W2 … W6 and A … D of its row."""
+        """Fill W2 … W6 and A … D of its row."""
 
     def list_points(self) -> np.ndarray:
         """Of a SERIES (m, 4): time since onset, s, and torques, N·m."""
@@ -75,7 +75,7 @@ class TorqueLoad(AnyLoad):
     torque_nm: TorqueTriple = quantity("N·m", TRIPLE, symbol="Load", parts=PARTS)
 
     def fill(self, row: np.ndarray) -> None:
-        """Write its torque into its row."""
+        """Fill its torque into its row."""
         row[W2 : W6 + 1] = self.torque_nm
 
 

@@ -1,4 +1,4 @@
-"""A mass that hangs on the link."""
+"""A hanging mass."""
 
 from typing import ClassVar, Literal
 

@@ -1,4 +1,4 @@
-"""A torque that ends."""
+"""A torque pulse."""
 
 from collections.abc import Mapping
 from typing import ClassVar, Literal
@@ -8,7 +8,7 @@ from svsa.simulation.plant.loads.load import TorqueLoad, format_torque
 
 
 class PulseLoad(TorqueLoad):
-    """A torque for a while."""
+    """A torque of limited duration."""
 
     first: ClassVar[Mapping[str, float] | None] = {"duration_s": 0.5}
 

@@ -1,4 +1,4 @@
-"""A torque that an operator holds."""
+"""An interactive torque."""
 
 from typing import Literal
 
@@ -7,7 +7,7 @@ from svsa.simulation.plant.loads.load import TorqueLoad
 
 
 class PushLoad(TorqueLoad):
-    """A torque that an operator holds: sent again, it is changed and lasts on; else it ends.
+    """A torque held by an operator: repeated requests change and extend it, otherwise it ends.
 
     One is on at a time: the next one sent while it is on takes its place, see `continue_push`.
     """

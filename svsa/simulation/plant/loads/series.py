@@ -1,4 +1,4 @@
-"""A torque of one's own, point by point."""
+"""A torque given point by point."""
 
 from collections.abc import Callable, Sequence
 from typing import Annotated, ClassVar, Literal, Self
@@ -14,7 +14,7 @@ MAX_SERIES_POINTS = 20_000
 
 
 class SeriesLoad(AnyLoad):
-    """A torque of one's own: points in time since the onset, joined by straight lines."""
+    """A torque given by points in time since the onset, joined by straight lines."""
 
     acts_as: ClassVar[int] = SERIES
 

@@ -1,4 +1,4 @@
-"""A torque that oscillates."""
+"""A sinusoidal torque."""
 
 import math
 from collections.abc import Mapping

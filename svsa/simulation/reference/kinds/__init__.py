@@ -1,4 +1,4 @@
-"""Every reference that q_d and σ_d may follow, a kind in each file."""
+"""All references of q_d and σ_d, one kind per file."""
 
 from typing import TYPE_CHECKING, Annotated, TypeAlias, Union
 
@@ -18,10 +18,10 @@ else:
 
 
 def get_range(reference: AnyReference) -> tuple[float, float]:
-    """The least and the greatest value that a reference takes, in its own unit."""
+    """Return minimum and maximum of a reference, in its own unit."""
     return reference.get_shape().range
 
 
 def compute_start_value(reference: AnyReference) -> float:
-    """The value at t = 0, in the reference's own unit."""
+    """Return the value at t = 0, in the reference's own unit."""
     return reference.get_shape().start

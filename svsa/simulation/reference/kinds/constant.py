@@ -1,4 +1,4 @@
-"""One value, held: a sine without amplitude."""
+"""A constant reference: a sine without amplitude."""
 
 from typing import Literal
 

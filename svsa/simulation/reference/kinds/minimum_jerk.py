@@ -1,4 +1,4 @@
-"""From rest to rest with the least jerk, as a hand moves (Flash and Hogan 1985)."""
+"""A movement from rest to rest with minimum jerk (Flash and Hogan 1985)."""
 
 import math
 from collections.abc import Mapping

@@ -1,4 +1,4 @@
-"""What a reference is: its file describes it, the lab reads the rest from there."""
+"""The description of a reference in its own file, read by the lab."""
 
 import math
 from abc import abstractmethod
@@ -10,7 +10,7 @@ from svsa.simulation.reference.shape import Shape
 
 
 class AnyReference(Checked):
-    """What q_d or σ_d follows.
+    """A reference of q_d or σ_d.
 
     A file of this folder has a class that derives from `AnyPosition`, or one from `AnyStiffness`,
     or both, with its fields, a `kind: Literal["…"]` and a `transition_s`.
@@ -34,7 +34,7 @@ class AnyReference(Checked):
 
     @abstractmethod
     def get_shape(self) -> Shape:
-        """Its row of the stack."""
+        """Build its row of the stack."""
 
     def describe(self) -> str:
         """A few words, as in the name of a run."""
@@ -42,14 +42,14 @@ class AnyReference(Checked):
 
 
 class AnyPosition(AnyReference):
-    """What q_d follows, rad."""
+    """A reference of q_d, rad."""
 
 
 class AnyStiffness(AnyReference):
-    """What σ_d follows, N·m/rad, inside the range of the limits."""
+    """A reference of σ_d, N·m/rad, within the range of the limits."""
 
     def get_mean(self) -> float | None:
-        """The mean of σ_d, N·m/rad; None where it has none of its own."""
+        """Return the mean of σ_d, N·m/rad; None if it has none."""
         return None
 
 

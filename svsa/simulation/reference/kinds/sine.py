@@ -1,4 +1,4 @@
-"""A sine, which lasts."""
+"""A continuous sine."""
 
 import math
 from typing import Literal

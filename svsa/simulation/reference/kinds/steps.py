@@ -1,4 +1,4 @@
-"""Levels one after the other, each reached by the smooth rise of a fade."""
+"""A sequence of levels, with a smooth transition to each."""
 
 from functools import cached_property
 from typing import Annotated, Literal, Self
