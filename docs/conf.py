@@ -41,8 +41,6 @@ myst_enable_extensions = ["colon_fence", "deflist", "dollarmath", "fieldlist"]
 myst_dmath_allow_space = False
 html_math_renderer = "mathml"
 myst_heading_anchors = 3
-# Links of a page to files of the repository that are no pages.
-suppress_warnings = ["myst.xref_missing"]
 nb_execution_mode = "cache"
 nb_execution_cache_path = str(Path(__file__).parent / "_build" / "executed")
 nb_execution_raise_on_error = True
@@ -122,8 +120,22 @@ def write_formula(translator: HTML5Translator, node: nodes.math_block) -> None:
     raise nodes.SkipNode
 
 
+INCLUDED = {
+    "../svsa/README.md": "reference/equations.md",
+    "../CHANGELOG.md": "reference/changelog.md",
+}
+"""Files outside `docs`, by their paths from it, and the pages of the site that include them."""
+
+
+def link_included(_: Sphinx, __: str, source: list[str]) -> None:
+    """Let a link to a file outside `docs` lead to the page of the site that includes it."""
+    for file, page in INCLUDED.items():
+        source[0] = re.sub(rf"(\]\((?:\.\./)*){re.escape(file)}", rf"\1{page}", source[0])
+
+
 def setup(app: Sphinx) -> None:
-    """Install the hooks, the first before that of napoleon."""
+    """Install the hooks, that of docstrings before napoleon's."""
+    app.connect("source-read", link_included)
     app.add_html_math_renderer("mathml", (write_inline_formula, None), (write_formula, None))
     app.connect("autodoc-process-docstring", escape_docstring, priority=100)
     app.connect("doctree-resolved", lower_subscripts)

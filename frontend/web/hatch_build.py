@@ -131,6 +131,7 @@ def _is_guide_current() -> bool:
 
 def _list_guide_sources() -> Iterator[Path]:
     yield ROOT / "pyproject.toml"
+    yield ROOT / "CHANGELOG.md"
     for folder in _GUIDE_SOURCES:
         for path in (ROOT / folder).rglob("*"):
             if path.suffix in _GUIDE_SUFFIXES and not any(map(path.is_relative_to, _GUIDE_RESULTS)):

@@ -135,7 +135,7 @@ ADRC = Law(
     title="ADRC",
     summary="Three extended-state observers (link, motor, stiffness), each with a PD"
     " controller. Of the model, only the input gains are used.",
-    equation=r"\theta_1^*=q+\tfrac{M}{\sigma_d}(\ddot q_d+2a\dot e+a^2e-z_3),\quad"
+    equation=r"\theta_1^*=q+\tfrac{M}{\sigma_d}(\ddot q_d+2a\dot e+a^2e-z_3),\quad "
     r"u=b^{-1}(y-z_3)",
     source='J. Han, "From PID to active disturbance rejection control", IEEE Trans. Ind. '
     "Electron. 56(3), 2009, doi:10.1109/TIE.2008.2011621",

@@ -172,7 +172,7 @@ BACKSTEPPING = Law(
     title="Backstepping",
     summary="Backstepping from the link to the torques, with a command filter in each step;"
     " the load estimate ŵ of an observer is compensated.",
-    equation=r"\tau^*=-D\dot q+\hat w_2-M(\dot\alpha_1-e_1-k_2e_2),\quad"
+    equation=r"\tau^*=-D\dot q+\hat w_2-M(\dot\alpha_1-e_1-k_2e_2),\quad "
     r"u=B(\ddot\theta^*-kz)-F-\hat w",
     source='J. A. Farrell, M. Polycarpou, M. Sharma, W. Dong, "Command filtered '
     'backstepping", IEEE Trans. Autom. Control 54(6), 2009, '

@@ -175,7 +175,7 @@ ESP = Law(
     title="ESP",
     summary="Preserves the spring, and adds damping to the link and a virtual spring and"
     " damper to the motor; the load estimate ŵ is compensated, too.",
-    equation=r"M\ddot{\tilde q}+(D+D_d)\dot{\tilde q}=-\tau_\eta,\quad"
+    equation=r"M\ddot{\tilde q}+(D+D_d)\dot{\tilde q}=-\tau_\eta,\quad "
     r"B_1\ddot\eta=\tau_\eta-K_P\eta-K_D\dot\eta",
     source='M. Keppler, D. Lakatos, C. Ott, A. Albu-Schäffer, "Elastic structure preserving '
     '(ESP) control for compliantly actuated robots", IEEE Trans. Robot.',
