@@ -2,9 +2,6 @@ import { Plots } from "../core/plots/plots";
 import { comings } from "../core/state/control";
 import { phase, session } from "../core/state/session";
 import { text } from "../core/text/en";
-import { FalsifierPage } from "../evaluation/falsifier/page";
-import { RankingPage } from "../evaluation/ranking/page";
-import { StudiesPage } from "../evaluation/studies/page";
 import { BenchStrip } from "../hardware/strip";
 import { DesignPanel } from "../lab/design/panel";
 import { HelpSheet } from "../lab/keys/help";
@@ -21,11 +18,10 @@ import { hasFreeSettings } from "../teaching/course/lesson";
 import { LearnPage } from "../teaching/course/page";
 import { Tour } from "../teaching/course/tour";
 import { Lesson } from "../teaching/course/view";
-import { GradesPage } from "../teaching/grades/page";
-import { LeaderboardPage } from "../teaching/leaderboard/page";
 import { Banners } from "./banners";
 import { isBasic } from "./basic";
 import { Comparison } from "./comparison";
+import { FetchedPage } from "./fetched";
 import { Login } from "./login";
 import { EvaluationTabs } from "./pages";
 import { Readout } from "./readout";
@@ -40,18 +36,14 @@ function Here() {
   const at = place.value;
   return isOfRuns(at) ? (
     <Runs at={at} />
-  ) : at.kind === "ranking" ? (
-    <RankingPage />
-  ) : at.kind === "leaderboard" ? (
-    <LeaderboardPage />
-  ) : at.kind === "grades" ? (
-    <GradesPage />
-  ) : at.kind === "studies" ? (
-    <StudiesPage />
+  ) : at.kind === "ranking" ||
+    at.kind === "leaderboard" ||
+    at.kind === "grades" ||
+    at.kind === "studies" ||
+    at.kind === "falsifier" ? (
+    <FetchedPage name={at.kind} />
   ) : at.kind === "learn" && at.exercise === "" ? (
     <LearnPage />
-  ) : at.kind === "falsifier" ? (
-    <FalsifierPage />
   ) : state === null ? (
     <main class="waiting-page">{phase.value !== "ended" && text.connection.waiting}</main>
   ) : (

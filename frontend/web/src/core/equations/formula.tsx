@@ -1,13 +1,13 @@
 import { useEffect, useRef } from "preact/hooks";
 
-/** The typesetter and its fonts, fetched when the first formula is looked at. */
-const loading: { katex?: Promise<typeof import("katex")> } = {};
+type Typesetter = typeof import("./typesetter");
 
-function loadKatex(): Promise<typeof import("katex")> {
-  loading.katex ??= Promise.all([import("katex"), import("katex/dist/katex.min.css")]).then(
-    ([katex]) => katex,
-  );
-  return loading.katex;
+/** The typesetter and its fonts, fetched when the first formula is looked at. */
+const loading: { typesetter?: Promise<Typesetter> } = {};
+
+function loadTypesetter(): Promise<Typesetter> {
+  loading.typesetter ??= import("./typesetter");
+  return loading.typesetter;
 }
 
 /** Puts a formula into an element, unless it is no longer wanted when the typesetter is there. */
@@ -17,9 +17,9 @@ async function typeset(
   isDisplayed: boolean,
   isWanted: () => boolean,
 ): Promise<void> {
-  const { default: katex } = await loadKatex();
+  const { render } = await loadTypesetter();
   if (!isWanted()) return;
-  katex.render(tex, element, { displayMode: isDisplayed, throwOnError: false });
+  render(tex, element, { displayMode: isDisplayed, throwOnError: false });
   if (!isDisplayed) return;
   // What scrolls is reached by keyboard; the width changes with the window.
   new ResizeObserver(() => {

@@ -16,6 +16,7 @@ export const pageText = {
     open: "Menu",
     openHint: "Tuning, the guide, and the documented routes",
     tabs: "Pages",
+    missing: "Page not loaded. Reload the lab.",
     evaluation: "Evaluation",
     names: {
       lab: "Lab",

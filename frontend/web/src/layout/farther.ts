@@ -1,0 +1,6 @@
+/** The pages that the lab can do without: one file, fetched when the first of them is opened. */
+export { FalsifierPage as falsifier } from "../evaluation/falsifier/page";
+export { RankingPage as ranking } from "../evaluation/ranking/page";
+export { StudiesPage as studies } from "../evaluation/studies/page";
+export { GradesPage as grades } from "../teaching/grades/page";
+export { LeaderboardPage as leaderboard } from "../teaching/leaderboard/page";

@@ -1,0 +1,31 @@
+import { signal } from "@preact/signals";
+import { useEffect } from "preact/hooks";
+import { text } from "../core/text/en";
+
+type Pages = typeof import("./farther");
+
+const pages = signal<Pages | null>(null);
+const isMissing = signal(false);
+
+async function fetchPages(): Promise<void> {
+  try {
+    pages.value = await import("./farther");
+  } catch {
+    isMissing.value = true;
+  }
+}
+
+/** A page that is not in the first file, as soon as it is fetched. */
+export function FetchedPage({ name }: { name: keyof Pages }) {
+  useEffect(() => {
+    if (pages.peek() === null) void fetchPages();
+  }, []);
+  const Page = pages.value?.[name];
+  return Page ? (
+    <Page />
+  ) : (
+    <main class="waiting-page" aria-live="assertive">
+      {isMissing.value && text.pages.missing}
+    </main>
+  );
+}
