@@ -6,8 +6,9 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.measured_layout import FIND_PROBLEMS
+from tests.browser.settled import get_box
 from tests.browser.test_accessibility import PHONE, WIDE, expect_no_violation
-from tests.browser.test_page import come_back, wait_for_samples
+from tests.browser.test_page import come_back, go_to_page, wait_for_samples
 from tests.browser.visited_layout import LEAST_PLOT_PX, SIZES, measure
 from tests.lab import Lab
 
@@ -112,6 +113,50 @@ def test_the_first_view_is_whole_at_each_size(page: Page, lab: Lab) -> None:
     assert not problems, "\n".join(problems)
 
 
+def test_the_controller_takes_the_width_of_its_panel_on_a_tablet(page: Page, lab: Lab) -> None:
+    page.set_viewport_size({"width": 820, "height": 1180})
+    open_first(page, lab)
+    panel, law = get_box(page.locator("#controls")), get_box(page.locator(".compare"))
+    assert law["width"] > 0.7 * panel["width"]
+
+
 def test_the_first_view_has_no_violation(page: Page, lab: Lab) -> None:
     open_first(page, lab)
     expect_no_violation(page, WIDE, PHONE)
+
+
+def test_a_page_that_cannot_be_fetched_is_stated(page: Page, lab: Lab) -> None:
+    """The pages of the evaluation are fetched when the first of them is opened."""
+    open_first(page, lab)
+    page.route("**/assets/farther-*.js", lambda route: route.abort())
+    go_to_page(page, "Evaluation")
+    expect(page.get_by_role("main")).to_have_text("Page not loaded. Reload the lab.")
+    page.unroute("**/assets/farther-*.js")
+    page.reload()
+    expect(page.get_by_role("main", name="Ranking")).to_be_visible()
+
+
+# Of the canvas of the first plot, the color that most pixels have.
+COLOR = """() => {
+    const canvas = document.querySelector(".plot canvas");
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    const counts = {};
+    for (let i = 0; i < data.length; i += 4) {
+        if (data[i + 3] < 255) continue;
+        const color = data.slice(i, i + 3).join(" ");
+        counts[color] = (counts[color] ?? 0) + 1;
+    }
+    return Object.entries(counts).sort(([, a], [, b]) => b - a)[0]?.[0] ?? "";
+}"""
+
+
+def test_plots_of_a_paused_session_take_the_colors_of_a_new_theme(page: Page, lab: Lab) -> None:
+    colors = {}
+    for scheme in ("light", "dark"):
+        page.emulate_media(color_scheme=scheme)  # pyright: ignore[reportArgumentType]
+        open_first(page, lab)
+        page.wait_for_function(f"() => ({COLOR})() !== ''")
+        colors[scheme] = page.evaluate(COLOR)
+    assert colors["light"] != colors["dark"]
+    page.emulate_media(color_scheme="light")
+    page.wait_for_function(f"() => ({COLOR})() === '{colors['light']}'")
