@@ -9,6 +9,10 @@ from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.table import Table
 
+from svsa.actuators.installed import get_mechanism
+from svsa.actuators.parameters import SVSA
+from svsa.errors import ParameterError, Violation
+from svsa.evaluation.actuator_scale import REFERENCE_NM_PER_RAD, measure_scale, scale_stiffness
 from svsa.evaluation.progress_bar import show_progress
 from svsa.evaluation.ranking.bench_runs import load_published_bench_runs
 from svsa.evaluation.ranking.entry import build_entry, get_entry_title, list_entry_keys
@@ -40,6 +44,9 @@ def run_ranking(
     ] = None,
     trials: Annotated[int, typer.Option(min=1, help="Test trials of each family.")] = TRIALS,
     seed: Annotated[int, typer.Option(min=0, help="Seed of the test set.")] = PUBLIC_SEED,
+    actuator: Annotated[
+        str, typer.Option(help="Actuator that is installed; trials are scaled to it.")
+    ] = SVSA,
     save: Annotated[
         Path | None,
         typer.Option(help="Write results to this file, after each row; its other rows stay."),
@@ -50,22 +57,23 @@ def run_ranking(
     """Measure laws on the test set and the fixed scenarios, and print the table.
 
     Without names, rows of the file with the same protocol, seed, trials and parameters are kept: an
-    interrupted command continues.
+    interrupted command continues. Gains and parameters are those tuned for the SVSA.
     """
-    known = _read_known(save, seed, trials)
+    get_mechanism(actuator)  # an unknown name is rejected before anything is measured
+    known = _read_known(save, seed, trials, actuator)
     keys = list(rows) if rows else list_entry_keys()
     entries = [build_entry(key) for key in keys]
     if not rows:
         tuned = {entry.key: entry.tuning for entry in entries}
         done = {row.key for row in known if row.key in tuned and row.tuning == tuned[row.key]}
         keys = [key for key in keys if key not in done]
-    found = Results.build(known, seed, trials) if known else None
+    found = Results.build(known, seed, trials, actuator) if known else None
     with show_progress(_messages, "", len(keys), "") as bar:
 
         def report(key: str, done: float) -> None:
             bar(keys.index(key) + done, get_entry_title(key))
 
-        for found in measure_entries(keys, seed, trials, known, report):
+        for found in measure_entries(keys, seed, trials, known, report, actuator):
             if save is not None:
                 write_results(save, found)
     if found is not None:
@@ -95,11 +103,17 @@ def publish_ranking(
     publish(tree, load_published(), load_published_bench_runs())
 
 
-def _read_known(save: Path | None, seed: int, trials: int) -> tuple[Row, ...]:
-    """The rows of a file that were measured with the same protocol, seed and trials."""
+def _read_known(save: Path | None, seed: int, trials: int, actuator: str) -> tuple[Row, ...]:
+    """The rows of a file that were measured with the same protocol, seed, trials and actuator.
+
+    Raises `ParameterError` for a file of another actuator, which would be overwritten.
+    """
     if save is None or not save.exists():
         return ()
     results = read_results(save)
+    if results.actuator != actuator:
+        bound = f"a file of its own: this one has the actuator {results.actuator}"
+        raise ParameterError(Violation("--save", save, "", bound))
     is_same = (results.protocol, results.seed, results.trials) == (PROTOCOL, seed, trials)
     return results.rows if is_same else ()
 
@@ -114,14 +128,27 @@ def _print(results: Results, as_json: bool, markdown: bool) -> None:
         Console(width=max(screen.width, MIN_WIDTH)).print(_build_table(results))
 
 
+def _describe_scale(actuator: str) -> str:
+    """What was done to the scenarios, which are made for the SVSA; empty for it."""
+    if actuator == SVSA:
+        return ""
+    scale = measure_scale(actuator)
+    sigma = scale_stiffness(get_mechanism(actuator), REFERENCE_NM_PER_RAD)
+    return (
+        f" Scaled from the SVSA: loads × {scale.torque:g}, {REFERENCE_NM_PER_RAD:g} N·m/rad →"
+        f" {sigma:g} N·m/rad. Gains and parameters are those tuned for the SVSA."
+    )
+
+
 def _build_table(results: Results) -> Table:
     table = Table(
         box=SIMPLE_HEAD,
         padding=(0, 1, 0, 0),
-        title=f"Share of {results.trials} trials of each family that held, %: protocol"
-        f" {results.protocol}, seed {results.seed}",
+        title=f"{get_mechanism(results.actuator).title}: share of {results.trials} trials of each"
+        f" family that held, %: protocol {results.protocol}, seed {results.seed}",
         title_justify="left",
-        caption=f"Held: {results.criterion}. Fixed scenarios at both signs and 8 phases.",
+        caption=f"Held: {results.criterion}. Fixed scenarios at both signs and 8 phases."
+        f"{_describe_scale(results.actuator)}",
         caption_justify="left",
     )
     for number, heading in enumerate(HEADINGS):

@@ -2,6 +2,7 @@
 
 from typing import Literal, NamedTuple
 
+from svsa.actuators.parameters import SVSA
 from svsa.control.installed import (
     PAPERS_LAW,
     check_installed,
@@ -9,6 +10,7 @@ from svsa.control.installed import (
     has_own_parameters,
     list_law_names,
 )
+from svsa.evaluation.actuator_scale import build_scenario_run
 from svsa.evaluation.scenario import Scenario
 from svsa.evaluation.tuning.tuned_law import TunedLaw, load_tuned_laws
 from svsa.runs.configuration import Configuration, Design, Lane, load_prototype
@@ -26,11 +28,13 @@ class Entry(NamedTuple):
         variant: tuned: by `svsa tune --all`. declared: NDOBC with the gains declared for the paper,
             which prints none. default: the law's defaults, of a law that was not tuned.
         design: Gains, observer and parameters.
+        actuator: Name of the actuator that scenarios are scaled to.
     """
 
     law: str
     variant: Variant
     design: Design
+    actuator: str = SVSA
 
     @property
     def tuning(self) -> TunedLaw | None:
@@ -45,7 +49,7 @@ class Entry(NamedTuple):
     def build_configuration(self, scenario: Scenario) -> Configuration:
         """Build its run of a scenario."""
         own = {name: getattr(self.design, name) for name in ("gains", "observer", "parameters")}
-        return scenario.build_configuration(self.law).changed(**own)
+        return build_scenario_run(scenario, self.law, self.actuator).changed(**own)
 
     def build_lane(self) -> Lane:
         """Build its controller as a lane."""

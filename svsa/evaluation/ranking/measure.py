@@ -8,7 +8,9 @@ import numpy as np
 
 from svsa.actuators.domain import INSIDE
 from svsa.actuators.faults import FAULT_CODES
+from svsa.actuators.parameters import SVSA
 from svsa.control.installed import PAPERS_LAW
+from svsa.evaluation.actuator_scale import build_scenario_run, measure_scale
 from svsa.evaluation.metrics import METRICS, compute_metrics, find_held, summarize_result
 from svsa.evaluation.ranking.entry import Entry
 from svsa.evaluation.ranking.row import (
@@ -35,6 +37,7 @@ from svsa.inputs.extras import __version__
 from svsa.runs.batch import RunSet
 from svsa.runs.configuration import load_prototype
 from svsa.runs.result.simulate import simulate
+from svsa.simulation.plant.loads.load import MAX_TORQUE_NM
 
 TRIALS = 10_000
 """Of each family."""
@@ -46,10 +49,10 @@ _SIZES = tuple(name for name in METRICS if name != "recovery_time_s")
 
 
 class TrialSet:
-    """The trials of a seed, built once for all laws."""
+    """The trials of a seed on an actuator, built once for all laws."""
 
-    def __init__(self, seed: int = PUBLIC_SEED, trials: int = TRIALS) -> None:
-        self.seed, self.trials = seed, trials
+    def __init__(self, seed: int = PUBLIC_SEED, trials: int = TRIALS, actuator: str = SVSA) -> None:
+        self.seed, self.trials, self.actuator = seed, trials, actuator
         self._parts: dict[int, RunSet] = {}
 
     def run(self, entry: Entry, report: Report) -> np.ndarray:
@@ -62,7 +65,7 @@ class TrialSet:
             if first not in self._parts:
                 scenarios = build_test_set(self.seed, count, first)
                 self._parts[first] = RunSet(
-                    [one.build_configuration(PAPERS_LAW) for one in scenarios]
+                    [build_scenario_run(one, PAPERS_LAW, self.actuator) for one in scenarios]
                 )
             parts.append(self._parts[first].run(entry.law, DURATION_S, LOAD_S, entry.design))
             report((first + count) / total)
@@ -70,7 +73,11 @@ class TrialSet:
 
 
 def measure_entry(entry: Entry, test_set: TrialSet, report: Report = lambda done: None) -> Row:
-    """Measure the row of an entry. report: receives the finished share."""
+    """Measure the row of an entry on the actuator of a test set.
+
+    report: receives the finished share.
+    """
+    entry = entry._replace(actuator=test_set.actuator)
     summaries = test_set.run(entry, lambda done: report(0.7 * done))
     families = {
         family: build_family_outcome(summaries[number :: len(FAMILIES)])
@@ -131,7 +138,7 @@ def measure_fixed(entry: Entry, fixed: FixedScenario) -> ScenarioOutcome:
     peaks = metrics["peak_position_error_rad"]
     return ScenarioOutcome(
         scenario=fixed.name,
-        title=fixed.title,
+        title=fixed.title if entry.actuator == SVSA else f"{fixed.title}, scaled from the SVSA",
         runs=len(fixed.variants),
         faults=int(ended.sum()),
         held=int(find_held(summaries).sum()),
@@ -152,7 +159,7 @@ def run_scenario(entry: Entry, scenario: Scenario) -> np.ndarray:
 
 def measure_noise(entry: Entry) -> Noise:
     """The torque at rest, mean of `build_rest`."""
-    runs = RunSet([one.build_configuration(PAPERS_LAW) for one in build_rest()])
+    runs = RunSet([build_scenario_run(one, PAPERS_LAW, entry.actuator) for one in build_rest()])
     summaries = runs.run(entry.law, 2.0 * REST_BEGIN_S, REST_BEGIN_S, entry.design)
     if np.any(summaries["code"] != INSIDE):
         return Noise(rms_nm=None, variation_nm_per_s=None)
@@ -167,13 +174,14 @@ def find_largest_load(entry: Entry) -> float:
     """Find the largest torque step on the link with success for all signs and phases, N·m; 0 if
     none.
     """
-    count = 0
-    while (count + 1) * STEP_NM <= MAX_STEP_NM:
+    count, scale = 0, measure_scale(entry.actuator).torque
+    most = min(MAX_STEP_NM, MAX_TORQUE_NM / scale)
+    while (count + 1) * STEP_NM <= most:
         fixed = build_link_steps((count + 1) * STEP_NM)
         if not all(find_held(run_scenario(entry, one))[0] for one in fixed.variants):
             break
         count += 1
-    return count * STEP_NM
+    return count * STEP_NM * scale
 
 
 def round_number(value: float) -> float | None:

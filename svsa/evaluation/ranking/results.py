@@ -8,6 +8,7 @@ from typing import Self
 import numpy as np
 from pydantic import ValidationError
 
+from svsa.actuators.parameters import SVSA
 from svsa.control.installed import PAPERS_LAW
 from svsa.errors import ParameterError, Violation
 from svsa.evaluation.metrics import HELD
@@ -38,6 +39,9 @@ class Results(Checked):
     """Rows, and the protocol that they were measured with."""
 
     protocol: str = quantity("", "Version of the protocol")
+    actuator: str = quantity(
+        "", "Name of the actuator; trials of another than the SVSA are scaled to it", default=SVSA
+    )
     criterion: str = quantity("", "Success criterion of a trial")
     seed: Whole = quantity("", "Seed of the test set", ge=0)
     trials: Whole = quantity("", "Trials of each family", ge=1)
@@ -46,11 +50,12 @@ class Results(Checked):
     ranks: tuple[Rank, ...] = quantity("", "The rank of each row")
 
     @classmethod
-    def build(cls, rows: Sequence[Row], seed: int, trials: int) -> Self:
+    def build(cls, rows: Sequence[Row], seed: int, trials: int, actuator: str = SVSA) -> Self:
         """The results of rows that were measured on the same test set."""
         ordered = sorted(rows, key=lambda row: (-_read_held(row).mean(), row.key))
         return cls(
             protocol=PROTOCOL,
+            actuator=actuator,
             criterion=HELD,
             seed=seed,
             trials=trials,
@@ -128,18 +133,20 @@ def measure_entries(
     trials: int,
     known: Sequence[Row] = (),
     report: Callable[[str, float], None] = lambda key, done: None,
+    actuator: str = SVSA,
 ) -> Iterator[Results]:
     """Yield results after each entry, including `known` rows with the same parameters.
 
-    report: receives the key of an entry and the share of it that is done.
+    report: receives the key of an entry and the share of it that is done. actuator: name of the
+    actuator that trials and scenarios are scaled to.
     """
     rows = {row.key: row for row in known}
-    test_set = TrialSet(seed, trials)
+    test_set = TrialSet(seed, trials, actuator)
     for key in keys:
         rows[key] = measure_entry(
             build_entry(key), test_set, lambda done, key=key: report(key, done)
         )
-        yield Results.build(list(rows.values()), seed, trials)
+        yield Results.build(list(rows.values()), seed, trials, actuator)
 
 
 def write_results(path: Path, results: Results) -> None:

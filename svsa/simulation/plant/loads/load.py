@@ -9,7 +9,8 @@ from pydantic import Field
 
 from svsa.inputs.checked import Checked, Number, quantity
 
-_Torque = Annotated[Number, Field(ge=-50, le=50)]
+MAX_TORQUE_NM = 50.0
+_Torque = Annotated[Number, Field(ge=-MAX_TORQUE_NM, le=MAX_TORQUE_NM)]
 TorqueTriple = tuple[_Torque, _Torque, _Torque]
 TRIPLE = "(w2, w4, w6) on link, motor 1, motor 2, each from −50 to 50"
 PARTS = ("Load on the link", "Load on motor 1", "Load on motor 2")

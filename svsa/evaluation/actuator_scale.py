@@ -1,0 +1,234 @@
+"""A scenario of the SVSA on another actuator: the same shares of what that actuator is capable of.
+
+* σ_d at the same place of the stiffness range, by equal ratios; the sole stiffness if it has one.
+* Loads and friction times T'/T: T is the largest torque that an actuator holds at rest at the
+  σ of 15 N·m/rad (SVSA), or at what that becomes.
+* Sines of the position begin at rest, and their amplitude is limited so that moving the link takes
+  half of T' at most; steps rise slowly enough for the same, as far as their times allow.
+* The plant is the nominal model with the same ratios. That of the spring is of the parameter that
+  its energy is proportional to.
+
+Durations, frequencies, encoders, noise, delay and lag are those of the SVSA.
+"""
+
+import math
+from functools import cache
+from typing import Any, NamedTuple
+
+from svsa.actuators.domain import build_domain
+from svsa.actuators.dynamics import build_actuator
+from svsa.actuators.energy import compile_energy
+from svsa.actuators.installed import get_mechanism
+from svsa.actuators.mechanism import MAX_ELASTIC, Mechanism
+from svsa.actuators.parameters import SVSA, Limits
+from svsa.actuators.reach import find_only_stiffness, find_stiffness_range
+from svsa.evaluation.scenario import Scenario
+from svsa.inputs.checked import Checked
+from svsa.runs.configuration import Configuration
+from svsa.runs.shorthand import read_mechanism
+from svsa.simulation.plant.effects import Effects
+from svsa.simulation.plant.loads import Load
+from svsa.simulation.plant.loads.mass import MassLoad
+from svsa.simulation.reference.kinds.constant import ConstantStiffness
+from svsa.simulation.reference.kinds.sine import SinePosition, SineStiffness
+from svsa.simulation.reference.kinds.steps import StepsPosition
+
+REFERENCE_NM_PER_RAD = 15.0
+"""The paper's low stiffness."""
+MOTION_SHARE = 0.5
+_SPRING = "spring_stiffness_n_per_m"
+_HALVINGS = 14
+_DIGITS = 3
+_NEARLY = 1.0 + 1e-9
+_JERK_PEAK = 5.7735
+"""Greatest acceleration of a step of minimum jerk over its height and its duration squared."""
+
+
+class ActuatorScale(NamedTuple):
+    """What becomes of torques.
+
+    Attributes:
+        name: The actuator.
+        torque: T'/T, factor of loads on link and motor 1.
+        torque2: Factor of loads on motor 2, by the torque limits; 0 without a stiffness motor.
+        largest_nm: T', N·m.
+        spring: Parameter that its energy is proportional to.
+    """
+
+    name: str
+    torque: float
+    torque2: float
+    largest_nm: float
+    spring: str
+
+
+@cache
+def measure_scale(name: str) -> ActuatorScale:
+    """The scale of an actuator that is installed; raises `ParameterError` for any other."""
+    mechanism, svsa = get_mechanism(name), get_mechanism(SVSA)
+    largest, of_svsa = (_find_largest_torque(one) for one in (mechanism, svsa))
+    return ActuatorScale(
+        name,
+        _settle(largest / of_svsa),
+        # Nothing holds the second body of an actuator without a stiffness motor.
+        _settle(mechanism.limits.torque2_nm / svsa.limits.torque2_nm)
+        if mechanism.has_stiffness_motor
+        else 0.0,
+        largest,
+        _find_spring(mechanism),
+    )
+
+
+def build_scenario_run(scenario: Scenario, law: str, actuator: str = SVSA) -> Configuration:
+    """The run of a scenario under a law with its default parameters.
+
+    Args:
+        scenario: Made for the SVSA.
+        law: Name of an installed law.
+        actuator: Name of the actuator that it is scaled to.
+
+    Returns:
+        Its configuration.
+
+    Raises:
+        ParameterError: If no actuator or law of that name is installed.
+    """
+    given = scenario.build_configuration(law)
+    if actuator == SVSA:
+        return given
+    mechanism, scale = get_mechanism(actuator), measure_scale(actuator)
+    changed = read_mechanism(actuator) | {
+        "stiffness": _scale_stiffness(given.stiffness, mechanism),
+        "position": _scale_position(given.position, mechanism, scale),
+        "loads": tuple(_scale_load(one, scale) for one in given.loads),
+        "effects": _scale_effects(given.effects, scale),
+    }
+    if scenario.plant:
+        nominal, plant = mechanism.nominal, {}
+        for name, ratio in scenario.plant:
+            field = scale.spring if name == _SPRING else name
+            plant[field] = ratio * getattr(nominal, field)
+        changed["actuator"] = nominal.changed(**plant)
+    return given.changed(**changed)
+
+
+def scale_stiffness(mechanism: Mechanism, sigma: float) -> float:
+    """The stiffness at the same place of an actuator's range, N·m/rad."""
+    only = find_only_stiffness(mechanism.nominal)
+    if only is not None:
+        return only
+    low, high = _get_range(get_mechanism(SVSA).limits)
+    to_low, to_high = _get_range(mechanism.limits)
+    share = math.log(sigma / low) / math.log(high / low)
+    return _settle(to_low * (to_high / to_low) ** share, 6)
+
+
+def _scale_stiffness(given: Any, mechanism: Mechanism) -> Any:
+    match given:
+        case ConstantStiffness(stiffness_nm_per_rad=sigma):
+            scaled = scale_stiffness(mechanism, sigma)
+            return given.changed(stiffness_nm_per_rad=scaled)
+        case SineStiffness(offset_nm_per_rad=middle, amplitude_nm_per_rad=amplitude):
+            low, high = (
+                scale_stiffness(mechanism, middle + way * amplitude) for way in (-1.0, 1.0)
+            )
+            if low == high:
+                return ConstantStiffness(stiffness_nm_per_rad=low)
+            offset, size = 0.5 * (low + high), 0.5 * (high - low)
+            return given.changed(offset_nm_per_rad=offset, amplitude_nm_per_rad=size)
+    raise _reject(given)
+
+
+def _scale_position(given: Any, mechanism: Mechanism, scale: ActuatorScale) -> Any:
+    highest = MOTION_SHARE * scale.largest_nm / mechanism.nominal.link_inertia_kg_m2
+    match given:
+        case SinePosition(frequency_hz=frequency, amplitude_rad=amplitude) if frequency:
+            most = highest / (2.0 * math.pi * frequency) ** 2
+            amplitude = min(amplitude, _settle(most))
+            way = math.cos(given.phase_rad)  # sin at its zero: to which side it goes first
+            side = 1.0 if way > 0.0 else -1.0
+            return given.changed(
+                amplitude_rad=amplitude,
+                phase_rad=-side * 0.5 * math.pi,
+                offset_rad=given.offset_rad + side * amplitude,
+            )
+        case StepsPosition(time_s=times, position_rad=levels, rise_s=rise):
+            largest = max(
+                abs(one - other) for one, other in zip(levels[1:], levels[:-1], strict=True)
+            )
+            slow = max(rise, _settle(math.sqrt(_JERK_PEAK * largest / highest)))
+            gaps = (one - other for one, other in zip(times[1:], times[:-1], strict=True))
+            return given.changed(rise_s=min(slow, *gaps))
+    return given
+
+
+def _scale_load(load: Load, scale: ActuatorScale) -> Load:
+    if isinstance(load, MassLoad):
+        return load.changed(mass_kg=load.mass_kg * scale.torque)
+    torque = getattr(load, "torque_nm", None)
+    if torque is None:
+        raise _reject(load)
+    link, motor1, motor2 = torque
+    scaled = (link * scale.torque, motor1 * scale.torque, motor2 * scale.torque2)
+    return load.changed(torque_nm=scaled)
+
+
+def _scale_effects(effects: Effects, scale: ActuatorScale) -> Effects:
+    changed: dict[str, Checked] = {}
+    if (friction := effects.friction) is not None:
+        changed["friction"] = friction.changed(
+            coulomb1_nm=friction.coulomb1_nm * scale.torque,
+            coulomb2_nm=friction.coulomb2_nm * scale.torque2,
+        )
+    if (gravity := effects.gravity) is not None:
+        changed["gravity"] = gravity.changed(moment_nm=gravity.moment_nm * scale.torque)
+    return effects.changed(**changed)
+
+
+def _find_largest_torque(mechanism: Mechanism) -> float:
+    """The largest torque at rest at the reference stiffness, within the torque limits, N·m."""
+    sigma = scale_stiffness(mechanism, REFERENCE_NM_PER_RAD)
+    plant = build_actuator(mechanism.prototype, 0.0)
+    domain = build_domain(mechanism.prototype, mechanism.limits)
+
+    def holds(torque: float) -> bool:
+        least, greatest = find_stiffness_range(plant, domain, torque)
+        return least <= sigma * _NEARLY and sigma <= greatest * _NEARLY
+
+    high = mechanism.limits.torque1_nm * (2.0 if mechanism.antagonistic else 1.0)
+    if holds(high):
+        return high
+    low = 0.0
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if holds(middle) else (low, middle)
+    return _settle(low)
+
+
+def _find_spring(mechanism: Mechanism) -> str:
+    """The first parameter that the elastic energy is proportional to; else the first of all."""
+    energy = compile_energy(mechanism).functions["compute_energy"]
+    values = mechanism.list_elastic(mechanism.prototype)
+    s, phi = mechanism.coordinate[1], 0.5 * mechanism.limits.deflection_max_rad
+
+    def compute(number: int, factor: float) -> float:
+        scaled = [one * (factor if i == number else 1.0) for i, one in enumerate(values)]
+        return energy(s, phi, *scaled, *[0.0] * (MAX_ELASTIC - len(values)))
+
+    for number, name in enumerate(mechanism.elastic):
+        if math.isclose(compute(number, 2.0), 2.0 * compute(number, 1.0), rel_tol=1e-9):
+            return name
+    return mechanism.elastic[0]
+
+
+def _get_range(limits: Limits) -> tuple[float, float]:
+    return limits.stiffness_min_nm_per_rad, limits.stiffness_max_nm_per_rad
+
+
+def _settle(value: float, digits: int = _DIGITS) -> float:
+    """To a few digits, so that the rounding of a machine does not count."""
+    return float(f"{value:.{digits}g}")
+
+
+def _reject(given: Checked) -> TypeError:
+    return TypeError(f"A scenario has no rule to scale {type(given).__name__} to another actuator.")
