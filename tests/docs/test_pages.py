@@ -1,5 +1,7 @@
 """The commands and the Python code of the documentation run as they are written."""
 
+import os
+
 import pytest
 
 from svsa.hardware.emulator.launch import start_emulator
@@ -11,10 +13,11 @@ TUTORIALS = ROOT / "docs" / "tutorials"
 GUIDES = [*sorted(TUTORIALS.glob("*.md")), *sorted((ROOT / "docs/howto").glob("*.md"))]
 EXAMPLES = [ROOT / name for name in ("README.md", "docs/grading.md", "docs/scripting.md")]
 ON_BENCH = TUTORIALS / "emulated_bench.md"
+OWN_ACTUATOR = TUTORIALS / "own_actuator.md"
 RUN = [
     page
     for page in [*GUIDES, *EXAMPLES]
-    if page != ON_BENCH and any(block.is_run for block in read_blocks(page))
+    if page not in (ON_BENCH, OWN_ACTUATOR) and any(block.is_run for block in read_blocks(page))
 ]
 IN_BROWSER = {"browser": "tests/browser/test_first_hour.py"}
 """The tutorial that a user follows on the page, and the test that does so."""
@@ -44,9 +47,17 @@ def test_the_tutorial_of_the_emulated_bench_runs_over_a_bus_between_processes(tm
             start_page(ON_BENCH, tmp_path, {LAB: lab.url}, ["python"])
 
 
+@pytest.mark.exhaustive
+def test_the_tutorial_of_an_own_actuator_installs_it_where_the_lab_finds_it(tmp_path, monkeypatch):
+    start_page(OWN_ACTUATOR, tmp_path, INSTALL, ["console"])
+    monkeypatch.setenv("PYTHONPATH", f"{ROOT}{os.pathsep}{tmp_path}")
+    with run_lab() as lab:
+        start_page(OWN_ACTUATOR, tmp_path, {LAB: lab.url}, ["python"])
+
+
 def test_each_tutorial_is_executed():
     notebooks = {page.stem for page in TUTORIALS.glob("*.ipynb")}
-    pages = {page.stem for page in [*RUN, ON_BENCH] if page.parent == TUTORIALS}
+    pages = {page.stem for page in [*RUN, ON_BENCH, OWN_ACTUATOR] if page.parent == TUTORIALS}
     for test in IN_BROWSER.values():
         assert (ROOT / test).is_file()
     executed = notebooks | pages | {*IN_BROWSER}
