@@ -60,6 +60,8 @@ EVALUATIONS = ("Ranking", "Leaderboard", "Studies", "Falsifier")
 def go_to_page(page: Page, name: str) -> None:
     """By a tab, or by the menu where the bar has no room; *Tune …* is in the menu at every size."""
     tabs = page.locator("nav.tabs")
+    # Without this, the menu would be used before the tabs are drawn, where its entries are hidden.
+    expect(tabs.first).to_be_attached()
     if name in EVALUATIONS and tabs.get_by_role("link", name="Evaluation").is_visible():
         tabs.get_by_role("link", name="Evaluation").press("Enter")
         expect(tabs.get_by_role("link", name=name, exact=True)).to_be_visible()

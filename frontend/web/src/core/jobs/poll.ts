@@ -52,14 +52,17 @@ export function polling(onError: (error: unknown) => void): Poll {
   };
 }
 
+type Read = <T>(ask: () => Promise<T>, take: (found: T) => void) => Promise<Ending>;
+
 /** Reads what a page opens with: again until the server answers, or another read takes its place. */
 export function reading(onError: (error: unknown) => void) {
   const poll = polling(onError);
-  return <T>(ask: () => Promise<T>, take: (found: T) => void): Promise<Ending> =>
+  const read: Read = (ask, take) =>
     poll.follow(ask, (found) => {
       take(found);
       return true;
     });
+  return read;
 }
 
 /** For `take`, of what it asks for besides: null for a refusal; what is not answered is asked again. */
