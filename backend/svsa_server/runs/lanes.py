@@ -5,6 +5,7 @@ them, from when on, under which name and in which line style.
 from collections.abc import Sequence
 from typing import Any
 
+from svsa.control.installed import get_law, list_law_names
 from svsa.runs.records.reader import Record
 from svsa.runs.session.journal import KEPT_S
 from svsa.runs.session.session import Session
@@ -33,9 +34,13 @@ def list_record_segments(record: Record, timeline: Timeline | None) -> list[list
         return _build(timeline, timeline.list_segments(), period_s)
     whole = {"start_tick": 0, "start_s": 0.0, "end_tick": None, "end_s": None}
     return [
-        [SegmentState(number=lane + 1, name=name, line_style=lane, **whole)]
+        [SegmentState(number=lane + 1, name=name, line_style=lane, has_estimate=True, **whole)]
         for lane, name in enumerate(record.header.lanes)
     ]
+
+
+def _has_estimate(law: str) -> bool:
+    return law not in list_law_names() or get_law(law).estimate != "none"
 
 
 def name_lanes(segments: Sequence[Sequence[SegmentState]]) -> list[str]:
@@ -88,6 +93,7 @@ def _build(
                 number=one.number,
                 name=names[one.number],
                 line_style=one.line_style,
+                has_estimate=_has_estimate(one.controller.law),
                 start_tick=one.first_tick,
                 start_s=one.first_tick * period_s,
                 end_tick=one.end_tick,

@@ -57,7 +57,8 @@ def _place(record: Record, segment: SegmentState) -> LaneSegment:
     end = record.tick_count
     if segment.end_tick is not None:
         end = min(end, segment.end_tick - record.first_tick)
-    return LaneSegment(segment.name, segment.line_style, segment.number, first, end)
+    number, has_estimate = segment.number, segment.has_estimate
+    return LaneSegment(segment.name, segment.line_style, number, first, end, has_estimate)
 
 
 def compute_hung_mass(record: Record) -> np.ndarray:

@@ -51,6 +51,7 @@ class LaneSegment(NamedTuple):
     """Who controlled a lane of a recorded run. name: as it is read. line_style: of its curves.
 
     number: which controller. first, end: ticks from the first sample, end not included.
+    has_estimate: whether its law acts on an estimate of the disturbance.
     """
 
     name: str
@@ -58,6 +59,7 @@ class LaneSegment(NamedTuple):
     number: int
     first: int
     end: int
+    has_estimate: bool = True
 
 
 @dataclass(frozen=True)

@@ -133,6 +133,7 @@ def _write_segment(segment: LaneSegment, period_s: float) -> dict[str, Any]:
         "number": segment.number,
         "name": segment.name,
         "line_style": segment.line_style,
+        "has_estimate": segment.has_estimate,
         "start_s": segment.first * period_s,
         "end_s": segment.end * period_s,
     }

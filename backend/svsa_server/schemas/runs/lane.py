@@ -23,6 +23,9 @@ class SegmentState(Period):
         description="Law, with the parameters that distinguish it from others of the same law"
     )
     line_style: int = Field(description="Line style of its curves, from 0; unique on screen")
+    has_estimate: bool = Field(
+        description="Whether its law acts on an estimate of the disturbance; true where unknown"
+    )
 
 
 class WindowState(Period):

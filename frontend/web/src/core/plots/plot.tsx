@@ -151,11 +151,12 @@ export function Plot({ setup, isBasic }: { setup: PlotSetup; isBasic: boolean })
   );
 }
 
-/** The law of the only lane, if it acts on no estimate; the legend of several has no room for it. */
-const lawWithout = computed(() => {
-  const lanes = session.value?.lanes ?? [];
-  const law = lanes.length === 1 ? lawOf(lanes[0]?.law ?? "") : undefined;
-  return law?.estimate === "none" ? law.title : "";
+/** The laws that act on no estimate. */
+const lawsWithout = computed(() => {
+  const laws = (session.value?.lanes ?? []).map(({ law }) => lawOf(law));
+  return [...new Set(laws.flatMap((law) => (law?.estimate === "none" ? [law.title] : [])))].join(
+    ", ",
+  );
 });
 
 function noteOf({ preset, channels }: PlotSetup, hasTruth: boolean): string | undefined {
@@ -163,7 +164,7 @@ function noteOf({ preset, channels }: PlotSetup, hasTruth: boolean): string | un
   if (preset === "phase" && across !== undefined) {
     return text.plots.phaseNote(text.channelNames[across], CHANNELS[across].unit);
   }
-  const isUnused = lawWithout.value && channels.some((one) => one.startsWith("estimate_"));
-  const unused = isUnused ? [text.plots.unusedEstimate(lawWithout.value)] : [];
+  const isUnused = lawsWithout.value && channels.some((one) => one.startsWith("estimate_"));
+  const unused = isUnused ? [text.plots.unusedEstimate(lawsWithout.value)] : [];
   return (hasTruth ? [...unused, text.plots.disturbanceNote] : unused).join(" · ") || undefined;
 }

@@ -47,6 +47,10 @@ function listSegments(cast: Cast): Placed[] {
   return [...present, ...past.sort((one, other) => one.number - other.number)];
 }
 
+/** Of several lanes, an estimate is drawn only for as long as the lane's law acts on it. */
+const isDrawn = (channel: ChannelName, cast: Cast, { hasEstimate }: Segment): boolean =>
+  hasEstimate || cast.length <= 1 || !channel.startsWith("estimate_");
+
 /** A channel piece by piece; the pieces of one owner are one curve, of which the first is the key. */
 function pieces(
   channel: ChannelName,
@@ -56,7 +60,8 @@ function pieces(
 ): Trace[] {
   const owners = new Set<string>();
   const chosen = cast[0]?.at(-1)?.number;
-  return listSegments(cast).map((segment) => {
+  const drawn = listSegments(cast).filter((one) => isDrawn(channel, cast, one));
+  return drawn.map((segment) => {
     const { lane, from, to } = segment;
     const { lineStyle, label: name } = look(segment, segment.number === chosen);
     const owner = ownerOf(segment);
@@ -112,9 +117,8 @@ const withMirror = (one: Trace): Trace[] =>
 function compose(companion: ChannelName, own: readonly Trace[], cast: Cast): Trace[] {
   const isAlone = cast.length <= 1;
   const [leader] = own;
-  if (leader === undefined) return [];
   if (CHANNELS[companion].truthOf !== undefined) {
-    if (isAlone) {
+    if (isAlone && leader !== undefined) {
       const lineStyle: LineStyle = { colour: leader.colour, dash: DASHED, width: 1.5 };
       return [{ ...trace(companion, 1, lineStyle, label(companion)), follows: leader.key }];
     }

@@ -62,6 +62,8 @@ export interface Segment {
   number: number;
   name: string;
   lineStyle: number;
+  /** Its law acts on an estimate of the disturbance. */
+  hasEstimate: boolean;
   from: number;
   to: number;
 }
@@ -77,8 +79,9 @@ const castKey = computed(() =>
 /** The same array until a lane changes. */
 export const cast = computed<Cast>(() =>
   (JSON.parse(castKey.value) as LaneRow["segments"][]).map((segments) =>
-    segments.map(({ number, name, line_style: lineStyle, start_s: from, end_s: to }) => {
-      return { number, name, lineStyle, from, to: to ?? Number.POSITIVE_INFINITY };
+    segments.map(({ number, name, start_s: from, end_s: to, ...more }) => {
+      const { line_style: lineStyle, has_estimate: hasEstimate } = more;
+      return { number, name, lineStyle, hasEstimate, from, to: to ?? Number.POSITIVE_INFINITY };
     }),
   ),
 );

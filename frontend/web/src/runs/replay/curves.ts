@@ -57,8 +57,9 @@ function joinPieces(recording: Recording, traces: readonly Trace[]): Curve[] {
 export function definePlots(recording: Recording): ReplayPlot[] {
   const { segments, curves } = recording.run;
   const cast = segments.map((lane) =>
-    lane.map(({ number, name, line_style: lineStyle, start_s: from, end_s: to }) => {
-      return { number, name, lineStyle, from, to };
+    lane.map(({ number, name, start_s: from, end_s: to, ...more }) => {
+      const { line_style: lineStyle, has_estimate: hasEstimate } = more;
+      return { number, name, lineStyle, hasEstimate, from, to };
     }),
   );
   const isRecorded = (name: ChannelName) => Object.hasOwn(curves.channels, name);

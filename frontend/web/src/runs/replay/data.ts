@@ -31,6 +31,7 @@ export interface LaneSegment {
   number: number;
   name: string;
   line_style: number;
+  has_estimate: boolean;
   start_s: number;
   end_s: number;
 }

@@ -9,7 +9,18 @@ import {
 import { measureBetween } from "../../../src/core/plots/statistics";
 import { SampleRing, type Segment } from "../../../src/core/stream/ring";
 
-const ALONE = [[{ number: 1, name: "NDOBC", lineStyle: 0, from: 0, to: Number.POSITIVE_INFINITY }]];
+const ALONE = [
+  [
+    {
+      number: 1,
+      name: "NDOBC",
+      lineStyle: 0,
+      hasEstimate: true,
+      from: 0,
+      to: Number.POSITIVE_INFINITY,
+    },
+  ],
+];
 
 function ringOf(values: readonly number[], channel = "position_error_rad"): SampleRing {
   const ring = new SampleRing(1000, [channel], [1]);

@@ -54,7 +54,7 @@ const segment = (
   from = 0,
   to = Number.POSITIVE_INFINITY,
 ): Segment => {
-  return { number, name, lineStyle: number - 1, from, to };
+  return { number, name, lineStyle: number - 1, hasEstimate: name !== "FL", from, to };
 };
 /** Unchanged lanes. */
 const castOf = (...names: string[]): Cast => names.map((name, index) => [segment(index + 1, name)]);
@@ -128,9 +128,22 @@ describe("the curves of a plot", () => {
       return entries.filter(({ key }) => hasOneValue(all, key)).map(({ label }) => label);
     };
     const swapped = [segment(1, "NDOBC", 0, 7), segment(2, "FL", 7), segment(1, "NDOBC", 9)];
-    expect(valued(castOf("NDOBC", "FL"))).toEqual(["NDOBC", "FL"]);
-    expect(valued([swapped, [segment(3, "LQI")]])).toEqual(["NDOBC", "LQI", "FL"]);
+    expect(valued(castOf("NDOBC", "ADRC"))).toEqual(["NDOBC", "ADRC"]);
+    expect(valued([swapped, [segment(3, "LQI")]])).toEqual(["NDOBC", "LQI"]);
     expect(valued([swapped])).toEqual(["NDOBC", "FL"]);
+  });
+
+  it("leave out the estimate that a compared law does not use, not the truth of its lane", () => {
+    const channels = ["estimate_link_nm", "disturbance_link_nm"] as const;
+    const drawn = (cast: Cast) =>
+      tracesOf(composeContent(channels, cast), new Set(channels), cast.length).map(
+        ({ channel, lane }) => `${channel} ${lane}`,
+      );
+    const truths = ["disturbance_link_nm 1", "disturbance_link_nm 2"];
+    expect(drawn(castOf("NDOBC", "FL"))).toEqual(["estimate_link_nm 1", ...truths]);
+    expect(drawn(castOf("FL", "NDOBC"))).toEqual(["estimate_link_nm 2", ...truths]);
+    const joined: Cast = [[segment(1, "FL", 0, 7), segment(2, "NDOBC", 7)], [segment(3, "FL")]];
+    expect(drawn(joined)).toEqual(["estimate_link_nm 1", ...truths]);
   });
 
   it("are a colour a channel for one lane, the truth dashed in the colour of its estimate", () => {

@@ -25,6 +25,7 @@ const segment = (number: number, name: string) => ({
   number,
   name,
   lineStyle: 0,
+  hasEstimate: true,
   from: 0,
   to: Number.POSITIVE_INFINITY,
 });

@@ -155,6 +155,7 @@ describe("curves", () => {
       number: 1,
       name: "NDOBC",
       line_style: 0,
+      has_estimate: true,
       start_tick: 0,
       start_s: 0,
       end_tick: null,
