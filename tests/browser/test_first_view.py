@@ -6,7 +6,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.measured_layout import FIND_PROBLEMS
-from tests.browser.settled import get_box
+from tests.browser.settled import get_box, resize
 from tests.browser.test_accessibility import PHONE, WIDE, expect_no_violation
 from tests.browser.test_page import come_back, go_to_page, wait_for_samples
 from tests.browser.visited_layout import LEAST_PLOT_PX, SIZES, measure
@@ -118,6 +118,26 @@ def test_the_controller_takes_the_width_of_its_panel_on_a_tablet(page: Page, lab
     open_first(page, lab)
     panel, law = get_box(page.locator("#controls")), get_box(page.locator(".compare"))
     assert law["width"] > 0.7 * panel["width"]
+
+
+# Bars that stay at the top and the bottom of a phone, px.
+BARS_PX = """() => [".topbar", ".load-place", ".statusbar"]
+    .reduce((sum, one) => sum + document.querySelector(one).offsetHeight, 0)"""
+
+
+def test_tabs_stay_and_the_bars_take_less_than_a_quarter_of_a_phone(page: Page, lab: Lab) -> None:
+    open_first(page, lab)
+    tabs = page.get_by_role("navigation", name="Pages")
+    for is_full in (False, True):
+        if is_full:
+            page.get_by_role("switch", name="All controls").press("Enter")
+            expect(page.get_by_role("switch", name="All controls", checked=True)).to_be_attached()
+        for width, height in (*SIZES, (1121, 800)):
+            resize(page, width, height)
+            for name in ("Lab", "Runs", "Learn", "Grades", "Evaluation"):
+                expect(tabs.get_by_role("link", name=name)).to_be_in_viewport(ratio=1)
+        resize(page, *PHONE)
+        page.wait_for_function(f"() => ({BARS_PX})() < innerHeight / 4")
 
 
 def test_the_first_view_has_no_violation(page: Page, lab: Lab) -> None:

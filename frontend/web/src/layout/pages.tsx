@@ -113,9 +113,8 @@ function Entry({ name }: { name: keyof typeof words.names }): ComponentChildren 
   );
 }
 
-/** Tuning, guide and API reference; every page too where the top bar has no room for tabs. */
+/** Tuning, guide and API reference. */
 export function PagesMenu() {
-  const here = pageOf(place.value);
   return (
     <Popup
       button={
@@ -123,7 +122,7 @@ export function PagesMenu() {
           <svg viewBox="0 0 16 16" aria-hidden="true">
             <path d="M1 2h14v2.5H1zM1 6.8h14v2.5H1zM1 11.5h14V14H1z" />
           </svg>
-          {words.open}
+          <span class="menu-word">{words.open}</span>
         </>
       }
       title={words.openHint}
@@ -134,18 +133,6 @@ export function PagesMenu() {
       {(close) => (
         <nav aria-label={words.open}>
           <ul>
-            {shownPages.value.map((page) => (
-              <li key={page} class="is-tab">
-                <PlaceLink
-                  to={PAGES[page]}
-                  isHere={page === here}
-                  shortcut={page === "runs" ? "o" : undefined}
-                  onGo={close}
-                >
-                  <Entry name={page} />
-                </PlaceLink>
-              </li>
-            ))}
             <li>
               <button
                 type="button"
