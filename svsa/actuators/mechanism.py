@@ -13,6 +13,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from svsa.actuators.drawing import Part
 from svsa.actuators.parameters import Limits, MechanismParameters
 from svsa.errors import ParameterError, Violation
 
@@ -43,6 +44,8 @@ class Mechanism:
         has_stiffness_motor: False for the limit case of a linear spring U(φ) = ½ k φ² whose
             stiffness no motor changes: the stiffness reference is k, always, and the equations of
             motor 2 are those of a body that nothing moves.
+        draw: Parts of its schematic, a function (parameters, s, φ); the same kinds in the same
+            order for all s and φ. None: a torsion spring is drawn.
         sources: Of each field of `prototype` and `limits` the source, or "assumed: …".
     """
 
@@ -59,6 +62,7 @@ class Mechanism:
     limits: Limits
     sources: Mapping[str, str]
     antagonistic: bool = False
+    draw: Callable[[Any, float, float], tuple[Part, ...]] | None = None
     has_stiffness_motor: bool = True
 
     def __post_init__(self) -> None:

@@ -25,6 +25,7 @@ def build_replay(record: Record) -> str:
     """
     header = record.header
     segments = list_record_segments(record, trace_record(record))
+    origin = read_origin(record)
     settings = describe_settings(header, record.commands, record.first_tick, record.tick_count)
     return build_replay_html(
         header.name or settings.name or f"Run {header.run_id}",
@@ -44,8 +45,9 @@ def build_replay(record: Record) -> str:
             "fault": "" if record.fault is None else record.fault.message,
             "commands": [command for _, command in record.commands],
         },
-        events=list_events(*read_origin(record), record.fault, record.events),
+        events=list_events(*origin, record.fault, record.events),
         first_tick=record.first_tick,
+        actuator=origin[0].actuator,
         window=find_measured_window(record),
         segments=[[_place(record, one) for one in lane] for lane in segments],
     )

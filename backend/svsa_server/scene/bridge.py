@@ -5,6 +5,7 @@ import io
 
 import viser
 
+from svsa.actuators.parameters import MechanismParameters
 from svsa_scene import ActuatorPose
 from svsa_scene.scene import ActuatorScene
 
@@ -19,10 +20,10 @@ class _LoopbackViser(viser.ViserServer):
 class SceneBridge:
     """Starts viser on 127.0.0.1 at a free port, with the actuator as its scene."""
 
-    def __init__(self) -> None:
+    def __init__(self, parameters: MechanismParameters) -> None:
         with contextlib.redirect_stdout(io.StringIO()):
             self._viser = _LoopbackViser(host="127.0.0.1", port=0, verbose=False)
-        self._scene = ActuatorScene(self._viser)
+        self._scene = ActuatorScene(self._viser, parameters)
         self._stopped = False
 
     @property

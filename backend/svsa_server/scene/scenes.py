@@ -93,7 +93,7 @@ class Scenes:
         async with self._starting:
             if name not in self.views:
                 # Under the lock: two viewers at a time must not start two servers for a session.
-                self.views[name] = View(session, await asyncio.to_thread(_start_viser))
+                self.views[name] = View(session, await asyncio.to_thread(_start_viser, session))
         view = self.views[name]
         view.seen = time.monotonic()
         return view.bridge.port
@@ -122,11 +122,11 @@ class Scenes:
         await asyncio.gather(*self._ending, return_exceptions=True)
 
 
-def _start_viser() -> "SceneBridge":
+def _start_viser(session: Session) -> "SceneBridge":
     """Start viser; imported here, at the first viewer: it is a quarter of a server's start."""
     from svsa_server.scene.bridge import SceneBridge
 
-    return SceneBridge()
+    return SceneBridge(session.run.configuration.actuator)
 
 
 def _update(view: View, now: float) -> None:

@@ -47,16 +47,20 @@ COLORS: tuple[Rgb, ...] = (
 """
 MAX_COMPARISONS = 3
 
-_STIFFNESS_RANGE = (1.7, 150.56)
 _STIFFNESS_STEPS = 32
 _STIFFNESS_SCALE = np.array(
     [(52, 120, 200), (44, 172, 168), (120, 190, 84), (240, 190, 50), (224, 66, 52)], dtype=float
 )
 
 
-def compute_stiffness_step(stiffness_nm_per_rad: float) -> int:
-    """Step 0…31 of the spring's colour for σ, logarithmic over the actuator's range."""
-    low, high = _STIFFNESS_RANGE
+def compute_stiffness_step(stiffness_nm_per_rad: float, low: float, high: float) -> int:
+    """Step 0…31 of the spring's colour for σ, logarithmic over the actuator's range.
+
+    Args:
+        stiffness_nm_per_rad: σ, N·m/rad.
+        low: Least stiffness of the actuator, N·m/rad.
+        high: Its greatest stiffness, N·m/rad.
+    """
     held = min(max(stiffness_nm_per_rad, low), high)
     share = math.log(held / low) / math.log(high / low)
     return min(int(share * _STIFFNESS_STEPS), _STIFFNESS_STEPS - 1)

@@ -77,9 +77,37 @@ def build_connector() -> Group:
     return [
         look.paint(join([shaft]), look.STEEL),
         look.paint(join([back, front, *posts, *lugs, *slot, pointer]), look.PRINCIPAL),
+        *build_stiffness_motor(),
+        look.paint(join([make_ring(0.78, 0.88, (0.6, 0.76))]), look.STEEL),
+    ]
+
+
+def build_carrier() -> Group:
+    """Disc on the principal motor's shaft (θ1) of an actuator other than the SVSA: ring, bearing
+    of the link and pointer.
+    """
+    shaft = make_disc(0.16, (-1.7, 0.6))
+    back = make_disc(0.7, (-1.45, -1.33), bevel=0.025)
+    front = make_disc(0.92, (0.46, 0.6), bevel=0.025)
+    posts = [
+        make_disc(0.055, (-1.4, 0.48), at=(0.62 * np.cos(t), 0.62 * np.sin(t)))
+        for t in np.radians([45.0, 135.0, 225.0, 315.0])
+    ]
+    pointer = make_plate(
+        [(-1.2, -0.012), (-0.88, -0.035), (-0.88, 0.035), (-1.2, 0.012)], (0.48, 0.58)
+    )
+    return [
+        look.paint(join([shaft]), look.STEEL),
+        look.paint(join([back, front, *posts, pointer]), look.PRINCIPAL),
+        look.paint(join([make_ring(0.78, 0.88, (0.6, 0.76))]), look.STEEL),
+    ]
+
+
+def build_stiffness_motor() -> Group:
+    """Body of the stiffness motor, which the principal motor carries."""
+    return [
         look.paint(join([make_disc(0.4, (-1.33, -0.4), bevel=0.05)]), look.SECONDARY),
         look.paint(join([make_disc(0.36, (-0.4, 0.02), bevel=0.03)]), look.DARK),
-        look.paint(join([make_ring(0.78, 0.88, (0.6, 0.76))]), look.STEEL),
     ]
 
 
@@ -144,6 +172,22 @@ def build_link() -> Group:
     return [
         look.paint(join([ring, arm, hinge, lug, pointer, *walls, *feet]), look.LINK),
         look.paint(join([make_tube(rod, 0.028), *pins, tip]), look.STEEL),
+    ]
+
+
+def build_plain_link() -> Group:
+    """Output link (q) of an actuator other than the SVSA: ring, arm, hook for the load."""
+    ring = make_ring(0.78, 0.9, (0.76, 0.88), bevel=0.03)
+    arm = make_bar((0.85, 0.0, 0.2), (1.4, 0.0, 0.12), (0.78, 0.9))
+    pointer = make_plate(
+        [(-1.24, -0.012), (-0.88, -0.035), (-0.88, 0.035), (-1.24, 0.012)], (0.8, 0.9)
+    )
+    hook = make_disc(0.045, (0.86, HOOK_Z + 0.06), at=(LOAD_ARM, 0.0))
+    lug = make_bar((LOAD_ARM, 0.0, 0.06), (0.85, 0.0, 0.1), (0.78, 0.86))
+    tip = make_disc(0.075, (0.88, 0.94), at=(1.4, 0.0))
+    return [
+        look.paint(join([ring, arm, lug, pointer]), look.LINK),
+        look.paint(join([hook, tip]), look.STEEL),
     ]
 
 

@@ -10,6 +10,8 @@ from typing import NamedTuple
 
 import viser
 
+from svsa.actuators.mechanism import Mechanism
+from svsa.actuators.parameters import SVSA
 from svsa_scene.mechanism import SECTOR_Z
 
 Point = tuple[float, float, float]
@@ -49,8 +51,16 @@ def add_label(server: viser.ViserServer, node: str, text: str, place: Point) -> 
     )
 
 
-def add_part_labels(server: viser.ViserServer) -> None:
-    """The symbols in sight; the names hidden."""
-    for one in (*SYMBOLS, *NAMES):
+def add_part_labels(server: viser.ViserServer, mechanism: Mechanism) -> None:
+    """Add the symbols in sight, and the names of the parts, hidden.
+
+    Of another actuator than the SVSA only the motors have a name; θ2 and its motor are left out if
+    there is none.
+    """
+    names = NAMES if mechanism.name == SVSA else NAMES[:2]
+    missing = set() if mechanism.has_stiffness_motor else {"/a/t2", "/a/n2"}
+    for one in (*SYMBOLS, *names):
+        if one.node in missing:
+            continue
         server.scene.add_frame(one.node, show_axes=False, visible=one in SYMBOLS)
         add_label(server, f"{one.node}/t", one.text, one.place)

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from svsa.actuators.parameters import MechanismParameters
 from svsa.errors import ParameterError, SvsaError, Violation
 from svsa.runs.events import Event
 from svsa.runs.records.measured_window import MeasuredWindow
@@ -53,6 +54,7 @@ def build_replay_html(
     first_tick: int = 0,
     segments: Sequence[Sequence[LaneSegment]] | None = None,
     window: MeasuredWindow | None = None,
+    actuator: MechanismParameters | None = None,
 ) -> str:
     """The run as a page of HTML.
 
@@ -65,6 +67,8 @@ def build_replay_html(
     values stand in its header. events: marked on the plots, as far as they are of these samples.
     window: in which the page measures; left out, the whole run. first_tick: tick of the first
     sample, as events and window count; the page's time begins there at 0.
+
+    actuator: parameters of the plant, which name the actuator; left out, the SVSA.
 
     Takes some seconds and starts viser on a loopback port meanwhile: call it in a thread. Raises
     `ParameterError` for arrays that do not fit, `ReplayError` where the page was not built.
@@ -83,7 +87,7 @@ def build_replay_html(
         end = first_tick + len(samples)
         times = first_tick * period_s, end * period_s
         window = MeasuredWindow("start", "", first_tick, end, *times, True, tuple(lanes))
-    motion = record_motion(samples, channels, segments, period_s, mass, pack)
+    motion = record_motion(samples, channels, segments, period_s, mass, pack, actuator)
     run = {
         "title": title,
         "period_s": period_s,

@@ -17,6 +17,7 @@ import numpy.typing as npt
 import viser
 import zstandard
 
+from svsa.actuators.parameters import MechanismParameters
 from svsa_scene import appearance as look
 from svsa_scene import mechanism
 from svsa_scene.geometry import turn
@@ -57,17 +58,19 @@ def record_motion(
     period_s: float,
     load_mass_kg: npt.NDArray[np.float64],
     pack: ArrayPack,
+    parameters: MechanismParameters | None = None,
 ) -> Motion:
     """The first lane as the actuator, every other lane as the outline of its link, one for
     each of its controllers that is seen while that one controls.
 
+    parameters: of the plant, which name the actuator; left out, those of the SVSA.
     30 frames a second of the run, fewer where that would be more than `MAX_FRAMES`.
     """
     stride = max(1, round(1.0 / (RATE_HZ * period_s)), math.ceil(len(samples) / MAX_FRAMES))
     columns = [channels.index(name) for name in POSE_CHANNELS]
     position = channels.index("position_rad")
     with _start_viser() as server:
-        scene = ActuatorScene(server)
+        scene = ActuatorScene(server, parameters)
         named = len(lanes) == _MAX_NAMED
         ghosts = [_Ghosts(server, lane, lanes[lane], named) for lane in range(1, len(lanes))]
         html = _hide_viser_controls(server.get_scene_serializer().as_html())

@@ -7,6 +7,8 @@ from functools import cache
 import trimesh
 import viser
 
+from svsa.actuators.installed import find_mechanism, get_mechanism
+from svsa.actuators.parameters import SVSA, MechanismParameters
 from svsa_scene import appearance as look
 from svsa_scene import mechanism
 from svsa_scene.arrows import TorqueArrows
@@ -23,14 +25,27 @@ from svsa_scene.linkage import (
 from svsa_scene.moved import Moved
 from svsa_scene.names import add_label, add_part_labels
 from svsa_scene.pose import ActuatorPose
+from svsa_scene.schematic import Schematic
 
 _ON_MASS = (1.14, 0.0, mechanism.HOOK_Z + 0.39)
 
 
 class ActuatorScene:
-    """The serial variable stiffness actuator as every viewer of a viser server sees it."""
+    """An actuator as every viewer of a viser server sees it.
 
-    def __init__(self, server: viser.ViserServer) -> None:
+    parameters: of the plant, which name the actuator; left out, those of the SVSA. Another actuator
+    than the SVSA has the same motors, link, reference, load and arrows, and the parts that its file
+    draws.
+    """
+
+    def __init__(
+        self, server: viser.ViserServer, parameters: MechanismParameters | None = None
+    ) -> None:
+        mechanism_of = get_mechanism(SVSA) if parameters is None else find_mechanism(parameters)
+        self._mechanism = mechanism_of
+        self._parameters = parameters or mechanism_of.prototype
+        limits = mechanism_of.limits
+        self._range = limits.stiffness_min_nm_per_rad, limits.stiffness_max_nm_per_rad
         self._server = server
         self._moved = Moved()
         self._stiffness_step = 0
@@ -50,35 +65,49 @@ class ActuatorScene:
         if not pose.is_finite:
             return
         linkage = compute_linkage(pose)
+        stiffness = pose.stiffness_nm_per_rad
         with self._server.atomic():
             self._turn("link", self._link, pose.position_rad)
             self._turn("connector", self._connector, pose.motor1_position_rad)
             self._turn("ghost", self._ghost, pose.position_reference_rad)
-            self._move_linkage(linkage)
+            if self._schematic is None:
+                self._move_linkage(linkage)
+            else:
+                self._schematic.move(pose, linkage.deflection)
             self._move_deflection(linkage.deflection)
             self._limit.show(pose.deflection_limit_rad)
             self._move_load(pose.position_rad, pose.load_mass_kg)
             self._arrows.show(pose)
             self._comparisons.show(pose.comparisons)
-            self._color_springs(look.compute_stiffness_step(pose.stiffness_nm_per_rad))
+            self._color_springs(look.compute_stiffness_step(stiffness, *self._range))
 
     def _build(self) -> None:
         scene = self._server.scene
         half = math.sqrt(0.5)
         scene.add_frame("/a", show_axes=False, wxyz=(half, 0.0, half, 0.0))
         self._add("/a/stand", mechanism.build_stand)
-        self._connector = self._add("/a/c", mechanism.build_connector)
-        self._plate = self._add("/a/c/s", mechanism.build_spiral_plate)
-        self._pivot = self._add("/a/c/p", mechanism.build_pivot)
+        self._schematic: Schematic | None = None
+        if self._mechanism.name == SVSA:
+            self._connector = self._add("/a/c", mechanism.build_connector)
+            self._plate = self._add("/a/c/s", mechanism.build_spiral_plate)
+            self._pivot = self._add("/a/c/p", mechanism.build_pivot)
+            self._link = self._add("/a/l", mechanism.build_link)
+            self._lever = self._add("/a/l/v", mechanism.build_lever)
+            self._lever.position = (-RADIUS, 0.0, 0.0)
+            self._block = self._add("/a/l/b", mechanism.build_block)
+            self._add_springs()
+        else:
+            self._connector = self._add("/a/c", mechanism.build_carrier)
+            if self._mechanism.has_stiffness_motor:
+                self._add("/a/c/m2", mechanism.build_stiffness_motor)
+            self._link = self._add("/a/l", mechanism.build_plain_link)
+            self._schematic = Schematic(
+                self._server, self._moved, self._mechanism, self._parameters
+            )
         self._limit = DeflectionLimit(self._server, self._moved)
-        self._link = self._add("/a/l", mechanism.build_link)
-        self._lever = self._add("/a/l/v", mechanism.build_lever)
-        self._lever.position = (-RADIUS, 0.0, 0.0)
-        self._block = self._add("/a/l/b", mechanism.build_block)
         self._ghost = self._add("/a/g", mechanism.build_ghost)
         self._load = self._add("/a/w", mechanism.build_load)
         self._load.visible = False
-        self._add_springs()
         self._add_sector()
         self._add_labels()
         self._arrows = TorqueArrows(self._server, self._moved)
@@ -117,7 +146,7 @@ class ActuatorScene:
         )
 
     def _add_labels(self) -> None:
-        add_part_labels(self._server)
+        add_part_labels(self._server, self._mechanism)
         self._mass_label = add_label(self._server, "/a/w/t", "3 kg", _ON_MASS)
 
     def _turn(self, key: str, node: viser.SceneNodeHandle, angle: float) -> None:
@@ -154,10 +183,15 @@ class ActuatorScene:
                 self._mass_label.text = f"{mass_kg:.3g} kg"
 
     def _color_springs(self, step: int) -> None:
-        if step != self._stiffness_step:
-            self._stiffness_step = step
-            for spring in self._springs:
-                spring.color = look.get_stiffness_color(step)
+        if step == self._stiffness_step:
+            return
+        self._stiffness_step = step
+        color = look.get_stiffness_color(step)
+        if self._schematic is not None:
+            self._schematic.color(color)
+            return
+        for spring in self._springs:
+            spring.color = color
 
 
 @cache

@@ -16,6 +16,7 @@ import "./lab/panels/shaped.css";
 import "./core/widgets/page.css";
 import "./core/widgets/panel.css";
 import "./core/widgets/tables.css";
+import "./lab/actuators/actuators.css";
 import "./lab/design/design.css";
 import "./lab/design/plane.css";
 import "./lab/design/stability.css";

@@ -3,11 +3,16 @@
 U(φ, s) = ½ k_l (s/(1 − s))² sin²φ, with s the position of the pivot over the length of the lever.
 """
 
+import math
 from typing import Any, Literal
 
+from svsa.actuators.drawing import Part, hold, place
 from svsa.actuators.mechanism import PAPERS_DAMPING_NMS_PER_RAD, PAPERS_INERTIA, Mechanism, perturb
 from svsa.actuators.parameters import Limits, MechanismParameters
 from svsa.inputs.checked import Number, quantity
+
+_PIN, _LEVER = 0.62, 0.9
+"""Drawn: radius of the pin of the link, length L of the lever."""
 
 
 class Awas2Parameters(MechanismParameters):
@@ -25,6 +30,23 @@ class Awas2Parameters(MechanismParameters):
 def compute_energy(phi: Any, s: Any, p: Any, m: Any) -> Any:
     """U = ½ k_l (s/(1 − s))² sin²φ, J."""
     return p.lever_stiffness_nm_per_rad * (s / (1 - s)) ** 2 * m.sin(phi) ** 2 / 2
+
+
+def draw(p: Any, s: float, phi: float) -> tuple[Part, ...]:
+    """Lever from the pin of the link over the pivot to the springs: s L and (1 − s) L."""
+    pin = place(_PIN, math.pi + phi)
+    pivot = -_PIN + (1.0 - s) * _LEVER, 0.0
+    offset = hold(s / (1.0 - s) * _PIN * math.sin(phi), -0.42, 0.42)
+    inner = -_PIN + _LEVER, offset
+    walls = [(inner[0], side * 0.62) for side in (1, -1)]
+    return (
+        Part("rod", "lever", pin, pivot),
+        Part("rod", "lever", pivot, inner),
+        *(Part("spring", "motor1", wall, inner) for wall in walls),
+        Part("pin", "motor2", pivot, pivot),
+        Part("pin", "link", pin, pin),
+        *(Part("pin", "motor1", wall, wall) for wall in walls),
+    )
 
 
 _PROTOTYPE = Awas2Parameters(
@@ -46,6 +68,7 @@ AWAS2 = Mechanism(
     elastic=("lever_stiffness_nm_per_rad",),
     energy=compute_energy,
     coordinate=(0.05, 0.9),
+    draw=draw,
     compute_slope=lambda p: p.pivot_slope_per_rad,
     prototype=_PROTOTYPE,
     nominal=perturb(_PROTOTYPE, PAPERS_INERTIA, PAPERS_DAMPING_NMS_PER_RAD),

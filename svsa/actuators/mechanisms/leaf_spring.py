@@ -3,11 +3,16 @@
 U(φ, s) = c φ²/(2 s³): an example, not a built actuator. The torque is linear in φ.
 """
 
+import math
 from typing import Any, Literal
 
+from svsa.actuators.drawing import Part, hold, place
 from svsa.actuators.mechanism import PAPERS_DAMPING_NMS_PER_RAD, PAPERS_INERTIA, Mechanism, perturb
 from svsa.actuators.parameters import Limits, MechanismParameters
 from svsa.inputs.checked import Number, quantity
+
+_PIN, _UNITS_PER_M = 0.72, 4.0
+"""Drawn: radius of the pin of the link, and its scale."""
 
 
 class LeafSpringParameters(MechanismParameters):
@@ -23,6 +28,18 @@ class LeafSpringParameters(MechanismParameters):
 def compute_energy(phi: Any, s: Any, p: Any, m: Any) -> Any:
     """U = c φ²/(2 s³), J."""
     return p.bending_nm_m3 * phi**2 / (2 * s**3)
+
+
+def draw(p: Any, s: float, phi: float) -> tuple[Part, ...]:
+    """Leaf from the joint to the pin of the link; free behind the roller over the length s."""
+    pin = place(_PIN, math.pi + phi)
+    roller = -_PIN + hold(_UNITS_PER_M * s, 0.05, _PIN), 0.0
+    return (
+        Part("rod", "motor1", (0.0, 0.0), roller),
+        Part("leaf", "lever", roller, pin),
+        Part("pin", "motor2", roller, roller),
+        Part("pin", "link", pin, pin),
+    )
 
 
 _PROTOTYPE = LeafSpringParameters(
@@ -44,6 +61,7 @@ LEAF_SPRING = Mechanism(
     elastic=("bending_nm_m3",),
     energy=compute_energy,
     coordinate=(0.02, 0.5),
+    draw=draw,
     compute_slope=lambda p: -p.roller_m_per_rad,
     prototype=_PROTOTYPE,
     nominal=perturb(_PROTOTYPE, PAPERS_INERTIA, PAPERS_DAMPING_NMS_PER_RAD),

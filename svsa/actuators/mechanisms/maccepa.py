@@ -5,9 +5,12 @@ U(φ, s) = ½ κ_s (√(B² + C² − 2BC cos φ) − (C − B) + s)², with the
 
 from typing import Any, Literal
 
+from svsa.actuators.drawing import Part, hold, place
 from svsa.actuators.mechanism import PAPERS_DAMPING_NMS_PER_RAD, PAPERS_INERTIA, Mechanism, perturb
 from svsa.actuators.parameters import Limits, MechanismParameters
 from svsa.inputs.checked import Number, quantity
+
+_UNITS_PER_M = 10.0
 
 
 class MaccepaParameters(MechanismParameters):
@@ -25,6 +28,21 @@ def compute_energy(phi: Any, s: Any, p: Any, m: Any) -> Any:
     B, C = p.arm_m, p.distance_m
     length = m.sqrt(B**2 + C**2 - 2 * B * C * m.cos(phi))
     return p.spring_stiffness_n_per_m * (length - (C - B) + s) ** 2 / 2
+
+
+def draw(p: Any, s: float, phi: float) -> tuple[Part, ...]:
+    """Lever arm B on motor 1, spring to the point C of the link, pretension s along the link."""
+    arm = _UNITS_PER_M * p.arm_m, 0.0
+    far = _UNITS_PER_M * p.distance_m
+    point, drawn_in = place(far, phi), place(far + hold(_UNITS_PER_M * s, 0.0, 0.5), phi)
+    return (
+        Part("rod", "motor1", (0.0, 0.0), arm),
+        Part("spring", "lever", arm, point),
+        Part("rod", "motor2", point, drawn_in),
+        Part("pin", "motor1", arm, arm),
+        Part("pin", "link", point, point),
+        Part("pin", "motor2", drawn_in, drawn_in),
+    )
 
 
 _PROTOTYPE = MaccepaParameters(
@@ -48,6 +66,7 @@ MACCEPA = Mechanism(
     elastic=("spring_stiffness_n_per_m", "arm_m", "distance_m"),
     energy=compute_energy,
     coordinate=(0.0005, 0.2),
+    draw=draw,
     compute_slope=lambda p: p.pulley_m,
     prototype=_PROTOTYPE,
     nominal=perturb(_PROTOTYPE, PAPERS_INERTIA, PAPERS_DAMPING_NMS_PER_RAD),

@@ -5,13 +5,17 @@ decouple, B1 = B2 = 2B, u1 = ua + ub, u2 = ua − ub, and U(φ, s) = (2k/a) cosh
 A stiffness σ_d is possible only for |τ_e| < σ_d/a: 0.17 N·m at 1.5 N·m/rad, 0.89 at 8.
 """
 
+import math
 from typing import Any, Literal
 
+from svsa.actuators.drawing import Part, place
 from svsa.actuators.mechanism import PAPERS_DAMPING_NMS_PER_RAD, PAPERS_INERTIA, Mechanism, perturb
 from svsa.actuators.parameters import Limits, MechanismParameters
 from svsa.inputs.checked import Number, quantity
 
 _MODELS = "public Gazebo models of the ViActors project"
+_REST_RAD = 0.7
+"""Angle between the drawn arm of a motor and the pin of the link at s = 0."""
 _TORQUE = f"{_MODELS}: 6 N·m a motor"
 
 
@@ -27,6 +31,19 @@ def compute_energy(phi: Any, s: Any, p: Any, m: Any) -> Any:
     """U = (2k/a) cosh(aφ) cosh(as), J."""
     a, k = p.rate_per_rad, p.spring_torque_nm
     return 2 * k / a * m.cosh(a * phi) * m.cosh(a * s)
+
+
+def draw(p: Any, s: float, phi: float) -> tuple[Part, ...]:
+    """Arms of motors a and b at ±s, each with a spring to the pin of the link."""
+    pin = place(0.62, math.pi + phi)
+    tips = [place(0.62, math.pi + side * (_REST_RAD + s)) for side in (1, -1)]
+    return (
+        Part("rod", "link", (0.0, 0.0), pin),
+        *(Part("rod", "motor1", (0.0, 0.0), tip) for tip in tips),
+        *(Part("spring", "motor2", tip, pin) for tip in tips),
+        Part("pin", "link", pin, pin),
+        *(Part("pin", "motor1", tip, tip) for tip in tips),
+    )
 
 
 _PROTOTYPE = QbmoveParameters(
@@ -48,6 +65,7 @@ QBMOVE = Mechanism(
     elastic=("rate_per_rad", "spring_torque_nm"),
     energy=compute_energy,
     coordinate=(0.02, 0.8),
+    draw=draw,
     compute_slope=lambda p: 1.0,
     prototype=_PROTOTYPE,
     nominal=perturb(_PROTOTYPE, PAPERS_INERTIA, PAPERS_DAMPING_NMS_PER_RAD),

@@ -9,6 +9,8 @@ from svsa.actuators.installed import get_mechanism, list_mechanism_names
 from svsa.actuators.mechanism import Mechanism
 from svsa.actuators.parameters import Limits
 from svsa.actuators.reach import find_only_stiffness
+from svsa.analysis.datasheet.measure import Datasheet, Preset, Variation
+from svsa.analysis.datasheet.rows import list_rows
 from svsa.runs.experiment import build_default_load, choose_stiffness
 from svsa.simulation.plant.loads.constant import ConstantLoad
 from svsa_server.schemas.lab.parameter import ParameterState, list_parameters
@@ -46,6 +48,36 @@ class ActuatorState(ActuatorSummary):
     parameters: list[ActuatorParameterState]
     limit_sources: dict[str, str] = Field(description="Source of each limit, by its name")
     datasheet: str = Field(description="Address of its datasheet, below /api/v1")
+
+
+class DatasheetState(BaseModel):
+    """A datasheet (Grioli et al., IJRR 2015), measured on the simulated plant.
+
+    Variations and the range at nominal torque are null where the actuator does not reach them.
+    """
+
+    name: str
+    title: str
+    source: str
+    peak_torque_nm: float = Field(description="Largest torque that spring and motor 1 hold")
+    nominal_torque_nm: float = Field(description="Half of the peak torque, assumed")
+    stiffness_range_nm_per_rad: tuple[float, float]
+    stiffness_range_at_nominal_nm_per_rad: tuple[float, float] | None
+    variation_unloaded: Variation | None
+    variation_loaded: Variation | None
+    deflection_max_rad: float
+    elastic_energy_max_j: float
+    presets: list[Preset]
+    torque_stiffness: list[tuple[float, float, float]] = Field(
+        description="Torque, N·m, least and greatest stiffness at it, N·m/rad"
+    )
+    assumed: list[str] = Field(description="Parameters and limits without a published source")
+    rows: list[tuple[str, str]] = Field(description="Its numbers in words: quantity, value")
+
+
+def describe_datasheet(found: Datasheet) -> DatasheetState:
+    """A datasheet, with its numbers in words."""
+    return DatasheetState(**vars(found), rows=list_rows(found))
 
 
 @cache

@@ -36,7 +36,8 @@ function Here() {
   const at = place.value;
   return isOfRuns(at) ? (
     <Runs at={at} />
-  ) : at.kind === "ranking" ||
+  ) : at.kind === "actuators" ||
+    at.kind === "ranking" ||
     at.kind === "leaderboard" ||
     at.kind === "grades" ||
     at.kind === "studies" ||

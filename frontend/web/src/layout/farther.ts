@@ -2,5 +2,6 @@
 export { FalsifierPage as falsifier } from "../evaluation/falsifier/page";
 export { RankingPage as ranking } from "../evaluation/ranking/page";
 export { StudiesPage as studies } from "../evaluation/studies/page";
+export { ActuatorsPage as actuators } from "../lab/actuators/page";
 export { GradesPage as grades } from "../teaching/grades/page";
 export { LeaderboardPage as leaderboard } from "../teaching/leaderboard/page";

@@ -12,6 +12,7 @@ type Page =
   | "lab"
   | "learn"
   | "runs"
+  | "actuators"
   | "ranking"
   | "leaderboard"
   | "grades"
@@ -21,6 +22,7 @@ const PAGES: Readonly<Record<Page, Place>> = {
   lab: { kind: "lab" },
   learn: { kind: "learn", exercise: "", step: "" },
   runs: { kind: "list" },
+  actuators: { kind: "actuators", actuator: "" },
   ranking: { kind: "ranking" },
   leaderboard: { kind: "leaderboard", entry: "" },
   grades: { kind: "grades" },
@@ -39,7 +41,11 @@ const shownPages = computed(() =>
 const pageOf = (at: Place): Page => (isOfRuns(at) ? "runs" : at.kind);
 
 const EVALUATION: readonly Page[] = ["ranking", "leaderboard", "studies", "falsifier"];
-const GROUPS: readonly (readonly Page[])[] = [["lab", "runs"], ["learn", "grades"], ["ranking"]];
+const GROUPS: readonly (readonly Page[])[] = [
+  ["lab", "runs", "actuators"],
+  ["learn", "grades"],
+  ["ranking"],
+];
 
 interface TabProps {
   page: Page;

@@ -1,3 +1,4 @@
+import { SVSA } from "../core/state/actuators";
 import { theme, toggleTheme } from "../core/state/preferences";
 import { isLive, session } from "../core/state/session";
 import { text } from "../core/text/en";
@@ -38,13 +39,18 @@ export function TopBar() {
   return (
     <header class={isLab && !isBasic.value ? "topbar is-full" : "topbar"}>
       <h1>
-        {text.name} <small>{text.subtitle}</small>
+        {text.name}{" "}
+        <small>
+          {isLab && state && state.actuator.name !== SVSA ? state.actuator.title : text.subtitle}
+        </small>
       </h1>
       <Tabs />
       {isLab && state && (
         <div class="row topbar-controls">
           <fieldset disabled={!isLive.value} aria-label={text.session}>
-            {!isLesson && !isBasic.value && <FigurePicker state={state} />}
+            {!isLesson && !isBasic.value && state.actuator.name === SVSA && (
+              <FigurePicker state={state} />
+            )}
             {state.bench === null && <Transport state={state} isBasic={isBasic.value} />}
             {((!isLesson && !isBasic.value) || state.recording !== null) && (
               <RecordButton state={state} />

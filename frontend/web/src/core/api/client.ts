@@ -4,7 +4,6 @@ import { learnOutcome } from "./outcome";
 import { API, client, LONGEST_WAIT_MS, request, sessionName } from "./request";
 import type {
   ActuatorParameters,
-  ActuatorRow,
   Axis,
   Body,
   Configuration,
@@ -117,7 +116,6 @@ export const putLane = (lane: number, controller: Lane) =>
   send("put", `/lanes/${lane}`, controller);
 export const readKinds = () => request("get", "kinds") as Promise<Kinds>;
 export const putEffects = (effects: EffectsRequest) => send("put", "/effects", effects);
-export const readActuators = () => request("get", "actuators") as Promise<ActuatorRow[]>;
 /** patch: parameters by name; the session's actuator checks them. */
 export const patchActuator = (patch: ActuatorParameters) => send("patch", "/actuator", patch);
 export const patchNominal = (patch: ActuatorParameters) => send("patch", "/nominal", patch);

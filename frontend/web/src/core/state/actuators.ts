@@ -1,6 +1,6 @@
 /** The actuators of the lab, as each describes itself. */
 import { signal } from "@preact/signals";
-import { readActuators } from "../api/client";
+import { readActuators } from "../api/actuators";
 import type { ActuatorParameters, ActuatorRow } from "../api/types";
 
 const RETRY_MS = 2000;

@@ -65,7 +65,7 @@ export function toggleWeight(): Promise<boolean> {
     if (state === null) return false;
     const isHung = hungWeights(state).length > 0;
     return perform(CONTROL.load, () =>
-      isHung ? removeWeights(state) : addLoad(nextWeight(state.bench)),
+      isHung ? removeWeights(state) : addLoad(nextWeight(state)),
     );
   });
   return answered;

@@ -34,6 +34,8 @@ export const controlsText = {
     constant: "Constant",
     sine: "Sine",
     level: "Stiffness",
+    fixed: (actuator: string, sigma: string) =>
+      `${actuator}: ${sigma} N·m/rad. The actuator has no stiffness motor.`,
     throughout: "Stiffness at all times",
     mean: "Mean",
     amplitude: "Amplitude",
@@ -123,6 +125,12 @@ export const controlsText = {
     mass: "Hanging mass",
     paperDoes: "The button adds 2 N·m to the link and to both motors, as published.",
     massDoes: "The button hangs 3 kg on a 68 mm arm: gravity turns with the link, inertia grows.",
+    addTorque: "Add load",
+    removeTorque: "Remove load",
+    torqueSign: "τ",
+    torqueShort: (torque: string) => `${torque} N·m on the link`,
+    torqueDoes:
+      "The button adds a torque on the link that the actuator holds at its default stiffness.",
     removeThis: (what: string) => `Remove ${what}`,
     removeAll: "Remove all loads",
     custom: "Custom torque",

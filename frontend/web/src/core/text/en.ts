@@ -1,4 +1,5 @@
 /** Every word of the page, by area. */
+import { actuatorsText } from "./actuators";
 import { benchText } from "./bench";
 import { classroomText, gradesText } from "./classroom";
 import { controlText } from "./control";
@@ -19,6 +20,7 @@ import { studiesText } from "./studies";
 
 export const text = {
   ...pageText,
+  ...actuatorsText,
   ...plotsText,
   ...controlsText,
   ...controlText,

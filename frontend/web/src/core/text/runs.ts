@@ -231,7 +231,8 @@ export const runsText = {
   private: {
     label: "Private session",
     origin: "Continued from",
-    title: "Private session.",
+    titleOf: (actuator: string) =>
+      actuator === "" ? "Private session." : `Private session: ${actuator}.`,
     text: "Only this page shows it. It ends automatically when unused.",
     endedTitle: "This private session has ended.",
     endedText: "It was unused, ended by a user, or ended by a restart of the server.",

@@ -15,14 +15,14 @@ import { Choice, Problem } from "../../core/widgets/form";
 import { CustomLoad } from "./customload";
 import { Group } from "./group";
 
-const FORMS: readonly { value: WeightForm; label: string }[] = [
+const FORMS: readonly { value: Exclude<WeightForm, "torque">; label: string }[] = [
   { value: "paper", label: text.load.paper },
   { value: "mass", label: text.load.mass },
 ];
 
 /** Whether a load acts or comes that is not the button's. */
 export const hasOtherLoads = (state: SessionState): boolean =>
-  !presentLoads(state).every((row) => row.active && isWeight(row));
+  !presentLoads(state).every((row) => row.active && isWeight(state, row));
 
 function LoadRows({ state }: { state: SessionState }) {
   const rows = presentLoads(state);
@@ -61,18 +61,26 @@ function LoadRows({ state }: { state: SessionState }) {
 }
 
 /** What 3 kg are in a simulation and on the emulator. */
-function FormPicker({ state: { bench } }: { state: SessionState }) {
+function FormPicker({ state }: { state: SessionState }) {
+  const form = formOfNext(state);
+  if (form === "torque") return null;
   return (
     <Choice
       label={text.load.form}
       options={FORMS}
-      value={formOfNext(bench)}
+      value={form}
       onChoose={(form) => {
         chosenForm.value = form;
       }}
     />
   );
 }
+
+const words = {
+  paper: text.load.paperDoes,
+  mass: text.load.massDoes,
+  torque: text.load.torqueDoes,
+} as const;
 
 export function Loads({ state }: { state: SessionState }) {
   const [isShown, show] = useState(false);
@@ -85,9 +93,7 @@ export function Loads({ state }: { state: SessionState }) {
   }
   return (
     <Group title={text.load.title} topic="load" aside={<FormPicker state={state} />}>
-      <p class="hint is-about">
-        {formOfNext(state.bench) === "paper" ? text.load.paperDoes : text.load.massDoes}
-      </p>
+      <p class="hint is-about">{words[formOfNext(state)]}</p>
       <LoadRows state={state} />
       <Problem control="load.rows" />
       <details class="more" onToggle={(event) => show(event.currentTarget.open)}>

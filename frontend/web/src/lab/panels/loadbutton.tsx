@@ -12,18 +12,19 @@ import {
 } from "../../core/state/plant";
 import { isLive } from "../../core/state/session";
 import { text } from "../../core/text/en";
+import { formatNumber } from "../../core/units";
 import { Problem } from "../../core/widgets/form";
 import { EnduranceNote } from "../../hardware/endurance";
 
 /** A mass on a cord, or the paper's torques: these have no mass and do not hang. */
 function WeightPicture({ isHung, form }: { isHung: boolean; form: WeightForm }) {
-  if (form === "paper") {
+  if (form !== "mass") {
     return (
       <svg class="weight" viewBox="0 0 48 48" aria-hidden="true">
         <path class="weight-ring" d="M9 36a17 17 0 1 1 30 0" />
         <path class="weight-body" d="M33 33l13 1-8 10z" />
         <text class="weight-torque" x="24" y="31" text-anchor="middle">
-          {text.load.torque2}
+          {form === "paper" ? text.load.torque2 : text.load.torqueSign}
         </text>
       </svg>
     );
@@ -43,21 +44,26 @@ function WeightPicture({ isHung, form }: { isHung: boolean; form: WeightForm }) 
 /** Of the load that acts, else of the one that the button adds. */
 function formOf(state: SessionState): WeightForm {
   const [hung] = hungWeights(state);
-  if (hung !== undefined) return hung.load.kind === "paper" ? "paper" : "mass";
-  return formOfNext(state.bench);
+  if (hung === undefined || formOfNext(state) === "torque") return formOfNext(state);
+  return hung.load.kind === "paper" ? "paper" : "mass";
 }
 
 function caption(state: SessionState, isHung: boolean): string {
   if (!isLive.value) return text.status.notKnown;
   if (isRealBench(state.bench)) return isHung ? text.load.marked : text.load.mark;
-  if (isHung) return formOf(state) === "paper" ? text.load.acts : text.load.hangs;
+  const form = formOf(state);
+  const torque = text.load.torqueShort(formatNumber(Math.abs(state.actuator.load.torque_nm[0])));
+  if (isHung && form === "torque") return torque;
+  if (isHung) return form === "paper" ? text.load.acts : text.load.hangs;
   const next = nextWeightAt(state);
   if (next !== null) return text.load.comesAt(next);
-  return formOf(state) === "paper" ? text.load.paperShort : text.load.massShort;
+  if (form === "torque") return torque;
+  return form === "paper" ? text.load.paperShort : text.load.massShort;
 }
 
 function words(state: SessionState, isHung: boolean): string {
   if (isRealBench(state.bench)) return isHung ? text.load.markRemoved : text.load.markHung;
+  if (formOfNext(state) === "torque") return isHung ? text.load.removeTorque : text.load.addTorque;
   return isHung ? text.load.remove : text.load.hang;
 }
 
@@ -87,7 +93,7 @@ export function LoadButton({ state }: { state: SessionState }) {
           <small>{caption(state, isHung)}</small>
         </span>
       </button>
-      <EnduranceNote load={isHung ? null : nextWeight(state.bench)} />
+      <EnduranceNote load={isHung ? null : nextWeight(state)} />
       <Problem control={CONTROL.load} />
     </div>
   );

@@ -4,21 +4,36 @@ import type { Sent, SessionState, StiffnessReference } from "../../core/api/type
 import { shownAs } from "../../core/quantities";
 import { standing } from "../../core/state/meanwhile";
 import { text } from "../../core/text/en";
+import { formatNumber } from "../../core/units";
 import type { SliderRange } from "../../core/widgets/scale";
 import { Field } from "./field";
+import { Group } from "./group";
 import { ReferenceGroup } from "./reference";
 
 type Sine = Extract<StiffnessReference, { kind: "sine" }>;
 
-/** What the mechanism can reach, N·m/rad. */
-const REACH: SliderRange = { min: 1.7, max: 150.56, logarithmic: true };
+const AMPLITUDE_SHARE = 0.2;
+const AMPLITUDE_STEPS = 60;
+
+/** The stiffness range of the session's actuator, N·m/rad. */
+const reachOf = ({ configuration: { limits } }: SessionState): SliderRange => ({
+  min: limits.stiffness_min_nm_per_rad,
+  max: limits.stiffness_max_nm_per_rad,
+  logarithmic: true,
+});
+
+/** Amplitudes up to a fifth of the range, in two digits. */
+function amplitudesOf({ min, max }: SliderRange): SliderRange {
+  const most = Number((AMPLITUDE_SHARE * (max - min)).toPrecision(2));
+  return { min: 0, max: most, step: most / AMPLITUDE_STEPS };
+}
 const KINDS = [
   { value: "constant", label: text.stiffness.constant },
   { value: "sine", label: text.stiffness.sine },
   { value: "other", label: text.references.other },
 ] as const;
 
-function SineFields({ reference }: { reference: Sine }) {
+function SineFields({ reference, reach }: { reference: Sine; reach: SliderRange }) {
   const send = (change: Partial<Sine>) =>
     putStiffness({ ...standing("stiffness", reference), ...change });
   return (
@@ -27,14 +42,14 @@ function SineFields({ reference }: { reference: Sine }) {
         name="stiffness.offset"
         {...shownAs("offset_nm_per_rad")}
         value={reference.offset_nm_per_rad}
-        range={REACH}
+        range={reach}
         send={(value) => send({ offset_nm_per_rad: value })}
       />
       <Field
         name="stiffness.amplitude"
         {...shownAs("amplitude_nm_per_rad")}
         value={reference.amplitude_nm_per_rad}
-        range={{ min: 0, max: 30, step: 0.5 }}
+        range={amplitudesOf(reach)}
         send={(value) => send({ amplitude_nm_per_rad: value })}
       />
       <Field
@@ -49,26 +64,41 @@ function SineFields({ reference }: { reference: Sine }) {
 }
 
 /** What to hold, or to swing about, after this reference: its mean, or else its last level. */
-function meanOf(reference: StiffnessReference): number {
+function meanOf(reference: StiffnessReference, otherwise: number): number {
   const fields: Record<string, unknown> = reference;
   const { offset_nm_per_rad, end_nm_per_rad, stiffness_nm_per_rad } = fields;
   const found = offset_nm_per_rad ?? end_nm_per_rad ?? stiffness_nm_per_rad;
   const last = Array.isArray(found) ? found.at(-1) : found;
-  return typeof last === "number" ? last : REACH.min;
+  return typeof last === "number" ? last : otherwise;
 }
 
 export function Stiffness({ state }: { state: SessionState }) {
   const reference = state.configuration.stiffness;
+  const reach = reachOf(state);
   const lastSine = useRef<Sent<Sine> | null>(null);
   if (reference.kind === "sine") lastSine.current = reference;
 
   const choose = (kind: "sine" | "constant") => {
-    const mean = meanOf(reference);
+    const mean = meanOf(reference, reach.min);
     if (kind === "constant") return putStiffness({ kind, stiffness_nm_per_rad: mean });
-    const first = { kind, offset_nm_per_rad: mean, amplitude_nm_per_rad: 1, frequency_hz: 0.2 };
+    const amplitude = Math.min(1, 0.1 * mean);
+    const first = {
+      kind,
+      offset_nm_per_rad: mean,
+      amplitude_nm_per_rad: amplitude,
+      frequency_hz: 0.2,
+    };
     return putStiffness(lastSine.current ?? first);
   };
 
+  const only = state.actuator.only_stiffness_nm_per_rad;
+  if (only !== null) {
+    return (
+      <Group title={text.stiffness.title} topic="stiffness">
+        <p class="hint">{text.stiffness.fixed(state.actuator.title, formatNumber(only))}</p>
+      </Group>
+    );
+  }
   return (
     <ReferenceGroup
       topic="stiffness"
@@ -78,13 +108,13 @@ export function Stiffness({ state }: { state: SessionState }) {
       onChoose={choose}
     >
       {reference.kind === "sine" ? (
-        <SineFields reference={reference} />
+        <SineFields reference={reference} reach={reach} />
       ) : reference.kind === "constant" ? (
         <Field
           name="stiffness.level"
           {...shownAs("stiffness_nm_per_rad")}
           value={reference.stiffness_nm_per_rad}
-          range={REACH}
+          range={reach}
           send={(value) => putStiffness({ kind: "constant", stiffness_nm_per_rad: value })}
         />
       ) : null}

@@ -4,6 +4,7 @@ import { useEffect, useState } from "preact/hooks";
 import { isPrivate } from "../../core/api/request";
 import { readRun } from "../../core/api/runs";
 import type { RunDetails, RunSummary } from "../../core/api/types";
+import { SVSA } from "../../core/state/actuators";
 import { phase, session } from "../../core/state/session";
 import { text } from "../../core/text/en";
 import { Marked } from "./marked";
@@ -65,12 +66,14 @@ function SessionOrigin({ runId, tick }: { runId: string; tick: number }) {
 export function PrivateBanner() {
   if (!isPrivate) return null;
   const branch = session.value?.branch_of;
+  const actuator = session.value?.actuator;
+  const simulated = actuator === undefined || actuator.name === SVSA ? "" : actuator.title;
   const note = session.value?.note;
   const isEnded = phase.value === "ended";
   return (
     <aside class="row private-banner" aria-label={text.private.label}>
       <p role="status">
-        <strong>{isEnded ? text.private.endedTitle : text.private.title}</strong>{" "}
+        <strong>{isEnded ? text.private.endedTitle : text.private.titleOf(simulated)}</strong>{" "}
         {isEnded ? text.private.endedText : text.private.text}{" "}
         {branch && <SessionOrigin runId={branch.run_id} tick={branch.tick} />}
       </p>

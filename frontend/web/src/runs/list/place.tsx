@@ -1,4 +1,4 @@
-/** The present page: lab, exercise, ranking, leaderboard, grades, study, search, runs, one run at a time, overlay. */
+/** The present page: lab, exercise, actuators, ranking, leaderboard, grades, study, search, runs, one run at a time, overlay. */
 import { signal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 
@@ -8,6 +8,7 @@ type Look = Readonly<Record<string, string>>;
 export type Place =
   | { kind: "lab" }
   | { kind: "learn"; exercise: string; step: string }
+  | { kind: "actuators"; actuator: string }
   | { kind: "ranking" }
   | { kind: "leaderboard"; entry: string }
   | { kind: "grades" }
@@ -20,13 +21,24 @@ export type Place =
 /** Places that are recorded runs. */
 export type RunsPlace = Exclude<
   Place,
-  { kind: "lab" | "learn" | "ranking" | "leaderboard" | "grades" | "studies" | "falsifier" }
+  {
+    kind:
+      | "lab"
+      | "learn"
+      | "actuators"
+      | "ranking"
+      | "leaderboard"
+      | "grades"
+      | "studies"
+      | "falsifier";
+  }
 >;
 
 const LOOK = ["sx", "sy", "tx", "ty", "metric", "law", "brush"] as const;
 const SEARCH = ["falsifier", "scenario", "laws"] as const;
 const PARTS = [
   "learn",
+  "actuators",
   "ranking",
   "leaderboard",
   "grades",
@@ -60,6 +72,8 @@ export function readPlace(query: string): Place {
     const [exercise = "", step = ""] = learn === EVERY ? [] : learn.split(STEP_SEPARATOR);
     return { kind: "learn", exercise, step };
   }
+  const actuator = parts.get("actuators");
+  if (actuator !== null) return { kind: "actuators", actuator: actuator === EVERY ? "" : actuator };
   if (parts.has("ranking")) return { kind: "ranking" };
   if (parts.has("grades")) return { kind: "grades" };
   const entry = parts.get("leaderboard");
@@ -90,6 +104,7 @@ export function writePlace(place: Place, query: string): string {
     const named = [place.exercise, place.step].filter((part) => part !== "");
     parts.set("learn", named.join(STEP_SEPARATOR) || EVERY);
   }
+  if (place.kind === "actuators") parts.set("actuators", place.actuator || EVERY);
   if (place.kind === "ranking") parts.set("ranking", "all");
   if (place.kind === "grades") parts.set("grades", EVERY);
   if (place.kind === "leaderboard") parts.set("leaderboard", place.entry || EVERY);

@@ -1,13 +1,26 @@
 import "../../browserless";
 import { expect, it } from "vitest";
-import type { BenchState } from "../../../src/core/api/types";
-import { chosenForm, formOfNext } from "../../../src/core/state/plant";
+import type { BenchState, SessionState } from "../../../src/core/api/types";
+import { chosenForm, formOfNext, hungWeights, nextWeight } from "../../../src/core/state/plant";
 
 const real = { emulated: false } as BenchState;
 const emulated = { emulated: true } as BenchState;
+const stateOf = (bench: BenchState | null) =>
+  ({ actuator: { name: "svsa" }, bench }) as unknown as SessionState;
 
 it("hangs a mass on a bench, whose motors do not hold the paper's torques", () => {
-  expect([null, emulated, real].map(formOfNext)).toEqual(["paper", "mass", "mass"]);
+  const states = [null, emulated, real].map(stateOf);
+  expect(states.map(formOfNext)).toEqual(["paper", "mass", "mass"]);
   chosenForm.value = "paper";
-  expect([null, emulated, real].map(formOfNext)).toEqual(["paper", "paper", "mass"]);
+  expect(states.map(formOfNext)).toEqual(["paper", "paper", "mass"]);
+});
+
+it("adds the default load of another actuator, and finds it again", () => {
+  const load = { kind: "constant", start_s: 5, torque_nm: [0.09, 0, 0] };
+  const other = { ...load, torque_nm: [1, 0, 0] };
+  const rows = [other, load].map((one, id) => ({ id, active: true, load: one }));
+  const state = { actuator: { name: "qbmove", load }, bench: null, loads: rows };
+  const known = state as unknown as SessionState;
+  expect(nextWeight(known)).toEqual({ kind: "constant", torque_nm: [0.09, 0, 0] });
+  expect(hungWeights(known).map(({ id }) => id)).toEqual([1]);
 });
