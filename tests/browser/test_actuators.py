@@ -7,14 +7,13 @@ from playwright.sync_api import Page, expect
 
 from tests.browser.test_page import go_to_page, open_page
 from tests.lab import Lab
-from tests.waiting import LONG_MS
+
+LONG_MS = 60_000
 
 pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without_3d")]
 
 
-def test_an_actuator_is_chosen_measured_and_opened_in_a_session(
-    page: Page, still_lab: Lab
-) -> None:
+def test_an_actuator_is_chosen_measured_and_opened_in_a_session(page: Page, still_lab: Lab) -> None:
     open_page(page, still_lab)
     go_to_page(page, "Actuators")
     page.get_by_role("radio", name="qbmove").check(force=True)

@@ -98,7 +98,8 @@ def build_carrier() -> Group:
     )
     return [
         look.paint(join([shaft]), look.STEEL),
-        look.paint(join([back, front, *posts, pointer]), look.PRINCIPAL),
+        look.paint(join([back, *posts, pointer]), look.PRINCIPAL),
+        look.paint(join([front]), look.FRAME),
         look.paint(join([make_ring(0.78, 0.88, (0.6, 0.76))]), look.STEEL),
     ]
 

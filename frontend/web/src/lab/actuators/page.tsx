@@ -5,7 +5,7 @@ import type { ActuatorRow } from "../../core/api/types";
 import { explain } from "../../core/state/actions";
 import { actuators, SVSA } from "../../core/state/actuators";
 import { text } from "../../core/text/en";
-import { formatNumber } from "../../core/units";
+import { formatInput } from "../../core/units";
 import { Page } from "../../core/widgets/desk";
 import { Choice } from "../../core/widgets/form";
 import { Table } from "../../core/widgets/tables";
@@ -15,7 +15,7 @@ import { DatasheetCard } from "./datasheet";
 const words = text.actuators;
 
 const shown = (value: number | string): string =>
-  typeof value === "number" ? formatNumber(value, 5) : value;
+  typeof value === "number" ? formatInput(value) : value;
 
 function Parameters({ actuator }: { actuator: ActuatorRow }) {
   return (
@@ -34,10 +34,10 @@ function Parameters({ actuator }: { actuator: ActuatorRow }) {
 }
 
 function describeRange({ limits, only_stiffness_nm_per_rad: only }: ActuatorRow): string {
-  const torque = formatNumber(limits.torque1_nm);
-  if (only !== null) return words.fixed(formatNumber(only), torque);
+  const torque = formatInput(limits.torque1_nm);
+  if (only !== null) return words.fixed(formatInput(only), torque);
   const [low, high] = [limits.stiffness_min_nm_per_rad, limits.stiffness_max_nm_per_rad];
-  return words.facts(formatNumber(low), formatNumber(high), torque);
+  return words.facts(formatInput(low), formatInput(high), torque);
 }
 
 interface ActuatorProps {
@@ -96,12 +96,14 @@ export function ActuatorsPage() {
         <p class="hint">{words.loading}</p>
       ) : (
         <>
-          <Choice
-            label={words.choose}
-            options={found.map(({ name, title }) => ({ value: name, label: title }))}
-            value={actuator.name}
-            onChoose={(name) => goTo({ kind: "actuators", actuator: name })}
-          />
+          <div class="actuators-choice">
+            <Choice
+              label={words.choose}
+              options={found.map(({ name, title }) => ({ value: name, label: title }))}
+              value={actuator.name}
+              onChoose={(name) => goTo({ kind: "actuators", actuator: name })}
+            />
+          </div>
           <Actuator key={actuator.name} actuator={actuator} onProblem={setProblem} />
           <DatasheetCard key={`${actuator.name} datasheet`} actuator={actuator} />
         </>

@@ -12,7 +12,7 @@ import {
 } from "../../core/state/plant";
 import { isLive } from "../../core/state/session";
 import { text } from "../../core/text/en";
-import { formatNumber } from "../../core/units";
+import { formatInput } from "../../core/units";
 import { Problem } from "../../core/widgets/form";
 import { EnduranceNote } from "../../hardware/endurance";
 
@@ -52,7 +52,7 @@ function caption(state: SessionState, isHung: boolean): string {
   if (!isLive.value) return text.status.notKnown;
   if (isRealBench(state.bench)) return isHung ? text.load.marked : text.load.mark;
   const form = formOf(state);
-  const torque = text.load.torqueShort(formatNumber(Math.abs(state.actuator.load.torque_nm[0])));
+  const torque = text.load.torqueShort(formatInput(Math.abs(state.actuator.load.torque_nm[0])));
   if (isHung && form === "torque") return torque;
   if (isHung) return form === "paper" ? text.load.acts : text.load.hangs;
   const next = nextWeightAt(state);

@@ -4,7 +4,7 @@ import type { Sent, SessionState, StiffnessReference } from "../../core/api/type
 import { shownAs } from "../../core/quantities";
 import { standing } from "../../core/state/meanwhile";
 import { text } from "../../core/text/en";
-import { formatNumber } from "../../core/units";
+import { formatInput } from "../../core/units";
 import type { SliderRange } from "../../core/widgets/scale";
 import { Field } from "./field";
 import { Group } from "./group";
@@ -95,7 +95,7 @@ export function Stiffness({ state }: { state: SessionState }) {
   if (only !== null) {
     return (
       <Group title={text.stiffness.title} topic="stiffness">
-        <p class="hint">{text.stiffness.fixed(state.actuator.title, formatNumber(only))}</p>
+        <p class="hint">{text.stiffness.fixed(state.actuator.title, formatInput(only))}</p>
       </Group>
     );
   }
