@@ -5,7 +5,7 @@ const FOLDERS = [
   ["layout"],
   ["evaluation/falsifier", "evaluation/ranking", "evaluation/studies"],
   ["teaching/classroom", "teaching/course", "teaching/grades", "teaching/leaderboard"],
-  ["lab/keys"],
+  ["lab/actuators", "lab/keys"],
   ["runs/list"],
   ["lab/lease", "lab/panels", "lab/safety", "lab/scene", "lab/script"],
   ["lab/tuning"],
