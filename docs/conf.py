@@ -92,7 +92,7 @@ def escape_docstring(*arguments: Any) -> None:
     lines[:] = escaped
 
 
-SUBSCRIPT = re.compile(r"(?<!\w)([^\W\d_][\u0300-\u036f]?)_([a-zα-ω]{1,3}|[0-9])(?!\w)")
+SUBSCRIPT = re.compile(r"(?<!\w)([^\W\d_][\u0300-\u036f]?)_([a-zα-ω]{1,3}|[0-9A-Z])(?!\w)")
 
 
 def lower_subscripts(_: Sphinx, document: nodes.document, __: str) -> None:

@@ -73,7 +73,7 @@ def build_app(
 ) -> FastAPI:
     """The lab as an ASGI application; sessions live as long as it runs.
 
-    shared: the session that everyone shares; a simulated one if left out. keys: of a class, if
+    shared: the shared session; a simulated one if left out. keys: of a class, if
     they are open already. host: the address that is listened on. report: prints a line on
     the console.
     """

@@ -9,7 +9,7 @@ from fastapi.openapi.utils import get_openapi
 from starlette.routing import BaseRoute, Route
 
 from svsa_server.access.guard import LONGEST_BODY_BYTES
-from svsa_server.access.permissions import ANYBODY, OBSERVER, PermissionTable, allow
+from svsa_server.access.permissions import OBSERVER, PUBLIC, PermissionTable, allow
 from svsa_server.leases.lease import CHANGING
 from svsa_server.leases.outcomes import KEY_HEADER, KEY_PATTERN, LONGEST_AGE_S, MAX_STORED
 from svsa_server.problems import MEDIA_TYPE
@@ -94,7 +94,7 @@ def _complete(
             if method in item:
                 permission = permissions.find(method.upper(), path).permission
                 item[method][PERMISSION] = permission.word
-                _complete_operation(item[method], needs_secret and permission != ANYBODY)
+                _complete_operation(item[method], needs_secret and permission != PUBLIC)
                 _link(item[method])
                 if method.upper() in CHANGING:
                     _declare_key(item[method])

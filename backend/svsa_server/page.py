@@ -9,7 +9,7 @@ from starlette.routing import BaseRoute, Mount, Route
 from starlette.staticfiles import StaticFiles
 from starlette.types import Scope
 
-from svsa_server.access.permissions import ANYBODY, OBSERVER, allow
+from svsa_server.access.permissions import OBSERVER, PUBLIC, allow
 
 PAGE = Path(__file__).parent / "page"
 GUIDE = Path(__file__).parent / "guide"
@@ -54,26 +54,26 @@ def build_page_routes() -> list[BaseRoute]:
         Route("/", _serve_index),
         Route("/icon.svg", _serve_icon),
         Route("/docs", _serve_docs),
-        Mount("/docs/guide", allow(ANYBODY)(_Guide(directory=GUIDE, html=True, check_dir=False))),
+        Mount("/docs/guide", allow(PUBLIC)(_Guide(directory=GUIDE, html=True, check_dir=False))),
         *(Route(f"/{place}", _lead_to_place) for place in PLACES),
         Route("/learn/{exercise}", _lead_to_exercise),
         Route("/learn/{exercise}/{step}", _lead_to_exercise),
-        Mount("/assets", allow(ANYBODY)(StaticFiles(directory=PAGE / "assets", check_dir=False))),
+        Mount("/assets", allow(PUBLIC)(StaticFiles(directory=PAGE / "assets", check_dir=False))),
     ]
 
 
-@allow(ANYBODY)
+@allow(PUBLIC)
 async def _serve_index(_: Request) -> Response:
     return _serve_page("index.html")
 
 
-@allow(ANYBODY)
+@allow(PUBLIC)
 async def _lead_to_place(request: Request) -> Response:
     here = request.url.path
     return RedirectResponse(f"{here.rpartition('/')[0]}/?{here.rpartition('/')[2]}=all")
 
 
-@allow(ANYBODY)
+@allow(PUBLIC)
 async def _lead_to_exercise(request: Request) -> Response:
     parts = request.path_params
     start = "../" * len(parts)
@@ -94,6 +94,6 @@ def _serve_page(name: str) -> Response:
     return FileResponse(PAGE / name, headers=_HEADERS)
 
 
-@allow(ANYBODY)
+@allow(PUBLIC)
 async def _serve_icon(_: Request) -> Response:
     return FileResponse(PAGE / "icon.svg", headers=_HEADERS)

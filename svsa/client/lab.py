@@ -57,7 +57,7 @@ def connect(
 class Lab(Remote):
     """A running lab over its public API.
 
-    session: the one that everybody shares, with the bench where there is one. runs: what was
+    session: the shared one, with the bench if there is one. runs: what was
     recorded there. studies: those that were begun there.
     """
 

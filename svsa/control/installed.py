@@ -1,6 +1,6 @@
 """The laws that are installed: found by the entry points `svsa.laws` of packages.
 
-FL and NDOBC are found as anybody's are. A law is imported when it is first asked for.
+FL and NDOBC are found like the laws of any package. A law is imported when it is first asked for.
 """
 
 import inspect

@@ -139,7 +139,7 @@ class CanPlant:
             name = AXIS_WORDS[step]
             raise StateError(
                 f"{name.capitalize()} is {angle:.3f} rad from zero: set the mechanism to its marks,"
-                " let go of it, and arm again."
+                " release it, and arm again."
             )
         self._machine.confirm_home(step, by)
 
@@ -192,7 +192,7 @@ class CanPlant:
         torque = self._machine.update(self._find_conditions(missed), limited, known, estimate)
         status, sent = self._machine.status, NO_TORQUE
         try:
-            # In every tick again, since a drive may hold its last current for ever: not every
+            # In every tick again, since a drive may hold its last current indefinitely: not every
             # family has a watchdog.
             if status is BenchStatus.FAULT:
                 self._silence(now)

@@ -19,7 +19,7 @@ _COLOURS = {"ok": "green", "warn": "yellow", "fail": "bold red"}
 _INTERRUPTED = 130
 _MOVE_WARNING = (
     "--move turns first the principal motor, then the stiffness motor, by short pulses of current"
-    " (a few degrees, forth and back). Hand on the emergency stop, everybody clear of the link,"
+    " (a few degrees, forth and back). Hand on the emergency stop, all persons clear of the link,"
     " nothing hung on it, both motors away from their ends. Watch which way each turns FIRST."
 )
 

@@ -148,7 +148,7 @@ class LockstepClock:
     def _advance(self, time_us: int) -> int:
         """Return the time of the emulator, µs, as its echo reports it."""
         if self._bus is None:
-            raise ClockError("The clock of an emulator in lockstep has no bus to go on with.")
+            raise ClockError("The clock of an emulator in lockstep has no bus.")
         ask = can.Message(arbitration_id=ADVANCE_ID, is_extended_id=True, data=encode_time(time_us))
         self._bus.send(ask)
         # The emulator sends the frames of the interval before the echo: with it nothing is missing.
@@ -156,14 +156,14 @@ class LockstepClock:
             if message.is_extended_id and message.arbitration_id == ADVANCE_ID:
                 return self._check(decode_time(message.data), time_us)
             self._frames.append(message)
-        raise ClockError(f"The emulator did not go on within {_ECHO_S:g} s: is it in lockstep?")
+        raise ClockError(f"The emulator did not advance within {_ECHO_S:g} s: is it in lockstep?")
 
     @staticmethod
     def _check(reported_us: int, requested_us: int) -> int:
         """Raise `ClockError` for an emulator that is not in lockstep: its time is too early."""
         if reported_us < requested_us:
             raise ClockError(
-                f"The emulator is at {reported_us * 1e-6:g} s and was asked to go on to"
+                f"The emulator is at {reported_us * 1e-6:g} s and was requested to advance to"
                 f" {requested_us * 1e-6:g} s: start it with --lockstep."
             )
         return reported_us

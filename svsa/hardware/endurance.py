@@ -22,7 +22,7 @@ Motor = Literal["motor1", "motor2"]
 class Endurance(NamedTuple):
     """A motor that a load overheats. torque_nm: demanded rms torque.
 
-    lasting_torque_nm: what it bears for ever. seconds: from the load's onset, the motor cold, until
+    lasting_torque_nm: continuous rating. seconds: from the load's onset, the motor cold, until
     heat holds its torque back.
     """
 

@@ -69,6 +69,6 @@ def read_deflection_zero(
     if max(counts) - min(counts) > STILL_COUNTS:
         raise StateError(
             f"The deflection moved by {max(counts) - min(counts)} counts while its zero was read:"
-            " let go of the link, wait until it is still, and begin again."
+            " release the link, wait until it is still, and start again."
         )
     return int(np.median(counts))

@@ -67,7 +67,7 @@ FIGURES = {
 CABLE_PULL = ConstantLoad(start_s=LOAD_TIME_S, torque_nm=(PAPER_TORQUE_NM, 0.0, 0.0))
 
 _CLAIM_BENCH = (
-    "After the load NDOBC goes on tracking and FL does not; the load moves the link less where"
+    "After the load NDOBC continues to track and FL does not; the load moves the link less where"
     " it is stiff."
 )
 

@@ -235,7 +235,7 @@ def recorded(lab: Lab, name: str) -> Iterator[str]:
 
 
 def main() -> None:
-    """Print what became of each attack, and of the recording."""
+    """Print outcome of each attack, and of the recording."""
     joins = int(sys.argv[1]) if len(sys.argv) > 1 else 10_000
 
     def report(name: str, attack: Callable[[], object]) -> None:

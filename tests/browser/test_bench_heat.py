@@ -24,7 +24,7 @@ HEAT_FAULT = describe_fault(
 def test_heat_that_holds_a_motor_back_is_reported_in_band_and_table(
     page: Page, still_lab: Lab
 ) -> None:
-    """And a fault that came of it has heat as the first thing to know, not the gains."""
+    """A fault caused by heat names the heat first, not the gains."""
     motors = copy.deepcopy(BENCH["motors"])
     bench = PatchedBench(page, status="run", homing=HOMED, fault=HEAT_FAULT)
     open_page(page, still_lab)

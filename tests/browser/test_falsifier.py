@@ -13,7 +13,7 @@ pytestmark = [pytest.mark.browser, pytest.mark.usefixtures("kept_page", "without
 
 
 def search(page: Page, lab: Lab) -> Locator:
-    """By keyboard from the lab on, to its end; the laws that were put under what was found."""
+    """By keyboard from the lab on, until it ends; the laws that were put under what was found."""
     page.goto(lab.url)
     go_to_page(page, "Falsifier")
     page.get_by_label("Failure criterion").select_option(label="peak error")

@@ -30,7 +30,7 @@ READ = """angles => {
     return shown.length === angles.length && shown.every(({ textContent }, index) =>
         Math.abs(Number(textContent.replace("−", "-")) - angles[index]) <= 0.1);
 }"""
-# It may come to its end meanwhile, where it plays: there is nothing to stop then.
+# It may end meanwhile, if it plays: there is nothing to stop then.
 STOP = """() => {
     const button = document.querySelector(".play");
     if (button.innerText === "Pause") button.click();

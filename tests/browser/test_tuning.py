@@ -1,4 +1,4 @@
-"""The panel *Tune*: a search is begun, followed to its end and put to use, by keyboard alone."""
+"""The panel *Tune*: a search is begun, followed until it ends and applied, by keyboard alone."""
 
 import re
 from functools import partial

@@ -26,7 +26,7 @@ def measure(load, period):
     ],
 )
 def test_a_load_that_repeats_is_learned_away(load, period, most):
-    """NDOBC has 1.297° and 0.323° for ever under the first two."""
+    """NDOBC has 1.297° and 0.323° indefinitely under the first two."""
     assert measure(load, period) <= 1.05 * most
     assert measure(load, 1) > 5.0
 

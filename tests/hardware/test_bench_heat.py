@@ -1,6 +1,6 @@
 """A load that a motor does not bear for long, on the emulator in lockstep, from cold.
 
-The printed 3 kg have 2 N·m on motor 2, which bears 1.22 N·m for ever.
+The printed 3 kg have 2 N·m on motor 2, which bears 1.22 N·m indefinitely.
 """
 
 import socket

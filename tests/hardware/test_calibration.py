@@ -176,7 +176,7 @@ def test_nothing_is_written_before_every_mark_is_confirmed(bench):
 def test_a_link_that_still_swings_is_not_taken_for_a_zero(bench):
     bus = EmulatorBus()
     bus.emulator.add_load(ConstantLoad(torque_nm=(0.5, 0.0, 0.0)))
-    with pytest.raises(StateError, match="let go of the link"):
+    with pytest.raises(StateError, match="release the link"):
         calibrate(bench, confirm_all(), bus.open, bus.now)
     assert find_calibration(bench) is None
 

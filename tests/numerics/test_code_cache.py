@@ -1,4 +1,4 @@
-"""What of the compiled code goes: what no user has opened for long, and nothing of anybody else.
+"""What of the compiled code goes: what no user has opened for long, and nothing of other packages.
 
 And what several add at once is all there.
 """

@@ -1,4 +1,4 @@
-"""After the same changes everybody who follows a run has the same configuration."""
+"""After the same changes all readers of a run have the same configuration."""
 
 import functools
 import json

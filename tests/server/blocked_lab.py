@@ -1,4 +1,4 @@
-"""A lab whose sessions block for ever at one command, which no session should do."""
+"""A lab whose sessions block indefinitely at one command, which no session should do."""
 
 import threading
 from typing import Any

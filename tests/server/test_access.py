@@ -1,4 +1,4 @@
-"""Who may come in: loopback without a secret, everyone who knows it with one."""
+"""Who may come in: loopback without a secret, every client that knows it with one."""
 
 import signal
 import socket
@@ -91,7 +91,7 @@ def test_scripts_come_in_with_a_bearer_token(guarded_lab: Lab) -> None:
 
 
 def test_a_simulation_is_stopped_only_for_callers_with_the_secret(guarded_lab: Lab) -> None:
-    """`test_everybody_may_stop_a_bench` shows the bench."""
+    """`test_all_users_may_stop_a_bench` shows the bench."""
     stranger = httpx.Client(base_url=guarded_lab.url, trust_env=False)
     elsewhere = {"Origin": "http://elsewhere.example"}
     stop = "/api/v1/quick-stop"

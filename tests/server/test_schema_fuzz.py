@@ -158,7 +158,7 @@ def probe(
     """Send the operation what its schema allows, or forbids; returns how many requests.
 
     As who the lab's client is. is_let_in: whether that is a user who may call it; of a request by
-    anybody else nothing is read but who comes.
+    any other caller nothing is read but the identity.
     """
     checks = [*CHECKS]
     known = {k: v for k, v in lab.client.headers.items() if k == "authorization"}

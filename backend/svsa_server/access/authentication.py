@@ -14,7 +14,7 @@ from starlette.datastructures import Headers
 from svsa_server.access.class_keys import ClassKeys, draw_rejoin_code
 from svsa_server.access.memberships import Membership, Memberships
 from svsa_server.access.people import People
-from svsa_server.access.roles import EVERYBODY, INSTRUCTOR, Person, Role
+from svsa_server.access.roles import ANY_USER, INSTRUCTOR, Person, Role
 
 COOKIE = "svsa_access"
 REFUSAL_DELAY_S = 0.5
@@ -81,7 +81,7 @@ class OpenAuthentication:
 
     def admit(self, headers: Headers) -> Person | None:
         """Admit every caller."""
-        return EVERYBODY
+        return ANY_USER
 
     def log_in(self, secret: str) -> str | None:
         """Return no cookie: every caller is authenticated."""
@@ -105,8 +105,8 @@ class SecretAuthentication:
     def admit(self, headers: Headers) -> Person | None:
         """Admit every caller who sends the secret."""
         if hmac.compare_digest(_read_cookie(headers).encode(), self._cookie.encode()):
-            return EVERYBODY
-        return EVERYBODY if self.log_in(read_bearer(headers)) is not None else None
+            return ANY_USER
+        return ANY_USER if self.log_in(read_bearer(headers)) is not None else None
 
     def log_in(self, secret: str) -> str | None:
         """Return a cookie that replaces the secret."""

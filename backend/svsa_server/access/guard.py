@@ -23,7 +23,7 @@ from svsa_server.access.origin import is_own_name, is_same_origin, read_host
 from svsa_server.access.owned import Kind, Owner, begin_claims
 from svsa_server.access.permissions import FROM_ELSEWHERE, WEBSOCKET, PermissionTable
 from svsa_server.access.rates import Rates, find_kind
-from svsa_server.access.roles import EVERYBODY, Person
+from svsa_server.access.roles import ANY_USER, Person
 from svsa_server.config import is_loopback
 from svsa_server.problems import answer_problem
 
@@ -140,7 +140,7 @@ class AccessGuard:
         person = self._authentication.admit(headers)
         # Before the role is checked: wrong guesses must count, too.
         self._count(scope, person)
-        if permission.role is None or person is EVERYBODY:
+        if permission.role is None or person is ANY_USER:
             return person
         if person is None:
             if read_bearer(headers):
@@ -166,7 +166,7 @@ class AccessGuard:
 
 def read_person(scope: Scope) -> Person:
     """Return the caller that the guard has authenticated."""
-    return scope.get(PERSON) or EVERYBODY
+    return scope.get(PERSON) or ANY_USER
 
 
 def read_address(scope: Scope) -> str:

@@ -73,7 +73,7 @@ class Memberships:
             if person.id not in self._members and len(self._members) >= MAX_MEMBERS:
                 raise StateError(
                     f"{MAX_MEMBERS} people have joined, which is all that a class takes: delete"
-                    f" {self._path.name} while the lab is stopped, and everyone joins again."
+                    f" {self._path.name} while the lab is stopped, and all users join again."
                 )
             with self._open() as file:
                 file.execute(
@@ -102,5 +102,5 @@ class Memberships:
         except (OSError, sqlite3.Error) as error:
             raise SecurityError(
                 f"The members of the class in {self._path} cannot be kept ({error}): delete the"
-                " file while the lab is stopped, and everyone joins again."
+                " file while the lab is stopped, and all users join again."
             ) from None

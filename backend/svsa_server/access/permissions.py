@@ -28,10 +28,10 @@ class Permission(NamedTuple):
     @property
     def word(self) -> str:
         """The role's name as in the schema and in the printed table."""
-        return "anybody" if self.role is None else self.role.word
+        return "public" if self.role is None else self.role.word
 
 
-ANYBODY = Permission(None)
+PUBLIC = Permission(None)
 OBSERVER = Permission(Role.OBSERVER)
 OPERATOR = Permission(Role.OPERATOR)
 INSTRUCTOR_ONLY = Permission(Role.INSTRUCTOR)

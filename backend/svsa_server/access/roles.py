@@ -9,9 +9,9 @@ RoleName = Literal["observer", "operator", "instructor"]
 class Role(IntEnum):
     """The role of a user; each role includes the permissions of those before it.
 
-    An observer watches, measures and stops. An operator also asks for control of the shared
+    An observer watches, measures and stops. An operator also requests control of the shared
     session, and has private sessions and runs. An instructor takes and locks control, and sees
-    everybody's.
+    the data of all users.
     """
 
     OBSERVER = 1
@@ -53,7 +53,7 @@ class Person(NamedTuple):
         return owner == self.id or self.role is Role.INSTRUCTOR
 
 
-EVERYBODY = Person("", "", Role.INSTRUCTOR)
+ANY_USER = Person("", "", Role.INSTRUCTOR)
 """A user of a lab without a class."""
 
 INSTRUCTOR = Person("instructor", "Instructor", Role.INSTRUCTOR)

@@ -14,7 +14,7 @@ _POLL_S = 0.2
 def play_excitation(url: str, session: str, name: str) -> str:
     """Play the excitation, wait for its record, print the run's id and return it.
 
-    Raises what the lab's refusal is in the library, and `LabError` where it is broken off.
+    Raises what the lab's refusal is in the library, and `LabError` if it is interrupted.
     """
     with connect(url, Settings().secret_text) as lab:
         excited = lab.open_session(session)
@@ -38,4 +38,4 @@ def _wait(session: RemoteSession) -> None:
             time.sleep(_POLL_S)
             state = session.read_state()
     if state["fault"] is not None:
-        raise LabError(f"Broken off after {played:.1f} s: {state['fault']['message']}")
+        raise LabError(f"Interrupted after {played:.1f} s: {state['fault']['message']}")

@@ -31,7 +31,7 @@ class BusyError(SvsaError):
 class HeavyWork:
     """The worker processes of one server, started when first needed.
 
-    most: how many jobs are worked at or wait. workers: processes.
+    most: number of jobs that run or wait. workers: processes.
     """
 
     def __init__(self, most: int, workers: int = MAX_WORKERS) -> None:
@@ -46,7 +46,7 @@ class HeavyWork:
         if self._taken >= self._most:
             raise BusyError(
                 f"{self._taken} exports, replays, comparisons, maps and laws of the ranking are"
-                f" worked at, which is all this lab takes at once: try again in {RETRY_AFTER_S} s."
+                f" in progress, which is all this lab runs at once: try again in {RETRY_AFTER_S} s."
             )
         self._taken += 1
         try:
@@ -58,7 +58,7 @@ class HeavyWork:
         except BrokenProcessPool:
             # A pool that has lost a process takes no more work; the next job begins another one.
             self._pool = None
-            raise BusyError("The process that worked at this has ended: try again.") from None
+            raise BusyError("The process of this job has ended: try again.") from None
         finally:
             self._taken -= 1
 

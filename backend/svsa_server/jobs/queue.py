@@ -42,7 +42,7 @@ PLURALS: dict[Kind, str] = {
 _log = logging.getLogger("svsa")
 
 Work = Callable[..., bool]
-"""Called in the worker with the `JobFolder` and what is asked; whether it went to its end."""
+"""Called in the worker with the `JobFolder` and what is asked; whether it was completed."""
 
 
 class Share(NamedTuple):
@@ -107,7 +107,7 @@ class _Queue:
 class Job:
     """One piece of long work. asked: what its worker is given. folder: where that writes.
 
-    owner: the id of the person who started it; empty if it is everybody's.
+    owner: the id of the person who started it; empty if it belongs to all users.
     """
 
     def __init__(self, kind: Kind, title: str, asked: Any, folder: Path, owner: str) -> None:

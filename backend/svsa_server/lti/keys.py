@@ -49,7 +49,7 @@ class PlatformKeys:
         asked, keys = self._known.get(address, (-_KEPT_S, None))
         has_key = keys is not None and any(key.kid == kid for key in keys.keys)
         age = now - asked
-        # An unknown key id may be a new key of the platform, or invented by anybody: it makes the
+        # An unknown key id may be a new key of the platform, or an attack: it makes the
         # lab ask again every 30 s at most.
         if keys is not None and age < (_KEPT_S if has_key else _MIN_S):
             return keys

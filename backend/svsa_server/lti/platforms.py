@@ -35,7 +35,7 @@ class Platform(Checked):
     """A platform: its identity and addresses.
 
     deployments: ids of those that may launch. takes_instructors: whether an instructor there is the
-    instructor here; else everybody from there is a student.
+    instructor here; otherwise all users from there are students.
     """
 
     issuer: _Name = quantity("", "Who signs (Platform ID)")

@@ -23,7 +23,7 @@ class Excitation:
     """The excitation from this tick of a session's run on.
 
     It ends with the recording: when it has been played, or earlier where the run ends, a user
-    gives a reference of his own, or the run refuses one. `broken_off`: it is not to go on.
+    gives a reference of his own, or the run refuses one. `broken_off`: it was interrupted.
     """
 
     def __init__(self, session: Session) -> None:
@@ -60,7 +60,7 @@ class Excitation:
                 await asyncio.sleep(_PERIOD_S)
         except SvsaError as error:
             name = self._session.name
-            _log.warning("The excitation of session %s was broken off. %s", name, error)
+            _log.warning("The excitation of session %s was interrupted. %s", name, error)
 
     def _give_due(self) -> None:
         while self._waiting and self._waiting[0].tick <= self._session.run.tick:

@@ -51,7 +51,7 @@ class HostedSession:
     what is being played on it, or None. `broadcast`, `progress`, `reported`, `batches`: what its
     streams are sent in each `round`, made once for all. `last_use`: time of the last request;
     infinite for one that does not end when idle. `owner`: the id of its person; empty for
-    everybody's. `note`: message for the user it was opened for. `instance`: no other
+    all users. `note`: message for the user it was opened for. `instance`: no other
     session has it, also none of this name before or after. `before_exercise`: the settings that an
     exercise replaced, or None.
     note_settled: is called when the lease ends without a request of its holder.

@@ -1,7 +1,7 @@
 """Data for identification from a record: measured angles, torques, usable segments.
 
 Only what a bench knows is read. The angles of a simulated run, which are the true ones, are
-put through the encoders and noise that the run had; those of a bench are measured already.
+passed through the encoders and noise of the run; those of a bench are measured already.
 """
 
 from collections.abc import Sequence

@@ -3,7 +3,7 @@
 s = (d/dt + λ)³ e and s_σ = ė_σ + p e_σ; y = … + 1.5 √L s/√(|s| + d) + ∫1.1 L tanh(s/d), d = δ² L.
 Exact against every load whose rate is bounded by L; the layer d keeps the torque from chattering.
 Within it both terms are linear, s̈ + 1.5/δ ṡ + 1.1/δ² s, damped by 0.72; √(L|s|) tanh(s/d), which
-is as often used, has no damping there, and swings for ever. The integrals stand still while a
+is as often used, has no damping there, and swings indefinitely. The integrals stand still while a
 torque is asked for that is beyond its limit.
 """
 

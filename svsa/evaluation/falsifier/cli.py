@@ -78,8 +78,8 @@ def search_command(
     if not found.is_complete:
         keep_search(path, adversary, seed, "cma", found.severities)
         _messages.print(
-            f"Broken off after {len(found.severities)} of {runs} runs, not made simple."
-            " The same command goes on from there."
+            f"Interrupted after {len(found.severities)} of {runs} runs, not made simple."
+            " The same command continues the search."
         )
         raise typer.Exit(INTERRUPTED)
     forget_search(path)

@@ -29,10 +29,10 @@ class Falsified:
     """The result of a search.
 
     severities: of each run how much it hurt, infinite for a fault, see `measure.judge`; with them
-    a search that was broken off goes on. run: number of the worst, from 1 on; the first fault.
+    an interrupted search continues. run: number of the worst, from 1 on; the first fault.
     nothing: how much the law is hurt without any load of the adversary. attack: the worst as it was
     found; shrunk: made simple, None where the search was
-    broken off or that was not asked for; neighborhood: of the simple one, None as that.
+    interrupted or that was not requested; neighborhood: of the simple one, None as that.
     """
 
     adversary: Adversary

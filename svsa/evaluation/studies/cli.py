@@ -61,7 +61,7 @@ def run_command(
     _messages.print(f"{reported} ({time.monotonic() - begun:.0f} s this time): {stored.folder}")
     if not done:
         again = _describe_repeat(source, runs=runs, name=name, workers=workers, scheduler=scheduler)
-        _messages.print(f"Go on with: svsa study run {again}")
+        _messages.print(f"Continue with: svsa study run {again}")
         raise typer.Exit(INTERRUPTED)
     _messages.print(f"Results: svsa study show {stored.name}")
 
@@ -242,7 +242,7 @@ def replay_command(
             table.add_row(format_metric(metric), METRICS[metric], *values)
         Console().print(table)
         ended = replay.result.fault
-        _messages.print(ended.message if ended else "It went to its end.")
+        _messages.print(ended.message if ended else "The run was completed.")
         if run_id is not None:
             _messages.print(f"Recorded as run {run_id}, with 3D on the page Runs of the lab.")
     if replay.differing:

@@ -75,7 +75,7 @@ class Cluster:
         Raises `StudyError` where the scheduler is lost, where workers ended over a part again and
         again, and where a worker has another version of svsa, or none.
         """
-        again = f"What is done is kept: go on with `svsa study run {stored.name}`."
+        again = f"Finished parts are kept: continue with `svsa study run {stored.name}`."
         begun: dict[Future, Span] = {}
         done = as_completed(loop=self._client.loop)
         try:

@@ -44,7 +44,7 @@ def run_study(
     """Run the missing part of a study; return whether it is then complete.
 
     workers: processes; 0 runs it in this one. is_cancelled: asked before each part; where it says
-    so, and at Ctrl-C, the parts that are being worked at are waited for and kept (on a cluster
+    so, and at Ctrl-C, the parts in progress are waited for and kept (on a cluster
     those that are done are kept), and False is returned. run_parts: who runs it in place of
     `workers`, such as a cluster. Raises `StudyError` where another process works at it, and where a
     worker was ended.
@@ -108,7 +108,7 @@ def run_in_processes(workers: int, stored: StoredStudy, spans: Iterator[Span]) -
                 try:
                     yield begun.pop(one), one.result()
                 except BrokenProcessPool:
-                    text = "A worker was ended from outside. What is done is kept: go on with"
+                    text = "A worker was ended from outside. Finished parts are kept: continue with"
                     raise StudyError(f"{text} `svsa study run {stored.name}`.") from None
         if interrupted is not None:
             raise interrupted

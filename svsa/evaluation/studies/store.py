@@ -173,7 +173,7 @@ def claim_study(stored: StoredStudy) -> Iterator[None]:
     """Lock a study; raises `StudyError` if another process runs it."""
     with (stored.folder / LOCK_FILE).open("wb") as file:
         if not try_lock(file.fileno()):
-            raise StudyError(f"Study {stored.name} is being worked at by another process.")
+            raise StudyError(f"Study {stored.name} is being run by another process.")
         yield
 
 

@@ -107,7 +107,7 @@ def tune(
         seed: Of search, training and validation trials.
         held: Parameters of the law by name that are not searched, as {"estimate_share": 0.0}.
         present: The design to begin from; the prototype's if left out.
-        known: Candidates of the same search that was broken off, which are not tried again.
+        known: Candidates of the same interrupted search, which are not tried again.
         on_candidate: Receives each candidate, and those on the validation trials.
         is_cancelled: Asked before each candidate but the first; then, and at Ctrl-C, the best so
             far is returned.

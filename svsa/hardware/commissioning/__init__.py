@@ -30,7 +30,7 @@ from svsa.hardware.realtime.configuration import read_bench_design
 SIGN_STEPS = ("motor1: sign", "deflection: sign", "motor2: sign")
 
 _LOCKSTEP_ADVICE = (
-    "An emulator in lockstep lets time go on only when its loop asks for it, and the check waits"
+    "An emulator in lockstep advances time only when its loop requests it, and the check waits"
     " for the clock: start the emulator without --lockstep, and set lockstep = false in the bench"
     " file."
 )

@@ -178,7 +178,7 @@ class Probe:
         self._commanding = False
 
     def close(self) -> None:
-        """Leave every drive without current, and let go of bus and encoder."""
+        """Leave every drive without current, and close bus and encoder."""
         try:
             self.release()
         finally:

@@ -14,7 +14,7 @@ def emulator(
         int, typer.Option(min=0, max=65535, help="Port for loads and faults.")
     ] = 29537,
     lockstep: Annotated[
-        bool, typer.Option("--lockstep", help="Time goes on only when a client asks for it.")
+        bool, typer.Option("--lockstep", help="Time advances only when a client requests it.")
     ] = False,
     real_time: Annotated[
         bool | None,

@@ -19,7 +19,7 @@ LONGEST_STEP_US = 10_000_000
 class Exchange:
     """Carries frames between an emulator and the clients of its servers.
 
-    lockstep: time goes on only when a client asks for it with `ADVANCE_ID`. origin_s: what the
+    lockstep: time advances only when a client requests it with `ADVANCE_ID`. origin_s: what the
     stamps of frames count from, s, in the emulator's time. `asked`: number of requests for time.
     """
 

@@ -1,6 +1,6 @@
 """A figure of the paper on the emulator: through CAN, in lockstep, faster than real time.
 
-The same loop, plant and limits as on a bench; time goes on when the loop asks for it, so that
+The same loop, plant and limits as on a bench; time advances when the loop requests it, so that
 a run gives the same samples every time.
 """
 

@@ -16,9 +16,9 @@ GRAIN_S = 0.00025
 
 
 class EmulatorProcess:
-    """Serves an emulator to its clients until `stopped`, or idle for `idle_s` (0: for ever).
+    """Serves an emulator to its clients until `stopped`, or idle for `idle_s` (0: indefinitely).
 
-    lockstep: time goes on only when a client asks for it. Frames are stamped with the emulator's
+    lockstep: time advances only when a client requests it. Frames are stamped with the emulator's
     time then, and with the time of day against the clock, as adapters do. alone_s: if no
     client asks for time for so long, time goes on in real time until one does, as on a machine
     whose loop is gone.

@@ -51,8 +51,8 @@ def find_loss(processes: BenchProcesses) -> Loss | None:
         code = "loop_and_supervisor_lost"
     if problem is not None:
         done = (
-            "The server cannot reach the drives, which may hold their last current for ever: pull"
-            f" the motors' supply. {problem}"
+            "The server cannot reach the drives, which may hold their last current indefinitely:"
+            f" pull the motors' supply. {problem}"
         )
     elif after_s is not None:
         stopped_by = "server"

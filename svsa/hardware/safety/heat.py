@@ -33,7 +33,7 @@ class Winding:
     """Heat h of one winding, 1 at its limit, and the torque that it allows.
 
     ḣ = ((τ/τ_n)² − h)/T and |τ| ≤ τ_n + (τ_p − τ_n) (1 − h)/(1 − 0.9) for 0.9 ≤ h ≤ 1, with the
-    torques τ_n, τ_p of nominal and peak current: at τ_n, which it bears for ever, heat stays at 1.
+    torques τ_n, τ_p of nominal and peak current: at τ_n, the continuous rating, heat stays at 1.
     torque_max: of the design, N·m. scale: N·m at the output for 1 A.
     """
 
@@ -97,7 +97,7 @@ def describe_held_back(name: str, held: HeldBack, winding: Winding) -> str:
         f"{motor.capitalize()} was held back by heat: its winding had {100.0 * winding.heat:.0f} %"
         f" of the heat that it bears, and gave {held.allowed_nm:.3g} N·m at most where"
         f" {held.commanded_nm:.3g} N·m were asked for ({winding.lasting_nm:.3g} N·m is what it"
-        " bears for ever)."
+        " bears indefinitely)."
     )
 
 

@@ -2,7 +2,7 @@
 
     python -m svsa.hardware.safety.supervisor BENCH HEARTBEATS
 
-The drives hold their last current for ever. When the loop, once begun, has not beaten for
+The drives hold their last current indefinitely. When the loop, once begun, has not beaten for
 `loop_s` (20 ms), the supervisor sends zero current to both drives and resets every drive, and
 repeats that until the loop beats. It ends at SIGTERM, or if its parent is gone and the loop silent.
 """

@@ -1,7 +1,7 @@
 """The last stop: the process that started loop and supervisor stops the drives if both are lost.
 
 Without a supervisor the loop stops the drives, and without the loop the supervisor does.
-Without both the drives would hold their last current for ever: the process that started them,
+Without both the drives would hold their last current indefinitely: the process that started them,
 and lives, opens the bus and does what the supervisor would. Many adapters serve one program
 only: a process that hangs and holds the bus is killed first.
 """

@@ -50,7 +50,7 @@ def simulate(
             with a method `reset` is reset at the start of each run.
         duration_s: Duration of the run, s.
         steps: Runge–Kutta steps in a control period.
-        commands: Changes while the run goes on, such as `svsa.Change(at_s=5.0, law="fl")`.
+        commands: Changes during the run, such as `svsa.Change(at_s=5.0, law="fl")`.
         parameters: Parameter file, such as `svsa identify` writes, or its `Design`, instead of
             those of the experiment.
         progress: Called with the share that is done, 0 to 1. Without it, a run of more than a

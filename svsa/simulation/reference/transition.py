@@ -146,6 +146,6 @@ def compute_trajectory(stack: Stack, time: float) -> Derivatives:
     for i in range(1, stack.rows.shape[0]):
         target = compute_row(stack, i, time)
         weight = compute_fade(stack.rows[i, START], stack.rows[i, FADE], time)
-        # A blend with the weight 1 would leave rounding errors of the old reference for ever.
+        # A blend with the weight 1 would leave rounding errors of the old reference indefinitely.
         value = target if weight.d0 == 1.0 else blend(value, target, weight)
     return value

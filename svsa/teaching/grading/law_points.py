@@ -35,7 +35,7 @@ LONGEST_S = 1800.0
 """A law for which this is over first is graded on the trials done by then; its grade says so."""
 LAW_STEP = "law"
 POINTS = {
-    "Every drawn run goes to its end": 2.0,
+    "No run ends early": 2.0,
     "At most 1° and 10 % of σ_d in the last second": 5.0,
     "Accuracy under the load": 3.0,
 }

@@ -71,7 +71,7 @@ def grade_files(
     """Yield each file with its grade or its error, in the order of completion.
 
     files: taken one by one, as there is room. workers: processes of low priority; one works in
-    this one. Closed early, those that are worked at are waited for. report: is given the share of a
+    this one. Closed early, it waits for those in progress. report: is given the share of a
     file that is done, where one works. Raises `GraderLostError`.
     """
     workers = workers or os.cpu_count() or 1

@@ -17,7 +17,7 @@ LIMITS = DESIGN.limits
 HEAVY = {"motor1_inertia_kg_m2": 0.028, "motor2_inertia_kg_m2": 0.017, "link_inertia_kg_m2": 0.013}
 LIGHT = {"motor1_inertia_kg_m2": 0.019, "motor2_inertia_kg_m2": 0.011, "link_inertia_kg_m2": 0.008}
 SOFT, HARD = {"spring_stiffness_n_per_m": 1600.0}, {"spring_stiffness_n_per_m": 2200.0}
-RMS_TORQUE2_NM = 1.2  # what an RE25 behind 50:1 bears for ever
+RMS_TORQUE2_NM = 1.2  # what an RE25 behind 50:1 bears indefinitely
 
 
 @pytest.mark.parametrize("changes", [{}, HEAVY, LIGHT, SOFT, HARD], ids=str)

@@ -1,4 +1,4 @@
-"""`svsa falsify`: what was found is a file that any law is put through."""
+"""`svsa falsify`: the result is a file in which any law can run."""
 
 import json
 
@@ -68,8 +68,8 @@ def test_ctrl_c_keeps_the_worst_so_far_and_the_same_command_goes_on(tmp_path, mo
     monkeypatch.setattr(finding, "measure_attacks", measure)
     outcome = search("--law", "fl", "--output", "part.toml", code=130)
     reported = " ".join(outcome.stderr.split())
-    assert "Broken off after 32 of 2000 runs" in reported
-    assert "The same command goes on from there." in reported
+    assert "Interrupted after 32 of 2000 runs" in reported
+    assert "The same command continues the search." in reported
     assert read_scenario("part.toml").found.runs == 32
     assert (tmp_path / "part.toml.search").exists()
     search("--law", "fl", "--output", "part.toml")

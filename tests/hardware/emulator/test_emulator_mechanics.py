@@ -81,7 +81,7 @@ def test_loads_come_at_their_time_and_go():
 
 
 def test_a_hung_mass_swings_and_comes_to_rest():
-    """Pulled aside and let go, m g r sin q brings it back, friction of the motor stops it."""
+    """Pulled aside and released, m g r sin q brings it back, friction of the motor stops it."""
     mechanics = Mechanics(EmulatorParameters())
     mechanics.add_load(0, MassLoad())
     mechanics.add_load(0, PulseLoad(torque_nm=(1.0, 0.0, 0.0), duration_s=0.1))

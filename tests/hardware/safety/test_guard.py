@@ -60,7 +60,7 @@ def test_beyond_an_end_only_the_torque_further_out_is_blocked() -> None:
 
 
 def test_a_warm_motor_is_held_to_its_nominal_current() -> None:
-    """I²t: full torque for ever settles at the nominal current, evenly, without a fault."""
+    """I²t: full torque indefinitely settles at the nominal current, evenly, without a fault."""
     guard, sent = build(), [Torque(0.0, 0.0)]
     nominal = BENCH.motor2.nominal_current_a * NM_PER_A[1]
     for _ in range(60_000):

@@ -71,7 +71,7 @@ def test_the_others_wait_and_see_their_place(people: People) -> None:
     assert ada.post(CONTROL + "/handover", json={"to": bob_id}).status_code == 409
 
 
-def test_everybody_stops_and_only_who_is_in_control_starts_again(people: People) -> None:
+def test_all_users_stops_and_only_who_is_in_control_starts_again(people: People) -> None:
     ada, bob, instructor = people
     ask(ada)
     ada.post(SHARED + "/start").raise_for_status()

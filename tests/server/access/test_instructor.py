@@ -61,7 +61,7 @@ def test_a_new_code_is_reported_once_with_a_qr_code_of_where_one_joins(
     assert read_person(ada)["inside"], "who has joined stays"
 
 
-def test_a_broadcast_gives_everybody_the_settings_of_the_shared_session(
+def test_a_broadcast_gives_all_users_the_settings_of_the_shared_session(
     classroom: Classroom,
 ) -> None:
     ada, instructor = classroom.join("Ada"), classroom.log_in()

@@ -142,7 +142,7 @@ def test_what_a_user_else_keeps_is_no_source(classroom: Classroom) -> None:
     assert read_kind(bob.post(STUDIES + "/check", json={"source": "mine"})) == "not_found"
 
 
-def test_what_was_kept_outside_a_class_is_everybodys_to_read_and_the_instructors(
+def test_what_was_kept_outside_a_class_is_all_users_to_read_and_the_instructors(
     tmp_path: Path,
 ) -> None:
     folder = tmp_path / "studies"

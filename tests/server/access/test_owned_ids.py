@@ -98,7 +98,7 @@ def record(browser: httpx.Client, session: str, name: str = SECRET) -> str:
 
 
 def add_job(room: Classroom, owner: str) -> str:
-    """A job that waits for ever."""
+    """A job that waits indefinitely."""
     jobs = find_app(room).state.jobs
     folder = Path(jobs._place.name) / "fedcba987654"
     folder.mkdir()

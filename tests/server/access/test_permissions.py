@@ -17,9 +17,9 @@ from svsa_server.access.guard import AccessGuard
 from svsa_server.access.memberships import Membership, Memberships
 from svsa_server.access.people import People
 from svsa_server.access.permissions import (
-    ANYBODY,
     INSTRUCTOR_ONLY,
     OPERATOR,
+    PUBLIC,
     WEBSOCKET,
     PermissionTable,
     allow,
@@ -102,7 +102,7 @@ def test_a_permission_above_the_routers_decorator_is_not_taken_for_one() -> None
     """It is declared after the route was made, so that the order is always the same."""
     router = build_router("/new")
 
-    @allow(ANYBODY)
+    @allow(PUBLIC)
     @router.post("/thing")
     async def make_thing() -> None:
         raise AssertionError
@@ -128,7 +128,7 @@ def test_a_route_keeps_the_permission_of_its_function(route_class: type[OwnedRou
 def test_two_routes_of_one_method_and_path_are_refused() -> None:
     """The second would never be called, and its permission would stand in the table."""
 
-    @allow(ANYBODY)
+    @allow(PUBLIC)
     async def serve(_: object) -> None:
         raise AssertionError
 
@@ -247,7 +247,7 @@ def test_each_identity_reaches_what_the_printed_table_allows_and_nothing_else(
         (method, path): word
         for word, method, path in map(str.split, kept.read_text(encoding="utf-8").splitlines())
     }
-    roles = {"anybody": None, **{role.word: role for role in Role}}
+    roles = {"public": None, **{role.word: role for role in Role}}
 
     def expect(needed: Role | None, role: Role | None) -> int:
         if needed is None:

@@ -54,7 +54,7 @@ def test_a_rate_that_is_none_is_refused() -> None:
         Settings(commands="often")
 
 
-def test_over_rest_it_is_429_with_retry_after_and_everybody_still_stops(tmp_path: Path) -> None:
+def test_over_rest_it_is_429_with_retry_after_and_all_users_still_stops(tmp_path: Path) -> None:
     with run_class(tmp_path, commands="3/hour", sessions="1/hour", joins="5/hour") as room:
         ada, bob = room.join("Ada"), room.join("Bob")
         ada.put(SHARED + "/control", json={"by": "Ada"}).raise_for_status()

@@ -1,4 +1,4 @@
-"""The falsifier over REST: followed to what it found, broken off, seen in a session, refused."""
+"""The falsifier over REST: followed to what it found, cancelled, seen in a session, refused."""
 
 import tomllib
 

@@ -1,4 +1,4 @@
-"""A law for the leaderboard over REST: refused, followed, broken off, and kept once."""
+"""A law for the leaderboard over REST: refused, followed, cancelled, and kept once."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""A tuning over REST: followed while it goes on, broken off, and put to use."""
+"""A tuning over REST: followed while it goes on, cancelled, and put to use."""
 
 import pytest
 

@@ -139,7 +139,7 @@ def test_the_server_frees_it_when_its_holder_is_gone() -> None:
             assert laboratory.sessions["lab"].lease.is_held_by("0123-ada")
             laboratory.free_leases(time.monotonic() + 16.0)
             assert (await client.get(SESSION)).json()["control"]["holder"] is None
-            assert laboratory.sessions["lab"].version == version + 2, "everybody is reported"
+            assert laboratory.sessions["lab"].version == version + 2, "all clients are notified"
 
     asyncio.run(try_all())
 

@@ -166,7 +166,7 @@ def test_a_bench_comes_to_rest_whenever_it_is_handed_on(queue: ControlQueue) -> 
         assert bench.halts == ["control was handed over"]
 
 
-def test_a_simulation_goes_on_and_so_does_a_bench_that_everybody_may_command() -> None:
+def test_a_simulation_goes_on_and_so_does_a_bench_that_all_users_may_command() -> None:
     simulated, bench = Bench(plant="simulated"), Bench()
     hosted = host(ControlQueue("lab", lambda _: False, 90.0), simulated)
     hosted.take_control(ADA, False)

@@ -139,7 +139,7 @@ def test_a_run_that_is_not_there_or_still_recorded_is_refused(student):
     student.client.delete(f"{student.session}/recording")
 
 
-def test_in_a_class_everybody_has_progress_of_their_own(tmp_path):
+def test_in_a_class_all_users_has_progress_of_their_own(tmp_path):
     data = tmp_path
     from svsa_server.access.class_keys import ClassKeys
 

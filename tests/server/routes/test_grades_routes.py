@@ -1,4 +1,4 @@
-"""Grades over REST: a class's for its instructor, everybody's own for themselves."""
+"""Grades over REST: a class's for its instructor, each user's own for that user."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Scenarios over REST: laws are put through one, it is kept by a name, and seen in a session."""
+"""Scenarios over REST: laws run in one, it is saved under a name, and opened in a session."""
 
 import tomllib
 

@@ -58,7 +58,7 @@ def is_under_way(state):
 
 @pytest.fixture(scope="module")
 def whole(lab):
-    """The study of `TEXT`, run to its end."""
+    """The study of `TEXT`, completed."""
     return run_study(lab, name="whole")
 
 

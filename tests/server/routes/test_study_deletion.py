@@ -46,7 +46,7 @@ def test_what_another_process_works_at_is_left_alone(lab: httpx.Client) -> None:
     with claim_study(stored):
         refused = lab.delete(f"{STUDIES}/theirs")
     assert refused.status_code == 409
-    assert "worked at by another process" in refused.json()["detail"]
+    assert "run by another process" in refused.json()["detail"]
     assert [one.name for one in list_studies()] == ["theirs"]
 
 

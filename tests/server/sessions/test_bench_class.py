@@ -92,7 +92,7 @@ CHANGES = [hand_over, give_back, take_over, lock, remove]
 
 
 @pytest.mark.parametrize("change", exhaust(CHANGES, [hand_over]))
-def test_the_bench_ramps_down_before_anybody_else_has_it(
+def test_the_bench_ramps_down_before_another_user_has_it(
     room: Room, change: Callable[[Lab, Lab], None]
 ) -> None:
     with room.connect(0) as ada, room.connect(1) as bob, room.connect(2) as instructor:
@@ -151,7 +151,7 @@ def test_who_gets_it_starts_it_again_once_it_is_at_rest(room: Room) -> None:
         bob.session.give_control_back()
 
 
-def test_everybody_may_stop_a_bench(room: Room) -> None:
+def test_all_users_may_stop_a_bench(room: Room) -> None:
     """No login is needed to stop a machine; `test_access` shows that a simulation needs one."""
     room.bench.make_ready()
     with httpx.Client(base_url=room.bench.lab.url, trust_env=False) as stranger:

@@ -1,4 +1,4 @@
-"""A command that waits for a bench: it comes to its end in order, and holds up no user."""
+"""A command that waits for a bench: it ends in order, and delays no user."""
 
 import asyncio
 import threading

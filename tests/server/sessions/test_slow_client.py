@@ -9,7 +9,7 @@ import pytest
 
 from svsa.runs.paper import get_figure
 from svsa.runs.session.simulated import SimulatedSession
-from svsa_server.access.roles import EVERYBODY
+from svsa_server.access.roles import ANY_USER
 from svsa_server.sessions import stream
 from svsa_server.sessions.hosted import HostedSession
 from svsa_server.sessions.stream import stream_session
@@ -56,7 +56,7 @@ class StreamedSession:
 
     async def connect(self) -> HeldSocket:
         socket = HeldSocket()
-        served = stream_session(socket, self.hosted, EVERYBODY)  # type: ignore[arg-type]
+        served = stream_session(socket, self.hosted, ANY_USER)  # type: ignore[arg-type]
         self.streams.append(asyncio.create_task(served))
         await self.settle()
         return socket

@@ -1,4 +1,4 @@
-"""A law is tried before it is submitted, in isolation, and reported plainly what came of it."""
+"""A law is tried before it is submitted, in isolation, and its result is reported."""
 
 import pytest
 

@@ -41,7 +41,7 @@ def run(*arguments):
 
 
 def stand(season, go):
-    """The standing of a law that is not broken off."""
+    """The standing of a law that is not cancelled."""
     found = measure_standing(season, go)
     assert found is not None
     return found.standing

@@ -115,7 +115,7 @@ def test_a_run_that_ndobc_would_end_is_seen_alone_to_its_end(tmp_path):
 
 @pytest.mark.usefixtures("short_season")
 def test_what_is_seen_has_nothing_of_the_seasons_chance(tmp_path):
-    """Two seasons with other secrets, and the same run: one that everybody knows."""
+    """Two seasons with other secrets, and the same run: a public one."""
     one, other = Board(tmp_path / "one"), Board(tmp_path / "other")
     assert (one.folder / "secret").read_bytes() != (other.folder / "secret").read_bytes()
     shown = []

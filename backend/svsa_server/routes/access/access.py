@@ -8,7 +8,7 @@ from fastapi.responses import JSONResponse
 from svsa.errors import StateError
 from svsa_server.access.authentication import COOKIE, REMOVED, Authentication, ClassAuthentication
 from svsa_server.access.guard import PERSON, read_address
-from svsa_server.access.permissions import ANYBODY, OBSERVER, allow
+from svsa_server.access.permissions import OBSERVER, PUBLIC, allow
 from svsa_server.access.rates import Kind
 from svsa_server.access.roles import Person, Role
 from svsa_server.problems import Problem, answer_problem
@@ -32,7 +32,7 @@ _WRONG = {401: {"model": Problem, "description": "A wrong secret, token or code"
 
 
 @router.get("/access")
-@allow(ANYBODY)
+@allow(PUBLIC)
 async def read_access(request: Request) -> AccessState:
     """Read how users log in to this lab, and the identity of this request."""
     authentication = _find_authentication(request)
@@ -43,14 +43,14 @@ async def read_access(request: Request) -> AccessState:
 
 
 @router.post("/login", status_code=204, responses={**_WRONG, 422: REFUSALS[422]})
-@allow(ANYBODY)
+@allow(PUBLIC)
 async def log_in(
     request: Request,
     credentials: Annotated[LoginRequest, Body(examples=[{"secret": "the shared secret"}])],
 ) -> Response:
     """Log in with the shared secret, or the instructor token of a class; the answer sets a cookie.
 
-    Where the lab is open, everyone is in already.
+    In an open lab every user is logged in already.
     """
     authentication = _find_authentication(request)
     cookie = authentication.log_in(credentials.secret)
@@ -72,7 +72,7 @@ async def log_in(
     response_model=JoinState,
     responses={**_WRONG, 409: REFUSALS[409], 422: REFUSALS[422]},
 )
-@allow(ANYBODY)
+@allow(PUBLIC)
 async def join(
     request: Request,
     response: Response,
@@ -105,7 +105,7 @@ async def join(
     operation_id="rejoin",
     responses={**_WRONG, 409: REFUSALS[409], 422: REFUSALS[422]},
 )
-@allow(ANYBODY)
+@allow(PUBLIC)
 async def rejoin(
     request: Request,
     response: Response,

@@ -4,7 +4,7 @@ from fastapi import Request, Response
 
 import svsa
 from svsa_server.access.guard import PERSON
-from svsa_server.access.permissions import ANYBODY, OBSERVER, allow
+from svsa_server.access.permissions import OBSERVER, PUBLIC, allow
 from svsa_server.monitoring import list_problems
 from svsa_server.problems import Problem, answer_problem
 from svsa_server.routes.depends import needs_no_login_to_stop
@@ -19,14 +19,14 @@ router = build_router(tags=["lab"], route_class=TurnRoute)
 
 
 @router.get("/health")
-@allow(ANYBODY)
+@allow(PUBLIC)
 async def read_health() -> Health:
     """Report that the server is alive, and its version."""
     return Health(version=svsa.__version__)
 
 
 @router.get("/ready", responses={503: {"model": Readiness, "description": "With the problems"}})
-@allow(ANYBODY)
+@allow(PUBLIC)
 async def read_readiness(request: Request, response: Response) -> Readiness:
     """Report whether all functions of the lab are available, for a load balancer or an alarm."""
     problems = list_problems(request.app)
@@ -39,7 +39,7 @@ async def read_readiness(request: Request, response: Response) -> Readiness:
     status_code=204,
     responses={401: {"model": Problem, "description": "A simulation, and the caller is unknown"}},
 )
-@allow(ANYBODY)
+@allow(PUBLIC)
 def quick_stop_lab(request: Request) -> Response:
     """Stop the shared session at once.
 

@@ -17,7 +17,7 @@ from fastapi.responses import (
     Response,
 )
 
-from svsa_server.access.permissions import ANYBODY, allow
+from svsa_server.access.permissions import PUBLIC, allow
 from svsa_server.lti.launch_error import LaunchError
 from svsa_server.problems import UnknownError
 from svsa_server.routes.access.access import set_cookie
@@ -37,14 +37,14 @@ _COOKIE_AGE_S = 600
 
 
 @router.get("/keys")
-@allow(ANYBODY)
+@allow(PUBLIC)
 async def read_lti_keys(request: Request) -> JSONResponse:
     """Return the lab's public keys (JWKS), for platforms to verify its signatures."""
     return JSONResponse(_find_tool(request).list_keys())
 
 
 @router.api_route("/login", methods=["GET", "POST"])
-@allow(ANYBODY)
+@allow(PUBLIC)
 async def begin_login(request: Request) -> Response:
     """Start a login by the platform: redirect back to it, with state and nonce (OIDC)."""
     tool = _find_tool(request)
@@ -70,7 +70,7 @@ async def begin_login(request: Request) -> Response:
 
 
 @router.post("/launch")
-@allow(ANYBODY)
+@allow(PUBLIC)
 async def launch(request: Request) -> Response:
     """Launch a person with the platform's token: into the class, to an exercise."""
     tool, authentication, base = _find_tool(request), find_class(request), str(request.base_url)

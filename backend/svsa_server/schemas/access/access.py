@@ -60,7 +60,7 @@ class AccessState(BaseModel):
     """How users log in to this lab, and the identity of this request."""
 
     authentication: AuthenticationKind = Field(
-        description="open: everybody on this machine; secret: with the shared secret;"
+        description="open: every user of this machine; secret: with the shared secret;"
         " class: with a name and the class code"
     )
     inside: bool = Field(description="Whether the caller is authenticated")

@@ -74,7 +74,7 @@ export function wordsFor(
   return end ?? (held ? "armed" : "ready");
 }
 
-/** Whatever takes the page from its user lets go: another window, another tab, a lost connection. */
+/** The switch is released if the user leaves the page: another window, another tab, a lost connection. */
 export function watchHold(): void {
   window.addEventListener("blur", letGoAll);
   window.addEventListener("pagehide", letGoAll);

@@ -28,7 +28,7 @@ describe("the dead-man's switch", () => {
     return { ...(await import("../../src/hardware/hold")), mayCommand, session };
   }
 
-  it("speaks at once and every 40 ms until the last grip lets go", async () => {
+  it("speaks at once and every 40 ms until the last grip is released", async () => {
     const { hold, letGo, isHeld } = await load();
     hold("key");
     hold("pointer");
@@ -42,7 +42,7 @@ describe("the dead-man's switch", () => {
     expect([said.length, isHeld.value]).toEqual([11, false]);
   });
 
-  it("is let go when the window loses the focus, another takes control, or the bench is gone", async () => {
+  it("is released when the window loses the focus, another takes control, or the bench is gone", async () => {
     const { hold, watchHold, isHeld, mayCommand, session } = await load();
     watchHold();
     const losses = [

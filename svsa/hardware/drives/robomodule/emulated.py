@@ -2,7 +2,7 @@
 
 Nothing here is kinder than the manual: a mode is taken once, 500 ms after a reset, and data
 500 ms after that; a command at another moment is an error and does nothing; the last
-current is held for ever.
+current is held indefinitely.
 """
 
 import math

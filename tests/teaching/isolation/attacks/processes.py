@@ -55,7 +55,7 @@ def signal_the_asker(clue):
     return b"signalled"
 
 
-def signal_everybody(clue):
+def signal_all(clue):
     os.kill(-1, 9)
     return b"signalled"
 

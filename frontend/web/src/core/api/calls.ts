@@ -41,7 +41,7 @@ export function noteCall(
   return addCall({ method, path, body, status, timeS: readTime(answer) });
 }
 
-/** What became of a call whose answer was lost; null where it never came to the server. */
+/** Outcome of a call whose answer was lost; null where it never came to the server. */
 export function answerCall(id: number, status: number | null): void {
   calls.value = calls.peek().map((call) => (call.id === id ? { ...call, status } : call));
 }

@@ -61,7 +61,7 @@ async function sendSetting(method: Method, path: string, body: unknown): Promise
   }
 }
 
-/** Where no answer comes, the server is asked what became of it, and for its state. */
+/** Where no answer comes, the server is asked outcome of it, and for its state. */
 async function send(method: Method, path: string, body?: unknown): Promise<SessionState> {
   try {
     if (takesRevision(method, path)) return await sendSetting(method, path, body);

@@ -48,7 +48,7 @@ export const keepScenario = (name: string, scenario: Scenario) =>
   request("put", scenarioPath(name), scenario) as Promise<SavedScenario>;
 export const scenarioFileOf = (name: string): string =>
   new URL(`${scenarioPath(name)}?format=toml`, API).href;
-/** What came of each law, and its errors over time. */
+/** The outcome of each law, and its errors over time. */
 export const runLaws = (scenario: Scenario, laws: readonly Law[]) =>
   request("post", "scenarios/runs", { scenario, laws }, LONG_WAIT_MS) as Promise<Trace>;
 /** A private session with several laws in lanes. */

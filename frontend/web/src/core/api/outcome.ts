@@ -1,4 +1,4 @@
-/** What became of a request whose answer did not come: the server is asked until it says. */
+/** Outcome of a request whose answer did not come: the server is asked until it says. */
 import { signal } from "@preact/signals";
 import { answerCall } from "./calls";
 import { NotCarriedOutError, RefusedError, type UnansweredError } from "./errors";

@@ -4,7 +4,7 @@ import { UnansweredError } from "../api/errors";
 const PAUSE_MS = 700;
 const pause = () => new Promise((resolve) => setTimeout(resolve, PAUSE_MS));
 
-/** Whether it has come to its end, the server knows no more of it, or the page looks elsewhere. */
+/** Whether it has ended, the server no longer knows it, or the page shows something else. */
 type Ending = "ended" | "refused" | "left";
 
 interface Poll {

@@ -2,7 +2,7 @@
 export const classroomText = {
   classroom: {
     title: "Join the class",
-    explanation: "Everyone in the class sees your name.",
+    explanation: "All users of the class see your name.",
     code: "Class code",
     join: "Join",
     token: "Instructor token",
@@ -88,7 +88,7 @@ export const classroomText = {
       reading: "The log is being read …",
       none: "No entry matches the filter.",
       person: "Person",
-      everybody: "All persons",
+      allPersons: "All persons",
       kind: "Category",
       everyKind: "All categories",
       onlyRefused: "Rejected only",

@@ -1,4 +1,4 @@
-/** The searches and scenarios of this lab, the one that is looked at, and laws that are put through it. */
+/** The searches and scenarios of this lab, the one that is looked at, and laws to run in it. */
 import { computed, signal } from "@preact/signals";
 import {
   type AdversaryState,
@@ -30,7 +30,7 @@ export const adversaries = signal<readonly AdversaryState[]>([]);
 export const searches = signal<readonly Search[] | null>(null);
 export const kept = signal<readonly SavedScenario[] | null>(null);
 export const search = signal<Search | null>(null);
-/** What came of the laws, of which scenario and laws it is, and where that is looked at. */
+/** The outcomes of the laws, with their scenario and laws, and where they are shown. */
 export const traced = signal<{ at: string; key: string; trace: Trace } | null>(null);
 export const problem = signal("");
 export const isBusy = signal("");
@@ -41,7 +41,7 @@ export const chosen = computed(() =>
 
 const at = computed(() => `${chosen.value.search} ${chosen.value.scenario}`);
 
-/** What came of the laws here, of whichever came last. */
+/** The outcomes of the laws here, of the latest request. */
 export const shown = computed(() => (traced.value?.at === at.value ? traced.value.trace : null));
 
 /** The scenario that is looked at: a kept one, or the simplest or the worst of a search. */
@@ -70,7 +70,7 @@ export const baselinesOf = (law: Law): readonly [Law, Law] => [
   law === PAPERS_LAW ? BASELINE : PAPERS_LAW,
 ];
 
-/** The laws that are put through it: those that are asked for; else the one that it hurts, and
+/** The laws to run in it: the requested ones; else the one that it hurts, and
  * another one once the search has ended. */
 export const laws = computed((): readonly Law[] => {
   if (chosen.value.laws.length > 0) return chosen.value.laws;
@@ -122,7 +122,7 @@ export const keyOf = (one: Scenario, names: readonly Law[]): string =>
 
 let isTracing = false;
 
-/** Puts the laws through what is looked at; what was asked for meanwhile comes next. */
+/** Runs the laws in the open scenario; later requests come next. */
 export async function runThem(): Promise<void> {
   if (isTracing) return;
   isTracing = true;

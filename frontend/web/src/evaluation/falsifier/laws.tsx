@@ -83,7 +83,7 @@ function Row({ one, lineStyle, onDraw }: RowProps) {
   );
 }
 
-/** Which laws are put through it. */
+/** Selection of the laws to run. */
 function Choice() {
   const hurt = scenario.value && findingOf(scenario.value)?.law;
   return (

@@ -46,7 +46,7 @@ export function findCommand(press: KeyPress, focus: Focus, areKeysOn: boolean): 
   return COMMANDS[press.key.toLowerCase()] ?? null;
 }
 
-/** What lets go of a key that is held: a modifier may swallow its release, a field its meaning. */
+/** Events that release a held key: a modifier may swallow its release, a field its meaning. */
 export const endsHold = (press: KeyPress, focus: Focus): boolean =>
   press.ctrlKey || press.metaKey || press.altKey || focus === "writing";
 

@@ -18,7 +18,7 @@ function close(): void {
   isIdentifying.value = false;
 }
 
-/** Plays what `svsa identify` needs, and takes what came of it as the model. */
+/** Plays the excitation for `svsa identify`, and uses the result as the model. */
 export function IdentificationPanel() {
   const state = session.value;
   if (!isIdentifying.value || state === null) return null;

@@ -77,7 +77,7 @@ function LatchedBench({ state, bench }: { state: SessionState; bench: BenchState
   );
 }
 
-/** What became of a quick stop, of this page or of any other. */
+/** Outcome of a quick stop, of this page or of any other. */
 export function StopBanners() {
   const { stage, message } = stop.value;
   const state = session.value;

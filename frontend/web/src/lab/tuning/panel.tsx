@@ -137,7 +137,7 @@ function Found() {
   );
 }
 
-/** Search a law's parameters while the lab goes on. */
+/** Search a law's parameters while the lab runs. */
 export function TunePanel() {
   return isOpen.value && session.value !== null ? <Tune /> : null;
 }

@@ -42,7 +42,7 @@ function Branch({ run, moment }: { run: RunDetails; moment: number }) {
   );
 }
 
-/** Of a file that takes long: that it is being made, and what came of it. */
+/** Of a file that takes long: that it is being made, and the result. */
 function MakingNote({ run }: { run: RunDetails }) {
   const now = making.value?.run === run.id ? making.value : null;
   const [seconds, count] = useState(0);

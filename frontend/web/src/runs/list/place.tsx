@@ -160,7 +160,7 @@ export function keepLook(look: Look): void {
   place.value = next;
 }
 
-/** Puts the laws that are put through a scenario into the address. */
+/** Writes the laws of a scenario into the address. */
 export function keepLaws(laws: readonly string[]): void {
   const now = place.peek();
   if (now.kind !== "falsifier") return;

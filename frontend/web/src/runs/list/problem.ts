@@ -22,7 +22,7 @@ export async function attempt<T>(request: () => Promise<T>): Promise<T | null> {
   }
 }
 
-/** Of a lost answer what became of the request, as the server says; else why it was refused. */
+/** Of a lost answer outcome of the request, as the server says; else why it was refused. */
 async function describeOutcome(error: unknown): Promise<string> {
   if (!(error instanceof UnansweredError) || error.request === null) return explain(error);
   try {
@@ -33,7 +33,7 @@ async function describeOutcome(error: unknown): Promise<string> {
   }
 }
 
-// A file that the server works on for long before it can be saved: that it does, and what came of it.
+// A file that the server works on for long before it can be saved: its progress, and the result.
 
 interface Making {
   run: string;

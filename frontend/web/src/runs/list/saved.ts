@@ -1,4 +1,4 @@
-/** What became of the recording that ended last: saved under a name, or why not. */
+/** Outcome of the recording that ended last: saved under a name, or why not. */
 import { effect, signal } from "@preact/signals";
 import { readRun } from "../../core/api/runs";
 import type { RunDetails } from "../../core/api/types";

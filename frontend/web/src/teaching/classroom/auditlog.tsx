@@ -61,7 +61,7 @@ function Filters() {
         label={words.person}
         value={person}
         options={["", ...people.map(({ id }) => id)]}
-        name={(one) => people.find(({ id }) => id === one)?.name ?? words.everybody}
+        name={(one) => people.find(({ id }) => id === one)?.name ?? words.allPersons}
         onChoose={(chosen) => void askFor({ person: chosen })}
       />
       <SelectField

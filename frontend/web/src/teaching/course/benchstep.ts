@@ -42,7 +42,7 @@ export const handDue = (of: Step, timeS: number): Hand | null =>
 
 export type Cut = "control" | "stopped";
 
-/** Why a run will not come to its end; null while it goes on. hasControl: this page may command. */
+/** Why a run will not be completed; null while it continues. hasControl: this page may command. */
 export function findCut(state: SessionState, hasControl: boolean): Cut | null {
   const { bench } = state;
   if (!hasControl) return "control";

@@ -1,4 +1,4 @@
-/** The exercise that is worked at: what the server keeps of it, and what one does in it. */
+/** The open exercise: its saved progress, and its actions. */
 import { computed, effect, signal } from "@preact/signals";
 import { pause, reset, start, stopRecording } from "../../core/api/client";
 import {
@@ -52,7 +52,7 @@ export const judged = signal<{ step: string; run: string; results: CriterionResu
 );
 /** The run whose samples the plots show. */
 export const shownRun = signal<{ run: string; runNumber: number } | null>(null);
-/** A run that did not come to its end, and is not judged; the step can be begun again. */
+/** A run that was not completed, and is not judged; the step can be started again. */
 export const cut = signal<{ step: string; why: Cut; timeS: number } | null>(null);
 /** A step recorded this run, and tells of it. */
 export const isOfLesson = (run: string): boolean => shownRun.value?.run === run;
@@ -157,7 +157,7 @@ export async function run(of: Step): Promise<void> {
   else await giveUp();
 }
 
-/** A run that does not begin, or not go on, is no trial; its recording ends where one may end it. */
+/** A run that does not begin, or not continue, is no trial; its recording ends where one may end it. */
 async function giveUp(): Promise<void> {
   trial.value = null;
   if (hasControl.peek()) await stopRecording().then(acceptState, () => undefined);
@@ -261,7 +261,7 @@ export async function workApart(): Promise<void> {
   location.search = writePlace(place.peek(), `?${query}`);
 }
 
-/** What a step's task is given. onDone: called when what came of it is shown in place of what was asked. */
+/** What a step's task is given. onDone: called when the result is shown in place of the task. */
 export interface Task {
   of: Step;
   exercise: Exercise;

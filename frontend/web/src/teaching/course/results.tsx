@@ -24,7 +24,7 @@ function lookThere(run: string, timeS: number): void {
   } else goTo({ kind: "run", run, timeS });
 }
 
-/** What came of a step: points, what differs, and where to look. */
+/** The result of a step: points, feedback, and where to look. */
 export function Results({
   of,
   results,

@@ -1,4 +1,4 @@
-/** A figure of the paper run with both laws in a session of its own, and what came of it. */
+/** A figure of the paper run with both laws in a private session, and the result. */
 import { API, request } from "../../core/api/request";
 import type { Claim, Figure, Hello, SessionState } from "../../core/api/types";
 import { BatchDecoder } from "../../core/stream/decoder";

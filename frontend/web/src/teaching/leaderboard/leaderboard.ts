@@ -8,7 +8,7 @@ import { sortEntries } from "./columns";
 
 const results = followResults("submission", readBoard);
 export const { found: board, problem, job, open: openBoard, leave, cancel } = results;
-/** What became of the last submission, where it has an entry already. */
+/** Outcome of the last submission, where it has an entry already. */
 export const note = signal("");
 /** "column", or "-column" from the greatest down. */
 export const sort = signal("rank");
@@ -39,7 +39,7 @@ effect(() => {
   if (total.value > (board.peek()?.runs ?? Number.POSITIVE_INFINITY)) void results.read();
 });
 
-/** Puts a law through the season; false where it was refused at once. */
+/** Submits a law to the season; false if rejected at once. */
 export async function submit(wish: Parameters<typeof submitLaw>[0]): Promise<boolean> {
   note.value = "";
   isAsking.value = true;

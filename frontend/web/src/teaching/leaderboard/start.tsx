@@ -21,7 +21,7 @@ const words = text.leaderboard;
 const LONGEST_NAME = 60;
 const ENDING = /\.py$/i;
 
-/** How far the law is, or what became of it. */
+/** How far the law is, or outcome of it. */
 function Progress() {
   const now = job.value;
   const box = useRef<HTMLDivElement>(null);

@@ -115,7 +115,7 @@ describe("what is looked at", () => {
     kept.value = null;
   });
 
-  test("a search and a scenario have an address, with the laws that are put through", () => {
+  test("a search and a scenario have an address, with the laws to run", () => {
     for (const [address, more] of [
       ["?falsifier=all", {}],
       ["?falsifier=3f2a", { search: "3f2a" }],

@@ -37,7 +37,7 @@ it("a deleted study is left, and the list is reloaded", async () => {
 
 it("one that is not deleted stays where it is, and why is said", async () => {
   const studies = await load();
-  refusal = "Study mine is being worked at by another process.";
+  refusal = "Study mine is being run by another process.";
   expect(await studies.remove("mine")).toBe(false);
   expect(studies.problem.value).toBe(refusal);
   expect(studies.chosenName.value).toBe("mine");

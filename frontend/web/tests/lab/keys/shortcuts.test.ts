@@ -48,7 +48,7 @@ describe("keys", () => {
     expect(focusOf(button(null))).toBe("free");
   });
 
-  it("hold a switch, and let go of it where a release might not be heard", () => {
+  it("hold a switch, and release it where a release might not be heard", () => {
     expect(find("d")).toBe("hold");
     expect(find("d", "free", { repeat: true })).toBeNull();
     expect(find("d", "free", {}, false)).toBeNull();

@@ -226,7 +226,7 @@ describe("a recording that has ended", () => {
     await vi.advanceTimersByTimeAsync(15_000);
     expect(saved.value).not.toBeNull();
     await vi.advanceTimersByTimeAsync(6000);
-    expect(saved.value, "it does not stay for ever").toBeNull();
+    expect(saved.value, "it does not stay indefinitely").toBeNull();
     vi.stubGlobal("fetch", async () => Response.json({ state: "cut", message: "cut off" }));
     await followSaved("run-3");
     await vi.advanceTimersByTimeAsync(60_000);

@@ -20,7 +20,7 @@ describe("the text of a law", () => {
     expect(findFault(`${"é".repeat(MAX_BYTES / 2)}#`)).toContain(`${MAX_BYTES + 1} bytes`);
   });
 
-  it("is tried and kept by the server, which says what came of it", async () => {
+  it("is tried and saved by the server, which reports the result", async () => {
     const kept = { name: "own-law", law: { text: "law", verdict: "held" } };
     putLaw.mockResolvedValue(kept);
     await lesson.tryLaw("law");

@@ -67,7 +67,7 @@ describe("its addresses", () => {
 });
 
 describe("grading", () => {
-  test("is followed to its end, and then read again", async () => {
+  test("is followed until it ends, and then read again", async () => {
     vi.useFakeTimers();
     const asked: string[] = [];
     const jobOf = (status: string) => ({ id: "g", kind: "grading", status, done: 1, total: 1 });

@@ -120,7 +120,7 @@ describe("what the page does", () => {
   });
   const wish = { name: "Mine", author: "", law: "def law(*given): return 0, 0" };
 
-  test("a submission is followed to its end, and its entry is on the board", async () => {
+  test("a submission is followed until it ends, and its entry is on the board", async () => {
     answers = {
       "POST leaderboard/submissions": [{ key: "b", job: jobOf("waiting", 0) }],
       "GET jobs/j": [jobOf("running", 1), jobOf("done", 3)],
