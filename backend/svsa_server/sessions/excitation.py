@@ -23,7 +23,7 @@ class Excitation:
     """The excitation from this tick of a session's run on.
 
     It ends with the recording: when it has been played, or earlier where the run ends, a user
-    gives a reference of his own, or the run refuses one. `broken_off`: it was interrupted.
+    gives a reference of his own, or the run refuses one. `is_interrupted`: it was interrupted.
     """
 
     def __init__(self, session: Session) -> None:
@@ -31,7 +31,7 @@ class Excitation:
         self._first_tick = session.run.tick
         self._waiting = deque(build_commands(session.run.period_s, self._first_tick))
         self._seen = len(session.journal.commands)
-        self.broken_off = False
+        self.is_interrupted = False
 
     @property
     def elapsed_s(self) -> float:
@@ -55,7 +55,7 @@ class Excitation:
     async def play(self) -> None:
         """Apply each reference when it is due, until the end; an error interrupts it."""
         try:
-            while not (self.broken_off or self.over):
+            while not (self.is_interrupted or self.over):
                 await take_turn(self._give_due)
                 await asyncio.sleep(_PERIOD_S)
         except SvsaError as error:

@@ -230,7 +230,7 @@ class HostedSession:
     def end_excitation(self) -> None:
         """Interrupt the excitation; the recording ends, the references stay."""
         if self.excitation is not None:
-            self.excitation.broken_off, self.excitation = True, None
+            self.excitation.is_interrupted, self.excitation = True, None
             self.session.stop_recording()
             self._changes += 1
 
