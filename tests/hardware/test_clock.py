@@ -194,5 +194,7 @@ def test_a_rig_whose_time_goes_on_its_own_is_no_lockstep() -> None:
     bus.send = lambda _: bus._waiting.append(  # pyright: ignore[reportAttributeAccessIssue]
         can.Message(arbitration_id=ADVANCE_ID, is_extended_id=True, data=encode_time(3000))
     )
-    with pytest.raises(ClockError, match=r"is at 0.003 s .* advance to 1 s: start it with --lockstep"):
+    with pytest.raises(
+        ClockError, match=r"is at 0.003 s .* advance to 1 s: start it with --lockstep"
+    ):
         clock.wait_until(1.0)
