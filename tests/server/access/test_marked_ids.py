@@ -14,6 +14,7 @@ from tests.server.schema import SCHEMA
 NO_IDS = {
     "SVSA-Client": "in a class the person who calls, whatever it says",
     "client": "the same, of a stream",
+    "actuator": "installed",
     "adversary": "of the package",
     "answer": "to a question of the course",
     "author": "a name that is shown",
@@ -76,6 +77,9 @@ NO_IDS_THERE = {
     "POST /api/v1/sessions/{session}/control/handover body:to": "waits in a queue that all see",
     "GET /api/v1/shares query:counts.[]": "two numbers",
     "GET /api/v1/requests/{key} path:key": "looked up among the caller's own",
+    "GET /api/v1/actuators/{name} path:name": "installed",
+    "GET /api/v1/actuators/{name}/datasheet path:name": "installed",
+    "POST /api/v1/sessions body:nominal.{}": "a parameter of an actuator",
 }
 """The same, where the name alone does not say it."""
 NOT_IN_THE_SCHEMA = {
