@@ -133,8 +133,17 @@ def link_included(_: Sphinx, __: str, source: list[str]) -> None:
         source[0] = re.sub(rf"(\]\((?:\.\./)*){re.escape(file)}", rf"\1{page}", source[0])
 
 
+def add_heading_level(_: Sphinx, __: str, ___: str, context: dict, ____: object) -> None:
+    """Give the captions of the navigation the level that `role="heading"` needs."""
+    tree = context["furo_navigation_tree"]
+    context["furo_navigation_tree"] = tree.replace(
+        'role="heading"', 'role="heading" aria-level="2"'
+    )
+
+
 def setup(app: Sphinx) -> None:
-    """Install the hooks, that of docstrings before napoleon's."""
+    """Install the hooks: for docstrings before napoleon, for the navigation after the theme."""
+    app.connect("html-page-context", add_heading_level, priority=900)
     app.connect("source-read", link_included)
     app.add_html_math_renderer("mathml", (write_inline_formula, None), (write_formula, None))
     app.connect("autodoc-process-docstring", escape_docstring, priority=100)
