@@ -13,7 +13,7 @@ from svsa.evaluation.studies.cluster import Cluster
 from svsa.evaluation.studies.store import StudyError, keep_study
 from tests.evaluation.studies.studies import build_study
 
-LOST = r"The scheduler at inproc was lost\. What is done is kept: .*`svsa study run one`"
+LOST = r"The scheduler at inproc was lost\. Finished parts are kept: .*`svsa study run one`"
 BROKEN = (
     CommClosedError("in <TCP (closed)>: Stream is closed"),
     OSError("Timed out trying to connect to tcp://127.0.0.1:8786 after 30 s"),
