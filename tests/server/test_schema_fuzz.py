@@ -72,6 +72,7 @@ PAIRS = "complex poles must come in conjugate pairs, none faster than 1000 rad/s
 SERIES = "times must grow, one row of torques for each"
 COURSE = "times must grow, tapers fit into the duration, and speeds stay below a bound"
 STEP = "the step is one of the exercise, and the answer one of those that it asks for"
+MEMBER = "fields are those of the actuator that the session simulates"
 MAY_BE_REFUSED = {
     "POST /api/v1/sessions": f"{HURWITZ}; {PAIRS}; {SCENARIO}; the row is of GET /ranking",
     "POST /api/v1/sessions/{session}/experiment": f"{HURWITZ}; {STEP}",
@@ -87,6 +88,8 @@ MAY_BE_REFUSED = {
     "POST /api/v1/sessions/{session}/loads": SERIES,
     "POST /api/v1/sessions/{session}/bench/endurance": SERIES,
     "POST /api/v1/references/csv": "the text must be a CSV of numbers with known columns",
+    "PATCH /api/v1/sessions/{session}/actuator": MEMBER,
+    "PATCH /api/v1/sessions/{session}/nominal": MEMBER,
     "PUT /api/v1/sessions/{session}/nominal": "the text must be a TOML parameter file",
     "POST /api/v1/jobs": f"{INSTALLED}; one of GET /adversaries, a text, a definition",
     "POST /api/v1/scenarios/runs": SCENARIO,
