@@ -57,9 +57,11 @@ def test_fl_next_to_ndobc_keeps_the_error_that_ndobc_takes_away(page: Page, stil
     assert page.evaluate(ERRORS, [1, steady])[1] < 0.1 * ONE_DEGREE
     assert page.evaluate(ERRORS, [2, steady])[0] > 8 * ONE_DEGREE
     expect(table.get_by_role("row", name=re.compile("NDOBC")).get_by_text("best")).to_have_count(3)
-    for plot in ("Position", "Position error", "Stiffness", "Torque", "Disturbance"):
+    for plot in ("Position", "Position error", "Stiffness", "Torque"):
         legend = page.get_by_role("region", name=f"{plot} plot", exact=True)
         expect(legend.get_by_role("button", name=re.compile("^FL"))).to_be_visible()
+    disturbance = page.get_by_role("region", name="Disturbance plot", exact=True)
+    expect(disturbance).to_contain_text("unused by FL")
 
     switch.click()
     expect(switch).not_to_be_checked()

@@ -37,15 +37,13 @@ const shownPages = computed(() =>
   ),
 );
 
+const isOfActuators = computed(() => place.value.kind === "actuators");
+
 /** A run and an overlay are of the runs. */
 const pageOf = (at: Place): Page => (isOfRuns(at) ? "runs" : at.kind);
 
 const EVALUATION: readonly Page[] = ["ranking", "leaderboard", "studies", "falsifier"];
-const GROUPS: readonly (readonly Page[])[] = [
-  ["lab", "runs", "actuators"],
-  ["learn", "grades"],
-  ["ranking"],
-];
+const GROUPS: readonly (readonly Page[])[] = [["lab", "runs"], ["learn", "grades"], ["ranking"]];
 
 interface TabProps {
   page: Page;
@@ -119,7 +117,7 @@ function Entry({ name }: { name: keyof typeof words.names }): ComponentChildren 
   );
 }
 
-/** Tuning, guide and API reference. */
+/** Actuators, tuning, guide and API reference. */
 export function PagesMenu() {
   return (
     <Popup
@@ -139,6 +137,11 @@ export function PagesMenu() {
       {(close) => (
         <nav aria-label={words.open}>
           <ul>
+            <li>
+              <PlaceLink to={PAGES.actuators} isHere={isOfActuators.value} onGo={close}>
+                <Entry name="actuators" />
+              </PlaceLink>
+            </li>
             <li>
               <button
                 type="button"
