@@ -5,7 +5,7 @@ RUN apt-get update -qq && apt-get install -y -qq --no-install-recommends binutil
 RUN python3 -m venv /opt/tools \
  && /opt/tools/bin/pip install --quiet --no-cache-dir --disable-pip-version-check uv cyclonedx-bom
 WORKDIR /src
-COPY requirements.lock pyproject.toml README.md CHANGELOG.md LICENSE ./
+COPY requirements.lock pyproject.toml README.md CHANGELOG.md CITATION.cff LICENSE ./
 COPY svsa svsa
 COPY backend backend
 COPY frontend frontend
