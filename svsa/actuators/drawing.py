@@ -1,4 +1,4 @@
-"""Schematic of a mechanism: its parts in the plane of motion, as functions of s and φ.
+"""Parts of a mechanism's schematic in the plane of motion, as functions of s and φ.
 
 Frame: that of motor 1, origin on the joint axis, x along the link at φ = 0. Lengths are those of
 the scene: 0.9 is the radius of the link's ring, its arm ends at 1.4.
@@ -13,10 +13,9 @@ Point = tuple[float, float]
 
 
 class Part(NamedTuple):
-    """A part of a mechanism. A pin is a disc at its start; a leaf bends or pulls, as a
-    spring does.
+    """A part of a mechanism: rod, leaf, spring, or a pin, which is a disc at its start.
 
-    body: what it moves with, which gives its color. start, end: scene units.
+    body: the body that the part belongs to, which gives its color. start, end: scene units.
     """
 
     kind: Kind
@@ -26,12 +25,12 @@ class Part(NamedTuple):
 
 
 def place(radius: float, angle: float) -> Point:
-    """The point at a radius and an angle, rad, from x."""
+    """Return the point at a radius and an angle, rad, from x."""
     return radius * math.cos(angle), radius * math.sin(angle)
 
 
 def draw_torsion_spring(p: object, s: float, phi: float) -> tuple[Part, ...]:
-    """A spring between motor 1 and link that only turns: the schematic of any other mechanism.
+    """Draw springs between motor 1 and link: the schematic of a mechanism without `draw`.
 
     Args:
         p: Parameters, not used.
@@ -52,5 +51,5 @@ def draw_torsion_spring(p: object, s: float, phi: float) -> tuple[Part, ...]:
 
 
 def hold(value: float, least: float, most: float) -> float:
-    """The value, held to what can be drawn."""
+    """Limit a value to the range that can be drawn."""
     return min(max(value, least), most)

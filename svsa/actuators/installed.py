@@ -34,27 +34,28 @@ def list_mechanism_names() -> tuple[str, ...]:
 
 
 @cache
-def get_mechanism(name: str) -> Mechanism:
-    """An actuator by its name.
+def get_mechanism(name: str, field: str = "actuator") -> Mechanism:
+    """Return an installed actuator by its name.
 
     Args:
-        name: Of its entry point.
+        name: Name of its entry point.
+        field: Name of the value in the error.
 
     Returns:
         The actuator.
 
     Raises:
-        ParameterError: If none of that name is installed, or its package brings another.
+        ParameterError: If no such actuator is installed, or its package has another one.
     """
     entry = _find_entries().get(name)
     if entry is None:
         known = list_mechanism_names()
-        bound = f"an actuator that is installed here: {', '.join(known)}{suggest(name, known)}"
-        raise ParameterError(Violation("mechanism", name, "", bound))
+        bound = f"an installed actuator: {', '.join(known)}{suggest(name, known)}"
+        raise ParameterError(Violation(field, name, "", bound))
     found = entry.load()
     if not isinstance(found, Mechanism) or found.name != name:
         bound = f"the actuator {name}, as the entry point {entry.value} says"
-        raise ParameterError(Violation("mechanism", repr(found), "", bound))
+        raise ParameterError(Violation(field, repr(found), "", bound))
     return found
 
 
@@ -69,7 +70,7 @@ def _read(given: Any, read_svsa: ValidatorFunctionWrapHandler) -> Any:
         return given
     if isinstance(given, dict) and isinstance(name := given.get("mechanism"), str):
         values = {key: value for key, value in given.items() if key != "mechanism"}
-        return get_mechanism(name).parameters(**values)
+        return get_mechanism(name, "mechanism").parameters(**values)
     return read_svsa(given)
 
 

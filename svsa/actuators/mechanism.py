@@ -78,6 +78,11 @@ class Mechanism:
             bound = f"a source of each value; missing: {', '.join(missing)}"
             raise ParameterError(Violation("sources", sorted(self.sources), "", bound))
 
+    @property
+    def largest_torque_nm(self) -> float:
+        """Limit of u1, N·m; two motors that pull against each other add theirs: u1 = ua + ub."""
+        return self.limits.torque1_nm * (2.0 if self.antagonistic else 1.0)
+
     def list_elastic(self, parameters: MechanismParameters) -> list[float]:
         """List the values of the parameters that the energy depends on."""
         return [float(getattr(parameters, name)) for name in self.elastic]

@@ -1,12 +1,13 @@
-"""A scenario of the SVSA on another actuator: the same shares of what that actuator is capable of.
+"""Scale a scenario of the SVSA to another actuator: same ratios to its stiffness and torque range.
 
-* σ_d at the same place of the stiffness range, by equal ratios; the sole stiffness if it has one.
-* Loads and friction times T'/T: T is the largest torque that an actuator holds at rest at the
-  σ of 15 N·m/rad (SVSA), or at what that becomes.
-* Sines of the position begin at rest, and their amplitude is limited so that moving the link takes
-  half of T' at most; steps rise slowly enough for the same, as far as their times allow.
-* The plant is the nominal model with the same ratios. That of the spring is of the parameter that
-  its energy is proportional to.
+* σ_d is mapped by ln σ from the stiffness range of the SVSA to that of the actuator. An actuator
+  without a stiffness motor has one stiffness.
+* Loads and friction are multiplied by T'/T: T is the largest torque that the SVSA holds at rest at
+  15 N·m/rad, T' that of the actuator at the mapped stiffness.
+* Sines of the position begin at rest. Their amplitude is limited so that the link inertia needs at
+  most T'/2. Steps rise slowly enough for the same limit, as far as their times allow.
+* The plant is the nominal model times the ratios of the scenario. The ratio of the spring applies
+  to the parameter that the energy is proportional to.
 
 Durations, frequencies, encoders, noise, delay and lag are those of the SVSA.
 """
@@ -45,14 +46,14 @@ _JERK_PEAK = 5.7735
 
 
 class ActuatorScale(NamedTuple):
-    """What becomes of torques.
+    """Factors for the torques of a scenario.
 
     Attributes:
         name: The actuator.
         torque: T'/T, factor of loads on link and motor 1.
         torque2: Factor of loads on motor 2, by the torque limits; 0 without a stiffness motor.
         largest_nm: T', N·m.
-        spring: Parameter that its energy is proportional to.
+        spring: Name of the parameter that its energy is proportional to.
     """
 
     name: str
@@ -64,7 +65,7 @@ class ActuatorScale(NamedTuple):
 
 @cache
 def measure_scale(name: str) -> ActuatorScale:
-    """The scale of an actuator that is installed; raises `ParameterError` for any other."""
+    """Return the factors for an installed actuator; raises `ParameterError` for another name."""
     mechanism, svsa = get_mechanism(name), get_mechanism(SVSA)
     largest, of_svsa = (_find_largest_torque(one) for one in (mechanism, svsa))
     return ActuatorScale(
@@ -80,15 +81,15 @@ def measure_scale(name: str) -> ActuatorScale:
 
 
 def build_scenario_run(scenario: Scenario, law: str, actuator: str = SVSA) -> Configuration:
-    """The run of a scenario under a law with its default parameters.
+    """Build the run of a scenario under a law with its default parameters.
 
     Args:
         scenario: Made for the SVSA.
         law: Name of an installed law.
-        actuator: Name of the actuator that it is scaled to.
+        actuator: Name of the actuator that the scenario is scaled to.
 
     Returns:
-        Its configuration.
+        The configuration of the run.
 
     Raises:
         ParameterError: If no actuator or law of that name is installed.
@@ -113,7 +114,7 @@ def build_scenario_run(scenario: Scenario, law: str, actuator: str = SVSA) -> Co
 
 
 def scale_stiffness(mechanism: Mechanism, sigma: float) -> float:
-    """The stiffness at the same place of an actuator's range, N·m/rad."""
+    """Map a stiffness of the SVSA to the range of an actuator, N·m/rad."""
     only = find_only_stiffness(mechanism.nominal)
     if only is not None:
         return only
@@ -186,7 +187,7 @@ def _scale_effects(effects: Effects, scale: ActuatorScale) -> Effects:
 
 
 def _find_largest_torque(mechanism: Mechanism) -> float:
-    """The largest torque at rest at the reference stiffness, within the torque limits, N·m."""
+    """Find the largest torque held at rest at the reference stiffness, within its limit, N·m."""
     sigma = scale_stiffness(mechanism, REFERENCE_NM_PER_RAD)
     plant = build_actuator(mechanism.prototype, 0.0)
     domain = build_domain(mechanism.prototype, mechanism.limits)
@@ -195,7 +196,7 @@ def _find_largest_torque(mechanism: Mechanism) -> float:
         least, greatest = find_stiffness_range(plant, domain, torque)
         return least <= sigma * _NEARLY and sigma <= greatest * _NEARLY
 
-    high = mechanism.limits.torque1_nm * (2.0 if mechanism.antagonistic else 1.0)
+    high = mechanism.largest_torque_nm
     if holds(high):
         return high
     low = 0.0
@@ -206,7 +207,7 @@ def _find_largest_torque(mechanism: Mechanism) -> float:
 
 
 def _find_spring(mechanism: Mechanism) -> str:
-    """The first parameter that the elastic energy is proportional to; else the first of all."""
+    """Find the first parameter that the elastic energy is proportional to; else the first one."""
     energy = compile_energy(mechanism).functions["compute_energy"]
     values = mechanism.list_elastic(mechanism.prototype)
     s, phi = mechanism.coordinate[1], 0.5 * mechanism.limits.deflection_max_rad
@@ -226,7 +227,7 @@ def _get_range(limits: Limits) -> tuple[float, float]:
 
 
 def _settle(value: float, digits: int = _DIGITS) -> float:
-    """To a few digits, so that the rounding of a machine does not count."""
+    """Round to a few digits, so that results do not depend on the machine's rounding."""
     return float(f"{value:.{digits}g}")
 
 

@@ -9,7 +9,6 @@ from typing import Any
 from svsa.actuators.installed import get_mechanism
 from svsa.actuators.mechanism import Mechanism
 from svsa.actuators.reach import find_only_stiffness
-from svsa.errors import ParameterError
 from svsa.runs.configuration import Configuration, Design, read_design
 from svsa.runs.paper import LOAD_TIME_S, get_simulated_figure
 from svsa.runs.shorthand import change_configuration
@@ -97,10 +96,7 @@ def build_actuator_experiment(
     Raises:
         ParameterError: There is no such actuator, or a parameter is out of range.
     """
-    try:
-        mechanism = get_mechanism(name)
-    except ParameterError as error:
-        raise error.within("actuator") from None
+    mechanism = get_mechanism(name)
     motion = SinePosition(
         amplitude_rad=AMPLITUDE_RAD,
         frequency_hz=FREQUENCY_HZ,

@@ -153,10 +153,7 @@ def read_mechanism(name: str) -> dict[str, Any]:
     Raises:
         ParameterError: If no actuator of that name is installed.
     """
-    try:
-        found = get_mechanism(name)
-    except ParameterError as error:
-        raise error.within("actuator") from None
+    found = get_mechanism(name)
     read = {"actuator": found.prototype, "nominal": found.nominal, "limits": found.limits}
     only = find_only_stiffness(found.nominal)
     if only is not None:

@@ -69,7 +69,7 @@ def test_the_command_prints_json_and_draws_a_page(tmp_path):
     done = CliRunner().invoke(app, ["datasheet", "maccepa", "--json", "--plot", str(page)])
     assert done.exit_code == 0, done.output
     found = json.loads(done.output)
-    assert found == json.loads(json.dumps(measure_datasheet("maccepa").to_json()))
+    assert found == measure_datasheet("maccepa").model_dump(mode="json")
     assert page.read_bytes().startswith(b"%PDF")
     assert "link_inertia_kg_m2" in found["assumed"]
     assert "spring_stiffness_n_per_m" not in found["assumed"]

@@ -61,6 +61,19 @@ def test_the_image_installs_extras_that_exist() -> None:
     assert {*extras.split(",")} <= {*project["optional-dependencies"]}
 
 
+def test_the_image_has_every_file_that_the_guide_links_to() -> None:
+    """The guide is built with warnings as errors, so that a missing file ends the build."""
+    copied = re.findall(r"^COPY (?!--)(.*) \S+$", (ROOT / "Dockerfile").read_text(), re.MULTILINE)
+    sources = [(ROOT / name).resolve() for line in copied for name in line.split()]
+    for page in [*DEPLOY.parent.rglob("*.md"), ROOT / "svsa" / "README.md", ROOT / "CHANGELOG.md"]:
+        if {"_build", "generated"} & {*page.parts}:
+            continue
+        for link in re.findall(r"\]\((?!\w+:)([^)#]+)", page.read_text(encoding="utf-8")):
+            target = (page.parent / link).resolve()
+            if target.is_file():
+                assert any(target.is_relative_to(one) for one in sources), f"{page}: {link}"
+
+
 @pytest.mark.skipif(shutil.which("caddy") is None, reason="caddy is not installed")
 def test_caddy_accepts_the_file_of_the_class() -> None:
     command = ["caddy", "adapt", "--config", str(DEPLOY / "Caddyfile"), "--adapter", "caddyfile"]

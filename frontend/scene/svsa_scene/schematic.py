@@ -1,4 +1,4 @@
-"""What is inside an actuator other than the SVSA: the parts that its file draws, moved by pose."""
+"""Schematic of an actuator other than the SVSA: the parts that its file draws, moved by pose."""
 
 import math
 

@@ -32,7 +32,7 @@ def datasheet(
 
         draw_page(found).savefig(plot)
     if as_json:
-        typer.echo(json.dumps(found.to_json()))
+        typer.echo(json.dumps(found.model_dump(mode="json")))
         return
     Console().print(*_build_tables(found), highlight=False)
 

@@ -6,8 +6,6 @@ stiffness, elastic energy, and the workspace of torque and stiffness.
 """
 
 import math
-from dataclasses import asdict, dataclass
-from typing import Any
 
 import numpy as np
 
@@ -25,6 +23,7 @@ from svsa.actuators.reach import find_deflection, find_stiffness_range
 from svsa.actuators.signals import CHANNEL_INDEX, Torque
 from svsa.control.limits import are_at_limit
 from svsa.errors import ParameterError
+from svsa.inputs.checked import Checked, Number, quantity
 from svsa.runs.change import Change
 from svsa.runs.result.simulate import simulate
 from svsa.simulation.plant.loads.series import SeriesLoad
@@ -43,60 +42,57 @@ SHORTEST_S, LONGEST_S, RAMP_S, REST_S = 0.1, 6.4, 2.0, 0.5
 FADE_S = 0.05
 
 
-@dataclass(frozen=True)
-class Preset:
-    """Torque over deflection at one stiffness preset: motors at rest, s held.
+class Preset(Checked):
+    """Torque over deflection at one stiffness preset: motors at rest, s constant.
 
-    stiffness_nm_per_rad: σ at φ = 0. deflection_rad, torque_nm, stiffness_at_nm_per_rad: the curve,
-    from φ = 0 to the deflection limit, or to what motor 1 holds. energy_j: elastic energy there.
+    The curve goes from φ = 0 to the deflection limit, or to the largest torque of motor 1.
     """
 
-    stiffness_nm_per_rad: float
-    deflection_rad: list[float]
-    torque_nm: list[float]
-    stiffness_at_nm_per_rad: list[float]
-    energy_j: float
+    stiffness_nm_per_rad: Number = quantity("N·m/rad", "σ at φ = 0")
+    deflection_rad: list[float] = quantity("rad", "φ of each point")
+    torque_nm: list[float] = quantity("N·m", "τ_e at each point")
+    stiffness_at_nm_per_rad: list[float] = quantity("N·m/rad", "σ at each point")
+    energy_j: Number = quantity("J", "Elastic energy at the last point")
 
 
-@dataclass(frozen=True)
-class Variation:
-    """The shortest time, s, between two stiffnesses, N·m/rad; never below `SHORTEST_S`."""
+class Variation(Checked):
+    """The shortest time between two stiffnesses; never below `SHORTEST_S`."""
 
-    start_nm_per_rad: float
-    end_nm_per_rad: float
-    time_s: float
+    start_nm_per_rad: Number = quantity("N·m/rad", "Initial stiffness")
+    end_nm_per_rad: Number = quantity("N·m/rad", "Final stiffness")
+    time_s: Number = quantity("s", "Shortest time")
 
 
-@dataclass(frozen=True)
-class Datasheet:
-    """A datasheet. Variations are None where the stiffness is not varied within `LONGEST_S`.
+class Datasheet(Checked):
+    """A datasheet (Grioli et al., IJRR 2015), measured on the simulated plant.
 
-    peak_torque_nm: largest torque that spring and principal motor hold. nominal_torque_nm:
-    `NOMINAL_SHARE` of it. stiffness_range…: least and greatest σ, unloaded and under the nominal
-    torque (None: no s holds it). variation…: shortest minimum-jerk change of σ under NDOBC with
-    an exact model, over `VARIED` of the range, no motor at its limit. torque_stiffness: (torque,
-    least σ, greatest σ). assumed: parameters without a published source. Speeds are not in it: the
-    plant has no voltage that would limit them.
+    A variation is the shortest minimum-jerk change of σ under NDOBC with an exact model, over
+    `VARIED` of the range, without a motor at its limit. Speeds are not measured: the plant has no
+    voltage that would limit them.
     """
 
-    name: str
-    title: str
-    source: str
-    peak_torque_nm: float
-    nominal_torque_nm: float
-    stiffness_range_nm_per_rad: tuple[float, float]
-    stiffness_range_at_nominal_nm_per_rad: tuple[float, float] | None
-    variation_unloaded: Variation | None
-    variation_loaded: Variation | None
-    deflection_max_rad: float
-    elastic_energy_max_j: float
-    presets: list[Preset]
-    torque_stiffness: list[tuple[float, float, float]]
-    assumed: list[str]
-
-    def to_json(self) -> dict[str, Any]:
-        """Convert to plain values."""
-        return asdict(self)
+    name: str = quantity("", "Name of the actuator")
+    title: str = quantity("", "Title of the actuator")
+    source: str = quantity("", "Publication of the actuator")
+    peak_torque_nm: Number = quantity("N·m", "Largest torque that spring and motor 1 hold")
+    nominal_torque_nm: Number = quantity("N·m", "Half of the peak torque (assumed)")
+    stiffness_range_nm_per_rad: tuple[float, float] = quantity(
+        "N·m/rad", "Smallest and largest σ, unloaded"
+    )
+    stiffness_range_at_nominal_nm_per_rad: tuple[float, float] | None = quantity(
+        "N·m/rad", "The same under the nominal torque; null if the actuator does not hold it"
+    )
+    variation_unloaded: Variation | None = quantity(
+        "", "Stiffness variation, unloaded; null if it takes longer than 6.4 s"
+    )
+    variation_loaded: Variation | None = quantity("", "The same under the nominal torque")
+    deflection_max_rad: Number = quantity("rad", "Largest deflection")
+    elastic_energy_max_j: Number = quantity("J", "Largest elastic energy of the presets")
+    presets: list[Preset] = quantity("", "Curves at stiffness presets")
+    torque_stiffness: list[tuple[float, float, float]] = quantity(
+        "", "Torque, N·m; smallest and largest σ at this torque, N·m/rad"
+    )
+    assumed: list[str] = quantity("", "Parameters and limits without a published source")
 
 
 def measure_datasheet(name: str) -> Datasheet:
@@ -119,7 +115,7 @@ def measure_datasheet(name: str) -> Datasheet:
     low, high = limits.stiffness_min_nm_per_rad, limits.stiffness_max_nm_per_rad
     if not mechanism.has_stiffness_motor:
         low = high = float(compute_stiffness_of(plant, 0.0, 0.0))
-    of_motor = limits.torque1_nm * (2.0 if mechanism.antagonistic else 1.0)
+    of_motor = mechanism.largest_torque_nm
     presets = [_measure_preset(plant, domain, sigma, of_motor) for sigma in _spread(low, high)]
     peak = min(max(preset.torque_nm[-1] for preset in presets), of_motor)
     nominal = NOMINAL_SHARE * peak
@@ -184,7 +180,7 @@ def _find_variation_time(
             shortest = middle
         if longest == SHORTEST_S:
             break
-    return Variation(start, end, longest)
+    return Variation(start_nm_per_rad=start, end_nm_per_rad=end, time_s=longest)
 
 
 def _is_followed(

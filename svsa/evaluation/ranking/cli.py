@@ -45,7 +45,7 @@ def run_ranking(
     trials: Annotated[int, typer.Option(min=1, help="Test trials of each family.")] = TRIALS,
     seed: Annotated[int, typer.Option(min=0, help="Seed of the test set.")] = PUBLIC_SEED,
     actuator: Annotated[
-        str, typer.Option(help="Actuator that is installed; trials are scaled to it.")
+        str, typer.Option(help="Installed actuator; trials are scaled to it.")
     ] = SVSA,
     save: Annotated[
         Path | None,

@@ -26,8 +26,8 @@ class Study(Checked):
     """Runs of one actuator with varied settings, and the same samples under each law.
 
     base: the configuration that all begin from: `figure` of the paper, and settings in its place.
-    actuators: if the actuator varies (`vary` with the path "actuator" and names as values), of each
-    the settings that it needs in place of the base's, such as a stiffness in its range.
+    actuators: if the actuator varies (`vary` with the path "actuator" and names as values), the
+    settings of each that replace those of the base, such as a stiffness in its range.
     runs: how many samples; where there are grids, of the whole grid; for `sensitivity` how many
     base samples, a power of two. sampling: independent samples, Sobol's sequence, or the pairs of
     it of which Sobol indices are made. metrics: columns of the table in this order; success may ask
@@ -94,9 +94,7 @@ class Study(Checked):
     def _check_actuators(self) -> None:
         unused = sorted({*self.actuators} - {*self.varied_actuators})
         if unused:
-            bound = (
-                f"an actuator over which vary goes: {', '.join(self.varied_actuators) or 'none'}"
-            )
+            bound = f"an actuator that vary names: {', '.join(self.varied_actuators) or 'none'}"
             raise ParameterError(Violation(f"actuators.{unused[0]}", unused[0], "", bound))
 
     def _check_sensitivity(self) -> None:
@@ -127,21 +125,21 @@ class Study(Checked):
 
     @property
     def varied_actuators(self) -> tuple[str, ...]:
-        """The names of the actuators over which it goes; empty if only the base's runs."""
+        """Names of the varied actuators; empty if only the base's actuator runs."""
         for one in self.vary:
             if _is_actuator(one):
                 return tuple(dict.fromkeys(one.values))
         return ()
 
     def build_base(self, law: str) -> Configuration:
-        """What the runs of a law begin from, those of the first actuator if it varies.
+        """Build the base configuration of a law's runs, of the first actuator if it varies.
 
         Raises `ParameterError`.
         """
         return next(iter(self.build_bases(law).values()))
 
     def build_bases(self, law: str) -> dict[str | None, Configuration]:
-        """What the runs of a law begin from, by actuator; by None if it does not vary.
+        """Build the base configurations of a law's runs by actuator; by None if it does not vary.
 
         Raises `ParameterError`.
         """

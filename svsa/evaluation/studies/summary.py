@@ -1,7 +1,7 @@
 """Statistics of a study: results of laws, differences of laws, sensitivities.
 
 A run that ended in a fault has no error that is comparable with that of a whole run: among the
-quantiles it stands beyond every value, and in paired differences both runs must be whole.
+quantiles it is worse than every value, and in paired differences both runs must be whole.
 """
 
 from collections.abc import Sequence

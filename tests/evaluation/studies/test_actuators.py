@@ -70,9 +70,12 @@ def test_rows_are_those_of_the_runs_alone_and_summed_up_by_actuator(tmp_path):
 
 def test_what_does_not_suit_an_actuator_is_rejected_with_the_reason():
     for changes, reason in (
-        ({"actuators": {"awas2": {}}}, "over which vary goes: svsa, qbmove"),
+        ({"actuators": {"awas2": {}}}, "an actuator that vary names: svsa, qbmove"),
         ({"actuators": {"qbmove": {"stiffness.stiffness_nm_per_rad": 60.0}}}, "to 15 N·m/rad"),
-        ({"vary": ({**GIVEN["vary"][0], "values": ["qbmove", "none"]},)}, "installed here"),
+        (
+            {"vary": ({**GIVEN["vary"][0], "values": ["qbmove", "none"]},)},
+            "must be an installed actuator",
+        ),
         ({"vary": (GIVEN["vary"][0], {**INERTIA, "path": "actuator.radius_m"})}, "a setting"),
     ):
         with pytest.raises(ParameterError, match=reason):

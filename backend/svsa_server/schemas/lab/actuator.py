@@ -1,4 +1,4 @@
-"""What goes over the wire about actuators: what each file says of itself."""
+"""Schemas of the actuators: parameters, limits, sources and datasheets."""
 
 from functools import cache
 from typing import Any
@@ -9,7 +9,7 @@ from svsa.actuators.installed import get_mechanism, list_mechanism_names
 from svsa.actuators.mechanism import Mechanism
 from svsa.actuators.parameters import Limits
 from svsa.actuators.reach import find_only_stiffness
-from svsa.analysis.datasheet.measure import Datasheet, Preset, Variation
+from svsa.analysis.datasheet.measure import Datasheet
 from svsa.analysis.datasheet.rows import list_rows
 from svsa.runs.experiment import build_default_load, choose_stiffness
 from svsa.simulation.plant.loads.constant import ConstantLoad
@@ -21,14 +21,16 @@ ASSUMED = "assumed"
 class ActuatorParameterState(ParameterState):
     """A parameter of an actuator. `default` is null: `value` is the prototype's."""
 
-    value: float | str = Field(description="Of the simulated plant")
-    nominal: float | str = Field(description="Of the model that the control laws get")
-    source: str = Field(description="Publication of the value, or what it was assumed from")
-    assumed: bool = Field(description="Without a published source")
+    value: float | str = Field(description="Value of the simulated plant")
+    nominal: float | str = Field(
+        description="Value of the nominal model, which the control laws use"
+    )
+    source: str = Field(description="Publication of the value, or the assumption")
+    assumed: bool = Field(description="Whether the value has no published source")
 
 
 class ActuatorSummary(BaseModel):
-    """Which actuator a session simulates, and what its references and loads have to respect."""
+    """The actuator that a session simulates, with its default stiffness and load."""
 
     name: str
     title: str
@@ -36,63 +38,46 @@ class ActuatorSummary(BaseModel):
     only_stiffness_nm_per_rad: float | None = Field(
         description="The only stiffness of an actuator without a stiffness motor, else null"
     )
-    load: ConstantLoad = Field(description="Default load: the default stiffness holds it")
+    load: ConstantLoad = Field(
+        description="Default load; the actuator holds it at the default stiffness"
+    )
 
 
 class ActuatorState(ActuatorSummary):
-    """An actuator that is installed."""
+    """An installed actuator."""
 
     source: str = Field(description="Publication of the mechanism")
-    antagonistic: bool = Field(description="Two motors pull against each other")
+    antagonistic: bool = Field(description="Whether two motors pull against each other")
     limits: Limits
     parameters: list[ActuatorParameterState]
     limit_sources: dict[str, str] = Field(description="Source of each limit, by its name")
     datasheet: str = Field(description="Address of its datasheet, below /api/v1")
 
 
-class DatasheetState(BaseModel):
-    """A datasheet (Grioli et al., IJRR 2015), measured on the simulated plant.
+class DatasheetState(Datasheet):
+    """A datasheet with its table for display."""
 
-    Variations and the range at nominal torque are null where the actuator does not reach them.
-    """
-
-    name: str
-    title: str
-    source: str
-    peak_torque_nm: float = Field(description="Largest torque that spring and motor 1 hold")
-    nominal_torque_nm: float = Field(description="Half of the peak torque, assumed")
-    stiffness_range_nm_per_rad: tuple[float, float]
-    stiffness_range_at_nominal_nm_per_rad: tuple[float, float] | None
-    variation_unloaded: Variation | None
-    variation_loaded: Variation | None
-    deflection_max_rad: float
-    elastic_energy_max_j: float
-    presets: list[Preset]
-    torque_stiffness: list[tuple[float, float, float]] = Field(
-        description="Torque, N·m, least and greatest stiffness at it, N·m/rad"
-    )
-    assumed: list[str] = Field(description="Parameters and limits without a published source")
-    rows: list[tuple[str, str]] = Field(description="Its numbers in words: quantity, value")
+    rows: list[tuple[str, str]] = Field(description="Quantity, and value with unit")
 
 
 def describe_datasheet(found: Datasheet) -> DatasheetState:
-    """A datasheet, with its numbers in words."""
-    return DatasheetState(**vars(found), rows=list_rows(found))
+    """Build the answer: a datasheet with its table for display."""
+    return DatasheetState(**dict(found), rows=list_rows(found))
 
 
 @cache
 def summarize_actuator(mechanism: Mechanism) -> ActuatorSummary:
-    """Which actuator it is, and its default stiffness and load."""
+    """Summarize an actuator: name, default stiffness and load."""
     return ActuatorSummary(**_summarize(mechanism))
 
 
 def list_actuators() -> list[ActuatorState]:
-    """Every actuator that is installed, the SVSA first."""
+    """List the installed actuators, the SVSA first."""
     return [describe_actuator(get_mechanism(name)) for name in list_mechanism_names()]
 
 
 def describe_actuator(mechanism: Mechanism) -> ActuatorState:
-    """An actuator in the words of its file."""
+    """Describe an installed actuator."""
     sources = mechanism.sources
     return ActuatorState(
         **_summarize(mechanism),

@@ -39,27 +39,25 @@ class FromActuator(Checked):
     """
 
     source: Literal["actuator"] = quantity("", "An actuator", alias="from")
-    actuator: Annotated[str, Field(max_length=40)] = quantity(
-        "", "Name of an actuator that is installed"
-    )
+    actuator: Annotated[str, Field(max_length=40)] = quantity("", "Name of an installed actuator")
     parameters: PartOfParameters = quantity(
-        "", "Parameters of the plant that differ from the prototype's", default={}
+        "", "Parameters of the plant that replace those of the prototype", default={}
     )
     nominal: PartOfParameters = quantity(
-        "", "Parameters of the nominal model that differ from its own", default={}
+        "", "Parameters of the nominal model that replace its defaults", default={}
     )
-    law: InstalledLaw = quantity(
-        "", "Name of a law that is installed: see GET /laws", default=PAPERS_LAW
-    )
-    load: Flag = quantity("", "With the actuator's default load at 5 s", default=True)
+    law: InstalledLaw = quantity("", "Name of an installed law: see GET /laws", default=PAPERS_LAW)
+    load: Flag = quantity("", "Whether the default load acts from 5 s on", default=True)
     comparisons: tuple[InstalledLane, ...] = quantity(
-        "", "Up to three", max_length=MAX_LANES - 1, default=()
+        "", "Comparison lanes, up to three", max_length=MAX_LANES - 1, default=()
     )
-    effects: Effects = quantity("", "What separates it from a bench", default=IDEAL)
+    effects: Effects = quantity(
+        "", "Effects of a real bench that the simulation includes", default=IDEAL
+    )
     seed: Whole = quantity("", "Seed of the sensor noise", ge=0, le=2**63 - 1, default=0)
 
     def build_configuration(self) -> Configuration:
-        """What the session is set to; raises `ParameterError`."""
+        """Build the session's configuration; raises `ParameterError`."""
         experiment = build_actuator_experiment(
             self.actuator, self.law, self.load, self.parameters, self.nominal
         )

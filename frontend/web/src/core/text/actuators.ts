@@ -7,7 +7,8 @@ export const actuatorsText = {
     loading: "Loading the actuators …",
     open: "Open session",
     opening: "Opening …",
-    openHint: "The first session of an actuator takes some seconds: its equations are compiled.",
+    openHint:
+      "The first session of an actuator takes some seconds, because its equations are compiled.",
     facts: (low: string, high: string, torque: string) =>
       `Stiffness ${low} to ${high} N·m/rad, motor torque up to ${torque} N·m.`,
     fixed: (sigma: string, torque: string) =>
@@ -15,10 +16,9 @@ export const actuatorsText = {
     paper: "Figures of the paper and exercises run with this actuator only.",
     parameters: "Parameters",
     heads: ["Parameter", "Plant", "Model", "Unit", "Source"],
-    assumed: "assumed",
     datasheet: "Datasheet",
     datasheetLead:
-      "Measured on the simulated plant by the experiments of Grioli et al., IJRR 2015. Speeds are not contained: the plant has no motor voltage.",
+      "Measured on the simulated plant by the experiments of Grioli et al., IJRR 2015. Speeds are not included: the simulated motors have no voltage limit.",
     measuring: "Measuring …",
     quantity: "Quantity",
     value: "Simulated plant",
