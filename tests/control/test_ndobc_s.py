@@ -11,7 +11,14 @@ from svsa.actuators.domain import build_domain
 from svsa.actuators.signals import Disturbance, Torque
 from svsa.control.installed import get_law
 from svsa.control.law import Setting
-from svsa.control.laws.ndobc_s import CAP, Memory, build, compute_poles, feel_shaking, feel_surprise
+from svsa.control.laws.ndobc_s import (
+    CAP,
+    Memory,
+    build,
+    compute_poles,
+    detect_load,
+    measure_torque_variation,
+)
 from svsa.simulation.plant.effects import RIG
 from svsa.simulation.plant.effects.noise import SensorNoise
 from tests.actuators.prototype import NOMINAL
@@ -33,7 +40,7 @@ def feel(torques):
     """s, N·m, after torques u1 that were asked for one after another."""
     parameters, constants, memory = begin()
     for u1 in torques:
-        feel_shaking.py_func(constants, memory, Torque(u1, 0.0))
+        measure_torque_variation.py_func(constants, memory, Torque(u1, 0.0))
     return math.sqrt(memory.shaking), parameters
 
 
@@ -42,7 +49,7 @@ def be_surprised(residuals):
     _, constants, memory = begin()
     found = []
     for r in residuals:
-        feel_surprise.py_func(constants, memory, Disturbance(r, 0.0, 0.0))
+        detect_load.py_func(constants, memory, Disturbance(r, 0.0, 0.0))
         found.append((memory.gate, *compute_poles.py_func(constants, memory)))
     return np.array(found).T
 

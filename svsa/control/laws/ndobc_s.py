@@ -41,9 +41,9 @@ from svsa.numerics.exponential import exp
 from svsa.numerics.simd.choice import greatest, least
 
 CAP = 4.0
-"""What one tick counts at most of shaking, in s₀."""
+"""Largest contribution of one tick to s, in s₀."""
 MAX_SWING_NM = 10.0
-"""What one tick counts at most of the residual's swinging."""
+"""Largest contribution of one tick to n, N·m."""
 
 
 class ScheduledPoles(YieldingPoles):
@@ -117,7 +117,7 @@ class ScheduledPoles(YieldingPoles):
         default=0.619,
     )
     shaking_time_s: Number = quantity(
-        "s", "t_s: over how long shaking and swinging are felt", symbol="t_s", ge=0.001, le=10,
+        "s", "t_s: averaging time of s² and n²", symbol="t_s", ge=0.001, le=10,
         default=2.0,
     )  # fmt: skip
     surprise_nm: Number = quantity(
@@ -140,7 +140,7 @@ class ScheduledPoles(YieldingPoles):
 
 
 class Constants(NamedTuple):
-    """NDOBC-W's; a…, omega…: rad/s. s0, n0, r0: N·m. Shares of a tick: newest, felt, released.
+    """NDOBC-W's; a…, omega…: rad/s. s0, n0, r0: N·m. Shares of a tick: newest, filtered, released.
 
     weight: c.
     """
@@ -165,14 +165,14 @@ class Constants(NamedTuple):
     n0: float
     newest: float
     r0: float
-    felt: float
+    filtered: float
     slow: float
     weight: float
     released: float
 
 
 class Memory(NamedTuple):
-    """NDOBC-W's; shaking, swinging: s², n². u, du: as asked last. felt, slow: ε, ε̄. gate: G."""
+    """NDOBC-W's; shaking, swinging: s², n². u, du: last command. filtered, slow: ε, ε̄. gate: G."""
 
     observed: Observed = Observed()
     yielded: float = 0.0
@@ -183,9 +183,9 @@ class Memory(NamedTuple):
     u2: float = 0.0
     du1: float = 0.0
     du2: float = 0.0
-    felt2: float = 0.0
-    felt4: float = 0.0
-    felt6: float = 0.0
+    filtered2: float = 0.0
+    filtered4: float = 0.0
+    filtered6: float = 0.0
     slow2: float = 0.0
     slow4: float = 0.0
     slow6: float = 0.0
@@ -219,7 +219,7 @@ def build(parameters: ScheduledPoles, setting: Setting) -> Constants:
         n0=p.swinging_nm,
         newest=compute_share(1.0 / p.shaking_time_s, period),
         r0=p.surprise_nm,
-        felt=compute_share(p.surprise_rad_per_s, period),
+        filtered=compute_share(p.surprise_rad_per_s, period),
         slow=compute_share(p.swing_rad_per_s, period),
         weight=p.swing_weight,
         released=compute_share(1.0 / p.release_s, period),
@@ -227,34 +227,39 @@ def build(parameters: ScheduledPoles, setting: Setting) -> Constants:
 
 
 @compiled
-def feel_shaking(constants: Constants, memory: np.record, torque: Torque) -> None:
+def measure_torque_variation(constants: Constants, memory: np.record, torque: Torque) -> None:
     """Update s² with the second difference of the commanded torque, N·m; memory: written."""
     du1, du2 = torque.u1 - memory.u1, torque.u2 - memory.u2
     ddu1, ddu2 = du1 - memory.du1, du2 - memory.du2
     most = CAP * constants.s0
-    felt = least(ddu1 * ddu1 + ddu2 * ddu2, most * most)
-    memory.shaking += constants.newest * (felt - memory.shaking)
+    size = least(ddu1 * ddu1 + ddu2 * ddu2, most * most)
+    memory.shaking += constants.newest * (size - memory.shaking)
     memory.u1, memory.u2, memory.du1, memory.du2 = torque.u1, torque.u2, du1, du2
 
 
 @compiled
-def feel_surprise(constants: Constants, memory: np.record, r: Disturbance) -> None:
+def detect_load(constants: Constants, memory: np.record, r: Disturbance) -> None:
     """Update ε, G and n² with the newest residual, N·m; memory: written."""
-    c, felt2, felt4, felt6 = constants, memory.felt2, memory.felt4, memory.felt6
-    felt2 = felt2 + c.felt * (r.w2 - felt2)
-    felt4 = felt4 + c.felt * (r.w4 - felt4)
-    felt6 = felt6 + c.felt * (r.w6 - felt6)
-    size = felt2 * felt2 + felt4 * felt4 + felt6 * felt6
+    c, filtered2, filtered4, filtered6 = (
+        constants,
+        memory.filtered2,
+        memory.filtered4,
+        memory.filtered6,
+    )
+    filtered2 = filtered2 + c.filtered * (r.w2 - filtered2)
+    filtered4 = filtered4 + c.filtered * (r.w4 - filtered4)
+    filtered6 = filtered6 + c.filtered * (r.w6 - filtered6)
+    size = filtered2 * filtered2 + filtered4 * filtered4 + filtered6 * filtered6
     surprise = size / (c.r0 * c.r0 + c.weight * memory.swinging)
     gate = surprise * surprise / (1.0 + surprise * surprise)
     memory.gate = greatest(gate, memory.gate + c.released * (gate - memory.gate))
-    memory.slow2 += c.slow * (felt2 - memory.slow2)
-    memory.slow4 += c.slow * (felt4 - memory.slow4)
-    memory.slow6 += c.slow * (felt6 - memory.slow6)
-    e2, e4, e6 = felt2 - memory.slow2, felt4 - memory.slow4, felt6 - memory.slow6
+    memory.slow2 += c.slow * (filtered2 - memory.slow2)
+    memory.slow4 += c.slow * (filtered4 - memory.slow4)
+    memory.slow6 += c.slow * (filtered6 - memory.slow6)
+    e2, e4, e6 = filtered2 - memory.slow2, filtered4 - memory.slow4, filtered6 - memory.slow6
     swings = least(e2 * e2 + e4 * e4 + e6 * e6, MAX_SWING_NM * MAX_SWING_NM)
     memory.swinging += c.newest * (swings - memory.swinging)
-    memory.felt2, memory.felt4, memory.felt6 = felt2, felt4, felt6
+    memory.filtered2, memory.filtered4, memory.filtered6 = filtered2, filtered4, filtered6
 
 
 @compiled
@@ -292,9 +297,9 @@ def control(
     F_new = compute_internal_torque(nominal, x)
     r = compute_residual(nominal, observed, x, F_old, F_new, applied, period)
     w = correct_observed(observed, g, h, x, r, period)
-    feel_surprise(c, memory, r)
+    detect_load(c, memory, r)
     torque = yield_poles(nominal, c, memory, x, reference, w, a, period)
-    feel_shaking(c, memory, torque)
+    measure_torque_variation(c, memory, torque)
     return torque
 
 
