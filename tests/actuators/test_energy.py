@@ -1,4 +1,4 @@
-"""Energy in free motion (no torque, no load): kept without damping, lost with it."""
+"""Energy in free motion (no torque, no load): conserved without damping, dissipated with it."""
 
 import numpy as np
 import pytest
@@ -27,7 +27,7 @@ def compute_total_energy(actuator, x):
 
 
 def release(parameters, x, duration, period, steps=1):
-    """The total energy at the end of every period of free motion from x."""
+    """Return the total energy at the end of every period of free motion from x."""
     actuator = build_actuator(parameters, MU0)
     energies = [compute_total_energy(actuator, x)]
     for tick in range(round(duration / period)):
@@ -37,22 +37,22 @@ def release(parameters, x, duration, period, steps=1):
 
 
 def compute_drift(parameters, period):
-    """The greatest change of the energy, as a share of the energy at the start."""
+    """Return the largest change of the energy relative to the initial energy."""
     energies = release(parameters, START, DURATION_S, period)
     return np.abs(energies / energies[0] - 1.0).max()
 
 
 @settings(max_examples=25)
 @given(states(speed=3.0))
-def test_total_energy_never_grows_with_damping(x):
-    """Over every single period, from anywhere in the domain: nothing creates energy."""
+def test_total_energy_never_increases_with_damping(x):
+    """In every single period, from any state in the domain."""
     energies = release(DESIGN.actuator, x, 0.02, 0.001, steps=8)
     assert np.all(np.diff(energies) <= 1e-12 * energies[0])
     assert energies[-1] < energies[0] or energies[0] == 0.0
 
 
-def test_damping_takes_the_power_that_the_velocities_say():
-    """Ė = −(D q̇² + D1 θ̇1² + D2 θ̇2²): the loss is neither missing nor too large."""
+def test_dissipated_power_follows_from_the_velocities():
+    """Ė = −(D q̇² + D1 θ̇1² + D2 θ̇2²), neither less nor more."""
     actuator = build_actuator(DESIGN.actuator, MU0)
     period = 1e-4
     energies = release(DESIGN.actuator, START, 2 * period, period)
@@ -63,8 +63,8 @@ def test_damping_takes_the_power_that_the_velocities_say():
     assert (energies[0] - energies[2]) / (2 * period) == pytest.approx(power, rel=1e-3)
 
 
-def test_total_energy_is_kept_without_damping_and_its_drift_is_of_fourth_order():
-    """What drift there is comes from the integrator: it falls at least as the step⁴."""
+def test_total_energy_is_conserved_without_damping_to_fourth_order():
+    """The drift is that of the integrator: it decreases at least as step⁴."""
     undamped = DESIGN.actuator.changed(**UNDAMPED)
     periods = np.array([0.004, 0.002, 0.001, 0.0005])
     drifts = np.array([compute_drift(undamped, period) for period in periods])
@@ -73,8 +73,8 @@ def test_total_energy_is_kept_without_damping_and_its_drift_is_of_fourth_order()
     assert slope > 3.8, drifts
 
 
-def test_the_printed_reaction_torque_does_not_keep_the_energy():
-    """Why Eq 5 was replaced: with it the energy changes, however small the step is."""
+def test_printed_reaction_torque_does_not_conserve_energy():
+    """The reason for replacing Eq 5: with it the energy changes at any step size."""
     printed = DESIGN.actuator.changed(**UNDAMPED, reaction_torque="printed")
     drifts = [compute_drift(printed, period) for period in (0.001, 0.0005)]
     assert drifts[0] > 1e-3

@@ -1,13 +1,21 @@
 """AwAS-II: a lever whose pivot the second motor moves between the springs and the link.
 
-U(φ, s) = ½ k_l (s/(1 − s))² sin²φ, with s the position of the pivot over the length of the lever.
+U(φ, s) = ½ k_l (s/(1 − s))² sin²φ; s is the position of the pivot divided by the length of the
+lever.
 """
 
 import math
 from typing import Any, Literal
 
 from svsa.actuators.drawing import Part, hold, place
-from svsa.actuators.mechanism import PAPERS_DAMPING_NMS_PER_RAD, PAPERS_INERTIA, Mechanism, perturb
+from svsa.actuators.mechanism import (
+    ASSUMED_SPEED,
+    PAPERS_DAMPING_NMS_PER_RAD,
+    PAPERS_INERTIA,
+    Mechanism,
+    assume_speed,
+    perturb,
+)
 from svsa.actuators.parameters import Limits, MechanismParameters
 from svsa.inputs.checked import Number, quantity
 
@@ -100,5 +108,7 @@ AWAS2 = Mechanism(
         "stiffness_min_nm_per_rad": "assumed",
         "stiffness_max_nm_per_rad": "assumed",
         "lever_ratio_margin": "assumed",
+        "speed_max_rad_per_s": ASSUMED_SPEED,
     },
+    speed_max_rad_per_s=assume_speed(200.0),
 )

@@ -1,4 +1,4 @@
-"""A leaf spring with a roller that the second motor slides: the free length is s.
+"""A leaf spring with a roller that the second motor moves: s is the free length.
 
 U(φ, s) = c φ²/(2 s³): an example, not a built actuator. The torque is linear in φ.
 """
@@ -7,7 +7,14 @@ import math
 from typing import Any, Literal
 
 from svsa.actuators.drawing import Part, hold, place
-from svsa.actuators.mechanism import PAPERS_DAMPING_NMS_PER_RAD, PAPERS_INERTIA, Mechanism, perturb
+from svsa.actuators.mechanism import (
+    ASSUMED_SPEED,
+    PAPERS_DAMPING_NMS_PER_RAD,
+    PAPERS_INERTIA,
+    Mechanism,
+    assume_speed,
+    perturb,
+)
 from svsa.actuators.parameters import Limits, MechanismParameters
 from svsa.inputs.checked import Number, quantity
 
@@ -92,5 +99,7 @@ LEAF_SPRING = Mechanism(
         "stiffness_min_nm_per_rad": "assumed",
         "stiffness_max_nm_per_rad": "assumed",
         "lever_ratio_margin": "assumed",
+        "speed_max_rad_per_s": ASSUMED_SPEED,
     },
+    speed_max_rad_per_s=assume_speed(200.0),
 )

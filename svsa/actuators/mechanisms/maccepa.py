@@ -6,7 +6,14 @@ U(φ, s) = ½ κ_s (√(B² + C² − 2BC cos φ) − (C − B) + s)², with the
 from typing import Any, Literal
 
 from svsa.actuators.drawing import Part, hold, place
-from svsa.actuators.mechanism import PAPERS_DAMPING_NMS_PER_RAD, PAPERS_INERTIA, Mechanism, perturb
+from svsa.actuators.mechanism import (
+    ASSUMED_SPEED,
+    PAPERS_DAMPING_NMS_PER_RAD,
+    PAPERS_INERTIA,
+    Mechanism,
+    assume_speed,
+    perturb,
+)
 from svsa.actuators.parameters import Limits, MechanismParameters
 from svsa.inputs.checked import Number, quantity
 
@@ -99,5 +106,9 @@ MACCEPA = Mechanism(
         "stiffness_min_nm_per_rad": "assumed",
         "stiffness_max_nm_per_rad": "assumed",
         "lever_ratio_margin": "assumed",
+        "speed_max_rad_per_s": ASSUMED_SPEED,
     },
+    speed_max_rad_per_s=assume_speed(50.0),
+    poles_rad_per_s=(30.0, 30.0),
+    observer_rad_per_s=30.0,
 )

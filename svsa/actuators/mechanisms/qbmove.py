@@ -1,4 +1,4 @@
-"""qbmove: two motors pull at the link through exponential springs, against each other.
+"""qbmove: two antagonistic motors act on the link through exponential springs.
 
 τ = k sinh a(q − θa) + k sinh a(q − θb). With θ1 = (θa + θb)/2 and θ2 = (θa − θb)/2 the motors
 decouple, B1 = B2 = 2B, u1 = ua + ub, u2 = ua − ub, and U(φ, s) = (2k/a) cosh(aφ) cosh(as), s = θ2.
@@ -9,14 +9,27 @@ import math
 from typing import Any, Literal
 
 from svsa.actuators.drawing import Part, place
-from svsa.actuators.mechanism import PAPERS_DAMPING_NMS_PER_RAD, PAPERS_INERTIA, Mechanism, perturb
+from svsa.actuators.mechanism import (
+    ASSUMED_SPEED,
+    PAPERS_DAMPING_NMS_PER_RAD,
+    PAPERS_INERTIA,
+    Mechanism,
+    Published,
+    assume_speed,
+    perturb,
+)
+from svsa.actuators.mechanisms.viactors import (
+    MODELS,
+    MOTOR_SOURCES,
+    MOTORS,
+    TORQUE_NM,
+    TORQUE_SOURCE,
+)
 from svsa.actuators.parameters import Limits, MechanismParameters
 from svsa.inputs.checked import Number, quantity
 
-_MODELS = "public Gazebo models of the ViActors project"
 _REST_RAD = 0.7
 """Angle between the drawn arm of a motor and the pin of the link at s = 0."""
-_TORQUE = f"{_MODELS}: 6 N·m a motor"
 
 
 class QbmoveParameters(MechanismParameters):
@@ -48,11 +61,8 @@ def draw(p: Any, s: float, phi: float) -> tuple[Part, ...]:
 
 _PROTOTYPE = QbmoveParameters(
     link_inertia_kg_m2=0.02,
-    motor1_inertia_kg_m2=0.0466,
-    motor2_inertia_kg_m2=0.0466,
     link_damping_nms_per_rad=0.002,
-    motor1_damping_nms_per_rad=0.0038,
-    motor2_damping_nms_per_rad=0.0038,
+    **MOTORS,
     rate_per_rad=8.9992,
     spring_torque_nm=0.0019,
 )
@@ -70,8 +80,8 @@ QBMOVE = Mechanism(
     prototype=_PROTOTYPE,
     nominal=perturb(_PROTOTYPE, PAPERS_INERTIA, PAPERS_DAMPING_NMS_PER_RAD),
     limits=Limits(
-        torque1_nm=6.0,
-        torque2_nm=6.0,
+        torque1_nm=TORQUE_NM,
+        torque2_nm=TORQUE_NM,
         deflection_fraction=0.95,
         deflection_max_rad=0.8,
         singularity_fraction=0.05,
@@ -81,21 +91,24 @@ QBMOVE = Mechanism(
     ),
     sources={
         "link_inertia_kg_m2": "assumed",
-        "motor1_inertia_kg_m2": f"{_MODELS}: 0.0233 kg·m² a motor, twice",
-        "motor2_inertia_kg_m2": f"{_MODELS}: 0.0233 kg·m² a motor, twice",
         "link_damping_nms_per_rad": "assumed",
-        "motor1_damping_nms_per_rad": f"{_MODELS}: 0.0019 N·m·s/rad a motor, twice",
-        "motor2_damping_nms_per_rad": f"{_MODELS}: 0.0019 N·m·s/rad a motor, twice",
-        "rate_per_rad": _MODELS,
-        "spring_torque_nm": _MODELS,
-        "torque1_nm": _TORQUE,
-        "torque2_nm": _TORQUE,
+        **MOTOR_SOURCES,
+        "rate_per_rad": MODELS,
+        "spring_torque_nm": MODELS,
         "deflection_fraction": "assumed",
-        "deflection_max_rad": _MODELS,
+        "deflection_max_rad": MODELS,
         "singularity_fraction": "assumed",
         "stiffness_min_nm_per_rad": "assumed",
         "stiffness_max_nm_per_rad": "assumed",
         "lever_ratio_margin": "assumed",
+        "speed_max_rad_per_s": ASSUMED_SPEED,
     },
+    speed_max_rad_per_s=assume_speed(50.0),
     antagonistic=True,
+    poles_rad_per_s=(25.0, 25.0),
+    observer_rad_per_s=25.0,
+    published={
+        "peak_torque_nm": Published((12.0,), f"{TORQUE_SOURCE}, twice"),
+        "deflection_max_rad": Published((0.8,), MODELS),
+    },
 )

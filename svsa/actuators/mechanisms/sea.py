@@ -1,12 +1,19 @@
 """Series elastic actuator: a linear spring between motor and link, and no stiffness motor.
 
-U(φ) = ½ k φ²: the limit case of the class. Position is controlled as in any member; the stiffness
-is k, always, and a stiffness reference other than k is rejected.
+U(φ) = ½ k φ²: the limit case of the class. The position is controlled as for the other actuators;
+the stiffness is always k, and another stiffness reference is rejected.
 """
 
 from typing import Any, Literal
 
-from svsa.actuators.mechanism import PAPERS_DAMPING_NMS_PER_RAD, PAPERS_INERTIA, Mechanism, perturb
+from svsa.actuators.mechanism import (
+    ASSUMED_SPEED,
+    PAPERS_DAMPING_NMS_PER_RAD,
+    PAPERS_INERTIA,
+    Mechanism,
+    assume_speed,
+    perturb,
+)
 from svsa.actuators.parameters import Limits, MechanismParameters
 from svsa.inputs.checked import Number, quantity
 
@@ -72,6 +79,8 @@ SEA = Mechanism(
         "stiffness_min_nm_per_rad": "bound of the spring stiffness k, assumed",
         "stiffness_max_nm_per_rad": "bound of the spring stiffness k, assumed",
         "lever_ratio_margin": _NO_MOTOR,
+        "speed_max_rad_per_s": ASSUMED_SPEED,
     },
+    speed_max_rad_per_s=assume_speed(200.0),
     has_stiffness_motor=False,
 )

@@ -1,15 +1,16 @@
 """SVSA: a spring on a lever whose arm the second motor changes along a spiral (the paper).
 
 U(φ, s) = K [1/(1 − s) − 1/n + ln((1 − s)/n)], n = 1 − s cos φ, with s = μ and κ = 1/(2πγ). The loop
-and the control laws use the hand-written derivatives of `svsa.actuators.spring`: they keep every
-digit at small deflection, and earlier runs their bits. Those of this energy test them.
+and the control laws use the hand-written derivatives of `svsa.actuators.spring`, which lose no
+digits at small deflection and keep earlier runs bit-identical. Tests compare them with the
+derivatives of this energy.
 """
 
 import math
 from pathlib import Path
 from typing import Any
 
-from svsa.actuators.mechanism import Mechanism
+from svsa.actuators.mechanism import ASSUMED_SPEED, Mechanism, Published, assume_speed
 from svsa.actuators.parameters import SVSA, ActuatorParameters, Limits
 from svsa.inputs.toml_file import read_toml
 
@@ -39,5 +40,12 @@ SVSA_MECHANISM = Mechanism(
     prototype=ActuatorParameters(**_read("actuator", "value")),
     nominal=ActuatorParameters(**_read("nominal", "value")),
     limits=Limits(**_read("limits", "value")),
-    sources=_read("actuator", "source") | _read("limits", "source"),
+    sources=_read("actuator", "source")
+    | _read("limits", "source")
+    | {"speed_max_rad_per_s": ASSUMED_SPEED},
+    speed_max_rad_per_s=assume_speed(50.0),
+    published={
+        "stiffness_range_nm_per_rad": Published((1.7, 150.56), "paper, Table 1"),
+        "deflection_max_rad": Published((0.75,), "paper, Table 1"),
+    },
 )

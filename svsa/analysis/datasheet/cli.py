@@ -38,13 +38,23 @@ def datasheet(
 
 
 def _build_tables(found: "Datasheet") -> list[Table]:
-    from svsa.analysis.datasheet.rows import list_rows
+    from svsa.analysis.datasheet.rows import (
+        PUBLISHED_HEADS,
+        list_published,
+        list_rows,
+        write_figure,
+    )
 
     summary = Table(title=f"{found.title} ({found.source})", title_justify="left")
     summary.add_column("Quantity")
     summary.add_column("Simulated plant", justify="right")
     for row in list_rows(found):
         summary.add_row(*row)
+    published = Table(title="Published figures", title_justify="left")
+    for head in PUBLISHED_HEADS:
+        published.add_column(head)
+    for compared in list_published(found) or [("none with a source is known", "", "", "", "")]:
+        published.add_row(*compared)
     presets = Table(title="Stiffness presets, motors at rest", title_justify="left")
     for column in ("σ at φ = 0 [N·m/rad]", "Deflection [rad]", "Torque [N·m]", "Energy [J]"):
         presets.add_column(column, justify="right")
@@ -55,9 +65,9 @@ def _build_tables(found: "Datasheet") -> list[Table]:
             one.torque_nm[-1],
             one.energy_j,
         )
-        presets.add_row(*(f"{number:.3g}" for number in numbers))
+        presets.add_row(*map(write_figure, numbers))
     assumed = Table(title="Parameters without a published source", title_justify="left")
     assumed.add_column("Name")
     for name in found.assumed:
         assumed.add_row(name)
-    return [summary, presets, assumed]
+    return [summary, published, presets, assumed]

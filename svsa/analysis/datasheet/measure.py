@@ -33,11 +33,11 @@ from svsa.simulation.reference.kinds.minimum_jerk import MinimumJerkStiffness
 PRESETS = 5
 POINTS = 41
 NOMINAL_SHARE = 0.5
-"""Nominal torque as a share of the peak torque, where no publication says another."""
+"""Nominal torque as a share of the peak torque, unless a publication gives another value."""
 VARIED = (0.1, 0.9)
-"""Which part of the stiffness range, in ln σ, is passed for the stiffness-variation time."""
+"""Share of the stiffness range, in ln σ, for the stiffness-variation time."""
 SETTLED = 0.05
-"""How near the stiffness has to stay to its end, as a share of the change."""
+"""Settling band of the stiffness, as a share of the change."""
 SHORTEST_S, LONGEST_S, RAMP_S, REST_S = 0.1, 6.4, 2.0, 0.5
 FADE_S = 0.05
 
@@ -45,7 +45,7 @@ FADE_S = 0.05
 class Preset(Checked):
     """Torque over deflection at one stiffness preset: motors at rest, s constant.
 
-    The curve goes from φ = 0 to the deflection limit, or to the largest torque of motor 1.
+    The curve ends at the deflection limit, or at the largest torque of motor 1.
     """
 
     stiffness_nm_per_rad: Number = quantity("N·m/rad", "σ at φ = 0")
@@ -63,12 +63,23 @@ class Variation(Checked):
     time_s: Number = quantity("s", "Shortest time")
 
 
+class PublishedFigure(Checked):
+    """A published figure next to the measured one; of a range both ends."""
+
+    field: str = quantity("", "Field of the datasheet")
+    published: list[float] = quantity("", "Published numbers, in the unit of the field")
+    measured: list[float] = quantity("", "Measured numbers; empty if there are none")
+    deviation: list[float] = quantity("1", "(measured − published)/published of each")
+    source: str = quantity("", "Publication")
+
+
 class Datasheet(Checked):
     """A datasheet (Grioli et al., IJRR 2015), measured on the simulated plant.
 
     A variation is the shortest minimum-jerk change of σ under NDOBC with an exact model, over
-    `VARIED` of the range, without a motor at its limit. Speeds are not measured: the plant has no
-    voltage that would limit them.
+    `VARIED` of the range, without a motor at its limit. The plant has no voltage: the speed limit
+    is that of the actuator's file, and the workspace of torque and speed is that of a link which
+    turns at a constant speed and stiffness.
     """
 
     name: str = quantity("", "Name of the actuator")
@@ -92,24 +103,34 @@ class Datasheet(Checked):
     torque_stiffness: list[tuple[float, float, float]] = quantity(
         "", "Torque, N·m; smallest and largest σ at this torque, N·m/rad"
     )
+    speed_max_rad_per_s: Number | None = quantity(
+        "rad/s", "Largest speed of the unloaded link; null if no speed limit is stated"
+    )
+    torque_speed: list[tuple[float, float]] = quantity(
+        "", "Speed, rad/s, and largest torque on the link at this speed, N·m"
+    )
     assumed: list[str] = quantity("", "Parameters and limits without a published source")
+    published: list[PublishedFigure] = quantity(
+        "", "Published figures with the deviation of the measured ones", default=[]
+    )
 
 
 def measure_datasheet(name: str) -> Datasheet:
     """Measure the datasheet of an installed actuator.
 
     Args:
-        name: Of the actuator, such as "qbmove".
+        name: Name of the actuator, such as "qbmove".
 
     Returns:
-        Its datasheet, with the parameters of the simulated plant that have no published source.
+        Its datasheet, with the parameters of the simulated plant that have no published source, and
+        compared with the published figures.
 
     Raises:
         ParameterError: If no such actuator is installed.
     """
     mechanism = get_mechanism(name)
     parameters, limits = mechanism.prototype, mechanism.limits
-    # A run may leave the range of s a little before it ends; a datasheet may not.
+    # A run may leave the range of s by a margin before it ends; the datasheet uses the exact range.
     exact = limits.changed(lever_ratio_margin=0.0)
     plant, domain = build_actuator(parameters, 0.0), build_domain(parameters, exact)
     low, high = limits.stiffness_min_nm_per_rad, limits.stiffness_max_nm_per_rad
@@ -122,8 +143,9 @@ def measure_datasheet(name: str) -> Datasheet:
     torques = np.linspace(0.0, peak, PRESETS * 4 + 1).tolist()
     ranges = [(torque, *find_stiffness_range(plant, domain, torque)) for torque in torques]
     loaded = find_stiffness_range(plant, domain, nominal)
+    speeds = _list_speeds(mechanism, peak)
     commanded = max(loaded[0], low), min(loaded[1], high)
-    return Datasheet(
+    found = Datasheet(
         name=name,
         title=mechanism.title,
         source=mechanism.source,
@@ -137,8 +159,42 @@ def measure_datasheet(name: str) -> Datasheet:
         elastic_energy_max_j=max(preset.energy_j for preset in presets),
         presets=presets,
         torque_stiffness=[one for one in ranges if one[1] <= one[2]],
+        speed_max_rad_per_s=speeds[-1][0] if speeds else None,
+        torque_speed=speeds,
         assumed=[key for key, source in mechanism.sources.items() if source.startswith("assumed")],
     )
+    return found.changed(published=_compare(found, mechanism))
+
+
+def _compare(found: Datasheet, mechanism: Mechanism) -> list[PublishedFigure]:
+    """The published figures of an actuator next to the measured ones."""
+    compared = []
+    for name, (published, source) in mechanism.published.items():
+        value = getattr(found, name)
+        measured = [] if value is None else np.atleast_1d(value).tolist()
+        pairs = zip(measured, published, strict=bool(measured))
+        compared.append(
+            PublishedFigure(
+                field=name,
+                published=list(published),
+                measured=measured,
+                deviation=[one / other - 1.0 for one, other in pairs],
+                source=source,
+            )
+        )
+    return compared
+
+
+def _list_speeds(mechanism: Mechanism, peak: float) -> list[tuple[float, float]]:
+    """List speeds, and the torque that spring and motor 1 leave after the dampings."""
+    p, of_motor = mechanism.prototype, mechanism.largest_torque_nm
+    if mechanism.speed_max_rad_per_s is None:
+        return []
+    D, D1 = p.link_damping_nms_per_rad, p.motor1_damping_nms_per_rad
+    drags = (peak, D), (of_motor, D + D1)
+    stalled = min(most / drag if drag else math.inf for most, drag in drags)
+    speeds = np.linspace(0.0, min(mechanism.speed_max_rad_per_s, stalled), POINTS).tolist()
+    return [(speed, min(most - drag * speed for most, drag in drags)) for speed in speeds]
 
 
 def _spread(low: float, high: float) -> list[float]:

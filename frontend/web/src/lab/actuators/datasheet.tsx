@@ -1,4 +1,4 @@
-/** The datasheet of an actuator, as the server has measured it. */
+/** The datasheet of an actuator, measured by the server. */
 import { useEffect, useState } from "preact/hooks";
 import { type Datasheet, datasheetAddress, readDatasheet } from "../../core/api/actuators";
 import type { ActuatorRow } from "../../core/api/types";
@@ -48,6 +48,15 @@ function Plots({ found }: { found: Datasheet }) {
           y={{ label: words.stiffnessAxis }}
           curves={bounds}
         />
+        {found.torque_speed.length > 0 && (
+          <Curves
+            title={words.speeds}
+            summary={words.summary(words.speeds, 1)}
+            x={{ label: words.speed }}
+            y={{ label: words.torqueAxis }}
+            curves={[curveOf(found.torque_speed.map(([speed, torque]) => [speed, torque]))]}
+          />
+        )}
       </div>
       <p class="hint">
         {words.presets(
@@ -104,6 +113,19 @@ export function DatasheetCard({ actuator: { name } }: { actuator: ActuatorRow })
               </tr>
             ))}
           </Table>
+          <h4>{words.published}</h4>
+          {found.published_rows.length === 0 ? (
+            <p class="hint">{words.unpublished}</p>
+          ) : (
+            <ul class="published-figures" aria-label={words.published}>
+              {found.published_rows.map(([quantity, measured, published, deviation, source]) => (
+                <li key={quantity}>
+                  {quantity}: {words.comparison(measured, published, deviation)}
+                  <p class="hint">{source}</p>
+                </li>
+              ))}
+            </ul>
+          )}
           <Plots found={found} />
         </>
       )}

@@ -1,18 +1,21 @@
-/** The actuators of the lab: their parameters, a private session of one, its datasheet. */
+/** The actuators of the lab and the arm: parameters, private sessions, datasheets. */
 import { useEffect, useState } from "preact/hooks";
-import { openActuator } from "../../core/api/actuators";
+import { openActuator, readActuator } from "../../core/api/actuators";
 import type { ActuatorRow } from "../../core/api/types";
-import { explain } from "../../core/state/actions";
 import { actuators, SVSA } from "../../core/state/actuators";
 import { text } from "../../core/text/en";
 import { formatInput } from "../../core/units";
-import { Page } from "../../core/widgets/desk";
 import { Choice } from "../../core/widgets/form";
+import { Page } from "../../core/widgets/pagelayout";
+import { MathSymbol } from "../../core/widgets/symbol";
 import { Table } from "../../core/widgets/tables";
 import { goTo, place } from "../../runs/list/place";
+import { ARM, ArmCard } from "./armcard";
 import { DatasheetCard } from "./datasheet";
+import { CardHead, useOpening } from "./opening";
 
 const words = text.actuators;
+const POLL_MS = 1000;
 
 const shown = (value: number | string): string =>
   typeof value === "number" ? formatInput(value) : value;
@@ -22,11 +25,15 @@ function Parameters({ actuator }: { actuator: ActuatorRow }) {
     <Table label={words.parameters} caption={words.parameters} heads={words.heads}>
       {actuator.parameters.map((one) => (
         <tr key={one.name}>
-          <th scope="row">{one.meaning}</th>
+          <th scope="row">
+            <MathSymbol text={one.meaning} />
+          </th>
           <td>{shown(one.value)}</td>
           <td>{shown(one.nominal)}</td>
           <td>{one.unit === "1" ? "" : one.unit}</td>
-          <td class={one.assumed ? "muted" : ""}>{one.source}</td>
+          <td class={one.assumed ? "muted" : ""}>
+            <MathSymbol text={one.source} />
+          </td>
         </tr>
       ))}
     </Table>
@@ -45,36 +52,36 @@ interface ActuatorProps {
   onProblem: (problem: string) => void;
 }
 
+/** How long the compiler has worked for the session that is being opened, s. */
+function useCompiling(name: string, isWaiting: boolean): number {
+  const [seconds, setSeconds] = useState(0);
+  useEffect(() => {
+    if (!isWaiting) return;
+    const timer = setInterval(() => {
+      readActuator(name).then(
+        ({ compiling_s }) => setSeconds(compiling_s ?? 0),
+        () => setSeconds(0), // The answer to the session itself states the problem.
+      );
+    }, POLL_MS);
+    return () => clearInterval(timer);
+  }, [name, isWaiting]);
+  return seconds;
+}
+
 function Actuator({ actuator, onProblem }: ActuatorProps) {
-  const [isOpening, setOpening] = useState(false);
-  const open = async () => {
-    setOpening(true);
-    onProblem("");
-    try {
-      const { session } = await openActuator(actuator.name);
-      location.assign(`${location.pathname}?session=${encodeURIComponent(session)}`);
-    } catch (error) {
-      onProblem(explain(error));
-      setOpening(false);
-    }
-  };
+  const [isOpening, open] = useOpening(() => openActuator(actuator.name), onProblem);
+  const seconds = useCompiling(actuator.name, isOpening && !actuator.is_compiled);
+  const opening = actuator.is_compiled ? words.opening : words.compiling(actuator.title, seconds);
   return (
     <section class="surface card actuator-card" aria-label={actuator.title}>
-      <div class="spread">
-        <div>
-          <h3>{actuator.title}</h3>
-          <p class="hint">{actuator.source}</p>
-        </div>
-        <button
-          type="button"
-          class="button is-primary"
-          title={words.openHint}
-          disabled={isOpening}
-          onClick={() => void open()}
-        >
-          {isOpening ? words.opening : words.open}
-        </button>
-      </div>
+      <CardHead
+        title={actuator.title}
+        hint={actuator.source}
+        openHint={words.openHint}
+        label={isOpening ? opening : words.open}
+        isOpening={isOpening}
+        onOpen={open}
+      />
       <p>{describeRange(actuator)}</p>
       {actuator.name === SVSA && <p class="hint">{words.paper}</p>}
       <Parameters actuator={actuator} />
@@ -82,10 +89,11 @@ function Actuator({ actuator, onProblem }: ActuatorProps) {
   );
 }
 
-/** The actuator that the address names, else the first. */
+/** The actuator in the address, or the arm; otherwise the first actuator. */
 export function ActuatorsPage() {
   const at = place.value;
   const named = at.kind === "actuators" ? at.actuator : "";
+  const isOfArm = named === ARM;
   const [problem, setProblem] = useState("");
   useEffect(() => setProblem(""), [named]);
   const found = actuators.value ?? [];
@@ -99,13 +107,22 @@ export function ActuatorsPage() {
           <div class="actuators-choice">
             <Choice
               label={words.choose}
-              options={found.map(({ name, title }) => ({ value: name, label: title }))}
-              value={actuator.name}
+              options={[
+                ...found.map(({ name, title }) => ({ value: name, label: title })),
+                { value: ARM, label: text.arm.name },
+              ]}
+              value={isOfArm ? ARM : actuator.name}
               onChoose={(name) => goTo({ kind: "actuators", actuator: name })}
             />
           </div>
-          <Actuator key={actuator.name} actuator={actuator} onProblem={setProblem} />
-          <DatasheetCard key={`${actuator.name} datasheet`} actuator={actuator} />
+          {isOfArm ? (
+            <ArmCard onProblem={setProblem} />
+          ) : (
+            <>
+              <Actuator key={actuator.name} actuator={actuator} onProblem={setProblem} />
+              <DatasheetCard key={`${actuator.name} datasheet`} actuator={actuator} />
+            </>
+          )}
         </>
       )}
     </Page>

@@ -1,0 +1,76 @@
+/** Opens a private session of an arm, with an actuator in each joint. */
+import { useEffect, useState } from "preact/hooks";
+import { type ArmRow, openArm, readArms } from "../../core/api/arm";
+import { explain } from "../../core/state/actions";
+import { actuators } from "../../core/state/actuators";
+import { text } from "../../core/text/en";
+import { Choice, SelectField } from "../../core/widgets/form";
+import { CardHead, useOpening } from "./opening";
+
+const words = text.arm;
+
+/** The joints' actuators: of the arm, until the user chooses others. */
+type Chosen = readonly [string, string];
+
+interface ArmCardProps {
+  onProblem: (problem: string) => void;
+}
+
+/** The address of the arm among the actuators. */
+export const ARM = "arm";
+
+export function ArmCard({ onProblem }: ArmCardProps) {
+  const [arms, setArms] = useState<readonly ArmRow[]>([]);
+  const [name, setName] = useState<string | null>(null);
+  const [chosen, setChosen] = useState<Chosen | null>(null);
+  useEffect(() => {
+    readArms().then(setArms, (error: unknown) => onProblem(explain(error)));
+  }, []);
+  const arm = arms.find((one) => one.name === name) ?? arms[0];
+  const [isOpening, open] = useOpening(
+    () => openArm(arm?.name ?? "", chosen ?? undefined),
+    onProblem,
+  );
+  if (arm === undefined) return null;
+  const [first, second] = chosen ?? [arm.actuator, arm.actuator];
+  const names = (actuators.value ?? []).map((one) => one.name);
+  const titleOf = (of: string) => actuators.value?.find((one) => one.name === of)?.title ?? of;
+  return (
+    <section class="surface card actuator-card" aria-label={words.name}>
+      <CardHead
+        title={words.name}
+        hint={words.lead}
+        openHint={words.openHint}
+        label={isOpening ? words.opening : words.open}
+        isOpening={isOpening}
+        onOpen={open}
+      />
+      <Choice
+        label={words.choose}
+        options={arms.map((one) => ({ value: one.name, label: one.title }))}
+        value={arm.name}
+        onChoose={(next) => {
+          setName(next);
+          setChosen(null);
+        }}
+      />
+      <p>{arm.description}</p>
+      <div class="form halves">
+        <SelectField
+          label={words.actuatorOf(1)}
+          value={first}
+          options={names}
+          name={titleOf}
+          onChoose={(next) => setChosen([next, second])}
+        />
+        <SelectField
+          label={words.actuatorOf(2)}
+          value={second}
+          options={names}
+          name={titleOf}
+          onChoose={(next) => setChosen([first, next])}
+        />
+      </div>
+    </section>
+  );
+}
