@@ -42,11 +42,19 @@ SINGULAR_DECOUPLING = find_number("singular_decoupling")
 
 SMALLEST_LEVER_RATIO = 0.005
 _TESTED = 65
-"""At how many values of s and of φ the deflection limit of an energy is searched."""
+"""Number of values of s and of φ at which the deflection limit of an energy is searched."""
 
 
 class Domain(NamedTuple):
-    """The bounds of the domain. mu_min, mu_max: of s. deflection_max: rad; fractions: 1."""
+    """Bounds of the domain in which the model is valid.
+
+    Attributes:
+        mu_min: Lower bound of s.
+        mu_max: Upper bound of s.
+        deflection_max: Bound of |φ|, rad.
+        deflection_fraction: Bound of |φ| as a fraction of the zero-stiffness angle, 1.
+        singularity_fraction: Bound of det A(x) over its value at φ = 0, 1.
+    """
 
     mu_min: float
     mu_max: float
@@ -65,9 +73,9 @@ class Bounds(NamedTuple):
 def build_domain(actuator: MechanismParameters, limits: Limits) -> Domain:
     """Build the domain of a plant: s between its values at the ends of the stiffness range.
 
-    Of the SVSA never at μ = 0, where A(x) is zero, nor at μ = 1, where the energy is infinite. Of
-    an elastic energy never beyond the ends of s, nor beyond a share of the deflection at which the
-    stiffness is zero at any of these s.
+    For the SVSA μ excludes 0, where A(x) is zero, and 1, where the energy is infinite. For an
+    elastic energy the domain stays within the range of s, and within a fraction of the deflection
+    at which the stiffness is zero for any of these s.
     """
     if not isinstance(actuator, ActuatorParameters):
         has_motor = get_mechanism(get_mechanism_name(actuator)).has_stiffness_motor
@@ -92,7 +100,8 @@ def _build_domain_of_energy(actuator: ElasticActuator, limits: Limits, has_motor
     margin = limits.lever_ratio_margin * (reached[1] - reached[0])
     low = max(reached[0] - margin, actuator.lowest)
     high = min(reached[1] + margin, actuator.highest)
-    zero = _find_zero_stiffness_deflection(actuator, low, high, limits.deflection_max_rad)
+    deflections = np.linspace(0.0, limits.deflection_max_rad, _TESTED)
+    zero = find_zero_stiffness_deflection(actuator, np.linspace(low, high, _TESTED), deflections)
     return Domain(
         mu_min=low,
         mu_max=high,
@@ -103,7 +112,11 @@ def _build_domain_of_energy(actuator: ElasticActuator, limits: Limits, has_motor
 
 
 def _find_coordinate(actuator: ElasticActuator, sigma: float) -> float:
-    """Find s at an end of the stiffness range; raises `ParameterError` if the energy has none."""
+    """Find s at an end of the stiffness range.
+
+    Raises:
+        ParameterError: If no s of the energy has this stiffness.
+    """
     s = compute_coordinate_for_stiffness(actuator, sigma)
     found = compute_stiffness_of(actuator, s, 0.0)
     if not math.isclose(found, sigma, rel_tol=1e-9):
@@ -112,14 +125,25 @@ def _find_coordinate(actuator: ElasticActuator, sigma: float) -> float:
     return s
 
 
-def _find_zero_stiffness_deflection(
-    actuator: ElasticActuator, low: float, high: float, most: float
+@compiled
+def find_zero_stiffness_deflection(
+    actuator: ElasticActuator, coordinates: np.ndarray, deflections: np.ndarray
 ) -> float:
-    """Find the smallest |φ| up to `most` with σ ≤ 0 at an s of the range; infinite if none."""
-    for phi in np.linspace(0.0, most, _TESTED):
-        for s in np.linspace(low, high, _TESTED):
-            if any(not compute_stiffness_of(actuator, s, way * phi) > 0.0 for way in (1.0, -1.0)):
-                return float(phi)
+    """Find the first deflection with σ ≤ 0, on either side, at one of the coordinates.
+
+    Args:
+        actuator: Constants of the actuator.
+        coordinates: Values of s.
+        deflections: Values of |φ| in rising order, rad.
+
+    Returns:
+        |φ|, rad; infinite if there is none.
+    """
+    for phi in deflections:
+        for s in coordinates:
+            for way in (1.0, -1.0):
+                if not compute_stiffness_of(actuator, s, way * phi) > 0.0:
+                    return phi
     return math.inf
 
 
@@ -140,9 +164,10 @@ _limit = choose_kind(_limit_of_svsa, _limit_of_energy)
 
 @compiled
 def compute_deflection_limit(domain: Domain, actuator: AnyActuator, s: float) -> float:
-    """Compute the |φ| at which a run ends, rad: for the SVSA a share of its zero-stiffness angle.
+    """Compute the |φ| at which a run ends, rad: for the SVSA a fraction of its zero-stiffness
+    angle.
 
-    Of an elastic energy `build_domain` has found it for all s.
+    For an elastic energy `build_domain` has computed one limit for all s.
     """
     return _limit(actuator, domain, s)
 
@@ -151,8 +176,8 @@ def compute_deflection_limit(domain: Domain, actuator: AnyActuator, s: float) ->
 def compute_relative_determinant(mu: float, phi: float) -> float:
     """det A(x) over its value at φ = 0: (1 − μ cos³φ)(1 − μ)⁵ / (1 − μ cos φ)⁶, from Eq 18.
 
-    det A = 2K²μ³μ'(1 − μ cos³φ) / (M B1 B2 (1 − μ cos φ)⁶): never zero for μ in (0, 1), but
-    small where the spring is soft, and there A⁻¹ asks for torques that no motor has.
+    det A = 2K²μ³μ'(1 − μ cos³φ) / (M B1 B2 (1 − μ cos φ)⁶): never zero for μ in (0, 1), but small
+    if the spring is soft; A⁻¹ then requires torques that no motor can deliver.
     """
     p = compute_spring(mu, phi)
     r = (1.0 - mu) * p.i
@@ -176,9 +201,15 @@ def compute_relative_determinant_of(actuator: AnyActuator, s: float, phi: float)
 
 @compiled
 def check_domain(domain: Domain, actuator: AnyActuator, x: State) -> int:
-    """`INSIDE`, or the code of the first bound that the state x breaks.
+    """Return `INSIDE`, or the code of the first bound that the state violates.
 
-    domain: `Domain`. actuator: `Actuator`. x: `State`.
+    Args:
+        domain: `Domain`.
+        actuator: `Actuator`.
+        x: `State`.
+
+    Returns:
+        Number of the fault.
     """
     total = x.q + x.dq + x.theta1 + x.dtheta1 + x.theta2 + x.dtheta2
     mu = compute_coordinate(actuator, x.theta2)

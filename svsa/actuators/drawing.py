@@ -15,7 +15,11 @@ Point = tuple[float, float]
 class Part(NamedTuple):
     """A part of a mechanism: rod, leaf, spring, or a pin, which is a disc at its start.
 
-    body: the body that the part belongs to, which gives its color. start, end: scene units.
+    Attributes:
+        kind: Shape of the part.
+        body: Body that the part belongs to, which determines its color.
+        start: Start point (x, y), scene units.
+        end: End point (x, y), scene units.
     """
 
     kind: Kind

@@ -26,14 +26,14 @@ from svsa.numerics.trigonometry import sin
 
 
 def build_actuator(parameters: MechanismParameters, s0: float) -> Any:
-    """Build the constants of an actuator from checked parameters.
+    """Build the constants of an actuator from validated parameters.
 
     Args:
-        parameters: Of the plant or of the nominal model.
-        s0: Stiffness coordinate at θ2 = 0; of the SVSA the lever ratio μ0.
+        parameters: Parameters of the plant or of the nominal model.
+        s0: Stiffness coordinate at θ2 = 0; for the SVSA the lever ratio μ0.
 
     Returns:
-        `Actuator` of the SVSA, else `ElasticActuator`.
+        `Actuator` for the SVSA, otherwise `ElasticActuator`.
     """
     p = parameters
     inertias = p.link_inertia_kg_m2, p.motor1_inertia_kg_m2, p.motor2_inertia_kg_m2
@@ -70,8 +70,12 @@ def build_actuator(parameters: MechanismParameters, s0: float) -> Any:
 class ExternalLoad(NamedTuple):
     """The external load on the plant at one instant.
 
-    w2, w4, w6: torques on link, motor 1, motor 2, N·m. inertia: added to M, kg·m².
-    gravity_moment: m g r of a hung mass, N·m; its torque is −m g r sin q.
+    Attributes:
+        w2: Torque on the link, N·m.
+        w4: Torque on motor 1, N·m.
+        w6: Torque on motor 2, N·m.
+        inertia: Inertia that is added to M, kg·m².
+        gravity_moment: m g r of a hanging mass, N·m; its torque is −m g r sin q.
     """
 
     w2: float
@@ -107,7 +111,12 @@ def compute_deflection(x: State) -> float:
 def compute_internal_torque(actuator: AnyActuator, x: State) -> InternalTorque:
     """F = (−D q̇ − τ_e, −D1 θ̇1 + τ_e, −D2 θ̇2 − τ_r), N·m: Eq 1 without u and w.
 
-    actuator: `Actuator`. x: `State`. Returns `InternalTorque`.
+    Args:
+        actuator: `Actuator`.
+        x: `State`.
+
+    Returns:
+        `InternalTorque`, N·m.
     """
     phi = compute_deflection(x)
     spring = compute_torques(actuator, compute_coordinate(actuator, x.theta2), phi)
@@ -128,9 +137,16 @@ def add_damping(actuator: AnyActuator, x: State, spring: SpringTorques) -> Inter
 def compute_acceleration(
     actuator: AnyActuator, x: State, u: Torque, load: ExternalLoad
 ) -> Acceleration:
-    """q̈, θ̈1, θ̈2 of Eq 1 under the torques u and the external load, rad/s².
+    """q̈, θ̈1, θ̈2 of Eq 1 under the torques u and the external load.
 
-    actuator: `Actuator`. x: `State`. u: `Torque`, N·m. load: `ExternalLoad`.
+    Args:
+        actuator: `Actuator`.
+        x: `State`.
+        u: `Torque`, N·m.
+        load: `ExternalLoad`.
+
+    Returns:
+        Accelerations, rad/s².
     """
     return accelerate(actuator, x, compute_internal_torque(actuator, x), u, load)
 
@@ -189,8 +205,14 @@ def compute_disturbance(
 ) -> Disturbance:
     """w = J_n q̈ − F_n(x) − u: the torque that the nominal model does not explain (Eq 6–9).
 
-    nominal: `Actuator`. x: `State`. u: `Torque`, N·m. acceleration: the true one,
-    rad/s². Returns `Disturbance`, N·m, positive with growing angles.
+    Args:
+        nominal: `Actuator` of the nominal model.
+        x: `State`.
+        u: `Torque`, N·m.
+        acceleration: True accelerations of the three bodies, rad/s².
+
+    Returns:
+        `Disturbance`, N·m, positive in the direction of growing angles.
     """
     return compute_unexplained_torque(nominal, compute_internal_torque(nominal, x), u, acceleration)
 

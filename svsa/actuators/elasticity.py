@@ -38,10 +38,19 @@ _NEWTON_STEPS = 12
 
 
 class Actuator(NamedTuple):
-    """The constants of Eq 1–5: Table 1 or the nominal model, SI, gear output side.
+    """Constants of Eq 1–5 for the SVSA: Table 1 or the nominal model, SI, gear output side.
 
-    M, B1, B2: kg·m². D, D1, D2: N·m·s/rad. K = K_s R²: N·m/rad. gamma: 1. mu0: lever
-    ratio at θ2 = 0, 1. reaction: `REACTION_ENERGY` or `REACTION_PRINTED`.
+    Attributes:
+        M: Inertia of the link, kg·m².
+        B1: Inertia of motor 1, kg·m².
+        B2: Inertia of motor 2, kg·m².
+        D: Damping of the link, N·m·s/rad.
+        D1: Damping of motor 1, N·m·s/rad.
+        D2: Damping of motor 2, N·m·s/rad.
+        K: Rotational stiffness K_s R², N·m/rad.
+        gamma: Reduction γ of the spiral, 1.
+        mu0: Lever ratio μ at θ2 = 0, 1.
+        reaction: `REACTION_ENERGY` or `REACTION_PRINTED`.
     """
 
     M: float
@@ -57,11 +66,21 @@ class Actuator(NamedTuple):
 
 
 class ElasticActuator(NamedTuple):
-    """The constants of an actuator with an elastic energy U(φ, s), SI, gear output side.
+    """Constants of an actuator with an elastic energy U(φ, s), SI, gear output side.
 
-    M … D2: as of `Actuator`. kappa: κ = ds/dθ2. mu0: s at θ2 = 0. lowest, highest: ends of s.
-    antagonistic: 1 of two motors that pull against each other, else 0.
-    The addresses are those of `svsa.actuators.energy`, of this process. e0 … e5: parameters of U.
+    M to D2 have the meaning of `Actuator`. The addresses are those of functions of
+    `svsa.actuators.energy` in this process.
+
+    Attributes:
+        kappa: κ = ds/dθ2.
+        mu0: s at θ2 = 0.
+        lowest: Lower end of s.
+        highest: Upper end of s.
+        antagonistic: 1 if two motors pull against each other, otherwise 0.
+        torques_address: Address of the function for τ_e and τ_r.
+        margin_address: Address of the function for stiffness and determinant.
+        state_address: Address of the function for all derivatives.
+        e0: First parameter of U; e1 to e5 are the others.
     """
 
     M: float
@@ -197,6 +216,22 @@ def _inverse_of_energy(actuator: ElasticActuator, sigma: float, _: float) -> flo
     return s
 
 
+@compiled
+def _loaded_svsa(actuator: Actuator, M: float, _: float) -> Actuator:
+    a = actuator
+    return Actuator(M, a.B1, a.B2, a.D, a.D1, a.D2, a.K, a.gamma, a.mu0, a.reaction)
+
+
+@compiled
+def _loaded_energy(actuator: ElasticActuator, M: float, _: float) -> ElasticActuator:
+    a = actuator
+    return ElasticActuator(
+        M, a.B1, a.B2, a.D, a.D1, a.D2, a.kappa, a.mu0, a.lowest, a.highest, a.antagonistic,
+        a.torques_address, a.margin_address, a.state_address, a.e0, a.e1, a.e2, a.e3, a.e4, a.e5,
+    )  # fmt: skip
+
+
+_loaded = choose_kind(_loaded_svsa, _loaded_energy)
 _torques = choose_kind(_torques_of_svsa, _torques_of_energy)
 _torques_inside = choose_kind(_torques_of_svsa, _torques_inside_of_energy)
 _stiffness = choose_kind(_stiffness_of_svsa, _stiffness_of_energy)
@@ -209,10 +244,21 @@ _inverse = choose_kind(_inverse_of_svsa, _inverse_of_energy)
 
 
 @compiled
-def compute_coordinate(actuator: AnyActuator, theta2: float) -> float:
-    """s = s0 + κ θ2; of the SVSA the lever ratio μ (Eq 4).
+def replace_link_inertia(actuator: AnyActuator, M: float) -> AnyActuator:
+    """The same actuator with another link inertia M, kg·m²."""
+    return _loaded(actuator, M, 0.0)
 
-    actuator: constants. theta2: rad at the gearbox output.
+
+@compiled
+def compute_coordinate(actuator: AnyActuator, theta2: float) -> float:
+    """s = s0 + κ θ2; for the SVSA the lever ratio μ (Eq 4).
+
+    Args:
+        actuator: Constants of the actuator.
+        theta2: Angle of motor 2 at the gearbox output, rad.
+
+    Returns:
+        s.
     """
     return _coordinate(actuator, theta2, 0.0)
 
@@ -225,7 +271,15 @@ def compute_coordinate_slope(actuator: AnyActuator) -> float:
 
 @compiled
 def compute_coordinate_for_stiffness(actuator: AnyActuator, sigma: float) -> float:
-    """The s whose stiffness at φ = 0 is σ, limited to the range of s. sigma: N·m/rad, > 0."""
+    """The s whose stiffness at φ = 0 is σ, limited to the range of s.
+
+    Args:
+        actuator: Constants of the actuator.
+        sigma: σ, N·m/rad, > 0.
+
+    Returns:
+        s.
+    """
     return _inverse(actuator, sigma, 0.0)
 
 
@@ -239,7 +293,7 @@ def compute_torques(actuator: AnyActuator, s: float, phi: float) -> SpringTorque
 def compute_torques_inside(actuator: AnyActuator, s: float, phi: float) -> SpringTorques:
     """`compute_torques` at a state whose domain is checked and whose stiffness is published.
 
-    Of an energy one call returns all three.
+    For an elastic energy one call computes all three.
     """
     return _torques_inside(actuator, s, phi)
 

@@ -1,9 +1,9 @@
 """Machine code of an elastic energy: torque, stiffness and their derivatives from U(φ, s).
 
-sympy differentiates U once. The text of the result is kept with the compiled code
+sympy differentiates U once. The generated text is cached with the compiled code
 (`svsa.numerics.code_cache`), so that later starts need neither sympy nor the compiler. The
-functions are called by their address: the loop and the control laws are compiled once for every
-actuator of this kind, not once for each.
+functions are called by their address: the loop and the control laws are compiled once for all
+actuators of this kind.
 """
 
 import hashlib
@@ -25,6 +25,7 @@ from svsa.actuators.energy_source import reject_energy, write_source
 from svsa.actuators.mechanism import MAX_ELASTIC, Mechanism
 from svsa.actuators.spring import SpringDerivatives, SpringState, SpringTorques, StiffnessMargin
 from svsa.numerics.code_cache import choose_root
+from svsa.numerics.exported import find_address
 
 _GIVEN = [types.float64] * (2 + MAX_ELASTIC)
 RESULTS: dict[str, Any] = {
@@ -35,9 +36,9 @@ RESULTS: dict[str, Any] = {
     ),
     "compute_energy": types.float64,
 }
-"""The functions of an energy and what each returns."""
+"""The functions of an energy and their results."""
 _TESTED = 33
-"""At how many values of s an energy is tested."""
+"""Number of values of s at which an energy is tested."""
 
 
 class Energy(NamedTuple):
@@ -58,19 +59,15 @@ def compile_energy(mechanism: Mechanism) -> Energy:
         Its functions, in this process.
 
     Raises:
-        ParameterError: If the energy is not smooth, has no positive stiffness at φ = 0, or its
-            stiffness does not depend on s.
+        ParameterError: If the energy is not smooth, has no positive stiffness at φ = 0, or has a
+            stiffness that does not depend on s.
     """
     module = _load_module(mechanism)
     functions, addresses = {}, {}
     for name, result in RESULTS.items():
         function = getattr(module, name)
-        signature = result(*_GIVEN)
-        function.compile(signature)
-        compilation = function.get_compile_result(signature)
-        wrapper = compilation.fndesc.llvm_cfunc_wrapper_name
         functions[name] = function
-        addresses[name] = compilation.library.get_pointer_to_function(wrapper)
+        addresses[name] = find_address(function, result(*_GIVEN))
     energy = Energy(functions, addresses)
     _check_stiffness(mechanism, energy)
     return energy
@@ -105,7 +102,7 @@ def _load_module(mechanism: Mechanism) -> ModuleType:
             new = path.with_suffix(f".{os.getpid()}")
             new.write_text(text, encoding="utf-8")
             new.replace(path)
-        except OSError:  # a cache that can only be read
+        except OSError:  # a read-only cache
             module = ModuleType(name)
             exec(compile(text, f"<{name}>", "exec"), module.__dict__)  # noqa: S102 (own text)
             return module
@@ -121,7 +118,8 @@ def _compute_digest(mechanism: Mechanism) -> str:
     """What changes with the energy, or with how it is differentiated."""
     code = mechanism.energy.__code__
     digest = hashlib.sha256(Path(__file__).read_bytes())
-    digest.update(Path(inspect.getfile(write_source)).read_bytes())
+    for used in (write_source, find_address):
+        digest.update(Path(inspect.getfile(used)).read_bytes())
     digest.update(repr((code.co_qualname, mechanism.elastic)).encode())
     with suppress(OSError):
         digest.update(inspect.getsource(inspect.getmodule(code) or mechanism.energy).encode())

@@ -17,7 +17,7 @@ _RETURNED = {
     + "))",
     "compute_energy": "{}",
 }
-"""What the text of each returns. Torques are the same bits wherever they come from."""
+"""Results of each generated function. Torques have the same bits in each of them."""
 _PAIRS = {("sin", "cos"): "sin_cos", ("sinh", "cosh"): "sinh_cosh"}
 _SINGLE = ("exp", "log", "tanh")
 _HEAD = '''"""Derivatives of an elastic energy, written by `svsa.actuators.energy_source`."""
@@ -39,7 +39,7 @@ def reject_energy(mechanism: Mechanism, finding: str) -> ParameterError:
 
 
 def write_source(mechanism: Mechanism) -> str:
-    """Differentiate the energy and write the text of its functions.
+    """Differentiate the energy and generate the code of its functions.
 
     Args:
         mechanism: The actuator.
@@ -49,9 +49,9 @@ def write_source(mechanism: Mechanism) -> str:
 
     Raises:
         ParameterError: If the energy is not smooth, contains a function that the lab does not
-            compute with, or its stiffness does not depend on s.
+            support, or has a stiffness that does not depend on s.
     """
-    import sympy  # an import takes 0.3 s: only where an energy is new
+    import sympy  # the import takes 0.3 s and is needed only for a new energy
 
     s, phi = sympy.symbols("s phi", real=True)
     values = sympy.symbols(_PARAMETERS[: len(mechanism.elastic)], positive=True)
@@ -63,14 +63,15 @@ def write_source(mechanism: Mechanism) -> str:
     torque, reaction = U.diff(phi), U.diff(s)
     sigma = torque.diff(phi)
     _check_smooth(mechanism, sympy, [U, sigma.diff(phi, 2), sigma.diff(s, 2)])
-    slope = sympy.simplify(sigma.diff(s))
+    slope = sigma.diff(s)
     if not mechanism.has_stiffness_motor:
-        if any(sympy.simplify(one) != 0 for one in (reaction, slope, sigma.diff(phi))):
+        if any(_shorten(sympy, one) != 0 for one in (reaction, slope, sigma.diff(phi))):
             finding = "without a stiffness motor it is that of a linear spring, ½ k φ²"
             raise reject_energy(mechanism, finding)
-        # σ̇ = ṡ on paper: A(x) stays regular, and the error σ_d − σ = 0 never moves motor 2.
+        # The SVSA's lever has σ̇ = ṡ: A(x) stays regular, and the error σ_d − σ = 0 never moves
+        # motor 2.
         slope = sympy.Integer(1)
-    elif slope == 0:
+    elif _shorten(sympy, slope) == 0:
         raise reject_energy(mechanism, "its stiffness ∂²U/∂φ² does not depend on s")
     determinant = sigma * slope - torque.diff(s) * sigma.diff(phi)
     found = {
@@ -143,7 +144,8 @@ def _build_writer(mechanism: Mechanism, sympy: Any) -> Callable[[str, list[Any]]
 
         def _print_Pow(self, expr: Any, rational: bool = False, sqrt: str = "") -> str:  # noqa: N802
             base, exponent = expr.as_base_exp()
-            # `_name_shared` leaves whole positive powers. Squares of squares: a short chain.
+            # `_name_shared` leaves whole positive powers, which repeated squaring computes with few
+            # products.
             text = self.parenthesize(base, 1000)
             square = f"({text}*{text})"
             pairs, rest = divmod(int(exponent), 2)
@@ -182,10 +184,10 @@ def _build_writer(mechanism: Mechanism, sympy: Any) -> Callable[[str, list[Any]]
 def _name_shared(
     mechanism: Mechanism, sympy: Any, expressions: list[Any]
 ) -> tuple[list[tuple[str, str, Any]], list[Any]]:
-    """Name the most expensive shared subexpressions: each is computed once.
+    """Name the most expensive shared subexpressions, so that each is computed once.
 
-    sin and cos, sinh and cosh are computed in pairs; a root or a reciprocal is computed once for
-    all the powers of its base, of which whole positive powers of a name remain.
+    sin and cos, sinh and cosh are computed in pairs. A root or a reciprocal is computed once for
+    all powers of its base; positive integer powers of a name remain in the expressions.
 
     Returns:
         The names in order, as (names, text with {} for the argument, argument); the expressions.
@@ -252,10 +254,21 @@ def _name_powers(
 
 
 def _shorten(sympy: Any, expression: Any) -> Any:
-    """Return an expression with fewer operations; identities of sin, cosh, … only if fast.
+    """Return an expression with fewer operations, by cos² = 1 − sin² and cosh² = 1 + sinh².
 
-    Of a long expression `trigsimp` takes seconds, and finds little.
+    Not by sympy's `trigsimp`, which took 1.7 s for one energy. A long expression rarely gets
+    shorter.
     """
     factored = sympy.factor_terms(expression)
-    is_short = sympy.count_ops(factored) <= _SHORT
-    return sympy.trigsimp(factored) if is_short else factored
+    if sympy.count_ops(factored) > _SHORT:
+        return factored
+    expanded = sympy.expand_trig(factored)
+    squares = {}
+    for power in expanded.atoms(sympy.Pow):
+        base, (pairs, rest) = power.base, divmod(power.exp, 2)
+        if pairs.is_Integer and pairs > 0 and isinstance(base, sympy.cos | sympy.cosh):
+            x = base.args[0]
+            is_cos = isinstance(base, sympy.cos)
+            square = 1 - sympy.sin(x) ** 2 if is_cos else 1 + sympy.sinh(x) ** 2
+            squares[power] = square**pairs * base**rest
+    return min(factored, sympy.cancel(expanded.xreplace(squares)), key=sympy.count_ops)

@@ -1,7 +1,7 @@
-"""The table of faults: everything that ends a run before its time, in a simulation or on a bench.
+"""The table of faults: everything that ends a run early, in a simulation or on a bench.
 
-Each fault stands here once, with its code, label, cause and remedy. The compiled domain check, the
-supervision of a bench, the server, the page and the records all take what they need from here.
+Each fault is defined here once, with code, label, cause and remedy. The compiled domain check, the
+supervision of a bench, the server, the page and the records all use this table.
 """
 
 from collections.abc import Mapping
@@ -12,7 +12,7 @@ _SUPERVISOR_S = 0.030
 _THIRD_LINE_S = 0.25
 
 HELD_BACK = "_held_to_nm"
-"""How the name of a fault's value ends that says to which torque heat limited a motor, N·m."""
+"""Suffix of the name of a fault's value: the torque to which heat limited a motor, N·m."""
 
 
 class FaultKind(NamedTuple):
@@ -21,11 +21,11 @@ class FaultKind(NamedTuple):
     Attributes:
         label: A few words for marks and tables.
         cause: What happened, as a clause.
-        advice: What to try next; None if the message of the fault says it all.
-        number: The number of the fault in compiled code; None if compiled code does not report it.
-        where: Whether a run on a bench, a simulated run or both can end in it.
-        within_s: The longest time from the cause to zero current on the wire, s; None if no
-            current can flow.
+        advice: What to try next; None if the message of the fault contains it.
+        number: Number of the fault in compiled code; None if compiled code does not report it.
+        where: Whether it can end a run on a bench, a simulated run, or both.
+        within_s: Longest time from the cause to zero current on the wire, s; None if no current can
+            flow.
         is_loss: Whether the server reports it because the loop of a bench cannot report.
     """
 
@@ -50,10 +50,10 @@ FAULTS: dict[str, FaultKind] = {
         where="both",
     ),
     "lever_end": FaultKind(
-        "End of the spiral",
+        "End of stiffness range",
         _DOMAIN,
-        "A load deflects a soft spring far. To keep the stiffness meanwhile, the control law turns"
-        " the spiral far and fast. Whether the spiral reaches its end depends on the time at which"
+        "A load deflects a soft spring far. To keep the stiffness meanwhile, the control law moves"
+        " the stiffness motor far and fast. Whether the end is reached depends on the time at which"
         " the load comes. A torque on the stiffness motor can have the same effect. Try a stiffer"
         " setting, a smaller load, a slower motion, slower stiffness poles and observer (Place"
         " poles), or a control law that reduces its bandwidth while the torque saturates (NDOBC-W,"
@@ -168,7 +168,7 @@ FAULT_CODES: dict[int, str] = {
 BENCH_FAULTS: dict[str, float] = {
     code: kind.within_s for code, kind in FAULTS.items() if kind.within_s is not None
 }
-"""Of each fault that sets an armed bench to zero current: the time it takes at most, s."""
+"""For each fault that sets an armed bench to zero current: the maximum time it takes, s."""
 
 LOSSES: tuple[str, ...] = tuple(code for code, kind in FAULTS.items() if kind.is_loss)
 """The codes of a bench whose loop does not tick."""
@@ -183,10 +183,10 @@ _HEAT_ADVICE = (
 
 
 def find_number(code: str) -> int:
-    """The number of a fault in compiled code.
+    """Return the number of a fault in compiled code.
 
     Raises:
-        LookupError: Compiled code does not report this fault.
+        LookupError: If compiled code does not report this fault.
     """
     number = FAULTS[code].number
     if number is None:
@@ -207,10 +207,10 @@ def advise(code: str, values: Mapping[str, Any]) -> str | None:
 
     Args:
         code: Code of the fault.
-        values: Values in the fault. If heat limited a motor, that is the reason, whatever the code.
+        values: Values of the fault. If heat limited a motor, that is the reason, whatever the code.
 
     Returns:
-        A few sentences, or None if the message of the fault says it all.
+        A few sentences, or None if the message of the fault contains the advice.
     """
     if any(name.endswith(HELD_BACK) for name in values):
         return _HEAT_ADVICE

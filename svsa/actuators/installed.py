@@ -39,13 +39,13 @@ def get_mechanism(name: str, field: str = "actuator") -> Mechanism:
 
     Args:
         name: Name of its entry point.
-        field: Name of the value in the error.
+        field: Name of the value in the error message.
 
     Returns:
         The actuator.
 
     Raises:
-        ParameterError: If no such actuator is installed, or its package has another one.
+        ParameterError: If no such actuator is installed, or its package defines another name.
     """
     entry = _find_entries().get(name)
     if entry is None:
@@ -60,7 +60,11 @@ def get_mechanism(name: str, field: str = "actuator") -> Mechanism:
 
 
 def find_mechanism(parameters: MechanismParameters) -> Mechanism:
-    """The installed actuator that parameters belong to; raises `ParameterError`."""
+    """Return the installed actuator that parameters belong to.
+
+    Raises:
+        ParameterError: If it is not installed.
+    """
     return get_mechanism(get_mechanism_name(parameters))
 
 
@@ -80,4 +84,4 @@ def _write(given: Any, write_svsa: SerializerFunctionWrapHandler, info: Any) -> 
 
 
 InstalledActuator = Annotated[ActuatorParameters, WrapValidator(_read), WrapSerializer(_write)]
-"""Parameters of an actuator; a field `mechanism` names another one than the SVSA."""
+"""Parameters of an actuator; a field `mechanism` selects an actuator other than the SVSA."""

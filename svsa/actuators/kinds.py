@@ -10,7 +10,7 @@ from numba.extending import intrinsic, overload
 from svsa.actuators.energy import RESULTS
 from svsa.actuators.spring import SpringDerivatives, SpringState, SpringTorques, StiffnessMargin
 from svsa.numerics.compilation import compiled
-from svsa.numerics.simd.each import put, take
+from svsa.numerics.simd.elementwise import put, take
 from svsa.numerics.simd.number import INLINED, VECTOR, WIDTH
 
 
@@ -29,7 +29,7 @@ def _build_call(name: str) -> Any:
                 context.cast(builder, number, one, types.float64)
                 for number, one in zip(numbers, kinds, strict=True)
             ]
-            # Without side effects: the compiler calls it once where two equations ask the same.
+            # No side effects: the compiler may merge two calls with equal arguments.
             effects = ("readnone", "nounwind")
             return builder.call(builder.inttoptr(place, kind.as_pointer()), given, attrs=effects)
 

@@ -10,8 +10,13 @@ from svsa.numerics.trigonometry import acos
 def compute_lever_ratio(theta2: float, mu0: float, gamma: float) -> float:
     """μ = μ0 + θ2 / (2πγ), Eq 4.
 
-    theta2: stiffness motor angle, rad at the gearbox output. mu0: μ at θ2 = 0, 1.
-    gamma: reduction γ of the spiral, 1. Returns μ, 1.
+    Args:
+        theta2: Angle of the stiffness motor at the gearbox output, rad.
+        mu0: μ at θ2 = 0, 1.
+        gamma: Reduction γ of the spiral, 1.
+
+    Returns:
+        μ, 1.
     """
     return mu0 + theta2 * compute_lever_ratio_slope(gamma)
 
@@ -26,7 +31,12 @@ def compute_lever_ratio_slope(gamma: float) -> float:
 def compute_lever_ratio_for_stiffness(sigma: float, K: float) -> float:
     """The μ whose stiffness at φ = 0 is σ: μ = r/(1 + r), r = √(σ/K) (Eq 3 at φ = 0).
 
-    sigma: N·m/rad, ≥ 0. K = K_s R²: N·m/rad, > 0. Returns μ in [0, 1).
+    Args:
+        sigma: σ, N·m/rad, ≥ 0.
+        K: K_s R², N·m/rad, > 0.
+
+    Returns:
+        μ in [0, 1).
     """
     r = math.sqrt(sigma / K)
     return r / (1.0 + r)
@@ -36,7 +46,13 @@ def compute_lever_ratio_for_stiffness(sigma: float, K: float) -> float:
 def compute_zero_stiffness_deflection(mu: float) -> float:
     """The |φ| at which σ reaches zero: cos 2φ = μ cos φ (numerator of Eq 3).
 
-    With c = cos φ: 2c² − μc − 1 = 0, c = (μ + √(μ² + 8))/4. Beyond this angle the spring
-    pushes the wrong way. mu: lever ratio in [0, 1). Returns rad, positive.
+    With c = cos φ: 2c² − μc − 1 = 0, c = (μ + √(μ² + 8))/4. Beyond this angle the stiffness is
+    negative.
+
+    Args:
+        mu: Lever ratio in [0, 1).
+
+    Returns:
+        Angle, rad, positive.
     """
     return acos((mu + math.sqrt(mu * mu + 8.0)) / 4.0)

@@ -16,8 +16,14 @@ from svsa.numerics.compilation import compiled
 class Linearization(NamedTuple):
     """ξ = Φ(x) of Eq 19 and 20, the drift of its last rows and the decoupling matrix A.
 
-    q, dq, ddq, dddq, ddddq: L_f^k h1, k = 0…4 (rad … rad/s⁴). sigma, dsigma, ddsigma:
-    L_f^k h2, k = 0…2. a11 … a22: A(x) of Eq 18. sigma_phi: ∂σ/∂φ, for Γ.
+    q to ddddq are L_f^k h1 for k = 0…4, sigma to ddsigma are L_f^k h2 for k = 0…2, a11 to a22 are
+    the elements of A(x) (Eq 18).
+
+    Attributes:
+        q: h1, rad; further derivatives in rad/s … rad/s⁴.
+        sigma: h2, N·m/rad; further derivatives per s and s².
+        a11: Element of A(x), from u1 to q⁗.
+        sigma_phi: ∂σ/∂φ, for Γ, N·m/rad².
     """
 
     q: float
@@ -39,11 +45,15 @@ class Linearization(NamedTuple):
 def compute_linearization(nominal: AnyActuator, x: State) -> Linearization:
     """L_f^k h1, L_f^k h2 and A(x) at the state x, with the constants of the nominal model.
 
-    a = (−D q̇ − τ_e)/M, j = (−D a − τ̇_e)/M, L_f⁴h1 = (−D j − τ̈_e)/M, and σ̇, σ̈, all
-    with u = 0 and w = 0;
-    A = [[σ/(M B1), −τ_e,μ μ'/(M B2)], [−σ_φ/B1, σ_μ μ'/B2]] (Eq 18).
+    a = (−D q̇ − τ_e)/M, j = (−D a − τ̇_e)/M, L_f⁴h1 = (−D j − τ̈_e)/M, and σ̇, σ̈, all with u = 0
+    and w = 0; A = [[σ/(M B1), −τ_e,μ μ'/(M B2)], [−σ_φ/B1, σ_μ μ'/B2]] (Eq 18).
 
-    nominal: `Actuator`. x: `State`. Returns `Linearization`.
+    Args:
+        nominal: `Actuator` of the nominal model.
+        x: `State`.
+
+    Returns:
+        `Linearization`.
     """
     M, B1, B2, D = nominal.M, nominal.B1, nominal.B2, nominal.D
     rM, rB1, rB2 = 1.0 / M, 1.0 / B1, 1.0 / B2
@@ -90,8 +100,13 @@ def compute_linearization(nominal: AnyActuator, x: State) -> Linearization:
 def solve_decoupling(linearization: Linearization, y1: float, y2: float) -> Torque:
     """u = A⁻¹ y for the 2×2 decoupling matrix A(x) (Eq 24, 36).
 
-    y1: rad/s⁴. y2: N·m/rad/s². Returns `Torque`, N·m; not finite where A is singular
-    (the domain guard stops a run before).
+    Args:
+        linearization: `Linearization`.
+        y1: Demanded q⁗, rad/s⁴.
+        y2: Demanded σ̈, N·m/rad/s².
+
+    Returns:
+        `Torque`, N·m; not finite if A is singular (the domain guard ends a run before).
     """
     a11, a12 = linearization.a11, linearization.a12
     a21, a22 = linearization.a21, linearization.a22

@@ -8,29 +8,32 @@ from svsa.errors import ParameterError, Violation
 from svsa.inputs.checked import Checked, Number, quantity
 
 SVSA = "svsa"
-"""The actuator of the paper, and of every record that names none."""
+"""The actuator of the paper, and of every record without an actuator name."""
 ReactionLaw = Literal["energy", "printed"]
 
 
 class MechanismParameters(Checked):
     """The inertias and dampings of Eq 1, which every actuator has.
 
-    A member of `svsa.actuators.installed` adds the parameters of its elastic energy, and
-    `mechanism`, its name.
+    The parameters of an actuator add those of its elastic energy, and `mechanism`, its name.
     """
 
     @property
     def rotational_stiffness_nm_per_rad(self) -> float:
-        """K of the SVSA; raises `ParameterError` for another actuator, which has none."""
+        """K of the SVSA, N·m/rad.
+
+        Raises:
+            ParameterError: If the actuator is not the SVSA.
+        """
         require_svsa(self, "this analysis")
         raise AssertionError
 
     link_inertia_kg_m2: Number = quantity("kg·m²", "Output link inertia M", ge=1e-6, le=10)
-    motor1_inertia_kg_m2: Number = quantity("kg·m²", "Principal motor inertia B1", ge=1e-6, le=10)
-    motor2_inertia_kg_m2: Number = quantity("kg·m²", "Stiffness motor inertia B2", ge=1e-6, le=10)
+    motor1_inertia_kg_m2: Number = quantity("kg·m²", "Principal motor inertia B₁", ge=1e-6, le=10)
+    motor2_inertia_kg_m2: Number = quantity("kg·m²", "Stiffness motor inertia B₂", ge=1e-6, le=10)
     link_damping_nms_per_rad: Number = quantity("N·m·s/rad", "Link damping D", ge=0, le=10)
-    motor1_damping_nms_per_rad: Number = quantity("N·m·s/rad", "Motor 1 damping D1", ge=0, le=10)
-    motor2_damping_nms_per_rad: Number = quantity("N·m·s/rad", "Motor 2 damping D2", ge=0, le=10)
+    motor1_damping_nms_per_rad: Number = quantity("N·m·s/rad", "Motor 1 damping D₁", ge=0, le=10)
+    motor2_damping_nms_per_rad: Number = quantity("N·m·s/rad", "Motor 2 damping D₂", ge=0, le=10)
 
 
 class ActuatorParameters(MechanismParameters):
@@ -84,7 +87,16 @@ class Limits(Checked):
         return self
 
     def check_stiffness(self, name: str, low: float, high: float) -> None:
-        """Raise `ParameterError` unless low … high (N·m/rad) lies in the stiffness range."""
+        """Raise `ParameterError` unless low … high lies in the stiffness range.
+
+        Args:
+            name: Name of the field, for the error message.
+            low: Smallest stiffness that is requested, N·m/rad.
+            high: Greatest stiffness that is requested, N·m/rad.
+
+        Raises:
+            ParameterError: If a value is outside the range; the message contains the range.
+        """
         least, greatest = self.stiffness_min_nm_per_rad, self.stiffness_max_nm_per_rad
         for value in (low, high):
             if not least <= value <= greatest:
@@ -97,8 +109,8 @@ def require_svsa(parameters: MechanismParameters, user: str) -> None:
     """Raise `ParameterError` unless the actuator is the SVSA.
 
     Args:
-        parameters: Of the actuator.
-        user: What computes with the lever and the spring of the SVSA, as "a bench".
+        parameters: Parameters of the actuator.
+        user: The part that uses the lever and the spring of the SVSA, such as "a bench".
     """
     mechanism = get_mechanism_name(parameters)
     if mechanism != SVSA:

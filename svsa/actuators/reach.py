@@ -1,6 +1,6 @@
 """The stiffness range of an elastic energy under a load: not every σ_d is possible.
 
-With qbmove |τ_e| < σ_d/a, whatever s is: more torque needs more deflection, which stiffens the
+For qbmove |τ_e| < σ_d/a, whatever s is: more torque needs more deflection, which stiffens the
 springs.
 """
 
@@ -16,18 +16,18 @@ from svsa.actuators.parameters import ActuatorParameters, MechanismParameters, g
 from svsa.errors import ParameterError, Violation
 
 _COUNT = 129
-"""At how many values of s a stiffness is searched."""
+"""Number of values of s at which a stiffness is searched."""
 _HALVINGS = 50
 
 
 def find_stiffness_range(
     actuator: AnyActuator, domain: Domain, torque: float
 ) -> tuple[float, float]:
-    """Find the least and the greatest stiffness at rest under an elastic torque.
+    """Find the smallest and the greatest stiffness at rest under an elastic torque.
 
     Args:
         actuator: Constants of the plant.
-        domain: Its domain: ends of s and of φ.
+        domain: Domain with the bounds of s and φ.
         torque: τ_e, N·m.
 
     Returns:
@@ -98,9 +98,9 @@ def check_only_stiffness(parameters: MechanismParameters, low: float, high: floa
     """Raise `ParameterError` for a stiffness reference that no motor can follow.
 
     Args:
-        parameters: Of the nominal model.
-        low: Least stiffness of the reference, N·m/rad.
-        high: Its greatest stiffness, N·m/rad.
+        parameters: Parameters of the nominal model.
+        low: Smallest stiffness of the reference, N·m/rad.
+        high: Greatest stiffness of the reference, N·m/rad.
     """
     only = find_only_stiffness(parameters)
     for value in (low, high):
@@ -113,14 +113,15 @@ def check_only_stiffness(parameters: MechanismParameters, low: float, high: floa
 def check_reach(
     parameters: MechanismParameters, domain: Domain, torque: float, low: float, high: float
 ) -> None:
-    """Raise `ParameterError` for a stiffness that the energy does not reach under a lasting load.
+    """Raise `ParameterError` for a stiffness that the energy cannot reach under a lasting load.
 
     Args:
-        parameters: Of the plant. Of the SVSA the domain says it, and nothing is checked.
-        domain: Of the plant.
-        torque: Sum of the loads on the link that last, N·m.
-        low: Least stiffness of the reference, N·m/rad.
-        high: Its greatest stiffness, N·m/rad.
+        parameters: Parameters of the plant. For the SVSA the domain decides, and nothing is
+            checked.
+        domain: Domain of the plant.
+        torque: Sum of the lasting loads on the link, N·m.
+        low: Smallest stiffness of the reference, N·m/rad.
+        high: Greatest stiffness of the reference, N·m/rad.
     """
     if isinstance(parameters, ActuatorParameters) or torque == 0.0:
         return

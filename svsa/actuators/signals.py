@@ -1,7 +1,7 @@
 """The signals of the loop, and the channels of a recorded sample.
 
-The tuples are the paper's symbols, SI units, and go in and out of compiled functions.
-Position and torque are positive in the direction of growing q.
+The tuples have the paper's symbols and SI units, and are passed to and from compiled functions.
+Positions and torques are positive in the direction of growing q.
 """
 
 from dataclasses import dataclass
@@ -51,10 +51,16 @@ class Measurement(NamedTuple):
 
 
 class Positions(NamedTuple):
-    """The encoder positions of a tick, as the loop received them: rad, at the gear outputs.
+    """Encoder positions of a tick at the gear outputs, rad, as the loop received them.
 
-    q: link, θ1 + φ. On a bench counts are brought to the tick by the velocities of x̂, and one too
-    old for that is x̂ itself. A bench's record has all of it, and so a law's torques follow from it.
+    On a bench the counts are extrapolated to the tick with the velocities of x̂; a count that is
+    too old is replaced by x̂. The record of a bench contains all of these, so that the torques of a
+    law can be reproduced from it.
+
+    Attributes:
+        q: Link, θ1 + φ.
+        theta1: Motor 1.
+        theta2: Motor 2.
     """
 
     q: float
@@ -73,8 +79,8 @@ class Disturbance(NamedTuple):
 class Sample(NamedTuple):
     """One recorded sample: every field is a channel with a unit and a label.
 
-    On a bench the disturbances w are not known (NaN), and positions are as measured; the
-    residuals are against its simulated twin, and 0 in every other lane.
+    On a bench the disturbances w are unknown (NaN), and positions are measured; the residuals
+    compare with its simulated twin, and are 0 in all other lanes.
     """
 
     time_s: Annotated[float, "s", "Time t"]
@@ -133,9 +139,9 @@ MEASURED = [
         "motor2_velocity_rad_per_s",
     )
 ]
-"""Which channels a `Measurement` is, in its order."""
+"""Channels of a `Measurement`, in its order."""
 TORQUES = [CHANNEL_INDEX["torque1_nm"], CHANNEL_INDEX["torque2_nm"]]
-"""Which channels a `Torque` is."""
+"""Channels of a `Torque`."""
 
 PLOTTED = (
     "position_reference_rad",
@@ -152,4 +158,4 @@ PLOTTED = (
     "estimate_motor1_nm",
     "estimate_motor2_nm",
 )
-"""Names of the channels that a stream, a replay and an extract of a run hold by default."""
+"""Names of the channels that a stream, a replay and an extract of a run contain by default."""

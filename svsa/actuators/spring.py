@@ -18,8 +18,12 @@ REACTION_PRINTED = 1
 class SpringDerivatives(NamedTuple):
     """τ_e and its partial derivatives for the linearization (Eq 17–23).
 
-    torque τ_e, N·m; sigma = ∂τ_e/∂φ, N·m/rad; the suffix names the variables of the
-    derivative (torque_mu = ∂τ_e/∂μ, sigma_phiphi = ∂²σ/∂φ², …).
+    The suffix contains the variables of the derivative: torque_mu = ∂τ_e/∂μ, sigma_phiphi =
+    ∂²σ/∂φ², …
+
+    Attributes:
+        torque: τ_e, N·m.
+        sigma: ∂τ_e/∂φ, N·m/rad.
     """
 
     torque: float
@@ -50,8 +54,10 @@ class SpringState(NamedTuple):
 class StiffnessMargin(NamedTuple):
     """The plant's stiffness and torques at the beginning of a tick.
 
-    sigma: σ, N·m/rad. determinant: (σ σ_s − τ_s σ_φ) over its value at φ = 0, of which det A(x) is
-    a multiple.
+    Attributes:
+        torques: τ_e and τ_r, N·m.
+        sigma: σ, N·m/rad.
+        determinant: (σ σ_s − τ_s σ_φ) over its value at φ = 0; det A(x) is a multiple of it.
     """
 
     torques: SpringTorques
@@ -62,7 +68,13 @@ class StiffnessMargin(NamedTuple):
 class Spring(NamedTuple):
     """Subexpressions of lever and spring that all spring functions share.
 
-    mu: μ, 1. s, c: sin φ, cos φ. d = 1 − cos φ. i = 1/n, j = 1/(1 − μ).
+    Attributes:
+        mu: μ, 1.
+        s: sin φ.
+        c: cos φ.
+        d: 1 − cos φ.
+        i: 1/n.
+        j: 1/(1 − μ).
     """
 
     mu: float
@@ -75,9 +87,10 @@ class Spring(NamedTuple):
 
 @compiled
 def compute_spring(mu: float, phi: float) -> Spring:
-    """`Spring` at μ and φ; one division for both reciprocals. Exact to the last digits, |φ| ≤ π/4.
+    """`Spring` at μ and φ, |φ| ≤ π/4, accurate to the last digits; one division for both
+    reciprocals.
 
-    The stiffness is zero at less than π/4 for every μ, so that no run that goes on leaves this.
+    For every μ the stiffness is zero at less than π/4, so that no run leaves this range.
     """
     s, d = sin_versin(phi)
     m = 1.0 - mu
@@ -104,7 +117,7 @@ def compute_stiffness(mu: float, phi: float, K: float) -> float:
 def compute_elastic_energy(mu: float, phi: float, K: float) -> float:
     """V = K [1/(1−μ) − 1/n + ln((1−μ)/n)], J; zero at φ = 0, ∂V/∂φ = τ_e exactly.
 
-    Written with ε = μ(1 − cos φ)/(1 − μ), so that nothing cancels at small deflection.
+    Computed with ε = μ(1 − cos φ)/(1 − μ), which avoids cancellation at small deflection.
     """
     p = compute_spring(mu, phi)
     epsilon = mu * p.d * p.j
@@ -115,8 +128,16 @@ def compute_elastic_energy(mu: float, phi: float, K: float) -> float:
 def compute_reaction_torque(mu: float, phi: float, K: float, gamma: float) -> float:
     """τ_r = ∂V/∂θ2 = K μ [1/(1−μ)² − cos²φ/n²] / (2πγ) ≥ 0, N·m; replaces Eq 5.
 
-    Written with 1/(1−μ) − cos φ/n = (1 − cos φ)/((1−μ) n), so that nothing cancels. gamma:
-    reduction γ of the spiral.
+    Computed with 1/(1−μ) − cos φ/n = (1 − cos φ)/((1−μ) n), which avoids cancellation.
+
+    Args:
+        mu: μ, 1.
+        phi: φ, rad.
+        K: K_s R², N·m/rad.
+        gamma: Reduction γ of the spiral, 1.
+
+    Returns:
+        τ_r, N·m.
     """
     p = compute_spring(mu, phi)
     slope = 1.0 / (2.0 * math.pi * gamma)
@@ -180,5 +201,14 @@ def compute_spring_derivatives(mu: float, phi: float, K: float) -> SpringDerivat
 
 @compiled
 def compute_stiffness_slope(mu: float, K: float, slope: float) -> float:
-    """g = ∂σ/∂θ2 at φ = 0, which is 2 K μ μ'/(1 − μ)³, N·m/rad². slope: μ', 1/rad."""
+    """g = ∂σ/∂θ2 at φ = 0, which is 2 K μ μ'/(1 − μ)³.
+
+    Args:
+        mu: μ, 1.
+        K: K_s R², N·m/rad.
+        slope: μ', 1/rad.
+
+    Returns:
+        g, N·m/rad².
+    """
     return compute_spring_derivatives(mu, 0.0, K).sigma_mu * slope

@@ -1,4 +1,4 @@
-"""The installed actuators as the tests use them."""
+"""The installed actuators, as the tests use them."""
 
 import math
 
@@ -15,6 +15,7 @@ from svsa.actuators.mechanism import (
 NAMES = list_mechanism_names()
 STIFFNESS = {
     "svsa": 60.0,
+    "bavs": 15.0,
     "qbmove": 4.0,
     "maccepa": 0.8,
     "awas2": 60.0,
@@ -24,7 +25,10 @@ STIFFNESS = {
 
 
 def follow(name, law, sigma, load, amplitude, **changes):
-    """A run of 20 s on A cos ωt − A, which has the errors of A sin ωt and begins at rest."""
+    """Simulate 20 s on A cos ωt − A, which has the errors of A sin ωt and starts at rest.
+
+    Every actuator has the gains and the observer of the known answers, not its own defaults.
+    """
     prototype = get_mechanism(name).prototype
     motion = svsa.SinePosition(
         amplitude_rad=amplitude,
@@ -36,6 +40,8 @@ def follow(name, law, sigma, load, amplitude, **changes):
     given = {
         "actuator": name,
         "nominal": perturb(prototype, PAPERS_INERTIA, PAPERS_DAMPING_NMS_PER_RAD),
+        "gains": svsa.Gains.from_poles([-60] * 4, [-40] * 2),
+        "observer": 60.0,
         "stiffness": sigma,
         "position": motion,
         "loads": svsa.ConstantLoad(torque_nm=(load, 0.0, 0.0), start_s=5.0),

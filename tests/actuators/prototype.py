@@ -1,4 +1,4 @@
-"""The prototype in the form the equations take it, and states drawn inside its domain."""
+"""The prototype in the form of the equations, and sampled states inside its domain."""
 
 import math
 
@@ -11,7 +11,7 @@ from svsa.actuators.dynamics import build_actuator
 from svsa.actuators.lever import compute_zero_stiffness_deflection
 from svsa.actuators.signals import CHANNELS, State, Torque
 from svsa.control.laws.feedback_linearization import build_gains
-from svsa.runs.configuration import load_prototype
+from svsa.runs.design_file import load_prototype
 from svsa.simulation.plant.effects import build_effect_constants
 from svsa.simulation.plant.integration import integrate_period
 from svsa.simulation.plant.load_table import build_load_table
@@ -55,19 +55,19 @@ def build_state(mu, phi, q=0.0, dq=0.0, dtheta1=0.0, dtheta2=0.0, mu0=MU0):
 
 
 def integrate_ideal(actuator, x, torque, loads, tick, period, steps=1):
-    """`integrate_period` on a bench without effects: the torque is held over the period."""
+    """`integrate_period` without non-ideal effects: the torque is constant over the period."""
     return integrate_period(actuator, IDEAL_BENCH, x, torque, torque, loads, tick, period, steps)
 
 
 def record(run, ticks):
-    """The samples (ticks, channels) of the first lane; the run must not end before."""
+    """Return the samples (ticks, channels) of the first lane; the run must not end early."""
     samples = np.empty((len(run.lanes), ticks, len(CHANNELS)))
     assert run.advance(samples) == ticks, run.fault
     return samples[0]
 
 
-def put(run, **changes):
-    """Move the plant of the first lane, and what the controller knows of it."""
+def move_plant(run, **changes):
+    """Set the plant state of the first lane, and the state that its controller receives."""
     lane = run.lanes[0]
     x, known = lane.x._replace(**changes), lane.known._replace(**changes)
     run.lanes[0] = lane._replace(x=x, known=known)

@@ -25,7 +25,7 @@ from svsa.actuators.linearization import compute_linearization
 from svsa.actuators.signals import CHANNELS, State
 from svsa.runs.run import Run
 
-from .prototype import DESIGN, NOMINAL, PLANT, build_state, drawn, lever_ratios, put, springs
+from .prototype import DESIGN, NOMINAL, PLANT, build_state, drawn, lever_ratios, move_plant, springs
 
 DOMAIN = build_domain(DESIGN.actuator, DESIGN.limits)
 PUSH_LINK = svsa.ConstantLoad(torque_nm=(20.0, 0.0, 0.0), start_s=0.05)
@@ -47,7 +47,7 @@ NAMED_VALUES = {
 
 @pytest.mark.parametrize("code", FAULTS)
 def test_a_run_that_leaves_the_domain_ends_in_the_named_fault(code):
-    """The samples end before the fault, the fault says where and why, in finite numbers."""
+    """The samples end before the fault, which reports place and reason in finite numbers."""
     result = svsa.simulate("4a", "ndobc", duration_s=2.0, **FAULTS[code])
     fault = result.fault
     assert fault is not None
@@ -61,16 +61,16 @@ def test_a_run_that_leaves_the_domain_ends_in_the_named_fault(code):
     assert f"{fault.time_s:.3f} s" in fault.message
 
 
-def test_the_lever_has_two_ends():
-    """The lower end is reached when the load pulls the other way; the value shows which."""
+def test_lever_range_has_a_lower_and_an_upper_bound():
+    """A load in the opposite direction reaches the lower bound; the reported value shows which."""
     result = svsa.simulate("4a", "fl", duration_s=2.0, loads=(PULL_LEVER,))
     assert result.fault is not None
     assert result.fault.code == "lever_end"
     assert result.fault.values["lever_ratio"] < result.fault.values["lever_ratio_min"]
 
 
-def test_the_fault_is_the_first_state_outside_and_the_last_sample_is_inside():
-    """No tick is run beyond the bound and none is thrown away before it."""
+def test_fault_is_at_first_state_outside_domain():
+    """No tick runs beyond the bound, and no sample before it is discarded."""
     result = svsa.simulate("4a", "ndobc", duration_s=2.0, loads=(PUSH_LINK,))
     fault = result.fault
     assert abs(result.deflection_rad[-1]) <= result.deflection_limit_rad[-1]
@@ -79,12 +79,12 @@ def test_the_fault_is_the_first_state_outside_and_the_last_sample_is_inside():
 
 @pytest.mark.parametrize("broken", [float("nan"), float("inf"), 1e200])
 @pytest.mark.parametrize("law", ["fl", "ndobc"])
-def test_a_number_that_is_not_finite_ends_the_run_at_once(broken, law):
-    """NaN and ∞ in the state, and a speed at which the law itself overflows."""
+def test_non_finite_state_ends_the_run_immediately(broken, law):
+    """NaN and ∞ in the state, and a velocity at which the control law overflows."""
     run = Run(svsa.paper.get_figure("4b").build_configuration(law))
     samples = np.full((1, 20, len(CHANNELS)), -1.0)
     run.advance(samples[:, :10])
-    put(run, dq=broken)
+    move_plant(run, dq=broken)
     assert run.advance(samples[:, 10:]) == 0
     assert run.fault is not None
     assert run.fault.code == "not_finite"
@@ -94,8 +94,8 @@ def test_a_number_that_is_not_finite_ends_the_run_at_once(broken, law):
 
 
 @pytest.mark.parametrize("law", ["fl", "ndobc"])
-def test_a_controller_that_knows_no_finite_number_ends_the_run_at_once(law):
-    """The plant is sound, but what is measured of it is not: no torque may come of that."""
+def test_non_finite_measurement_ends_the_run_immediately(law):
+    """The plant is valid but its measurement is not: no torque may be computed from it."""
     run = Run(svsa.paper.get_figure("4b").build_configuration(law))
     lane = run.lanes[0]
     run.lanes[0] = lane._replace(known=lane.known._replace(dtheta2=float("nan")))
@@ -104,7 +104,7 @@ def test_a_controller_that_knows_no_finite_number_ends_the_run_at_once(law):
     assert run.lanes[0].x == lane.x
 
 
-def test_a_run_that_has_ended_stays_ended():
+def test_ended_run_computes_no_further_ticks():
     run = Run(svsa.paper.get_figure("4a").build_configuration().changed(loads=(PUSH_LINK,)))
     samples = np.empty((1, 2000, len(CHANNELS)))
     done = run.advance(samples)
@@ -116,8 +116,8 @@ def test_a_run_that_has_ended_stays_ended():
 
 @drawn
 @given(springs(), st.sampled_from([-1.0, 1.0]))
-def test_inside_the_deflection_limit_the_stiffness_is_positive(spring, sign):
-    """The limit lies before the angle of zero stiffness and inside Table 1's 0.75 rad."""
+def test_stiffness_is_positive_inside_the_deflection_limit(spring, sign):
+    """The limit is below the angle of zero stiffness, which is below the 0.75 rad of Table 1."""
     mu, _ = spring
     limit = compute_deflection_limit(DOMAIN, PLANT, mu)
     assert 0.0 < limit < compute_zero_stiffness_deflection(mu) < 0.75
@@ -130,8 +130,8 @@ def test_inside_the_deflection_limit_the_stiffness_is_positive(spring, sign):
 
 @drawn
 @given(springs())
-def test_the_relative_determinant_is_that_of_the_decoupling_matrix(spring):
-    """det A(x) over det A at φ = 0, from the matrix that the laws really invert."""
+def test_relative_determinant_is_that_of_the_decoupling_matrix(spring):
+    """det A(x) relative to det A at φ = 0, from the matrix that the control laws invert."""
     mu, phi = spring
 
     def compute_determinant(at):
@@ -144,19 +144,19 @@ def test_the_relative_determinant_is_that_of_the_decoupling_matrix(spring):
 
 @drawn
 @given(lever_ratios, st.floats(-1.5, 1.5))
-def test_the_decoupling_matrix_is_regular_for_every_lever_ratio_between_zero_and_one(mu, phi):
+def test_decoupling_matrix_is_regular_for_lever_ratios_between_zero_and_one(mu, phi):
     """det A = 2K²μ³ μ' (1 − μc³)/(M B1 B2 (1 − μc)⁶) > 0, where σ = 0 and beyond it too.
 
-    (σ σ_μ − τ_e,μ σ_φ, with cos 2φ (cos 2φ − μc) + 4s²c² − μs²c = 1 − μc³.) It vanishes only
-    with μ; what falls with the deflection is its size, down to 5 % at μ = 0.79 and 0.75 rad.
+    (σ σ_μ − τ_e,μ σ_φ, with cos 2φ (cos 2φ − μc) + 4s²c² − μs²c = 1 − μc³.) It vanishes only if μ
+    does. Its size decreases with the deflection, down to 5 % at μ = 0.79 and 0.75 rad.
     """
     assert 0.0 < compute_relative_determinant(mu, phi) <= 1.0 + 1e-12
     assert compute_relative_determinant(0.7904, 0.75) == pytest.approx(0.05, abs=5e-4)
 
 
 @pytest.mark.parametrize("mu", [-0.05, 0.0, 1.0, 1.03])
-def test_no_limits_that_a_user_may_set_let_the_lever_out_of_zero_to_one(mu):
-    """At μ = 0 A(x) = 0, at μ = 1 the spring's energy is infinite: the model ends before."""
+def test_accepted_limits_keep_the_lever_ratio_between_zero_and_one(mu):
+    """At μ = 0 A(x) = 0, at μ = 1 the spring's energy is infinite: the domain ends before both."""
     wide = DESIGN.limits.changed(
         stiffness_min_nm_per_rad=0.01, stiffness_max_nm_per_rad=1e4, lever_ratio_margin=0.1
     )
@@ -165,8 +165,8 @@ def test_no_limits_that_a_user_may_set_let_the_lever_out_of_zero_to_one(mu):
         assert check_domain(domain, PLANT, build_state(mu, phi)) != INSIDE
 
 
-def test_bounds_are_checked_in_the_order_that_names_the_cause():
-    """NaN before all; the lever before the deflection, whose limit depends on it."""
+def test_bounds_are_checked_in_the_order_of_their_causes():
+    """NaN first; then the lever ratio; then the deflection, whose limit depends on the ratio."""
     nan = State(float("nan"), 0.0, 0.0, 0.0, 0.0, 0.0)
     assert check_domain(DOMAIN, PLANT, nan) == NOT_FINITE
     assert check_domain(DOMAIN, PLANT, build_state(0.9, 0.6)) == LEVER_END

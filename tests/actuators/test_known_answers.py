@@ -1,7 +1,7 @@
 """Every quantity of the equations against values computed independently in 50 digits.
 
-The file holds 24 states with brute-force Lie derivatives. Another file of the same format
-is read instead when the environment variable SVSA_KNOWN_ANSWERS names one.
+The file holds 24 states with brute-force Lie derivatives. If the environment variable
+SVSA_KNOWN_ANSWERS names another file of the same format, that file is read instead.
 """
 
 import json
@@ -49,7 +49,7 @@ FIELD_OF_SYMBOL = {
 
 
 def compute_quantities(answers, case):
-    """Everything that a case of the file lists under `expect`, from the library."""
+    """Compute each quantity that a case of the file lists under `expect`."""
     values = {FIELD_OF_SYMBOL[symbol]: value for symbol, value in answers["parameters"].items()}
     parameters = ActuatorParameters(**values, reaction_torque="energy")
     nominal = build_actuator(parameters, case["mu_0"])
@@ -80,8 +80,8 @@ def compute_quantities(answers, case):
 
 
 @pytest.mark.parametrize("index", CASES)
-def test_every_quantity_agrees_with_the_known_answer_entry_by_entry(index):
-    """Relative to each entry itself, so that a small one cannot hide next to a large one."""
+def test_every_quantity_matches_the_known_answer_entry_by_entry(index):
+    """Relative to each entry, so that a large entry does not hide the error of a small one."""
     case = ANSWERS["cases"][index]
     found = compute_quantities(ANSWERS, case)
     assert set(found) == set(case["expect"]), "the file lists a quantity that is not compared"
@@ -94,7 +94,7 @@ def test_every_quantity_agrees_with_the_known_answer_entry_by_entry(index):
 
 
 @pytest.mark.parametrize("index", CASES)
-def test_the_printed_sign_of_both_laws_is_the_negative_of_the_corrected_one(index):
+def test_printed_sign_of_both_laws_is_the_negative_of_the_corrected_sign(index):
     """Eq 24 and 36 as printed, A⁻¹[−b + v + Γŵ], solved here by numpy from b, v, Γ and A."""
     case = ANSWERS["cases"][index]
     expect, p = case["expect"], ANSWERS["position_poles"]
@@ -114,8 +114,8 @@ def test_the_printed_sign_of_both_laws_is_the_negative_of_the_corrected_one(inde
     np.testing.assert_allclose(-printed, corrected, rtol=0.0, atol=1e-9 * np.abs(printed).max())
 
 
-def test_the_internal_torque_is_that_of_eq_1():
-    """F = (−D q̇ − τ_e, −D1 θ̇1 + τ_e, −D2 θ̇2 − τ_r): signs and indices, one case by hand."""
+def test_internal_torque_is_that_of_eq_1():
+    """F = (−D q̇ − τ_e, −D1 θ̇1 + τ_e, −D2 θ̇2 − τ_r): signs and indices of one case by hand."""
     case = ANSWERS["cases"][0]
     expect, symbols = case["expect"], ANSWERS["parameters"]
     values = {FIELD_OF_SYMBOL[symbol]: value for symbol, value in symbols.items()}

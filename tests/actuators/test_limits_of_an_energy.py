@@ -1,4 +1,4 @@
-"""What an actuator's energy and its motors do not allow, rejected or limited with the reason."""
+"""Limits from an actuator's energy and motors: commands are rejected or limited with a reason."""
 
 import math
 
@@ -19,7 +19,7 @@ from tests.actuators.members import build_wrong, follow
 QBMOVE = get_mechanism("qbmove")
 
 
-def test_the_limits_of_antagonistic_motors_are_those_of_each_motor():
+def test_antagonistic_motors_are_limited_individually():
     """u1 = ua + ub and u2 = ua − ub: |ua|, |ub| ≤ 6 N·m, and u1 reaches 12 N·m."""
     plant, most = build_actuator(QBMOVE.prototype, 0.0), Torque(6.0, 6.0)
     assert limit_motors(plant, Torque(30.0, 0.0), most) == (12.0, 0.0)
@@ -31,7 +31,7 @@ def test_the_limits_of_antagonistic_motors_are_those_of_each_motor():
     assert not are_at_limit(plant, Torque(7.0, 4.0), most)
 
 
-def test_the_limits_of_two_motors_on_axes_of_their_own_are_those_of_u1_and_u2():
+def test_independent_motors_limit_u1_and_u2():
     for name in ("svsa", "awas2"):
         plant, u, most = build_actuator(get_mechanism(name).prototype, 0.5), Torque(7.0, -9.0), 6.0
         assert limit_motors(plant, u, Torque(most, most)) == limit_torque(u, most, most)
@@ -39,7 +39,7 @@ def test_the_limits_of_two_motors_on_axes_of_their_own_are_those_of_u1_and_u2():
         assert not are_at_limit(plant, Torque(5.0, 5.0), Torque(most, most))
 
 
-def test_each_real_motor_of_a_run_stays_within_its_limit_and_reaches_it():
+def test_each_motor_of_a_run_reaches_and_respects_its_limit():
     result = svsa.simulate(
         "4a",
         "ndobc",
@@ -70,20 +70,20 @@ def test_qbmove_has_no_stiffness_below_a_times_the_torque(sigma, limit):
     assert near < sigma
 
 
-def test_a_stiffness_that_the_energy_does_not_give_under_a_load_is_rejected():
+def test_stiffness_below_the_minimum_under_load_is_rejected():
     with pytest.raises(svsa.ParameterError, match=r"stiffness.*under 0\.3 N·m.*gives no other"):
         follow("qbmove", "ndobc", 1.5, -0.3, 0.1, duration_s=0.01)
-    # An impulse does not last: the run decides.
+    # An impulse does not last: the simulation decides.
     pulse = svsa.PulseLoad(torque_nm=(-0.3, 0.0, 0.0), duration_s=0.01)
     assert follow("qbmove", "ndobc", 1.5, 0.0, 0.1, duration_s=0.01, loads=(pulse,)).fault is None
 
 
-def test_a_load_that_the_spring_does_not_hold_is_rejected():
+def test_load_beyond_the_spring_torque_is_rejected():
     with pytest.raises(svsa.ParameterError, match=r"loads.*within a deflection of 0\.5 rad"):
         follow("sea", "ndobc", 60.0, -40.0, 0.1, duration_s=0.01)
 
 
-def test_a_series_elastic_actuator_follows_positions_only():
+def test_series_elastic_actuator_follows_positions_only():
     errors = {}
     for law in ("fl", "ndobc"):
         result = follow("sea", law, 60.0, -2.0, 0.8)
@@ -96,20 +96,20 @@ def test_a_series_elastic_actuator_follows_positions_only():
     assert errors["ndobc"] < 0.003 < 1.0 < errors["fl"]
 
 
-def test_a_stiffness_command_to_a_series_elastic_actuator_is_rejected_with_the_reason():
+def test_stiffness_command_to_series_elastic_actuator_is_rejected_with_reason():
     reason = r"60 N·m/rad: the actuator sea has no stiffness motor"
     with pytest.raises(svsa.ParameterError, match=reason):
         svsa.simulate("4a", actuator="sea", stiffness=30.0, loads=(), duration_s=0.01)
     with pytest.raises(svsa.ParameterError, match=reason):
         change = svsa.Change(at_s=0.005, stiffness=svsa.ConstantStiffness(stiffness_nm_per_rad=50))
         svsa.simulate("4a", actuator="sea", loads=(), duration_s=0.01, commands=(change,))
-    # Without a stiffness its own is taken.
+    # Without a stiffness, the constant stiffness of the spring is used.
     found = svsa.simulate("4a", actuator="sea", loads=(), duration_s=0.01).configuration
     assert found.stiffness.stiffness_nm_per_rad == 60.0
     assert Run(found).mu0 == 0.0
 
 
-def test_only_a_linear_spring_needs_no_stiffness_motor():
+def test_actuator_without_stiffness_motor_needs_a_linear_spring():
     def harden(phi, s, p, m):
         return p.bending_nm_m3 * (phi**2 + phi**4)
 

@@ -1,4 +1,4 @@
-"""Lie derivatives, A(x) and Γ(x) against directional differences: no formula is used twice."""
+"""Lie derivatives, A(x) and Γ(x) compared with numerical directional derivatives."""
 
 import numpy as np
 import pytest
@@ -39,7 +39,7 @@ DISTURBANCE_WAYS = {
 
 
 def select(names):
-    """The function State → these fields of the linearization."""
+    """Return the function from State to these fields of the linearization."""
     return lambda x: [getattr(compute_linearization(NOMINAL, x), name) for name in names]
 
 
@@ -55,7 +55,7 @@ def assert_close(found, expected, scale):
 
 @drawn
 @given(states())
-def test_the_outputs_are_the_position_and_the_stiffness(x):
+def test_outputs_are_position_and_stiffness(x):
     """L_f⁰ h = h(x): h1 = q, h2 = σ."""
     lie = compute_linearization(NOMINAL, x)
     mu = compute_lever_ratio(x.theta2, NOMINAL.mu0, NOMINAL.gamma)
@@ -68,7 +68,7 @@ def test_the_outputs_are_the_position_and_the_stiffness(x):
 @pytest.mark.parametrize("names", [POSITION, STIFFNESS], ids=["position", "stiffness"])
 @drawn
 @given(x=states())
-def test_each_lie_derivative_is_the_derivative_of_the_one_before_along_f(names, x):
+def test_each_lie_derivative_is_the_derivative_of_the_previous_one_along_f(names, x):
     """L_f^k h = ∂(L_f^{k−1} h)/∂x · f: q to the 4th, σ to the 2nd."""
     drift = compute_drift(x)
     step = 3e-3 / (1.0 + np.linalg.norm(drift))
@@ -82,8 +82,8 @@ def test_each_lie_derivative_is_the_derivative_of_the_one_before_along_f(names, 
 )
 @drawn
 @given(x=states())
-def test_the_torques_first_appear_through_the_decoupling_matrix(names, entries, x):
-    """A(x) = L_g L_f^{r−1} h column by column; the lower derivatives do not feel u."""
+def test_torques_first_appear_through_the_decoupling_matrix(names, entries, x):
+    """A(x) = L_g L_f^{r−1} h column by column; lower derivatives do not depend on u."""
     for way, entry in zip(TORQUE_WAYS.values(), entries, strict=True):
         slopes = differentiate_along(select(names[:-1]), x, way, 1e-3)
         found = getattr(compute_linearization(NOMINAL, x), entry)
@@ -105,8 +105,8 @@ def test_the_torques_first_appear_through_the_decoupling_matrix(names, entries, 
 def test_disturbance_gain_is_the_sum_of_eq_24(names, row, coefficients, x):
     """γ_ij = Σ_{k=0}^{r−2} c_{k+1} L_pj L_f^k h + L_pj L_f^{r−1} h, each L_p by a difference.
 
-    c_{k+1} belongs to e_{k+2}, the error of L_f^{k+1} h: the disturbance makes that error
-    differ from the derivative of the one before.
+    c_{k+1} belongs to e_{k+2}, the error of L_f^{k+1} h: because of the disturbance, this error
+    differs from the derivative of the previous error.
     """
     gain = compute_disturbance_gain(NOMINAL, GAINS, compute_linearization(NOMINAL, x))
     weights = np.array([*coefficients[1:], 1.0])
@@ -118,7 +118,7 @@ def test_disturbance_gain_is_the_sum_of_eq_24(names, row, coefficients, x):
 
 @drawn
 @given(x=states())
-def test_solving_for_the_torque_inverts_the_decoupling_matrix(x):
+def test_torque_solution_inverts_the_decoupling_matrix(x):
     """A u = y for the torque found, compared with numpy's solution."""
     lie = compute_linearization(NOMINAL, x)
     A = np.array([[lie.a11, lie.a12], [lie.a21, lie.a22]])
@@ -127,8 +127,8 @@ def test_solving_for_the_torque_inverts_the_decoupling_matrix(x):
     np.testing.assert_allclose(A @ torque, y, rtol=1e-9, atol=1e-9 * np.abs(A).max())
 
 
-def test_decoupling_is_regular_at_rest_and_singular_where_the_lever_is_at_zero():
-    """With μ0 = 0 and x = 0, as the paper prints it, A(x) = 0: why μ0 is set for each run."""
+def test_decoupling_matrix_is_regular_at_rest_and_singular_at_zero_lever_ratio():
+    """With the printed μ0 = 0 and x = 0, A(x) = 0: the reason why each run sets μ0."""
     lie = compute_linearization(NOMINAL, build_state(mu=0.5, phi=0.0))
     assert lie.a11 * lie.a22 - lie.a12 * lie.a21 > 0.0
     lie = compute_linearization(NOMINAL._replace(mu0=0.0), State(*np.zeros(6)))

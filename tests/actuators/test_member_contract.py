@@ -1,4 +1,4 @@
-"""What every actuator keeps, from its sources to runs, and one of a package outside."""
+"""The contract of every actuator, from sources of values to runs, and an actuator of a package."""
 
 import os
 import subprocess
@@ -14,14 +14,14 @@ from svsa.actuators.signals import CHANNEL_INDEX
 from svsa.analysis.design.linear_model import linearize
 from svsa.control.installed import list_law_names
 from svsa.runs.batch import RunSet
+from svsa.runs.experiment import build_actuator_experiment
 from tests.actuators.members import NAMES, STIFFNESS, follow
-from tests.docs.pages import ROOT, read_blocks
-
-TUTORIAL = ROOT / "docs" / "tutorials" / "own_actuator.md"
+from tests.actuators.own_actuator import install_own_actuator
+from tests.docs.pages import ROOT
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_a_member_states_a_source_of_every_value_and_keeps_its_contract(name):
+def test_actuator_states_the_source_of_every_value_and_fulfils_its_contract(name):
     mechanism = get_mechanism(name)
     assert mechanism.title
     assert mechanism.source
@@ -33,6 +33,14 @@ def test_a_member_states_a_source_of_every_value_and_keeps_its_contract(name):
     assert type(again.actuator) is mechanism.parameters
 
 
+@pytest.mark.parametrize("name", [name for name in NAMES if name != "svsa"])
+def test_ndobc_holds_the_default_load_of_an_actuator_at_its_default_stiffness(name):
+    result = svsa.simulate(build_actuator_experiment(name, "ndobc"), duration_s=7.0)
+    assert result.fault is None
+    error = result.samples[-500:, CHANNEL_INDEX["position_error_rad"]]
+    assert abs(error).max() < np.radians(0.05)
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("law", list_law_names())
 def test_every_law_runs_on_another_actuator(law):
@@ -41,7 +49,7 @@ def test_every_law_runs_on_another_actuator(law):
     assert np.isfinite(result.samples[:, CHANNEL_INDEX["torque1_nm"]]).all()
 
 
-def test_many_runs_side_by_side_are_the_same_run_alone():
+def test_batch_runs_equal_single_runs():
     runs = [follow("qbmove", "ndobc", sigma, 0.0, 0.1, duration_s=0.3) for sigma in (3.0, 5.0)]
     found = RunSet([run.configuration for run in runs]).run("ndobc", 0.3)
     for run, summary in zip(runs, found, strict=True):
@@ -49,7 +57,7 @@ def test_many_runs_side_by_side_are_the_same_run_alone():
         assert summary["position_last"] == last
 
 
-def test_a_parameter_of_another_actuator_changes_while_it_runs():
+def test_parameter_of_another_actuator_changes_during_a_run():
     softer = get_mechanism("leaf_spring").prototype.changed(bending_nm_m3=0.018)
     change = svsa.Change(at_s=0.1, actuator=softer)
     result = follow("leaf_spring", "ndobc", 20.0, 0.0, 0.1, duration_s=0.2, commands=(change,))
@@ -57,14 +65,14 @@ def test_a_parameter_of_another_actuator_changes_while_it_runs():
     assert sigma[1] == pytest.approx(0.9 * sigma[0], rel=0.01)
 
 
-def test_what_computes_with_the_spring_of_the_svsa_rejects_another_actuator():
+def test_functions_for_the_svsa_spring_reject_another_actuator():
     configuration = follow("qbmove", "ndobc", 4.0, 0.0, 0.1, duration_s=0.01).configuration
     with pytest.raises(svsa.ParameterError, match="the lever and the spring of the SVSA"):
         linearize(4.0, design=configuration)
 
 
-def test_the_text_of_an_energy_is_written_once(tmp_path, monkeypatch):
-    """The second process needs no sympy."""
+def test_code_of_an_energy_is_generated_once(tmp_path, monkeypatch):
+    """The second process does not need sympy."""
     script = (
         "import sys\n"
         "from svsa.actuators.energy import compile_energy\n"
@@ -97,15 +105,8 @@ print(result.fault is None, result.configuration.actuator.mechanism)
 """
 
 
-def test_a_package_outside_adds_an_actuator(tmp_path):
-    source, target = tmp_path / "source", tmp_path / "installed"
-    source.mkdir()
-    for block in read_blocks(TUTORIAL):
-        if block.note == "file":
-            (source / block.subject).write_text(block.text, encoding="utf-8")
-    install = [sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--no-index"]
-    install += ["--no-build-isolation", "--disable-pip-version-check", "--target", str(target)]
-    subprocess.run([*install, str(source)], check=True, timeout=300, capture_output=True)
+def test_package_adds_an_actuator(tmp_path):
+    target = install_own_actuator(tmp_path)
     done = subprocess.run(
         [sys.executable, "-c", SCRIPT],
         env=os.environ | {"PYTHONPATH": os.pathsep.join([str(target), str(ROOT)])},

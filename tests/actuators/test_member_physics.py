@@ -37,14 +37,14 @@ UNLOADED = ExternalLoad(0.0, 0.0, 0.0, 0.0, 0.0)
 
 @settings(max_examples=200)
 @given(springs())
-def test_hand_written_derivatives_of_the_svsa_are_those_of_its_energy(drawn):
+def test_hand_written_derivatives_of_the_svsa_match_its_energy(drawn):
     mu, phi = drawn
     mechanism = get_mechanism("svsa")
     functions = compile_energy(mechanism).functions
     K = mechanism.prototype.rotational_stiffness_nm_per_rad
     values = list_values(mechanism)
     by_hand = compute_spring_derivatives(mu, phi, K)
-    # Both round: the unit of a difference is the largest value that the derivative has here.
+    # Both round: the unit of a difference is the largest value of the derivative here.
     most = compute_spring_derivatives(mu, 0.0, K)
     for name, one, other in zip(
         by_hand._fields,
@@ -59,8 +59,8 @@ def test_hand_written_derivatives_of_the_svsa_are_those_of_its_energy(drawn):
 
 
 @st.composite
-def places(draw, name):
-    """(actuator, s, φ) inside the domain of a member."""
+def sample_states(draw, name):
+    """Sample (actuator, s, φ) inside the domain of an actuator."""
     mechanism = get_mechanism(name)
     limits = mechanism.limits
     sigma = draw(st.floats(limits.stiffness_min_nm_per_rad, limits.stiffness_max_nm_per_rad))
@@ -72,8 +72,8 @@ def places(draw, name):
 @pytest.mark.parametrize("name", WITH_STIFFNESS_MOTOR)
 @settings(max_examples=40)
 @given(data=st.data())
-def test_derivatives_are_those_of_the_torque(name, data):
-    actuator, s, phi, sigma = data.draw(places(name))
+def test_derivatives_match_numerical_derivatives_of_the_torque(name, data):
+    actuator, s, phi, sigma = data.draw(sample_states(name))
     assert compute_stiffness_of(actuator, s, 0.0) == pytest.approx(sigma, rel=1e-9)
     found = compute_derivatives(actuator, s, phi)
     assert found.sigma == pytest.approx(compute_stiffness_of(actuator, s, phi), rel=1e-12)
@@ -97,8 +97,8 @@ def test_derivatives_are_those_of_the_torque(name, data):
         assert getattr(found, wrt) == pytest.approx(slope, rel=1e-5, abs=1e-6 * scale)
 
 
-def compute_stored(mechanism, actuator, x):
-    """Kinetic and elastic energy, J."""
+def compute_total_energy(mechanism, actuator, x):
+    """Return the kinetic and elastic energy, J."""
     s = compute_coordinate(actuator, x.theta2)
     elastic = compile_energy(mechanism).functions["compute_energy"](
         s, x.q - x.theta1, *list_values(mechanism)
@@ -110,24 +110,24 @@ def compute_stored(mechanism, actuator, x):
 @pytest.mark.parametrize("name", NAMES)
 @settings(max_examples=40)
 @given(data=st.data())
-def test_power_into_the_undriven_actuator_is_that_of_its_damping(name, data):
+def test_energy_decreases_by_damping_power_without_torque(name, data):
     """d/dt (T + U) = −D q̇² − D1 θ̇1² − D2 θ̇2² ≤ 0: the energy balance and passivity."""
     mechanism = get_mechanism(name)
-    actuator, s, phi, _ = data.draw(places(name))
+    actuator, s, phi, _ = data.draw(sample_states(name))
     actuator = actuator._replace(mu0=s)
     speeds = [data.draw(st.floats(-3.0, 3.0)) for _ in range(3)]
     x = State(phi, speeds[0], 0.0, speeds[1], 0.0, speeds[2])
     a = compute_acceleration(actuator, x, Torque(0.0, 0.0), UNLOADED)
     rate = State(x.dq, a.ddq, x.dtheta1, a.ddtheta1, x.dtheta2, a.ddtheta2)
     power = differentiate(
-        lambda t: compute_stored(
+        lambda t: compute_total_energy(
             mechanism, actuator, State(*(v + t * d for v, d in zip(x, rate, strict=True)))
         ),
         0.0,
         1e-6,
     )
     lost = -(actuator.D * x.dq**2 + actuator.D1 * x.dtheta1**2 + actuator.D2 * x.dtheta2**2)
-    flow = abs(compute_internal_torque(actuator, x).link * x.dq) + compute_stored(
+    flow = abs(compute_internal_torque(actuator, x).link * x.dq) + compute_total_energy(
         mechanism, actuator, x
     )
     assert power == pytest.approx(lost, abs=1e-6 * (1.0 + flow))
@@ -135,22 +135,22 @@ def test_power_into_the_undriven_actuator_is_that_of_its_damping(name, data):
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_the_undriven_actuator_comes_to_rest(name):
+def test_actuator_without_torque_comes_to_rest(name):
     mechanism = get_mechanism(name)
     sigma = STIFFNESS[name]
     actuator = build_actuator(mechanism.prototype, 0.0)
     actuator = actuator._replace(mu0=compute_coordinate_for_stiffness(actuator, sigma))
     x = State(0.05, 0.0, 0.0, 0.0, 0.0, 0.0)
-    stored = [compute_stored(mechanism, actuator, x)]
+    stored = [compute_total_energy(mechanism, actuator, x)]
     for tick in range(2000):
         x = integrate_ideal(actuator, x, NO_TORQUE, NO_LOADS, tick, 0.0005, 4)
-        stored.append(compute_stored(mechanism, actuator, x))
+        stored.append(compute_total_energy(mechanism, actuator, x))
     assert np.all(np.diff(stored) <= 1e-9 * abs(stored[0]))
     assert stored[-1] < stored[0]
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_lie_derivatives_hold_along_the_flow(name):
+def test_lie_derivatives_match_rates_along_the_flow(name):
     """σ̇ of the linearization is the rate of σ along ẋ = f(x)."""
     mechanism = get_mechanism(name)
     nominal = build_actuator(mechanism.nominal, 0.0)

@@ -1,4 +1,4 @@
-"""The spring and the lever: Eq 2–5 against differences of one another and printed numbers."""
+"""Spring and lever: Eq 2–5 compared with numerical derivatives and printed numbers."""
 
 import math
 
@@ -30,13 +30,13 @@ MU_60 = compute_lever_ratio_for_stiffness(60.0, K)
 
 
 def assert_derivative(found, function, at, scale):
-    """The difference of fourth order; scale: how large the derivative grows in the domain."""
+    """Compare with a difference of fourth order; scale: largest derivative in the domain."""
     assert abs(found - differentiate(function, at, STEP)) <= TOLERANCE * scale
 
 
 @drawn
 @given(springs())
-def test_stiffness_is_the_slope_of_the_elastic_torque(spring):
+def test_stiffness_is_the_derivative_of_the_elastic_torque(spring):
     mu, phi = spring
     level = compute_stiffness(mu, 0.0, K)
     found = compute_stiffness(mu, phi, K)
@@ -45,7 +45,7 @@ def test_stiffness_is_the_slope_of_the_elastic_torque(spring):
 
 @drawn
 @given(springs())
-def test_elastic_torque_is_the_slope_of_the_energy(spring):
+def test_elastic_torque_is_the_derivative_of_the_energy(spring):
     mu, phi = spring
     found = compute_elastic_torque(mu, phi, K)
     scale = compute_stiffness(mu, 0.0, K)
@@ -54,7 +54,7 @@ def test_elastic_torque_is_the_slope_of_the_energy(spring):
 
 @drawn
 @given(springs(), st.sampled_from([1.0, 0.5, 3.0]))
-def test_reaction_torque_is_the_slope_of_the_energy_along_the_stiffness_motor(spring, gamma):
+def test_reaction_torque_is_the_derivative_of_the_energy_along_the_stiffness_motor(spring, gamma):
     """τ_r = ∂V/∂θ2 through μ(θ2): the replacement of Eq 5, with γ in it."""
     mu, phi = spring
 
@@ -67,7 +67,7 @@ def test_reaction_torque_is_the_slope_of_the_energy_along_the_stiffness_motor(sp
 
 @drawn
 @given(lever_ratios, st.floats(-1.5, 1.5))
-def test_reaction_torque_never_helps_the_stiffness_motor(mu, phi):
+def test_reaction_torque_always_opposes_stiffening(mu, phi):
     """A stiffer spring at the same deflection holds more energy, so τ_r ≥ 0; zero at φ = 0."""
     assert compute_reaction_torque(mu, phi, K, 1.0) >= 0.0
     assert compute_reaction_torque(mu, 0.0, K, 1.0) == 0.0
@@ -97,8 +97,8 @@ CHAIN = [
 
 
 @pytest.mark.parametrize(("derivative", "of", "variable"), CHAIN)
-def test_each_partial_derivative_is_the_slope_of_the_one_before(derivative, of, variable):
-    """All that the Lie derivatives are made of, on a grid over the whole domain."""
+def test_each_partial_derivative_is_the_derivative_of_the_previous_one(derivative, of, variable):
+    """All parts of the Lie derivatives, on a grid over the whole domain."""
     for mu in np.linspace(*LEVER_RATIO_RANGE, 7):
         for share in (-0.95, -0.5, -0.01, 0.0, 0.3, 0.7, 0.95):
             phi = share * compute_zero_stiffness_deflection(mu)
@@ -113,13 +113,13 @@ def test_each_partial_derivative_is_the_slope_of_the_one_before(derivative, of, 
             assert abs(found - slope) <= 1e-8 * scale, (mu, phi)
 
 
-def test_the_printed_reaction_torque_differs_from_the_energy_consistent_one_as_documented():
+def test_printed_reaction_torque_differs_from_the_energy_consistent_one_as_documented():
     """0.398 against 0.449 N·m at σ = 60 N·m/rad and φ = 0.1 rad."""
     assert compute_printed_reaction_torque(MU_60, 0.1, K) == pytest.approx(0.398, abs=5e-4)
     assert compute_reaction_torque(MU_60, 0.1, K, 1.0) == pytest.approx(0.449, abs=5e-4)
 
 
-def test_the_printed_reaction_torque_is_eq_5_times_the_radius():
+def test_printed_reaction_torque_is_eq_5_times_the_radius():
     """Eq 5 with R, a = μR and β = arctan(−2πμ) written out, its magnitude times R."""
     R, phi = 0.075, 0.1
     spring_stiffness, a, beta = K / R**2, MU_60 * R, math.atan(-2.0 * math.pi * MU_60)
@@ -132,8 +132,8 @@ def test_the_printed_reaction_torque_is_eq_5_times_the_radius():
 
 
 @pytest.mark.parametrize(("sigma", "angle"), [(15.0, 0.54), (60.0, 0.44), (150.0, 0.37)])
-def test_stiffness_is_zero_at_the_angle_that_depends_on_the_lever(sigma, angle):
-    """All three lie inside Table 1's 0.75 rad; the torque peaks there and then falls."""
+def test_angle_of_zero_stiffness_depends_on_the_lever_ratio(sigma, angle):
+    """All three are below the 0.75 rad of Table 1; the torque peaks there, then decreases."""
     mu = compute_lever_ratio_for_stiffness(sigma, K)
     zero = compute_zero_stiffness_deflection(mu)
     assert zero == pytest.approx(angle, abs=5e-3)
@@ -144,7 +144,7 @@ def test_stiffness_is_zero_at_the_angle_that_depends_on_the_lever(sigma, angle):
     assert compute_stiffness(mu, zero + 0.01, K) < 0.0
 
 
-def test_the_stiffness_range_of_table_1_is_the_lever_range_of_the_spiral():
+def test_stiffness_range_of_table_1_is_the_lever_range_of_the_spiral():
     """1.7 … 150.56 N·m/rad ⇔ μ 0.2861 … 0.7904."""
     ends = [compute_lever_ratio_for_stiffness(sigma, K) for sigma in (1.7, 150.56)]
     assert ends == pytest.approx(LEVER_RATIO_RANGE, abs=5e-5)
@@ -152,7 +152,7 @@ def test_the_stiffness_range_of_table_1_is_the_lever_range_of_the_spiral():
 
 @drawn
 @given(st.floats(0.0, 1e4))
-def test_lever_ratio_for_a_stiffness_gives_back_that_stiffness(sigma):
+def test_lever_ratio_of_a_stiffness_gives_this_stiffness(sigma):
     mu = compute_lever_ratio_for_stiffness(sigma, K)
     assert 0.0 <= mu < 1.0
     assert compute_stiffness(mu, 0.0, K) == pytest.approx(sigma, rel=1e-11)
@@ -166,8 +166,8 @@ def test_one_turn_of_the_stiffness_motor_moves_the_lever_ratio_by_one_over_gamma
         assert compute_lever_ratio_slope(gamma) == pytest.approx(1 / (2 * math.pi * gamma))
 
 
-def test_the_printed_form_of_the_energy_would_lose_digits_at_small_deflection():
-    """Why V and τ_r are written without cancelling terms: at φ = 1e-4 V is of order φ²."""
+def test_printed_form_of_the_energy_loses_digits_at_small_deflection():
+    """The reason for forms of V and τ_r without cancelling terms: at φ = 1e-4 V is of order φ²."""
     mu, phi = 0.5, 1e-4
     n = 1.0 - mu * math.cos(phi)
     printed = K * (1.0 / (1.0 - mu) - 1.0 / n + math.log((1.0 - mu) / n))
@@ -176,7 +176,7 @@ def test_the_printed_form_of_the_energy_would_lose_digits_at_small_deflection():
     assert abs(printed / parabola - 1.0) > 1e-9
 
 
-def test_spring_derivatives_repeat_the_torque_and_the_stiffness_of_their_own_functions():
+def test_spring_derivatives_repeat_torque_and_stiffness_of_the_single_functions():
     """τ_e and σ exist twice in the compiled code, alone and among the derivatives."""
     for mu, phi in ((0.3, -0.4), (0.55, 0.2), (0.78, 0.31)):
         all_of_them = compute_spring_derivatives(mu, phi, K)

@@ -1,4 +1,4 @@
-"""Energies and actuators that are none, rejected with the reason."""
+"""Invalid energies and actuators are rejected with the reason."""
 
 import pytest
 
@@ -38,28 +38,28 @@ def strange(phi, s, p, m):
         (strange, "it contains the function"),
     ],
 )
-def test_an_energy_that_is_none_is_rejected_with_the_reason(energy, reason):
+def test_invalid_energy_is_rejected_with_reason(energy, reason):
     with pytest.raises(svsa.ParameterError, match=reason):
         compile_energy(build_wrong(energy))
 
 
-def test_a_member_without_a_source_is_rejected():
+def test_actuator_without_a_source_is_rejected():
     with pytest.raises(svsa.ParameterError, match="missing: bending_nm_m3"):
         sources = dict(get_mechanism("leaf_spring").sources)
         del sources["bending_nm_m3"]
         build_wrong(stay, sources=sources)
 
 
-def test_a_stiffness_outside_the_range_names_the_range():
+def test_stiffness_outside_the_range_reports_the_range():
     with pytest.raises(svsa.ParameterError, match=r"0\.2 to 15 N·m/rad"):
         svsa.simulate("4b", actuator="qbmove", duration_s=0.01)
 
 
-def test_an_actuator_that_is_not_installed_names_those_that_are():
-    with pytest.raises(svsa.ParameterError, match="svsa, awas2, leaf_spring"):
+def test_unknown_actuator_error_lists_installed_actuators():
+    with pytest.raises(svsa.ParameterError, match="svsa, awas2, bavs, leaf_spring"):
         svsa.simulate("4a", actuator="nowhere")
 
 
-def test_plant_and_model_are_of_one_mechanism():
+def test_plant_and_model_must_have_the_same_mechanism():
     with pytest.raises(svsa.ParameterError, match=r"nominal\.mechanism"):
         svsa.simulate("4a", nominal=get_mechanism("qbmove").nominal)
