@@ -1,9 +1,9 @@
 """Compile what the tests use, before they begin: `python -m tests.compile_all [--exhaustive]`.
 
-A compiler inside a test takes seconds that the test, or a rig next to it, may not have. What is
-still compiled inside a test is listed at the end of the tests; what is compiled inside a server is
-not. --exhaustive: for `make test-all`, too: the batches of each law, and the loop for a processor
-without any extension.
+Compilation during a test takes seconds, which could delay the test or a rig in parallel. The
+summary of the tests lists functions that are still compiled during a test, but not those that are
+compiled in a server. --exhaustive: also compiles for `make test-all`: the batches of each law, and
+the loop for a processor without any extension.
 """
 
 import os
@@ -17,13 +17,14 @@ import svsa
 from svsa.analysis.design.prediction import predict
 from svsa.analysis.identification.identify import identify
 from svsa.cli import prepare
-from svsa.control.installed import list_law_names
+from svsa.control.installed import PAPERS_LAW, list_law_names
 from svsa.evaluation.ranking.test_set import build_test_trial
 from svsa.evaluation.timing.scipy_comparison import compare_with_scipy
 from svsa.hardware.emulator.experiment import LockstepBench
 from svsa.runs.batch import find_alike, run_configurations, run_group
 from svsa.runs.paper import FIGURES
 from svsa.simulation.plant.loads.constant import ConstantLoad
+from svsa_server.commands.compiling import OTHER
 from tests.analysis.identification.excited_run import build_configuration, build_run, play
 from tests.hardware.emulator.in_process_emulator import start_in_process
 from tests.runs.paper.golden import GENERIC
@@ -34,11 +35,14 @@ BATCHES, EXHAUSTIVE = "batches", "--exhaustive"
 
 
 def main() -> None:
-    """On two cores: the loop and what goes through it here, what shares nothing with it next to."""
+    """Compile on two cores: the loop and its callers here, independent functions in other
+    processes.
+    """
     processes = [start("tests.compile_all", BATCHES, *sys.argv[1:])]
     if EXHAUSTIVE in sys.argv:
         processes.append(start("tests.runs.paper.golden", "--figures", **GENERIC))
     prepare()
+    prepare([PAPERS_LAW], OTHER)
     svsa.Stepper().step((0.0, 0.0))
     compile_bench()
     compile_identification()
@@ -57,7 +61,7 @@ def start(module: str, *arguments: str, **variables: str) -> subprocess.Popen[by
 
 
 def compile_bench() -> None:
-    """The bench's tick, which calls any law, and the emulator."""
+    """Compile the tick of a bench, which calls any control law, and the emulator."""
     with start_in_process() as emulator:
         bench = LockstepBench(emulator, FIGURES["4a"].build_configuration("ndobc"), TICKS)
         bench.prepare()
@@ -69,14 +73,14 @@ def compile_bench() -> None:
 
 
 def compile_identification() -> None:
-    """With every effect of a rig, which the loop has not had until here."""
+    """Compile the loop with all non-ideal effects of the rig."""
     move = svsa.SinePosition(amplitude_rad=0.5, frequency_hz=1.0)
     configuration = build_configuration(position=move)
     identify(build_run(configuration, play(configuration, [], 6.5)[0]))
 
 
 def compile_batches(laws: Iterable[str]) -> None:
-    """Runs side by side of a law with every effect and without any, of these with a rig's."""
+    """Compile batches with all effects and with none, for laws with the effects of the rig."""
     for law, effects in (
         ("ndobc", EVERY_EFFECT),
         ("ndobc", svsa.IDEAL),
@@ -89,7 +93,7 @@ def compile_batches(laws: Iterable[str]) -> None:
 
 
 def compile_trials() -> None:
-    """Trials of a law that is graded, with each delay."""
+    """Compile the trials of a graded control law, for each delay."""
     trials = [build_test_trial("A", 0, number) for number in range(GROUP)]
     configurations = [one.build_configuration("ndobc") for one in trials]
     for numbers in find_alike(configurations):

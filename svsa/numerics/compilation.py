@@ -1,17 +1,16 @@
 """Compilation of equations to machine code: one decorator, one cache.
 
-Every equation is a pure function compiled by numba, without the GIL and without
-fast-math (the order of operations is the order written, and a product that is added is fused as
-it is written, see `svsa.numerics.fused`, so that the live loop, the batch run and a replay give the
-same bits). Calls between them are inlined: passing the
-constants of an actuator from one to the next would cost more than the equations.
+Every equation is a pure function compiled by numba, without the GIL and without fast-math: the
+order of operations is the order in the source, and sums with a product are fused as written (see
+`svsa.numerics.fused`), so that the live loop, the batch run and a replay produce the same bits.
+Calls between equations are inlined: passing the constants of an actuator from one to the next would
+cost more than the equations.
 
-The compiled code is cached between starts. numba notices a change in the file of a
-function, but not in the files of the functions it calls. Each file with a compiled function has
-therefore a cache folder of its own, named after its text and that of all that it imports: of the
-library by what it names and by what `import_modules` finds, of a package outside by the whole
-package. A change in a file compiles
-again only what depends on it: a law is not part of the loop that calls it.
+The compiled code is cached between starts. numba detects a change in the file of a function, but
+not in the files of the functions it calls. Therefore each file with a compiled function has its own
+cache folder, named after its text and that of all its imports: modules of the library by name and
+by `import_modules`, other packages as a whole. A change in a file compiles again only what depends
+on it; the loop does not depend on the laws that it calls.
 """
 
 import atexit
@@ -37,7 +36,7 @@ from svsa.numerics.fused import FusingCompiler
 
 
 def _import_arrays_of_numba() -> None:
-    """Import numba's arrays without scipy.linalg, which costs a fifth of a start.
+    """Import numba's arrays without scipy.linalg, which takes a fifth of the start-up time.
 
     numba imports it only to check that it exists. Compiled code that needs it imports it later.
     """
@@ -65,7 +64,7 @@ _OPTIONS: dict[str, Any] = {
     "pipeline_class": FusingCompiler,
 }
 _choosing_folder = Lock()
-"""numba takes the folder of a function's cache from a setting that all threads share."""
+"""numba reads the folder of a function's cache from a setting that all threads share."""
 _NO_WRAPPERS = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 
 
@@ -87,7 +86,7 @@ def _find_imported(file: Path) -> frozenset[Path]:
     """The files of the library that a file imports, or imports from."""
     found: set[Path] = set()
     text = _read(file).decode()
-    # Such a package names none of the modules that it imports.
+    # Such a package does not name the modules that it imports.
     if _FINDS_MODULES.search(text):
         found.update(file.parent.glob("*.py"))
     for module, names in _IMPORT.findall(text):
@@ -100,7 +99,8 @@ def _find_imported(file: Path) -> frozenset[Path]:
 def find_sources(file: Path) -> list[Path]:
     """Find the files that determine the compiled functions of a file.
 
-    The file, what it imports of the library, and so on; of a package outside every file.
+    These are the file, its imports from the library, recursively, and all files of other packages
+    that it imports.
     """
     found = {file, *_find_siblings(file)}
     waiting = list(found)
@@ -138,8 +138,9 @@ def _open_cache(module: str, file: Path) -> Path | None:
 def compiled(function: Callable[..., Any]) -> Any:
     """Compile the function for the types of its arguments; a decorator.
 
-    What other compiled functions call is compiled apart, without what takes Python's values in and
-    out again: that would be a third of all the compiling. It is prepared once it is called so.
+    Functions that are called only by compiled functions are compiled without the conversion of
+    Python values, which would take a third of the compile time. The conversion is added at the
+    first call from Python.
     """
     file = Path(function.__code__.co_filename)
     folder = _open_cache(function.__module__, file) if file.exists() else None
@@ -176,12 +177,18 @@ def find_fingerprint(function: Callable[..., Any]) -> str:
 
 
 def specialize(function: Callable[..., Any], name: str, **given: Any) -> Any:
-    """Compile the function with replacements of its file's globals.
+    """Compile the function with replacements for the globals of its file.
 
-    name: identifies the given values in the cache; each set of values needs its own name.
+    Args:
+        function: The function.
+        name: Name of the given values in the cache; each set of values needs its own name.
+        **given: Values by name of the global.
+
+    Returns:
+        The compiled function.
     """
-    # numba treats globals as constants: they become part of the machine code. Hence other globals
-    # need another function, and another name in the cache.
+    # numba treats globals as constants, part of the machine code. Other globals therefore need
+    # another function with another name in the cache.
     copy = FunctionType(function.__code__, function.__globals__ | given, name)
     copy.__qualname__ = name
     return compiled(copy)
@@ -203,13 +210,18 @@ class _CompilationListener(event.Listener):
 def watch_compilation(report: Callable[[str], None]) -> contextlib.AbstractContextManager[None]:
     """Call `report` with the name of every function compiled within this context.
 
-    Functions that are loaded from the cache are not reported: that takes no time.
+    Functions loaded from the cache are not reported, because they take no time.
     """
     return event.install_listener("numba:compile", _CompilationListener(report))
 
 
-def is_compiled_before(function: Any) -> bool:
-    """Whether the cache has the present version of this compiled function."""
+def is_compiled_before(function: Any, kind: str = "") -> bool:
+    """Whether the cache has the present version of this compiled function.
+
+    kind: name of a tuple among the types of its arguments, or of a field; any types if left out.
+    """
+    if kind:
+        return any(kind in str(types) for types in function._cache.list_types())
     python = function.py_func
     file = Path(python.__code__.co_filename)
     folder = _open_cache(python.__module__, file) if file.exists() else None

@@ -1,4 +1,4 @@
-"""Compile the installed laws in the background, so that selecting one takes no time."""
+"""Compile in the background what users may select: the laws, and the loop of other actuators."""
 
 import subprocess
 import sys
@@ -6,15 +6,19 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from svsa.control.installed import get_law, is_usable, list_law_names
+from svsa.actuators.installed import list_mechanism_names
+from svsa.actuators.parameters import SVSA
+from svsa.control.installed import PAPERS_LAW, get_law, is_usable, list_law_names
 from svsa.numerics.compilation import is_compiled_before
+from svsa_server.compiled_loops import LOWEST_PRIORITY, is_compiled_for
 
-END_S = 2.0
-_LOWEST_PRIORITY = 19
-_COMPILE = (
-    f"import os; os.nice({_LOWEST_PRIORITY}); from svsa.cli import main; main()",
-    "compile",
+OTHER = next(name for name in list_mechanism_names() if name != SVSA)
+"""An actuator with the loop that all but the SVSA share."""
+PREPARE = (
+    f"import os; os.nice({LOWEST_PRIORITY}); from svsa.cli import prepare;"
+    f" prepare(); prepare([{PAPERS_LAW!r}], {OTHER!r})"
 )
+END_S = 2.0
 
 
 def _is_compiled(control: Any) -> bool:
@@ -23,15 +27,16 @@ def _is_compiled(control: Any) -> bool:
 
 @contextmanager
 def compile_laws() -> Iterator[None]:
-    """Compile every installed law into the cache, in a separate process.
+    """Compile every installed law and the loop of other actuators, in a separate process.
 
-    It has the least priority, and ends with what is done here at the latest.
+    It has the lowest priority, and ends with the block at the latest.
     """
-    if all(_is_compiled(get_law(name).control) for name in filter(is_usable, list_law_names())):
+    laws = [get_law(name).control for name in filter(is_usable, list_law_names())]
+    if all(map(_is_compiled, laws)) and is_compiled_for(OTHER, PAPERS_LAW):
         yield
         return
     process = subprocess.Popen(  # noqa: S603  this program itself
-        [sys.executable, "-c", *_COMPILE],
+        [sys.executable, "-c", PREPARE],
         stdin=subprocess.DEVNULL,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,

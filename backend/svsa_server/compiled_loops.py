@@ -1,0 +1,86 @@
+"""Compiled loops of other actuators: whether there is one, and a process that compiles it."""
+
+import asyncio
+import re
+import subprocess
+import sys
+import time
+
+from svsa.actuators.elasticity import Actuator, ElasticActuator
+from svsa.actuators.installed import list_mechanism_names
+from svsa.actuators.parameters import SVSA
+from svsa.control.installed import get_law
+from svsa.numerics.compilation import is_compiled_before
+from svsa.simulation.arm.loop import advance_arm
+from svsa.simulation.loop.loop import advance
+
+LOWEST_PRIORITY = 19
+COMPILE = (
+    f"import os; os.nice({LOWEST_PRIORITY}); from svsa.cli import main; main()",
+    "compile",
+)
+_OTHER_LOOP, _OTHER_LAW = ElasticActuator.__name__, "torques_address"
+"""Names in the types of the loop and of a law for another actuator than the SVSA."""
+_PLANT = re.compile(r"\bBlocks\((\w+)")
+"""The plant of each joint in the types of the loop of an arm."""
+_compiling = asyncio.Lock()
+_begun: list[float] = []
+"""Time at which the present compilation began; empty if there is none."""
+
+
+def find_compiling_s() -> float | None:
+    """Return how long a first session has waited for the compiler, s; None if none waits."""
+    return time.monotonic() - _begun[0] if _begun else None
+
+
+def is_compiled_for(actuator: str, law: str) -> bool:
+    """Whether the cache has the loop and a law for an actuator."""
+    control = get_law(law).control
+    if actuator == SVSA or not hasattr(control, "py_func"):
+        return True
+    return is_compiled_before(advance, _OTHER_LOOP) and is_compiled_before(control, _OTHER_LAW)
+
+
+async def compile_for(actuator: str, law: str) -> None:
+    """Compile the loop and a law for an actuator in a process of its own.
+
+    The compiler would hold back the sessions of this one for its whole time. One process at a time;
+    what it could not compile is compiled, and reported, by the session.
+    """
+    async with _compiling:
+        if not await asyncio.to_thread(is_compiled_for, actuator, law):
+            await _compile(law, "--actuator", actuator)
+
+
+async def compile_arm(actuators: tuple[str, str], law: str) -> None:
+    """Compile the loop of an arm and a law for the actuators of its joints, as `compile_for`."""
+    async with _compiling:
+        is_known = all(name in list_mechanism_names() for name in actuators)
+        if is_known and not await asyncio.to_thread(_is_compiled_for_arm, actuators, law):
+            await _compile(law, "--arm", *actuators)
+
+
+def _is_compiled_for_arm(actuators: tuple[str, str], law: str) -> bool:
+    plants = [Actuator.__name__ if name == SVSA else _OTHER_LOOP for name in actuators]
+    loops = advance_arm._cache.list_types()
+    is_compiled = any(_PLANT.findall(str(types)) == plants for types in loops)
+    return is_compiled and all(is_compiled_for(name, law) for name in actuators)
+
+
+async def _compile(*arguments: str) -> None:
+    _begun[:] = [time.monotonic()]
+    process = await asyncio.create_subprocess_exec(
+        sys.executable,
+        "-c",
+        *COMPILE,
+        *arguments,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )
+    try:
+        await process.wait()
+    finally:
+        _begun.clear()
+        if process.returncode is None:
+            process.kill()

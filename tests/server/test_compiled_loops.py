@@ -1,0 +1,67 @@
+"""The loop of another actuator is compiled in a process of its own."""
+
+import asyncio
+import threading
+
+import pytest
+
+from svsa_server import compiled_loops
+from svsa_server.compiled_loops import compile_for
+from tests.lab import run_lab
+
+
+def test_an_actuator_is_compiled_by_a_process_while_others_go_on(monkeypatch, tmp_path):
+    """Two requests start it once; the event loop is free meanwhile."""
+    started = tmp_path / "started"
+    program = (
+        f"import sys, time; open({str(started)!r}, 'a').write(str(sys.argv[1:]) + ';');"
+        "time.sleep(0.5)"
+    )
+
+    def is_compiled(control, kind=""):
+        return started.exists() and kind != ""
+
+    monkeypatch.setattr(compiled_loops, "is_compiled_before", is_compiled)
+    monkeypatch.setattr(compiled_loops, "COMPILE", (program,))
+    monkeypatch.setattr(compiled_loops, "_compiling", asyncio.Lock())
+    assert compiled_loops.is_compiled_for("svsa", "ndobc")
+    assert not compiled_loops.is_compiled_for("qbmove", "ndobc")
+
+    async def compile_twice():
+        requests = [asyncio.create_task(compile_for("qbmove", "ndobc")) for _ in range(2)]
+        waited = []
+        while not all(request.done() for request in requests):
+            await asyncio.sleep(0.01)
+            waited.append(compiled_loops.find_compiling_s())
+        return [one for one in waited if one is not None]
+
+    assert compiled_loops.find_compiling_s() is None
+    waited = asyncio.run(compile_twice())
+    assert len(waited) > 10
+    assert waited == sorted(waited)
+    assert compiled_loops.find_compiling_s() is None
+    assert started.read_text() == "['ndobc', '--actuator', 'qbmove'];"
+
+
+@pytest.mark.exhaustive
+def test_first_session_of_an_actuator_reports_how_long_it_waits(tmp_path):
+    """A lab with an empty cache answers other requests while the loop is compiled."""
+    opened = []
+    with run_lab(cache=str(tmp_path)) as lab:
+        assert lab.client.get("/api/v1/actuators/qbmove").json()["compiling_s"] is None
+
+        def open_session():
+            wanted = {"from": "actuator", "actuator": "qbmove"}
+            opened.append(lab.client.post("/api/v1/sessions", json=wanted, timeout=None))
+
+        thread = threading.Thread(target=open_session)
+        thread.start()
+        waited = []
+        while thread.is_alive():
+            waited.append(lab.client.get("/api/v1/actuators/qbmove").json()["compiling_s"])
+            thread.join(0.2)
+        assert opened[0].status_code == 201, opened[0].text
+        reported = {one for one in waited if one is not None}
+        assert len(reported) >= 3
+        assert max(reported) > 1.0
+        assert lab.client.get("/api/v1/actuators/qbmove").json()["compiling_s"] is None
