@@ -1,8 +1,8 @@
 """Arrays that compiled code uses without owning them.
 
-numba counts every reference to an array with an atomic operation, also each time that a tuple of
-arrays is passed on: in a loop of a few hundred operations that is most of the time.
-A borrowed array has no owner, and nothing is counted.
+numba counts every reference to an array with an atomic operation, also each time a tuple of arrays
+is passed on; in a loop of a few hundred operations that takes most of the time. A borrowed array
+has no owner and is not counted.
 """
 
 from collections.abc import Callable

@@ -1,10 +1,10 @@
 """Return of tuples and arrays from compiled functions, safe if a signal handler raises.
 
-numba builds a named tuple by calling its class, and finds that class and the type of an array
-with functions of its own that are written in Python. Python runs signal handlers in Python code,
-and the handler of Ctrl-C raises `KeyboardInterrupt`. numba goes on with the missing object, and
-the interpreter ends with a segmentation fault. The functions here replace those of numba. They
-check every object: if one is missing, the compiled call raises the exception.
+numba builds a named tuple by calling its class, and looks up that class and the type of an array
+with functions written in Python. Python runs signal handlers in Python code, and the handler of
+Ctrl-C raises `KeyboardInterrupt`. numba then continues with the missing object, and the interpreter
+ends with a segmentation fault. The functions here replace those of numba. They check every object:
+if one is missing, the compiled call raises the exception.
 """
 
 from contextlib import ExitStack
@@ -61,8 +61,8 @@ def _box_array(kind: Any, value: Any, context: Any) -> Any:
     with _if_found(builder, python_type):
         word = ir.IntType(32)
         given = [api.voidptr, api.pyobj, word, word, api.pyobj]
-        # numba's own `nrt_adapt_ndarray_to_python` passes the type on without a check for NULL.
-        # Hence its function of the runtime is called here directly.
+        # numba's own `nrt_adapt_ndarray_to_python` does not check the type for NULL. Therefore its
+        # runtime function is called here directly.
         name = "NRT_adapt_ndarray_to_python_acqref"
         adapt = api._get_function(ir.FunctionType(api.pyobj, given), name=name)
         array = builder.bitcast(cgutils.alloca_once_value(builder, value), api.voidptr)
@@ -70,7 +70,7 @@ def _box_array(kind: Any, value: Any, context: Any) -> Any:
         boxed = builder.call(adapt, [array, python_type, dimensions, is_writable, dtype])
         builder.store(boxed, built)
         api.decref(python_type)
-    # The adapter takes a reference of its own (`acqref`), so the native one is released here.
+    # The adapter takes its own reference (`acqref`), so the native one is released here.
     context.context.nrt.decref(builder, kind, value)
     return builder.load(built)
 
@@ -83,8 +83,8 @@ def _if_found(builder: ir.IRBuilder, found: Any) -> Any:
 @cache
 def replace_boxing() -> None:
     """Make numba use this module in all later compilations."""
-    import_module("numba.core.boxing")  # registers those that are replaced: 18 ms of a start
-    # The table is an internal of numba, whose minor version is pinned for such reasons.
+    import_module("numba.core.boxing")  # registers the boxers that are replaced below; takes 18 ms
+    # The table is internal to numba; for this reason numba's minor version is pinned.
     _boxers.functions |= {
         types.Tuple: _box_tuple,
         types.UniTuple: _box_tuple,

@@ -1,8 +1,8 @@
 """The cache of compiled code: its location and its cleanup.
 
-A folder for each file with compiled functions, in it one for each text that the file and what it
-imports have had. Other processes and other versions of the lab use the same folders. The age of a
-folder decides whether it may still be in use; a process that misses removed code compiles it again.
+Each file with compiled functions has a folder, with one subfolder for each version of its text and
+imports. Other processes and other versions of the lab use the same folders. The age of a folder
+decides whether it may still be in use; a process that misses removed code compiles it again.
 """
 
 import contextlib
@@ -44,10 +44,10 @@ class _Implementation(CompileResultCacheImpl):
 
 
 class SharedCache(FunctionCache):
-    """numba's cache of one function, which several processes fill at once.
+    """numba's cache of one function, safe for several processes.
 
-    numba reads the list of what is there, adds to it, writes it again, and then the code: of two
-    processes that do so at once one would find the other's code under the types of its own.
+    numba reads the index, adds to it, writes it, and then writes the code: of two processes doing
+    so at the same time, one could find the other's code under its own types.
     """
 
     _impl_class = _Implementation
@@ -58,10 +58,15 @@ class SharedCache(FunctionCache):
             if os.access(self.cache_path, os.W_OK):
                 super().save_overload(sig, data)
 
+    def list_types(self) -> list[Any]:
+        """List the types of arguments that there is code for."""
+        with _hold(Path(self.cache_path)):
+            return list(self._cache_file._load_index())
+
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """The function's code for the types `sig`; None where there is none."""
-        # Loading takes the lock as well: numba writes the list before the code, so that a reader in
-        # between would find an entry without its own code.
+        # Readers take the lock too: numba writes the index before the code, so that an unlocked
+        # reader could find an entry without its code.
         with _hold(Path(self.cache_path)):
             return super().load_overload(sig, target_context)
 
@@ -74,7 +79,7 @@ def _hold(folder: Path) -> Iterator[None]:
         # The folder itself is locked: it exists before any file of the cache, and the system
         # releases the lock if the process dies.
         descriptor = os.open(folder, os.O_RDONLY)
-    except OSError:  # not ours to write in, or a system that opens no folders
+    except OSError:  # folder not writable, or a system that cannot open folders
         yield
         return
     try:
@@ -95,17 +100,17 @@ def choose_root() -> Path:
 def open_folder(module: str, fingerprint: str) -> Path | None:
     """Return the folder of a module's code with this fingerprint; None if it cannot be created.
 
-    One that exists and cannot be written is used for reading.
+    An existing folder that cannot be written is used for reading.
     """
     root = choose_root()
     folder = root / module / fingerprint
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        # The age that decides about removal is that of the last use, not of the creation.
+        # Entries are removed by the time of their last use, not of their creation.
         os.utime(folder)
     except OSError:
         return folder if os.access(folder, os.R_OK | os.X_OK) else None
-    with contextlib.suppress(OSError):  # another process removes the same
+    with contextlib.suppress(OSError):  # another process may remove the same folder
         _remove_texts(folder.parent)
         _remove_abandoned(root)
     return folder

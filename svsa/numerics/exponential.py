@@ -1,11 +1,12 @@
 """Exponentials and logarithms, bit-identical on every machine.
 
-Of additions, multiplications and exact scalings by powers of 2, as in `svsa.numerics.trigonometry`:
+Computed by additions, multiplications and exact scalings by powers of 2, as in
+`svsa.numerics.trigonometry`:
 
     e^r = 1 + r + r²/2 + r³ E(r)                            |r| ≤ ½ ln 2
     ln(1 + f) = 2 atanh s = 2s + 2s z L(z), z = s²          s = f/(2 + f), ½√2 ≤ 1 + f ≤ √2
 
-Their coefficients come from `tests/numerics/minimax.py`; `test_trigonometry` holds them to the
+Their coefficients come from `tests/numerics/minimax.py`; `test_trigonometry` compares them with the
 exact values.
 """
 
@@ -19,7 +20,7 @@ from svsa.numerics.simd.rounding import floor
 
 LOG2_E = 1.4426950408889634
 LN_2 = (0.6931471805599453, 2.3190468138462996e-17)
-"""ln 2 in two parts, the second the nearest double to what the first leaves."""
+"""ln 2 in two parts, the second the nearest double to the remainder."""
 HALF_SQRT_2 = 0.7071067811865476
 MIN_EXPONENT, MAX_EXPONENT = -745.0, 709.0
 """Outside, eˣ is next to zero or near the end of what a double holds."""
@@ -50,7 +51,7 @@ L = (
 )
 MAX_POWER = 1010.0
 H = tuple(1.0 / math.factorial(n) for n in range(2, 14))
-"""The Taylor coefficients of cosh and sinh from r²/2! on: what follows is below 10⁻¹⁷."""
+"""The Taylor coefficients of cosh and sinh from r²/2! on; the remainder is below 10⁻¹⁷."""
 
 
 @compiled
@@ -106,7 +107,7 @@ def log(x: float) -> float:
 def log1p(x: float) -> float:
     """ln(1 + x) for x > −1, exact to the last digits for small x too."""
     u = 1.0 + x
-    # 1 + x rounds a small x. u − 1 is exact there, so that the difference is what was lost.
+    # 1 + x rounds a small x. u − 1 is exact there, so that the difference is the rounding error.
     return log(u) + (x - (u - 1.0)) / u
 
 
@@ -121,10 +122,11 @@ def tanh(x: float) -> float:
 
 @compiled
 def sinh_cosh(x: float) -> tuple[float, float]:
-    """sinh x and cosh x for |x| ≤ 700; beyond, numbers of that size with the sign of x.
+    """sinh x and cosh x for |x| ≤ 700; beyond that, values of the same magnitude with the sign of
+    x.
 
     x = k ln 2 + r, so that sinh x = sinh(k ln 2) cosh r + cosh(k ln 2) sinh r, and the hyperbolic
-    functions of k ln 2 are sums of powers of 2. At small x, k is 0 and nothing cancels.
+    functions of k ln 2 are sums of powers of 2. For small x, k is 0 and nothing cancels.
     """
     k = floor(x * LOG2_E + 0.5)
     r = fma(-k, LN_2[1], fma(-k, LN_2[0], x))
@@ -133,7 +135,7 @@ def sinh_cosh(x: float) -> tuple[float, float]:
     S, C = up - down, up + down
     z = r * r
     z2 = z * z
-    # In pairs: each operation waits for the one before, and a chain of six takes twice as long.
+    # In pairs: operations in a chain wait for each other, and a chain of six takes twice as long.
     sine = fma(z2, fma(z2, fma(z, H[11], H[9]), fma(z, H[7], H[5])), fma(z, H[3], H[1]))
     cosine = fma(z2, fma(z2, fma(z, H[10], H[8]), fma(z, H[6], H[4])), fma(z, H[2], H[0]))
     sine, cosine = fma(r * z, sine, r), z * cosine

@@ -22,7 +22,6 @@ def _replace_field(typing: Any, values: Any, name: Any, value: Any) -> Any:
 
 
 replace_field = cast("Callable[[Any, str, Any], Any]", _replace_field)
-"""A named tuple of numbers with another value in the field of this name, which is a literal.
-
-numba does not know `_replace`. The type of the tuple stays.
+"""Replace one field of a named tuple of numbers; the name is a literal. numba does not support
+`_replace`. The type of the tuple stays.
 """

@@ -1,12 +1,12 @@
 """Fused multiply-add: explicit, and substituted for every sum with a product.
 
-What a processor's multiply-add gives and LLVM's `llvm.fma` promises: the exact a·b + c, rounded
-once. A machine without the instruction calls libm's `fma`, slower and with the same bits. numba
-without fast-math emits no `contract` flag, and LLVM fuses nothing on its own, on aarch64 neither.
+LLVM's `llvm.fma` is the exact a·b + c, rounded once, like the instruction of the processor. A
+machine without the instruction calls libm's `fma`, slower but with the same bits. Without fast-math
+numba emits no `contract` flag, so that LLVM fuses no other operations, also on aarch64.
 
-`FusingCompiler` reads `a * b + c` of a compiled function as `fma(a, b, c)`, the product being
-the last thing that was computed for this sum alone. It looks at one function as it is written,
-before anything is inlined: what a function computes does not depend on where it is called.
+`FusingCompiler` compiles `a * b + c` as `fma(a, b, c)` if the product is the last value computed
+for this sum alone. It processes one function as written, before inlining: the result of a function
+does not depend on its caller.
 """
 
 import operator
@@ -56,8 +56,8 @@ def multiply_add(a: Any, b: Any, c: Any) -> Any:
 def choose_multiply_add(a: Any, b: Any, c: Any) -> Any:
     """Choose `fma` if one of the numbers is a float64 or a vector."""
 
-    # The pass runs before types are known, so it also rewrites sums of integers. Here, with the
-    # types known, these keep their plain form.
+    # The pass runs before types are known and also rewrites sums of integers. At this point the
+    # types are known, and integers keep the plain form.
     def fused(a: Any, b: Any, c: Any) -> Any:
         return fma(a, b, c)
 
@@ -89,7 +89,7 @@ class _FuseProducts(FunctionPass):
         )
         changed = [_fuse_block(block, used) for block in function.blocks.values()]
         if any(changed):
-            # numba keeps tables about the statements; those that were replaced make the tables
+            # numba caches tables about the statements; after the replacement these tables are
             # stale.
             function._definitions = build_definitions(function.blocks)
             PostProcessor(function).run()
@@ -113,7 +113,7 @@ def _fuse_block(block: ir.Block, used: Counter[str]) -> bool:
         operation = value.fn if isinstance(value, ir.Expr) and value.op == "binop" else None
         name = statement.target.name if operation else ""
         # `$` marks a temporary of numba. A product with a name in the source, or with a second use,
-        # has a rounding of its own that must remain.
+        # has its own rounding, which must remain.
         if operation is operator.mul and name.startswith("$") and used[name] == 1:
             products[name] = statement
         right = products.get(value.rhs.name) if operation in _SUMS else None
@@ -121,7 +121,7 @@ def _fuse_block(block: ir.Block, used: Counter[str]) -> bool:
         if right is None and left is None:
             body.append(statement)
             continue
-        # In a·b + c·d it is the right product that is fused, since it is computed last.
+        # In a·b + c·d the right product is fused, because it is computed last.
         product: Any = right or left
         gone.append(product)
         other = value.lhs if right else value.rhs
@@ -157,15 +157,15 @@ _SUMS = (operator.add, operator.sub)
 class FusingCompiler(CompilerBase):
     """numba's compiler with products fused into their sums.
 
-    What it compiles returns to Python as `svsa.numerics.boxing` has it.
+    Its results are returned to Python by `svsa.numerics.boxing`.
     """
 
     def define_pipelines(self) -> list[Any]:
         """Return numba's passes with the fusing pass right after a function is read."""
         replace_boxing()
         passes = DefaultPassBuilder.define_nopython_pipeline(self.state)
-        # numba inlines in a later pass. Fused after that, the bits of an equation would depend on
-        # the place from which it is called.
+        # numba inlines in a later pass. If fusing came after that, the bits of an equation would
+        # depend on its caller.
         passes.add_pass_after(_FuseProducts, IRProcessing)
         passes.finalize()
         return [passes]

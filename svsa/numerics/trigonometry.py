@@ -1,13 +1,13 @@
 """Sine, cosine and arc cosine by additions and multiplications: the same bits on every machine.
 
-glibc chooses among several sines by the processor it finds, and another libm has yet another;
-these are made of operations that IEEE 754 rounds in one way only (see `svsa.numerics.fused`), and a
-compiler can put them side by side. The polynomials are minimax, P of degree n in z = r²:
+glibc selects among several sines by the processor, and other libm implementations differ. These
+functions consist of operations that IEEE 754 rounds in exactly one way (see `svsa.numerics.fused`),
+and a compiler can vectorise them. The polynomials are minimax, P of degree n in z = r²:
 
     sin r = r + r z S(z),  cos r = 1 − z/2 + z² C(z)        |r| ≤ π/4
     asin s = s + s z P(z)                                   0 ≤ s ≤ ½
 
-Their coefficients come from `tests/numerics/minimax.py`; `test_trigonometry` holds them to the
+Their coefficients come from `tests/numerics/minimax.py`; `test_trigonometry` compares them with the
 exact values: within 1 ulp.
 """
 
@@ -20,7 +20,7 @@ from svsa.numerics.simd.rounding import floor
 
 TWO_OVER_PI = 2.0 / math.pi
 HALF_PI = (1.5707963267948966, 6.123233995736766e-17, -1.4973849048591698e-33)
-"""π/2 in three parts, each the nearest double to what the ones before leave."""
+"""π/2 in three parts, each the nearest double to the remainder."""
 TINY = 1e-300
 
 S = (
@@ -57,9 +57,9 @@ P = (
 
 @compiled
 def sin_versin(x: float) -> tuple[float, float]:
-    """(sin x, 1 − cos x), rad, for |x| ≤ π/4, where nothing has to be reduced.
+    """(sin x, 1 − cos x), rad, for |x| ≤ π/4, without range reduction.
 
-    Beyond it both lose digits, not at once: an error of 3·10⁻¹⁰ at π/2.
+    Beyond this range both gradually lose digits: the error is 3·10⁻¹⁰ at π/2.
     """
     z = x * x
     s = fma(z, fma(z, fma(z, fma(z, fma(z, S[5], S[4]), S[3]), S[2]), S[1]), S[0])
@@ -69,17 +69,17 @@ def sin_versin(x: float) -> tuple[float, float]:
 
 @compiled
 def sin_cos(x: float) -> tuple[float, float]:
-    """(sin x, cos x); x in rad, |x| ≤ 10⁹. NaN where x is not finite.
+    """(sin x, cos x); x in rad, |x| ≤ 10⁹. NaN if x is not finite.
 
-    x = k π/2 + r + y with |r| ≤ π/4 and y what does not fit into r (Cody and Waite, with a
-    fused product, so that r is exact before its last part); k tells the quadrant.
+    x = k π/2 + r + y with |r| ≤ π/4 and y the remainder that r cannot represent (Cody and Waite,
+    with a fused product, so that r is exact before its last part); k determines the quadrant.
     """
     k = floor(x * TWO_OVER_PI + 0.5)
     exact = fma(-k, HALF_PI[0], x)
     part = k * HALF_PI[1]
     r = exact - part
-    # In order: what the subtraction rounded away, the rounding of k·HALF_PI[1], and the third part
-    # of π/2.
+    # In order: the rounding error of the subtraction, that of k·HALF_PI[1], and the third part of
+    # π/2.
     y = (exact - r) - part - fma(k, HALF_PI[2], fma(k, HALF_PI[1], -part))
     z = r * r
     rest = fma(z, fma(z, fma(z, fma(z, fma(z, S[5], S[4]), S[3]), S[2]), S[1]), S[0])
@@ -88,7 +88,7 @@ def sin_cos(x: float) -> tuple[float, float]:
     high = fma(-0.5, z, 1.0)
     low = fma(-0.5, z, 1.0 - high)
     cosine = high + (low + fma(z * z, rest, -r * y))
-    # The quadrant is found with floats alone, so that the same lines compile for a vector.
+    # The quadrant is computed with floats alone, so that the same lines compile for vectors.
     half = floor(0.5 * k)
     sign = 1.0 - 2.0 * (half - 2.0 * floor(0.5 * half))
     even = k == 2.0 * half
@@ -112,8 +112,8 @@ def acos(x: float) -> float:
     """arccos x = 2 asin √((1 − x)/2), rad, for ½ ≤ x ≤ 1; NaN above 1."""
     z = 0.5 - 0.5 * x
     s = math.sqrt(z)
-    # What the square root rounded away, by one step of Newton's method. At x = 1 both s and the
-    # numerator are 0, and TINY prevents 0/0.
+    # The rounding error of the square root, by one Newton step. At x = 1 both s and the numerator
+    # are 0, and TINY prevents 0/0.
     low = 0.5 * fma(-s, s, z) / greatest(s, TINY)
     p = fma(z, fma(z, fma(z, P[11], P[10]), P[9]), P[8])
     p = fma(z, fma(z, fma(z, fma(z, p, P[7]), P[6]), P[5]), P[4])

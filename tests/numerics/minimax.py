@@ -1,8 +1,8 @@
 """Where the coefficients of `svsa.numerics.trigonometry` and `exponential` come from.
 
-`find_coefficients(KERNELS["SINE"])` gives a table again. Remez's exchange algorithm in 40 digits
-finds the polynomial P of a degree whose greatest relative error of the function that it stands in
-is the least; each coefficient is then rounded to the nearest double.
+`find_coefficients(KERNELS["SINE"])` computes a table again. Remez's exchange algorithm in 40 digits
+finds the polynomial P of the given degree with the smallest maximum relative error of the final
+function. Each coefficient is then rounded to the nearest double.
 """
 
 from collections.abc import Callable
@@ -22,7 +22,7 @@ Function = Callable[[mpf], mpf]
 class Kernel(NamedTuple):
     """P(z) of this degree on (low, high), where `compute` is what it stands for.
 
-    weigh: what an error of P is worth, relative to the function that is wanted in the end.
+    weigh: the weight of an error of P, relative to the final function.
     """
 
     compute: Function
@@ -40,7 +40,7 @@ def _evaluate(coefficients: list[mpf], z: mpf) -> mpf:
 
 
 def _find_extrema(error: Function, low: mpf, high: mpf, count: int) -> list[mpf]:
-    """The greatest |error| of each of `count` stretches of one sign."""
+    """The largest |error| of each of `count` intervals of constant sign."""
     places = [
         (low + high) / 2 - (high - low) / 2 * mpmath.cos(mpmath.pi * k / (GRID * count))
         for k in range(GRID * count + 1)

@@ -1,6 +1,6 @@
-"""What of the compiled code goes: what no user has opened for long, and nothing of other packages.
+"""Removal of compiled code: old entries that no process opened, and no files of other packages.
 
-And what several add at once is all there.
+Code that several processes add at the same time is complete.
 """
 
 import contextlib
@@ -38,7 +38,7 @@ def make(folder: Path, age_s: float) -> Path:
     return folder
 
 
-def test_code_of_earlier_versions_goes_when_no_user_has_opened_it_for_long(root: Path) -> None:
+def test_unused_code_of_earlier_versions_is_removed(root: Path) -> None:
     gone = [
         make(root / f"compiled-{OLD}", 1.1 * ABANDONED_S),
         make(root / "svsa.runtime.loop" / OLD, 1.1 * ABANDONED_S),
@@ -55,7 +55,7 @@ def test_code_of_earlier_versions_goes_when_no_user_has_opened_it_for_long(root:
     assert all((folder / "function.nbc").exists() for folder in kept)
 
 
-def test_what_is_not_called_as_its_own_stays(root: Path) -> None:
+def test_folders_with_other_names_are_kept(root: Path) -> None:
     others = [
         make(root / "photos" / "summer", 9 * ABANDONED_S),
         make(root / "compiled-by-hand", 9 * ABANDONED_S),
@@ -65,7 +65,7 @@ def test_what_is_not_called_as_its_own_stays(root: Path) -> None:
     assert all((folder / "function.nbc").exists() for folder in others)
 
 
-def test_of_a_file_s_texts_the_newest_stay_and_those_in_use(root: Path) -> None:
+def test_newest_and_used_versions_of_a_file_are_kept(root: Path) -> None:
     module = root / "svsa.simulation.loop.loop"
     ages_s = [0.5 * UNUSED_S, 0.9 * UNUSED_S, 1.1 * UNUSED_S, 5.0 * UNUSED_S]
     texts = [make(module / f"{number:016x}", age) for number, age in enumerate(ages_s)]
@@ -79,10 +79,10 @@ def add_one(x: float) -> float:
     return x + 1.0
 
 
-def test_what_two_processes_compile_at_once_is_kept_for_each(
+def test_code_compiled_by_two_processes_at_once_is_stored_for_each(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """As far as they can, both read the list of what is there before either writes it."""
+    """If they can, both read the index before either writes it."""
     monkeypatch.setattr(config, "CACHE_DIR", str(tmp_path))
     made = [numba.njit((kind,))(add_one) for kind in (numba.float64, numba.complex128)]
     results = [result for one in made for result in one.overloads.values()]
@@ -113,8 +113,8 @@ with watch_compilation(print):
 """
 
 
-def test_a_cache_that_cannot_be_written_is_read(tmp_path: Path) -> None:
-    """As in an image whose file system is read-only, or whose user is another one."""
+def test_read_only_cache_is_used(tmp_path: Path) -> None:
+    """As in an image with a read-only file system, or with another user."""
     if shutil.which("bwrap") is None:
         pytest.skip("bwrap is not installed")
     environment = os.environ | {"SVSA_CACHE": str(tmp_path)}

@@ -1,4 +1,4 @@
-"""What decides whether compiled code is made again: for each file, it and what it is made of."""
+"""Dependencies of the code cache: each file depends on its text and on its imports."""
 
 import os
 import subprocess
@@ -35,21 +35,21 @@ def find_names(file: str) -> set[str]:
     return {path.relative_to(LIBRARY).as_posix() for path in sources}
 
 
-def test_a_file_counts_with_all_that_it_imports() -> None:
+def test_file_depends_on_all_its_imports() -> None:
     names = find_names("control/laws/ndobc.py")
     assert {"control/laws/ndobc.py", "control/laws/feedback_linearization.py"} <= names
     assert {"actuators/linearization.py", "actuators/spring.py", "numerics/packed.py"} <= names
 
 
-def test_a_law_is_no_part_of_the_loop() -> None:
-    """So that a law that is added or changed compiles neither the loop nor another law."""
+def test_loop_does_not_depend_on_laws() -> None:
+    """A new or changed law recompiles neither the loop nor another law."""
     laws = {"control/laws/feedback_linearization.py", "control/laws/ndobc.py"}
     assert not laws & find_names("simulation/loop/loop.py")
     assert not laws & find_names("simulation/loop/measured.py")
     assert "control/laws/ndobc.py" not in find_names("control/laws/feedback_linearization.py")
 
 
-def test_files_next_to_the_equations_compile_nothing_again() -> None:
+def test_files_without_equations_recompile_nothing() -> None:
     named = {
         "cli.py",
         "runs/session/journal.py",
@@ -70,7 +70,7 @@ def package(tmp_path: Path) -> Path:
     return folder
 
 
-def test_of_a_package_outside_every_file_counts(package: Path) -> None:
+def test_package_depends_on_all_its_files(package: Path) -> None:
     sources = find_sources(package / "law.py")
     assert {package / name for name in PACKAGE} <= set(sources)
     assert LIBRARY / "actuators" / "signals.py" in sources
@@ -78,7 +78,7 @@ def test_of_a_package_outside_every_file_counts(package: Path) -> None:
 
 @pytest.mark.exhaustive
 @pytest.mark.long
-def test_a_function_of_a_package_outside_is_cached_until_its_package_changes(
+def test_function_of_a_package_is_cached_until_the_package_changes(
     package: Path,
 ) -> None:
     (package / "caller.py").write_text(CALLER)
@@ -129,14 +129,14 @@ print(len([*svsa.design.linearize(15.0)]), svsa.list_runs.__name__, svsa.Catalog
 
 @pytest.mark.exhaustive
 @pytest.mark.long
-def test_a_start_imports_what_a_run_needs_and_the_rest_when_it_is_asked_for() -> None:
-    """numba's own check for scipy, too; matrices in a law's function work all the same."""
+def test_start_imports_the_modules_of_a_run_and_others_on_demand() -> None:
+    """Also without numba's own check for scipy; matrices in the function of a law still work."""
     answer = subprocess.run(
         [sys.executable, "-c", START], capture_output=True, text=True, check=True, timeout=300
     )
     assert answer.stdout.splitlines() == ["[]", "[]", "[10.0, 21.0]", "4 list_runs Catalogue"]
 
 
-def test_a_name_that_the_library_has_not_is_refused_as_ever() -> None:
+def test_unknown_name_of_the_library_raises_an_attribute_error() -> None:
     with pytest.raises(AttributeError, match="'svsa' has no attribute 'nothing'"):
         _ = svsa.nothing  # pyright: ignore[reportAttributeAccessIssue]

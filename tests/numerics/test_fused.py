@@ -1,4 +1,4 @@
-"""Products that are added are rounded once, wherever a compiled function writes them so."""
+"""Sums of products are rounded once in compiled functions."""
 
 import numpy as np
 import pytest
@@ -31,25 +31,25 @@ def square_and_add(a, c):
     return add(a, a, c)[0]
 
 
-def test_a_product_in_a_sum_is_rounded_once() -> None:
+def test_product_in_a_sum_is_rounded_once() -> None:
     assert add(A, A, -1.0) == (ONCE, ONCE)
     assert subtract(A, A, 1.0) == (ONCE, -ONCE)
 
 
-def test_a_product_with_a_name_of_its_own_is_rounded_first() -> None:
+def test_named_product_is_rounded_first() -> None:
     assert keep(A, A, 1.0) == TWICE
 
 
-def test_inlined_into_another_it_is_the_same() -> None:
+def test_inlining_does_not_change_the_rounding() -> None:
     assert square_and_add(A, -1.0) == ONCE
 
 
 @pytest.mark.parametrize("numbers", [(7, 3, 1), (np.uint64(7), np.uint64(3), np.uint64(1))])
-def test_whole_numbers_stay_whole(numbers: tuple[int, int, int]) -> None:
+def test_integers_remain_integers(numbers: tuple[int, int, int]) -> None:
     assert add(*numbers) == (22, 22)
     assert all(isinstance(total, int) for total in add(*numbers))
 
 
-def test_arrays_are_added_as_ever() -> None:
+def test_sums_of_arrays_are_unchanged() -> None:
     total, _ = add(2.0, np.array([1.0, 2.0]), np.array([0.5, 0.5]))
     assert total.tolist() == [2.5, 4.5]

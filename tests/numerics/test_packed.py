@@ -1,4 +1,4 @@
-"""Named tuples as records: the same numbers under the same names, for compiled code and Python."""
+"""Named tuples as records: the same numbers under the same names in compiled code and Python."""
 
 from typing import NamedTuple
 
@@ -34,7 +34,7 @@ def test_compiled_code_reads_the_numbers_by_name():
     assert add_up(pack(Outer(7, (1.0, 2.0, 0.5), Torque(3.0, -0.25)))) == 7.25
 
 
-def test_a_field_is_seen_as_its_numbers_and_written_through():
+def test_field_is_a_writable_view_of_its_numbers():
     packed = pack(Numbers(State(1.0, 2.0, 3.0, 4.0, 5.0, 6.0), Torque(7.0, 8.0)))
     sent = view_field(packed, "sent")
     np.testing.assert_array_equal(view_field(packed, "known"), [1.0, 2.0, 3.0, 4.0, 5.0, 6.0])
@@ -43,8 +43,8 @@ def test_a_field_is_seen_as_its_numbers_and_written_through():
     assert packed["known"].tolist() == [(1.0, 2.0, 3.0, 4.0, 5.0, 6.0)]
 
 
-def test_tuples_of_one_kind_are_records_of_one_type_object() -> None:
-    """Numba compares types that are only equal field by field at every call: 8 µs of a tick."""
+def test_tuples_of_one_kind_share_one_type_object() -> None:
+    """Numba compares equal but distinct types field by field at every call: 8 µs per tick."""
     first, second = (pack(Outer(count, (1.0, 2.0, 0.5), Torque(3.0, 0.0))) for count in (1, 2))
     assert first.dtype is second.dtype
     assert pack_all([Outer(1, (1.0, 2.0, 0.5), Torque(3.0, 0.0))] * 2).dtype is first.dtype

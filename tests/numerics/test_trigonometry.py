@@ -31,7 +31,7 @@ ANGLES = np.concatenate([AROUND_ZERO, SMALL, TURNS, LONG_SESSION, NEAR_QUADRANTS
 def find_worst(
     function: Callable[[float], float], exact: Callable, places: Iterable[float]
 ) -> float:
-    """The greatest distance from the exact value, in units of the last place of it."""
+    """Return the largest error in units of the last place."""
     worst = 0.0
     with mpmath.workdps(50):
         for place in places:
@@ -47,7 +47,7 @@ def test_sine_and_cosine_are_within_one_unit_of_the_last_place() -> None:
 
 
 def test_sine_and_versine_of_small_angles_need_no_reduction() -> None:
-    """Within a unit of the last place up to π/4, 10⁻⁹ beyond it up to π/2."""
+    """Within one unit of the last place up to π/4, 10⁻⁹ beyond it up to π/2."""
     assert find_worst(lambda x: sin_versin(x)[0], mpmath.sin, AROUND_ZERO) < 1.0
     exact = lambda x: 2 * mpmath.sin(x / 2) ** 2  # noqa: E731
     assert find_worst(lambda x: sin_versin(x)[1], exact, AROUND_ZERO) < 1.5
@@ -55,12 +55,12 @@ def test_sine_and_versine_of_small_angles_need_no_reduction() -> None:
         assert sin_versin(x) == pytest.approx((math.sin(x), 1.0 - math.cos(x)), abs=1e-9)
 
 
-def test_both_at_once_are_each_alone() -> None:
+def test_combined_functions_equal_the_single_functions() -> None:
     assert [sin_cos(x) for x in TURNS] == [(sin(x), cos(x)) for x in TURNS]
 
 
 def test_arc_cosine_is_within_one_unit_of_the_last_place() -> None:
-    """From ½ to 1; near 1 as close as a double goes."""
+    """From ½ to 1; near 1 to the resolution of a double."""
     near_one = 1.0 - 2.0 ** -RANDOM.uniform(1.0, 53.0, COUNT)
     places = np.concatenate([RANDOM.uniform(0.5, 1.0, COUNT), near_one])
     assert find_worst(acos, mpmath.acos, places) < 0.8
@@ -87,14 +87,14 @@ def test_arc_cosine_is_within_one_unit_of_the_last_place() -> None:
         (lambda x: sinh_cosh(x)[1], mpmath.cosh, RANDOM.uniform(-700.0, 700.0, COUNT), 1.5),
     ],
 )
-def test_exponentials_and_logarithms(
+def test_exponentials_and_logarithms_are_within_their_bounds(
     function: Callable, exact: Callable, places: np.ndarray, bound: float
 ) -> None:
     """In units of the last place."""
     assert find_worst(function, exact, places) < bound
 
 
-def test_what_has_no_end_and_what_is_no_number() -> None:
+def test_infinite_and_nan_arguments() -> None:
     for x in (math.nan, math.inf, -math.inf):
         assert all(math.isnan(value) for value in sin_cos(x))
     for function in (exp, expm1, acos, tanh):
@@ -117,13 +117,13 @@ def test_what_has_no_end_and_what_is_no_number() -> None:
         pytest.param(exponential, "L", "LOGARITHM", marks=pytest.mark.exhaustive),
     ],
 )
-def test_the_coefficients_are_those_of_the_exchange_algorithm(
+def test_coefficients_are_those_of_the_exchange_algorithm(
     module: object, symbol: str, name: str
 ) -> None:
     assert_array_equal(getattr(module, symbol), find_coefficients(KERNELS[name]))
 
 
-def test_constants_in_parts_are_the_nearest_doubles_to_what_is_left() -> None:
+def test_split_constants_are_the_nearest_doubles_of_the_remainders() -> None:
     with mpmath.workdps(80):
         for whole, parts in (
             (mpmath.pi / 2, trigonometry.HALF_PI),
@@ -135,15 +135,15 @@ def test_constants_in_parts_are_the_nearest_doubles_to_what_is_left() -> None:
                 left -= mpmath.mpf(part)
 
 
-def test_a_fused_product_is_rounded_once() -> None:
+def test_fused_product_is_rounded_once() -> None:
     """(1 + 2⁻³⁰)² − 1 = 2⁻²⁹ + 2⁻⁶⁰, of which two roundings keep only the first."""
     compiled = numba.njit(lambda a, b, c: fma(a, b, c))
     assert compiled(1.0 + 2.0**-30, 1.0 + 2.0**-30, -1.0) == 2.0**-29 + 2.0**-60
 
 
 @pytest.mark.parametrize("triple", ["aarch64-unknown-linux-gnu", "x86_64-unknown-linux-gnu"])
-def test_a_compiler_fuses_what_is_written_so_and_nothing_else(triple: str) -> None:
-    """What numba hands to LLVM, compiled for either machine with a multiply-add."""
+def test_compiler_fuses_explicit_multiply_adds_only(triple: str) -> None:
+    """Code that numba passes to LLVM, compiled for two machines with a multiply-add."""
     apart = _compile_for(triple, numba.njit(lambda a, b, c: a * b + c))
     fused = _compile_for(triple, numba.njit(lambda a, b, c: fma(a, b, c)))
     multiply_add = re.compile(r"\bv?fn?m(add|sub)\w*")
@@ -152,7 +152,7 @@ def test_a_compiler_fuses_what_is_written_so_and_nothing_else(triple: str) -> No
 
 
 def _compile_for(triple: str, function: Callable) -> str:
-    """The assembler of a compiled function of three numbers on another machine."""
+    """Return the assembly of a compiled function of three numbers for another machine."""
     llvm.initialize_all_targets()
     llvm.initialize_all_asmprinters()
     function(1.0, 2.0, 3.0)

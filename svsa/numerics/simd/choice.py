@@ -1,10 +1,9 @@
 """Replacements of `if`, `min` and `max` for vectorised equations.
 
-What differs from element to element is no branch: both sides are computed, and each element takes
-its own.
-On floats these are what they say, with the same bits; a side that is not taken costs its time and
-may be anything, NaN too. A switch that is the same for all eight stays an `if` of a float, or of
-`some`.
+A condition that differs between elements is not a branch: both sides are computed, and each element
+selects its own. On floats these functions give the same bits as the branch; the other side costs
+time and may have any value, also NaN. A switch that is the same for all eight elements stays an
+`if` of a float, or of `some`.
 """
 
 from typing import Any
@@ -24,8 +23,8 @@ def choose(condition: Any, a: Any, b: Any) -> Any:
 
 def least(a: Any, b: Any) -> Any:
     """b where b < a, else a: with NaN in either it is a, as `min(a, b)` has it."""
-    # With the operands exchanged a NaN would pass the torque limit as a finite torque, and the
-    # guard that looks for NaN would not see it.
+    # With exchanged operands the torque limit would turn a NaN into a finite torque, which the
+    # guard against NaN would not detect.
     return b if b < a else a
 
 
@@ -124,6 +123,6 @@ def _lower_some_of_one(context: Any, builder: Any, signature: Any, arguments: An
 
 @lower_builtin(some, Mask)
 def _lower_some(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-    # Eight truths are one byte: one comparison with zero tests all of them.
+    # Eight booleans form one byte: one comparison with zero tests all of them.
     bits = builder.bitcast(arguments[0], ir.IntType(WIDTH))
     return cgutils.is_not_null(builder, bits)

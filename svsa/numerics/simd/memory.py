@@ -14,7 +14,7 @@ ALIGNMENT = 8
 
 
 def point(context: Any, builder: Any, kind: Any, array: Any, row: Any) -> Any:
-    """Where the vector of a row of an array (rows, 8) stand; LLVM code."""
+    """Address of the vector in a row of an array (rows, 8); LLVM code."""
     data = cgutils.create_struct_proxy(kind)(context, builder, value=array).data
     begin = builder.bitcast(data, DOUBLES.as_pointer())
     return builder.gep(begin, [row])

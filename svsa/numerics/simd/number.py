@@ -1,10 +1,10 @@
 """A number type of eight doubles for compiled functions, and its type of eight booleans.
 
-numba compiles a function for the types that it is called with: an equation that is written for one
-actuator takes a float, or `VECTOR`, and an element gets the bits that the float would. Every
-operation is one of LLVM's on vectors; nothing depends on what a compiler finds out about a loop. A
-float next to a vector is the same in all of it. Truths of vectors (`MASK`) are nothing that an `if`
-takes: see `svsa.numerics.simd.choice`.
+numba compiles a function for the types of its arguments: an equation that is written for one
+actuator accepts a float, or `VECTOR`, and each element gets the same bits as the float. Every
+operation is one of LLVM's vector operations; nothing depends on automatic vectorisation. A float
+next to a vector is the same for all elements. An `if` cannot use booleans of vectors (`MASK`): see
+`svsa.numerics.simd.choice`.
 """
 
 import math
@@ -27,7 +27,7 @@ from numba.extending import (
 WIDTH = 8
 DOUBLES = ir.VectorType(ir.DoubleType(), WIDTH)
 INLINED: Any = {"forceinline": True, "error_model": "numpy"}
-"""How numba compiles what is chosen by the types of a call."""
+"""Compilation options of implementations chosen by the types of a call."""
 
 
 class Vector(types.Type):
@@ -82,7 +82,9 @@ def _spread_truth(context: Any, builder: Any, fromty: Any, toty: Any, value: Any
 def learn(operation: Any, choose_signature: Callable[..., Any]) -> None:
     """Register the types that an operation accepts, in addition to earlier ones.
 
-    choose_signature: (typing context, *kinds) → signature, None where it does not take them.
+    Args:
+        operation: The function or operator.
+        choose_signature: (typing context, *kinds) → signature, or None if it does not accept them.
     """
 
     class Template(AbstractTemplate):
@@ -98,9 +100,8 @@ def learn(operation: Any, choose_signature: Callable[..., Any]) -> None:
 def define(
     operation: Any, generate: Callable[..., Any], result: types.Type, *operands: types.Type
 ) -> None:
-    """Register an operation with a vector operand.
-
-    generate: (builder, *values) → value, LLVM code.
+    """Register an operation with a vector operand; `generate` is (builder, *values) → value, LLVM
+    code.
     """
 
     def choose_signature(context: Any, *kinds: Any) -> Any:
@@ -139,7 +140,7 @@ def _compare(sign: str) -> Callable[..., Any]:
 
 
 for _name, _instruction in (("add", "fadd"), ("sub", "fsub"), ("mul", "fmul"), ("truediv", "fdiv")):
-    # numba types `a += b` as an operation of its own.
+    # numba types `a += b` as a separate operation.
     for _operation in (getattr(operator, _name), getattr(operator, f"i{_name}")):
         define(_operation, getattr(ir.IRBuilder, _instruction), VECTOR, VECTOR, VECTOR)
 for _operation, _name in ((np.floor, "llvm.floor"), (math.sqrt, "llvm.sqrt"), (abs, "llvm.fabs")):

@@ -29,8 +29,8 @@ def _raise_two(typing: Any, exponent: Any) -> Any:
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         whole = builder.fptosi(arguments[0], bits)
-        # In two factors: below 2^−1022 the exponent has no bits of its own, and only the product of
-        # two normal numbers reaches a subnormal one.
+        # Two factors: below 2^−1022 the exponent field is zero, and only the product of two normal
+        # numbers yields a subnormal one.
         half = builder.ashr(whole, constant(1))
         powers = [
             builder.bitcast(

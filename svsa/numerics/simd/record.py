@@ -45,10 +45,14 @@ class Word:
 
 
 def build_reader(layout: Any) -> Any:
-    """A function of compiled code that reads tuples of an array (rows, 8).
+    """Build a function of compiled code that reads tuples of an array (rows, 8).
 
-    layout: named tuples and tuples of `Column`s, `Shared`s, `Word`s and of numbers, which are then
-    part of the machine code: what is switched off by one costs nothing.
+    Args:
+        layout: Named tuples and tuples of `Column`s, `Shared`s, `Word`s and of numbers. Numbers
+            become part of the machine code, so that a part that is switched off costs nothing.
+
+    Returns:
+        The function.
     """
 
     def read(typing: Any, rows: Any) -> Any:
@@ -80,7 +84,7 @@ def build_reader(layout: Any) -> Any:
 
 
 def find_kind(layout: Any) -> Any:
-    """The numba type of what `build_reader` reads by this layout."""
+    """The numba type of the result of `build_reader` for this layout."""
     match layout:
         case Column():
             return VECTOR
@@ -97,8 +101,9 @@ def find_kind(layout: Any) -> Any:
 
 
 Layout = tuple[tuple[str, Any], ...] | int | None
-"""Of what is held in rows: None is a number, a whole number so many, pairs of names and layouts a
-record."""
+"""Layout of values in rows: None is a number, an integer that many numbers, pairs of names and
+layouts a record.
+"""
 
 
 def lay_out_record(values: Any) -> Any:

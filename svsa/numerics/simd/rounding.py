@@ -3,5 +3,7 @@
 import numpy as np
 
 floor = np.floor
-"""As a word of its own: equations that are read as plain Python, as in `svsa.teaching.isolation`,
-take another, for numpy costs a process of a law five times what it takes to start without."""
+"""Imported from here, because equations that are executed as plain Python
+(`svsa.teaching.isolation`) use another one: with numpy the process of a law takes five times as
+long to start.
+"""

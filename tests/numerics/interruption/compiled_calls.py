@@ -13,13 +13,13 @@ from numba.core.dispatcher import Dispatcher
 import svsa
 
 COMPILING = {"compiled", "overload", "intrinsic"}
-"""Decorators: what such a function calls is called from compiled code."""
+"""Decorators whose functions are called from compiled code only."""
 LEFT_OUT = "svsa.evaluation.timing.plant_problem"
-"""What scipy is compared on, which is no part of the product."""
+"""The comparison with scipy, which is not part of the product."""
 
 
 def import_library() -> list[ModuleType]:
-    """Every module of the library but the script of the isolated process."""
+    """Import every module of the library except the script of the isolated process."""
     names = [module.name for module in pkgutil.walk_packages(svsa.__path__, "svsa.")]
     chosen = [
         name for name in names if not name.startswith((LEFT_OUT, "svsa.teaching.isolation.child"))
@@ -43,7 +43,7 @@ def find_specialized(trees: Iterable[ast.Module]) -> set[str]:
 
 
 def find_calls(node: ast.AST, module: ModuleType, specialized: set[str]) -> Iterator[str]:
-    """The module's names of compiled functions that Python code calls in this part of it."""
+    """Names of compiled functions that Python code calls in this part of the module."""
     if isinstance(node, ast.FunctionDef):
         decorators = {ast.unparse(one).split("(")[0] for one in node.decorator_list}
         if decorators & COMPILING or node.name in specialized:
@@ -56,11 +56,11 @@ def find_calls(node: ast.AST, module: ModuleType, specialized: set[str]) -> Iter
 
 
 class Recorder:
-    """A compiled function that keeps the arguments of its last call from Python."""
+    """A compiled function that stores the arguments of its last call from Python."""
 
     def __init__(self, function: Any) -> None:
         self._function = function
-        self._numba_type_ = function._numba_type_  # compiled code calls the function itself
+        self._numba_type_ = function._numba_type_  # Compiled code calls the function itself.
         self.given: tuple[Any, ...] | None = None
 
     def __call__(self, *given: Any) -> Any:
@@ -71,7 +71,7 @@ class Recorder:
         return getattr(self._function, name)
 
     def list_results(self) -> list[str]:
-        """The types of what the function returns to Python, without those in which they nest."""
+        """The types that the function returns to Python, without the types that contain them."""
         signatures: list[Any] = self._function.nopython_signatures
         pending: list[Any] = [one.return_type for one in signatures]
         found = set[str]()
@@ -90,7 +90,9 @@ class Recorder:
 
 
 def record_calls() -> dict[str, Recorder]:
-    """Replace every compiled function that Python calls by its recorder: the recorders by name."""
+    """Replace every compiled function that Python calls by its recorder, and return them
+    by name.
+    """
     trees = {module: read_tree(module) for module in import_library()}
     specialized = find_specialized(trees.values())
     names = {one: set(find_calls(tree, one, specialized)) for one, tree in trees.items()}

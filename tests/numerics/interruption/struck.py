@@ -44,7 +44,7 @@ class Striker:
             raise StruckError
 
     def count(self, call: Callable[[], None], seconds: float) -> int:
-        """How many signals interrupt `call`, which is repeated for so many seconds."""
+        """Repeat `call` for this time, and return the number of signals that interrupted it."""
         count, end = 0, time.monotonic() + seconds
         while time.monotonic() < end:
             try:
@@ -58,9 +58,9 @@ class Striker:
 
 
 def main() -> None:
-    """Record the calls of the workloads, and repeat each of them under fire."""
+    """Record the calls of the workloads, and repeat each of them while signals arrive."""
     seconds, recorders = float(sys.argv[1]), record_calls()
-    from tests.numerics.interruption.workloads import run_all  # with the recorders in place
+    from tests.numerics.interruption.workloads import run_all  # with the recorders installed
 
     run_all()
     striker = Striker()

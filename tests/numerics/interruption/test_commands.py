@@ -1,4 +1,4 @@
-"""Ctrl-C at a command ends all of its processes, with exit code 130 and one line."""
+"""Ctrl-C ends a command with all of its processes, with exit code 130 and one line."""
 
 import os
 import signal
@@ -43,7 +43,7 @@ def test_ctrl_c_ends_a_command(tmp_path, command):
 
 
 def is_there(group: int) -> bool:
-    """Whether a process of the group is left; helpers of a pool end a moment after the command."""
+    """Whether a process of the group exists; helpers of a pool end shortly after the command."""
     try:
         os.killpg(group, 0)
     except ProcessLookupError:

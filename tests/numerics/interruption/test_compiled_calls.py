@@ -1,4 +1,4 @@
-"""A signal whose handler raises interrupts a compiled call; it never ends the interpreter."""
+"""A signal whose handler raises interrupts a compiled call without ending the interpreter."""
 
 import json
 import subprocess
@@ -16,7 +16,7 @@ CHECKED = {"NoneType", "Boolean", "Integer", "Float", "Array"}
 
 @pytest.mark.long
 @pytest.mark.parametrize("seconds", exhaust(SECONDS_EACH, shown=SECONDS_EACH[:1]))
-def test_signals_interrupt_every_compiled_function_that_python_calls(seconds):
+def test_signals_interrupt_every_compiled_function_called_from_python(seconds):
     process = subprocess.run(
         [sys.executable, "-m", "tests.numerics.interruption.struck", str(seconds)],
         capture_output=True,

@@ -1,4 +1,4 @@
-"""An interrupted run in Jupyter leaves the kernel and its variables as they are."""
+"""An interrupted run in Jupyter preserves the kernel and its variables."""
 
 import time
 
@@ -23,7 +23,7 @@ print(kept, after == before)
 
 
 @pytest.mark.wall_clock
-def test_interrupt_keeps_the_kernel_and_its_variables():
+def test_interrupt_preserves_the_kernel_and_its_variables():
     manager, client = start_new_kernel(kernel_name="python3")
     printed = []
 

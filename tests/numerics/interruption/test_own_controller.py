@@ -29,7 +29,7 @@ def control_and_signal(time_s, *given):
     return control(time_s, *given)
 
 
-def test_a_handler_that_raises_ends_the_run_with_its_exception(handle, capfd):
+def test_handler_that_raises_ends_the_run_with_its_exception(handle, capfd):
     class StopError(Exception):
         pass
 
@@ -43,7 +43,7 @@ def test_a_handler_that_raises_ends_the_run_with_its_exception(handle, capfd):
     assert capfd.readouterr().err == ""
 
 
-def test_a_handler_that_returns_changes_nothing(handle):
+def test_handler_that_returns_changes_nothing(handle):
     quiet = svsa.simulate("4a", control, duration_s=DURATION_S)
     called = []
     handle(lambda number, frame: called.append(number))
@@ -52,8 +52,8 @@ def test_a_handler_that_returns_changes_nothing(handle):
     assert loud.samples.tobytes() == quiet.samples.tobytes()
 
 
-def test_no_exception_of_a_handler_is_lost(handle):
-    """Wherever the signal arrives: none is left to ctypes, which would print and drop it."""
+def test_every_exception_of_a_handler_is_raised(handle):
+    """At any time of the signal: ctypes would print and drop an exception in its callback."""
 
     class StopError(BaseException):
         pass

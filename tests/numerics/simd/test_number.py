@@ -1,6 +1,7 @@
 """Eight doubles side by side: each element has the bits that the float on its own has.
 
-These tests pin what is used of numba's inside: a release that changes it fails here.
+These tests cover the internal interfaces of numba that the lab uses: if a release changes them, a
+test fails.
 """
 
 import math
@@ -59,7 +60,7 @@ def run_vectors(function, rows, out):
 
 
 @compiled
-def ask_some(rows):
+def evaluate_some(rows):
     return some(load(rows, 0) > load(rows, 1))
 
 
@@ -73,7 +74,7 @@ def assert_same_bits(a: np.ndarray, b: np.ndarray) -> None:
 @pytest.mark.parametrize("function", [calculate, decide])
 @settings(max_examples=200)
 @given(x=ROW, y=ROW)
-def test_an_element_has_the_bits_of_the_float(function, x, y) -> None:
+def test_element_has_the_bits_of_the_float(function, x, y) -> None:
     rows, out = np.array([x, y]), np.empty((2, WIDTH))
     run_vectors(function, rows, out)
     assert_same_bits(out, np.array([function(*pair) for pair in rows.T]).T)
@@ -84,14 +85,14 @@ def test_an_element_has_the_bits_of_the_float(function, x, y) -> None:
     x=st.lists(st.floats(1e-250, 1e9) | st.floats(-1e9, -1e-250), min_size=WIDTH, max_size=WIDTH),
     y=st.lists(st.floats(0.0, 0.5), min_size=WIDTH, max_size=WIDTH),
 )
-def test_own_functions_are_the_same_in_a_vector(x, y) -> None:
+def test_compiled_functions_are_equal_in_a_vector(x, y) -> None:
     rows, out = np.array([x, y]), np.empty((2, WIDTH))
     run_vectors(calculate_functions, rows, out)
     assert_same_bits(out, np.array([calculate_functions(*pair) for pair in rows.T]).T)
 
 
-def test_the_lesser_and_the_greater_keep_the_order_of_a_number_that_is_none() -> None:
-    """As `min` and `max`: a limit put on NaN leaves NaN, which a guard then finds."""
+def test_least_and_greatest_propagate_nan_by_argument_order() -> None:
+    """As `min` and `max`: a limit of NaN is NaN, which the guard then detects."""
     limit = compiled(lambda u, bound: least(greatest(u, -bound), bound))
     assert math.isnan(limit(math.nan, 3.0))
     assert limit(5.0, 3.0) == 3.0
@@ -101,14 +102,14 @@ def test_the_lesser_and_the_greater_keep_the_order_of_a_number_that_is_none() ->
 
 
 @pytest.mark.parametrize("element", range(WIDTH))
-def test_one_element_is_some(element: int) -> None:
+def test_some_is_true_for_one_element(element: int) -> None:
     rows = np.zeros((2, WIDTH))
-    assert not ask_some(rows)
+    assert not evaluate_some(rows)
     rows[0, element] = 1.0
-    assert ask_some(rows)
+    assert evaluate_some(rows)
 
 
-def test_an_if_on_what_differs_within_a_vector_is_refused() -> None:
+def test_branch_on_a_vector_is_rejected() -> None:
     @compiled
     def branch(rows):
         if load(rows, 0) > 0.0:
@@ -119,7 +120,7 @@ def test_an_if_on_what_differs_within_a_vector_is_refused() -> None:
         branch(np.zeros((1, WIDTH)))
 
 
-def test_the_machine_code_works_on_vectors() -> None:
+def test_machine_code_uses_vector_instructions() -> None:
     """Multiply-adds of eight, or of the halves or quarters that a narrower machine has."""
     run_vectors(calculate, np.ones((2, WIDTH)), np.empty((2, WIDTH)))
     code = next(iter(run_vectors.inspect_llvm().values()))

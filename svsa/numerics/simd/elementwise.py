@@ -14,7 +14,7 @@ _OF_ONE = {VECTOR: types.float64, MASK: types.boolean, BITS: types.uint64}
 
 
 def _list_parts(kind: Any) -> list[Any] | None:
-    """The kinds that a tuple's is made of; None of what is no tuple."""
+    """The types of a tuple's elements; None if it is no tuple."""
     return list_kinds(kind) if isinstance(kind, types.BaseTuple) else None
 
 
@@ -69,16 +69,18 @@ def _put(typing: Any, values: Any, element: Any, one: Any) -> Any:
 
 
 take = cast("Callable[[Any, int], Any]", _take)
-"""One element of vectors, masks, or tuples of them, all else as it is; in compiled code only."""
+"""One element of vectors, masks, or tuples of them; other values unchanged; in compiled code only.
+"""
 put = cast("Callable[[Any, int, Any], Any]", _put)
-"""Vectors, or tuples of them, with another number in one element, in compiled functions only."""
+"""Vectors, or tuples of them, with one element replaced; in compiled functions only."""
 
 
 def call_where(condition: Any, function: Any, arguments: Any, otherwise: Any) -> Any:
-    """Call function(*arguments) if the condition holds, else `otherwise`, per element.
+    """Call function(*arguments) if the condition is true, otherwise return `otherwise`, per
+    element.
 
-    The function is compiled, takes floats and returns one, or a tuple of them, as `otherwise` is.
-    It is not called for an element in which the condition does not hold.
+    The function is compiled, takes floats and returns a float or a tuple of floats, like
+    `otherwise`. It is not called for elements whose condition is false.
     """
     return function(*arguments) if condition else otherwise
 
@@ -91,7 +93,7 @@ def choose_call(condition: Any, function: Any, arguments: Any, otherwise: Any) -
         return function(*arguments) if condition else otherwise
 
     def call_each(condition: Any, function: Any, arguments: Any, otherwise: Any) -> Any:
-        # Makes a vector of `otherwise` also if it is a number: `put` needs a vector.
+        # Broadcasts a scalar `otherwise` to a vector, which `put` needs.
         values = choose(condition, otherwise, otherwise)
         if some(condition):
             for element in range(WIDTH):
