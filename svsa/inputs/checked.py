@@ -1,7 +1,7 @@
 """The base class of all values that users set: immutable, validated, with units and bounds.
 
-Built on pydantic: a field declares its unit, bounds and meaning once, and the Python
-API, the TOML files, the REST schema and every error message speak from that one place.
+Built on pydantic: a field declares its unit, bounds and meaning once; the Python API, the TOML
+files, the REST schema and every error message use this declaration.
 """
 
 from collections.abc import Sequence
@@ -24,21 +24,22 @@ def _read_whole(value: Any) -> Any:
 Flag = Annotated[bool, Strict()]
 Number = Annotated[float, Strict()]
 Whole = Annotated[int, Strict(), BeforeValidator(_read_whole)]
-"""8.0 is a whole number as 8 is, which is what JSON Schema means by an integer.
-
-Its bounds belong to the field: in an `Annotated` around it they are checked, but the JSON Schema
-does not say them.
+"""An integer; 8.0 is accepted, too, as in JSON Schema. Bounds belong to the field: in an
+`Annotated` they are checked, but are missing in the JSON Schema.
 """
 
 BY_KIND = Field(discriminator="kind", json_schema_extra={"required": ["kind"]})
-"""For a union: its `kind`, which must be given, says of which type a value is."""
+"""Discriminator of a union: its required `kind` is the type of a value."""
 
 
 class Checked(BaseModel):
-    """A frozen value. Raises `ParameterError` that names each field, its unit and bound.
+    """A frozen value, validated on creation.
 
     Attributes:
         main: The field that a value without a name sets; "" for none.
+
+    Raises:
+        ParameterError: If a field is invalid; the message has its name, unit and bound.
     """
 
     main: ClassVar[str] = ""
@@ -54,7 +55,11 @@ class Checked(BaseModel):
 
     @classmethod
     def _name_positional(cls, positional: tuple[Any, ...]) -> dict[str, Any]:
-        """Assign the positional argument `main`; raises `TypeError` with the names for more."""
+        """Assign the positional argument to the field `main`.
+
+        Raises:
+            TypeError: If there are more; the message contains the names of the fields.
+        """
         if not positional:
             return {}
         if len(positional) == 1 and cls.main:
@@ -63,7 +68,17 @@ class Checked(BaseModel):
         raise TypeError(f"Values have names here: {cls.__name__}({names}).")
 
     def changed(self, **changes: Any) -> Self:
-        """Return a validated copy with these fields replaced; itself if nothing changes."""
+        """Return a validated copy with some fields replaced.
+
+        Args:
+            **changes: New values by field.
+
+        Returns:
+            The copy; the object itself if no value changes.
+
+        Raises:
+            ParameterError: If a value is invalid.
+        """
         values = dict(self)
         if all(name in values and _is_same(values[name], new) for name, new in changes.items()):
             return self
@@ -84,11 +99,18 @@ def quantity(
     searched: bool = True,
     **bounds: Any,
 ) -> Any:
-    """A field with its unit; bounds are pydantic's gt, ge, lt, le; unit "" has none.
+    """Declare a field with its unit and bounds.
 
-    symbol: what it is called in short, where that is not its name. parts: what each number of a
-    list is called. searched: whether a tuner may
-    choose it; what says which law it is, and not how good, is left as it is.
+    Args:
+        unit: Unit of the value; "" for none.
+        meaning: Description of the field.
+        symbol: Short symbol, if it is not the name.
+        parts: Name of each number of a list.
+        searched: Whether a tuner may choose the value; false for fields that select the law itself.
+        **bounds: pydantic's gt, ge, lt, le and default.
+
+    Returns:
+        The field for a class of values.
     """
     text = f"{meaning}, {unit}" if unit else meaning
     extra: dict[str, Any] = {"unit": unit} | ({"symbol": symbol} if symbol else {})

@@ -8,13 +8,18 @@ from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 
 from svsa.errors import ParameterError, Violation, write_number
-from svsa.inputs.nearest import suggest
+from svsa.inputs.nearest import find_nearest
 
 
 def explain(error: ValidationError, model: type[BaseModel] | None = None) -> list[Violation]:
-    """Explain a validation error of `model`, with the path of each field.
+    """Explain a validation error with the path of each field.
 
-    model: left out where the error is about a single value.
+    Args:
+        error: The error of pydantic.
+        model: The class that was validated; left out for an error of a single value.
+
+    Returns:
+        The error of this project.
     """
     return explain_problems(error.errors(include_url=False), model and model.model_fields)
 
@@ -24,8 +29,13 @@ def explain_problems(
 ) -> list[Violation]:
     """Convert pydantic's problems (dicts with loc, type, ctx, msg, input) to violations.
 
-    fields: one of them begins each loc; None where all is about one value. Of a value that fits
-    none of several types, only the error of the nearest type is reported.
+    Args:
+        problems: The problems.
+        fields: Names with which each loc begins; None if all problems are about one value.
+
+    Returns:
+        The violations. If a value fits none of several types, only the error of the nearest type is
+        reported.
     """
     named = 0 if fields is None else 1
     paths = [_find_path(problem["loc"], named) for problem in problems]
@@ -39,8 +49,9 @@ def explain_problems(
             field = (fields or {}).get(path[0]) if path else None
             violation = _explain_problem(path, problem, field)
             if problem["type"] == "extra_forbidden":
-                nearest = suggest(violation.name, fields or ())
-                violation = replace(violation, bound=violation.bound + nearest)
+                nearest = find_nearest(violation.name, fields or (), 1)
+                hint = f"; did you mean {nearest[0]!r}?" if nearest else ""
+                violation = replace(violation, finding=f"unknown field{hint}")
             here.append(violation)
     return [reported for path, here in violations.items() for reported in _join(path, here)]
 
@@ -128,7 +139,7 @@ _KINDS = {
     "int_type": "a whole number",
     "finite_number": "a finite number",
     "missing": "given",
-    "extra_forbidden": "left out: no such field exists here",
+    "extra_forbidden": "left out: unknown field",
     "tuple_type": "a list",
     "bool_type": "true or false",
     "string_type": "a text",

@@ -1,6 +1,6 @@
 """Access to files: closed to other accounts, and locked against other processes.
 
-The system takes a lock back when its process dies.
+The operating system releases the locks of a process when it ends.
 """
 
 import contextlib
@@ -12,14 +12,15 @@ from pathlib import Path
 def close_to_others(path: Path) -> None:
     """Create a file if it is missing, and remove all permissions of other accounts.
 
-    The rights of the owner and of its group stay. Where they cannot be changed, nothing is done:
-    what opens the file next says why it cannot be used.
+    The permissions of the owner and of its group stay. If they cannot be changed, nothing is done:
+    the next access to the file reports the error.
 
     Args:
         path: The file.
     """
     with contextlib.suppress(OSError):
-        # Never a file that exists: to close it would end the locks of SQLite on it.
+        # Only a new file: closing a descriptor of an existing one would release SQLite's locks on
+        # it.
         with contextlib.suppress(FileExistsError):
             os.close(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600))
         path.chmod(path.stat().st_mode & 0o770)

@@ -8,12 +8,12 @@ def find_nearest(name: str, known: Iterable[str], count: int = 3) -> list[str]:
     """Find the known names that are most similar, the most similar first.
 
     Args:
-        name: What was written.
-        known: What exists.
-        count: How many at most.
+        name: The given name.
+        known: The existing names.
+        count: Maximum number of results.
 
     Returns:
-        Up to `count` names; none where no name is like it.
+        Up to `count` names; none if no name is similar.
     """
     names = list(known)
     near = difflib.get_close_matches(name, names, n=count, cutoff=0.5)

@@ -18,7 +18,18 @@ _KEY = re.compile(r"\s*([\w.\-\s\"']+?)\s*=")
 
 
 def read_toml(path: Path | str, kind: str) -> dict[str, Any]:
-    """Read a file; raises `ParameterError` that names its kind, such as "bench file"."""
+    """Read a TOML file.
+
+    Args:
+        path: The file.
+        kind: Kind of file for the error message, such as "bench file".
+
+    Returns:
+        Its sections.
+
+    Raises:
+        ParameterError: If the file cannot be read or parsed.
+    """
     try:
         text = Path(path).read_text(encoding="utf-8")
     except FileNotFoundError:
@@ -31,7 +42,19 @@ def read_toml(path: Path | str, kind: str) -> dict[str, Any]:
 
 
 def parse_toml(text: str, kind: str, name: Path | str) -> dict[str, Any]:
-    """Parse a file's text; raises `ParameterError`."""
+    """Parse the text of a TOML file.
+
+    Args:
+        text: The text.
+        kind: Kind of file for the error message.
+        name: Name of the file for the error message.
+
+    Returns:
+        Its sections.
+
+    Raises:
+        ParameterError: If the text cannot be parsed.
+    """
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
@@ -48,13 +71,13 @@ def build_checked(
 
     Args:
         kind: Class of the value.
-        sections: What is in the text.
-        text: In which the lines of wrong values are found.
+        sections: Content of the text.
+        text: Text in which the lines of invalid values are found.
         place: Path of the text's file; empty without a file.
-        changes: Fields in place of the text's.
+        changes: Fields that replace those of the text.
 
     Raises:
-        ParameterError: With place and lines of the wrong values that are in the text.
+        ParameterError: With path and lines of the invalid values.
     """
     try:
         return kind(**sections | changes)
@@ -67,8 +90,19 @@ def build_checked(
 def read_checked(
     kind: type[_Kind], path: Path, called: str, changes: dict[str, Any] | None = None
 ) -> _Kind:
-    """Build a validated value from a TOML file, as `build_checked`; called: such as "study
-    file".
+    """Build a validated value from a TOML file, as `build_checked`.
+
+    Args:
+        kind: Class of the value.
+        path: The file.
+        called: Kind of file for the error message, such as "study file".
+        changes: Fields that replace those of the file.
+
+    Returns:
+        The value.
+
+    Raises:
+        ParameterError: With path and lines of the invalid values.
     """
     sections = read_toml(path, called)
     return build_checked(kind, sections, path.read_text("utf-8"), str(path), changes or {})
@@ -92,7 +126,7 @@ def _describe_comma(error: tomllib.TOMLDecodeError, text: str) -> str | None:
 def find_lines(text: str, names: Iterable[str]) -> list[int]:
     """Find the line numbers of values in a TOML text, by paths such as `vary[1].low`.
 
-    Of a value that is not there the line of what should hold it; of none of both no line.
+    A missing value has the line of its table; without a table it has no line.
     """
     lines: dict[str, int] = {}
     counts: Counter[str] = Counter()
@@ -123,7 +157,13 @@ def _follow(table: str, counts: Counter[str]) -> str:
 def describe_place(place: str, text: str, names: Iterable[str]) -> str:
     """Describe where values are in a text, for an error: "mine.toml, lines 3 and 7".
 
-    place: the name of its file, or "".
+    Args:
+        place: Name of the file, or "".
+        text: The TOML text.
+        names: Paths of the values.
+
+    Returns:
+        The description.
     """
     lines = sorted(set(find_lines(text, names)))
     reported = f"{'lines' if len(lines) > 1 else 'line'} {' and '.join(map(str, lines))}"

@@ -1,4 +1,4 @@
-"""What counts as a whole number, as yes or no, and as one of several types of a value."""
+"""Validation of integers, booleans, and values of several types."""
 
 from typing import Any
 
@@ -13,40 +13,40 @@ from svsa.simulation.reference.kinds import PositionReference, StiffnessReferenc
 
 
 @pytest.mark.parametrize("given", [3, 3.0])
-def test_a_float_without_fraction_is_a_whole_number(given: float) -> None:
+def test_float_without_fraction_is_an_integer(given: float) -> None:
     effects = Effects(delay_samples=given)
     assert effects.delay_samples == 3
     assert type(effects.delay_samples) is int
 
 
 @pytest.mark.parametrize("given", [True, "3", 2.5, 1e300, float("nan"), float("inf"), None])
-def test_nothing_else_is_a_whole_number(given: Any) -> None:
+def test_other_values_are_not_integers(given: Any) -> None:
     with pytest.raises(ParameterError, match=r"delay_samples.*a whole number"):
         Effects(delay_samples=given)
 
 
-def test_a_whole_number_in_float_keeps_its_bounds() -> None:
+def test_float_integer_keeps_its_bounds() -> None:
     with pytest.raises(ParameterError, match=r"delay_samples is 6.*: it must be at most 5 "):
         Effects(delay_samples=6.0)
 
 
-def test_the_schema_says_the_bounds_of_a_whole_number() -> None:
+def test_schema_contains_the_bounds_of_an_integer() -> None:
     said = Effects.model_json_schema()["properties"]["delay_samples"]
     assert (said["type"], said["minimum"], said["maximum"]) == ("integer", 0, MAX_DELAY_SAMPLES)
 
 
 @pytest.mark.parametrize("given", [1, 0.0, "yes", "true"])
-def test_only_true_and_false_switch(given: Any) -> None:
+def test_only_true_and_false_are_booleans(given: Any) -> None:
     with pytest.raises(ParameterError, match=r"torque_limits.*true or false"):
         Effects(torque_limits=given)
 
 
 @pytest.mark.parametrize("union", [PositionReference, StiffnessReference, Load])
-def test_the_schema_asks_for_the_kind_that_is_asked_for(union: Any) -> None:
+def test_schema_requires_the_requested_kind(union: Any) -> None:
     assert TypeAdapter(union).json_schema()["required"] == ["kind"]
 
 
-def test_a_change_to_what_is_there_already_is_the_same_value() -> None:
+def test_unchanged_value_is_the_same_object() -> None:
     effects = Effects(delay_samples=1)
     assert effects.changed(delay_samples=1) is effects
     assert effects.changed(delay_samples=2) == Effects(delay_samples=2)

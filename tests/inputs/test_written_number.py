@@ -1,4 +1,4 @@
-"""Numbers in messages are written as people write them."""
+"""Numbers in messages are written without exponents."""
 
 import pytest
 
@@ -22,11 +22,11 @@ from svsa.inputs.checked import check_number
         (1e-4, "0.0001"),
     ],
 )
-def test_large_and_small_ones_without_an_e(value: float, text: str) -> None:
+def test_large_and_small_numbers_have_no_exponent(value: float, text: str) -> None:
     assert write_number(value).replace("\N{NARROW NO-BREAK SPACE}", " ") == text
 
 
-def test_bounds_and_values_are_written_so() -> None:
+def test_bounds_and_values_have_no_exponent() -> None:
     with pytest.raises(svsa.ParameterError) as refused:
         svsa.Change(at_s=2e7, law="fl")
     message = str(refused.value).replace("\N{NARROW NO-BREAK SPACE}", " ")
