@@ -1,7 +1,7 @@
 """Calls of a law by the address of its compiled function, from a loop compiled without it.
 
-A law is compiled for itself, once for each layout of its constants and of its memory, and called
-by its address: numbers by value, records by address. The loop knows neither.
+Each law is compiled once for each layout of its constants and of its memory, and called by its
+address: numbers by value, records by address. The compiled loop depends on neither.
 """
 
 import inspect
@@ -30,14 +30,18 @@ _TORQUE = numba.typeof(Torque(0.0, 0.0))
 
 SIGNATURE = "(nominal, constants, memory, x, reference, estimate, applied, period[, measured])"
 COUNT = 8
-"""Of what every law takes; `measured` is the ninth."""
+"""Number of arguments that every law has; `measured` is the ninth."""
 
 
 class BoundLaw(NamedTuple):
     """A compiled law with its constants.
 
-    function: its address. nominal, constants: packed, as words of 64 bits. is_own: whether it
-    brings an estimate of its own. is_measuring: whether it receives the measurements.
+    Attributes:
+        function: Address of the compiled function.
+        nominal: Packed nominal model, as words of 64 bits.
+        constants: Packed constants, as words of 64 bits.
+        is_own: Whether the law has its own estimate.
+        is_measuring: Whether the law receives the measurements.
     """
 
     function: int
@@ -60,9 +64,10 @@ class Call(NamedTuple):
 
 @cache
 def is_measuring(control: Any) -> bool:
-    """Whether a law's function has a ninth argument, the measurement; inspected once.
+    """Return whether a law's function has a ninth argument, the measurement; cached.
 
-    Raises `ParameterError` where it takes neither eight nor nine.
+    Raises:
+        ParameterError: If it has neither eight nor nine arguments.
     """
     count = len(inspect.signature(control).parameters)
     if count not in (COUNT, COUNT + 1):
@@ -73,7 +78,18 @@ def is_measuring(control: Any) -> bool:
 def bind(
     control: Any, nominal: np.ndarray, constants: np.ndarray, memory: np.ndarray, is_own: bool
 ) -> BoundLaw:
-    """A law's function compiled for these packed records. control: see `svsa.control.law.Law`."""
+    """Compile a law's function for these packed records.
+
+    Args:
+        control: See `svsa.control.law.Law`.
+        nominal: Packed nominal model, shape (1,).
+        constants: Packed constants of the law, shape (1,).
+        memory: Packed initial memory, shape (1,).
+        is_own: Whether the law has its own estimate.
+
+    Returns:
+        The compiled law.
+    """
     measuring = is_measuring(control)
     address = _compile(control, measuring, nominal.dtype, constants.dtype, memory.dtype)
     words = nominal.view(np.float64), constants.view(np.float64)
@@ -94,7 +110,9 @@ def _compile(control: Any, measuring: bool, *records: np.dtype) -> int:
 def _build_call(
     typing: Any, function: Any, nominal: Any, constants: Any, memory: Any, given: Any
 ) -> Any:
-    """Call the function at an address like C. given: a tuple of the arguments after the memory."""
+    """Call the function at an address with the C calling convention; `given` is the tuple of the
+    arguments after the memory.
+    """
     kinds = _GIVEN[: len(given)]
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
@@ -150,11 +168,19 @@ def compute_law(
     period: float,
     measured: Positions,
 ) -> Torque:
-    """Compute the law's torque, `Torque`, N·m, before limits, and advance its memory by a period.
+    """Compute the law's torque before limits, and advance its memory by a period.
 
-    call: `Call`. x: x̂, `State`. reference: `Reference`. estimate: ŵ of the observer,
-    `Disturbance`, N·m. applied: `Torque` of the last period, N·m. period: T, s. measured:
-    `Positions`, for a law that takes them.
+    Args:
+        call: `Call`.
+        x: x̂, `State`.
+        reference: `Reference`.
+        estimate: ŵ of the observer, `Disturbance`, N·m.
+        applied: `Torque` of the last period, N·m.
+        period: T, s.
+        measured: `Positions`, for a law that receives them.
+
+    Returns:
+        `Torque`, N·m.
     """
     function, nominal = call.function, call.nominal
     constants, memory = call.constants, call.memory

@@ -9,9 +9,13 @@ from svsa.numerics.compilation import compiled
 
 
 class Disturbed(NamedTuple):
-    """The derivatives of q and σ under ŵ, held, and u = 0.
+    """The derivatives of q and σ under a constant ŵ with u = 0.
 
-    ddq, dddq, ddddq: rad/s², rad/s³, rad/s⁴. ddsigma: N·m/rad/s².
+    Attributes:
+        ddq: q̈, rad/s².
+        dddq: q⃛, rad/s³.
+        ddddq: q⁗, rad/s⁴.
+        ddsigma: σ̈, N·m/rad/s².
     """
 
     ddq: float
@@ -24,8 +28,15 @@ class Disturbed(NamedTuple):
 def compute_disturbed(nominal: Actuator, linearization: Linearization, w: Disturbance) -> Disturbed:
     """q̈ = a + ŵ2/M, q⃛ = j − D ŵ2/M², q⁗ and σ̈ with the columns of p(x) (Eq 17–24).
 
-    NDOBC's Γ ŵ is what these differ by from L_f^k h, weighted with the gains. linearization:
-    `Linearization`. w: ŵ, `Disturbance`, N·m. Returns `Disturbed`.
+    NDOBC's Γ ŵ is the difference of these from L_f^k h, weighted with the gains.
+
+    Args:
+        nominal: `Actuator` of the nominal model.
+        linearization: `Linearization`.
+        w: ŵ, `Disturbance`, N·m.
+
+    Returns:
+        `Disturbed`.
     """
     D, ξ, rM = nominal.D, linearization, 1.0 / nominal.M
     return Disturbed(

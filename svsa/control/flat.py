@@ -16,9 +16,16 @@ NEWTON_STEPS = 4
 
 
 class Flat(NamedTuple):
-    """Motor positions, rad, velocities, rad/s, and torques, N·m, that follow the reference.
+    """Motor positions, velocities and torques that follow the reference.
 
-    mu: s there, of the SVSA μ.
+    Attributes:
+        theta1: Position of motor 1, rad.
+        dtheta1: Velocity of motor 1, rad/s.
+        theta2: Position of motor 2, rad.
+        dtheta2: Velocity of motor 2, rad/s.
+        u1: Torque of motor 1, N·m.
+        u2: Torque of motor 2, N·m.
+        mu: s; for the SVSA μ.
     """
 
     theta1: float

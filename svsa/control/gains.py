@@ -30,13 +30,28 @@ class Gains(LawParameters):
 
     @classmethod
     def from_poles(cls, position: Sequence[complex], stiffness: Sequence[complex]) -> Self:
-        """The gains with these closed-loop poles: 4 and 2, rad/s, conjugate pairs."""
+        """Compute the gains that place the closed-loop poles (Eq 25).
+
+        Args:
+            position: Four poles of the position error, rad/s; complex ones in conjugate pairs.
+            stiffness: Two poles of the stiffness error, rad/s.
+
+        Returns:
+            The gains.
+
+        Raises:
+            ParameterError: If a pole has no conjugate, or is not stable.
+        """
         c0, c1, c2, c3 = compute_coefficients("position_poles_rad_per_s", position, 4)
         s0, s1 = compute_coefficients("stiffness_poles_rad_per_s", stiffness, 2)
         return cls(position_coefficients=(c0, c1, c2, c3), stiffness_coefficients=(s0, s1))
 
     def describe(self) -> dict[str, str]:
-        """Describe the poles of both polynomials, rad/s."""
+        """Describe the poles of both polynomials.
+
+        Returns:
+            Geometric mean of the poles by symbol, rad/s, as text.
+        """
         (c0, *_), (s0, _) = self.position_coefficients, self.stiffness_coefficients
         return {"ωq": f"{c0**0.25:.3g}", "ωσ": f"{s0**0.5:.3g}"}
 
@@ -62,19 +77,19 @@ class Gains(LawParameters):
             if unstable:
                 bound = "Hurwitz: every root left of the imaginary axis"
                 side = "right of" if unstable[0].real > 0.0 else "on"
-                finding = _say(unstable, f"lies {side} the imaginary axis")
+                finding = _format_list(unstable, f"lies {side} the imaginary axis")
             else:
                 bound = f"slower than {FASTEST_POLE_RAD_PER_S:g} rad/s"
-                finding = _say(fast, f"is faster than {FASTEST_POLE_RAD_PER_S:g} rad/s")
+                finding = _format_list(fast, f"is faster than {FASTEST_POLE_RAD_PER_S:g} rad/s")
             bound += f"; the roots are {describe_roots(roots)} rad/s"
             raise ParameterError(Violation(name, list(coefficients), "", bound, finding=finding))
         return self
 
 
-class TriedGains(Gains):
+class UncheckedGains(Gains):
     """Gains to evaluate, stable or not; the simulation may fail.
 
-    Neither a file nor a record brings them: what is read there are `Gains`.
+    Files and records contain only stable `Gains`.
     """
 
     must_be_stable: ClassVar[bool] = False
@@ -83,8 +98,16 @@ class TriedGains(Gains):
 def compute_coefficients(name: str, poles: Sequence[complex], order: int) -> tuple[float, ...]:
     """c0 … c_{n−1} of the monic polynomial with these roots (Eq 25), lowest power first.
 
-    poles: `order` numbers, rad/s. Raises `ParameterError` under `name` for another count or
-    for a complex pole without its conjugate.
+    Args:
+        name: Name of the value in the error message.
+        poles: The roots, rad/s; `order` numbers.
+        order: Degree of the polynomial.
+
+    Returns:
+        The coefficients, in powers of rad/s.
+
+    Raises:
+        ParameterError: If the number of poles is wrong, or a complex pole has no conjugate.
     """
     values = np.asarray(poles, dtype=complex)
     if values.shape != (order,) or not np.all(np.isfinite(values)):
@@ -117,6 +140,6 @@ def describe_roots(roots: Sequence[complex]) -> str:
     )
 
 
-def _say(roots: Sequence[complex], finding: str) -> str:
+def _format_list(roots: Sequence[complex], finding: str) -> str:
     """Format the finding with its most critical root, which represents its conjugate as well."""
     return f"{describe_roots([max(roots, key=lambda root: (root.real, root.imag))])} {finding}"

@@ -1,6 +1,7 @@
 """Limits within a law: commanded torques that keep spring and spiral within their range.
 
-A distance d to a bound is approached no faster than d̈ = −2l ḋ − l² d, which ends at the bound.
+The distance d to a bound is constrained by d̈ ≥ −2l ḋ − l² d, which brings the motion to rest at
+the bound.
 """
 
 from svsa.actuators.dynamics import Actuator, InternalTorque, compute_deflection
@@ -21,10 +22,22 @@ def guard_deflection(
     rate: float,
     u1: float,
 ) -> float:
-    """Return the nearest u1 that keeps |φ| below its bound, N·m.
+    """Return the u1 nearest to the given one that keeps |φ| below its bound.
 
-    −2l φ̇ − l²(b + φ) ≤ φ̈ ≤ −2l φ̇ + l²(b − φ) with φ̈ = q̈ − (F4 + ŵ4 + u1)/B1. F: F_n(x̂),
-    `InternalTorque`. w: ŵ. ddq: q̈ under ŵ, rad/s². bound: b, rad. rate: l, rad/s.
+    −2l φ̇ − l²(b + φ) ≤ φ̈ ≤ −2l φ̇ + l²(b − φ) with φ̈ = q̈ − (F4 + ŵ4 + u1)/B1.
+
+    Args:
+        nominal: `Actuator` of the nominal model.
+        x: `State`.
+        F: F_n(x̂), `InternalTorque`, N·m.
+        w: ŵ, `Disturbance`, N·m.
+        ddq: q̈ under ŵ, rad/s².
+        bound: b, rad.
+        rate: l, rad/s.
+        u1: Torque of motor 1, N·m.
+
+    Returns:
+        u1, N·m.
     """
     phi, dphi = compute_deflection(x), x.dq - x.dtheta1
     damped = ddq + 2.0 * rate * dphi
@@ -45,10 +58,23 @@ def guard_lever(
     rate: float,
     u2: float,
 ) -> float:
-    """Return the nearest u2 that keeps μ between two bounds, N·m.
+    """Return the u2 nearest to the given one that keeps μ between two bounds.
 
-    −2l μ̇ − l²(μ − μ_min) ≤ μ̈ ≤ −2l μ̇ + l²(μ_max − μ) with μ̈ = μ'(F6 + ŵ6 + u2)/B2. mu: μ.
-    rate: l, rad/s; slow enough for the motor to stop the lever. Else as `guard_deflection`.
+    −2l μ̇ − l²(μ − μ_min) ≤ μ̈ ≤ −2l μ̇ + l²(μ_max − μ) with μ̈ = μ'(F6 + ŵ6 + u2)/B2.
+
+    Args:
+        nominal: `Actuator` of the nominal model.
+        x: `State`.
+        F: F_n(x̂), `InternalTorque`, N·m.
+        w: ŵ, `Disturbance`, N·m.
+        mu: μ, 1.
+        mu_min: Lower bound of μ, 1.
+        mu_max: Upper bound of μ, 1.
+        rate: l, rad/s; slow enough for the motor to stop the lever.
+        u2: Torque of motor 2, N·m.
+
+    Returns:
+        u2, N·m.
     """
     slope = compute_coordinate_slope(nominal)
     damped, inertia = -2.0 * rate * slope * x.dtheta2, nominal.B2 / slope

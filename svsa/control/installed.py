@@ -1,6 +1,6 @@
-"""The laws that are installed: found by the entry points `svsa.laws` of packages.
+"""The installed laws, found by the entry points `svsa.laws` of packages.
 
-FL and NDOBC are found like the laws of any package. A law is imported when it is first asked for.
+FL and NDOBC are found like the laws of any other package. A law is imported at its first use.
 """
 
 import inspect
@@ -19,9 +19,9 @@ from svsa.errors import ParameterError, Violation
 GROUP = "svsa.laws"
 PAPERS_LAW = "ndobc"
 OWN_LAW = "own"
-"""Instead of a law's name: a function of a script."""
+"""Name in place of a law's: a function of a script."""
 BASELINE = "fl"
-"""What the paper compares its law with."""
+"""The law with which the paper compares its own."""
 
 
 @cache
@@ -43,35 +43,40 @@ def list_law_line_styles() -> dict[str, int]:
 
 
 def check_installed(name: str) -> str:
-    """Return the name; raises `ParameterError` if no law of that name is installed."""
+    """Return the name of an installed law.
+
+    Raises:
+        ParameterError: If no law of that name is installed.
+    """
     if name not in _find_entries():
-        raise ParameterError(Violation("", name, "", _say_installed()))
+        raise ParameterError(Violation("", name, "", _list_installed()))
     return name
 
 
-def _say_installed() -> str:
+def _list_installed() -> str:
     return f"a law that is installed here: {', '.join(list_law_names()) or 'there is none'}"
 
 
 def _check_name(name: str) -> str:
     if not NAME.fullmatch(name):
-        raise ParameterError(Violation("", name, "", _say_installed()))
+        raise ParameterError(Violation("", name, "", _list_installed()))
     return name
 
 
 LawName = Annotated[str, AfterValidator(_check_name)]
-"""The name of a law, which may be one of another lab: what is recorded there opens here."""
+"""The name of a law, which may be installed only in another lab: its records can be opened here."""
 InstalledLaw = Annotated[LawName, AfterValidator(check_installed)]
 
 
 def get_law(name: str) -> Law:
-    """A law by its name.
+    """Return a law by its name.
 
-    Raises `ParameterError` where none of that name is installed, `LawError` where its package
-    does not work.
+    Raises:
+        ParameterError: If no law of that name is installed.
+        LawError: If its package does not work.
     """
     if name not in _find_entries():
-        raise ParameterError(Violation("law", name, "", _say_installed()))
+        raise ParameterError(Violation("law", name, "", _list_installed()))
     law = _load_law(name)
     if isinstance(law, str):
         raise LawError(law)
@@ -82,8 +87,8 @@ def get_law(name: str) -> Law:
 def _load_law(name: str) -> Law | str:
     """Import a law once per process; return the error if it fails.
 
-    A failed import is kept too: a second attempt takes as long as the first, and a bench's loop
-    that reads a law's name has no time for one.
+    A failed import is cached too: a second attempt takes as long as the first, and the loop of a
+    bench that reads a law's name has no time for it.
     """
     entry = _find_entries()[name]
     package = entry.dist.name if entry.dist else entry.module
@@ -118,7 +123,7 @@ def get_title(name: str) -> str:
 def get_notes(name: str) -> str:
     """Return the documentation of a law's file: idea, equations, assumptions, limits.
 
-    Empty for a law that cannot be used, or that says nothing.
+    Empty for a law that cannot be used, or that has no documentation.
     """
     if not is_usable(name):
         return ""
@@ -131,9 +136,10 @@ def has_own_parameters(name: str) -> bool:
 
 
 def read_parameters(name: str, given: Any) -> LawParameters:
-    """Read the parameters of a law; those of an unavailable law stay unread.
+    """Read the parameters of a law; those of an unavailable law are returned as they are.
 
-    Raises `ParameterError` for what are none.
+    Raises:
+        ParameterError: If a parameter is invalid.
     """
     if not has_own_parameters(name):
         raise ParameterError(Violation("", given, "", f"left out: {name} takes the run's gains"))

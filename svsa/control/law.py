@@ -1,4 +1,4 @@
-"""The definition of a control law: everything that the lab knows about it."""
+"""The definition of a control law."""
 
 import re
 from collections.abc import Callable, Iterator
@@ -27,9 +27,14 @@ class LawError(StateError):
 
 
 class Setting(NamedTuple):
-    """What a law is set up for. nominal: constants of the model. domain: where it is valid.
+    """The model and limits for which a law is built.
 
-    torque1_max, torque2_max: N·m, infinite where nothing limits. period: T, s.
+    Attributes:
+        nominal: Constants of the nominal model.
+        domain: Domain in which the model is valid.
+        torque1_max: Torque limit of motor 1, N·m, infinite without a limit.
+        torque2_max: Torque limit of motor 2, N·m, infinite without a limit.
+        period: Control period T, s.
     """
 
     nominal: Actuator
@@ -51,26 +56,40 @@ class NoParameters(LawParameters):
 
 @dataclass(frozen=True)
 class Law:
-    """A control law. The loop calls it once a period, after x̂ and ŵ, before the limits.
+    """A control law. The loop calls it once per period, after x̂ and ŵ, before the limits.
 
-    name: letters, digits and _, as in files and on the wire. title: as in a legend. summary: what
-    it does, in a sentence. equation: KaTeX. source: number of the paper's equation, or what
-    to cite: authors, title, journal, year, and doi:… where it has been looked up.
-    parameters: see `LawParameters`; a law whose parameters are `Gains` takes those of the run.
-    build: the constants of `control` from them, a named tuple of numbers and of tuples of numbers.
-    control: a compiled function
+    `control` is a compiled function
 
         control(nominal, constants, memory, x, reference, estimate, applied, period) → `Torque`
 
     of the nominal model (`Actuator`), the constants, the memory, x̂ (`State`), `Reference`, ŵ
-    (`Disturbance`, N·m), the mean torque that really acted in the last period (`Torque`, N·m) and
-    T (s); nominal, constants and memory are read by name, and memory is written. One that takes a
-    ninth argument, `measured`, receives the encoder readings (`Positions`). It stores nothing
-    elsewhere. For a tick that a bench's loop missed it receives what the model expects, and what it
-    asks for then is not sent. memory: a named tuple of numbers with defaults, which are what it
-    remembers at the start of a run and after another law. estimate: whether it acts on no ŵ, on
-    that of the loop's observer, or brings its own, which stands in w2, w4, w6 at the front of its
-    memory and is what is shown. Raises `ParameterError` for what is no law.
+    (`Disturbance`, N·m), the mean actual torque of the last period (`Torque`, N·m) and T (s). It
+    reads fields of nominal, constants and memory by name, and writes to memory; it stores nothing
+    elsewhere. A function with a ninth argument, `measured`, receives the encoder readings
+    (`Positions`). For a tick that the loop of a bench missed, it is called with predicted values,
+    and its torque is not sent.
+
+    Attributes:
+        name: Letters, digits and _; used in files and in the API.
+        title: Name for legends.
+        summary: One sentence that describes the law.
+        equation: Equation in KaTeX.
+        source: Number of the paper's equation, or a citation: authors, title, journal, year, and
+            doi:… if it was verified.
+        control: The compiled function.
+        parameters: Class of the parameters, see `LawParameters`; a law whose parameters are `Gains`
+            uses those of the run.
+        build: Computes the constants of `control` from parameters and `Setting`: a named tuple of
+            numbers and of tuples of numbers.
+        memory: Named tuple of numbers with defaults, which are the memory at the start of a run and
+            after a change of the law.
+        estimate: Whether the law uses no ŵ, that of the loop's observer, or its own; its own ŵ is
+            stored in w2, w4, w6 at the front of the memory, and is displayed.
+        rejects_feedforward: Whether the law gets no arm feedforward because it estimates the whole
+            disturbance in other fields of its memory, or does not use q̈_d.
+
+    Raises:
+        ParameterError: If a field is invalid.
     """
 
     name: str
@@ -83,6 +102,7 @@ class Law:
     build: Callable[[Any, Setting], tuple[Any, ...]] = lambda parameters, setting: Nothing()
     memory: type[tuple[Any, ...]] = Nothing
     estimate: EstimateSource = "none"
+    rejects_feedforward: bool = False
 
     def __post_init__(self) -> None:
         if not NAME.fullmatch(self.name):
@@ -94,27 +114,44 @@ class Law:
             bound = "w2, w4, w6 at the front for a law with an estimate of its own"
             raise ParameterError(Violation("memory", list(front), "", bound))
 
+    @property
+    def takes_feedforward(self) -> bool:
+        """Whether the law may get the arm feedforward: it has no ŵ of its own, and rejects none."""
+        return self.estimate != "own" and not self.rejects_feedforward
+
     @cached_property
     def _start(self) -> np.ndarray:
         return pack(self.memory())
 
     def start_memory(self) -> np.ndarray:
-        """Return the initial memory, as words of 64 bits."""
+        """Return the initial memory of a run.
+
+        Returns:
+            The fields of `memory` as words of 64 bits, shape (n,).
+        """
         return self._start.view(np.float64).copy()
 
     def bind(self, parameters: LawParameters, setting: Setting) -> BoundLaw:
         """Bind the law for the compiled loop; compiles it if necessary.
 
-        Raises `LawError` where the law's own code fails at it.
+        Args:
+            parameters: Parameters of the law.
+            setting: Model, gains, observer, limits and period that the law receives.
+
+        Returns:
+            The compiled law with its constants.
+
+        Raises:
+            LawError: If the code of the law fails to compile.
         """
         return self.bind_packed(pack(setting.nominal), self.pack_constants(parameters, setting))
 
     def pack_constants(self, parameters: LawParameters, setting: Setting) -> np.ndarray:
-        """Compute the constants of `control`, without compiling anything of the law.
+        """Compute the constants of `control`, without compiling the law.
 
         Args:
-            parameters: Of this law.
-            setting: What the law is set into.
+            parameters: Parameters of this law.
+            setting: Model and limits for which the law is built.
 
         Returns:
             One packed record, shape (1,).

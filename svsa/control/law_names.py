@@ -26,4 +26,4 @@ KnownLaw: TypeAlias = Literal[
 """A type checker does not see entry points; a test compares the two lists."""
 
 AnyLaw = NewType("AnyLaw", str)
-"""The name of a law that a type checker cannot know: of another package, or in a variable."""
+"""The name of a law that a type checker cannot know: from another package, or in a variable."""

@@ -44,7 +44,13 @@ _limit = choose_kind(_limit_of_svsa, _limit_of_energy)
 def limit_motors(plant: AnyActuator, torque: Torque, most: Torque) -> Torque:
     """Limit the torques of the real motors: for antagonistic ones ua and ub, not their sum.
 
-    plant: its constants. torque: u1 and u2, N·m. most: limits of motor 1 (a) and motor 2 (b), N·m.
+    Args:
+        plant: Constants of the plant.
+        torque: u1 and u2, N·m.
+        most: Limits of motor 1 (a) and motor 2 (b), N·m.
+
+    Returns:
+        `Torque`, N·m.
     """
     return _limit(plant, torque, most)
 

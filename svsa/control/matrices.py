@@ -1,8 +1,8 @@
 """Small matrix functions for the design of a law, bit-identical on every machine.
 
-A library takes another order of operations on each processor, and a law whose gains come from it
-other bits; here every sum is taken from the first term to the last, by numpy's additions and
-multiplications, element by element.
+A numerical library orders its operations differently on each processor, which changes the bits of
+gains. Here every sum is computed from the first term to the last, by numpy's element-wise additions
+and multiplications.
 """
 
 import numpy as np
@@ -34,7 +34,11 @@ def raise_to(A: np.ndarray, power: int) -> np.ndarray:
 
 
 def solve(A: np.ndarray, B: np.ndarray) -> np.ndarray:
-    """X of A X = B, by Gauß' elimination with row pivots; raises `SvsaError` for a singular A."""
+    """Solve A X = B for X by Gaussian elimination with partial pivoting.
+
+    Raises:
+        SvsaError: If A is singular.
+    """
     n = len(A)
     rows = np.hstack([A, B]).astype(float)
     for k in range(n):
@@ -65,10 +69,13 @@ def compute_exponential(A: np.ndarray) -> np.ndarray:
 
 
 def solve_riccati(A: np.ndarray, B: np.ndarray, Q: np.ndarray, R: np.ndarray) -> np.ndarray:
-    """P = Aᵀ P A − Aᵀ P B (R + Bᵀ P B)⁻¹ Bᵀ P A + Q, the stabilising one.
+    """P = Aᵀ P A − Aᵀ P B (R + Bᵀ P B)⁻¹ Bᵀ P A + Q, the stabilising solution.
 
-    By doubling (Chu, Fan, Lin and Wang, 2004): each step is as far as all before together. Raises
-    `SvsaError` where it does not converge: (A, B) cannot be stabilised.
+    By doubling (Chu, Fan, Lin and Wang, 2004): each step covers as many time steps as all previous
+    ones together.
+
+    Raises:
+        SvsaError: If it does not converge: (A, B) cannot be stabilised.
     """
     identity = np.eye(len(A))
     G, P = multiply(B, solve(R, B.T)), Q

@@ -8,13 +8,17 @@ from svsa.inputs.checked import Checked
 
 
 class LawParameters(Checked):
-    """Numbers and tuples of numbers, each with unit, bound, meaning and a default.
+    """Numbers and tuples of numbers, each with unit, bound, meaning and default.
 
-    Of a field `quantity(…, symbol="ω")` the symbol stands in names and on the page.
+    The symbol of a field `quantity(…, symbol="ω")` is used in names and on the page.
     """
 
     def describe(self) -> dict[str, str]:
-        """Format each value to three digits with its symbol, for a legend."""
+        """Format the parameters for a legend.
+
+        Returns:
+            Each value with three significant digits, by symbol.
+        """
         described: dict[str, str] = {}
         for name, field in type(self).model_fields.items():
             extra = field.json_schema_extra

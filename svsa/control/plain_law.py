@@ -1,6 +1,6 @@
-"""Arguments of a law in plain Python: time, reference, x̂ and ŵ, and named further ones.
+"""Arguments of a law in plain Python: time, reference, x̂ and ŵ, and optional named ones.
 
-Imports nothing of the lab: the law's side reads this file too.
+Imports nothing of the lab, because the process of an isolated law reads this file too.
 """
 
 import inspect
@@ -13,9 +13,10 @@ _ALWAYS = 4
 
 
 def find_named(law: Callable[..., Any]) -> tuple[str, ...]:
-    """Find which of `NAMED` a law takes, after its first four arguments or as keywords.
+    """Find which of `NAMED` a law accepts, after its first four arguments or as keywords.
 
-    Raises `TypeError` where it cannot be called so.
+    Raises:
+        TypeError: If it cannot be called with four arguments.
     """
     try:
         signature = inspect.signature(law)

@@ -1,4 +1,4 @@
-"""The closed loop with an exact model: Eq 25 decides the error, and the sign of u decides all."""
+"""The closed loop with an exact model follows Eq 25; the printed sign of u makes it unstable."""
 
 import numpy as np
 import pytest
@@ -20,7 +20,7 @@ from svsa.control.observers.disturbance import compute_shares, update_disturbanc
 from svsa.runs.command import Set
 from svsa.runs.run import Run
 from svsa.simulation.reference.kinds.sine import compute_sine
-from tests.actuators.prototype import DESIGN, NO_LOADS, K, integrate_ideal, put, record
+from tests.actuators.prototype import DESIGN, NO_LOADS, K, integrate_ideal, move_plant, record
 
 GAINS_OF_POLES = {
     "the default poles": svsa.Gains.from_poles([-60.0] * 4, [-40.0] * 2),
@@ -41,7 +41,7 @@ def predict_error(coefficients, e0, times):
 
 
 def compute_departure(gains, period):
-    """How far FL's errors are from Eq 25, as a share of the errors at the start."""
+    """The deviation of FL's errors from Eq 25, relative to the initial errors."""
     configuration = svsa.Configuration(
         **dict(DESIGN.changed(nominal=DESIGN.actuator, gains=gains, sampling={"period_s": period})),
         law="fl",
@@ -50,7 +50,7 @@ def compute_departure(gains, period):
     )
     run = Run(configuration)
     mu = compute_lever_ratio_for_stiffness(LEVEL - OFF_STIFFNESS, K)
-    put(run, theta2=2.0 * np.pi * (mu - run.mu0))
+    move_plant(run, theta2=2.0 * np.pi * (mu - run.mu0))
     samples = record(run, round(0.2 / period))[:: round(2e-3 / period)]
     times = samples[:, CHANNEL_INDEX["time_s"]]
     position = samples[:, CHANNEL_INDEX["position_error_rad"]]
@@ -64,8 +64,8 @@ def compute_departure(gains, period):
 
 
 @pytest.mark.parametrize("name", GAINS_OF_POLES)
-def test_with_an_exact_model_the_errors_follow_the_roots_of_eq_25(name):
-    """Both errors at once, decoupled; what is left is the hold and falls with the period."""
+def test_errors_follow_the_roots_of_eq_25_with_an_exact_model(name):
+    """Both errors at once, decoupled; the rest is due to the hold and decreases with the period."""
     gains = GAINS_OF_POLES[name]
     coarse = np.array(compute_departure(gains, 4e-4))
     fine = np.array(compute_departure(gains, 1e-4))
@@ -73,7 +73,7 @@ def test_with_an_exact_model_the_errors_follow_the_roots_of_eq_25(name):
     assert np.all(fine < 0.3 * coarse), "a hold's error falls with the first power of T"
 
 
-def test_the_two_outputs_are_decoupled():
+def test_outputs_are_decoupled():
     """A stiffness error alone moves the position by less than a thousandth of a degree."""
     result = svsa.simulate(
         "4b",
@@ -92,7 +92,7 @@ def test_the_two_outputs_are_decoupled():
 
 
 def build_mirrored(sign):
-    """A run in which all that has a sign is turned round: q_d, w2 and w4, not w6."""
+    """A run with all signed quantities inverted: q_d, w2 and w4, but not w6."""
     return (
         svsa.paper.get_figure("5")
         .build_configuration(load=False)
@@ -125,8 +125,8 @@ ODD = [
 ]
 
 
-def test_the_mirrored_run_is_the_mirror_of_the_run_bit_for_bit():
-    """x, q_d, w2, w4 → −: all of the link and motor 1 turns round, all of θ2 and σ stays."""
+def test_mirrored_run_is_the_mirror_of_the_run_bit_for_bit():
+    """x, q_d, w2, w4 → −: all signs of link and motor 1 are inverted; θ2 and σ are equal."""
     runs = []
     for sign in (1.0, -1.0):
         run = Run(build_mirrored(sign))
@@ -141,7 +141,7 @@ def test_the_mirrored_run_is_the_mirror_of_the_run_bit_for_bit():
 
 
 def solve_as_printed(nominal, gains, x, reference, estimate):
-    """u = A⁻¹[−b + v + Γŵ], Eq 24 with the printed sign; only this test has it."""
+    """u = A⁻¹[−b + v + Γŵ], Eq 24 with the printed sign, which only this test uses."""
     lie = compute_linearization(nominal, x)
     y1, y2 = compute_linearized_demand(lie, gains, reference)
     gain = np.array(compute_disturbance_gain(nominal, gains, lie)).reshape(2, 3)
@@ -150,7 +150,7 @@ def solve_as_printed(nominal, gains, x, reference, estimate):
 
 
 def run_until_fault(law, duration, steps=1):
-    """Figure 4A without the load under this law; (time of the end, domain code)."""
+    """Figure 4A without the load under this law: (end time, domain code)."""
     mu0 = compute_lever_ratio_for_stiffness(15.0, K)
     plant, nominal = build_actuator(DESIGN.actuator, mu0), build_actuator(DESIGN.nominal, mu0)
     gains, domain = build_gains(DESIGN.gains), build_domain(DESIGN.actuator, DESIGN.limits)
@@ -168,16 +168,16 @@ def run_until_fault(law, duration, steps=1):
     return duration, INSIDE
 
 
-def test_the_printed_sign_of_eq_24_leaves_the_domain_and_the_corrected_does_not():
-    """A guard against putting the printed sign back: it drives the error away from zero."""
+def test_printed_sign_of_eq_24_leaves_the_domain_and_the_corrected_does_not():
+    """The printed sign drives the error away from zero."""
     end, code = run_until_fault(solve_as_printed, 0.5)
     assert code == DEFLECTION_LIMIT
     assert end < 0.1
     assert run_until_fault(compute_ndobc, 0.5) == (0.5, INSIDE)
 
 
-def test_the_torque_never_passes_its_limits_and_nan_is_not_hidden_by_them():
-    """±15 and ±5 N·m in Figure 4A, which reaches both; NaN must reach the guard, not a clip."""
+def test_torque_respects_its_limits_which_do_not_hide_nan():
+    """±15 and ±5 N·m in Figure 4A, which reaches both; NaN must pass the limits to the guard."""
     result = svsa.simulate("4a", "ndobc", duration_s=6.0)
     assert np.abs(result.torque1_nm).max() == 15.0
     assert np.abs(result.torque2_nm).max() == 5.0

@@ -32,8 +32,8 @@ U1 = CHANNEL_INDEX["torque1_nm"]
 
 
 @pytest.mark.parametrize("law", list_law_names())
-def test_a_recorded_session_is_simulated_again_to_the_bit(law: str, tmp_path: Path) -> None:
-    """On the rig's effects, in wakes as they happen to fall, with a command between two of them.
+def test_recorded_session_is_resimulated_bit_for_bit(law: str, tmp_path: Path) -> None:
+    """With the effects of the rig, irregular wake-ups and a command between two of them.
 
     A law that ends its run ends it at the same tick in both.
     """
@@ -58,8 +58,8 @@ def test_a_recorded_session_is_simulated_again_to_the_bit(law: str, tmp_path: Pa
 
 
 @pytest.mark.parametrize("law", exhaust(list_law_names(), SHOWN_IN_BATCHES))
-def test_in_a_batch_a_law_ends_where_it_does_in_a_live_session(law: str) -> None:
-    """Next to a run of another stiffness of the plant, which is another run."""
+def test_law_in_a_batch_ends_as_in_a_live_session(law: str) -> None:
+    """In a batch with a run of another plant stiffness, which differs."""
     first = build_configuration(PULSE, law=law, effects=svsa.RIG)
     softer = first.actuator.changed(link_inertia_kg_m2=0.9 * first.actuator.link_inertia_kg_m2)
     both = [first, first.changed(actuator=softer)]

@@ -1,4 +1,4 @@
-"""FL with integral action: a constant load goes, a moving one does not, and nothing winds up."""
+"""FL with integral action: no error under a constant load, some under a moving one, no windup."""
 
 import math
 
@@ -11,7 +11,7 @@ MASS = svsa.MassLoad(mass_kg=3.0, start_s=5.0)
 
 
 def measure(window, **changes):
-    """Rms and peak of the position error between two times, degrees."""
+    """Return rms and peak of the position error between two times, degrees."""
     result = svsa.simulate("4a", "fl_integral", **changes)
     assert result.fault is None
     found = result.measure(*window)
@@ -29,7 +29,7 @@ def measure(window, **changes):
         ((8.0, 20.0), {"effects": svsa.RIG, "loads": (MASS,)}, 0.351, None),
     ],
 )
-def test_figures_of_an_independent_prototype(window, changes, rms, peak):
+def test_errors_match_an_independent_prototype(window, changes, rms, peak):
     """Within 5 %: ideal and on the rig, before the 3 kg, at their onset, and after."""
     found_rms, found_peak = measure(window, **changes)
     if rms is not None:
@@ -38,14 +38,16 @@ def test_figures_of_an_independent_prototype(window, changes, rms, peak):
         assert found_peak == pytest.approx(peak, rel=0.05)
 
 
-def test_on_the_rig_counts_of_the_encoders_are_what_stays():
-    """0.0072° in the prototype; a cycle among counts, which a rounding moves by some per cent."""
+def test_encoder_quantization_is_the_remaining_error_on_the_rig():
+    """0.0072° in the prototype; a limit cycle of counts, which rounding changes by some
+    per cent.
+    """
     found, _ = measure((8.0, 20.0), effects=svsa.RIG)
     assert found == pytest.approx(0.0072, rel=0.1)
 
 
-def test_the_integrals_stand_still_while_a_motor_is_at_its_limit():
-    """A motor too weak for the load for 2 s: once it is gone, the link is soon where it was."""
+def test_integrals_are_held_while_a_motor_is_saturated():
+    """A motor too weak for the load for 2 s: after load removal the error soon disappears."""
     held = {
         "position": svsa.ConstantPosition(position_rad=0.0),
         "stiffness": svsa.ConstantStiffness(stiffness_nm_per_rad=60.0),

@@ -1,4 +1,4 @@
-"""Flatness: from q_d and σ_d alone the motion and the torques that Eq 1 has for them."""
+"""Flatness: q_d and σ_d determine the motion and the torques of Eq 1."""
 
 import math
 
@@ -23,7 +23,7 @@ def refer(t):
 
 
 @pytest.mark.parametrize("t", [0.0, 0.3, 1.1])
-def test_the_actuator_that_moves_so_accelerates_as_the_reference_says(t):
+def test_plant_accelerates_as_the_flat_reference(t):
     r, d = refer(t), compute_flat(NOMINAL, refer(t))
     x = State(r.q, r.dq, d.theta1, d.dtheta1, d.theta2, d.dtheta2)
     found = compute_acceleration(NOMINAL, x, Torque(d.u1, d.u2), STILL)
@@ -38,7 +38,7 @@ def test_the_actuator_that_moves_so_accelerates_as_the_reference_says(t):
 
 
 @pytest.mark.parametrize(("position", "velocity"), [("theta1", "dtheta1"), ("theta2", "dtheta2")])
-def test_its_velocities_are_the_rates_of_its_positions(position, velocity):
+def test_velocities_are_the_rates_of_the_positions(position, velocity):
     rate = differentiate(lambda s: getattr(compute_flat(NOMINAL, refer(s)), position), 0.4, 1e-3)
     expected = getattr(compute_flat(NOMINAL, refer(0.4)), velocity)
     np.testing.assert_allclose(rate, expected, rtol=1e-7)

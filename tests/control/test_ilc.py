@@ -1,4 +1,4 @@
-"""ILC: what repeats is learned away from period to period, and what does not is FL's."""
+"""ILC removes periodic errors from period to period; aperiodic errors equal those of FL."""
 
 import math
 
@@ -10,7 +10,7 @@ PERIOD_S = 5.0
 
 
 def measure(load, period):
-    """The rms error over a period, counted from 1, on the rig, degrees."""
+    """Return the rms error over a period, counted from 1, on the rig, degrees."""
     end = period * PERIOD_S
     result = svsa.simulate("4a", "ilc", effects=svsa.RIG, loads=(load,), duration_s=end)
     assert result.fault is None
@@ -25,13 +25,13 @@ def measure(load, period):
         (svsa.PaperLoad(start_s=0.0), 12, 0.021),
     ],
 )
-def test_a_load_that_repeats_is_learned_away(load, period, most):
-    """NDOBC has 1.297° and 0.323° indefinitely under the first two."""
+def test_periodic_load_is_learned(load, period, most):
+    """NDOBC keeps 1.297° and 0.323° under the first two."""
     assert measure(load, period) <= 1.05 * most
     assert measure(load, 1) > 5.0
 
 
-def test_what_does_not_repeat_stays():
-    """A sine that is no harmonic of the period is another one in each."""
+def test_aperiodic_error_remains():
+    """A sine that is no harmonic of the period differs in each period."""
     load = svsa.SineLoad(torque_nm=(1.5, 0.0, 0.0), frequency_hz=0.33, start_s=0.0)
     assert measure(load, 6) > 1.0

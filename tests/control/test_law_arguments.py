@@ -1,5 +1,6 @@
-"""What the encoders said comes through the law's interface: compiled, in a batch, in plain Python,
-in a process of its own and on a bench."""
+"""A law receives the measured encoder values: compiled, in a batch, in plain Python, in a separate
+process and on a bench.
+"""
 
 from importlib.metadata import EntryPoint
 from typing import NamedTuple
@@ -24,7 +25,7 @@ from svsa.simulation.loop.lane import AT_REST
 from svsa.simulation.loop.measured import (
     Actuation,
     BenchConstants,
-    Carried,
+    BenchLoopState,
     follow_and_decide,
     pass_ticks,
     publish_and_predict,
@@ -40,8 +41,8 @@ KP, KD = 30.0, 2.0
 """N·m/rad and N·m·s/rad of a spring and a damper on motor 1."""
 
 
-class Heard(NamedTuple):
-    """What the law was reported last, and θ1 the time before."""
+class Received(NamedTuple):
+    """The values that the law received last, and θ1 of the previous call."""
 
     q: float = 0.0
     theta1: float = 0.0
@@ -50,7 +51,9 @@ class Heard(NamedTuple):
 
 
 @compiled
-def hear(nominal, constants, memory, x, reference, estimate, applied, period, measured):
+def store_measurement(
+    nominal, constants, memory, x, reference, estimate, applied, period, measured
+):
     memory.before = memory.theta1
     memory.q, memory.theta1, memory.theta2 = measured.q, measured.theta1, measured.theta2
     velocity = (memory.theta1 - memory.before) / period
@@ -59,8 +62,12 @@ def hear(nominal, constants, memory, x, reference, estimate, applied, period, me
 
 
 @compiled
-def hear_branching(nominal, constants, memory, x, reference, estimate, applied, period, measured):
-    torque = hear(nominal, constants, memory, x, reference, estimate, applied, period, measured)
+def store_measurement_by_branches(
+    nominal, constants, memory, x, reference, estimate, applied, period, measured
+):
+    torque = store_measurement(
+        nominal, constants, memory, x, reference, estimate, applied, period, measured
+    )
     if measured.q > 1e3:
         return Torque(0.0, 0.0)
     return torque
@@ -88,14 +95,22 @@ def law(time_s, reference, x, w, measured, applied):
     u1 = 30.0 * (reference.q - measured.theta1) - 2.0 * velocity - 0.1 * applied.u1
     return (u1 if abs(u1) < 8.0 else 0.0), 0.0
 """
-HEAR = Law("hear", "Hear", "", "", "", hear, memory=Heard)
-HEAR_BRANCHING = Law("hear_branching", "Hear", "", "", "", hear_branching, memory=Heard)
+STORED = Law("stored", "Stored measurement", "", "", "", store_measurement, memory=Received)
+STORED_BY_BRANCHES = Law(
+    "stored_by_branches",
+    "Stored measurement",
+    "",
+    "",
+    "",
+    store_measurement_by_branches,
+    memory=Received,
+)
 EFFECTS = {"ideal": svsa.IDEAL, "rig": svsa.RIG, "every": EVERY_EFFECT}
 
 
 @pytest.fixture(autouse=True)
 def _install(monkeypatch):
-    for law in ("HEAR", "HEAR_BRANCHING"):
+    for law in ("STORED", "STORED_BY_BRANCHES"):
         entry = EntryPoint(law.lower(), f"{__name__}:{law}", installed.GROUP)
         monkeypatch.setitem(installed._find_entries(), law.lower(), entry)
     installed._load_law.cache_clear()
@@ -103,12 +118,12 @@ def _install(monkeypatch):
     installed._load_law.cache_clear()
 
 
-def build(law="hear", effects=svsa.RIG, **changes):
+def build(law="stored", effects=svsa.RIG, **changes):
     return build_configuration(PULSE, law=law, effects=effects, seed=3, **changes)
 
 
 @pytest.mark.parametrize("effects", EFFECTS)
-def test_it_is_what_the_sensors_said_at_that_tick_with_their_counts_and_their_noise(effects):
+def test_law_receives_the_measurement_of_the_tick_with_quantization_and_noise(effects):
     run = Run(build(effects=EFFECTS[effects]))
     reported, said, estimated = [], [], []
     for tick in range(TICKS):
@@ -127,16 +142,16 @@ def test_it_is_what_the_sensors_said_at_that_tick_with_their_counts_and_their_no
 @pytest.mark.parametrize(
     ("law", "effects"),
     [
-        pytest.param("hear", "ideal", marks=pytest.mark.exhaustive),
-        pytest.param("hear", "rig", marks=pytest.mark.exhaustive),
-        ("hear_branching", "rig"),
-        pytest.param("hear", "every", marks=pytest.mark.exhaustive),
-        pytest.param("hear_branching", "every", marks=pytest.mark.exhaustive),
+        pytest.param("stored", "ideal", marks=pytest.mark.exhaustive),
+        pytest.param("stored", "rig", marks=pytest.mark.exhaustive),
+        ("stored_by_branches", "rig"),
+        pytest.param("stored", "every", marks=pytest.mark.exhaustive),
+        pytest.param("stored_by_branches", "every", marks=pytest.mark.exhaustive),
     ],
 )
-def test_side_by_side_it_receives_what_it_receives_alone(law, effects):
+def test_law_in_a_batch_receives_the_same_as_alone(law, effects):
     configurations = [build(law, EFFECTS[effects]).changed(seed=seed) for seed in (3, 4, 5)]
-    assert (build_run_batch(configurations).control is None) == (law == "hear_branching")
+    assert (build_run_batch(configurations).control is None) == (law == "stored_by_branches")
     summaries = run_configurations(configurations, 0.2)
     for configuration, summary in zip(configurations, summaries, strict=True):
         run = Run(configuration)
@@ -145,7 +160,7 @@ def test_side_by_side_it_receives_what_it_receives_alone(law, effects):
 
 
 @pytest.mark.parametrize("effects", EFFECTS)
-def test_a_law_in_plain_python_receives_the_same_where_it_names_it(effects):
+def test_law_in_plain_python_receives_the_same_by_parameter_name(effects):
     configuration = build(effects=EFFECTS[effects])
     compiled_samples = advance(Run(configuration), 200)[0]
     own = svsa.simulate(configuration, build_in_python(), duration_s=0.2)
@@ -153,7 +168,7 @@ def test_a_law_in_plain_python_receives_the_same_where_it_names_it(effects):
     assert np.abs(own.torque1_nm).max() > 0.5
 
 
-def test_a_law_in_a_process_of_its_own_receives_the_same():
+def test_law_in_a_separate_process_receives_the_same():
     configuration = build()
     model = build_actuator(configuration.nominal, compute_start_ratio(configuration))
     with LawProcess(AS_A_FILE, model, place=leave_open) as law:
@@ -162,11 +177,11 @@ def test_a_law_in_a_process_of_its_own_receives_the_same():
     np.testing.assert_array_equal(there.samples, here.samples)
 
 
-def test_on_a_bench_it_is_what_was_measured_after_ticks_that_were_missed_too():
+def test_law_on_a_bench_receives_the_measurement_also_after_missed_ticks():
     run = Run(build())
     call = build_call(run.laws[0], run.lanes[0].memory)
     constants = pack(BenchConstants(run.blocks[0], Actuation(0.0, 0.0), call))
-    carried = pack(Carried())
+    carried = pack(BenchLoopState())
     for missed in (0, 7, 0):
         if missed:
             pass_ticks(constants, run.inputs, carried, 0, missed)
@@ -180,12 +195,12 @@ def test_on_a_bench_it_is_what_was_measured_after_ticks_that_were_missed_too():
 def follow_figure(law, missed):
     """û1 and ŵ of a law tick by tick, of a plant as its model is but for a torque on the link.
 
-    missed: ticks before 1.25 s, where the link is braked most.
+    missed: number of missed ticks before 1.25 s, when the link decelerates most.
     """
     run = Run(build_configuration(law=law, effects=svsa.RIG))
     call = build_call(run.laws[0], run.lanes[0].memory)
     constants = pack(BenchConstants(run.blocks[0], Actuation(0.0, 0.0), call))
-    carried, row = pack(Carried()), np.empty(len(CHANNELS))
+    carried, row = pack(BenchLoopState()), np.empty(len(CHANNELS))
     x, torque, found = AT_REST, Torque(0.0, 0.0), {}
     for tick in range(1600):
         if 1250 - missed <= tick < 1250:
@@ -203,21 +218,21 @@ def follow_figure(law, missed):
 
 
 @pytest.mark.parametrize("law", ["eso_saturated", "pi_observer", "backstepping", "nmpc"])
-def test_a_law_takes_ticks_that_a_bench_missed_for_no_load(law):
-    """Or an observer of its own takes what has moved in all of them for what a load did in one."""
+def test_missed_bench_ticks_are_not_taken_for_a_load(law):
+    """Its own observer would attribute the motion of several ticks to a load in one."""
     whole, missed = follow_figure(law, 0), follow_figure(law, 8)
     off = [np.abs(np.subtract(missed[tick], whole[tick])).max() for tick in range(1250, 1600)]
     assert max(off) < 0.02, "N·m"
 
 
 @compiled
-def take_seven(nominal, constants, memory, x, reference, estimate, applied):
+def take_seven_arguments(nominal, constants, memory, x, reference, estimate, applied):
     return Torque(0.0, 0.0)
 
 
-def test_a_compiled_law_of_another_signature_is_refused_with_the_one_it_must_have():
+def test_compiled_law_with_another_signature_is_rejected_with_the_required_one():
     with pytest.raises(svsa.ParameterError, match=r"7 arguments.*applied, period\[, measured\]"):
-        Law("seven", "Seven", "", "", "", take_seven)
+        Law("seven", "Seven", "", "", "", take_seven_arguments)
 
 
 @pytest.mark.parametrize(
@@ -228,12 +243,12 @@ def test_a_compiled_law_of_another_signature_is_refused_with_the_one_it_must_hav
         lambda time_s, reference, x, w, *, period: (0.0, 0.0),
     ],
 )
-def test_a_law_in_plain_python_of_another_signature_is_refused_with_the_one_it_must_have(law):
+def test_python_law_with_another_signature_is_rejected_with_the_required_one(law):
     with pytest.raises(svsa.ParameterError, match=r"law\(time_s, reference, x, w\).*measured"):
         svsa.simulate("4b", law, duration_s=0.01)
 
 
-def test_a_law_in_a_process_of_another_signature_says_the_one_it_must_have():
+def test_law_in_a_process_with_another_signature_reports_the_required_one():
     model = build_actuator(build().nominal, 0.5)
     with pytest.raises(svsa.SvsaError) as raised:
         LawProcess(b"def law(time_s): return 0, 0", model, place=leave_open)
@@ -248,6 +263,6 @@ def test_a_law_in_a_process_of_another_signature_says_the_one_it_must_have():
         lambda t, r, x, w, gain=0.4: (gain, 0.0),
     ],
 )
-def test_what_was_a_law_before_is_one_and_receives_no_more(law):
+def test_law_with_fewer_arguments_works_without_measurement(law):
     samples = svsa.simulate("4b", law, duration_s=0.002, effects=svsa.IDEAL)
     np.testing.assert_allclose(samples.torque1_nm, 0.4)

@@ -1,4 +1,4 @@
-"""A law is one file: found by its entry point, called by a loop that was not compiled with it."""
+"""A law is one file: found by its entry point, called by a loop compiled without it."""
 
 import dataclasses
 import math
@@ -30,8 +30,8 @@ FASTER = {"position_pole_rad_per_s": 70.0}
 U1 = CHANNEL_INDEX["torque1_nm"]
 
 
-class Seen(NamedTuple):
-    """An estimate of its own, and what it was reported last."""
+class Memory(NamedTuple):
+    """An estimate of the law, and the values that it received last."""
 
     w2: float = 0.25
     w4: float = 0.0
@@ -48,25 +48,25 @@ def watch(nominal, constants, memory, x, reference, estimate, applied, period):
     return Torque(0.1 * memory.calls, 0.0)
 
 
-WATCH = Law("watch", "Watch", "", "", "", watch, memory=Seen, estimate="own")
+WATCH = Law("watch", "Watch", "", "", "", watch, memory=Memory, estimate="own")
 
 
 @pytest.fixture
 def install(monkeypatch):
-    """Announce laws of this file as an installed package would."""
+    """Register laws of this file as an installed package would."""
 
-    def announce(**values: object) -> None:
+    def register(**values: object) -> None:
         for name, value in values.items():
             entry = EntryPoint(name, f"{__name__}:{value}", installed.GROUP)
             monkeypatch.setitem(installed._find_entries(), name, entry)
             installed._load_law.cache_clear()
 
-    yield announce
+    yield register
     installed._load_law.cache_clear()
 
 
-def test_a_law_that_does_not_load_is_imported_once(monkeypatch, install):
-    """A second attempt takes as long as the first, and a bench's loop has no time for it."""
+def test_law_that_fails_to_load_is_imported_once(monkeypatch, install):
+    """A second attempt takes as long as the first, and the loop of a bench has no time for it."""
     install(absent="ABSENT")
     tried = []
     load = EntryPoint.load
@@ -77,7 +77,7 @@ def test_a_law_that_does_not_load_is_imported_once(monkeypatch, install):
     assert tried == ["absent"]
 
 
-def test_the_paper_s_laws_are_found_like_all_others():
+def test_laws_of_the_paper_are_found_like_all_others():
     names = list_law_names()
     assert names[:2] == ("ndobc", "fl"), (
         "so that FL is what NDOBC is compared with, in its own color"
@@ -87,14 +87,14 @@ def test_the_paper_s_laws_are_found_like_all_others():
 
 
 @pytest.mark.parametrize("law", ["no_law", "Not a name", ""])
-def test_a_law_that_is_not_installed_is_refused_with_those_that_are(law):
+def test_unknown_law_error_lists_the_installed_laws(law):
     with pytest.raises(svsa.ParameterError, match=r"law is '.*installed here: ndobc, fl, "):
         svsa.simulate("4a", law, duration_s=0.01)
     with pytest.raises(svsa.ParameterError, match=r"comparisons\[1\]\.law|law is"):
         svsa.simulate("4a", comparisons=(INTEGRAL, svsa.Lane(law=law)), duration_s=0.01)
 
 
-def test_a_refused_law_changes_nothing():
+def test_rejected_law_changes_nothing():
     run = Run(build_configuration(comparisons=(INTEGRAL,)))
     before, lanes = run.configuration, list(run.lanes)
     for kind, argument in (("law", "no_law"), ("comparisons", (svsa.Lane(law="no_law"),))):
@@ -104,7 +104,7 @@ def test_a_refused_law_changes_nothing():
     assert all(one is other for one, other in zip(run.lanes, lanes, strict=True))
 
 
-def test_another_law_needs_no_compilation_of_the_loop(install):
+def test_new_law_does_not_recompile_the_loop(install):
     advance(Run(build_configuration()), 10)
     install(watch="WATCH")
     names: list[str] = []
@@ -115,8 +115,10 @@ def test_another_law_needs_no_compilation_of_the_loop(install):
     assert set(names) <= {"watch"}
 
 
-def test_a_law_receives_the_torque_that_acted_and_its_own_estimate_is_what_is_shown(install):
-    """Asked for 0.1, 0.2, … N·m; with two samples of delay it hears of them three later."""
+def test_law_receives_the_actual_torque_and_its_own_estimate_is_plotted(install):
+    """It commands 0.1, 0.2, … N·m; with a delay of two samples it receives them three
+    ticks later.
+    """
     install(watch="WATCH")
     run = Run(build_configuration(law="watch", effects=svsa.Effects(delay_samples=2)))
     samples = advance(run, 10)[0]
@@ -129,7 +131,7 @@ def test_a_law_receives_the_torque_that_acted_and_its_own_estimate_is_what_is_sh
     np.testing.assert_allclose(shown, 0.5 * np.arange(1, 11))
 
 
-def test_a_call_of_the_loop_leaves_the_state_that_it_begins_with():
+def test_call_of_the_loop_does_not_modify_its_initial_state():
     run = Run(build_configuration(PULSE, law="fl_integral"))
     first = run.lanes[0]
     before = first.memory.copy()
@@ -141,7 +143,7 @@ def test_a_call_of_the_loop_leaves_the_state_that_it_begins_with():
     np.testing.assert_array_equal(again, whole[0])
 
 
-def test_memory_is_part_of_a_run_that_is_replayed_branched_and_cut_into_calls():
+def test_memory_is_preserved_by_replay_branch_and_split_calls():
     configuration = build_configuration(PULSE, law="fl_integral", comparisons=(INTEGRAL,))
     session = SimulatedSession("cut", configuration)
     for ticks, kind, argument in (
@@ -163,7 +165,7 @@ def test_memory_is_part_of_a_run_that_is_replayed_branched_and_cut_into_calls():
             np.testing.assert_array_equal(read_samples(one, lane), whole[lane])
 
 
-def test_a_lane_that_goes_on_past_another_s_fault_is_brought_back_with_its_memory():
+def test_lane_after_the_fault_of_another_is_rewound_with_its_memory():
     fragile = svsa.Lane(law="fl", gains=svsa.Gains.from_poles([-900.0] * 4, [-900.0] * 2))
     effects = svsa.RIG
     run = Run(
@@ -178,7 +180,7 @@ def test_a_lane_that_goes_on_past_another_s_fault_is_brought_back_with_its_memor
         np.testing.assert_array_equal(run.lanes[lane].memory, alone.lanes[0].memory)
 
 
-def test_a_law_that_comes_remembers_nothing_and_one_that_stays_remembers():
+def test_new_law_starts_without_memory_and_unchanged_law_keeps_it():
     run = Run(
         build_configuration(PULSE, law="fl_integral", comparisons=(svsa.Lane(law="fl"), INTEGRAL))
     )
@@ -193,7 +195,7 @@ def test_a_law_that_comes_remembers_nothing_and_one_that_stays_remembers():
     assert np.any(first != 0.0)
 
 
-def test_twice_the_same_law_with_other_parameters_is_two_controllers():
+def test_same_law_with_other_parameters_is_two_controllers():
     other = svsa.Lane(law="fl_integral", parameters=FASTER)
     configuration = build_configuration(law="fl_integral", comparisons=(other,))
     session = SimulatedSession("two", configuration)
@@ -203,7 +205,7 @@ def test_twice_the_same_law_with_other_parameters_is_two_controllers():
     assert np.any(samples[0] != samples[1])
 
 
-def test_parameters_are_checked_by_their_law_and_written_as_they_were_given():
+def test_parameters_are_validated_by_their_law_and_stored_unchanged():
     with pytest.raises(svsa.ParameterError) as refused:
         build_configuration(parameters={"fl_integral": {"position_pole_rad_per_s": 1e9}})
     assert "parameters.fl_integral.position_pole_rad_per_s" in str(refused.value)
@@ -227,7 +229,7 @@ def test_parameters_are_checked_by_their_law_and_written_as_they_were_given():
         ("WATCH", "brings the law watch"),
     ],
 )
-def test_a_broken_package_is_named_and_the_lab_goes_on(install, value, words):
+def test_broken_package_is_named_and_the_lab_continues(install, value, words):
     install(broken=value)
     with pytest.raises(LawError, match=words):
         svsa.simulate("4a", "broken", duration_s=0.01)
@@ -238,32 +240,32 @@ TICKS = 3
 
 
 @compiled
-def stumble(nominal, constants, memory, x, reference, estimate, applied, period):
+def fail(nominal, constants, memory, x, reference, estimate, applied, period):
     return Torque(x.no_such_angle, 0.0)
 
 
-STUMBLE = Law("stumble", "Stumble", "", "", "", stumble)
+STUMBLE = Law("fail", "Stumble", "", "", "", fail)
 
 
-def test_a_law_that_does_not_compile_is_named_and_changes_nothing(install):
-    install(stumble="STUMBLE")
+def test_law_that_fails_to_compile_is_named_and_changes_nothing(install):
+    install(fail="STUMBLE")
     run = Run(build_configuration())
     before = run.configuration
-    with pytest.raises(LawError, match="law stumble does not compile: Typing"):
-        run.change(Set("law", "stumble"))
+    with pytest.raises(LawError, match="law fail does not compile: Typing"):
+        run.change(Set("law", "fail"))
     assert run.configuration == before
     assert advance(run, 10).shape[1] == 10
 
 
-def test_the_lab_starts_without_the_laws_that_do_not_work(install, capsys):
-    install(broken="missing", stumble="STUMBLE")
+def test_lab_starts_without_broken_laws(install, capsys):
+    install(broken="missing", fail="STUMBLE")
     prepare()
     reported = capsys.readouterr().err
     assert "The law broken of the package" in reported
-    assert "The law stumble does not compile" in reported
+    assert "The law fail does not compile" in reported
 
 
-def test_what_was_recorded_with_a_law_that_does_not_load_has_its_name(install):
+def test_record_of_a_law_that_fails_to_load_shows_its_name(install):
     install(broken="missing")
     configuration = build_configuration(law="broken", parameters={"broken": {"rate": 2.0}})
     (controller,) = list_controllers(configuration, is_bench=False)
@@ -271,15 +273,15 @@ def test_what_was_recorded_with_a_law_that_does_not_load_has_its_name(install):
     assert describe_law("broken") == "broken"
 
 
-def test_a_law_without_a_name_or_with_an_estimate_that_no_user_finds_is_none():
+def test_law_without_name_or_with_unknown_estimate_is_invalid():
     with pytest.raises(svsa.ParameterError, match="small letter"):
         dataclasses.replace(WATCH, name="Watch!")
     with pytest.raises(svsa.ParameterError, match="w2, w4, w6"):
         dataclasses.replace(WATCH, memory=type(get_law("fl_integral").memory()))
 
 
-def test_what_a_law_remembers_is_in_the_linearized_loop():
-    """FL + I has two states more than FL, which add a slow pole; what never changes is no state."""
+def test_memory_of_a_law_is_part_of_the_linearized_loop():
+    """FL + I has two states more than FL, which add a slow pole; a constant is not a state."""
     exact = {"nominal": svsa.load_prototype().actuator}
     fl, integral = (
         linearize_tick(build_configuration(law=law, **exact), 15.0).A

@@ -1,4 +1,4 @@
-"""NDOBC-W: which bandwidth is reduced, which is not, and what is restored."""
+"""NDOBC-W: when bandwidth is reduced, when it is not, and when it is restored."""
 
 import math
 
@@ -22,12 +22,12 @@ HELD = {
 
 
 def step(torque_nm, **changes):
-    """Held still at σ = 15, with a torque on the link from 1 s on."""
+    """At rest at σ = 15, with a torque on the link from 1 s on."""
     load = svsa.ConstantLoad(torque_nm=(torque_nm, 0.0, 0.0), start_s=1.0)
     return svsa.simulate("4a", "ndobc_w", loads=(load,), duration_s=3.0, **HELD | changes)
 
 
-def test_the_barrier_on_the_deflection_leaves_a_torque_alone_that_does_no_harm():
+def test_deflection_barrier_does_not_change_a_safe_torque():
     x = build_state(0.5, 0.05)
     F = compute_internal_torque(NOMINAL, x)
     assert guard_deflection(NOMINAL, x, F, W, 0.0, 0.4, 60.0, 0.5) == 0.5
@@ -35,8 +35,8 @@ def test_the_barrier_on_the_deflection_leaves_a_torque_alone_that_does_no_harm()
 
 
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
-def test_both_barriers_give_the_approach_that_they_state(sign):
-    """Under the torque that is left, φ̈ = −2l φ̇ + l²(b − φ), and the same for μ."""
+def test_both_barriers_give_their_stated_approach(sign):
+    """Under the limited torque, φ̈ = −2l φ̇ + l²(b − φ), and the same for μ."""
     x = build_state(0.5, sign * 0.35, dtheta1=-sign * 3.0, dtheta2=sign * 20.0)
     F = compute_internal_torque(NOMINAL, x)
     rest = compute_acceleration(NOMINAL, x, Torque(0.0, 0.0), ExternalLoad(*W, 0.0, 0.0))
@@ -50,8 +50,10 @@ def test_both_barriers_give_the_approach_that_they_state(sign):
     assert sign * ddmu == pytest.approx(-50.0 * slope * 20.0 + 625.0 * 0.3, rel=1e-9)
 
 
-def test_a_great_load_stiffens_the_spring_and_a_small_one_does_not():
-    """2 N·m are borne at 15 N·m/rad; for 6 N·m it is made stiffer, and stays so under the load."""
+def test_large_load_stiffens_the_spring_and_small_load_does_not():
+    """2 N·m are held at 15 N·m/rad; for 6 N·m stiffness increases, and stays high under
+    the load.
+    """
     soft, stiff = step(2.0), step(6.0)
     assert soft.fault is stiff.fault is None
     assert soft.stiffness_nm_per_rad[-1] == pytest.approx(15.0, abs=0.1)
@@ -60,8 +62,8 @@ def test_a_great_load_stiffens_the_spring_and_a_small_one_does_not():
         assert math.degrees(result.measure(2.5, 3.0).rms_position_error_rad) < 0.02
 
 
-def test_the_poles_give_way_while_a_motor_is_at_its_limit_and_come_back():
-    """What it remembers of that: 0 before the load, much in saturation, 0 again after it."""
+def test_bandwidth_is_reduced_in_saturation_and_restored_after_it():
+    """The memory of saturation: 0 before the load, large in saturation, 0 again after it."""
     load = svsa.PaperLoad(start_s=0.2)
     configuration = svsa.paper.get_figure("4a").build_configuration("ndobc_w")
     run = Run(configuration.changed(loads=(load,), effects=svsa.RIG))
@@ -77,7 +79,7 @@ def test_the_poles_give_way_while_a_motor_is_at_its_limit_and_come_back():
     assert np.all(yielded[-100:] == 0.0)
 
 
-def test_where_nothing_limits_nothing_gives_way():
+def test_bandwidth_is_nominal_without_saturation():
     result = step(6.0, effects=svsa.Effects(torque_limits=False))
     assert result.fault is None
     assert np.abs(result.torque1_nm).max() > 15.0

@@ -1,4 +1,4 @@
-"""The PI observer needs positions only: those that the encoders gave, not the estimator's."""
+"""The PI observer uses measured positions only, not those of the estimator."""
 
 import numpy as np
 
@@ -10,15 +10,15 @@ TICKS = 300
 
 
 def compute_samples(law: str, corner_rad_per_s: float) -> svsa.Result:
-    """A run on the rig whose x̂ comes from an estimator with this corner."""
+    """A run on the rig whose x̂ comes from an estimator with this corner frequency."""
     estimation = svsa.RIG.estimation.changed(corner_rad_per_s=corner_rad_per_s)
     effects = svsa.RIG.changed(estimation=estimation)
     configuration = build_configuration(PULSE, law=law, effects=effects)
     return svsa.simulate(configuration, duration_s=TICKS * configuration.sampling.period_s)
 
 
-def test_how_x_is_estimated_is_nothing_to_it():
-    """Not one bit of its torque, while NDOBC's, which acts on that x̂, is another."""
+def test_torque_does_not_depend_on_the_state_estimator():
+    """No bit of its torque changes, while NDOBC, which uses x̂, computes another torque."""
     slow, fast = (compute_samples("pi_observer", corner) for corner in (150.0, 300.0))
     assert np.any(slow.position_estimate_rad != fast.position_estimate_rad)
     np.testing.assert_array_equal(slow.torque1_nm, fast.torque1_nm)
@@ -27,8 +27,8 @@ def test_how_x_is_estimated_is_nothing_to_it():
     assert np.any(slow.torque1_nm != fast.torque1_nm)
 
 
-def test_its_estimate_finds_the_load():
-    """1 N·m on the link is in ŵ2 to a hundredth, a quarter of a second after it came."""
+def test_estimate_converges_to_the_load():
+    """1 N·m on the link is in ŵ2 to one per cent a quarter of a second after its onset."""
     load = svsa.ConstantLoad(torque_nm=(1.0, 0.0, 0.0), start_s=0.05)
     exact = svsa.load_prototype().actuator
     run = Run(build_configuration(load, law="pi_observer", effects=svsa.RIG, nominal=exact))

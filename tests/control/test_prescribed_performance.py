@@ -1,4 +1,4 @@
-"""Prescribed performance: the funnel narrows, and the error stays in it while torques suffice."""
+"""Prescribed performance: the funnel decays, and contains the error within the torque limits."""
 
 import numpy as np
 import pytest
@@ -13,7 +13,7 @@ NAME = "prescribed_performance"
 FUNNELS = get_law(NAME).parameters()
 
 
-def test_the_memory_is_the_share_of_the_initial_width_that_is_left():
+def test_memory_is_the_remaining_share_of_the_initial_width():
     run = Run(svsa.paper.get_figure("4a").build_configuration(NAME, load=False))
     run.advance(np.empty((1, 500, len(CHANNELS))))
     (left,) = run.lanes[0].memory
@@ -21,7 +21,7 @@ def test_the_memory_is_the_share_of_the_initial_width_that_is_left():
 
 
 @pytest.mark.parametrize("effects", [svsa.IDEAL, svsa.RIG], ids=["ideal", "rig"])
-def test_the_error_stays_in_its_funnel_before_and_after_the_load(effects):
+def test_error_stays_in_its_funnel_before_and_after_the_load(effects):
     run = svsa.simulate("4a", NAME, effects=effects, duration_s=8.0)
     assert run.fault is None
     final, ratio = FUNNELS.position_width_rad, FUNNELS.initial_ratio
@@ -30,7 +30,7 @@ def test_the_error_stays_in_its_funnel_before_and_after_the_load(effects):
     assert np.all(np.abs(run.position_error_rad) < EDGE * width)
 
 
-def test_the_action_grows_without_bound_towards_the_edge_and_is_held_beyond_it():
+def test_action_grows_without_bound_towards_the_edge_and_is_limited_beyond_it():
     assert push_inside(1e-6, 0.2) == pytest.approx(1e-6, rel=1e-6)
     near, edge = push_inside(0.18, 0.2), push_inside(EDGE * 0.2, 0.2)
     assert 0.18 < near < edge == push_inside(0.5, 0.2)

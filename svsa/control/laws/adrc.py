@@ -1,8 +1,9 @@
 """Cascade ADRC: an extended-state observer on each of q, θ1 and σ, and a PD around each.
 
 Han's active disturbance rejection: of the model only the input gains b are used, σ_d/M of θ1 on q,
-1/B1 of u1 on θ1, g/B2 of u2 on σ; whatever else accelerates them is estimated. A single observer of
-fifth order for the whole chain needs four derivatives of a measured position: on the rig it shakes.
+1/B1 of u1 on θ1, g/B2 of u2 on σ; all other accelerations are estimated. A single observer of fifth
+order for the whole chain would need four derivatives of a measured position, and oscillates on the
+rig.
 """
 
 from typing import NamedTuple
@@ -53,7 +54,16 @@ class Cascade(LawParameters):
 
 
 class Constants(NamedTuple):
-    """a, m, p: poles, rad/s. link, motor, stiffness: gains of the observers."""
+    """Poles and observer gains.
+
+    Attributes:
+        a: Position pole, rad/s.
+        m: Motor pole, rad/s.
+        p: Stiffness pole, rad/s.
+        link: Gains of the observer of q.
+        motor: Gains of the observer of θ1.
+        stiffness: Gains of the observer of σ.
+    """
 
     a: float
     m: float
@@ -64,7 +74,14 @@ class Constants(NamedTuple):
 
 
 class Memory(NamedTuple):
-    """The three observers. twist: θ1 − q of the last period, rad."""
+    """The three observers, and the last twist.
+
+    Attributes:
+        link: Observer of q.
+        motor: Observer of θ1.
+        stiffness: Observer of σ.
+        twist: θ1 − q of the last period, rad.
+    """
 
     link: Extended = Extended()
     motor: Extended = Extended()
@@ -97,7 +114,7 @@ def control(
 ) -> Torque:
     """θ1* = q + (M/σ_d)(q̈_d + 2a ė + a² e − z3), u1 = B1 (θ̈1* + 2m ė1 + m² e1 − z3'), N·m.
 
-    u2 = (B2/g)(σ̈_d + 2p ė_σ + p² e_σ − z3"). All errors are of what the observers hold.
+    u2 = (B2/g)(σ̈_d + 2p ė_σ + p² e_σ − z3). All errors are those of the observers' estimates.
     """
     c, sigma_d = constants, reference.sigma
     b = sigma_d / nominal.M
@@ -143,4 +160,5 @@ ADRC = Law(
     build=build,
     control=control,
     memory=Memory,
+    rejects_feedforward=True,
 )

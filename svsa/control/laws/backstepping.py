@@ -1,8 +1,8 @@
 """Command-filtered backstepping with ŵ: link, elastic torque, motor velocity, torque.
 
-Each step asks the next one for what it needs, and a filter at ω_f, instead of a derivative worked
-out by hand, gives the rate of it. Without ŵ2 (share 0) a load leaves w2/(M (1 + k1 k2)), as with
-FL: 11° of the paper's, and 6.1° with gains for that (`WITHOUT_ESTIMATE`).
+Each step computes the command of the next one; its rate comes from a filter at ω_f instead of an
+analytical derivative. Without ŵ2 (share 0) a load leaves the error w2/(M (1 + k1 k2)), as with FL:
+11° under the paper's load, and 6.1° with gains for that case (`WITHOUT_ESTIMATE`).
 """
 
 from typing import NamedTuple
@@ -57,11 +57,19 @@ class Steps(LawParameters):
 
 
 WITHOUT_ESTIMATE = Steps(link_gains_per_s=(39.4, 31.2), estimate_share=0.0)
-"""k1 and k2 a third greater, for 6.1° under 2 N·m; all other gains as with ŵ2."""
+"""k1 and k2 increased by a third, for 6.1° under 2 N·m; all other gains as with ŵ2."""
 
 
 class Constants(NamedTuple):
-    """k1 … k6: 1/s. omega: ω_f. kept: e^(−ω_f T). share: 1 − e^(−βT). used: of ŵ2."""
+    """Gains and filter constants.
+
+    Attributes:
+        k1: First of the gains k1 … k6, 1/s.
+        omega: ω_f, rad/s.
+        kept: e^(−ω_f T).
+        share: 1 − e^(−βT).
+        used: Share of ŵ2 that is used.
+    """
 
     k1: float
     k2: float
@@ -112,9 +120,9 @@ def build(parameters: Steps, setting: Setting) -> Constants:
 def follow_command(
     constants: Constants, memory: np.record, is_started: bool, wanted: float, period: float
 ) -> None:
-    """A critically damped filter, exact for a command that is held over the period.
+    """A critically damped filter, exact for a command that is constant during the period.
 
-    memory: `Filter`, written; it starts at the command. wanted: the command.
+    `memory` (`Filter`) is written; it starts at the command `wanted`.
     """
     omega, kept = constants.omega, constants.kept
     behind = memory.value - wanted
@@ -136,8 +144,8 @@ def control(
 ) -> Torque:
     """τ* = −D q̇ + ŵ2 − M(α̇1 − e1 − k2 e2), then θ̇*, then u = B(θ̈* − k z) − F − ŵ, N·m.
 
-    e1 = q − q_d, α1 = q̇_d − k1 e1, e2 = q̇ − α1; θ̇* solves τ̇_e = τ̇* − k3 (τ_e − τ*) and
-    σ̇ = σ̇_d − k5 (σ − σ_d). constants: `Constants`. memory: `Memory`.
+    e1 = q − q_d, α1 = q̇_d − k1 e1, e2 = q̇ − α1; θ̇* solves τ̇_e = τ̇* − k3 (τ_e − τ*) and σ̇ =
+    σ̇_d − k5 (σ − σ_d).
     """
     c = constants
     seen = observe_disturbance(nominal, c.share, 0.0, memory.observed, x, applied, period)

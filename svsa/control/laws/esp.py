@@ -1,9 +1,10 @@
-"""Elastic structure preserving control (ESP): it keeps the spring, damped, with the motor as base.
+"""Elastic structure preserving control (ESP): keeps the spring, and adds damping, with the motor as
+base.
 
-New motor coordinates η are chosen such that the closed loop is again a link on a spring:
-M ë' + (D + D_d) ė' = −τ_η + w2 − ŵ2 and B1 η̈ = τ_η − K_P η − K_D η̇, e' = q − q_d. With ŵ it
-compensates a load; without (share 0) it yields by design, as a spring does: tuned for that
-(`WITHOUT_ESTIMATE`), by 7.7° under the paper's load.
+New motor coordinates η are chosen such that the closed loop is again a link on a spring: M ë' + (D
++ D_d) ė' = −τ_η + w2 − ŵ2 and B1 η̈ = τ_η − K_P η − K_D η̇, e' = q − q_d. With ŵ it compensates a
+load. Without ŵ (share 0) it deflects by design, like a spring: by 7.7° under the paper's load with
+parameters tuned for that case (`WITHOUT_ESTIMATE`).
 """
 
 from typing import NamedTuple
@@ -34,10 +35,11 @@ SPRING_SHARE = 0.95
 class Structure(LawParameters):
     """The structure that the closed loop has.
 
-    Of 192 Sobol points (D_d 0.2–1.2, ω 90–190, ζ 0.7–1.8, p 30–60, β 75–145) and 100 steps from the
-    best, near the least cost of the training runs, 2.46, of those that hold every column of the
-    prototypes' figures (`python -m tests.benchmarks.prototypes`), with β as low as these bear (97
-    of 130), which holds more sweeps. `svsa tune` alone finds 0.64, and recovers later.
+    The defaults are near the least cost of the training runs, 2.46, of 192 Sobol points (D_d
+    0.2–1.2, ω 90–190, ζ 0.7–1.8, p 30–60, β 75–145) and 100 steps from the best, among those that
+    satisfy every column of the prototypes' figures (`python -m tests.benchmarks.prototypes`). β is
+    as low as these permit (97 of 130), which satisfies more sweeps. `svsa tune` alone finds 0.64,
+    with a longer recovery time.
     """
 
     link_damping_nms_per_rad: Number = quantity(
@@ -68,11 +70,23 @@ WITHOUT_ESTIMATE = Structure(
     stiffness_pole_rad_per_s=80.0,
     estimate_share=0.0,
 )
-"""`svsa tune esp --hold estimate_share=0 --budget 250`: cost 2.436, the share alone 3.749."""
+"""From `svsa tune esp --hold estimate_share=0 --budget 250`: cost 2.436; with only the share
+changed 3.749.
+"""
 
 
 class Constants(NamedTuple):
-    """damping: D_d. omega, zeta, p: as the parameters. share: 1 − e^(−βT). used: of ŵ2."""
+    """Parameters of the closed loop.
+
+    Attributes:
+        damping: D_d, N·m·s/rad.
+        omega: ω of the motor, rad/s.
+        zeta: ζ of the motor, 1.
+        p: Stiffness pole, rad/s.
+        share: 1 − e^(−βT).
+        used: Share of ŵ2 that is used.
+        domain: Domain of the model.
+    """
 
     damping: float
     omega: float
@@ -84,7 +98,7 @@ class Constants(NamedTuple):
 
 
 def build(parameters: Structure, setting: Setting) -> Constants:
-    """The structure as it is, and β as a share of a period."""
+    """The structure, and β as a share of a period."""
     return Constants(
         damping=parameters.link_damping_nms_per_rad,
         omega=parameters.motor_rad_per_s,
@@ -117,9 +131,8 @@ def control(
     applied: Torque,
     period: float,
 ) -> Torque:
-    """τ_η = τ_e + M q̈_d + D q̇_d − D_d ė' − ŵ2, η = e' − φ(τ_η), solved for φ̈ and μ̈, then u, N·m.
-
-    constants: `Constants`. memory: `Observed`.
+    """τ_η = τ_e + M q̈_d + D q̇_d − D_d ė' − ŵ2, η = e' − φ(τ_η), solved for φ̈ and μ̈, then u,
+    N·m.
     """
     c, M, D = constants, nominal.M, nominal.D
     seen = observe_disturbance(nominal, c.share, 0.0, memory, x, applied, period)

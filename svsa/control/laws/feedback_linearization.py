@@ -13,7 +13,13 @@ from svsa.numerics.compilation import compiled
 
 
 class GainConstants(NamedTuple):
-    """p0 … p3: c_k of position; s0, s1: c_k of stiffness (Eq 25)."""
+    """Gains of Eq 25 for compiled code.
+
+    Attributes:
+        p0: First of the coefficients c_0 … c_3 of the position; p1 to p3 are the others.
+        s0: c_0 of the stiffness.
+        s1: c_1 of the stiffness.
+    """
 
     p0: float
     p1: float
@@ -32,12 +38,18 @@ def build_gains(gains: Gains) -> GainConstants:
 def compute_linearized_demand(
     linearization: Linearization, gains: GainConstants, reference: Reference
 ) -> tuple[float, float]:
-    """b − v of Eq 24 and 36: what A(x) u has to be when nothing disturbs.
+    """b − v of Eq 24 and 36: the required A(x) u without a disturbance.
 
-    b = (q_d⁗ − L_f⁴h1, σ̈_d − L_f²h2), v1 = −Σ c¹_k e¹_k, v2 = −Σ c²_k e²_k with
-    e¹ = (q_d − q, q̇_d − q̇, q̈_d − a, q⃛_d − j), e² = (σ_d − σ, σ̇_d − σ̇).
-    linearization: `Linearization`. gains: `GainConstants`. reference: `Reference`.
-    Returns (rad/s⁴, N·m/rad/s²).
+    b = (q_d⁗ − L_f⁴h1, σ̈_d − L_f²h2), v1 = −Σ c¹_k e¹_k, v2 = −Σ c²_k e²_k with e¹ = (q_d − q,
+    q̇_d − q̇, q̈_d − a, q⃛_d − j), e² = (σ_d − σ, σ̇_d − σ̇).
+
+    Args:
+        linearization: `Linearization`.
+        gains: `GainConstants`.
+        reference: `Reference`.
+
+    Returns:
+        Both components, rad/s⁴ and N·m/rad/s².
     """
     ξ = linearization
     y1 = (
@@ -59,10 +71,16 @@ def compute_linearized_demand(
 def compute_feedback_linearization(
     nominal: Actuator, gains: GainConstants, x: State, reference: Reference
 ) -> Torque:
-    """u = A⁻¹(b − v), N·m, before limits: Eq 36 (printed with the opposite sign).
+    """u = A⁻¹(b − v) before limits: Eq 36 (printed with the opposite sign).
 
-    nominal: `Actuator` of the nominal model. gains: `GainConstants`. x: `State`.
-    reference: `Reference`. Returns `Torque`.
+    Args:
+        nominal: `Actuator` of the nominal model.
+        gains: `GainConstants`.
+        x: `State`.
+        reference: `Reference`.
+
+    Returns:
+        `Torque`, N·m.
     """
     linearization = compute_linearization(nominal, x)
     y1, y2 = compute_linearized_demand(linearization, gains, reference)

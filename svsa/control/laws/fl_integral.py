@@ -27,7 +27,15 @@ class IntegralPoles(LawParameters):
 
 
 class Constants(NamedTuple):
-    """pi, si: of the integrals. p0 … p3, s0, s1: as in `GainConstants`. Torques in N·m."""
+    """Gains of Eq 25, integral gains and torque limits.
+
+    Attributes:
+        pi: Gain of the position's integral, a⁵.
+        si: Gain of the stiffness' integral, p³.
+        p0: First of the coefficients of `GainConstants`; p1 to s1 are the others.
+        torque1_max: Torque limit of motor 1, N·m.
+        torque2_max: Torque limit of motor 2, N·m.
+    """
 
     pi: float
     si: float
@@ -78,8 +86,7 @@ def control(
 ) -> Torque:
     """u = A⁻¹(b − v + (a⁵ ∫e¹ dt, p³ ∫e² dt)), N·m, before limits.
 
-    The integrals stand still while a torque is asked for that is beyond its limit, so that they
-    do not wind up. gains: `Constants`. memory: `Integrals`. Else as `Law` says.
+    The integrals are held while the commanded torque exceeds a limit (anti-windup).
     """
     ξ = compute_linearization(nominal, x)
     y1, y2 = compute_linearized_demand(ξ, gains, reference)

@@ -1,9 +1,10 @@
 """Iterative learning control: FL with a correction that is learned from period to period.
 
-c ← (1 − q)(c + γ e(t + lead)) + q c̄ and u = A⁻¹(b − v + c0 c): what repeats with the period, a load
-as well as a wrong model, is learned away without an observer. c̄ is the mean of a point's
-neighbours, which keeps what the loop cannot follow from growing. The stiffness learns likewise.
-What does not repeat is FL's; a period that is not that of the reference teaches what is wrong.
+c ← (1 − q)(c + γ e(t + lead)) + q c̄ and u = A⁻¹(b − v + c0 c). Errors that repeat with the period,
+from a load as well as from a wrong model, are compensated without an observer. c̄ is the mean of a
+point's neighbours; it prevents the growth of components that the loop cannot follow. The stiffness
+has the same correction. Errors that do not repeat remain as with FL; a learning period that differs
+from that of the reference learns wrong corrections.
 """
 
 from typing import NamedTuple
@@ -20,7 +21,7 @@ from svsa.inputs.checked import Number, quantity
 from svsa.numerics.compilation import compiled
 
 KNOTS = 1000
-"""Points in a period, between which the correction is a straight line."""
+"""Points in a period, between which the correction is interpolated linearly."""
 
 
 class Learning(LawParameters):
@@ -51,7 +52,16 @@ class Learning(LawParameters):
 
 
 class Constants(NamedTuple):
-    """gains: of Eq 25. knots_per_tick: of a period. learned, kept: γ, q. leads in knots."""
+    """Gains of the law.
+
+    Attributes:
+        gains: Gains of Eq 25.
+        knots_per_tick: Progress within a period, knots per tick.
+        learned: γ.
+        smoothing: q.
+        position_lead: Lead of the position's correction, knots.
+        stiffness_lead: Lead of the stiffness' correction, knots.
+    """
 
     gains: GainConstants
     knots_per_tick: float
@@ -62,7 +72,13 @@ class Constants(NamedTuple):
 
 
 class Memory(NamedTuple):
-    """place: in the period, in knots. position (rad), stiffness (N·m/rad): the corrections."""
+    """The learned corrections.
+
+    Attributes:
+        place: Present place in the period, knots.
+        position: Corrections of the position, rad.
+        stiffness: Corrections of the stiffness, N·m/rad.
+    """
 
     place: float = 0.0
     position: tuple[float, ...] = (0.0,) * KNOTS

@@ -1,12 +1,12 @@
 """A linear disturbance observer: chain linearized at σ_d, one Q-filter per body.
 
-Ohnishi's observer and pole placement, as in a textbook: F = (−D q̇ − σ_d φ, −D1 θ̇1 + σ_d φ,
-−D2 θ̇2). What the spring does beyond σ_d φ, and its reaction on the stiffness motor, is disturbance
-like any other.
+Ohnishi's observer and pole placement, as in textbooks: F = (−D q̇ − σ_d φ, −D1 θ̇1 + σ_d φ, −D2
+θ̇2). The nonlinear part of the spring torque, and its reaction on the stiffness motor, count as
+disturbance.
 
-The stiffness' poles decide whether it bears the paper's load where the spring is soft: at 59.7
-rad/s each of the 16 runs at σ = 12 ends at the limit of deflection, the first of them 0.2 s after
-the load has come; at 31.6 none does.
+The stiffness poles determine whether the law completes runs with the paper's load and a soft
+spring: at 59.7 rad/s all 16 runs at σ = 12 end at the limit of deflection, the first of them 0.2 s
+after the onset of the load; at 31.6 none does.
 """
 
 from typing import NamedTuple
@@ -32,10 +32,10 @@ from svsa.numerics.compilation import compiled
 class PolesAndFilter(LawParameters):
     """Poles on the real axis and the corner of the Q-filters.
 
-    Of 512 Sobol points (a 42–50, p 15–60, β 90–400), 27 hold every column of the prototypes'
-    figures (`python -m tests.benchmarks.prototypes`) with no fault in 48 load removals: of these
-    the least cost of the training runs, 0.873. `svsa tune`'s 46.5, 59.7, 136 cost 0.878, and 16
-    faults.
+    Of 512 Sobol points (a 42–50, p 15–60, β 90–400), 27 satisfy every column of the prototypes'
+    figures (`python -m tests.benchmarks.prototypes`) without a fault in 48 load removals. The
+    defaults have the least cost of the training runs among them, 0.873. The parameters of `svsa
+    tune`, 46.5, 59.7, 136, cost 0.878 and lead to 16 faults.
     """
 
     position_pole_rad_per_s: Number = quantity(
@@ -50,7 +50,13 @@ class PolesAndFilter(LawParameters):
 
 
 class Constants(NamedTuple):
-    """a, p: rad/s. share: 1 − e^(−βT)."""
+    """Poles and observer gain.
+
+    Attributes:
+        a: Position pole, rad/s.
+        p: Stiffness pole, rad/s.
+        share: 1 − e^(−βT).
+    """
 
     a: float
     p: float
@@ -89,7 +95,7 @@ def control(
     """u1 = B1 (q̈ + (M y1 + D q⃛)/σ_d) − F4 − ŵ4, u2 = B2 y2/g − F6 − ŵ6, N·m, before limits.
 
     y1 = q_d⁗ + 4a e⃛ + 6a² ë + 4a³ ė + a⁴ e, y2 = σ̈_d + 2p (σ̇_d − g θ̇2) + p² (σ_d − σ), with q̈
-    and q⃛ of the linear chain under ŵ. constants: `Constants`. memory: `Observed`.
+    and q⃛ of the linear chain under ŵ.
     """
     a, p, sigma = constants.a, constants.p, reference.sigma
     F_old = compute_linear_torque(nominal, sigma, memory.x)

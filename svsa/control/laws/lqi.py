@@ -1,7 +1,8 @@
 """Gain-scheduled LQI: the discrete linear-quadratic regulator with integrals about the flat motion.
 
-The nominal chain at φ = 0 falls into [q, q̇, θ1, θ̇1, ∫e] and [θ2, θ̇2, ∫e_σ]. For ten stiffnesses the
-Riccati equation of each is solved; between them the gains are interpolated over log σ_d.
+At φ = 0 the nominal chain separates into [q, q̇, θ1, θ̇1, ∫e] and [θ2, θ̇2, ∫e_σ]. The Riccati
+equation of each is solved for ten stiffnesses; between them the gains are interpolated over log
+σ_d.
 """
 
 from functools import lru_cache
@@ -39,8 +40,9 @@ STIFFNESSES = (
     97.12182043042883,
     150.0,
 )
-"""N·m/rad, each by the same ratio above the one before. Written out, as their logarithms are: a
-power has other last digits on another machine."""
+"""N·m/rad, in a geometric sequence. Literals, as their logarithms are: the last digits of a power
+differ between machines.
+"""
 LOG_FIRST = 1.0986122886681098
 LOG_STEP = 0.4346692228253496
 WEIGHT1_NM, WEIGHT2_NM = 15.0, 5.0
@@ -185,7 +187,7 @@ def control(
 ) -> Torque:
     """u = u_ff − k(σ_d)(x − x_d) with the integrals of e and e_σ, N·m, before limits.
 
-    The integrals stand still while a torque is beyond its limit. constants: `Constants`.
+    The integrals are held while a torque exceeds its limit (anti-windup).
     """
     c, d = constants, compute_flat(nominal, reference)
     place = (log(reference.sigma) - LOG_FIRST) / LOG_STEP

@@ -52,10 +52,17 @@ def compute_disturbance_gain(
 def compute_ndobc(
     nominal: Actuator, gains: GainConstants, x: State, reference: Reference, estimate: Disturbance
 ) -> Torque:
-    """u = A⁻¹(b − v − Γ ŵ), N·m, before limits: Eq 24 (printed with the opposite sign).
+    """u = A⁻¹(b − v − Γ ŵ) before limits: Eq 24 (printed with the opposite sign).
 
-    nominal: `Actuator` of the nominal model. gains: `GainConstants`. x: `State`.
-    reference: `Reference`. estimate: ŵ, `Disturbance`, N·m. Returns `Torque`.
+    Args:
+        nominal: `Actuator` of the nominal model.
+        gains: `GainConstants`.
+        x: `State`.
+        reference: `Reference`.
+        estimate: ŵ, `Disturbance`, N·m.
+
+    Returns:
+        `Torque`, N·m.
     """
     linearization = compute_linearization(nominal, x)
     y1, y2 = compute_linearized_demand(linearization, gains, reference)

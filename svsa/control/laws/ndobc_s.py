@@ -140,9 +140,18 @@ class ScheduledPoles(YieldingPoles):
 
 
 class Constants(NamedTuple):
-    """NDOBC-W's; a…, omega…: rad/s. s0, n0, r0: N·m. Shares of a tick: newest, filtered, released.
+    """Constants of NDOBC-W, and those of the measures of load, noise and oscillation.
 
-    weight: c.
+    Attributes:
+        a_max: Fastest position pole, rad/s; `a_min`, `back`, `a_loud` and `omega…` also in rad/s.
+        s0: s₀, N·m.
+        n0: n₀, N·m.
+        r0: r₀, N·m.
+        newest: λ, weight of the newest squared difference.
+        filtered: k, weight of the newest residual in ε.
+        slow: Weight of ε in ε̄.
+        weight: c.
+        released: Decay of G per tick.
     """
 
     a_max: float
@@ -172,7 +181,17 @@ class Constants(NamedTuple):
 
 
 class Memory(NamedTuple):
-    """NDOBC-W's; shaking, swinging: s², n². u, du: last command. filtered, slow: ε, ε̄. gate: G."""
+    """Memory of NDOBC-W, and the measures of load, noise and oscillation.
+
+    Attributes:
+        shaking: s², (N·m)².
+        swinging: n², (N·m)².
+        u1: Last commanded torque of motor 1, N·m; `du1` is its last difference. u2 and du2
+            likewise.
+        filtered2: ε of the link, N·m; filtered4 and filtered6 of the motors.
+        slow2: ε̄ of the link, N·m; slow4 and slow6 of the motors.
+        gate: G, 1.
+    """
 
     observed: Observed = Observed()
     yielded: float = 0.0
@@ -228,7 +247,7 @@ def build(parameters: ScheduledPoles, setting: Setting) -> Constants:
 
 @compiled
 def measure_torque_variation(constants: Constants, memory: np.record, torque: Torque) -> None:
-    """Update s² with the second difference of the commanded torque, N·m; memory: written."""
+    """Update s² in `memory` with the second difference of the commanded torque, N·m."""
     du1, du2 = torque.u1 - memory.u1, torque.u2 - memory.u2
     ddu1, ddu2 = du1 - memory.du1, du2 - memory.du2
     most = CAP * constants.s0
@@ -239,7 +258,7 @@ def measure_torque_variation(constants: Constants, memory: np.record, torque: To
 
 @compiled
 def detect_load(constants: Constants, memory: np.record, r: Disturbance) -> None:
-    """Update ε, G and n² with the newest residual, N·m; memory: written."""
+    """Update ε, G and n² in `memory` with the newest residual, N·m."""
     c, filtered2, filtered4, filtered6 = (
         constants,
         memory.filtered2,
@@ -284,10 +303,8 @@ def control(
     applied: Torque,
     period: float,
 ) -> Torque:
-    """u = A⁻¹(y − drift under ŵ), N·m, with fast poles after large residuals, slow ones in
-    oscillation.
-
-    constants: `Constants`. memory: `Memory`. Else as `Law` says.
+    """u = A⁻¹(y − drift under ŵ), N·m: fast poles after large residuals, slow ones while it
+    oscillates.
     """
     c, observed = constants, memory.observed
     a, omega = compute_poles(c, memory)

@@ -102,7 +102,20 @@ class YieldingPoles(LawParameters):
 
 
 class Constants(NamedTuple):
-    """a_max, a_min, back (of a, in a period): rad/s. p_over_a: 1. Else as they are called."""
+    """Poles, observer gains and limits.
+
+    Attributes:
+        a_max: Fastest position pole, rad/s.
+        a_min: Slowest position pole, rad/s.
+        back: Growth of a per period, rad/s.
+        p_over_a: Ratio p/a, 1.
+        share: g of the observer.
+        rate_share: h of the observer.
+        rate_used: Share of the estimated rate that is used, 1.
+        torque1_max: Torque limit of motor 1, N·m.
+        torque2_max: Torque limit of motor 2, N·m.
+        domain: Domain of the model.
+    """
 
     a_max: float
     a_min: float
@@ -121,7 +134,14 @@ class Constants(NamedTuple):
 
 
 class Memory(NamedTuple):
-    """yielded: reduction of a, rad/s. sigma, dsigma: what the governor adds to σ_d."""
+    """State of observer, poles and governor.
+
+    Attributes:
+        observed: State of the observer.
+        yielded: Reduction of a, rad/s.
+        sigma: Addition of the governor to σ_d, N·m/rad.
+        dsigma: Its rate, N·m/rad/s.
+    """
 
     observed: Observed = Observed()
     yielded: float = 0.0
@@ -160,10 +180,12 @@ def govern_stiffness(
     w: Disturbance,
     period: float,
 ) -> tuple[float, float, float]:
-    """Compute the addition to σ_d, σ̇_d and σ̈_d with which the spring bears the present load.
+    """Compute the addition to σ_d, σ̇_d and σ̈_d with which the spring can transmit the present
+    load.
 
-    Wanted is σ_d (n/c)^1.25, n = |ŵ2 − M q̈_d − D q̇_d| the torque that it has to give and c what
-    it gives at a share of its limit of deflection; followed critically damped, up faster than down.
+    The target is σ_d (n/c)^1.25, with the required torque n = |ŵ2 − M q̈_d − D q̇_d| and the torque
+    c that the spring transmits at a share of its limit of deflection; followed critically damped,
+    upwards faster than downwards.
     """
     mu = compute_coordinate_for_stiffness(nominal, reference.sigma)
     deflection = constants.governed_share * compute_deflection_limit(constants.domain, nominal, mu)
@@ -189,10 +211,10 @@ def compute_demand(
     most: float,
     a: float,
 ) -> float:
-    """y1 of all four poles at −a, rad/s⁴, with the elastic torque it wants clipped at `most`.
+    """y1 with all four poles at −a, rad/s⁴; the required elastic torque is limited to `most`.
 
-    q: `Disturbed`, with the rate of ŵ in q⃛. Without clipping it is q_d⁗ + 4a e⃛ + 6a² ë + 4a³ ė +
-    a⁴ e: (s + a)² of the acceleration that (s + a)² of the position wants.
+    `q` is `Disturbed`, with the rate of ŵ in q⃛. Without the limit it is q_d⁗ + 4a e⃛ + 6a² ë + 4a³
+    ė + a⁴ e: (s + a)² of the acceleration that results from (s + a)² of the position.
     """
     D, M = nominal.D, nominal.M
     e, de = reference.q - x.q, reference.dq - x.dq
@@ -222,7 +244,7 @@ def place_poles(
     most: float,
     a: float,
 ) -> Torque:
-    """u = A⁻¹(y − drift under ŵ) with the poles at −a and −p, before limits. c: `Constants`."""
+    """u = A⁻¹(y − drift under ŵ) with the poles at −a and −p, before limits."""
     p = c.p_over_a * a
     y1 = compute_demand(nominal, reference, x, q, w, most, a)
     y2 = reference.ddsigma + ddsigma + p * (2.0 * de_sigma + p * e_sigma)
@@ -242,9 +264,9 @@ def yield_poles(
 ) -> Torque:
     """u = A⁻¹(y − drift under ŵ), N·m, with the fastest poles that the motors can follow.
 
-    constants: with what `Constants` has but the observer's shares. memory: with what `Memory`
-    has, written. w: ŵ, whose rate is in memory.observed. a_most: what a is at most now, rad/s.
-    Else as `Law` says.
+    `constants` and `memory` need the fields of `Constants` and `Memory` except for the gains of the
+    observer; `memory` is written. The rate of ŵ is read from `memory.observed`; `a_most` is the
+    present upper bound of a, rad/s.
     """
     c, observed = constants, memory.observed
     sigma, dsigma, ddsigma = govern_stiffness(nominal, c, memory, reference, w, period)
@@ -284,10 +306,7 @@ def control(
     applied: Torque,
     period: float,
 ) -> Torque:
-    """u = A⁻¹(y − drift under ŵ), N·m, of poles with reduced bandwidth; constants: `Constants`.
-
-    memory: `Memory`. Else as `Law` says.
-    """
+    """u = A⁻¹(y − drift under ŵ), N·m, with poles that are slower while a motor saturates."""
     c, observed = constants, memory.observed
     w = observe_disturbance(nominal, c.share, c.rate_share, observed, x, applied, period)
     return yield_poles(nominal, c, memory, x, reference, w, c.a_max, period)

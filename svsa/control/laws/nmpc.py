@@ -1,22 +1,21 @@
 """Model predictive control in flat coordinates, condensed, with torque limits as constraints.
 
-In y = (q⁗, σ̈) the actuator is two chains of integrators, exactly (Eq 17–23), so that the nonlinear
-problem is one quadratic one a chain: over ten blocks of 5 ms
+In y = (q⁗, σ̈) the actuator is exactly two chains of integrators (Eq 17–23), so that the nonlinear
+problem becomes one quadratic problem per chain: over ten blocks of 5 ms
 
     minimize Σ (e/e_q)² + (ė/e_v)² + (Δy/y_n)² + terminal cost,  y_min ≤ y ≤ y_max
 
-with Δy = q_d⁗ − y, the terminal cost of the infinite horizon (Riccati), and the bounds that the
-torques have in y at the present state. The reference enters through its derivatives, which are its
-preview. The Hessian is fixed, so that a fixed number of projected Gauss–Seidel sweeps from the last
-plan is all that a tick does: no tick costs more than another. ŵ of an observer of its own is
-compensated.
+with Δy = q_d⁗ − y, the terminal cost of the infinite horizon (Riccati), and the torque limits
+converted to bounds of y at the present state. The derivatives of the reference serve as preview.
+The Hessian is constant, and each tick computes a fixed number of projected Gauss–Seidel sweeps from
+the last plan, so that all ticks cost the same. The ŵ of its own observer is compensated.
 
-The separate bound of each chain limits larger steps of load: from 2.5 N·m
-on the link on, motor 2 is at its limit for more than half of the time until the deflection is at
-its own. With the position first where motor 2 is at its limit, u1 = (y1 − a12 u2)/a11, it holds
-2.5 N·m in place of 2, recovers in 0.24 s in place of 0.21, and scores less; and of 1024 settings
-none that comes through Figure 4A on the rig holds 3.5 (a slower prototype held 4, with a peak of
-8.0° there in place of 6.4°). The limit of deflection is no part of the plan.
+The separate bounds of the two chains limit the size of load steps: from 2.5 N·m on the link on,
+motor 2 is at its limit for more than half of the time until the deflection reaches its limit. If
+the position has priority while motor 2 is at its limit, u1 = (y1 − a12 u2)/a11, it completes runs
+with 2.5 N·m instead of 2, recovers in 0.24 s instead of 0.21 s, and has a lower score; and of 1024
+settings none that completes Figure 4A on the rig bears 3.5 N·m (a slower prototype bore 4 N·m, with
+a peak of 8.0° instead of 6.4°). The limit of deflection is not part of the plan.
 """
 
 from functools import lru_cache
@@ -86,7 +85,15 @@ class Plan(NamedTuple):
 
 
 class Constants(NamedTuple):
-    """Both problems. share: 1 − e^(−βT). Torques: N·m; infinite where nothing limits."""
+    """Both problems, the observer gain and the torque limits.
+
+    Attributes:
+        position: Problem of the position's chain.
+        stiffness: Problem of the stiffness' chain.
+        share: 1 − e^(−βT).
+        torque1_max: Torque limit of motor 1, N·m; infinite without a limit.
+        torque2_max: Torque limit of motor 2, N·m; infinite without a limit.
+    """
 
     position: Plan
     stiffness: Plan
@@ -117,7 +124,15 @@ def build_chain(order: int, step: float) -> tuple[np.ndarray, np.ndarray]:
 
 @lru_cache(maxsize=64)
 def condense(weights: Row, effort: float) -> Plan:
-    """The problem of a chain e → …, whose input is Δy. weights: 1/error² of e and its rates."""
+    """Condense the problem of a chain of integrators with the input Δy.
+
+    Args:
+        weights: 1/error² of e and its rates.
+        effort: 1/(Δy)².
+
+    Returns:
+        The problem for `plan`.
+    """
     A, B = build_chain(len(weights), BLOCK_S)
     Q, R = np.diag(weights), np.array([[weigh(effort)]])
     P = solve_riccati(A, B, Q, R)
@@ -156,7 +171,15 @@ def build(parameters: Horizon, setting: Setting) -> Constants:
 def plan(problem: Plan, blocks: np.ndarray, e: tuple[float, ...], low: float, high: float) -> float:
     """Improve the plan of the last tick by sweeps of projected Gauss–Seidel, in place.
 
-    e: error and its rates. low, high: bounds of every block's input. Returns the first block's.
+    Args:
+        problem: Problem of the chain.
+        blocks: The plan, which is written.
+        e: Error and its rates.
+        low: Lower bound of every block's input.
+        high: Upper bound of every block's input.
+
+    Returns:
+        Input of the first block.
     """
     for _ in range(SWEEPS):
         for i in range(BLOCKS):
@@ -181,7 +204,7 @@ def control(
     applied: Torque,
     period: float,
 ) -> Torque:
-    """The first block of both plans, as torques; `Torque`, N·m. constants: `Constants`."""
+    """Apply the first block of both plans as torques; `Torque`, N·m."""
     c = constants
     w = observe_disturbance(nominal, c.share, 0.0, memory.observed, x, applied, period)
     ξ = compute_linearization(nominal, x)

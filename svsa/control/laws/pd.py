@@ -1,7 +1,7 @@
 """PD on both motors about the flat motion: `svsa.control.laws.pid` without integrals.
 
-Tomei's PD of elastic joints. A load on the link bends the spring unobserved: its error is
-that of the spring, w2/σ and more.
+Tomei's PD of elastic joints. A load on the link deflects the spring, which the motor positions do
+not show: the error is at least w2/σ.
 """
 
 from svsa.control.law import Law, Setting

@@ -1,9 +1,9 @@
 """NDOBC on a proportional-integral observer: x̂ and ŵ from positions alone, in one observer.
 
-Each body is predicted by the nominal model under ŵ and the torque that acted, then position,
-velocity and ŵ are corrected with three poles at ω; the law is Eq 24 on that x̂ and ŵ. It needs no
-velocity, and does without the lag of an estimator before an observer: it receives what the encoders
-said.
+Each body is predicted by the nominal model with ŵ and the actual torque; then position, velocity
+and ŵ are corrected with three poles at ω. The law is Eq 24 with that x̂ and ŵ. It needs no
+velocity, and avoids the lag of a separate state estimator, because it uses the encoder readings
+directly.
 """
 
 from typing import NamedTuple
@@ -27,10 +27,10 @@ from svsa.numerics.simd.choice import choose
 class PolesAndObserver(LawParameters):
     """Poles on the real axis, and the observer's.
 
-    Of 64 Sobol points (a 58.5–62, p 35–70, ω 148–168) and 30 steps from the best, those that hold
-    every column of the prototypes' figures (`python -m tests.benchmarks.prototypes`): near the one
-    of the fewest faults in 48 load removals. Cost of the training runs 0.84; 0.82 with 61.6, 49.5,
-    151.
+    The defaults come from 64 Sobol points (a 58.5–62, p 35–70, ω 148–168) and 30 steps from the
+    best, among those that satisfy every column of the prototypes' figures (`python -m
+    tests.benchmarks.prototypes`): near the one with the fewest faults in 48 load removals. Cost of
+    the training runs 0.84; 0.82 with 61.6, 49.5, 151.
     """
 
     position_pole_rad_per_s: Number = quantity(
@@ -46,7 +46,12 @@ class PolesAndObserver(LawParameters):
 
 
 class Constants(NamedTuple):
-    """gains: of Eq 25. observer: of the corrector."""
+    """Gains of law and observer.
+
+    Attributes:
+        gains: Gains of Eq 25.
+        observer: Gains of the corrector.
+    """
 
     gains: GainConstants
     observer: TriplePole
@@ -89,7 +94,7 @@ def control(
     period: float,
     measured: Positions,
 ) -> Torque:
-    """NDOBC on x̂ and ŵ of its own. constants: `Constants`. memory: `Observed`."""
+    """NDOBC on its own x̂ and ŵ."""
     k, m, own = constants.observer, measured, memory
     y = predict_state(nominal, own.x, get_observed(own), applied, period)
     q, dq, w2 = correct_body(k, y.q, y.dq, own.w2, nominal.M, m.q)

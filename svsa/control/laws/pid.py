@@ -1,8 +1,8 @@
 """PID on both motors about the flat motion, with feedforward, as on most benches.
 
-u1 = u1ff + B1 [ω1² (θ1d + I1 − θ1) + 2ζ1 ω1 (θ̇1d − θ̇1)] + M (kq² e + 2 kq ė), İ1 = ki1 e, and
-u2 = u2ff + B2 [ω2² (θ2d + I2 − θ2) + 2ζ2 ω2 (θ̇2d − θ̇2)], İ2 = ki2 e_σ/g. The loop is closed on the
-motors, and the link hangs on its spring: the integral brings it back, slowly.
+u1 = u1ff + B1 [ω1² (θ1d + I1 − θ1) + 2ζ1 ω1 (θ̇1d − θ̇1)] + M (kq² e + 2 kq ė), İ1 = ki1 e, and u2
+= u2ff + B2 [ω2² (θ2d + I2 − θ2) + 2ζ2 ω2 (θ̇2d − θ̇2)], İ2 = ki2 e_σ/g. The loop is closed on the
+motors, with the link on its spring: only the integral removes the error of the link, slowly.
 """
 
 from typing import NamedTuple
@@ -49,7 +49,16 @@ class MotorGains(LawParameters):
 
 
 class Constants(NamedTuple):
-    """kp, kd: of motors 1 and 2 and of the link, 1/s² and 1/s. ki1, ki2: 1/s. Torques: N·m."""
+    """Gains and torque limits.
+
+    Attributes:
+        kp1: Proportional gain of motor 1, 1/s²; kp2 of motor 2, kpq of the link.
+        kd1: Derivative gain of motor 1, 1/s; kd2 of motor 2, kdq of the link.
+        ki1: Integral gain of motor 1, 1/s.
+        ki2: Integral gain of motor 2, 1/s.
+        torque1_max: Torque limit of motor 1, N·m.
+        torque2_max: Torque limit of motor 2, N·m.
+    """
 
     kp1: float
     kd1: float

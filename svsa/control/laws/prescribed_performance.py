@@ -4,22 +4,22 @@ The funnel of each step decays from its initial to its final width,
 
     ρ_i(t) = ρ_i∞ + (ρ_i0 − ρ_i∞) e^(−λt),   ρ_i0 = r ρ_i∞,   t from the start of the law,
 
-so that |e_i(t)| < ρ_i(t) prescribes how fast the error falls and how small it stays. With
-ε(x) = ½ ln((1 + x)/(1 − x)) of an error over the width of its funnel, in a cascade from the link to
-the torques: v* = q̇_d − k1 ρ1 ε(e/ρ1), τ* = k2 ρ2 ε((q̇ − v*)/ρ2), θ̇1* = q̇ + k3 ρ3
-ε((τ_e − τ*)/ρ3), u1 = −k4 ρ4 ε((θ̇1 − θ̇1*)/ρ4), and on σ likewise with two steps. No inertia, no
-damping, no observer; a constant load leaves the error that holds it.
+so that |e_i(t)| < ρ_i(t) prescribes how fast the error decreases and how small it stays. With ε(x)
+= ½ ln((1 + x)/(1 − x)) of the ratio of error to funnel width, in a cascade from the link to the
+torques: v* = q̇_d − k1 ρ1 ε(e/ρ1), τ* = k2 ρ2 ε((q̇ − v*)/ρ2), θ̇1* = q̇ + k3 ρ3 ε((τ_e − τ*)/ρ3),
+u1 = −k4 ρ4 ε((θ̇1 − θ̇1*)/ρ4), and likewise for σ with two steps. It uses no inertia, no damping
+and no observer; under a constant load a steady-state error remains.
 
 It is the approximation-free cascade of Bechlioulis and Rovithakis (see source). Added here: q̇_d,
-σ̇_d and q̇ as feedforward, τ_e and σ of the nominal spring as states, one decay and one ratio for all
-funnels. The paper cites Psomopoulou, Theodorakopoulos, Doulgeri and Rovithakis,
-"Prescribed performance tracking of a variable stiffness actuated robot", IEEE Trans. Control Syst.
-Technol. 23(5), 2015, of the same school; its equations were not at hand to compare with.
+σ̇_d and q̇ as feedforward, τ_e and σ of the nominal spring as states, one decay and one ratio for
+all funnels. The paper cites Psomopoulou, Theodorakopoulos, Doulgeri and Rovithakis, "Prescribed
+performance tracking of a variable stiffness actuated robot", IEEE Trans. Control Syst. Technol.
+23(5), 2015, of the same group; its equations were not available for comparison.
 
 The proof is in continuous time: an error never leaves its funnel because the torque grows without
-bound at its edge. Limits of torque and a sample of delay are not in the proof: a narrow funnel
-asks for more torque than there is, and an error outside its funnel is treated as one at 99 % of the
-width. With 0.1 rad instead of 0.2 the paper's load ends in a fault on the rig.
+bound at its edge. The proof does not cover torque limits and a delay of one sample: a narrow funnel
+requires more torque than available, and an error outside its funnel is treated as one at 99 % of
+the width. With 0.1 rad instead of 0.2 rad a run with the paper's load ends in a fault on the rig.
 """
 
 from typing import NamedTuple
@@ -89,7 +89,14 @@ class Funnels(LawParameters):
 
 
 class Constants(NamedTuple):
-    """ratio: r. kept: e^(−λT). r1 … r6: final widths. k1 … k6: gains."""
+    """Funnels and gains.
+
+    Attributes:
+        ratio: r, 1.
+        kept: e^(−λT).
+        r1: Final width of the first funnel; r2 to r6 of the others.
+        k1: Gain of the first step; k2 to k6 of the others.
+    """
 
     ratio: float
     kept: float
@@ -108,7 +115,11 @@ class Constants(NamedTuple):
 
 
 class Memory(NamedTuple):
-    """left: e^(−λt), the share of the initial width that is left."""
+    """State of the funnels.
+
+    Attributes:
+        left: e^(−λt), the remaining share of the initial width.
+    """
 
     left: float = 1.0
 
@@ -172,4 +183,5 @@ PRESCRIBED_PERFORMANCE = Law(
     build=build,
     control=control,
     memory=Memory,
+    rejects_feedforward=True,
 )

@@ -1,9 +1,9 @@
 """Adaptive networks of radial basis functions: the load as a learned function of (q, q̇).
 
-ŵ_i = W_iᵀ φ(q, q̇), one network a body; NDOBC compensates what they say (Eq 24). W is adapted by how
-far each body's velocity is from its prediction, both poles at ω, so that a network is an observer
-that remembers, for every region of (q, q̇), what it has seen there. Sanner and Slotine adapt by the
-tracking error instead, which on the rig ends in a limit cycle through encoders and delay.
+ŵ_i = W_iᵀ φ(q, q̇), one network per body; NDOBC compensates their outputs (Eq 24). W is adapted by
+the difference between each body's velocity and its prediction, with both poles at ω, so that a
+network is an observer with a memory for each region of (q, q̇). Sanner and Slotine adapt by the
+tracking error instead, which ends in a limit cycle on the rig because of encoders and delay.
 """
 
 from typing import NamedTuple
@@ -46,7 +46,15 @@ class Network(LawParameters):
 
 
 class Constants(NamedTuple):
-    """gains: of Eq 25. share, rate_share: (1 − θ²) and (1 − θ)², θ = e^(−ωT). q, dq: 1/width."""
+    """Gains of law and networks.
+
+    Attributes:
+        gains: Gains of Eq 25.
+        share: 1 − θ², θ = e^(−ωT).
+        rate_share: (1 − θ)².
+        q: 1/width of the basis functions in q, 1/rad.
+        dq: 1/width of the basis functions in q̇, s/rad.
+    """
 
     gains: GainConstants
     share: float

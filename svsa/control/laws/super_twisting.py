@@ -1,10 +1,10 @@
 """Super-twisting: sliding modes of second order, on q and on σ, and in the link's observer.
 
 s = (d/dt + λ)³ e and s_σ = ė_σ + p e_σ; y = … + 1.5 √L s/√(|s| + d) + ∫1.1 L tanh(s/d), d = δ² L.
-Exact against every load whose rate is bounded by L; the layer d keeps the torque from chattering.
-Within it both terms are linear, s̈ + 1.5/δ ṡ + 1.1/δ² s, damped by 0.72; √(L|s|) tanh(s/d), which
-is as often used, has no damping there, and swings indefinitely. The integrals stand still while a
-torque is asked for that is beyond its limit.
+Exact for every load whose rate is bounded by L; the layer d prevents chattering of the torque.
+Within it both terms are linear, s̈ + 1.5/δ ṡ + 1.1/δ² s, with damping 0.72. The frequently used
+√(L|s|) tanh(s/d) has no damping there, and oscillates indefinitely. The integrals are held while
+the commanded torque exceeds a limit (anti-windup).
 """
 
 import math
@@ -27,10 +27,11 @@ class Sliding(LawParameters):
     """The surfaces, the bound of the load's rate, and the layer about each surface.
 
     Of 1024 Sobol points (λ 50–100, p 25–90, L1 1.5e6–4e7, L2 2e4–4e5, L0 6e3–5e4, layers 7–60 ms)
-    and 4034 more between and about the best of them, four hold every column of the prototypes'
+    and 4034 more between and about the best of them, four satisfy every column of the prototypes'
     figures (`python -m tests.benchmarks.prototypes`), a step of 3 N·m on the link and the load
-    removal at σ = 15: of these the one with the least peaks. It costs 1.03 on the training runs,
-    where `svsa tune` alone finds 0.67, and 48 faults in 48 load removals; these have 16.
+    removal at σ = 15. The defaults are the one with the smallest peaks. It costs 1.03 on the
+    training runs and leads to 16 faults in 48 load removals; `svsa tune` alone finds 0.67, and 48
+    faults.
     """
 
     position_pole_rad_per_s: Number = quantity(
@@ -61,9 +62,16 @@ class Sliding(LawParameters):
 
 
 class Constants(NamedTuple):
-    """lam, p: poles. L0, L1, L2: bounds. d0, d1, d2: layers, in the units of the surfaces.
+    """Surfaces, gains and layers.
 
-    k0, k1, k2: 1.5 √L. torque1_max, torque2_max: N·m.
+    Attributes:
+        lam: λ, 1/s.
+        p: Pole of the stiffness' surface, 1/s.
+        L0: Bound of the link's observer; L1 and L2 of position and stiffness.
+        d0: Layer of the observer, in the unit of its surface; d1 and d2 likewise.
+        k0: 1.5 √L of the observer; k1 and k2 likewise.
+        torque1_max: Torque limit of motor 1, N·m.
+        torque2_max: Torque limit of motor 2, N·m.
     """
 
     lam: float
@@ -82,7 +90,15 @@ class Constants(NamedTuple):
 
 
 class Memory(NamedTuple):
-    """velocity: the observer's, rad/s. load: what it finds in q̈, rad/s². v1, v2: integrals."""
+    """State of observer and integrals.
+
+    Attributes:
+        velocity: Estimated velocity of the link, rad/s.
+        load: Estimated part of q̈ that the load causes, rad/s².
+        v1: Integral of the position.
+        v2: Integral of the stiffness.
+        is_started: 1 after the first period, otherwise 0.
+    """
 
     velocity: float = 0.0
     load: float = 0.0
@@ -113,9 +129,15 @@ def build(parameters: Sliding, setting: Setting) -> Constants:
 
 @compiled
 def press(s: float, gain: float, layer: float) -> float:
-    """k s/√(|s| + d), which is k √|s| sign s far from the surface, and k s/√d next to it.
+    """k s/√(|s| + d), which is k √|s| sign s far from the surface, and k s/√d near it.
 
-    gain: k = 1.5 √L. layer: d, in the unit of s.
+    Args:
+        s: Distance from the surface.
+        gain: k = 1.5 √L.
+        layer: d, in the unit of s.
+
+    Returns:
+        The switching term.
     """
     return gain * s / math.sqrt(abs(s) + layer)
 
@@ -131,7 +153,7 @@ def control(
     applied: Torque,
     period: float,
 ) -> Torque:
-    """u = A⁻¹ (y − L_f), N·m, before limits. constants: `Constants`. memory: `Memory`."""
+    """u = A⁻¹ (y − L_f), N·m, before limits."""
     c = constants
     ξ = compute_linearization(nominal, x)
     is_started = memory.is_started > 0.0
@@ -176,4 +198,5 @@ SUPER_TWISTING = Law(
     build=build,
     control=control,
     memory=Memory,
+    rejects_feedforward=True,
 )

@@ -30,7 +30,7 @@ def compute_share(bandwidth_rad_per_s: float, period: float) -> float:
 
 
 def compute_shares(observer: ObserverBandwidth, period: float) -> tuple[float, float, float]:
-    """1 − e^(−βT) of the three channels: how much of the error one sample takes away."""
+    """1 − e^(−βT) of the three channels: the share of the error that one sample removes."""
     b2, b4, b6 = (compute_share(beta, period) for beta in observer.bandwidth_rad_per_s)
     return b2, b4, b6
 
@@ -47,14 +47,20 @@ def update_disturbance_estimate(
 ) -> Disturbance:
     """ŵ ← ŵ + (1 − e^(−βT)) [J (v_new − v_old)/T − ½(F_new + F_old) − u − ŵ].
 
-    Eq 10 with the gain of Eq 14 and 15 (λ = k x, β = k/J), over one sample with both of
-    its ends; tends to Eq 10 as T → 0. Fed with the torque really applied, it does not
-    wind up in saturation.
+    Eq 10 with the gain of Eq 14 and 15 (λ = k x, β = k/J), over one sample with both of its ends;
+    converges to Eq 10 as T → 0. With the actual torque as input it does not wind up in saturation.
 
-    nominal: `Actuator`. shares: 1 − e^(−βT) of the
-    three channels (`compute_shares`). estimate: ŵ,
-    `Disturbance`, N·m. x_old, x_new: `State` at the ends of the sample. torque: u applied
-    between them, `Torque`, N·m. period: T, s. Returns `Disturbance`.
+    Args:
+        nominal: `Actuator` of the nominal model.
+        shares: Observer gains 1 − e^(−βT) of the three channels (`compute_shares`).
+        estimate: ŵ, `Disturbance`, N·m.
+        x_old: `State` at the beginning of the sample.
+        x_new: `State` at its end.
+        torque: u applied between them, `Torque`, N·m.
+        period: T, s.
+
+    Returns:
+        `Disturbance`, N·m.
     """
     F_old = compute_internal_torque(nominal, x_old)
     F_new = compute_internal_torque(nominal, x_new)

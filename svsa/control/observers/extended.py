@@ -18,7 +18,14 @@ class TriplePole(NamedTuple):
 
 
 class Extended(NamedTuple):
-    """z1, z2, z3 in the unit of what is measured, 1/s and 1/s². is_started: 1 or 0."""
+    """State of an extended-state observer, in the unit of the measured signal.
+
+    Attributes:
+        position: z1.
+        velocity: z2, per s.
+        acceleration: z3, per s².
+        is_started: 1 after the first period, otherwise 0.
+    """
 
     position: float = 0.0
     velocity: float = 0.0
@@ -42,10 +49,10 @@ def observe_extended(
     input_acceleration: float,
     period: float,
 ) -> None:
-    """Predicted by z̈ = z3 + b u over the last period, then corrected by what is measured.
+    """Predict by z̈ = z3 + b u over the last period, then correct by the measured value.
 
-    gains: `TriplePole`. memory: `Extended`, written; it starts where the measurement is.
-    input_acceleration: b u of the last period. velocity: where it starts.
+    `memory` (`Extended`) is written; at the start it takes the measured value and `velocity`.
+    `input_acceleration` is b u of the last period.
     """
     is_started = memory.is_started > 0.0
     acceleration = memory.acceleration + input_acceleration

@@ -1,6 +1,6 @@
 """Observers that are part of a law, stored at the front of its memory.
 
-They use the inputs of the law, x̂ and the actual torque, and so do not wind up.
+Their inputs are x̂ and the actual torque, so they do not wind up.
 """
 
 from typing import NamedTuple
@@ -17,9 +17,13 @@ AT_START = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 class Observed(NamedTuple):
-    """ŵ (N·m), its rate (N·m/s), and x̂ a period ago.
+    """State of the observer.
 
-    is_started: 1 where there was a period before; 0 when the law comes.
+    Attributes:
+        w2: ŵ of the link, N·m; w4 and w6 of the motors.
+        dw2: Rate of w2, N·m/s; dw4 and dw6 of the motors.
+        x: x̂ of the previous period.
+        is_started: 1 after the first period, otherwise 0.
     """
 
     w2: float = 0.0
@@ -57,14 +61,23 @@ def observe_disturbance(
     torque: Torque,
     period: float,
 ) -> Disturbance:
-    """ŵ by an observer that knows its rate: ŵ += T ŵ̇, then ŵ += g r, ŵ̇ += h r/T.
+    """ŵ by an observer that also estimates its rate: ŵ += T ŵ̇, then ŵ += g r, ŵ̇ += h r/T.
 
-    r = J (v_new − v_old)/T − ½(F_new + F_old) − u − ŵ, over the last sample with both of its
-    ends. With θ = e^(−ωT), g = 1 − θ² and h = (1 − θ)² both poles are at ω, and a load that grows
-    steadily is estimated without lag; with g = 1 − e^(−βT) and h = 0 it is the loop's observer.
+    r = J (v_new − v_old)/T − ½(F_new + F_old) − u − ŵ, over the last sample with both of its ends.
+    With θ = e^(−ωT), g = 1 − θ² and h = (1 − θ)² both poles are at ω, and a ramp load is estimated
+    without lag; with g = 1 − e^(−βT) and h = 0 it is the loop's observer.
 
-    nominal: `Actuator`. share: g. rate_share: h. memory: `Observed`, written. x: x̂ now. torque:
-    `Torque` that acted in the last period, N·m. period: T, s. Returns ŵ, `Disturbance`.
+    Args:
+        nominal: `Actuator` of the nominal model.
+        share: g.
+        rate_share: h.
+        memory: `Observed`, written.
+        x: Present x̂, `State`.
+        torque: `Torque` that acted in the last period, N·m.
+        period: T, s.
+
+    Returns:
+        ŵ, `Disturbance`, N·m.
     """
     F_old = compute_internal_torque(nominal, memory.x)
     F_new = compute_internal_torque(nominal, x)
@@ -117,7 +130,7 @@ def correct_observed(
     residual: Disturbance,
     period: float,
 ) -> Disturbance:
-    """ŵ += T ŵ̇ + g r and ŵ̇ += h r/T, and x̂ kept; see `observe_disturbance`. residual: r."""
+    """ŵ += T ŵ̇ + g r and ŵ̇ += h r/T, and store x̂; `residual` is r, see `observe_disturbance`."""
     r, h = residual, rate_share / period
     memory.w2 = memory.w2 + period * memory.dw2 + share * r.w2
     memory.w4 = memory.w4 + period * memory.dw4 + share * r.w4

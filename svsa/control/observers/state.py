@@ -19,7 +19,17 @@ def correct(
     """Correct position and velocity towards the measured position (rad), critically damped.
 
     With p = e^(−ωT) for the corner ω: position += (1 − p²) r, velocity += (1 − p)²/T · r, r =
-    measured − position. Both errors then decay as p^k. decay: p. period: T, s.
+    measured − position. Both errors then decay as p^k.
+
+    Args:
+        position: Predicted position, rad.
+        velocity: Predicted velocity, rad/s.
+        measured: Measured position, rad.
+        decay: p.
+        period: T, s.
+
+    Returns:
+        Position, rad, and velocity, rad/s.
     """
     p = decay
     residual = measured - position
@@ -31,9 +41,17 @@ def correct(
 def predict_state(
     nominal: Actuator, x: State, w: Disturbance, torque: Torque, period: float
 ) -> State:
-    """x̂ a period later by Heun's rule on ẋ = f(x) + g(x)u + p(x)ŵ.
+    """x̂ one period later by Heun's rule on ẋ = f(x) + g(x)u + p(x)ŵ.
 
-    nominal: `Actuator`. x: `State`. w: ŵ, `Disturbance`, N·m. torque: `Torque`. period: T, s.
+    Args:
+        nominal: `Actuator` of the nominal model.
+        x: `State`.
+        w: ŵ, `Disturbance`, N·m.
+        torque: `Torque`, N·m.
+        period: T, s.
+
+    Returns:
+        `State`.
     """
     load = ExternalLoad(w.w2, w.w4, w.w6, 0.0, 0.0)
     k1 = compute_rate(nominal, x, torque, load)
@@ -53,9 +71,17 @@ def update_state_estimate(
 ) -> State:
     """x̂ after a sample: predicted by the nominal model with ŵ (Eq 8), then corrected.
 
-    nominal: `Actuator`. decay: e^(−ωT) of the corner ω. x: the last x̂, `State`. w: ŵ,
-    `Disturbance`, N·m. torque: applied since, `Torque`. measurement: `Measurement` now.
-    period: T, s.
+    Args:
+        nominal: `Actuator` of the nominal model.
+        decay: e^(−ωT) of the corner ω.
+        x: Last x̂, `State`.
+        w: ŵ, `Disturbance`, N·m.
+        torque: `Torque` applied since, N·m.
+        measurement: Present `Measurement`.
+        period: T, s.
+
+    Returns:
+        `State`.
     """
     x = predict_state(nominal, x, w, torque, period)
     y = measurement

@@ -1,4 +1,4 @@
-"""The observer: its discrete form is Eq 10 as T → 0, decays at β and does not wind up."""
+"""The observer: its discrete form tends to Eq 10 as T → 0, decays at β and does not wind up."""
 
 import numpy as np
 import pytest
@@ -29,7 +29,7 @@ LOAD = svsa.SineLoad(torque_nm=(1.0, 0.5, 0.2), frequency_hz=2.0)
 
 
 def record_trajectory():
-    """States of the true plant on a fine grid, and the torque held over each coarse step."""
+    """States of the plant on a fine grid, and the torque held over each coarse step."""
     fine = COARSE_S / FINE_PER_COARSE
     loads = build_load_table((schedule_load(1, LOAD, 0, fine),))
     x, states, torques = build_state(mu=0.6, phi=0.05), [], []
@@ -78,8 +78,8 @@ def integrate_equation_10(states, torques):
     return np.array(out)
 
 
-def test_the_discrete_observer_tends_to_eq_10_as_the_period_tends_to_zero():
-    """With the order 2 of its trapezoid; a held velocity would give order 1."""
+def test_discrete_observer_tends_to_eq_10_as_the_period_tends_to_zero():
+    """With order 2, that of the trapezoidal rule; a held velocity would give order 1."""
     states, torques = record_trajectory()
     continuous = integrate_equation_10(states, torques)
     strides = np.array([128, 64, 32, 16])
@@ -91,7 +91,7 @@ def test_the_discrete_observer_tends_to_eq_10_as_the_period_tends_to_zero():
 
 
 def simulate_exact_model(observer, torque_nm, duration, **changes):
-    """A run whose nominal model is the plant, under one constant load from t = 0 on."""
+    """A run whose nominal model equals the plant, under a constant load from t = 0."""
     return svsa.simulate(
         "4b",
         nominal=DESIGN.actuator,
@@ -102,8 +102,8 @@ def simulate_exact_model(observer, torque_nm, duration, **changes):
     )
 
 
-def test_the_estimation_error_of_a_constant_disturbance_decays_at_beta():
-    """Eq 12: e_w = w e^(−βt) on each channel with its own β, whatever the motion does."""
+def test_estimation_error_of_a_constant_disturbance_decays_at_beta():
+    """Eq 12: e_w = w e^(−βt) on each channel with its own β, for any motion."""
     bandwidth, w = (30.0, 60.0, 90.0), (0.4, -0.5, 0.3)
     result = simulate_exact_model(bandwidth, w, 0.1)
     for part, beta, torque in zip(("link", "motor1", "motor2"), bandwidth, w, strict=True):
@@ -112,8 +112,8 @@ def test_the_estimation_error_of_a_constant_disturbance_decays_at_beta():
         assert np.abs(error - expected).max() < 4e-4 * abs(torque), part
 
 
-def test_the_true_disturbance_of_a_load_on_an_exact_model_is_that_load():
-    """What is plotted next to ŵ: Eq 6–9 with nothing unmodelled but the load."""
+def test_true_disturbance_on_an_exact_model_is_the_load():
+    """The plotted reference of ŵ: Eq 6–9, where only the load is unmodelled."""
     w = (0.4, -0.5, 0.3)
     result = simulate_exact_model((60.0,) * 3, w, 0.05)
     for part, torque in zip(("link", "motor1", "motor2"), w, strict=True):
@@ -121,10 +121,10 @@ def test_the_true_disturbance_of_a_load_on_an_exact_model_is_that_load():
         np.testing.assert_allclose(true, torque, rtol=0, atol=1e-11)
 
 
-def test_the_estimate_does_not_wind_up_while_the_torque_is_saturated():
+def test_estimate_does_not_wind_up_in_saturation():
     """A limit that holds motor 1 at its stop all the time: ŵ still tends to w.
 
-    The observer is fed the torque really applied; the torque asked for would mislead it.
+    The observer gets the actual torque. With the commanded torque its estimate would be wrong.
     """
     limits = DESIGN.limits.changed(torque1_nm=0.05, torque2_nm=0.02)
     result = simulate_exact_model((60.0,) * 3, (0.02, 0.0, 0.0), 0.3, limits=limits)
@@ -139,7 +139,9 @@ def test_the_estimate_does_not_wind_up_while_the_torque_is_saturated():
 
 
 def replay_with_commanded_torque(result):
-    """What the last estimate of a run would be if the observer heard the law, not the limits."""
+    """The last estimate of a run if the observer received the commanded instead of the limited
+    torque.
+    """
     mu0 = compute_lever_ratio_for_stiffness(60.0, NOMINAL.K)
     nominal, gains = build_actuator(DESIGN.actuator, mu0), build_gains(DESIGN.gains)
     shares = compute_shares(DESIGN.observer, 0.001)
@@ -155,8 +157,8 @@ def replay_with_commanded_torque(result):
     return estimate
 
 
-def test_one_update_from_rest_is_the_share_that_beta_gives():
-    """By hand: at rest with u and no motion the unexplained torque is −u, on its channel."""
+def test_one_update_from_rest_is_the_observer_gain():
+    """By hand: at rest with torque u and no motion the unexplained torque is −u, on its channel."""
     rest = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     nominal = build_actuator(DESIGN.nominal, 0.5)
     found = update_disturbance_estimate(
@@ -167,7 +169,7 @@ def test_one_update_from_rest_is_the_share_that_beta_gives():
     assert found.w6 == pytest.approx(0.2 * (1.0 - np.exp(-0.09)), rel=1e-12)
 
 
-def test_the_loop_feeds_the_observer_with_the_estimate_before_it_is_used_by_the_law():
+def test_observer_is_updated_with_the_estimate_before_the_law_uses_it():
     """The first sample acts on ŵ = 0, the second on the estimate of the first period."""
     run = Run(svsa.paper.get_figure("4a").build_configuration())
     start = run.lanes[0].x

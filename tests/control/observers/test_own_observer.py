@@ -1,4 +1,4 @@
-"""A law's own observer: the loop's where it knows no rate, and without lag behind a ramp."""
+"""A law's own observer: equal to that of the loop without a rate, and without lag under a ramp."""
 
 import math
 
@@ -23,7 +23,7 @@ def follow(share, rate_share, states, torque=TORQUE):
     ], memory[0]
 
 
-def test_without_a_rate_it_is_the_loop_s_observer():
+def test_observer_without_rate_equals_the_observer_of_the_loop():
     rng = np.random.default_rng(3)
     states = [build_state(0.5, *(0.1 * rng.normal(size=2)), *rng.normal(size=3)) for _ in range(20)]
     share = 1.0 - math.exp(-60.0 * T)
@@ -34,16 +34,17 @@ def test_without_a_rate_it_is_the_loop_s_observer():
         assert own == pytest.approx(estimate, rel=1e-12)
 
 
-def test_its_first_period_is_only_remembered():
-    """A law that comes while the actuator moves has no velocity to compare with."""
+def test_first_period_only_initializes_the_memory():
+    """A law that starts while the actuator moves has no previous velocity."""
     (estimate,), memory = follow(0.1, 0.01, [build_state(0.5, 0.1, dq=3.0)])
     assert estimate == Disturbance(0.0, 0.0, 0.0)
     assert (memory["x"]["dq"], memory["is_started"]) == (3.0, 1.0)
 
 
-def test_a_load_that_grows_steadily_is_estimated_without_lag():
-    """The motor alone under w6 = 2 t: ŵ6 ends there and its rate at 2 N·m/s; one that knows no
-    rate stays 2/β behind."""
+def test_ramp_load_is_estimated_without_lag():
+    """The motor alone under w6 = 2 t: ŵ6 converges to it and its rate to 2 N·m/s; without a rate it
+    lags by 2/β.
+    """
     kept = math.exp(-40.0 * T)
     velocity, states = 0.0, []
     for tick in range(1000):
@@ -58,8 +59,10 @@ def test_a_load_that_grows_steadily_is_estimated_without_lag():
     assert plain[-1].w6 == pytest.approx(2.0 - 2.0 / 40.0, rel=2e-3)
 
 
-def test_an_extended_observer_finds_what_accelerates_besides():
-    """z̈ = b u + 3 with b u = −1: position, velocity and the 3 are found from positions alone."""
+def test_extended_observer_estimates_the_unknown_acceleration():
+    """z̈ = b u + 3 with b u = −1: position, velocity and the 3 are estimated from
+    positions alone.
+    """
     gains, memory = build_triple_pole(100.0, T), pack(Extended())
     for tick in range(400):
         t = tick * T

@@ -34,7 +34,7 @@ NAN = float("nan")
 
 
 def measure(x, velocity=NAN):
-    """Exact positions; velocities that nothing may use."""
+    """Exact positions; velocities that the estimator must not use."""
     return Measurement(x.theta1, x.theta2, x.q - x.theta1, velocity, velocity, velocity)
 
 
@@ -53,7 +53,7 @@ def follow(actuator, x, known, ticks, torque=NO_TORQUE, w=NOTHING, loads=NO_LOAD
 
 
 def build_error_matrix(decay):
-    """What a prediction over T and `correct` make of an error in position and velocity."""
+    """The effect of a prediction over T and of `correct` on an error in position and velocity."""
     columns = []
     for position, velocity in ((1.0, 0.0), (0.0, 1.0)):
         columns.append(correct(position + T * velocity, velocity, 0.0, decay, T))
@@ -61,8 +61,8 @@ def build_error_matrix(decay):
 
 
 @pytest.mark.parametrize("corner", [1.0, 20.0, 200.0, 2000.0])
-def test_the_corrector_is_critically_damped(corner):
-    """Both eigenvalues are p = e^(−ωT), and no third number: (A − p)² = 0."""
+def test_corrector_is_critically_damped(corner):
+    """Both eigenvalues are p = e^(−ωT): (A − p)² = 0."""
     decay = math.exp(-corner * T)
     matrix = build_error_matrix(decay)
     assert np.trace(matrix) == pytest.approx(2.0 * decay, rel=1e-12)
@@ -71,7 +71,7 @@ def test_the_corrector_is_critically_damped(corner):
     assert np.abs(rest @ rest).max() <= 1e-12 * np.abs(matrix).max()
 
 
-def test_with_an_exact_model_every_error_decays_as_p_to_the_k():
+def test_every_error_decays_as_p_to_the_k_with_an_exact_model():
     """Free inertias, whose prediction is exact: e_k = p^k (e_0 + k d), per joint."""
     x = State(0.3, 0.5, -0.2, 1.5, 0.0, -0.4)
     errors = follow(FREE, x, add(x, OFF), 60, Torque(0.4, -0.1))
@@ -83,10 +83,11 @@ def test_with_an_exact_model_every_error_decays_as_p_to_the_k():
         np.testing.assert_allclose(errors[-1, joint], expected, rtol=1e-6)
 
 
-def test_on_the_whole_model_a_wrong_start_is_forgotten_at_the_corner():
+def test_initial_error_decays_at_the_corner_frequency_on_the_full_model():
     """Springs and damping couple the joints; after 0.1 s, 20 time constants, Heun's rest is left.
 
-    The rest is the difference of two integrators and falls with a wrong start or without.
+    The remaining error is the difference of two integrators. It decreases with a wrong and with a
+    correct start.
     """
     x = build_state(mu=0.6, phi=0.05, dq=0.5, dtheta1=0.5)
     torque = Torque(0.1, 0.05)
@@ -97,7 +98,7 @@ def test_on_the_whole_model_a_wrong_start_is_forgotten_at_the_corner():
     assert np.all(right.max(axis=0) < [5e-6, 2e-3] * 3)
 
 
-def test_a_constant_disturbance_that_is_known_leaves_no_error():
+def test_known_constant_disturbance_leaves_no_error():
     """ŵ enters the prediction on its own channel and with its own inertia."""
     x, w = State(0.1, 0.2, -0.1, 0.4, 0.0, 0.3), (0.02, -0.3, 0.04)
     load = svsa.ConstantLoad(torque_nm=w)
@@ -107,8 +108,8 @@ def test_a_constant_disturbance_that_is_known_leaves_no_error():
 
 
 @pytest.mark.parametrize("channel", [0, 1, 2])
-def test_a_constant_disturbance_that_is_not_known_leaves_the_error_of_the_recursion(channel):
-    """e = A e + (T²/2, T) w/J: what ŵ is there for, and no less than theory says."""
+def test_unknown_constant_disturbance_leaves_the_error_of_the_recursion(channel):
+    """e = A e + (T²/2, T) w/J: the error that ŵ removes, equal to that of the theory."""
     w = np.where(np.arange(3) == channel, 0.05, 0.0)
     load = svsa.ConstantLoad(torque_nm=tuple(map(float, w)))
     loads = build_load_table((schedule_load(1, load, 0, T),))
@@ -123,8 +124,8 @@ def test_a_constant_disturbance_that_is_not_known_leaves_the_error_of_the_recurs
     assert np.abs(np.delete(last, channel, axis=0)).max() < 1e-12
 
 
-def test_at_rest_with_exact_measurement_nothing_moves():
-    """No torque, no deflection: not one bit of x̂ changes, at any angle of the link."""
+def test_estimate_is_constant_at_rest_with_exact_measurement():
+    """No torque, no deflection: no bit of x̂ changes, at any angle of the link."""
     for x in (State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0), State(0.3, 0.0, 0.3, 0.0, -0.2, 0.0)):
         known = x
         for _ in range(100):
@@ -132,8 +133,8 @@ def test_at_rest_with_exact_measurement_nothing_moves():
         assert known == x
 
 
-def test_the_estimate_of_velocities_uses_no_measured_velocity():
-    """The switch says that velocities are not known: the values given here would show."""
+def test_velocity_estimate_uses_no_measured_velocity():
+    """The velocities are flagged as unknown: the values passed here would be visible."""
     x = build_state(mu=0.5, phi=0.02, dq=0.3)
     found = [
         update_state_estimate(PLANT, DECAY, x, NOTHING, NO_TORQUE, measure(x, velocity), T)
@@ -143,8 +144,8 @@ def test_the_estimate_of_velocities_uses_no_measured_velocity():
     assert found[0] == found[1] == found[2]
 
 
-def test_the_link_is_measured_by_the_motor_and_the_deflection_together():
-    """No encoder sits on the link: q = θ1 + φ, in both ways to know the state."""
+def test_link_position_is_motor_position_plus_deflection():
+    """No encoder measures the link: q = θ1 + φ, in both kinds of sensing."""
     y = Measurement(theta1=0.25, theta2=-0.5, phi=0.125, dq=1.0, dtheta1=2.0, dtheta2=3.0)
     assert build_measured_state(y) == State(0.375, 1.0, 0.25, 2.0, -0.5, 3.0)
     sharp = update_state_estimate(
@@ -159,8 +160,8 @@ def test_the_link_is_measured_by_the_motor_and_the_deflection_together():
     assert (sharp.q, sharp.theta1, sharp.theta2) == pytest.approx((0.375, 0.25, -0.5), rel=1e-12)
 
 
-def test_in_the_loop_the_estimated_velocity_is_the_true_one():
-    """Figure 4B with estimation alone: far nearer than the speed that is estimated."""
+def test_estimated_velocity_in_the_loop_is_the_true_velocity():
+    """Figure 4B with estimation alone: the error is far smaller than the velocity."""
     effects = svsa.Effects(estimation=svsa.RIG.estimation)
     result = svsa.simulate("4b", duration_s=4.0, effects=effects)
     error = result.velocity_estimate_rad_per_s - result.velocity_rad_per_s
