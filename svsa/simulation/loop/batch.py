@@ -1,8 +1,9 @@
 """Vectorised runs: the loop's tick for eight runs in parallel, with a summary of each.
 
-What one run computes of its samples is summed up as it goes, and nothing is kept. A run has the
-bits of the same run alone, see `svsa.numerics.simd.number`. The law is compiled in, for itself once
-and for which effects are on: what is off in all runs is no part of the machine code.
+The metrics of a run are accumulated tick by tick, and no samples are stored. A run has the same
+bits as alone, see `svsa.numerics.simd.number`. The law is compiled into the batch, once for each
+law and each set of active effects: effects that are off in all runs are not part of the machine
+code.
 """
 
 import hashlib
@@ -53,17 +54,17 @@ from svsa.simulation.loop.loop import decide, run_tick
 from svsa.simulation.loop.slices import cut
 from svsa.simulation.loop.tally import (
     SUMMARY,
-    Kept,
     Tally,
+    TallyState,
     build_window,
     publish_tally,
     start_tally,
 )
 
 _TALLY = slice(2, 2 + len(Tally._fields))
-"""Where it is in `SUMMARY`."""
+"""Position of the tally in `SUMMARY`."""
 _GROUPS_AT_ONCE = 128
-"""Of which the reached state is kept between two slices."""
+"""Number of groups whose state is kept between two slices."""
 
 
 class Start(NamedTuple):
@@ -77,8 +78,14 @@ class Start(NamedTuple):
     limited: tuple[float, ...]
 
 
-class Beginning(NamedTuple):
-    """The components of a run. constants: of its law."""
+class RunSetup(NamedTuple):
+    """The components of a run.
+
+    Attributes:
+        blocks: `Blocks` of the run.
+        constants: Constants of its law.
+        start: State at t = 0.
+    """
 
     blocks: Blocks
     constants: tuple[Any, ...]
@@ -88,16 +95,21 @@ class Beginning(NamedTuple):
 class Batch(NamedTuple):
     """Runs of one law, eight per group; the last group repeats its last run.
 
-    control: of the law, None where it is called by its address. memory: its layout,
-    see `lay_out_record`. layout: a `Beginning` of `svsa.numerics.simd.record`, see `build_reader`.
-    rows: (groups, rows, 8), the values of the layout. memories: where the law begins, (groups,
-    numbers, 8), or (groups, 8, numbers) without a control. inputs: see `join_inputs`. runs: their
-    number. laws: what the addresses in the rows are of.
+    Attributes:
+        control: Function of the law; None if it is called by its address.
+        memory: Layout of the law's memory, see `lay_out_record`.
+        layout: A `RunSetup` of `svsa.numerics.simd.record`, see `build_reader`.
+        rows: Values of the layout, shape (groups, rows, 8).
+        memories: Initial memory of the law, shape (groups, numbers, 8), or (groups, 8, numbers)
+            without a control.
+        inputs: See `join_inputs`.
+        runs: Number of runs.
+        laws: Owners of the addresses in the rows.
     """
 
     control: Any
     memory: Any
-    layout: Beginning
+    layout: RunSetup
     rows: np.ndarray
     memories: np.ndarray
     inputs: Inputs
@@ -114,12 +126,21 @@ def build_batch(
 ) -> Batch:
     """Build runs of a law from blocks and constants, one of each per run.
 
-    laws: the law bound to each, of one that is not `is_for_vectors`, which has no constants then.
-    inputs: of all, see `join_inputs`. Raises `ParameterError` where the period or a whole number,
-    but for the seed, is not the same in all of them.
+    Args:
+        law: The law.
+        blocks: `Blocks` of each run.
+        constants: Constants of the law of each run; none if it is not `is_for_vectors`.
+        laws: The bound law of each run, if it is not `is_for_vectors`.
+        inputs: Inputs of all runs, see `join_inputs`.
+
+    Returns:
+        The batch.
+
+    Raises:
+        ParameterError: If the period or an integer, except for the seed, differs between runs.
     """
     given = [find_addresses(one) for one in laws] or constants
-    layout, rows = pack_beginnings(blocks, given, law.start_memory())
+    layout, rows = pack_setups(blocks, given, law.start_memory())
     memories = group(np.tile(law.start_memory(), (len(blocks), 1)))
     if laws:
         memories = np.ascontiguousarray(memories.transpose(0, 2, 1))
@@ -127,20 +148,22 @@ def build_batch(
     return Batch(control, memory, layout, rows, memories, inputs, len(blocks), tuple(laws))
 
 
-def pack_beginnings(
+def pack_setups(
     blocks: Sequence[Blocks], constants: Sequence[tuple[Any, ...]], memory: np.ndarray
-) -> tuple[Beginning, np.ndarray]:
-    """Return the layout of runs, and their numbers (groups, rows, 8). memory: initial, of the
-    law.
+) -> tuple[RunSetup, np.ndarray]:
+    """Return the layout of runs, and their numbers, shape (groups, rows, 8); `memory` is the
+    initial memory of the law.
     """
     start = Start(*build_lane_state(memory)[:-1])
-    runs = [Beginning(*parts, start) for parts in zip(blocks, constants, strict=True)]
+    runs = [RunSetup(*parts, start) for parts in zip(blocks, constants, strict=True)]
     numbers = pack_all(runs).view(np.float64).reshape(len(runs), -1)
     return _lay_out(runs[0], "", iter(numbers.view(np.int64).T), count()), group(numbers)
 
 
 def _lay_out(values: Any, name: str, columns: Iterator[np.ndarray], rows: Iterator[int]) -> Any:
-    """Return the layout of one run's numbers. columns: of each number its bits in all runs."""
+    """Return the layout of one run's numbers; `columns` contains the bits of each number in all
+    runs.
+    """
     if isinstance(values, tuple):
         names = getattr(values, "_fields", ("",) * len(values))
         inner = [f"{name}.{one}" for one in names]
@@ -149,8 +172,8 @@ def _lay_out(values: Any, name: str, columns: Iterator[np.ndarray], rows: Iterat
         ]
         return type(values)(*parts) if hasattr(values, "_fields") else tuple(parts)
     row, bits = next(rows), next(columns)
-    # A literal 0 removes the effect from the machine code: 0.49 of the rate of C, and 0.37 with a
-    # switch at run time.
+    # A literal 0 removes the effect from the machine code: 0.49 times the speed of C, instead of
+    # 0.37 with a run-time switch.
     if not bits.any() and (".effects" in name or name.endswith(".decay")):
         return type(values)(0)
     # Whole numbers of 64 bits, which a double cannot hold exactly.
@@ -165,10 +188,15 @@ def _lay_out(values: Any, name: str, columns: Iterator[np.ndarray], rows: Iterat
 
 
 def run_batch(batch: Batch, ticks: int, begin: int = 0) -> np.ndarray:
-    """Run so many ticks from the start; return an array (runs,) of `SUMMARY`.
+    """Run the batch from the start, without the GIL; handles signals between slices.
 
-    begin: the tick at which measuring begins. Does not hold the GIL, and handles signals between
-    slices.
+    Args:
+        batch: The runs.
+        ticks: Number of ticks.
+        begin: Tick at which measuring begins.
+
+    Returns:
+        An array (runs,) of `SUMMARY`.
     """
     names = SUMMARY.names or ()
     results = np.zeros((len(batch.rows), len(names), WIDTH))
@@ -190,13 +218,13 @@ def run_batch(batch: Batch, ticks: int, begin: int = 0) -> np.ndarray:
 
 
 @cache
-def _specialize(control: Any, memory: Any, layout: Beginning) -> Any:
+def _specialize(control: Any, memory: Any, layout: RunSetup) -> Any:
     """`advance_groups` and `run_tick` with this law and this layout."""
     uncompiled = (
         compute_in_python if isinstance(layout.constants, PythonLaw) else compute_one_by_one
     )
     source = (control or uncompiled).py_func
-    # The layout is part of the name in the cache, since its literals are part of the code.
+    # The name in the cache contains the layout, since its literals are part of the code.
     parts = map(find_fingerprint, (source, advance_groups))
     text = repr((source.__module__, source.__qualname__, *parts, memory, layout))
     name = hashlib.sha256(text.encode()).hexdigest()[:16]
@@ -237,8 +265,9 @@ run_group_tick: Any = None
 is_reported: Any = None
 read: Any = None
 view: Any = None
-"""Of `advance_groups`: the tick with its law, whether that receives the measured positions, and
-what reads a group's numbers and its memory."""
+"""Specialises `advance_groups`: the tick with its law, whether it receives the measured positions,
+and the readers of a group's numbers and memory.
+"""
 
 
 def advance_groups(
@@ -254,9 +283,9 @@ def advance_groups(
 ) -> None:
     """Advance every group from the tick `first` to before `stop`.
 
-    rows, memories: see `Batch`; written, so that the next call goes on at `stop`. begin, end: of
-    what is measured. start_row: where `Start` begins in the rows. results: (groups, fields, 8), of
-    the ticks before `first`; written.
+    `rows` and `memories` (see `Batch`) are written, so that the next call continues at `stop`.
+    `begin` and `end` bound the measured ticks, `start_row` is the row of `Start`, and `results`
+    (groups, fields, 8) contains the summary before `first` and is updated.
     """
     for i in range(rows.shape[0]):
         blocks, constants, start = read(rows[i])
@@ -265,9 +294,9 @@ def advance_groups(
         lane = LaneState(x, known, estimate, start.actual, start.applied, start.limited, memory)
         law = GroupLaw(blocks.nominal, constants, is_reported)
         code, ended = load(results[i], 0), load(results[i], 1)
-        kept = Kept(read_tally(results[i]), build_window(begin, end, blocks.period))
+        kept = TallyState(read_tally(results[i]), build_window(begin, end, blocks.period))
         F = compute_internal_torque(blocks.nominal, lane.known)
-        # A group whose eight runs have ended costs nothing: with half of the groups lost, a batch
+        # A group whose eight runs have ended is skipped: with half of the groups ended, a batch
         # took 0.51 of the processor time.
         for tick in range(first, stop if some(code == INSIDE) else first):
             lane, F, now, kept = run_group_tick(blocks, law, given, lane, F, code, tick, kept)

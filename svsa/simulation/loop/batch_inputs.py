@@ -26,7 +26,7 @@ def group(values: np.ndarray) -> np.ndarray:
 def join_inputs(runs: Sequence[Inputs]) -> Inputs:
     """Join the `Inputs` of runs from t = 0: rows (groups, n, columns, 8).
 
-    What runs have in common, the same stack or table, is there once.
+    A stack or table that several runs share is stored once.
     """
     position, *position_curves = _join([run.position for run in runs], CURVE, A)
     stiffness, *stiffness_curves = _join([run.stiffness for run in runs], CURVE, A)
@@ -42,8 +42,8 @@ def join_inputs(runs: Sequence[Inputs]) -> Inputs:
 def _join(parts: Sequence[Stack] | Sequence[LoadTable], kind: int, first: int) -> list[np.ndarray]:
     """Join rows of every run, and concatenate the arrays that they point into.
 
-    kind: of the rows, the number they begin with, that point there, by their column `first`.
-    Runs with fewer rows get rows of zeros.
+    A row of the kind `kind` (its first number) points into the arrays by its column `first`. Runs
+    with fewer rows get rows of zeros.
     """
     length = max(len(part.rows) for part in parts)
     known: dict[int, np.ndarray] = {}
@@ -54,7 +54,7 @@ def _join(parts: Sequence[Stack] | Sequence[LoadTable], kind: int, first: int) -
             arrays = [one for one in part[1:] if isinstance(one, np.ndarray)]
             rows = known[id(part)] = np.zeros((length, part.rows.shape[1]))
             rows[: len(part.rows)] = part.rows
-            # The index of the first point counts from the beginning of the joined array.
+            # The index of the first point refers to the joined array.
             rows[rows[:, 0] == kind, first] += count
             pointed.append(arrays)
             count += len(arrays[0])

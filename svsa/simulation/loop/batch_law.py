@@ -1,7 +1,7 @@
 """The law of eight runs: vectorised, or run by run if it branches on its values.
 
-A law with an `if`, or an index, by what differs from run to run does not compile for vectors. It
-is called by its address, as the loop of one run does; the rest of the tick is computed at once.
+A law with an `if`, or an index, that depends on values of a run does not compile for vectors. It is
+called by its address, as in the loop of one run; the rest of the tick is vectorised.
 """
 
 from functools import cache
@@ -16,19 +16,26 @@ from svsa.actuators.signals import Disturbance, Positions, Reference, State, Tor
 from svsa.control.call import BoundLaw, Call, compute_law, is_measuring
 from svsa.numerics.compilation import compiled
 from svsa.numerics.simd.choice import choose
-from svsa.numerics.simd.each import put, take
+from svsa.numerics.simd.elementwise import put, take
 from svsa.numerics.simd.number import WIDTH
 from svsa.numerics.simd.record import Column, VectorRecord, find_kind
 from svsa.simulation.loop.lane import AT_REST, NO_REFERENCE, NO_TORQUE, UNDISTURBED, UNMOVED
-from svsa.simulation.loop.stepwise import EXCHANGED, ask_python
+from svsa.simulation.loop.stepwise import EXCHANGED, call_python
 
 
 def is_for_vectors(
     control: Any, nominal: Actuator, constants: tuple[Any, ...], memory: Any
 ) -> bool:
-    """Whether a law's function compiles for vectors; compiles it if necessary.
+    """Return whether a law's function compiles for vectors; compiles it if necessary.
 
-    memory: its layout, see `lay_out_record`.
+    Args:
+        control: The law's function.
+        nominal: The nominal model.
+        constants: Constants of the law.
+        memory: Layout of its memory, see `lay_out_record`.
+
+    Returns:
+        Whether it compiles.
     """
     return _compile(control, find_kind(_lay_out(nominal)), find_kind(_lay_out(constants)), memory)
 
@@ -49,7 +56,7 @@ def _compile(control: Any, nominal: Any, constants: Any, memory: Any) -> bool:
     reported = [find_kind(_lay_out(UNMOVED))] if is_measuring(control) else []
     kinds = nominal, constants, VectorRecord(memory), *signals, numba.float64, *reported
     try:
-        # Compiling is the test: numba rejects an `if` on a vector by its type.
+        # Compilation is the test: numba rejects an `if` on a vector by its type.
         control.get_call_template(kinds, {})
     except NumbaError:
         return False
@@ -72,7 +79,13 @@ def find_addresses(law: BoundLaw) -> Addresses:
 
 
 class GroupLaw(NamedTuple):
-    """The law of eight runs. constants: values, or `Addresses`. is_measuring: as of `BoundLaw`."""
+    """The law of eight runs.
+
+    Attributes:
+        nominal: The nominal model.
+        constants: Values, or `Addresses`.
+        is_measuring: As in `BoundLaw`.
+    """
 
     nominal: Actuator
     constants: Any
@@ -107,11 +120,12 @@ def compute_one_by_one(
 ) -> Torque:
     """Compute u of the active runs one by one, `Torque`, N·m; 0 for ended ones.
 
-    group: with the `Addresses` of every run's law, which has the nominal model, too; its memory is
-    (8, words), written. Else as `svsa.control.call.compute_law`.
+    `group` contains the `Addresses` of every run's law, whose constants include the nominal model;
+    its memory is (8, words), and is written. The other arguments are those of
+    `svsa.control.call.compute_law`.
     """
     nothing, memories = Torque(0.0, 0.0), group.memory
-    # Makes vectors of the two numbers, which `put` needs below.
+    # Broadcasts the two scalars to vectors, which `put` needs below.
     torque = choose(group.runs, nothing, nothing)
     for i in range(WIDTH):
         if take(group.runs, i):
@@ -140,7 +154,7 @@ def compute_one_by_one(
 class PythonLaw(NamedTuple):
     """The law of eight runs as one Python function, by its address.
 
-    It is called once a tick with the address of rows (8, `WORDS`), see `compute_in_python`.
+    It is called once per tick with the address of rows (8, `WORDS`), see `compute_in_python`.
     """
 
     function_address: int
@@ -148,7 +162,7 @@ class PythonLaw(NamedTuple):
 
 
 WORDS = 1 + EXCHANGED
-"""Of a run: whether it needs an answer, and what the loop and the law exchange."""
+"""Values per run: whether it is active, and the values exchanged between loop and law."""
 
 
 @compiled
@@ -163,8 +177,9 @@ def compute_in_python(
 ) -> Torque:
     """Compute u of the active runs, `Torque`, N·m, by one call of Python; 0 for ended ones.
 
-    group: with a `PythonLaw`. Its memory holds rows (8, `WORDS`): 1.0 where the run needs an
-    answer, the arguments of the law, and its answer. Else as `svsa.control.call.compute_law`.
+    `group` contains a `PythonLaw`, whose memory has rows (8, `WORDS`): 1.0 if the run is active,
+    the arguments of the law, and its answer. The other arguments are those of
+    `svsa.control.call.compute_law`.
     """
     nothing, rows = Torque(0.0, 0.0), group.memory
     torque = choose(group.runs, nothing, nothing)
@@ -176,7 +191,7 @@ def compute_in_python(
         reached = fill(row, reached, take(estimate, i))
         reached = fill(row, reached, take(applied, i))
         fill(row, reached, take(measured, i))
-    ask_python(take(group.constants, 0).function_address, rows.ctypes.data)
+    call_python(take(group.constants, 0).function_address, rows.ctypes.data)
     for i in range(WIDTH):
         if take(group.runs, i):
             torque = put(torque, i, Torque(rows[i][WORDS - 2], rows[i][WORDS - 1]))
@@ -193,7 +208,9 @@ def fill(row: np.ndarray, first: int, values: tuple[float, ...]) -> int:
 
 law: Any = None
 is_reported: Any = None
-"""Of `compute_side_by_side`: a law's function, and whether it receives the measured positions."""
+"""Specialises `compute_side_by_side`: a law's function, and whether it receives the measured
+positions.
+"""
 
 
 def compute_side_by_side(

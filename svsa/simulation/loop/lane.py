@@ -25,9 +25,17 @@ NO_REFERENCE = Reference(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 class Blocks(NamedTuple):
     """The blocks of the diagram as constants of the compiled loop.
 
-    plant, nominal: `Actuator`. shares: of the observer, see `compute_shares`. torque1_max,
-    torque2_max: N·m, infinite where not limited. decay: e^(−ωT) of the state estimator, 0 where
-    velocities are known. period: s. steps: Runge–Kutta steps a period.
+    Attributes:
+        plant: `Actuator` of the true plant.
+        nominal: `Actuator` of the nominal model.
+        shares: Gains of the observer, see `compute_shares`.
+        torque1_max: Torque limit of motor 1, N·m, infinite without a limit.
+        torque2_max: Torque limit of motor 2, N·m, infinite without a limit.
+        effects: `EffectConstants`.
+        decay: e^(−ωT) of the state estimator; 0 if velocities are known.
+        domain: `Domain`.
+        period: Control period T, s.
+        steps: Runge–Kutta steps per period.
     """
 
     plant: Actuator
@@ -51,12 +59,17 @@ class Inputs(NamedTuple):
 
 
 class LaneState(NamedTuple):
-    """What one lane, a controller and its plant, carries from tick to tick.
+    """The state of one lane (controller and plant) between two ticks.
 
-    x: the plant's state. known: x̂, what the controller knows of it. estimate: ŵ, N·m.
-    actual: what the motors make now, N·m. applied: mean actual torque of the last period,
-    N·m. limited: the limited torques of the last samples, newest first, (u1, u2) one after the
-    other, for the delay. memory: what the law remembers, see `Law.start_memory`.
+    Attributes:
+        x: State of the plant.
+        known: x̂, the state that the controller knows.
+        estimate: ŵ, N·m.
+        actual: Present torque of the motors, N·m.
+        applied: Mean actual torque of the last period, N·m.
+        limited: Limited torques of the last samples for the delay, newest first, as (u1, u2) pairs
+            in sequence.
+        memory: Memory of the law, see `Law.start_memory`.
     """
 
     x: State
@@ -71,8 +84,12 @@ class LaneState(NamedTuple):
 class Action(NamedTuple):
     """The effects of a torque in a tick.
 
-    limited: the delay's queue with it. delayed: what is due of it now. actual: what the motors make
-    of that at once, N·m. load: `ExternalLoad`. rate: ẋ under both.
+    Attributes:
+        limited: Queue of the delay, including the new torque.
+        delayed: Output of the delay, N·m.
+        actual: Torque of the motors at the beginning of the tick, N·m.
+        load: `ExternalLoad`.
+        rate: ẋ under both.
     """
 
     limited: tuple[float, ...]
@@ -83,7 +100,9 @@ class Action(NamedTuple):
 
 
 def build_lane_state(memory: np.ndarray, x: State = AT_REST) -> LaneState:
-    """Build the initial state of a lane. memory: of its law. x: known state of its plant."""
+    """Build the initial state of a lane from the memory of its law and the known state x of its
+    plant.
+    """
     # The length is part of the type: with a queue as long as the delay, each delay would compile
     # the loop again.
     limited = (0.0,) * (2 * MAX_DELAY_SAMPLES + 2)

@@ -1,7 +1,7 @@
 """The loop's functions for a bench: measurements replace the plant's state.
 
 A tick on a bench is read → follow → decide → write → publish → predict: the loop of
-`svsa.simulation.loop.loop`, cut open where the bench is read.
+`svsa.simulation.loop.loop`, split where the bench is read and written.
 """
 
 import math
@@ -31,27 +31,48 @@ from svsa.simulation.plant.effects.current_lag import compute_late_torque
 
 
 class Actuation(NamedTuple):
-    """Delay and lag of a commanded torque. latency, lag: s (see `CurrentLag`)."""
+    """Delay and lag of a commanded torque.
+
+    Attributes:
+        latency: Delay, s (see `CurrentLag`).
+        lag: Time constant of the current loop, s.
+    """
 
     latency: float
     lag: float
 
 
 class BenchConstants(NamedTuple):
-    """The constants of a bench's loop. call: its law with memory."""
+    """The constants of a bench's loop.
+
+    Attributes:
+        blocks: `Blocks`.
+        actuation: `Actuation`.
+        call: `Call` of the law, with its memory.
+    """
 
     blocks: Blocks
     actuation: Actuation
     call: Call
 
 
-class Carried(NamedTuple):
+class BenchLoopState(NamedTuple):
     """The state of a bench's loop.
 
-    Carried from tick to tick: known, estimate: x̂ and ŵ. actual: what the motors make now, N·m.
-    before, sent: the torques sent last but one and last, N·m. expected: x̂ a period later.
-    Of this tick: measured; ages_s: of motor 1, motor 2, deflection; reference; limited: torque
-    of the law within its limits, N·m; believed: the ŵ that the law acts on.
+    known to expected are carried from tick to tick; the others belong to the present tick.
+
+    Attributes:
+        known: x̂.
+        estimate: ŵ, N·m.
+        actual: Present torque of the motors, N·m.
+        before: Torque sent before the last one, N·m.
+        sent: Torque sent last, N·m.
+        expected: Predicted x̂ of the next tick.
+        measured: Measured positions.
+        ages_s: Ages of the readings of motor 1, motor 2 and deflection, s.
+        reference: `Reference`.
+        limited: Torque of the law within its limits, N·m.
+        believed: The ŵ that the law uses, N·m.
     """
 
     known: State = AT_REST
@@ -117,11 +138,12 @@ def find_late_torque(constants: np.record, carried: np.record) -> tuple[Torque, 
 def follow_and_decide(
     constants: np.ndarray, inputs: np.ndarray, carried: np.ndarray, tick: int
 ) -> None:
-    """Advance a period: x̂, ŵ and actual torque from the measurement, reference and limited torque.
+    """Advance one period: x̂, ŵ and actual torque from the measurement, reference and limited
+    torque.
 
-    constants, carried: `BenchConstants` and `Carried`, packed. Nothing is sent yet.
+    `constants` and `carried` are packed `BenchConstants` and `BenchLoopState`. Nothing is sent.
     """
-    # Packed records: as named tuples the arguments took 14 to 30 µs of the 38 µs of a call from
+    # Packed records: as named tuples the arguments took 14 to 30 of the 38 µs of a call from
     # Python.
     k, c = constants[0], carried[0]
     actual, applied = find_late_torque(k, c)
@@ -148,7 +170,7 @@ def publish_and_predict(
 ) -> None:
     """Store the sent torque (u1, u2, N·m), `publish_measured` into `sample`, then `predict`."""
     k, c = constants[0], carried[0]
-    # Kept before it is replaced: it acts until the new torque arrives (`latency`).
+    # Stored before it is replaced: it acts until the new torque arrives (`latency`).
     store_torque(c.before, c.sent)
     store_torque(c.sent, Torque(u1, u2))
     publish_measured(k.blocks, c, tick, sample)
@@ -161,9 +183,9 @@ def pass_ticks(
 ) -> None:
     """Advance `count` periods without the loop: x̂ with ŵ and the last torque sent.
 
-    If x̂ were held, the motion of several periods would count as that of one period, which is a
-    wrong velocity. The law, which may have an observer of its own, is called for these ticks,
-    `first` and on, with the same x̂; its torque is not sent.
+    If x̂ were constant, the motion of several periods would count as that of one period, which
+    would give a wrong velocity. The law, which may have its own observer, is called for these ticks
+    from `first` on, with the same x̂; its torque is not sent.
     """
     k, c = constants[0], carried[0]
     w = read_disturbance(c.estimate)
@@ -174,16 +196,17 @@ def pass_ticks(
         store_torque(c.actual, actual)
         store_torque(c.before, c.sent)
         positions = Positions(x.q, x.theta1, x.theta2)
-        # Called for the memory of the law alone; its result is dropped.
+        # Called only to update the memory of the law; its torque is not used.
         decide(k.blocks, k.call, inputs, x, w, applied, positions, first + passed)
     store_state(c.expected, predict(k, c))
 
 
 @compiled
 def predict(constants: np.record, carried: np.record) -> State:
-    """Predict x̂ a period later, with the velocities at half the ages before.
+    """Predict x̂ one period later, with the velocities at half of each reading's age before the
+    tick.
 
-    A count of age a is then brought to its tick by y + v(t − a/2) a, right to the second
+    A count of age a is then extrapolated to its tick by y + v(t − a/2) a, which is exact to second
     order. Returns `State`.
     """
     blocks, ages = constants.blocks, carried.ages_s

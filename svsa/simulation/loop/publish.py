@@ -44,15 +44,16 @@ def _write_sample(typing: Any, row: Any, sample: Any) -> Any:
 
 
 write_sample = cast("Callable[[np.ndarray, Sample], None]", _write_sample)
-"""A `Sample` into its row, (channels,), in compiled functions only.
-
-A loop over its fields would first put them into memory one after the other, and costs 5 % of a run.
+"""Write a `Sample` into its row, (channels,), in compiled functions only. A loop over its fields
+would first store them in memory one by one, which costs 5 % of a run.
 """
 
 
 @compiled
 def compute_nominal_torque(blocks: Blocks, lane: LaneState, F: InternalTorque) -> InternalTorque:
-    """F_n(x), `InternalTorque`, N·m, of the true state. F: that of x̂, often the same."""
+    """F_n(x), `InternalTorque`, N·m, of the true state; `F` is that of x̂, which is often the same
+    state.
+    """
     x, y = lane.x, lane.known
     if (x.q, x.dq, x.theta1, x.dtheta1, x.theta2, x.dtheta2) == (
         y.q, y.dq, y.theta1, y.dtheta1, y.theta2, y.dtheta2,
@@ -75,8 +76,8 @@ def publish(
 ) -> np.ndarray:
     """Write one `Sample` into its row, (channels,), and return it.
 
-    runs: whether the lane runs, which it does here. F: F_n(x̂), `InternalTorque`. call: of the law,
-    which has been called. action: what its torque begins.
+    `runs` is whether the lane is running, here always; `F` is F_n(x̂); `call` is that of the law,
+    after its call; `action` has the effects of its torque.
     """
     torque, rate = action.actual, action.rate
     # Read after the law was called: a law with an observer of its own updates it in the call.

@@ -1,7 +1,7 @@
-"""The loop with a plain Python controller, called once a tick by the compiled loop.
+"""The loop with a plain Python controller, called once per tick by the compiled loop.
 
-For the compiled loop the controller is a law as any other. The memory of that law holds the
-arguments, and its function calls Python. Hence the samples are the same.
+For the compiled loop the controller is a law like any other: the memory of that law contains the
+arguments, and its function calls Python. Therefore the samples are bit-identical.
 """
 
 import ctypes
@@ -19,7 +19,7 @@ from svsa.control.plain_law import SIGNATURE, find_named
 from svsa.errors import ParameterError, Violation
 from svsa.numerics.compilation import compiled
 from svsa.numerics.packed import pack
-from svsa.simulation.loop.held_signals import hold_signals
+from svsa.simulation.loop.deferred_signals import hold_signals
 from svsa.simulation.loop.lane import (
     AT_REST,
     NO_REFERENCE,
@@ -33,10 +33,8 @@ from svsa.simulation.loop.lane import (
 from svsa.simulation.loop.loop import advance
 
 Controller = Callable[..., tuple[float, float]]
-"""Time (s), `Reference`, x̂ (`State`), ŵ (`Disturbance`) → (u1, u2), N·m.
-
-By name, where it takes them: `applied`, the mean `Torque` that acted in the last period, and
-`measured`, `Positions`.
+"""Time (s), `Reference`, x̂ (`State`), ŵ (`Disturbance`) → (u1, u2), N·m. Optional by name:
+`applied`, the mean actual `Torque` of the last period, and `measured`, `Positions`.
 """
 
 _Call = ctypes.CFUNCTYPE(None, ctypes.c_void_p)
@@ -55,14 +53,15 @@ class _Exchange(NamedTuple):
 
 _ZEROS = _Exchange(NO_REFERENCE, AT_REST, UNDISTURBED, NO_TORQUE, UNMOVED, NO_TORQUE)
 EXCHANGED = sum(map(len, _ZEROS))
-"""How many numbers the loop and a controller exchange in a tick; the last two are the answer."""
+"""Number of values that the loop and a controller exchange in a tick; the last two are the answer.
+"""
 
 
 class _Address(NamedTuple):
     function: int
 
 
-def _build_ask(typing: Any, address: Any, reported: Any) -> Any:
+def _build_python_call(typing: Any, address: Any, reported: Any) -> Any:
     """Build a call of the function at an address with a record's address, or with an address."""
     is_address = isinstance(reported, types.Integer)
 
@@ -77,7 +76,7 @@ def _build_ask(typing: Any, address: Any, reported: Any) -> Any:
     return types.void(types.int64, reported), generate
 
 
-ask_python: Any = intrinsic(_build_ask)
+call_python: Any = intrinsic(_build_python_call)
 """Call the function at an address with the address of its arguments; in compiled code only."""
 
 
@@ -103,7 +102,7 @@ def _compute_commanded(
     reported.applied.u1, reported.applied.u2 = applied
     y = reported.measured
     y.q, y.theta1, y.theta2 = measured
-    ask_python(address.function, reported)
+    call_python(address.function, reported)
     return Torque(reported.answer.u1, reported.answer.u2)
 
 
@@ -117,8 +116,11 @@ def advance_stepwise(
 ) -> tuple[LaneState, int, int]:
     """Advance as `svsa.simulation.loop.loop.advance`, with the torque from `controller`.
 
-    What the controller raises is raised. Raises `ParameterError` where it returns anything but two
-    numbers, or has a parameter that does not exist.
+    Exceptions of the controller are propagated.
+
+    Raises:
+        ParameterError: If the controller returns anything but two numbers, or has an unknown
+            parameter.
     """
     tick, raised, named = first, list[BaseException](), _find_named(controller)
 
@@ -126,7 +128,7 @@ def advance_stepwise(
         nonlocal tick
         words = (ctypes.c_double * EXCHANGED).from_address(address)
         try:
-            # Here, and not in ctypes' own code, an exception of a signal handler can be caught.
+            # An exception of a signal handler can be caught here, but not in the code of ctypes.
             held.handle()
             time = tick * blocks.period
             given = Reference(*words[:8]), State(*words[8:14]), Disturbance(*words[14:17])
@@ -134,15 +136,16 @@ def advance_stepwise(
             reported: dict[str, tuple[float, ...]] = {"applied": torque, "measured": positions}
             answer = controller(time, *given, **{name: reported[name] for name in named})
             words[22:] = _read_torque(answer)
-        # ctypes prints an exception of a callback and drops it, also that of Ctrl-C: it is kept,
-        # and raised after the compiled call.
+        # ctypes prints and drops an exception of a callback, also KeyboardInterrupt; therefore it
+        # is stored, and raised after the compiled call.
         except BaseException as error:
             raised.append(error)
             # NaN ends the compiled loop at this tick.
             words[22:] = (np.nan, np.nan)
         tick += 1
 
-    # ctypes frees the callback with this object: it must live as long as `advance` runs.
+    # ctypes frees the callback together with this object, so it must exist as long as `advance`
+    # runs.
     called = _Call(ask)
     address = ctypes.cast(called, ctypes.c_void_p).value or 0
     nominal, constants, reported = pack(blocks.nominal), pack(_Address(address)), pack(_ZEROS)

@@ -20,7 +20,14 @@ AT_LIMIT = 0.999
 
 
 class Window(NamedTuple):
-    """Measured ticks: from `begin` to before `end`; settled, last: how many are 0.5 s and 1 s."""
+    """The measured ticks.
+
+    Attributes:
+        begin: First measured tick.
+        end: Tick after the last measured one.
+        settled: Number of ticks in 0.5 s.
+        last: Number of ticks in 1 s.
+    """
 
     begin: int
     end: int
@@ -32,13 +39,19 @@ class Tally(NamedTuple):
     """Summary of a run's measured ticks: sums of squares and absolute values, peaks, last values,
     SI.
 
-    steady_state_squares, stiffness_steady_squares: of the errors in the last 0.5 s.
-    position_last_peak, share_last_peak: of the last 1 s; a share is |σ_d − σ|/σ_d. recovered: the
-    measured tick from which on the position error stayed within 2 % of its peak until then for
-    0.5 s, −1 while it has not; inside: that from which on it is within now. limited: ticks in which
-    a motor made its limit, to 0.1 %. torque1_variation: sum of |Δu1| from one measured tick to the
-    next; torque1_last: u1. power: sum of |u1 θ̇1| + |u2 θ̇2|, the motors' mechanical power without
-    recovery.
+    Attributes:
+        steady_state_squares: Squares of the position error in the last 0.5 s;
+            `stiffness_steady_squares` likewise.
+        position_last_peak: Peak of the position error in the last 1 s; `share_last_peak` of the
+            stiffness share.
+        share_peak: Peak of |σ_d − σ|/σ_d.
+        inside: Measured tick from which on the position error is within 2 % of its peak.
+        recovered: Measured tick from which on the position error stayed within 2 % of its peak for
+            0.5 s; −1 before.
+        limited: Number of ticks in which a motor is within 0.1 % of its limit.
+        torque1_variation: Sum of |Δu1| between consecutive measured ticks.
+        torque1_last: u1 of the last tick.
+        power: Sum of |u1 θ̇1| + |u2 θ̇2|, the mechanical power of the motors without recuperation.
     """
 
     position_squares: float
@@ -65,7 +78,7 @@ class Tally(NamedTuple):
     power: float
 
 
-class Kept(NamedTuple):
+class TallyState(NamedTuple):
     """The summary of a vectorised run: the `Tally` of the ticks in the `Window`."""
 
     tally: Tally
@@ -76,7 +89,8 @@ SUMMARY = np.dtype(
     [("code", np.int64), ("ticks", np.int64)]
     + [(name, np.float64) for name in (*Tally._fields, *State._fields)]
 )
-"""Of each run: `INSIDE` or why it ended, after how many ticks, `Tally`, and the state reached."""
+"""For each run: `INSIDE` or the reason for its end, number of ticks, `Tally`, and the final state.
+"""
 
 
 @compiled
@@ -89,7 +103,7 @@ def build_window(begin: int, end: int, period: float) -> Window:
 
 @compiled
 def start_tally(nothing: float) -> Tally:
-    """`Tally` before the first tick. nothing: 0."""
+    """`Tally` before the first tick; `nothing` is 0, a float or a vector."""
     n = nothing
     return Tally(
         n, n, n, n, n, n, n, n, n, n, n, n, n, n - 1.0, n, n, n, n, n, n, n, n
@@ -106,12 +120,19 @@ def follow_recovery(
     inside: float,
     recovered: float,
 ) -> tuple[float, float]:
-    """Update the 2 % rule of the recovery time by one tick; the only implementation of it.
+    """Update the 2 % rule of the recovery time by one tick; its only implementation.
 
-    counts: whether the tick is measured. error: |q_d − q| at it, rad. peak: the largest so far,
-    rad. passed: measured ticks including this one. settled: ticks in 0.5 s. inside: the measured
-    tick from which on the error is within 2 % of its peak. recovered: that from which on it stayed
-    so for 0.5 s, −1 while it has not. Returns (inside, recovered).
+    Args:
+        counts: Whether the tick is measured.
+        error: |q_d − q| of the tick, rad.
+        peak: Largest error so far, rad.
+        passed: Number of measured ticks including this one.
+        settled: Number of ticks in 0.5 s.
+        inside: Measured tick from which on the error is within 2 % of its peak.
+        recovered: Measured tick from which on it stayed so for 0.5 s; −1 before.
+
+    Returns:
+        (inside, recovered) after the tick.
     """
     inside = choose(counts & (error > RECOVERY_SHARE * peak), passed, inside)
     stayed = counts & (recovered < 0.0) & (passed - inside >= settled)
@@ -121,8 +142,14 @@ def follow_recovery(
 class Moment(NamedTuple):
     """The quantities of one tick that metrics use.
 
-    position, stiffness: errors q_d − q, rad, and σ_d − σ, N·m/rad. sigma: σ_d, N·m/rad. u1, u2:
-    actual torque, N·m. dtheta1, dtheta2: motor velocities, rad/s.
+    Attributes:
+        position: q_d − q, rad.
+        stiffness: σ_d − σ, N·m/rad.
+        sigma: σ_d, N·m/rad.
+        u1: Actual torque of motor 1, N·m.
+        u2: Actual torque of motor 2, N·m.
+        dtheta1: Velocity of motor 1, rad/s.
+        dtheta2: Velocity of motor 2, rad/s.
     """
 
     position: float
@@ -143,7 +170,9 @@ def add_moment(
     moment: Moment,
     tick: int,
 ) -> Tally:
-    """Add one tick to the `Tally`, if it `runs`. is_limited: whether a motor is at its limit."""
+    """Add one tick to the `Tally` of a running lane; `is_limited` is whether a motor is at its
+    limit.
+    """
     t, m = tally, moment
     e, s = choose(runs, abs(m.position), 0.0), choose(runs, abs(m.stiffness), 0.0)
     u1, u2 = choose(runs, abs(m.u1), 0.0), choose(runs, abs(m.u2), 0.0)
@@ -197,9 +226,8 @@ def measure(
     torque: Torque,
     tick: int,
 ) -> Tally:
-    """Add the tick that begins at x to the `Tally` of each running lane.
-
-    torque: what the motors make, N·m.
+    """Add the tick that begins at x to the `Tally` of each running lane; `torque` is the actual
+    torque, N·m.
     """
     if tick < window.begin:
         return tally
@@ -223,9 +251,9 @@ def publish_tally(
     call: Any,
     action: Action,
     tick: int,
-    kept: Kept,
-) -> Kept:
-    """Add this tick to `Kept`, in place of `svsa.simulation.loop.publish.publish`."""
+    kept: TallyState,
+) -> TallyState:
+    """Add this tick to `TallyState`, in place of `svsa.simulation.loop.publish.publish`."""
     window = kept.window
     tally = measure(kept.tally, runs, window, blocks, reference, lane.x, action.actual, tick)
-    return Kept(tally, window)
+    return TallyState(tally, window)

@@ -28,7 +28,7 @@ MOMENT = (
     "motor1_velocity_rad_per_s",
     "motor2_velocity_rad_per_s",
 )
-"""Names of the channels that a `Moment` is, in its order."""
+"""Names of the channels of a `Moment`, in its order."""
 
 _REFERENCE = CHANNEL_INDEX["position_reference_rad"]
 _SIGMA = CHANNEL_INDEX["stiffness_reference_nm_per_rad"]
@@ -51,9 +51,15 @@ class Recovery(NamedTuple):
 class Followed(NamedTuple):
     """The incremental summary of a run's samples.
 
-    tally: of the known samples. position, stiffness: recovery of either error. passed, known: how
-    many samples came, and how many of them have numbers. stiffness_absolute: sum of |σ_d − σ|,
-    N·m/rad. torque2_variation: sum of |Δu2|, N·m. torque2_last: u2, N·m.
+    Attributes:
+        tally: `Tally` of the known samples.
+        position: Recovery of the position error.
+        stiffness: Recovery of the stiffness error.
+        passed: Number of samples.
+        known: Number of samples with values.
+        stiffness_absolute: Sum of |σ_d − σ|, N·m/rad.
+        torque2_variation: Sum of |Δu2|, N·m.
+        torque2_last: u2 of the last sample, N·m.
     """
 
     tally: Tally
@@ -76,13 +82,16 @@ def start_following() -> Followed:
 def follow_samples(followed: Followed, rows: np.ndarray, window: Window) -> Followed:
     """Update `Followed` with more samples.
 
-    A sample that the loop of a bench missed is NaN. It is in no sum and no peak; for the recovery
-    an error stays as it was last known.
+    A sample that the loop of a bench missed is NaN. It is left out of sums and peaks; for the
+    recovery the error keeps its last known value.
 
     Args:
-        followed: The samples before.
-        rows: (ticks, channels), the first ones as `MOMENT`, SI.
-        window: For its `settled`; it does not end.
+        followed: Summary of the samples before.
+        rows: Shape (ticks, channels), the first ones as in `MOMENT`, SI.
+        window: Only its `settled` is used; the window has no end.
+
+    Returns:
+        The updated summary.
     """
     tally, position, stiffness = followed.tally, followed.position, followed.stiffness
     passed, known = followed.passed, followed.known
@@ -116,7 +125,8 @@ def follow_samples(followed: Followed, rows: np.ndarray, window: Window) -> Foll
 def sum_up(samples: np.ndarray, blocks: Blocks, begin: int, end: int) -> Tally:
     """Compute the `Tally` of one run's samples (ticks, channels), bit-identical to a batch.
 
-    begin: the tick at which measuring begins. Fewer samples than ticks: the run ended early.
+    `begin` and `end` bound the measured ticks. If there are fewer samples than ticks, the run ended
+    early.
     """
     tally, window = start_tally(0.0), build_window(begin, end, blocks.period)
     for tick in range(samples.shape[0]):

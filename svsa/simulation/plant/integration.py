@@ -24,7 +24,10 @@ from svsa.simulation.plant.resistance import add_resistance
 class Stops(NamedTuple):
     """Mechanical stops of the lever's travel and of the deflection.
 
-    theta2_min, theta2_max, deflection_max: rad.
+    Attributes:
+        theta2_min: Lower stop of motor 2, rad.
+        theta2_max: Upper stop of motor 2, rad.
+        deflection_max: Stop of |φ|, rad.
     """
 
     theta2_min: float
@@ -36,13 +39,21 @@ class Stops(NamedTuple):
 def hit_stops(stops: Stops, x: State, inertia: float, inertia1: float) -> State:
     """Return the state after an inelastic impact, or x if it is between the stops.
 
-    The stiffness motor stands still at its stop. At the stop of the deflection link and
-    principal motor go on with the velocity of their common momentum. stops: `Stops`. x:
-    `State`. inertia: of the link with what hangs on it, inertia1: of motor 1, kg·m².
+    The stiffness motor is at rest at its stop. At the stop of the deflection, link and principal
+    motor continue with the velocity of their common momentum.
+
+    Args:
+        stops: `Stops`.
+        x: `State`.
+        inertia: Inertia of the link with its load, kg·m².
+        inertia1: Inertia of motor 1, kg·m².
+
+    Returns:
+        `State`.
     """
     q, dq, theta1, dtheta1 = x.q, x.dq, x.theta1, x.dtheta1
     theta2, dtheta2 = x.theta2, x.dtheta2
-    # Plain branches: only the emulator has stops, and it is never part of a batch.
+    # Branches: only the emulator has end stops, and it never runs in a batch.
     if theta2 < stops.theta2_min:
         theta2, dtheta2 = stops.theta2_min, max(dtheta2, 0.0)
     elif theta2 > stops.theta2_max:
@@ -62,9 +73,18 @@ def hit_stops(stops: Stops, x: State, inertia: float, inertia1: float) -> State:
 def compute_plant_load(
     effects: EffectConstants, table: LoadTable, x: State, tick: int, period: float, time: float
 ) -> ExternalLoad:
-    """Compute the total load on the plant: loads and effects such as friction.
+    """Compute the total load on the plant: loads, and effects such as friction.
 
-    effects: `EffectConstants`. table: `LoadTable`. x: `State`. Returns `ExternalLoad`.
+    Args:
+        effects: `EffectConstants`.
+        table: `LoadTable`.
+        x: `State`.
+        tick: Tick at the beginning of the period.
+        period: T, s.
+        time: Session time, s.
+
+    Returns:
+        `ExternalLoad`.
     """
     return add_resistance(effects, x, compute_load(table, tick, period, time))
 
@@ -73,7 +93,7 @@ def compute_plant_load(
 def compute_plant_rate(
     actuator: Actuator, effects: EffectConstants, x: State, torque: Torque, load: ExternalLoad
 ) -> State:
-    """ẋ of the plant under the motors' torque, the loads and everything else that acts (Eq 1)."""
+    """ẋ of the plant with the motors' torque, the loads and all other forces (Eq 1)."""
     return compute_rate(actuator, x, torque, add_resistance(effects, x, load))
 
 
@@ -99,11 +119,21 @@ def integrate_period(
     period: float,
     steps: int,
 ) -> State:
-    """The state at the end of the control period that begins at `tick` (RK4).
+    """Integrate the plant over the control period that begins at `tick` (RK4).
 
-    actuator: `Actuator`, the true plant. effects: `EffectConstants`. x: `State`. start: `Torque`
-    that the motors make at the beginning, delayed: `Torque` after the delay, N·m. table:
-    `LoadTable`. period: T, s. steps: Runge–Kutta steps in the period, ≥ 1.
+    Args:
+        actuator: `Actuator` of the true plant.
+        effects: `EffectConstants`.
+        x: `State` at the beginning.
+        start: `Torque` of the motors at the beginning, N·m.
+        delayed: `Torque` after the delay, N·m.
+        table: `LoadTable`.
+        tick: Number of the tick.
+        period: T, s.
+        steps: Runge–Kutta steps in the period, ≥ 1.
+
+    Returns:
+        `State` at the end of the period.
     """
     load = compute_load(table, tick, period, tick * period)
     torque = compute_lagged_torque(start, delayed, effects.current_lag, 0.0)
@@ -138,7 +168,7 @@ def integrate_from(
         u2 = compute_lagged_torque(start, delayed, effects.current_lag, since + h)
         middle = follow_load(table, early, tick, period, time + 0.5 * h)
         late = follow_load(table, early, tick, period, time + h)
-        # The caller has computed it at the beginning of the period, for the sample.
+        # The caller has computed it for the sample at the beginning of the period.
         k1 = rate if i == 0 else compute_plant_rate(actuator, effects, x, u0, early)
         k2 = compute_plant_rate(actuator, effects, shift(x, k1, 0.5 * h), u1, middle)
         k3 = compute_plant_rate(actuator, effects, shift(x, k2, 0.5 * h), u1, middle)
@@ -169,11 +199,22 @@ def coast(
     period: float,
     count: int,
 ) -> tuple[State, Torque]:
-    """Advance x and torque `count` periods, with the delayed torque held (RK4, one step each).
+    """Advance x and torque by `count` periods with a constant delayed torque (RK4, one step each).
 
-    actuator: `Actuator`, the true plant. effects: `EffectConstants`. stops: `Stops`. x: `State`.
-    torque: `Torque` that the motors make at the beginning, delayed: `Torque` asked of them,
-    N·m. table: `LoadTable`. period: s. Returns (`State`, `Torque`).
+    Args:
+        actuator: `Actuator` of the true plant.
+        effects: `EffectConstants`.
+        stops: `Stops`.
+        x: `State`.
+        torque: `Torque` of the motors at the beginning, N·m.
+        delayed: Commanded `Torque`, N·m.
+        table: `LoadTable`.
+        tick: Number of the first tick.
+        period: T, s.
+        count: Number of periods.
+
+    Returns:
+        `State` and `Torque` at the end.
     """
     for i in range(tick, tick + count):
         x = integrate_period(actuator, effects, x, torque, delayed, table, i, period, 1)

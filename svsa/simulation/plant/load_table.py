@@ -9,7 +9,7 @@ import numpy as np
 from svsa.actuators.dynamics import ExternalLoad
 from svsa.numerics.compilation import compiled, specialize
 from svsa.numerics.simd.choice import choose, some
-from svsa.numerics.simd.each import call_where
+from svsa.numerics.simd.elementwise import call_where
 from svsa.numerics.simd.memory import make_alike, read
 from svsa.simulation.plant.loads import LOADS, Load
 from svsa.simulation.plant.loads.load import (
@@ -26,16 +26,17 @@ from svsa.simulation.plant.loads.load import (
     B,
     D,
 )
-from svsa.simulation.plant.loads.push import PushLoad
 
 
 class LoadTable(NamedTuple):
     """All loads of a session as arrays for the compiled loop.
 
-    rows: (n, 10) by the column names of `loads.load`, START and END in ticks; (n, 10, 8) for runs
-    that have other loads each. points: (m, 4) time since onset (s) and torques (N·m) of every
-    series, each from A of its row on, B of them. changing: whether one of them changes within a
-    period.
+    Attributes:
+        rows: Shape (n, 10) with the columns of `loads.load`, START and END in ticks; (n, 10, 8) for
+            runs with different loads.
+        points: Shape (m, 4), time since onset (s) and torques (N·m) of all series; a row's series
+            begins at its A and has B points.
+        changing: Whether a load changes within a period.
     """
 
     rows: np.ndarray
@@ -44,12 +45,13 @@ class LoadTable(NamedTuple):
 
 
 class ScheduledLoad(NamedTuple):
-    """A load of a session: its number, and its onset and end in ticks."""
+    """A load of a session: its number, onset and end in ticks, and the joint on which it acts."""
 
     number: int
     load: Load
     start_tick: int
     end_tick: float
+    joint: int = 1
 
     def is_on(self, tick: int) -> bool:
         """Whether it acts during the sample that begins at this tick."""
@@ -60,7 +62,7 @@ def schedule_load(number: int, load: Load, tick: int, period: float) -> Schedule
     """Onset and end in whole ticks of `period` (s); an onset in the past is now (`tick`)."""
     start = tick if load.start_s is None else max(tick, round(load.start_s / period))
     duration = load.get_duration()
-    # At least one tick, or a pulse shorter than half a period would not exist.
+    # At least one tick: a pulse shorter than half a period would round to no tick.
     end = math.inf if math.isinf(duration) else start + max(1, round(duration / period))
     return ScheduledLoad(number, load, start, end)
 
@@ -68,15 +70,15 @@ def schedule_load(number: int, load: Load, tick: int, period: float) -> Schedule
 def continue_push(
     loads: Iterable[ScheduledLoad], load: Load, tick: int, period: float
 ) -> ScheduledLoad | None:
-    """Return the active push as changed by `load` from `tick` on; None if it changes none.
+    """Return the active push as changed by `load` from `tick` on; None if no push is active.
 
     Number and onset stay, so that a push is one load from its beginning to its end.
     """
-    if isinstance(load, PushLoad) and load.start_s is None:
+    if load.is_push and load.start_s is None:
         for held in loads:
-            if isinstance(held.load, PushLoad) and held.is_on(tick):
+            if type(held.load) is type(load) and held.is_on(tick):
                 reported = schedule_load(held.number, load, tick, period)
-                return reported._replace(start_tick=held.start_tick)
+                return reported._replace(start_tick=held.start_tick, joint=held.joint)
     return None
 
 
@@ -84,7 +86,7 @@ def build_load_table(loads: tuple[ScheduledLoad, ...]) -> LoadTable:
     """The arrays of `LoadTable` for these loads; they add up where they overlap."""
     rows = np.zeros((len(loads), D + 1))
     series: list[np.ndarray] = [np.zeros((0, 4))]
-    for row, (_, load, start, end) in zip(rows, loads, strict=True):
+    for row, (_, load, start, end, _) in zip(rows, loads, strict=True):
         row[KIND], row[START], row[END] = _CODES.get(type(load), load.acts_as), start, end
         load.fill(row)
         if load.acts_as == SERIES:
@@ -96,11 +98,12 @@ def build_load_table(loads: tuple[ScheduledLoad, ...]) -> LoadTable:
 
 
 _CODES = {load: code for code, load in enumerate((one for one in LOADS if one.factor), TORQUE + 1)}
-"""The number by which a row says which `factor` its torque has; TORQUE has none."""
+"""Number in a row that selects the `factor` of its torque; TORQUE has none."""
 before: Any = None
 factor: Any = None
 code: float = 0.0
-"""Of `_compute_next`: what computes the factors before this one, and this one with its number."""
+"""Specialises `_compute_next`: the function for the previous factors, and this one with its number.
+"""
 
 
 @compiled
@@ -125,16 +128,24 @@ def _chain() -> Any:
 
 
 compute_factor = _chain()
-"""(kind, rows, i, since) -> what the torque of row i is multiplied by."""
+"""(kind, rows, i, since) -> factor of the torque of row i."""
 
 
 @compiled
 def compute_load(table: LoadTable, tick: int, period: float, time: float) -> ExternalLoad:
     """The sum of all active loads at `time`, during the sample that began at `tick`.
 
-    Whether a load is on is decided by the tick, so that a step falls between two samples
-    and never inside one; its shape is taken at `time` (s). table: `LoadTable`. period: T,
-    s. Returns `ExternalLoad`.
+    The tick determines whether a load is on, so that a step falls between two samples and never
+    inside one; `time` determines its value.
+
+    Args:
+        table: `LoadTable`.
+        tick: Number of the tick.
+        period: T, s.
+        time: Session time, s.
+
+    Returns:
+        `ExternalLoad`.
     """
     r = table.rows
     w2 = w4 = w6 = inertia = moment = make_alike(r, 0.0)
@@ -161,9 +172,8 @@ def compute_load(table: LoadTable, tick: int, period: float, time: float) -> Ext
 def interpolate(
     points: np.ndarray, first: float, length: float, time: float
 ) -> tuple[float, float, float]:
-    """The torques of `length` points from `first` on, whole numbers, at `time` (s).
-
-    On straight lines between them; zero before them.
+    """Interpolate the torques of `length` points from `first` on linearly at `time` (s); zero
+    before them.
     """
     low = int(first)
     if time < points[low, 0]:

@@ -9,7 +9,7 @@ from svsa.simulation.plant.effects import EFFECTS, EffectConstants
 
 before: Any = None
 resist: Any = None
-"""Of `_add_next`: what adds the effects before this one, and this one's `resist`."""
+"""Specialises `_add_next`: the function for the previous effects, and this one's `resist`."""
 
 
 @compiled
@@ -31,4 +31,4 @@ def _chain() -> Any:
 
 
 add_resistance = _chain()
-"""(effects, x, load) -> `ExternalLoad`: the load of the table and what every effect adds to it."""
+"""(effects, x, load) -> `ExternalLoad`: the load of the table plus that of every effect."""

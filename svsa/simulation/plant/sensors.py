@@ -39,7 +39,13 @@ def read_positions(effects: EffectConstants, x: State, tick: int) -> Positions:
 def read_sensors(effects: EffectConstants, x: State, tick: int) -> Measurement:
     """Measure θ1, θ2 by the motor encoders and φ by the deflection encoder; velocities if known.
 
-    effects: `EffectConstants`. x: `State` at the start of `tick`. Returns `Measurement`.
+    Args:
+        effects: `EffectConstants`.
+        x: `State` at the start of the tick.
+        tick: Number of the tick.
+
+    Returns:
+        `Measurement`.
     """
     counts, noise = effects.encoders, effects.noise
     theta1 = add_noise(x.theta1, noise.motor_std, noise.seed, tick, 0)

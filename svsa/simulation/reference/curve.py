@@ -12,7 +12,7 @@ import numpy as np
 from svsa.errors import ParameterError, Violation
 
 DEGREE = 9
-SAMPLES_A_PIECE = 8
+SAMPLES_PER_PIECE = 8
 ROUNDING = 1e-12
 ORDER_NAMES = ("value", "velocity", "acceleration", "jerk", "snap")
 
@@ -21,8 +21,10 @@ ORDER_NAMES = ("value", "velocity", "acceleration", "jerk", "snap")
 class Curve:
     """r(t) = Σ c_ik (t − t_i)^k between t_i and t_(i+1).
 
-    breaks: (n,), s, growing. coefficients: (n, 10) in ascending powers; the last row is the
-    constant that is held after the last break.
+    Attributes:
+        breaks: Shape (n,), s, increasing.
+        coefficients: Shape (n, 10) in ascending powers; the last row is the constant after the last
+            break.
     """
 
     breaks: np.ndarray
@@ -36,10 +38,11 @@ class Curve:
     def sample(self, order: int) -> tuple[np.ndarray, np.ndarray]:
         """Sample times (s) and the derivative of this order.
 
-        They are 8 in each piece and its end, and the time from which the last value is held.
+        There are eight times in each piece and its end, and the time from which the last value is
+        constant.
         """
         widths = np.diff(self.breaks)
-        local = widths[:, None] * np.linspace(0.0, 1.0, SAMPLES_A_PIECE + 1)
+        local = widths[:, None] * np.linspace(0.0, 1.0, SAMPLES_PER_PIECE + 1)
         rows = self.coefficients[:-1]
         values = np.zeros_like(local)
         for power in range(DEGREE, order - 1, -1):
@@ -73,8 +76,12 @@ def check_curve(
 ) -> None:
     """Raise `ParameterError` if |r| or a derivative of a curve exceeds its bound.
 
-    bounds: of the orders 0, 1, …, in the curve's own unit. unit, factor: those in which the
-    error speaks, and what they are in the curve's own unit.
+    Args:
+        name: Name of the reference in the error message.
+        curve: The curve.
+        unit: Unit in the error message.
+        factor: The size of this unit in the curve's own unit.
+        bounds: Bounds of the orders 0, 1, …, in the curve's own unit.
     """
     for order, bound in enumerate(bounds):
         times, values = curve.sample(order)
@@ -92,9 +99,14 @@ def _index(name: str, number: int) -> str:
 
 
 class Points(NamedTuple):
-    """Values at times (s), with the name and unit for errors.
+    """Values at times, with names for error messages.
 
-    place: how a point is called, from its name and its number from 0.
+    Attributes:
+        name: Name of the values.
+        unit: Their unit.
+        times: Times, s.
+        values: Values.
+        place: Formats the name of a point from `name` and its number from 0.
     """
 
     name: str
@@ -105,9 +117,12 @@ class Points(NamedTuple):
 
 
 def check_points(points: Points, least_gap_s: float, gap: str = "") -> None:
-    """Raise `ParameterError` unless times increase and each has a finite value.
+    """Raise `ParameterError` unless times increase and each point has a finite value.
 
-    least_gap_s: between two times, s. gap: the name of the field that asks for it, if one does.
+    Args:
+        points: The points.
+        least_gap_s: Minimum distance between two times, s.
+        gap: Name of the field that requires this distance, if any.
     """
     name, unit, times, values, place = points
     if len(times) != len(values):

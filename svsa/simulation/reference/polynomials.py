@@ -48,10 +48,18 @@ def blend(old: Derivatives, new: Derivatives, w: Derivatives) -> Derivatives:
 def compute_polynomial(
     breaks: np.ndarray, coefficients: np.ndarray, first: float, length: float, time: float
 ) -> Derivatives:
-    """Σ c_k (t − t_i)^k and its derivatives by Horner's scheme; held before t_0 and at the end.
+    """Σ c_k (t − t_i)^k and its derivatives by Horner's scheme; constant before t_0 and after the
+    end.
 
-    breaks: (m,), s. coefficients: (m, 10). first, length: which of them are this curve's, whole
-    numbers. time: s, of the curve.
+    Args:
+        breaks: Break points, shape (m,), s.
+        coefficients: Shape (m, 10).
+        first: Index of this curve's first break, an integer as float.
+        length: Number of its breaks.
+        time: Time of the curve, s.
+
+    Returns:
+        Value and derivatives.
     """
     low = int(first)
     if time <= breaks[low]:
@@ -65,7 +73,7 @@ def compute_polynomial(
             high = middle
     dt = time - breaks[low]
     p0, p1, p2, p3, p4 = 0.0, 0.0, 0.0, 0.0, 0.0
-    # In this scheme each p is a derivative over its factorial: hence the factors 2, 6 and 24.
+    # In this scheme each p is a derivative divided by its factorial: hence the factors 2, 6 and 24.
     for k in range(DEGREE, -1, -1):
         p4 = p4 * dt + p3
         p3 = p3 * dt + p2

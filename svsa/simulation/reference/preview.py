@@ -8,7 +8,7 @@ from svsa.simulation.reference.transition import build_stack, compute_trajectory
 
 STILL_S = 1.0
 LONGEST_S = 1e6
-"""As long as any run may be."""
+"""Maximum duration of a run, s."""
 MAX_POINTS = 1_000_000
 
 
@@ -24,10 +24,10 @@ def sample_reference(reference: AnyReference, points: int = 400) -> tuple[np.nda
 
     Returns:
         Times (points,), s, and values (points, 5): r, ṙ, r̈, r⃛ and r⁗, in rad or N·m/rad, and that
-        by s to s⁴.
+        per s to s⁴.
 
     Raises:
-        ParameterError: For another number of points.
+        ParameterError: If the number of points is out of range.
     """
     check_number("points", points, "", 2, MAX_POINTS)
     times = np.linspace(0.0, find_duration(reference), points)

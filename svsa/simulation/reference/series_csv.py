@@ -25,7 +25,14 @@ TIME = "time_s"
 
 
 class Column(NamedTuple):
-    """A column of values. factor: its unit in that of the reference; least: in the latter."""
+    """A column of values.
+
+    Attributes:
+        unit: Unit of the column.
+        factor: The size of this unit in the unit of the reference.
+        least: Smallest value, in the unit of the reference.
+        bounds: Bounds of the orders 0, 1, …, in the unit of the reference.
+    """
 
     unit: str
     factor: float
@@ -47,10 +54,10 @@ def read_series(path: Path | str) -> SeriesPosition | SeriesStiffness:
         path: The file: a column of times, s, and one of positions, rad, or of stiffness, N·m/rad.
 
     Returns:
-        The reference that the columns give.
+        The reference defined by the columns.
 
     Raises:
-        ParameterError: For a file that cannot be read, and for a wrong column or value.
+        ParameterError: If the file cannot be read, or a column or value is invalid.
     """
     try:
         text = Path(path).read_text(encoding="utf-8-sig")
@@ -61,9 +68,11 @@ def read_series(path: Path | str) -> SeriesPosition | SeriesStiffness:
 
 
 def parse_series(text: str) -> SeriesPosition | SeriesStiffness:
-    """Parse the reference in a CSV text; the column's name defines the unit.
+    """Parse the reference in a CSV text; the name of the column defines quantity and unit.
 
-    Raises `ParameterError` that names the row (the head is row 1), value, unit and bound.
+    Raises:
+        ParameterError: If a row is invalid; the message has row (the header is row 1), value, unit
+            and bound.
     """
     lines = csv.reader(io.StringIO(text.removeprefix("\ufeff"), newline=""))
     try:

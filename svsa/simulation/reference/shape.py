@@ -30,12 +30,15 @@ class Derivatives(NamedTuple):
 class Shape(NamedTuple):
     """A reference in its own unit.
 
-    numbers: up to `MAX_NUMBERS`, as the kind's function takes them. range: least and greatest
-    value. start: the value at t = 0. duration: how long it moves, s; of a sine two periods, of
-    what stands still 0.
+    A sine depends on session time. A curve, or a kind with its own `compute`, begins at its own t =
+    0 when its transition is complete.
 
-    A sine runs on the session's time. What has a curve, or a `compute` of its own, begins at its
-    own t = 0 when it has faded in.
+    Attributes:
+        numbers: Arguments of the kind's function, at most `MAX_NUMBERS`.
+        range: Smallest and greatest value.
+        start: Value at t = 0.
+        duration: Duration of its motion, s; for a sine two periods, for a constant 0.
+        curve: The piecewise polynomial, if it is one.
     """
 
     numbers: tuple[float, ...]

@@ -1,13 +1,13 @@
 """Transition between references without a jump in any derivative used.
 
-The old reference r_a and the new one r_b run on side by side and are faded:
-r = r_a + w(t) (r_b − r_a), with a weight w of degree 9 whose first four derivatives are
-zero at both ends. r is then four times continuously differentiable, and, a convex
-combination at every instant, never leaves the range of the two. A change during a fade
-fades from what runs, so that a reference is a short stack of trajectories.
+The old reference r_a and the new one r_b run in parallel and are blended: r = r_a + w(t) (r_b −
+r_a), with a weight w of degree 9 whose first four derivatives are zero at both ends. Therefore r is
+four times continuously differentiable, and, as a convex combination at every instant, never leaves
+the range of the two. A change during a transition starts from the present blend, so that a
+reference is a short stack of trajectories.
 
-A sine runs on the time of the session. What has a beginning holds its first value while it
-fades in, and begins when it has.
+A sine depends on session time. A finite reference keeps its first value during its transition, and
+starts after it.
 """
 
 from typing import Any, NamedTuple
@@ -17,14 +17,14 @@ import numpy as np
 from svsa.errors import StateError
 from svsa.numerics.compilation import compiled, specialize
 from svsa.numerics.simd.choice import choose, some
-from svsa.numerics.simd.each import call_where
+from svsa.numerics.simd.elementwise import call_where
 from svsa.numerics.simd.memory import read
 from svsa.simulation.reference.curve import DEGREE
 from svsa.simulation.reference.kinds import POSITIONS, STIFFNESSES
 from svsa.simulation.reference.kinds.reference import AnyReference
 from svsa.simulation.reference.kinds.sine import compute_sine
 from svsa.simulation.reference.polynomials import blend, compute_fade, compute_polynomial
-from svsa.simulation.reference.shape import CURVE, MAX_NUMBERS, SINE, Derivatives
+from svsa.simulation.reference.shape import CURVE, MAX_NUMBERS, SINE, Derivatives, Shape
 
 MAX_FADES = 32
 
@@ -34,9 +34,12 @@ KIND, A, B, C, D, E, F, START, FADE = range(3 + MAX_NUMBERS)
 class Stack(NamedTuple):
     """A reference as arrays for the compiled loop.
 
-    rows: (n, 9): kind, numbers, start and fade (s); (n, 9, 8) for runs that have other references
-    each. breaks, coefficients: (m,) and (m, 10), of every curve (see `Curve`); A and B of its row
-    are where it begins and how long it is.
+    Attributes:
+        rows: Shape (n, 9): kind, numbers, start and fade (s); (n, 9, 8) for runs with different
+            references.
+        breaks: Breaks of all curves (see `Curve`), shape (m,); a row's curve begins at its A and
+            has B breaks.
+        coefficients: Coefficients of all curves, shape (m, 10).
     """
 
     rows: np.ndarray
@@ -49,13 +52,19 @@ _EMPTY = Stack(np.empty((0, 3 + MAX_NUMBERS)), np.empty(0), np.empty((0, DEGREE 
 
 def build_stack(trajectory: AnyReference) -> Stack:
     """Build a reference from t = 0."""
-    return _append(_EMPTY, trajectory, 0.0, 0.0)
+    return _append(_EMPTY, trajectory.get_shape(), _find_code(trajectory), 0.0, 0.0)
+
+
+def build_shape_stack(shape: Shape) -> Stack:
+    """Build a sine or a curve from t = 0."""
+    return _append(_EMPTY, shape, SINE, 0.0, 0.0)
 
 
 def push_trajectory(stack: Stack, trajectory: AnyReference, time: float) -> Stack:
-    """Fade in `trajectory` from `time` (s) on; finished transitions are dropped.
+    """Blend in `trajectory` from `time` (s) on; finished transitions are dropped.
 
-    Raises `StateError` while `MAX_FADES` changes are still fading.
+    Raises:
+        StateError: While `MAX_FADES` transitions are in progress.
     """
     # Below a finished fade every trajectory has the weight 0.
     done = stack.rows[:, START] + stack.rows[:, FADE] <= time
@@ -64,12 +73,17 @@ def push_trajectory(stack: Stack, trajectory: AnyReference, time: float) -> Stac
         raise StateError(
             f"{MAX_FADES} changes of this reference are still fading in; wait for one to end."
         )
-    return _append(kept, trajectory, time, trajectory.transition_s)
+    shape, code = trajectory.get_shape(), _find_code(trajectory)
+    return _append(kept, shape, code, time, trajectory.transition_s)
 
 
-def _append(stack: Stack, trajectory: AnyReference, start: float, fade: float) -> Stack:
-    shape, row = trajectory.get_shape(), np.zeros(3 + MAX_NUMBERS)
-    row[KIND], row[START], row[FADE] = _CODES.get(trajectory.compute, SINE), start, fade
+def _find_code(trajectory: AnyReference) -> int:
+    return _CODES.get(trajectory.compute, SINE)
+
+
+def _append(stack: Stack, shape: Shape, code: int, start: float, fade: float) -> Stack:
+    row = np.zeros(3 + MAX_NUMBERS)
+    row[KIND], row[START], row[FADE] = code, start, fade
     row[A : A + len(shape.numbers)] = shape.numbers
     breaks, coefficients = stack.breaks, stack.coefficients
     if shape.curve is not None:
@@ -90,11 +104,12 @@ def _drop(stack: Stack, count: int) -> Stack:
 
 _COMPUTED = dict.fromkeys(one.compute for one in (*POSITIONS, *STIFFNESSES) if one.compute)
 _CODES = {compute: code for code, compute in enumerate(_COMPUTED, CURVE + 1)}
-"""The number by which a row says which function computes it, besides SINE and CURVE."""
+"""Number in a row that selects its function, besides SINE and CURVE."""
 before: Any = None
 compute: Any = None
 code: float = 0.0
-"""Of `_compute_next`: what computes the kinds before this one, and this one with its number."""
+"""Specialises `_compute_next`: the function for the previous kinds, and this one with its number.
+"""
 
 
 @compiled
@@ -125,7 +140,7 @@ def compute_row(stack: Stack, i: int, time: float) -> Derivatives:
     r, kind = stack.rows, read(stack.rows, i, KIND)
     a, b, c, d = read(r, i, A), read(r, i, B), read(r, i, C), read(r, i, D)
     nothing = Derivatives(0.0, 0.0, 0.0, 0.0, 0.0)
-    # Makes a vector of the zeros if `kind` is one.
+    # Broadcasts the zeros to a vector if `kind` is one.
     value = choose(kind == SINE, nothing, nothing)
     if some(kind == SINE):
         value = compute_sine(a, b, c, d, time)
@@ -138,14 +153,19 @@ def compute_row(stack: Stack, i: int, time: float) -> Derivatives:
 
 @compiled
 def compute_trajectory(stack: Stack, time: float) -> Derivatives:
-    """The running reference and its four derivatives at `time` (s).
+    """The present reference and its four derivatives.
 
-    stack: as `build_stack` and `push_trajectory` make it.
+    Args:
+        stack: Result of `build_stack` and `push_trajectory`.
+        time: Session time, s.
+
+    Returns:
+        `Derivatives`.
     """
     value = compute_row(stack, 0, time)
     for i in range(1, stack.rows.shape[0]):
         target = compute_row(stack, i, time)
         weight = compute_fade(stack.rows[i, START], stack.rows[i, FADE], time)
-        # A blend with the weight 1 would leave rounding errors of the old reference indefinitely.
+        # A blend with the weight 1 would keep rounding errors of the old reference indefinitely.
         value = target if weight.d0 == 1.0 else blend(value, target, weight)
     return value

@@ -1,4 +1,4 @@
-"""Eight runs with a controller in plain Python are each the run alone, bit for bit."""
+"""Eight runs with a controller in plain Python equal single runs, bit for bit."""
 
 import numpy as np
 import pytest
@@ -18,7 +18,7 @@ PARTS = (Reference, State, Disturbance, Torque, Positions)
 
 
 def build_law(configuration, pull_nm):
-    """Feedback linearization with an integral, which a torque pulls away from 0.5 s on."""
+    """Feedback linearization with an integral; a torque drives it to a fault from 0.5 s on."""
     model = build_actuator(configuration.nominal, compute_start_ratio(configuration))
     total = 0.0
 
@@ -43,8 +43,10 @@ def configurations():
     return [build_configuration(one, seed=i, **changes) for i, one in enumerate(loads)]
 
 
-def test_each_run_of_a_group_is_the_run_alone(configurations):
-    """The middle one is pulled out of the domain of the model, and is not asked from then on."""
+def test_each_run_of_a_group_equals_a_single_run(configurations):
+    """The middle one leaves the domain of the model, and its controller is not called
+    afterwards.
+    """
     pulls, asked = (0.0, 60.0, 0.0), []
     laws = [build_law(*one) for one in zip(configurations, pulls, strict=True)]
 
@@ -64,7 +66,7 @@ def test_each_run_of_a_group_is_the_run_alone(configurations):
             configuration, build_law(configuration, pulls[number]), duration_s=DURATION_S
         )
         expected = summarize_result(alone, BEGIN_S, DURATION_S)[0]
-        # Of a run that has ended, a batch keeps the torque that ended it.
+        # For an ended run, a batch keeps the torque that ended it.
         names = {"code", "ticks", *Tally._fields} - {"torque1_last"}
         differ = [name for name in names if found[number][name] != expected[name]]
         assert differ == [], (number, found[number], expected)
@@ -73,7 +75,7 @@ def test_each_run_of_a_group_is_the_run_alone(configurations):
     assert asked[-1][1:] == (True, False, True)
 
 
-def test_what_the_controller_raises_ends_the_group_and_is_raised(configurations):
+def test_exception_of_a_controller_ends_the_group_and_is_raised(configurations):
     calls = []
 
     def control(time_s, is_asked, reported):

@@ -1,4 +1,4 @@
-"""A sample stands in its row as its fields say, whatever the row is a part of."""
+"""A sample is stored in the columns of its fields."""
 
 import numpy as np
 import pytest

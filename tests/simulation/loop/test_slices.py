@@ -1,4 +1,4 @@
-"""Long runs are cut into short compiled calls, and no bit depends on where."""
+"""Long runs are split into short compiled calls without changing a bit."""
 
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ FAULT = svsa.ConstantLoad(torque_nm=(40.0, 0.0, 0.0), start_s=0.1)
 
 
 class Clock:
-    """A clock on which every tick takes so long, s."""
+    """A clock on which every tick takes this time, s."""
 
     def __init__(self, monkeypatch):
         self.now_s = 0.0
@@ -35,7 +35,7 @@ def clock(monkeypatch):
 
 
 @pytest.mark.parametrize("tick_s", [1e-7, 1e-6, 1e-4])
-def test_a_slice_is_no_longer_than_the_time_that_ctrl_c_may_wait(clock, tick_s):
+def test_slice_is_no_longer_than_the_response_time_to_ctrl_c(clock, tick_s):
     for _ in range(2):
         done = clock.run(1_000_000, tick_s)
         assert [first for first, _ in done] == [0, *(stop for _, stop in done[:-1])]
@@ -43,19 +43,19 @@ def test_a_slice_is_no_longer_than_the_time_that_ctrl_c_may_wait(clock, tick_s):
         assert max(stop - first for first, stop in done) * tick_s < 1.01 * slices.SLICE_S
 
 
-def test_after_a_slice_that_took_too_long_the_next_is_shorter(clock):
+def test_slice_after_a_slow_one_is_shorter(clock):
     clock.run(1_000_000, 1e-7)
     first, second, *_ = clock.run(1_000_000, 1e-5)
     assert second[1] - second[0] < 0.1 * (first[1] - first[0])
 
 
-def test_a_run_of_a_known_law_that_fits_into_a_slice_is_one_call(clock):
+def test_short_run_of_a_known_law_is_one_call(clock):
     clock.run(10_000, 1e-7)
     assert clock.run(10_000, 1e-7) == [(0, 10_000)]
 
 
 def run_whole_and_sliced(monkeypatch, run):
-    """What `run` returns in one compiled call, and in a call for each tick."""
+    """Return the results of `run` in one compiled call, and in a call for each tick."""
     with monkeypatch.context() as patch:
         patch.setattr(slices, "_FIRST_TICKS", TICKS)
         patch.setattr(slices, "_lengths", {})
@@ -71,7 +71,7 @@ def run_whole_and_sliced(monkeypatch, run):
 
 
 @pytest.mark.parametrize("law", ["ndobc", "ndobc_w", "ilc"])
-def test_a_run_in_slices_has_the_bits_of_one_call(monkeypatch, law):
+def test_run_in_slices_has_the_bits_of_one_call(monkeypatch, law):
     configuration = build_configuration(PULSE, law=law, effects=svsa.RIG, seed=3)
     whole, sliced = run_whole_and_sliced(
         monkeypatch, lambda: svsa.simulate(configuration, duration_s=1e-3 * TICKS)
@@ -80,8 +80,8 @@ def test_a_run_in_slices_has_the_bits_of_one_call(monkeypatch, law):
 
 
 @pytest.mark.parametrize("law", ["ndobc", "ndobc_w", "ilc"])
-def test_a_batch_in_slices_has_the_bits_of_one_call(monkeypatch, law):
-    """Also of runs that end in a fault, some of them within a group of eight."""
+def test_batch_in_slices_has_the_bits_of_one_call(monkeypatch, law):
+    """Also for runs that end in a fault, some of them within a group of eight."""
     configurations = [
         build_configuration(*loads, law=law, effects=svsa.RIG, seed=number)
         for number, loads in enumerate([(PULSE,), (FAULT,), (), (PULSE, FAULT)] * 3)

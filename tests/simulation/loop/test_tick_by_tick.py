@@ -1,4 +1,4 @@
-"""One loop: compiled in one call, tick by tick, or piece by piece from Python, the same bits."""
+"""One loop: in one compiled call, tick by tick, or step by step from Python, the same bits."""
 
 import math
 
@@ -51,13 +51,13 @@ def configuration(request):
 
 
 @pytest.fixture
-def whole(configuration):
+def result(configuration):
     return advance(Run(configuration), TICKS)[0]
 
 
 @pytest.fixture
 def parts(configuration):
-    """(blocks, law, inputs) of the configuration's only lane, built outside a run."""
+    """(blocks, law, inputs) of the only lane of the configuration, built outside a run."""
     scheduled = tuple(
         schedule_load(number, load, 0, 0.001)
         for number, load in enumerate(configuration.loads, start=1)
@@ -70,12 +70,12 @@ def parts(configuration):
 
 @pytest.fixture
 def initial(configuration):
-    """The lane at its start."""
+    """The initial state of the lane."""
     return build_lane_state(get_law(configuration.law).start_memory())
 
 
 def compose_tick(blocks, law, inputs, lane, tick, sample):
-    """A tick of the loop written out in Python over the same compiled pieces."""
+    """A tick of the loop, composed in Python from the same compiled functions."""
     assert check_domain(blocks.domain, blocks.plant, lane.x) == INSIDE
     effects, period, time = blocks.effects, blocks.period, tick * blocks.period
     call = build_call(law, lane.memory)
@@ -113,34 +113,34 @@ def compose_tick(blocks, law, inputs, lane, tick, sample):
     return LaneState(x, known, estimate, actual, applied, limited, lane.memory)
 
 
-def test_one_call_is_what_a_run_does(parts, initial, whole):
-    """The run adds nothing to the compiled loop: no state is kept next to `LaneState`."""
-    samples = np.empty_like(whole)
+def test_one_call_equals_a_run(parts, initial, result):
+    """The run adds nothing to the compiled loop: no state is stored outside `LaneState`."""
+    samples = np.empty_like(result)
     _, done, code = advance_lane(*parts, initial, 0, samples)
     assert (done, code) == (TICKS, INSIDE)
-    np.testing.assert_array_equal(samples, whole)
+    np.testing.assert_array_equal(samples, result)
 
 
-def test_piece_by_piece_from_python_gives_the_same_bits(parts, initial, whole):
-    """Compiled alone or inlined into the loop, an equation rounds alike."""
-    samples, lane = np.empty_like(whole), initial
+def test_step_by_step_calls_from_python_give_the_same_bits(parts, initial, result):
+    """Compiled alone or inlined into the loop, an equation rounds identically."""
+    samples, lane = np.empty_like(result), initial
     for tick in range(TICKS):
         lane = compose_tick(*parts, lane, tick, samples[tick])
-    np.testing.assert_array_equal(samples, whole)
+    np.testing.assert_array_equal(samples, result)
 
 
 @pytest.mark.parametrize("sizes", [(1,), (2, 3, 5, 7), (1, 99), (150,)])
-def test_any_cutting_into_calls_gives_the_same_bits(configuration, whole, sizes):
+def test_any_split_into_calls_gives_the_same_bits(configuration, result, sizes):
     run, pieces, turn = Run(configuration), [], 0
     while run.tick < TICKS:
         ticks = min(sizes[turn % len(sizes)], TICKS - run.tick)
         pieces.append(advance(run, ticks)[0])
         turn += 1
-    np.testing.assert_array_equal(np.vstack(pieces), whole)
+    np.testing.assert_array_equal(np.vstack(pieces), result)
 
 
 def build_python_law(configuration):
-    """The configuration's own law as a controller in plain Python; no limits in it."""
+    """The law of the configuration as a controller in plain Python, without limits."""
     nominal = build_actuator(configuration.nominal, Run(configuration).mu0)
     gains = build_gains(configuration.gains)
 
@@ -152,17 +152,17 @@ def build_python_law(configuration):
     return control
 
 
-def test_a_controller_in_python_with_the_same_law_gives_the_same_bits(configuration, whole):
+def test_controller_in_python_with_the_same_law_gives_the_same_bits(configuration, result):
     """Limits, delay, drive, plant and observer are those of the compiled loop."""
     own = svsa.simulate(configuration, build_python_law(configuration), duration_s=0.3)
     assert own.law == "own"
-    np.testing.assert_array_equal(own.samples, whole)
+    np.testing.assert_array_equal(own.samples, result)
 
 
-def test_a_controller_in_python_is_asked_once_a_tick():
+def test_controller_in_python_is_called_once_per_tick():
     """One that remembers (an integrator, a log) must see each tick once, in order.
 
-    Also where a lane next to it ends the run early.
+    This also holds if another lane ends the run early.
     """
     fragile = svsa.Lane(law="fl", gains=svsa.Gains.from_poles([-900.0] * 4, [-900.0] * 2))
     configuration = build_configuration(comparisons=(fragile,), effects=svsa.RIG)
@@ -184,13 +184,13 @@ def test_a_controller_in_python_is_asked_once_a_tick():
 @pytest.mark.parametrize(
     "answer", [None, 1.0, (1.0,), (1.0, 2.0, 3.0), ("a", "b"), (1.0, 2.0j), (None, 1.0)]
 )
-def test_a_controller_that_returns_no_two_torques_is_refused_in_words(answer):
+def test_controller_that_returns_no_two_torques_is_rejected_with_reason(answer):
     with pytest.raises(svsa.ParameterError, match=r"two torques \(u1, u2\)"):
         svsa.simulate("4b", lambda *_: answer, duration_s=0.01)
 
 
-def test_a_controller_that_returns_nan_ends_the_run_in_a_fault():
-    """A number that is none is no reason for a traceback, nor for a torque."""
+def test_controller_that_returns_nan_ends_the_run_in_a_fault():
+    """NaN must cause neither a traceback nor a torque."""
     result = svsa.simulate("4b", lambda t, *_: (0.0, math.nan if t > 0.005 else 0.0))
     assert result.fault is not None
     assert result.fault.code == "not_finite"

@@ -1,4 +1,4 @@
-"""The presets of non-ideal effects: which effects each has on, and how a choice is recognized."""
+"""The presets of non-ideal effects: their effects, and the name of a selection."""
 
 import pytest
 
@@ -14,11 +14,11 @@ from svsa.simulation.plant.effects.noise import SensorNoise
 
 
 @pytest.mark.parametrize("name", PRESETS)
-def test_a_preset_is_recognized(name: str) -> None:
+def test_preset_is_recognized(name: str) -> None:
     assert find_preset(PRESETS[name]) == name
 
 
-def test_a_preset_is_recognized_whatever_its_values() -> None:
+def test_preset_is_recognized_with_changed_values() -> None:
     assert find_preset(EVERY.changed(noise=SensorNoise(motor_std_rad=1e-4))) == "full"
 
 
@@ -31,5 +31,5 @@ def test_a_preset_is_recognized_whatever_its_values() -> None:
         IDEAL.changed(torque_limits=False),
     ],
 )
-def test_another_choice_is_a_mixture(effects: Effects) -> None:
+def test_other_selection_is_custom(effects: Effects) -> None:
     assert find_preset(effects) is None

@@ -1,4 +1,6 @@
-"""Effects of the bench: one switch each, off to the bit, and the mark for the emulator."""
+"""Non-ideal effects: one switch each, no effect on any bit when off, and the rig's
+accuracy limits.
+"""
 
 import math
 
@@ -40,7 +42,7 @@ def rig():
 
 @pytest.mark.parametrize("effect", EFFECTS, ids=lambda effect: effect.name)
 def test_each_effect_describes_itself(effect):
-    """Off it has no words; on it has some, and constants like those where it is off."""
+    """Off it has no description; on it has one. Its constants have the same form in both."""
     assert effect.describe(getattr(svsa.IDEAL, effect.name)) == ""
     assert effect.describe(ALONE[effect.name])
     assert effect.field.description
@@ -52,20 +54,20 @@ def test_each_effect_describes_itself(effect):
 
 @pytest.mark.parametrize("name", ALONE)
 def test_each_effect_alone_changes_the_run(name, ideal):
-    """The switch acts on its own, and the run continues."""
+    """The switch acts alone, and the run continues."""
     result = svsa.simulate("4a", effects=svsa.Effects(**{name: ALONE[name]}), **LOADED)
     assert result.fault is None
     assert np.any(result.position_rad != ideal.position_rad)
 
 
 @pytest.mark.parametrize("name", WITHOUT_SIZE)
-def test_an_effect_of_no_size_is_the_ideal_run_bit_for_bit(name, ideal):
+def test_effect_of_zero_size_is_the_ideal_run_bit_for_bit(name, ideal):
     result = svsa.simulate("4a", effects=svsa.Effects(**{name: WITHOUT_SIZE[name]}), **LOADED)
     np.testing.assert_array_equal(result.samples, ideal.samples)
 
 
 def test_all_switches_off_is_the_ideal_run_bit_for_bit(ideal):
-    """Left out, written out, and switched on and off again before a tick has passed."""
+    """Omitted, set to none, and switched on and off again before the first tick."""
     off = dict.fromkeys(ALONE) | {"delay_samples": 0, "torque_limits": True}
     assert svsa.Effects(**off) == svsa.IDEAL == ideal.configuration.effects
     run = Run(ideal.configuration)
@@ -74,8 +76,8 @@ def test_all_switches_off_is_the_ideal_run_bit_for_bit(ideal):
     np.testing.assert_array_equal(advance(run, 500)[0], ideal.samples)
 
 
-def test_switching_every_effect_on_does_not_disturb_what_was_before():
-    """The same bits up to the tick of the switch, other ones after it, and no jump of x."""
+def test_switching_every_effect_on_preserves_earlier_samples():
+    """The same bits up to the tick of the switch, different ones after it, and no jump of x."""
     plain, run = svsa.simulate("4a", **LOADED), Run(svsa.simulate("4a", **LOADED).configuration)
     before = advance(run, 50)[0]
     state = run.lanes[0].x
@@ -88,8 +90,8 @@ def test_switching_every_effect_on_does_not_disturb_what_was_before():
 
 
 @pytest.mark.parametrize("figure", FIGURES)
-def test_with_the_effects_of_the_rig_ndobc_still_comes_back(figure, rig):
-    """The mark: ≤ 0.012° and ≤ 0.01 N·m/rad in 8–20 s; not better than the effects allow."""
+def test_ndobc_recovers_with_the_effects_of_the_rig(figure, rig):
+    """The limits: ≤ 0.012° and ≤ 0.01 N·m/rad in 8–20 s; not better than the effects permit."""
     steady = rig[figure].measure(8.0, 20.0)
     assert rig[figure].fault is None
     assert 0.002 < math.degrees(steady.rms_position_error_rad) <= 0.012
@@ -98,7 +100,7 @@ def test_with_the_effects_of_the_rig_ndobc_still_comes_back(figure, rig):
 
 @pytest.mark.parametrize("law", ["fl", "ndobc"])
 @pytest.mark.parametrize("figure", FIGURES)
-def test_with_every_effect_at_once_the_run_stays_inside_the_domain(figure, law):
+def test_run_with_every_effect_stays_inside_the_domain(figure, law):
     """Friction, noise, lag, gravity, encoders, estimation and delay: 20 s with the load."""
     result = svsa.simulate(figure, law, effects=EVERY_EFFECT)
     assert result.fault is None
@@ -106,8 +108,8 @@ def test_with_every_effect_at_once_the_run_stays_inside_the_domain(figure, law):
     assert len(result.samples) == 20_000
 
 
-def test_the_controller_knows_positions_in_counts():
-    """Both motors and the deflection add up to the link: multiples of neither, but of both."""
+def test_controller_receives_quantized_positions():
+    """The link is the sum of motor and deflection: multiples of neither count, but of both."""
     encoders = Encoders(motor_counts_per_rev=8, gear_ratio=25.0, deflection_counts_per_rev=200)
     configuration = build_configuration(effects=svsa.Effects(encoders=encoders))
     run, step = Run(configuration), 2.0 * math.pi / 200.0
@@ -120,8 +122,8 @@ def test_the_controller_knows_positions_in_counts():
         assert (known.dq, known.dtheta1, known.dtheta2) == (x.dq, x.dtheta1, x.dtheta2)
 
 
-def test_the_estimate_is_recorded_next_to_the_truth():
-    """The channels that the controller acts on are those of x̂, the error that of the truth."""
+def test_estimate_is_recorded_next_to_the_true_state():
+    """The channels of the controller are those of x̂, those of the error are true values."""
     result = svsa.simulate("4b", effects=svsa.RIG, duration_s=0.5)
     r = result
     np.testing.assert_array_equal(r.position_error_rad, r.position_reference_rad - r.position_rad)
@@ -129,8 +131,8 @@ def test_the_estimate_is_recorded_next_to_the_truth():
     assert np.abs(r.position_estimate_rad - r.position_rad).max() < 2e-3
 
 
-def test_gravity_and_friction_are_disturbances_of_the_true_plant():
-    """With an exact model w is the weight on the link and the friction on the motors."""
+def test_gravity_and_friction_are_disturbances_of_the_plant():
+    """With an exact model w is the weight on the link and the friction of the motors."""
     effects = svsa.Effects(gravity=LinkGravity(moment_nm=0.5), friction=Friction())
     exact = svsa.load_prototype().actuator
     r = svsa.simulate("4b", nominal=exact, effects=effects, loads=(), duration_s=1.0)
@@ -142,7 +144,7 @@ def test_gravity_and_friction_are_disturbances_of_the_true_plant():
 
 
 def test_parameter_error_is_the_difference_of_plant_and_model():
-    """No switch of its own: the same loop with another model, is disturbed by the rest."""
+    """It has no switch: the same loop with another model is disturbed by the difference."""
     c = build_configuration()
     exact = svsa.simulate(c.changed(nominal=c.actuator), duration_s=0.5)
     wrong = svsa.simulate(c, duration_s=0.5)
@@ -151,7 +153,7 @@ def test_parameter_error_is_the_difference_of_plant_and_model():
     assert np.abs(wrong.disturbance_link_nm).max() > 1e-4
 
 
-def test_noise_is_decided_by_the_seed_alone():
+def test_noise_depends_on_the_seed_alone():
     noise = svsa.Effects(noise=SensorNoise())
     runs = [svsa.simulate("4b", effects=noise, seed=s, duration_s=0.2).samples for s in (5, 5, 6)]
     np.testing.assert_array_equal(runs[0], runs[1])
@@ -174,7 +176,7 @@ def test_noise_is_decided_by_the_seed_alone():
         ("backlash", 1.0),
     ],
 )
-def test_an_effect_out_of_range_is_refused_by_name(name, wrong):
+def test_effect_out_of_range_is_rejected_by_name(name, wrong):
     words = next(iter(wrong)) if isinstance(wrong, dict) else name
     with pytest.raises(svsa.ParameterError, match=words):
         if name == "seed":

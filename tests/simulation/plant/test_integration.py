@@ -1,4 +1,4 @@
-"""The integrator: order four, and its error in one control period is what was promised."""
+"""The integrator: order four, and its error in one control period."""
 
 import numpy as np
 import pytest
@@ -19,7 +19,7 @@ def integrate(steps, loads=NO_LOADS):
     return np.array(integrate_ideal(PLANT, START, TORQUE, loads, 0, PERIOD_S, steps))
 
 
-def test_the_error_falls_with_the_fourth_power_of_the_step():
+def test_error_decreases_with_the_fourth_power_of_the_step():
     """The slope of log error over log step is 4 ± 0.2."""
     exact = integrate(4096)
     counts = np.array([16, 32, 64, 128])
@@ -29,8 +29,8 @@ def test_the_error_falls_with_the_fourth_power_of_the_step():
 
 
 @pytest.mark.parametrize(("sigma", "bound"), [(60.0, 3.2e-8), (140.0, 1.6e-7)])
-def test_one_step_a_period_is_enough_for_the_figures(sigma, bound):
-    """Against 16 steps over the whole run of 20 s with the load: 3e-8 and 1.4e-7 rad."""
+def test_one_step_per_period_is_accurate_enough_for_the_figures(sigma, bound):
+    """Compared with 16 steps over 20 s with the load: 3e-8 and 1.4e-7 rad."""
     stiffness = svsa.ConstantStiffness(stiffness_nm_per_rad=sigma)
     one = svsa.simulate("4b", "ndobc", stiffness=stiffness)
     many = svsa.simulate("4b", "ndobc", stiffness=stiffness, steps=16)
@@ -38,7 +38,7 @@ def test_one_step_a_period_is_enough_for_the_figures(sigma, bound):
     assert bound / 4 < error <= bound, "an error far smaller would mean that steps does nothing"
 
 
-def test_a_constant_force_on_free_inertias_is_integrated_exactly():
+def test_constant_force_on_free_inertias_is_integrated_exactly():
     """μ = 0 (no spring) and no damping: RK4 must give the parabola, per channel and sign."""
     free = PLANT._replace(mu0=0.0, D=0.0, D1=0.0, D2=0.0, K=1e-30)
     x = State(0.1, -0.2, 0.3, 0.4, 0.0, 0.0)
@@ -53,8 +53,8 @@ def test_a_constant_force_on_free_inertias_is_integrated_exactly():
     assert end.theta2 == end.dtheta2 == 0.0
 
 
-def test_the_load_is_sampled_inside_the_period_at_the_right_times():
-    """A sine load on a free link has a closed solution; order four holds for it as well."""
+def test_load_is_sampled_at_the_times_of_the_stages():
+    """A sine load on a free link has a closed-form solution; order four applies to it as well."""
     free = PLANT._replace(mu0=0.0, D=0.0, K=1e-30)
     period, tick, onset = 0.02, 7, 3
     load = svsa.SineLoad(torque_nm=(0.5, 0.0, 0.0), frequency_hz=5.0, start_s=onset * period)

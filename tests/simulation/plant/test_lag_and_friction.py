@@ -1,4 +1,4 @@
-"""Between the torque that is asked for and the motion: limits, delay, lag and friction."""
+"""From the commanded torque to the motion: limits, delay, lag and friction."""
 
 import math
 
@@ -43,8 +43,8 @@ def build_friction_bench(period=T, **changes):
 
 
 @pytest.mark.parametrize("lag", [1e-5, 5e-4, 0.05])
-def test_the_lagged_torque_is_the_solution_of_its_differential_equation(lag):
-    """τ u̇ = u* − u: the start at 0, 63.2 % of the way after τ, and the slope everywhere."""
+def test_lagged_torque_solves_its_differential_equation(lag):
+    """τ u̇ = u* − u: initial value, 63.2 % of the step after τ, and the slope at each time."""
     assert compute_lagged_torque(START, TARGET, lag, 0.0) == pytest.approx(START)
     after = compute_lagged_torque(START, TARGET, lag, lag)
     assert after.u1 == pytest.approx(3.0 - 4.0 / math.e, rel=1e-14)
@@ -59,8 +59,8 @@ def test_the_lagged_torque_is_the_solution_of_its_differential_equation(lag):
 
 
 @pytest.mark.parametrize("lag", [1e-5, 5e-4, 0.05])
-def test_the_mean_torque_is_the_integral_over_the_period(lag):
-    """What the observer is reported is the impulse that the motor really gave, over T."""
+def test_mean_torque_is_the_integral_over_the_period(lag):
+    """The observer receives the actual impulse of the motor, divided by T."""
     from scipy.integrate import quad
 
     found = compute_mean_torque(START, TARGET, lag, T)
@@ -75,8 +75,8 @@ def test_the_mean_torque_is_the_integral_over_the_period(lag):
         assert found[index] == pytest.approx(whole / T, rel=1e-9)
 
 
-def test_a_vanishing_lag_is_no_lag():
-    """At 0 the target at once, to the bit; towards 0 it tends there."""
+def test_zero_lag_is_no_lag():
+    """At τ = 0 the commanded torque immediately, bit for bit; for τ → 0 it tends to it."""
     for since in (0.0, T):
         assert compute_lagged_torque(START, TARGET, 0.0, since) == TARGET
     assert compute_mean_torque(START, TARGET, 0.0, T) == TARGET
@@ -86,8 +86,8 @@ def test_a_vanishing_lag_is_no_lag():
     np.testing.assert_allclose(gaps, [4.0 * 1e-1, 4.0 * 1e-2, 4.0 * 1e-3], rtol=1e-3)
 
 
-def test_the_plant_feels_the_lag_inside_the_period():
-    """A free motor gains (T/B) times the mean torque, not the target's; RK4 sees the curve."""
+def test_plant_integrates_the_lag_inside_the_period():
+    """A free motor gains (T/B) times the mean torque, not the commanded torque, by RK4."""
     effects = svsa.Effects(current_lag=CurrentLag(time_constant_s=5e-4))
     bench = build_effect_constants(effects, 0, DESIGN.actuator, T)
     mean = compute_mean_torque(START, TARGET, bench.current_lag, T)
@@ -98,7 +98,7 @@ def test_the_plant_feels_the_lag_inside_the_period():
 
 @drawn
 @given(speeds)
-def test_friction_is_odd_and_never_drives(speed):
+def test_friction_is_odd_and_dissipative(speed):
     friction = compute_friction(speed, COULOMB, STATIC, STRIBECK, CREEP)
     assert friction == -compute_friction(-speed, COULOMB, STATIC, STRIBECK, CREEP)
     assert friction * speed >= 0.0
@@ -106,7 +106,7 @@ def test_friction_is_odd_and_never_drives(speed):
 
 
 def test_friction_has_a_breakaway_peak_and_is_coulomb_at_speed():
-    """It rises to nearly τ_s, then falls to τ_c; with τ_s = τ_c there is no peak."""
+    """It rises to nearly τ_s, then decreases to τ_c; with τ_s = τ_c there is no peak."""
     speed = np.linspace(0.0, 1.0, 5001)
     friction = np.array([compute_friction(v, COULOMB, STATIC, STRIBECK, CREEP) for v in speed])
     top = int(friction.argmax())
@@ -121,8 +121,10 @@ def test_friction_has_a_breakaway_peak_and_is_coulomb_at_speed():
 
 @pytest.mark.parametrize("period", [1e-4, 1e-3, 0.02])
 @pytest.mark.parametrize("coulomb", [0.02, 0.2, 5.0])
-def test_a_motor_under_less_torque_than_its_friction_creeps_and_settles(period, coulomb):
-    """One Runge–Kutta step a period is enough: below the creep velocity, without a swing."""
+def test_motor_below_breakaway_torque_creeps_and_settles(period, coulomb):
+    """One Runge–Kutta step per period is sufficient: below the creep velocity, without
+    oscillation.
+    """
     bench = build_friction_bench(period, coulomb1_nm=coulomb, coulomb2_nm=coulomb)
     torque, x, speed = Torque(0.7 * coulomb, -0.7 * coulomb), AT_REST, []
     for tick in range(300):
@@ -134,7 +136,7 @@ def test_a_motor_under_less_torque_than_its_friction_creeps_and_settles(period, 
     np.testing.assert_allclose(speed[-1], speed[-2], rtol=1e-3)
 
 
-def test_a_motor_under_more_torque_than_its_friction_breaks_away():
+def test_motor_above_breakaway_torque_moves():
     bench, x, torque = build_friction_bench(), AT_REST, Torque(0.3, -0.15)
     for tick in range(500):
         x = integrate_period(FREE, bench, x, torque, torque, NO_LOADS, tick, T, 1)
@@ -142,7 +144,7 @@ def test_a_motor_under_more_torque_than_its_friction_breaks_away():
     assert x.dtheta2 == pytest.approx(-0.5 * (0.15 - 0.1) / FREE.B2, rel=0.15)
 
 
-def test_friction_of_one_motor_leaves_the_other_free():
+def test_friction_of_one_motor_does_not_affect_the_other():
     bench = build_friction_bench(coulomb1_nm=0.0)
     x = State(0.0, 0.0, 0.0, 1.0, 0.0, 1.0)
     end = integrate_period(FREE, bench, x, *(Torque(0.0, 0.0),) * 2, NO_LOADS, 0, T, 1)
@@ -151,8 +153,8 @@ def test_friction_of_one_motor_leaves_the_other_free():
 
 
 @pytest.mark.parametrize("samples", range(MAX_DELAY_SAMPLES + 1))
-def test_a_delay_of_d_samples_is_exactly_d_samples(samples):
-    """A queue of zeros first; then each torque once, in order, d samples late."""
+def test_delay_of_d_samples_is_exactly_d_samples(samples):
+    """First zeros; then each torque once, in order, d samples late."""
     bench = IDEAL_BENCH._replace(delay_samples=samples)
     asked, due = (0.0,) * (2 * MAX_DELAY_SAMPLES + 2), []
     for k in range(1, 21):
@@ -164,8 +166,8 @@ def test_a_delay_of_d_samples_is_exactly_d_samples(samples):
 
 @pytest.mark.parametrize("law", ["fl", "ndobc"])
 @pytest.mark.parametrize("samples", [0, 1, 3, 5])
-def test_in_the_loop_the_law_acts_d_samples_after_it_was_asked(law, samples):
-    """Until the first torque comes the plant rests: what the law asked there is known."""
+def test_torque_of_the_law_acts_d_samples_later(law, samples):
+    """Until the first torque the plant is at rest, so the commanded torque is known."""
     configuration = svsa.paper.get_figure("4b").build_configuration(law)
     run = Run(configuration.changed(effects=svsa.Effects(delay_samples=samples)))
     found = record(run, 2 * samples + 1)[:, CHANNEL_INDEX["torque1_nm"]]
@@ -181,8 +183,8 @@ def test_in_the_loop_the_law_acts_d_samples_after_it_was_asked(law, samples):
     np.testing.assert_array_equal(found[samples:], asked)
 
 
-def test_the_observer_receives_the_torque_that_acts_and_not_the_one_that_was_asked():
-    """With an exact model ŵ converges at β, whatever delay and lag make of the torque."""
+def test_observer_receives_the_actual_and_not_the_commanded_torque():
+    """With an exact model ŵ converges at β, for any delay and lag of the torque."""
     w = 0.3
     result = svsa.simulate(
         "4b",
@@ -196,8 +198,8 @@ def test_the_observer_receives_the_torque_that_acts_and_not_the_one_that_was_ask
     assert np.abs(result.estimate_motor1_nm - expected).max() < 2e-3 * w
 
 
-def test_the_torque_limits_can_be_switched_off():
-    """Figure 4A asks for more than ±15 and ±5 N·m under the load; the switch lets it."""
+def test_torque_limits_can_be_switched_off():
+    """Figure 4A commands more than ±15 and ±5 N·m under the load; without limits it acts."""
     assert np.abs(svsa.simulate("4a", duration_s=6.0).torque1_nm).max() == 15.0
     free = svsa.simulate("4a", duration_s=6.0, effects=svsa.Effects(torque_limits=False))
     assert np.abs(free.torque1_nm).max() > 15.0
@@ -207,8 +209,8 @@ def test_the_torque_limits_can_be_switched_off():
 
 @pytest.mark.parametrize("lag", [0.0, 4e-4])
 @pytest.mark.parametrize("latency", [0.0, 3e-4, 1e-3])
-def test_late_torque_is_two_lags_one_after_the_other(lag, latency):
-    """Against the integral of the current loop, in small steps."""
+def test_delayed_torque_has_two_lags_in_series(lag, latency):
+    """Compared with the integral of the current loop in small steps."""
     before = Torque(1.0, 2.0)
     end, mean = compute_late_torque(START, before, TARGET, lag, latency, T)
     steps = 20_000

@@ -1,6 +1,7 @@
-"""Loads: the torque of each kind in time, and what a hung mass does to Eq 1."""
+"""Loads: the torque of each kind over time, and the effect of a hanging mass on Eq 1."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -19,43 +20,43 @@ TRIPLE = (0.5, -0.25, 0.125)
 
 
 def read_load(loads, time, tick=None):
-    """What the plant feels at `time`, with these loads asked for at t = 0."""
+    """Return the torque on the plant at `time` from these loads, added at t = 0."""
     table = build_load_table(tuple(schedule_load(i, load, 0, T) for i, load in enumerate(loads)))
     return compute_load(table, math.floor(time / T + 1e-9) if tick is None else tick, T, time)
 
 
-def test_without_a_load_nothing_acts():
+def test_no_load_has_zero_torque():
     assert read_load([], 1.0) == ExternalLoad(0.0, 0.0, 0.0, 0.0, 0.0)
 
 
-def test_the_paper_load_is_two_newton_metres_on_all_three_channels_from_its_onset_on():
+def test_paper_load_is_two_newton_metres_on_all_channels_from_its_onset():
     load = svsa.PaperLoad(start_s=5.0)
     assert read_load([load], 4.9995) == ExternalLoad(0.0, 0.0, 0.0, 0.0, 0.0)
     for time in (5.0, 5.0005, 19.0):
         assert read_load([load], time) == ExternalLoad(2.0, 2.0, 2.0, 0.0, 0.0)
 
 
-def test_a_constant_load_is_a_step():
+def test_constant_load_is_a_step():
     load = svsa.ConstantLoad(torque_nm=TRIPLE, start_s=0.1)
     assert read_load([load], 0.0999)[:3] == (0.0, 0.0, 0.0)
     assert read_load([load], 0.1)[:3] == TRIPLE
     assert read_load([load], 1e5)[:3] == TRIPLE
 
 
-def test_a_pulse_ends_after_its_duration():
+def test_pulse_ends_after_its_duration():
     load = svsa.PulseLoad(torque_nm=TRIPLE, duration_s=0.02, start_s=0.1)
     assert read_load([load], 0.1195)[:3] == TRIPLE
     assert read_load([load], 0.12)[:3] == (0.0, 0.0, 0.0)
 
 
-def test_a_pulse_shorter_than_a_sample_lasts_one_sample():
+def test_pulse_shorter_than_a_sample_lasts_one_sample():
     """It is not lost between two samples."""
     load = svsa.PulseLoad(torque_nm=TRIPLE, duration_s=1e-5, start_s=0.1)
     assert read_load([load], 0.1)[:3] == TRIPLE
     assert read_load([load], 0.101)[:3] == (0.0, 0.0, 0.0)
 
 
-def test_a_sine_load_counts_its_phase_from_the_onset():
+def test_sine_load_has_zero_phase_at_its_onset():
     load = svsa.SineLoad(torque_nm=TRIPLE, frequency_hz=4.0, phase_rad=0.3, start_s=0.1)
     for time in (0.1, 0.1375, 0.2212):
         shape = math.sin(8.0 * math.pi * (time - 0.1) + 0.3)
@@ -63,7 +64,7 @@ def test_a_sine_load_counts_its_phase_from_the_onset():
         assert read_load([load], time)[:3] == pytest.approx(expected, rel=1e-12)
 
 
-def test_a_series_joins_its_points_by_straight_lines_and_is_zero_outside_them():
+def test_series_is_linear_between_its_points_and_zero_outside():
     points = ((0.0, 0.0, 0.0), (1.0, -2.0, 4.0), (1.0, 0.0, 0.0))
     load = svsa.SeriesLoad(time_s=(0.01, 0.03, 0.05), torque_nm=points, start_s=0.1)
     expected = {
@@ -78,7 +79,7 @@ def test_a_series_joins_its_points_by_straight_lines_and_is_zero_outside_them():
         assert read_load([load], time)[:3] == pytest.approx(torque, abs=1e-12), time
 
 
-def test_two_series_do_not_read_each_others_points():
+def test_two_series_use_their_own_points():
     ramps = [
         svsa.SeriesLoad(time_s=(0.0, 1.0), torque_nm=((0.0, 0.0, 0.0), (a, 0.0, 0.0)))
         for a in (1.0, 10.0)
@@ -87,7 +88,7 @@ def test_two_series_do_not_read_each_others_points():
     assert read_load(ramps[1:], 0.5).w2 == pytest.approx(5.0)
 
 
-def test_a_hung_mass_adds_inertia_and_gravity():
+def test_hanging_mass_adds_inertia_and_gravity():
     """m r² and m g r: 3 kg at 68 mm is 2 N·m, the paper's figure for it."""
     load = read_load([svsa.MassLoad()], 0.0)
     assert load == pytest.approx((0.0, 0.0, 0.0, 3.0 * 0.068**2, 3.0 * 9.81 * 0.068))
@@ -95,7 +96,7 @@ def test_a_hung_mass_adds_inertia_and_gravity():
 
 
 def test_gravity_pulls_the_link_towards_zero_and_its_inertia_slows_the_link_only():
-    """(M + m r²) q̈ = F − m g r sin q + w2, the motors' lines of Eq 1 unchanged."""
+    """(M + m r²) q̈ = F − m g r sin q + w2; the equations of the motors are unchanged."""
     x, u = build_state(0.5, 0.1, q=0.7, dq=0.3, dtheta1=-0.2, dtheta2=0.4), Torque(0.6, -0.3)
     load = ExternalLoad(0.2, 0.1, -0.1, 0.014, 2.0)
     F, found = compute_internal_torque(PLANT, x), compute_acceleration(PLANT, x, u, load)
@@ -105,7 +106,7 @@ def test_gravity_pulls_the_link_towards_zero_and_its_inertia_slows_the_link_only
     assert found.ddtheta2 == pytest.approx((F.motor2 - 0.3 - 0.1) / PLANT.B2, rel=1e-14)
 
 
-def test_loads_add_where_they_overlap():
+def test_overlapping_loads_add():
     loads = [
         svsa.PaperLoad(start_s=0.1),
         svsa.ConstantLoad(torque_nm=TRIPLE, start_s=0.05),
@@ -117,8 +118,8 @@ def test_loads_add_where_they_overlap():
     assert read_load(loads, 0.07)[:3] == TRIPLE
 
 
-def test_an_onset_between_two_samples_moves_to_the_nearest_and_never_inside_one():
-    """A step inside an RK4 step would cost its order: on or off is decided by the tick."""
+def test_onset_is_rounded_to_the_nearest_sample():
+    """A step inside an RK4 step would reduce its order, so loads switch at ticks only."""
     early = svsa.ConstantLoad(torque_nm=TRIPLE, start_s=0.1004)
     late = svsa.ConstantLoad(torque_nm=TRIPLE, start_s=0.1006)
     assert schedule_load(1, early, 0, T).start_tick == 100
@@ -128,14 +129,14 @@ def test_an_onset_between_two_samples_moves_to_the_nearest_and_never_inside_one(
     assert end_of_the_last_sample_before[:3] == (0.0, 0.0, 0.0)
 
 
-def test_an_onset_in_the_past_is_now():
+def test_onset_in_the_past_is_now():
     past = svsa.PulseLoad(torque_nm=TRIPLE, duration_s=0.02, start_s=0.1)
     scheduled = schedule_load(1, past, 500, T)
     assert (scheduled.start_tick, scheduled.end_tick) == (500, 520)
     assert schedule_load(1, svsa.PaperLoad(), 500, T).start_tick == 500
 
 
-def test_a_run_feels_its_loads_in_the_sample_of_their_onset():
+def test_load_acts_from_the_sample_of_its_onset():
     """The recorded true disturbance of an exact model is the load, from its tick on."""
     configuration = svsa.paper.get_figure("4b").build_configuration(load=False)
     run = Run(configuration.changed(nominal=configuration.actuator))
@@ -145,8 +146,8 @@ def test_a_run_feels_its_loads_in_the_sample_of_their_onset():
     np.testing.assert_allclose(link, expected, atol=1e-11)
 
 
-def test_a_push_that_is_reported_again_is_one_load_that_changes_and_lasts_on():
-    """No gap and no overlap: each torque from its tick on, until it was not reported again."""
+def test_repeated_manual_load_is_one_load_that_changes_and_continues():
+    """No gap and no overlap: each torque from its tick on, until updates stop."""
     configuration = svsa.paper.get_figure("4b").build_configuration(load=False)
     run = Run(configuration.changed(nominal=configuration.actuator))
     link = []
@@ -213,7 +214,7 @@ REFUSED = {
 
 
 @pytest.mark.parametrize("name", REFUSED)
-def test_a_refused_load_names_field_value_unit_and_bound(name):
+def test_rejected_load_names_field_value_unit_and_bound(name):
     build, value, unit, bound = REFUSED[name]
     with pytest.raises(svsa.ParameterError) as refused:
         build()
@@ -224,12 +225,12 @@ def test_a_refused_load_names_field_value_unit_and_bound(name):
 
 
 @pytest.mark.parametrize("wrong", [float("nan"), float("inf"), "3", True, None])
-def test_a_load_takes_finite_numbers_only(wrong):
+def test_load_accepts_finite_numbers_only(wrong):
     with pytest.raises(svsa.ParameterError, match="mass_kg"):
         svsa.MassLoad(mass_kg=wrong)
 
 
-def test_a_series_from_a_function_of_time():
+def test_series_from_a_function_of_time():
     load = svsa.SeriesLoad.from_function(lambda t: (math.sin(3.0 * t), 0.0, t), 0.5, start_s=0.1)
     w2, w4, w6 = read_load([load], 0.35)[:3]
     assert (w2, w4, w6) == pytest.approx((math.sin(0.75), 0.0, 0.25), abs=1e-6)
@@ -238,9 +239,10 @@ def test_a_series_from_a_function_of_time():
 
 
 @pytest.mark.parametrize("kind", LOADS, ids=lambda kind: kind.__name__)
-def test_each_kind_of_load_describes_itself_and_acts_as_its_form_begins(kind):
+def test_each_kind_of_load_describes_itself_and_runs_with_its_defaults(kind):
     assert getattr(svsa, kind.__name__) is kind
-    assert kind.__name__.removesuffix("Load").lower() == kind.model_fields["kind"].default
+    name = re.sub(r"(?<!^)(?=[A-Z])", "_", kind.__name__.removesuffix("Load")).lower()
+    assert name == kind.model_fields["kind"].default
     if kind.first is not None:
         load = kind(torque_nm=TRIPLE, **kind.first)
         assert load.describe()
@@ -249,7 +251,7 @@ def test_each_kind_of_load_describes_itself_and_acts_as_its_form_begins(kind):
         assert read_load([load], 0.013)[:3] == pytest.approx([factor * torque for torque in TRIPLE])
 
 
-def test_the_paper_load_is_torques_and_hangs_no_mass():
-    """A view that drew 3 kg on a cord would show another plant than the one simulated."""
+def test_paper_load_is_torques_without_a_hanging_mass():
+    """A view with 3 kg on a cord would show another plant than the simulated one."""
     assert svsa.PaperLoad().get_hung_mass() == 0.0
     assert svsa.MassLoad().get_hung_mass() == 3.0

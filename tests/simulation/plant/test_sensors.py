@@ -1,4 +1,4 @@
-"""Sensors: whole counts, and noise that depends on nothing but seed, tick and channel."""
+"""Sensors: integer counts, and noise that depends on seed, tick and channel alone."""
 
 import math
 
@@ -22,7 +22,7 @@ SEEDS = (0, 1, 7, 2**63 - 1)
 
 @njit
 def draw_many(seed, first, count, channels):
-    """(count, channels) normal numbers of the ticks from `first` on."""
+    """Return (count, channels) normal numbers of the ticks from `first` on."""
     drawn_numbers = np.empty((count, channels))
     for k in range(count):
         for channel in range(channels):
@@ -39,30 +39,32 @@ def build_noisy_bench(effects, seed=0):
     return build_effect_constants(effects, seed, DESIGN.actuator, 0.001)
 
 
-def test_an_angle_is_rounded_to_the_nearest_count():
-    """Half a count rounds up; a count on the negative side is as wide as on the positive."""
+def test_angle_is_rounded_to_the_nearest_count():
+    """Half a count rounds up; negative counts are as wide as positive ones."""
     step = 0.25
     counts = {0.1: 0, 0.124: 0, 0.125: 1, 0.2: 1, -0.1: 0, -0.125: 0, -0.126: -1, 7.6: 30}
     for angle, count in counts.items():
         assert quantize(angle, step) == count * step, angle
 
 
-def test_step_zero_leaves_the_angle_as_it_is():
+def test_zero_step_leaves_the_angle_unchanged():
     for angle in (0.0, 1.0 / 3.0, -1e-17, 1e9):
         assert quantize(angle, 0.0) == angle
 
 
 @drawn
 @given(st.floats(-1e3, 1e3), st.floats(1e-6, 1.0))
-def test_a_quantised_angle_is_a_whole_count_within_half_a_count(angle, step):
+def test_quantized_angle_is_an_integer_count_within_half_a_count(angle, step):
     found = quantize(angle, step)
     assert abs(found - angle) <= 0.5 * step * (1.0 + 1e-9) + 1e-12
     assert found / step == pytest.approx(round(found / step), abs=1e-6)
     assert quantize(found, step) == pytest.approx(found, abs=1e-6 * step)
 
 
-def test_each_angle_is_read_in_the_counts_of_its_own_encoder():
-    """Both motors before their gearbox, the deflection on its own; velocities as they are."""
+def test_each_angle_is_quantized_by_its_own_encoder():
+    """Both motors before their gearbox, the deflection by its own encoder; velocities are
+    unchanged.
+    """
     encoders = Encoders(motor_counts_per_rev=100, gear_ratio=10.0, deflection_counts_per_rev=360)
     bench = build_noisy_bench(svsa.Effects(encoders=encoders))
     x = State(q=0.5, dq=0.1, theta1=0.3, dtheta1=0.2, theta2=-0.7, dtheta2=0.3)
@@ -74,13 +76,13 @@ def test_each_angle_is_read_in_the_counts_of_its_own_encoder():
     assert (y.dq, y.dtheta1, y.dtheta2) == (0.1, 0.2, 0.3)
 
 
-def test_a_bench_without_effects_measures_exactly():
+def test_measurement_without_effects_is_exact():
     x = State(0.5, 0.1, 0.3, 0.2, -0.7, 0.3)
     assert read_sensors(IDEAL_BENCH, x, 9) == (0.3, -0.7, 0.5 - 0.3, 0.1, 0.2, 0.3)
 
 
-def test_noise_is_added_before_the_encoder_counts_it():
-    """A small noise shows as single counts; without the encoder, as it is."""
+def test_noise_is_added_before_quantization():
+    """A small noise appears as single counts; without the encoder it is unchanged."""
     noise = SensorNoise(motor_std_rad=1e-3, deflection_std_rad=0.0)
     x = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     counted = build_noisy_bench(svsa.Effects(noise=noise, encoders=Encoders()))
@@ -93,8 +95,8 @@ def test_noise_is_added_before_the_encoder_counts_it():
         assert counts.theta1 == quantize(y.theta1, counted.encoders.motor_step)
 
 
-def test_the_same_seed_tick_and_channel_give_the_same_number_in_any_order():
-    """Nothing is remembered between two draws, and compiled calls agree with single ones."""
+def test_same_seed_tick_and_channel_give_the_same_number_in_any_order():
+    """No state is kept between two samples, and batched calls agree with single ones."""
     where = [(tick, channel) for tick in (0, 1, 5, 70_000, 10**9) for channel in (0, 1, 2)]
     forward = {at: draw_normal(3, *at) for at in where}
     backward = {at: draw_normal(3, *at) for at in reversed(where)}
@@ -103,17 +105,17 @@ def test_the_same_seed_tick_and_channel_give_the_same_number_in_any_order():
     assert draw_many(3, 5, 1, 3)[0].tolist() == [forward[5, channel] for channel in range(3)]
 
 
-def test_another_seed_gives_other_numbers():
-    """Neighbouring seeds as well: no number of the one is found in the other."""
+def test_other_seed_gives_other_numbers():
+    """Neighbouring seeds as well: no number of one occurs in the other."""
     one, two = draw_many(1, 0, 2000, 3), draw_many(2, 0, 2000, 3)
     assert not np.intersect1d(one, two).size
     assert abs(np.corrcoef(one[:, 0], two[:, 0])[0, 1]) < 4.0 / math.sqrt(2000)
 
 
-def test_the_numbers_are_standard_normal(numbers):
+def test_numbers_are_standard_normal(numbers):
     """Mean, spread, skewness and kurtosis within four standard errors, and no outlier.
 
-    Of 3e5 normal numbers one beyond 6 comes in one seed of 1700.
+    With 3e5 normal numbers, one seed of 1700 has a number beyond 6.
     """
     for values in numbers.T:
         assert abs(values.mean()) < 4.0 / math.sqrt(COUNT)
@@ -123,7 +125,7 @@ def test_the_numbers_are_standard_normal(numbers):
     assert np.abs(numbers).max() < 6.0
 
 
-def test_the_numbers_are_white_and_the_channels_know_nothing_of_one_another(numbers):
+def test_numbers_are_white_and_channels_independent(numbers):
     """Correlations between ticks up to 64 apart and between channels, within 4.5/√n."""
     bound = 4.5 / math.sqrt(COUNT)
     for values in numbers.T:
@@ -137,12 +139,12 @@ def test_the_numbers_are_white_and_the_channels_know_nothing_of_one_another(numb
 
 @drawn
 @given(st.integers(0, 2**63 - 1), st.integers(0, 10**12), st.integers(0, 63))
-def test_a_uniform_number_lies_strictly_between_zero_and_one(seed, tick, channel):
-    """Its logarithm is taken: zero would be an infinite angle."""
+def test_uniform_number_is_strictly_between_zero_and_one(seed, tick, channel):
+    """Its logarithm is taken: zero would be an infinite radius."""
     assert 0.0 < draw_uniform(seed, tick, channel) < 1.0
 
 
-def test_no_noise_draws_nothing_and_some_noise_scales_with_its_deviation():
+def test_zero_noise_is_zero_and_other_noise_scales_with_its_deviation():
     assert add_noise(0.3, 0.0, 0, 1, 0) == 0.3
     single = add_noise(0.0, 1.0, 4, 8, 2)
     assert add_noise(0.0, 0.5, 4, 8, 2) == 0.5 * single == 0.5 * draw_normal(4, 8, 2)

@@ -1,4 +1,4 @@
-"""References: true derivatives, and changes without a jump in any of those the laws use."""
+"""References: exact derivatives, and changes without a jump in any derivative that laws use."""
 
 import math
 
@@ -35,7 +35,7 @@ def build_busy_stack():
 
 
 def assert_chain(compute, times, step, tolerance):
-    """Each derivative against the difference of the one before, at each time."""
+    """Compare each derivative with the difference of the previous one, at each time."""
     scale = np.abs([compute(t) for t in times]).max(axis=0) + 1e-12
     for t in times:
         slopes = differentiate(lambda s: np.array(compute(s)), t, step)[:4]
@@ -44,7 +44,7 @@ def assert_chain(compute, times, step, tolerance):
 
 @drawn
 @given(st.floats(0.0, 5.0), st.floats(-3.0, 3.0), st.floats(0.0, 30.0))
-def test_each_derivative_of_a_sine_is_the_slope_of_the_one_before(frequency, phase, time):
+def test_each_derivative_of_a_sine_is_the_derivative_of_the_previous_one(frequency, phase, time):
     omega = 2.0 * math.pi * frequency
     step = 1e-2 / (1.0 + omega)
 
@@ -56,13 +56,13 @@ def test_each_derivative_of_a_sine_is_the_slope_of_the_one_before(frequency, pha
     assert np.all(np.abs(slopes - compute(time)[1:]) <= 1e-7 * scale)
 
 
-def test_each_derivative_of_the_fade_is_the_slope_of_the_one_before():
-    """The polynomial of degree 9 and four derivatives written out by hand."""
+def test_each_derivative_of_the_fade_is_the_derivative_of_the_previous_one():
+    """The polynomial of degree 9 and its four derivatives."""
     assert_chain(lambda t: compute_fade(2.0, 0.5, t), np.linspace(2.03, 2.47, 23), 1e-4, 1e-7)
 
 
-def test_the_fade_goes_from_zero_to_one_without_a_jump_in_four_derivatives():
-    """At both ends all derivatives tend to zero; between them it only rises."""
+def test_fade_goes_from_zero_to_one_with_four_continuous_derivatives():
+    """All derivatives tend to zero at both ends; between them the fade is increasing."""
     before, after = compute_fade(2.0, 0.5, 2.0 + 1e-9), compute_fade(2.0, 0.5, 2.5 - 1e-9)
     assert tuple(before)[:4] == pytest.approx((0.0,) * 4, abs=1e-3)
     assert tuple(after)[:4] == pytest.approx((1.0, 0.0, 0.0, 0.0), abs=1e-3)
@@ -74,16 +74,16 @@ def test_the_fade_goes_from_zero_to_one_without_a_jump_in_four_derivatives():
     assert compute_fade(2.0, 0.5, 2.25).d0 == pytest.approx(0.5)
 
 
-def test_each_derivative_of_a_blended_reference_is_the_slope_of_the_one_before():
-    """Leibniz's rule over three fades that overlap; the fades' ends lie between the times."""
+def test_each_derivative_of_a_blended_reference_is_the_derivative_of_the_previous_one():
+    """Leibniz's rule over three overlapping fades, whose ends lie between the times."""
     stack = build_busy_stack()
     times = np.arange(0.905, 4.0, 0.0173)
     assert_chain(lambda t: compute_trajectory(stack, t), times, 1e-4, 2e-6)
 
 
 @pytest.mark.parametrize("edge", [1.0, 1.3, 1.6, 1.8, 3.6])
-def test_no_derivative_jumps_where_a_fade_begins_or_ends(edge):
-    """q_d … q_d⁗ on both sides of an edge differ by no more than their slope explains."""
+def test_derivatives_are_continuous_at_both_ends_of_a_fade(edge):
+    """q_d … q_d⁗ on both sides of an end differ by no more than their slope explains."""
     stack, gap = build_busy_stack(), 1e-7
     left = np.array(compute_trajectory(stack, edge - gap))
     right = np.array(compute_trajectory(stack, edge + gap))
@@ -91,16 +91,16 @@ def test_no_derivative_jumps_where_a_fade_begins_or_ends(edge):
     assert np.all(np.abs(right - left) <= 1e-4 * scale)
 
 
-def test_a_change_does_not_rewrite_what_was_before_it():
-    """At the instant of the change, and before, the reference is the old one bit for bit."""
+def test_change_preserves_the_earlier_reference():
+    """At the instant of the change and before, the reference is the old one bit for bit."""
     old = push_trajectory(build_stack(SINE), LEVEL, 1.0)
     new = push_trajectory(old, FAST, 1.3)
     for t in (0.2, 1.1, 1.2999, 1.3):
         assert compute_trajectory(new, t) == compute_trajectory(old, t)
 
 
-def test_after_the_fade_the_new_reference_runs_alone():
-    """Exactly, and finished fades are dropped from the stack without a change of value."""
+def test_new_reference_runs_alone_after_the_fade():
+    """Exactly; finished fades are removed from the stack without a change of value."""
     stack = build_busy_stack()
     omega = 2.0 * math.pi * SLOW.frequency_hz
     assert compute_trajectory(stack, 5.0) == compute_sine(0.0, 1.0, omega, 1.0, 5.0)
@@ -117,8 +117,10 @@ def test_after_the_fade_the_new_reference_runs_alone():
         max_size=6,
     )
 )
-def test_a_blended_stiffness_never_leaves_the_range_of_its_references(changes):
-    """Why a fade and not a polynomial through the derivatives: σ_d may not overshoot."""
+def test_blended_stiffness_stays_in_the_range_of_its_references(changes):
+    """The reason for a fade instead of a polynomial through the derivatives: σ_d must not
+    overshoot.
+    """
     stack = build_stack(svsa.ConstantStiffness(stiffness_nm_per_rad=60.0))
     now, low, high = 0.0, 60.0, 60.0
     for level, fade, pause in changes:
@@ -131,7 +133,7 @@ def test_a_blended_stiffness_never_leaves_the_range_of_its_references(changes):
     assert max(values) <= high + 1e-12 * high
 
 
-def test_too_many_changes_at_once_are_refused_and_change_nothing():
+def test_too_many_changes_at_once_are_rejected_and_change_nothing():
     """A stack that grows without bound would slow every tick."""
     run = Run(svsa.paper.get_figure("4a").build_configuration())
     slow = svsa.ConstantPosition(position_rad=0.1, transition_s=60.0)
@@ -143,8 +145,8 @@ def test_too_many_changes_at_once_are_refused_and_change_nothing():
     assert run.configuration == before
 
 
-def test_start_value_and_range_of_a_trajectory():
-    """μ0 is set by the first, the check of the stiffness range uses the second."""
+def test_initial_value_and_range_of_a_trajectory():
+    """The first sets μ0; the check of the stiffness range uses the second."""
     sine = svsa.SineStiffness(
         offset_nm_per_rad=35.0, amplitude_nm_per_rad=1.0, frequency_hz=0.2, phase_rad=1.5 * math.pi
     )
@@ -153,16 +155,16 @@ def test_start_value_and_range_of_a_trajectory():
     assert get_range(LEVEL) == (-0.5, -0.5)
 
 
-def test_a_run_starts_at_the_stiffness_that_is_asked_for():
-    """μ0 for each run, so that σ(0) = σ_d(0) at x = 0."""
+def test_run_starts_at_the_reference_stiffness():
+    """μ0 is set for each run, so that σ(0) = σ_d(0) at x = 0."""
     for key, sigma in (("4a", 15.0), ("4b", 60.0), ("5", 34.0)):
         result = svsa.simulate(key, duration_s=0.001)
         assert result.stiffness_nm_per_rad[0] == pytest.approx(sigma, rel=1e-12)
 
 
 @pytest.mark.parametrize("level", [1.0, 151.0])
-def test_a_stiffness_outside_the_range_is_refused(level):
-    """At the start and in a run; the answer names the range."""
+def test_stiffness_outside_the_range_is_rejected(level):
+    """At the start and during a run; the error contains the range."""
     wrong = svsa.ConstantStiffness(stiffness_nm_per_rad=level)
     run = Run(svsa.paper.get_figure("4a").build_configuration())
     before = run.configuration

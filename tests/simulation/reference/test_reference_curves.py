@@ -1,4 +1,4 @@
-"""References with a beginning and an end: steps, minimum jerk, chirp, series."""
+"""References with a start and an end: steps, minimum jerk, chirp, series."""
 
 import math
 
@@ -37,7 +37,7 @@ def follow(stack, times):
 
 
 @pytest.mark.parametrize("reference", ALL.values(), ids=ALL)
-def test_each_derivative_is_the_slope_of_the_one_before(reference):
+def test_each_derivative_is_the_derivative_of_the_previous_one(reference):
     stack = build_stack(reference)
     inside = np.arange(0.0137, 4.9, 0.0411)
     scale = np.abs(follow(stack, inside)).max(axis=0)
@@ -53,8 +53,8 @@ def test_each_derivative_is_the_slope_of_the_one_before(reference):
 @pytest.mark.parametrize(
     ("reference", "continuous"), [(SERIES, 4), (STEPS, 5), (JERK, 3), (CHIRP, 5)], ids=ALL
 )
-def test_derivatives_without_a_jump_are_as_many_as_is_said(reference, continuous):
-    """At the beginning and end as well; minimum jerk's jerk jumps by 60 Δ/T³, as it must."""
+def test_number_of_continuous_derivatives_is_as_documented(reference, continuous):
+    """Also at the start and the end; the jerk of minimum jerk jumps by 60 Δ/T³."""
     stack = build_stack(reference)
     scale = np.abs(follow(stack, np.linspace(0.0, 5.0, 1001))).max(axis=0)
     for edge in (0.0, 1.0, 1.5, 2.5, 4.0, 5.0):
@@ -74,8 +74,8 @@ def compute_sine_to_the_fourth(times):
     return 0.05 * (3.0 * (orders == 0) - 4.0 * slow + fast)
 
 
-def test_a_series_goes_through_its_points_with_the_derivatives_of_what_it_samples():
-    """The spline of degree 7 finds all four, from the values alone, to its ends."""
+def test_series_interpolates_its_points_with_the_derivatives_of_the_sampled_function():
+    """The spline of degree 7 approximates all four from the values alone, up to its ends."""
     stack = build_stack(SERIES)
     np.testing.assert_allclose(follow(stack, TIMES)[:, 0], SERIES.position_rad, atol=1e-12)
     between = np.linspace(0.0, 4.0, 777)[1:-1]
@@ -85,8 +85,8 @@ def test_a_series_goes_through_its_points_with_the_derivatives_of_what_it_sample
 
 
 @pytest.mark.parametrize("reference", ALL.values(), ids=ALL)
-def test_it_is_held_before_and_after_and_begins_when_it_has_faded_in(reference):
-    """A run that changes to it sees all of it, from its first value on."""
+def test_series_is_constant_outside_its_points_and_starts_after_the_fade(reference):
+    """A run that changes to it follows all of it, from its first value on."""
     old = build_stack(svsa.ConstantPosition(position_rad=-0.2))
     changed = reference.changed(transition_s=0.8)
     stack, alone = push_trajectory(old, changed, 10.0), build_stack(reference)
@@ -103,8 +103,8 @@ def test_it_is_held_before_and_after_and_begins_when_it_has_faded_in(reference):
     assert high - 0.02 <= seen.max() <= high + 1e-4
 
 
-def test_finished_curves_are_dropped_and_those_that_run_find_their_own():
-    """A session that is given one series after another does not grow."""
+def test_finished_curves_are_removed_and_running_ones_keep_their_points():
+    """The memory of a session does not grow with the number of its series."""
     stack: Stack = build_stack(SERIES)
     for number in range(5):
         reference = (STEPS, SERIES)[number % 2].changed(transition_s=0.5)
@@ -121,7 +121,7 @@ def write(values, name="position_rad", times=None):
     return f"time_s,{name}\n" + "\n".join(f"{t},{v}" for t, v in zip(times, values, strict=True))
 
 
-def test_a_csv_in_degrees_is_the_series_in_radians():
+def test_csv_in_degrees_is_the_series_in_radians():
     """With a byte order mark, spaces, and an empty line, as spreadsheets write it."""
     degrees = parse_series("\ufeff time_s , position_deg\r\n0,0\r\n0.5, 30\r\n\r\n1,-30\r\n")
     assert isinstance(degrees, svsa.SeriesPosition)
@@ -160,26 +160,26 @@ BAD = {
 
 
 @pytest.mark.parametrize(("text", "words"), BAD.values(), ids=BAD)
-def test_a_bad_csv_is_refused_with_row_value_unit_and_bound(text, words):
+def test_invalid_csv_is_rejected_with_row_value_unit_and_bound(text, words):
     with pytest.raises(svsa.ParameterError) as refused:
         parse_series(text)
     for word in words:
         assert word in str(refused.value)
 
 
-def test_a_csv_of_any_line_ends_is_read():
+def test_csv_with_any_line_ending_is_read():
     rows = ["time_s,position_deg", "0,0", "0.5,30"]
     assert parse_series("\r".join(rows)) == parse_series("\r\n".join(rows))
 
 
 @pytest.mark.parametrize("text", ["a" * 140_000, "time_s,position_deg\n0," + "1" * 140_000])
-def test_a_csv_that_is_none_is_refused_in_words(text):
+def test_other_file_is_rejected_with_reason(text):
     with pytest.raises(svsa.ParameterError, match=r"the CSV: field larger than .* in row"):
         parse_series(text)
 
 
 @pytest.mark.parametrize("frequency_hz", [5e-324, 1e-300, 1e-9, 0.0])
-def test_a_preview_of_a_sine_however_slow_is_of_numbers(frequency_hz):
+def test_preview_of_a_slow_sine_is_finite(frequency_hz):
     slow = svsa.SineStiffness(
         offset_nm_per_rad=20.0, amplitude_nm_per_rad=2.0, frequency_hz=frequency_hz
     )
@@ -189,7 +189,7 @@ def test_a_preview_of_a_sine_however_slow_is_of_numbers(frequency_hz):
     assert 0.0 < times[-1] <= 1e6
 
 
-def test_a_bad_reference_is_refused_by_name():
+def test_invalid_reference_is_rejected_by_name():
     with pytest.raises(svsa.ParameterError, match=r"time_s\[1\] is 0\.05 s.*0\.2 s \(rise_s\)"):
         svsa.StepsPosition(time_s=(0.0, 0.05), position_rad=(0.0, 1.0))
     with pytest.raises(svsa.ParameterError, match=r"position_rad is 3 points.*2 points"):
@@ -200,16 +200,16 @@ def test_a_bad_reference_is_refused_by_name():
         svsa.MinimumJerkPosition(start_rad=-6.0, end_rad=6.0, duration_s=0.05)
 
 
-def test_a_stiffness_between_its_points_stays_in_the_range_or_is_refused():
-    """The spline may go beyond its points: what counts is where it goes."""
+def test_stiffness_between_points_stays_in_the_range_or_is_rejected():
+    """The spline may overshoot its points: its extreme values are checked."""
     wild = parse_series(write([2.0, 2.0, 140.0, 2.0, 2.0], "stiffness_nm_per_rad"))
     assert get_range(wild)[0] < 1.7
     with pytest.raises(svsa.ParameterError, match=r"from 1\.7 to 150\.56 N·m/rad"):
         svsa.simulate("4a", stiffness=wild)
 
 
-def test_the_laws_follow_each_of_them():
-    """All four derivatives are right: with an exact model nothing is left of an error."""
+def test_laws_follow_each_kind_of_reference():
+    """All four derivatives are right: with an exact model no error remains."""
     exact = svsa.load_prototype().actuator
     for reference in (SERIES, STEPS, CHIRP):
         result = svsa.simulate(
@@ -220,7 +220,7 @@ def test_the_laws_follow_each_of_them():
         assert after_the_start.max() < 2e-4, reference.kind
 
 
-def test_a_series_of_stiffness_moves_the_stiffness():
+def test_stiffness_series_changes_the_stiffness():
     ramp = svsa.SeriesStiffness(time_s=(0.0, 1.0, 2.0), stiffness_nm_per_rad=(20.0, 40.0, 30.0))
     result = svsa.simulate("4a", stiffness=ramp, loads=(), duration_s=2.5)
     assert result.fault is None
@@ -229,21 +229,21 @@ def test_a_series_of_stiffness_moves_the_stiffness():
     )
 
 
-def test_steps_between_the_limits_themselves_are_in_the_range():
-    """Rounding between two levels is no step beyond them."""
+def test_steps_between_the_limits_are_in_the_range():
+    """Rounding between two levels does not exceed them."""
     steps = svsa.StepsStiffness(time_s=(0.0, 0.3, 0.7), stiffness_nm_per_rad=(1.7, 150.56, 1.7))
     assert get_range(steps) == (1.7, 150.56)
     svsa.load_prototype().limits.check_stiffness("stiffness", *get_range(steps))
 
 
-def test_steps_of_one_level_are_that_level():
+def test_steps_of_one_level_are_constant():
     assert get_range(svsa.StepsStiffness(time_s=(0.0,), stiffness_nm_per_rad=(20.0,))) == (20, 20)
     stack = build_stack(svsa.StepsPosition(time_s=(1.0,), position_rad=(0.3,)))
     assert follow(stack, (0.0, 2.0))[:, 0].tolist() == [0.3, 0.3]
 
 
 @pytest.mark.parametrize("kind", (*POSITIONS, *STIFFNESSES), ids=lambda kind: kind.__name__)
-def test_each_kind_of_reference_describes_itself_and_runs_as_its_form_begins(kind):
+def test_each_kind_of_reference_describes_itself_and_runs_with_its_defaults(kind):
     assert getattr(svsa, kind.__name__) is kind
     words = kind.model_fields["kind"].default.split("_")
     suffix = "Position" if issubclass(kind, AnyPosition) else "Stiffness"

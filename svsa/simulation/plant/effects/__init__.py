@@ -1,7 +1,7 @@
 """Non-ideal effects, one switch and one file each.
 
-Left out, an effect is off. Parameter error is the difference between the actuator and the
-nominal model; a hung mass is a load.
+An effect that is left out is off. A parameter error is the difference between the actuator and the
+nominal model; a hanging mass is a load.
 """
 
 from collections import namedtuple
@@ -50,7 +50,7 @@ RIG = _build_preset("rig")
 EVERY = _build_preset("rig", "full")
 
 PRESETS: dict[PresetName, Effects] = {"ideal": IDEAL, "rig": RIG, "full": EVERY}
-"""Three choices among the effects, by name."""
+"""Three selections of effects, by name."""
 
 
 def find_preset(effects: Effects) -> PresetName | None:
@@ -75,7 +75,8 @@ def describe_preset(name: PresetName) -> str:
 
 _IN_LOOP = [effect for effect in EFFECTS if effect.off is not None]
 EffectConstants = namedtuple("EffectConstants", [effect.name for effect in _IN_LOOP])
-"""The effects as constants of the compiled loop, a field each; of one that is off its `off`."""
+"""The effects as constants of the compiled loop, one field each; `off` for an effect that is off.
+"""
 NO_EFFECTS = EffectConstants(*(effect.off for effect in _IN_LOOP))
 
 

@@ -28,10 +28,16 @@ def approach(start: Torque, delayed: Torque, rest: float) -> Torque:
 
 @compiled
 def compute_lagged_torque(start: Torque, delayed: Torque, lag: float, since: float) -> Torque:
-    """First-order lag of the current loop: u + (τ_0 − u) e^(−t/τ), N·m.
+    """First-order lag of the current loop: u + (τ_0 − u) e^(−t/τ).
 
-    start: `Torque` at the beginning of the period. delayed: `Torque` after the delay. lag: time
-    constant, s; 0 is none. since: time in the period, s.
+    Args:
+        start: `Torque` at the beginning of the period, N·m.
+        delayed: `Torque` after the delay, N·m.
+        lag: Time constant τ, s; 0 for none.
+        since: Time since the beginning of the period, s.
+
+    Returns:
+        `Torque`, N·m.
     """
     lags = lag > 0.0
     if not some(lags):
@@ -53,11 +59,18 @@ def compute_mean_torque(start: Torque, delayed: Torque, lag: float, period: floa
 def compute_late_torque(
     start: Torque, before: Torque, delayed: Torque, lag: float, latency: float, period: float
 ) -> tuple[Torque, Torque]:
-    """The motors' torque where a new torque arrives `latency` (s) after the period began.
+    """The motors' torque if a new torque arrives `latency` after the beginning of the period.
 
-    start: `Torque` made at the beginning. before, delayed: what arrived until then and after, N·m.
-    lag: time constant, s. 0 ≤ latency ≤ period, s. Returns (`Torque` at the end of the
-    period, mean `Torque` over it).
+    Args:
+        start: `Torque` at the beginning, N·m.
+        before: Commanded `Torque` until the arrival, N·m.
+        delayed: Commanded `Torque` after the arrival, N·m.
+        lag: Time constant, s.
+        latency: Delay within the period, 0 to `period`, s.
+        period: T, s.
+
+    Returns:
+        `Torque` at the end of the period, and mean `Torque` over it, N·m.
     """
     rest = period - latency
     met = compute_lagged_torque(start, before, lag, latency)

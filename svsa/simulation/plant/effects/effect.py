@@ -22,21 +22,22 @@ class Effect:
     """A non-ideal effect, as `EFFECT` of a file in this folder.
 
     Attributes:
-        name: Of the field of `Effects`, and of its constants in `EffectConstants`.
-        place: Where it stands in lists, from the least number on.
-        kind: Type of the field: `Parameters | None` of an effect with parameters, which is off as
+        name: Name of the field of `Effects`, and of its constants in `EffectConstants`.
+        place: Sort key in lists, ascending.
+        kind: Type of the field: `Parameters | None` for an effect with parameters, which is off as
             None, or `Whole`, `Number` or `Flag`.
-        field: A `quantity` with its meaning; of a number also unit and bounds. Its default is off.
-        words: What a list of runs says where it is on; {} is its value.
+        field: A `quantity` with its meaning; for a number also unit and bounds. Its default is off.
+        words: Text for a list of runs if the effect is on; {} is its value.
         preset: The first preset in which it is on; None for none.
-        on: Its value there, and where it is tried alone; None of one that is only switched off.
-        phrase: What the description of that preset says of it.
-        off: Its constants in the compiled loop where it is off: a number or a named tuple of
+        on: Its value in that preset, also used to test it alone; None for an effect that can only
+            be switched off.
+        phrase: Text about the effect in the description of that preset.
+        off: Its constants in the compiled loop while it is off: a number or a named tuple of
             numbers; None for an effect that needs none there.
-        build: Makes the constants of a value that is on.
+        build: Computes the constants from a value that is on.
         resist: Compiled, (effects, x, load) -> load: an effect that acts as a force on link and
-            motors adds it to the `ExternalLoad`, and finds its constants as a field, of its name,
-            of `effects`. The plant calls it in each Runge–Kutta stage.
+            motors adds it to the `ExternalLoad`; its constants are the field of its name in
+            `effects`. The plant calls it in each Runge–Kutta stage.
     """
 
     name: str

@@ -27,7 +27,14 @@ class Friction(Checked):
 
 
 class FrictionConstants(NamedTuple):
-    """coulomb, static: N·m, 0 is none. stribeck, creep: rad/s, > 0."""
+    """Constants of the friction of both motors.
+
+    Attributes:
+        coulomb1: Coulomb friction of motor 1, N·m; 0 for none. coulomb2 of motor 2.
+        static1: Static friction of motor 1, N·m; static2 of motor 2.
+        stribeck: Stribeck velocity, rad/s, > 0.
+        creep1: Creep velocity of motor 1, rad/s, > 0; creep2 of motor 2.
+    """
 
     coulomb1: float
     coulomb2: float
@@ -39,9 +46,9 @@ class FrictionConstants(NamedTuple):
 
 
 def _build(friction: Friction, surroundings: Surroundings) -> FrictionConstants:
-    """The creep velocity is the least at which one Runge–Kutta step a period still settles.
+    """Use the smallest creep velocity for which one Runge–Kutta step per period is stable.
 
-    It is a tenth of the Stribeck velocity, or 2 τ_s T/B.
+    It is a tenth of the Stribeck velocity, or 2 τ_s T/B if that is larger.
     """
     plant, period_s = surroundings.actuator, surroundings.period_s
     coulomb1, coulomb2, ratio = friction.coulomb1_nm, friction.coulomb2_nm, friction.static_ratio
@@ -63,9 +70,18 @@ def compute_friction(
 ) -> float:
     """τ_f = [τ_c + (τ_s − τ_c) e^(−(v/v_s)²)] tanh(v/v_c), N·m, against the motion.
 
-    velocity v: rad/s. coulomb τ_c, static τ_s: N·m. stribeck v_s: rad/s, > 0. creep v_c:
-    rad/s, > 0, the velocity at which a motor that should stick creeps; the tanh stands for
-    the sign, so that the equations stay differentiable.
+    The tanh replaces the sign, so that the equations stay differentiable: a motor that should stick
+    moves with up to the creep velocity.
+
+    Args:
+        velocity: v, rad/s.
+        coulomb: τ_c, N·m.
+        static: τ_s, N·m.
+        stribeck: v_s, rad/s, > 0.
+        creep: v_c, rad/s, > 0.
+
+    Returns:
+        τ_f, N·m.
     """
     ratio = velocity / stribeck
     level = coulomb + (static - coulomb) * exp(-ratio * ratio)
@@ -95,7 +111,7 @@ EFFECT = Effect(
     preset="full",
     on=Friction(),
     phrase="friction",
-    # The velocities divide also where friction is off in one run of a batch: no 0 there.
+    # In a batch the equations divide by these velocities even in runs without friction: no 0 here.
     off=FrictionConstants(0.0, 0.0, 0.0, 0.0, stribeck=1.0, creep1=0.1, creep2=0.1),
     build=_build,
     resist=resist_motion,

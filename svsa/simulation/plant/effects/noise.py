@@ -1,8 +1,7 @@
-"""Noise of the sensors.
+"""Noise of the sensors, from counter-based random numbers.
 
-It comes from random numbers by counter: the same for the same seed, tick and channel, in any
-order. Nothing is stored between two samples, so a run cut into other pieces, another lane or a
-later replay has the same noise.
+The noise depends only on seed, tick and channel. No state is stored between two samples, so a run
+in other slices, another lane or a later replay has the same noise.
 """
 
 import math
@@ -66,17 +65,17 @@ def scramble(counter: int) -> np.uint64:
 def draw_uniform(seed: int, tick: int, channel: int) -> float:
     """A number in (0, 1) for this seed, tick and channel (whole numbers ≥ 0, channel < 64)."""
     position = np.uint64(tick) * _CHANNELS + np.uint64(channel)
-    # The seed is mixed first: in seed + position two neighbouring seeds would have the same noise,
-    # shifted by one draw.
+    # The seed is scrambled first: with seed + position, neighbouring seeds would have the same
+    # noise, shifted by one sample.
     bits = scramble(scramble(as_bits(seed)) + position)
-    # The half step keeps 0 out, whose logarithm `draw_normal` could not use.
+    # The half step excludes 0, whose logarithm `draw_normal` could not compute.
     return (as_float(bits >> _S11) + 0.5) * 2.0**-53
 
 
 @compiled
 def draw_normal(seed: int, tick: int, channel: int) -> float:
     """A standard normal number (Box–Muller) from the channels 2·channel and 2·channel + 1."""
-    # `log` and `cos` of this library: those of libm differ from machine to machine.
+    # `log` and `cos` of this library: the results of libm differ between machines.
     radius = math.sqrt(-2.0 * log(draw_uniform(seed, tick, 2 * channel)))
     return radius * cos(2.0 * math.pi * draw_uniform(seed, tick, 2 * channel + 1))
 
@@ -99,8 +98,8 @@ EFFECT = Effect(
     preset="full",
     on=SensorNoise(),
     phrase="sensor noise",
-    # Without noise every seed gives 0, which a batch makes a literal: else each seed would
-    # compile a batch again.
+    # Without noise the seed is 0, which a batch makes a literal; otherwise every seed would compile
+    # a batch again.
     off=NoiseConstants(0.0, 0.0, 0),
     build=_build,
 )

@@ -7,12 +7,12 @@ from svsa.simulation.plant.loads.load import TorqueLoad, format_torque
 
 
 class ConstantLoad(TorqueLoad):
-    """A torque that stays from its onset on: a step."""
+    """A constant torque from its onset on: a step."""
 
     first: ClassVar[Mapping[str, float] | None] = {}
 
     kind: Literal["constant"] = "constant"
 
     def describe(self) -> str:
-        """A few words, as in the name of a run."""
+        """Describe the load by its torque."""
         return format_torque(self.torque_nm)

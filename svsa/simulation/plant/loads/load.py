@@ -15,30 +15,33 @@ TorqueTriple = tuple[_Torque, _Torque, _Torque]
 TRIPLE = "(w2, w4, w6) on link, motor 1, motor 2, each from −50 to 50"
 PARTS = ("Load on the link", "Load on motor 1", "Load on motor 2")
 
-MASS, SERIES, TORQUE = range(3)
+TIP, MASS, SERIES, TORQUE = range(-1, 3)
 KIND, W2, W4, W6, START, END, A, B, C, D = range(10)
 
 
 class AnyLoad(Checked):
-    """A load with the session time at which it comes on; left out, it is now.
+    """A load with the session time of its onset; left out, it is the present time.
 
-    A file of this folder has a class of this kind with its fields, a `kind: Literal["…"]`, and a
-    first line of its docstring that says what it is. Its `fill` writes its numbers into a row of
-    the `LoadTable`.
+    Each file of this folder has a class derived from this one with its fields and a `kind:
+    Literal["…"]`; the first line of its docstring is its description. Its `fill` writes its numbers
+    into a row of the `LoadTable`.
 
     Attributes:
-        acts_as: TORQUE of a torque w2, w4, w6 (N·m), MASS of an inertia A (kg·m²) and a moment of
-            gravity B (N·m), SERIES of the torques of `list_points`.
-        factor: Compiled, (rows, i, since) -> float: what the torque is multiplied by, `since`
-            seconds after the onset; it reads its numbers, A to D of row i, with `read`. None of a
-            torque that stays the same.
-        first: The numbers for which a form asks besides the torque, by field, and what stands there
-            first; None where no form offers it.
+        acts_as: TORQUE for a torque w2, w4, w6 (N·m), MASS for an inertia A (kg·m²) and a gravity
+            moment B (N·m), SERIES for the torques of `list_points`, TIP for a load at the tip of an
+            arm, which is not in the table.
+        is_push: Whether an operator holds it: sent again while it acts, it is changed and extended.
+        factor: Compiled, (rows, i, since) -> float: factor of the torque, `since` seconds after the
+            onset; it reads its numbers, A to D of row i, with `read`. None for a constant torque.
+        first: Numeric fields of its form besides the torque, with initial values; None if it has no
+            form.
+        start_s: Session time of onset, s.
     """
 
     acts_as: ClassVar[int] = TORQUE
     factor: ClassVar[Any] = None
     first: ClassVar[Mapping[str, float] | None] = None
+    is_push: ClassVar[bool] = False
 
     if TYPE_CHECKING:
         kind: Any
@@ -46,27 +49,51 @@ class AnyLoad(Checked):
     start_s: Number | None = quantity("s", "Session time of onset", ge=0, le=1e6, default=None)
 
     def get_duration(self) -> float:
-        """Return its duration, s; infinite by default."""
+        """Return the duration of the load.
+
+        Returns:
+            Duration, s; infinite by default.
+        """
         return math.inf
 
     def get_hung_mass(self) -> float:
-        """Return the hanging mass, kg."""
+        """Return the hanging mass.
+
+        Returns:
+            Mass, kg; 0 for a load without one.
+        """
         return 0.0
 
     def describe(self) -> str:
-        """Describe it in a few words, as in the name of a run."""
+        """Describe the load in a few words, for the name of a run.
+
+        Returns:
+            Text such as "2 N·m".
+        """
         return self.kind
 
     def name(self) -> str:
-        """Return the beginning of its label."""
+        """Return the beginning of the load's label.
+
+        Returns:
+            Text such as "3 kg load".
+        """
         words = self.describe()
         return words[:1].upper() + words[1:]
 
     def fill(self, row: np.ndarray) -> None:
-        """Fill W2 … W6 and A … D of its row."""
+        """Write the numbers of the load into its row of the `LoadTable`.
+
+        Args:
+            row: The row; columns W2, W4, W6 (N·m) and A to D are to be filled.
+        """
 
     def list_points(self) -> np.ndarray:
-        """Of a SERIES (m, 4): time since onset, s, and torques, N·m."""
+        """Return the points of a SERIES.
+
+        Returns:
+            Time since onset (s) and torques w2, w4, w6 (N·m), shape (m, 4); empty for other loads.
+        """
         return np.zeros((0, 4))
 
 
@@ -76,7 +103,7 @@ class TorqueLoad(AnyLoad):
     torque_nm: TorqueTriple = quantity("N·m", TRIPLE, symbol="Load", parts=PARTS)
 
     def fill(self, row: np.ndarray) -> None:
-        """Fill its torque into its row."""
+        """Write the torque into its row."""
         row[W2 : W6 + 1] = self.torque_nm
 
 

@@ -22,15 +22,15 @@ class MassLoad(AnyLoad):
     arm_m: Number = quantity("m", "Arm r", gt=0, le=1, default=PAPER_ARM_M)
 
     def get_hung_mass(self) -> float:
-        """The mass, kg."""
+        """Return the mass, kg."""
         return self.mass_kg
 
     def describe(self) -> str:
-        """A few words, as in the name of a run."""
+        """Describe the load by mass and arm."""
         arm = "" if self.arm_m == PAPER_ARM_M else f" at {1000 * self.arm_m:g} mm"
         return f"{self.mass_kg:g} kg mass{arm}"
 
     def fill(self, row: np.ndarray) -> None:
-        """Write inertia and moment into its row."""
+        """Write inertia and gravity moment into its row."""
         row[A] = self.mass_kg * self.arm_m**2
         row[B] = self.mass_kg * GRAVITY_M_PER_S2 * self.arm_m

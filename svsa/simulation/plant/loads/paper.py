@@ -15,13 +15,13 @@ class PaperLoad(AnyLoad):
     kind: Literal["paper"] = "paper"
 
     def describe(self) -> str:
-        """A few words, as in the name of a run."""
+        """Describe the load as "3 kg"."""
         return "3 kg"
 
     def name(self) -> str:
-        """Words for the beginning of a label."""
+        """Return "3 kg load"."""
         return "3 kg load"
 
     def fill(self, row: np.ndarray) -> None:
-        """Write its torque into its row."""
+        """Write the paper's torque into its row."""
         row[W2 : W6 + 1] = PAPER_TORQUE_NM

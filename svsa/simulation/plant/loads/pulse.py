@@ -16,9 +16,9 @@ class PulseLoad(TorqueLoad):
     duration_s: Number = quantity("s", "Duration", gt=0, le=3600)
 
     def get_duration(self) -> float:
-        """How long it lasts, s."""
+        """Return the length of the pulse, s."""
         return self.duration_s
 
     def describe(self) -> str:
-        """A few words, as in the name of a run."""
+        """Describe the load by its torque."""
         return f"pulse {format_torque(self.torque_nm)}"

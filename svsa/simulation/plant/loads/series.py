@@ -34,7 +34,17 @@ class SeriesLoad(AnyLoad):
         step_s: float = 0.001,
         start_s: float | None = None,
     ) -> Self:
-        """A torque (w2, w4, w6) = function(time since onset, s), sampled every `step_s`."""
+        """Sample a torque function.
+
+        Args:
+            function: Maps the time since onset, s, to (w2, w4, w6), N·m.
+            duration_s: Duration of the load, s.
+            step_s: Distance between two samples, s.
+            start_s: Session time of the onset, s; None for the present time.
+
+        Returns:
+            The load.
+        """
         count = max(2, round(duration_s / step_s) + 1)
         times = tuple(index * step_s for index in range(min(count, MAX_SERIES_POINTS + 1)))
         torques = tuple(tuple(map(float, function(time))) for time in times)
@@ -51,13 +61,13 @@ class SeriesLoad(AnyLoad):
         return self
 
     def get_duration(self) -> float:
-        """How long it lasts, s."""
+        """Return the time of the last point, s."""
         return self.time_s[-1]
 
     def describe(self) -> str:
-        """A few words, as in the name of a run."""
+        """Describe the load as "torque series"."""
         return "torque series"
 
     def list_points(self) -> np.ndarray:
-        """Its points (m, 4): time since onset, s, and torques, N·m."""
+        """Return the points of the series, shape (m, 4)."""
         return np.column_stack([self.time_s, self.torque_nm])

@@ -15,7 +15,7 @@ from svsa.simulation.plant.loads.load import A, B, TorqueLoad, format_torque
 
 @compiled
 def compute_wave(rows: np.ndarray, i: int, since: float) -> float:
-    """sin(ωt + phase). rows, i: A is ω, rad/s, and B the phase, rad. since: t, s."""
+    """sin(ωt + phase) at t = `since` (s); A of row i is ω, rad/s, and B the phase, rad."""
     return sin(read(rows, i, A) * since + read(rows, i, B))
 
 
@@ -30,10 +30,10 @@ class SineLoad(TorqueLoad):
     phase_rad: Number = quantity("rad", "Phase", ge=-2 * math.pi, le=2 * math.pi, default=0.0)
 
     def describe(self) -> str:
-        """A few words, as in the name of a run."""
+        """Describe the load by torque and frequency."""
         return f"sine {format_torque(self.torque_nm)} {self.frequency_hz:g} Hz"
 
     def fill(self, row: np.ndarray) -> None:
-        """Write torque, ω and phase into its row."""
+        """Write torque, angular frequency and phase into its row."""
         super().fill(row)
         row[A], row[B] = 2.0 * math.pi * self.frequency_hz, self.phase_rad

@@ -1,4 +1,4 @@
-"""A chirp: a sine whose frequency goes from one value to another, for a frequency response."""
+"""A chirp: a sine with a frequency sweep, for a frequency response."""
 
 import math
 from collections.abc import Mapping
@@ -34,8 +34,8 @@ def compute_chirp(
 ) -> Derivatives:
     """r of `_Chirp` and its four derivatives at the chirp's own time (s).
 
-    With p = φ̇ and the constant r = φ̈, sin φ has the derivatives c p, −s p² + c r,
-    −c p³ − 3 s p r and s p⁴ − 6 c p² r − 3 s r². start, end: Hz. duration, taper: s.
+    With p = φ̇ and the constant r = φ̈, sin φ has the derivatives c p, −s p² + c r, −c p³ − 3 s p r
+    and s p⁴ − 6 c p² r − 3 s r². `start` and `end` are in Hz, `duration` and `taper` in s.
     """
     still = Derivatives(offset, 0.0, 0.0, 0.0, 0.0)
     if time <= 0.0 or time >= duration:
@@ -61,11 +61,11 @@ def compute_chirp(
 
 
 class _Chirp(AnyReference):
-    """What the chirps of position and stiffness share.
+    """Common part of the chirps of position and stiffness.
 
-    r = offset + e(t) A sin(2π (f0 t + (f1 − f0) t²/(2 T))) for 0 ≤ t ≤ T, with an envelope e
-    of degree 9 that rises over the first `taper_s` and falls over the last; r = offset before
-    and after. All of r is four times continuously differentiable.
+    r = offset + e(t) A sin(2π (f0 t + (f1 − f0) t²/(2 T))) for 0 ≤ t ≤ T, with an envelope e of
+    degree 9 that rises over the first `taper_s` and falls over the last; r = offset before and
+    after. r is four times continuously differentiable.
     """
 
     compute: ClassVar[Any] = staticmethod(compute_chirp)
@@ -118,7 +118,7 @@ class ChirpPosition(_Chirp, AnyPosition):
     )
 
     def get_shape(self) -> Shape:
-        """Its row of the stack."""
+        """Build the row from the fields of this kind."""
         return self._build_shape(self.offset_rad, self.amplitude_rad)
 
 
@@ -139,5 +139,5 @@ class ChirpStiffness(_Chirp, AnyStiffness):
     )
 
     def get_shape(self) -> Shape:
-        """Its row of the stack."""
+        """Build the row from the fields of this kind."""
         return self._build_shape(self.offset_nm_per_rad, self.amplitude_nm_per_rad)

@@ -22,11 +22,11 @@ class ConstantPosition(AnyPosition):
     )
 
     def get_shape(self) -> Shape:
-        """Its row of the stack."""
+        """Build the row from the fields of this kind."""
         return build_sine(self.position_rad)
 
     def describe(self) -> str:
-        """A few words, as in the name of a run: "held at 20°"."""
+        """Describe it in a few words, such as "held at 20°"."""
         return f"held at {format_degrees(self.position_rad)}"
 
 
@@ -42,13 +42,13 @@ class ConstantStiffness(AnyStiffness):
     )
 
     def get_shape(self) -> Shape:
-        """Its row of the stack."""
+        """Build the row from the fields of this kind."""
         return build_sine(self.stiffness_nm_per_rad)
 
     def describe(self) -> str:
-        """A few words, as in the name of a run: "60"."""
+        """Describe it in a few words, such as "60"."""
         return f"{self.stiffness_nm_per_rad:g}"
 
     def get_mean(self) -> float | None:
-        """The mean of σ_d, N·m/rad."""
+        """Return the mean of σ_d, N·m/rad."""
         return self.stiffness_nm_per_rad

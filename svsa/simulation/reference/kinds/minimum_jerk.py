@@ -20,11 +20,11 @@ from svsa.simulation.reference.shape import (
 
 
 class _MinimumJerk(AnyReference):
-    """What the movements of position and stiffness share.
+    """Common part of the movements of position and stiffness.
 
-    r = a + (b − a)(10 s³ − 15 s⁴ + 6 s⁵), s = t/T from 0 to 1: the least ∫ r⃛² dt that comes
-    from rest and ends in it. Its jerk jumps by 60 (b − a)/T³ at both ends, which no torque
-    follows at once: a short error there is the reference's, not the law's.
+    r = a + (b − a)(10 s³ − 15 s⁴ + 6 s⁵), s = t/T from 0 to 1: the minimum of ∫ r⃛² dt from rest to
+    rest. Its jerk jumps by 60 (b − a)/T³ at both ends, which no torque can follow at once: a short
+    error there is caused by the reference, not by the law.
     """
 
     hint: ClassVar[str] = "The least jerk from rest to rest; the jerk itself jumps at both ends."
@@ -64,7 +64,7 @@ class MinimumJerkPosition(_MinimumJerk, AnyPosition):
         return self
 
     def get_shape(self) -> Shape:
-        """Its row of the stack."""
+        """Build the row from the fields of this kind."""
         return build_curve_shape(self._build_curve(self.start_rad, self.end_rad))
 
 
@@ -83,5 +83,5 @@ class MinimumJerkStiffness(_MinimumJerk, AnyStiffness):
     end_nm_per_rad: Number = quantity("N·m/rad", "End value", symbol="To", gt=0, le=MAX_NM_PER_RAD)
 
     def get_shape(self) -> Shape:
-        """Its row of the stack."""
+        """Build the row from the fields of this kind."""
         return build_curve_shape(self._build_curve(self.start_nm_per_rad, self.end_nm_per_rad))

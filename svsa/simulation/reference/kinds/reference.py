@@ -12,16 +12,15 @@ from svsa.simulation.reference.shape import Shape
 class AnyReference(Checked):
     """A reference of q_d or σ_d.
 
-    A file of this folder has a class that derives from `AnyPosition`, or one from `AnyStiffness`,
-    or both, with its fields, a `kind: Literal["…"]` and a `transition_s`.
+    Each file of this folder has a class derived from `AnyPosition`, or one from `AnyStiffness`, or
+    both, with its fields, a `kind: Literal["…"]` and a `transition_s`.
 
     Attributes:
         compute: Compiled, (a, b, c, d, e, f, time) -> `Derivatives`: the reference at its own time
-            (s), from the numbers of its `Shape`. None of a curve, which is piecewise polynomials,
-            and of a sine.
-        first: The numbers for which a form asks, by field, and what stands there first; None where
-            no form offers it.
-        hint: What the form says of it.
+            (s), from the numbers of its `Shape`. None for a curve, which is piecewise polynomial,
+            and for a sine.
+        first: Numeric fields of its form, with initial values; None if it has no form.
+        hint: Help text of the form.
     """
 
     compute: ClassVar[Any] = None
@@ -34,10 +33,18 @@ class AnyReference(Checked):
 
     @abstractmethod
     def get_shape(self) -> Shape:
-        """Build its row of the stack."""
+        """Build the reference's row of the stack.
+
+        Returns:
+            The numbers that the compiled loop reads.
+        """
 
     def describe(self) -> str:
-        """A few words, as in the name of a run."""
+        """Describe the reference in a few words, for the name of a run.
+
+        Returns:
+            Text such as "60° 0.2 Hz".
+        """
         return str(self.kind).replace("_", " ")
 
 
@@ -49,7 +56,11 @@ class AnyStiffness(AnyReference):
     """A reference of σ_d, N·m/rad, within the range of the limits."""
 
     def get_mean(self) -> float | None:
-        """Return the mean of σ_d, N·m/rad; None if it has none."""
+        """Return the mean of σ_d.
+
+        Returns:
+            Stiffness, N·m/rad; None for a reference without a mean.
+        """
         return None
 
 

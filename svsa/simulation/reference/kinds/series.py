@@ -32,11 +32,11 @@ _Rows = Field(min_length=2, max_length=MAX_ROWS)
 
 
 class _Series(AnyReference):
-    """What the series of position and stiffness share.
+    """Common part of the series of position and stiffness.
 
-    The spline of degree 7 goes through every point and is at rest (first three derivatives
-    zero) at both ends, where it is held: six continuous derivatives inside, three at the ends,
-    where the snap jumps.
+    The spline of degree 7 goes through every point, is at rest (first three derivatives zero) at
+    both ends, and is constant outside: six continuous derivatives inside, three at the ends, where
+    the snap jumps.
     """
 
     kind: Literal["series"] = "series"
@@ -63,7 +63,7 @@ class SeriesPosition(_Series, AnyPosition):
         return build_spline(Points("position_rad", "rad", self.time_s, self.position_rad))
 
     def get_shape(self) -> Shape:
-        """Its row of the stack."""
+        """Build the row from the fields of this kind."""
         return build_curve_shape(self._curve)
 
 
@@ -85,21 +85,22 @@ class SeriesStiffness(_Series, AnyStiffness):
         return build_spline(Points(name, "N·m/rad", self.time_s, values))
 
     def get_shape(self) -> Shape:
-        """Its row of the stack."""
+        """Build the row from the fields of this kind."""
         return build_curve_shape(self._curve)
 
 
 def build_spline(points: Points) -> Curve:
-    """The spline of degree 7 through the points, at rest at both ends.
+    """Build the spline of degree 7 through the points, at rest at both ends.
 
-    Raises `ParameterError` for times that do not grow by 1 ms at least, and where the times
-    are so uneven that the spline misses its own points.
+    Raises:
+        ParameterError: If times do not increase by at least 1 ms, or are so uneven that the spline
+            misses its own points.
     """
     check_points(points, MIN_GAP_S)
     times, values = np.array(points.times), np.array(points.values)
     unit = (times[-1] - times[0]) / (len(times) - 1)
     knots = (times - times[0]) / unit
-    from scipy.interpolate import PPoly, make_interp_spline  # late: it takes a while
+    from scipy.interpolate import PPoly, make_interp_spline  # imported here: the import is slow
 
     spline = make_interp_spline(knots, values, k=SPLINE_DEGREE, bc_type=(AT_REST, AT_REST))
     pieces = PPoly.from_spline(spline)

@@ -20,7 +20,7 @@ def compute_sine(
     """offset + amplitude sin(ωt + phase) with four derivatives; ω in rad/s, t in s."""
     moves = amplitude != 0.0
     held = Derivatives(offset, 0.0, 0.0, 0.0, 0.0)
-    # Makes a vector of the zeros if `moves` is one.
+    # Broadcasts the zeros to a vector if `moves` is one.
     still = choose(moves, held, held)
     if not some(moves):
         return still
@@ -55,11 +55,11 @@ class SinePosition(AnyPosition):
     )
 
     def get_shape(self) -> Shape:
-        """Its row of the stack."""
+        """Build the row from the fields of this kind."""
         return build_sine(self.offset_rad, self.amplitude_rad, self.frequency_hz, self.phase_rad)
 
     def describe(self) -> str:
-        """A few words, as in the name of a run: "60° 0.2 Hz"."""
+        """Describe it in a few words, such as "60° 0.2 Hz"."""
         mean = f"{format_degrees(self.offset_rad)} ± " if self.offset_rad else ""
         return f"{mean}{format_degrees(self.amplitude_rad)} {self.frequency_hz:g} Hz"
 
@@ -77,15 +77,15 @@ class SineStiffness(AnyStiffness):
     )
 
     def get_shape(self) -> Shape:
-        """Its row of the stack."""
+        """Build the row from the fields of this kind."""
         return build_sine(
             self.offset_nm_per_rad, self.amplitude_nm_per_rad, self.frequency_hz, self.phase_rad
         )
 
     def describe(self) -> str:
-        """A few words, as in the name of a run: "35 ± 1"."""
+        """Describe it in a few words, such as "35 ± 1"."""
         return f"{self.offset_nm_per_rad:g} ± {self.amplitude_nm_per_rad:g}"
 
     def get_mean(self) -> float | None:
-        """The mean of σ_d, N·m/rad."""
+        """Return the mean of σ_d, N·m/rad."""
         return self.offset_nm_per_rad

@@ -27,10 +27,10 @@ _Stiffness = Annotated[Number, Field(gt=0, le=MAX_NM_PER_RAD)]
 
 
 class _Steps(AnyReference):
-    """What the steps of position and stiffness share.
+    """Common part of the steps of position and stiffness.
 
-    The first level holds from the beginning; at each later time the level goes to the next one
-    in `rise_s`, by a polynomial of degree 9 whose first four derivatives are zero at both ends.
+    The first level is the initial one; at each later time the reference moves to the next level
+    within `rise_s`, by a polynomial of degree 9 whose first four derivatives are zero at both ends.
     """
 
     kind: Literal["steps"] = "steps"
@@ -69,7 +69,7 @@ class StepsPosition(_Steps, AnyPosition):
         return self._build_curve(Points("position_rad", "rad", self.time_s, self.position_rad))
 
     def get_shape(self) -> Shape:
-        """Its row of the stack."""
+        """Build the row from the fields of this kind."""
         return build_curve_shape(self._curve)
 
 
@@ -91,5 +91,5 @@ class StepsStiffness(_Steps, AnyStiffness):
         return self._build_curve(Points(name, "N·m/rad", self.time_s, values))
 
     def get_shape(self) -> Shape:
-        """Its row of the stack."""
+        """Build the row from the fields of this kind."""
         return build_curve_shape(self._curve)

@@ -1,7 +1,7 @@
 """Deferral of signals during a compiled call that calls Python functions.
 
-Python runs the handler of a signal in such a function. An exception that the handler raises cannot
-pass through the compiled call: ctypes prints it and drops it.
+Python runs signal handlers in such a function. An exception of a handler cannot pass through the
+compiled call: ctypes prints and drops it.
 """
 
 import signal
@@ -34,12 +34,12 @@ class HeldSignals:
 def hold_signals() -> Iterator[HeldSignals]:
     """Defer signals with a Python handler until `handle`, at the latest to the end.
 
-    Python runs handlers in the main thread only: in another thread there is nothing to hold.
+    Python runs handlers in the main thread only; in another thread this does nothing.
     """
     held = HeldSignals()
     if threading.current_thread() is threading.main_thread():
         for number in signal.valid_signals():
-            # SIG_DFL, SIG_IGN and handlers in C run no Python code that could raise.
+            # SIG_DFL, SIG_IGN and handlers written in C run no Python code that could raise.
             if callable(handler := signal.getsignal(number)):
                 held.handlers[number] = handler
     try:
@@ -47,7 +47,8 @@ def hold_signals() -> Iterator[HeldSignals]:
             signal.signal(number, held.hold)
         yield held
     finally:
-        # First restore all handlers: one that raises in `handle` must leave none of ours behind.
+        # Restore all handlers first: an exception in `handle` must not leave a replaced handler
+        # behind.
         for number, handler in held.handlers.items():
             signal.signal(number, handler)
         held.handle()
