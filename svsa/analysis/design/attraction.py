@@ -1,7 +1,7 @@
 """Region of attraction, sampled: initial states from which the simulated loop comes to rest.
 
-A map is a slice of the state space with a sample of starts in it. It proves nothing about the
-starts between them, or about those outside the slice.
+A map contains samples of a slice of the state space. It does not prove stability between the
+samples or outside the slice.
 """
 
 import math
@@ -38,7 +38,12 @@ class Cell(NamedTuple):
 
 
 class StartOutcome(NamedTuple):
-    """The outcome of an initial state. after_s: settling time, or time of the fault."""
+    """The outcome of an initial state.
+
+    Attributes:
+        outcome: Settled, not settled, or fault.
+        after_s: Settling time, or time of the fault, s.
+    """
 
     outcome: Outcome
     after_s: float
@@ -48,9 +53,13 @@ Slice = Literal["rigid", "deflected"]
 
 
 class Map(NamedTuple):
-    """The initial states. positions: q0, rad, one per column. velocities: q̇0, rad/s, one per row.
+    """The initial states of a map.
 
-    deflections, rates: φ0, rad, and φ̇0, rad/s, of each start, of shape (rows, columns).
+    Attributes:
+        positions: q0, rad, one per column.
+        velocities: q̇0, rad/s, one per row.
+        deflections: φ0 of each initial state, rad, shape (rows, columns).
+        rates: φ̇0 of each initial state, rad/s, shape (rows, columns).
     """
 
     positions: np.ndarray
@@ -62,9 +71,14 @@ class Map(NamedTuple):
 def build_map(count: int, chosen: Slice = "rigid") -> Map:
     """Build initial states in `count` rows and columns: q0 within ±90°, q̇0 within ±20 rad/s.
 
-    chosen: "rigid" has φ0 = φ̇0 = 0, link and motor 1 as one body; "deflected" has for each start a
-    deflection of its own within ±0.3 rad and a rate within ±5 rad/s, uniformly distributed, the
-    same in every map of this size.
+    Args:
+        count: Number of rows and of columns.
+        chosen: "rigid" has φ0 = φ̇0 = 0, link and motor 1 as one body; "deflected" has for each
+            initial state a random deflection within ±0.3 rad and a rate within ±5 rad/s, uniformly
+            distributed, the same in every map of this size.
+
+    Returns:
+        The initial states.
     """
     share = 1.0 if chosen == "deflected" else 0.0
     random = np.random.default_rng(0).uniform(-share, share, (2, count, count))
@@ -94,9 +108,9 @@ def find_start_outcomes(
     """Simulate each initial state with the compiled loop, and yield its outcome.
 
     The link starts at q0 with q̇0, motor 1 at q0 − φ0 with q̇0 − φ̇0, the lever where the nominal σ
-    at φ = 0 is σ_d = `sigma`, N·m/rad; the loop is to bring it to q_d = 0. It has come to rest if
-    |e| < 1° in the last 0.2 of 2 s. A run that leaves the domain of the model is a fault. The
-    configuration's first lane, limits and effects hold.
+    at φ = 0 is σ_d = `sigma`, N·m/rad; the reference is q_d = 0. The loop has come to rest if |e| <
+    1° in the last 0.2 of 2 s. A run that leaves the domain of the model is a fault. The first lane,
+    limits and effects are those of the configuration.
     """
     run = Run(
         configuration.changed(

@@ -3,9 +3,9 @@
     ẋ = A x + B (u + w)                              the true plant
     u = Kx x + Kŵ ŵ + Km m + Ku u                    the law, on the nominal model
     ŵ̇ = β (J_n v̇ − F_n x − u − ŵ)                    the observer, Eq 10
-    ṁ = Rx x + Rŵ ŵ + Rm m + Ru u                    what the law remembers
+    ṁ = Rx x + Rŵ ŵ + Rm m + Ru u                    the memory of the law
 
-A, B and F_n stand in closed form; the law's derivatives are differences of the law itself.
+A, B and F_n have closed forms; the derivatives of the law are finite differences.
 """
 
 import math
@@ -45,8 +45,12 @@ class LawDerivatives(NamedTuple):
 class ClosedLoop:
     """ż = A z + B w, e = C z for small motions about rest.
 
-    A (n, n), B (n, 3): w on link, motor 1 and motor 2, N·m. C (2, n): q_d − q, rad, and σ_d − σ,
-    N·m/rad. z = (x, ŵ where the law acts on the observer's, memory of the law).
+    z = (x, ŵ if the law uses that of the observer, memory of the law).
+
+    Attributes:
+        A: Shape (n, n).
+        B: Shape (n, 3), for w on link, motor 1 and motor 2, N·m.
+        C: Shape (2, n), for q_d − q, rad, and σ_d − σ, N·m/rad.
     """
 
     def __init__(self, A: np.ndarray, B: np.ndarray, C: np.ndarray) -> None:
@@ -75,7 +79,18 @@ class ClosedLoop:
 
 
 def linearize_loop(configuration: Configuration, sigma: float) -> ClosedLoop:
-    """The closed loop of a configuration's first lane about rest at σ_d = `sigma`, N·m/rad."""
+    """Linearize the closed loop of a configuration's first lane about rest.
+
+    Args:
+        configuration: The run; its first lane, plant, nominal model and effects are used.
+        sigma: Stiffness σ_d at rest, N·m/rad.
+
+    Returns:
+        The linear closed loop.
+
+    Raises:
+        ParameterError: If the law cannot be linearized, or σ_d is outside the stiffness range.
+    """
     return connect(configuration, sigma, linearize_law(configuration, sigma))
 
 
@@ -87,9 +102,19 @@ def connect(
 ) -> ClosedLoop:
     """Connect a linearized law to the true plant.
 
-    actuator: the true one; that of the configuration if left out. At rest the controller has the
-    nominal σ at σ_d, so that μ is where the nominal model has it. Raises `ParameterError` for
-    a law that is not installed.
+    At rest the controller has the nominal σ at σ_d, which determines μ.
+
+    Args:
+        configuration: The run.
+        sigma: σ_d, N·m/rad.
+        law: The linearized law.
+        actuator: The true actuator; by default that of the configuration.
+
+    Returns:
+        The closed loop.
+
+    Raises:
+        ParameterError: If the law is not installed.
     """
     c = configuration
     K = c.nominal.rotational_stiffness_nm_per_rad
@@ -120,11 +145,11 @@ def connect(
 
 
 def linearize_law(configuration: Configuration, sigma: float) -> LawDerivatives:
-    """A law's torque and the rate of its memory about rest, by central differences.
+    """Linearize a law's torque and the rate of its memory about rest, by central differences.
 
-    The law is called as the loop calls it, without limits and with a period so short that what it
-    remembers moves as in continuous time. What it remembers and never changes, or only from one
-    tick to the next, is no state and is left out.
+    The law is called as in the loop, without limits and with a period so short that its memory
+    changes as in continuous time. Parts of the memory that never change, or change only from one
+    tick to the next, are no states and are left out.
     """
     c = configuration.changed(
         position=ConstantPosition(),

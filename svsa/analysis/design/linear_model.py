@@ -11,7 +11,8 @@ from svsa.actuators.parameters import ActuatorParameters
 from svsa.actuators.signals import CHANNELS
 from svsa.actuators.spring import compute_spring_derivatives
 from svsa.inputs.checked import check_number
-from svsa.runs.configuration import Design, load_prototype
+from svsa.runs.configuration import Design
+from svsa.runs.design_file import load_prototype
 
 STATES = (
     "position_rad",
@@ -35,9 +36,18 @@ OUTPUTS = ("position_rad", "stiffness_nm_per_rad")
 class LinearModel:
     """ẋ = A x + B u, y = C x + D u, all as differences from rest, in SI.
 
-    A (6, 6), B (6, 5), C (2, 6), D (2, 5). states, inputs, outputs: names of channels, with
-    their units in `units`. The inputs are the motors' torques and w on link and motors.
-    lever_ratio: μ at rest. It unpacks into the four matrices: `control.ss(*model)`.
+    The inputs are the motors' torques and w on link and motors. The model unpacks into the four
+    matrices: `control.ss(*model)`.
+
+    Attributes:
+        A: Shape (6, 6).
+        B: Shape (6, 5).
+        C: Shape (2, 6).
+        D: Shape (2, 5).
+        lever_ratio: μ at rest, 1.
+        states: Names of channels, with their units in `units`.
+        inputs: Names of channels.
+        outputs: Names of channels.
     """
 
     A: np.ndarray
@@ -64,16 +74,24 @@ def linearize(
     design: Design | None = None,
     actuator: ActuatorParameters | None = None,
 ) -> LinearModel:
-    """The plant of Eq 9 about rest without a load, φ = 0, where σ = `stiffness_nm_per_rad`.
+    """Linearize the plant of Eq 9 about rest without a load, φ = 0.
 
         M q̈  = −D q̇ − σ (q − θ1) + w2         B2 θ̈2 = −D2 θ̇2 + u2 + w6
         B1 θ̈1 = −D1 θ̇1 + σ (q − θ1) + u1 + w4        δσ = σ_μ μ' δθ2
 
-    Neither ∂τ_e/∂μ nor the reaction τ_r nor ∂σ/∂φ act at φ = 0 to the first order. design: gives
-    limits and, unless `actuator` is given, the true actuator; the prototype's if left out. For the
-    model that the controller believes in, pass `actuator=design.nominal`.
+    At φ = 0 the terms with ∂τ_e/∂μ, the reaction τ_r and ∂σ/∂φ are of second order.
 
-    Raises `ParameterError` for a stiffness outside the range of the limits.
+    Args:
+        stiffness_nm_per_rad: Stiffness σ at rest, N·m/rad.
+        design: Limits and, unless `actuator` is given, the true actuator; by default the
+            prototype's.
+        actuator: The actuator to linearize. For the controller's model pass `design.nominal`.
+
+    Returns:
+        The matrices of the linear model.
+
+    Raises:
+        ParameterError: If the stiffness is outside the range of the limits.
     """
     design = design or load_prototype()
     limits = design.limits

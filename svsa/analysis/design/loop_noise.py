@@ -11,9 +11,12 @@ from svsa.simulation.plant.effects import RIG, Effects, build_effect_constants
 
 
 class LoopNoise(NamedTuple):
-    """Torque noise from encoder quantisation. u1, u2: rms, N·m; infinite if unstable.
+    """Torque noise from encoder quantisation.
 
-    radius: the largest |z| of the loop's poles, 1; below 1 it is stable.
+    Attributes:
+        u1: rms of u1, N·m; infinite if unstable.
+        u2: rms of u2, N·m; infinite if unstable.
+        radius: Largest |z| of the loop's poles, 1; below 1 it is stable.
     """
 
     u1: float
@@ -51,7 +54,7 @@ def compute_loop_noise(configuration: Configuration, sigma: float) -> LoopNoise:
     if radius >= 1.0:
         return LoopNoise(math.inf, math.inf, radius)
     Q = np.diag([motor, motor, deflection])
-    from scipy.linalg import solve_discrete_lyapunov  # late: it takes a while
+    from scipy.linalg import solve_discrete_lyapunov  # imported here: the import is slow
 
     P = solve_discrete_lyapunov(loop.A, loop.B @ Q @ loop.B.T, method="bilinear")
     u1, u2 = np.sqrt(np.maximum(np.diag(P)[TORQUES], 0.0))

@@ -14,9 +14,15 @@ _LEAST_SHARE = 0.005
 def compute_law_margins(
     law: str, sigmas: tuple[float, ...] = STIFFNESSES
 ) -> Iterator[tuple[float, Margins]]:
-    """(σ, margins) of a law with its default parameters, the paper's design and the rig's effects.
+    """Compute the margins of a law with its default parameters, the paper's design and the rig's
+    effects.
 
-    law: name of an installed law. sigmas: σ_d, N·m/rad.
+    Args:
+        law: Name of an installed law.
+        sigmas: σ_d, N·m/rad.
+
+    Returns:
+        (σ, margins) for each stiffness.
     """
     configuration = build_configuration(law, None, None, None).changed(effects=RIG)
     for sigma in sigmas:

@@ -1,13 +1,13 @@
 """Stability margins of the sampled loop about rest, defined equally for all laws.
 
 The loop is opened where the motors' torque reaches the plant, u = C z and z' = A z + B d of
-`SampledLoop`, so that neither the observer nor the law is informed of d:
+`SampledLoop`; neither the observer nor the law receives d:
 
     S(z) = I + C (zI − A)⁻¹ B        d → u + d, both motors, 2 × 2
     L(z) = S⁻¹ − I = −C (zI − A + B C)⁻¹ B
 
-Torque limits, counts, noise and friction are left out, as in `linearize_tick`: the margins hold for
-small motions, while neither torque is at its limit.
+Torque limits, counts, noise and friction are left out, as in `linearize_tick`: the margins are
+valid for small motions, while neither torque is at its limit.
 """
 
 import math
@@ -40,9 +40,11 @@ _STARTS, _STEPS, _CLOSE = 4, 30, 1e-4
 
 
 class GainRange(NamedTuple):
-    """Factors on one torque, the other's being 1, between which the loop stays stable.
+    """Factors on one torque, with 1 on the other, between which the loop stays stable.
 
-    low, high: None where no limit was found, from `MIN_GAIN` to `MAX_GAIN`.
+    Attributes:
+        low: Lower bound; None if there is none above `MIN_GAIN`.
+        high: Upper bound; None if there is none below `MAX_GAIN`.
     """
 
     low: float | None
@@ -61,14 +63,19 @@ class JointError(NamedTuple):
 
 
 class Margins(NamedTuple):
-    """Margins of a law at one σ. radius: the largest |z| of the loop's poles, 1.
+    """Margins of a law at one σ.
 
-    modulus: 1/‖S‖∞, the least distance of the loop from instability, 1 at best. delay_s: the least
-    additional delay of both torques, s, of which the observer is not informed, at which the loop is
-    not stable; None where no delay is. gain1, gain2: see `GainRange`. error: the smallest joint
-    error that was found, None where none was up to `MAX_ERROR`. kink: see `SampledLoop`.
+    If the loop is unstable, modulus and delay are 0, and gains and error None.
 
-    Where the loop is unstable modulus and delay are 0, and gains and error None.
+    Attributes:
+        radius: Largest |z| of the loop's poles, 1.
+        modulus: Modulus margin 1/‖S‖∞, at most 1.
+        delay_s: Smallest additional delay of both torques, unknown to the observer, that makes the
+            loop unstable, s; None if there is none.
+        gain1: Gain range of u1.
+        gain2: Gain range of u2.
+        error: Smallest joint error that was found, None if there is none up to `MAX_ERROR`.
+        kink: See `SampledLoop`.
     """
 
     radius: float
@@ -107,10 +114,18 @@ class Margins(NamedTuple):
 def compute_margins(
     configuration: Configuration, sigma: float, seeks_error: bool = True
 ) -> Margins:
-    """The margins of a configuration's first lane about rest at σ_d = `sigma`, N·m/rad.
+    """Compute the margins of a configuration's first lane about rest.
 
-    Modulus, delay and gain margins are of the loop around the configuration's own plant; the joint
-    error begins at the nominal model. seeks_error: whether it is searched for, about a second.
+    Modulus, delay and gain margins are those of the loop with the configuration's own plant; the
+    joint error is relative to the nominal model.
+
+    Args:
+        configuration: The run.
+        sigma: σ_d, N·m/rad.
+        seeks_error: Whether to search the joint error, which takes about a second.
+
+    Returns:
+        The margins.
     """
     loop = _close(linearize_tick(configuration, sigma))
     radius = loop.radius
@@ -161,7 +176,7 @@ def _find_gains(loop: SampledLoop, motor: int) -> GainRange:
 
 
 def _find_delay(omega: np.ndarray, L: np.ndarray) -> float | None:
-    """The least τ, s, with det(I + L e^{−jωτ}) = 0: an eigenvalue of L is −e^{jωτ}.
+    """The smallest τ, s, with det(I + L e^{−jωτ}) = 0: an eigenvalue of L is −e^{jωτ}.
 
     Between two frequencies modulus and angle of the eigenvalues are interpolated.
     """
@@ -183,15 +198,15 @@ def _find_delay(omega: np.ndarray, L: np.ndarray) -> float | None:
 
 
 def find_joint_error(configuration: Configuration, sigma: float) -> JointError | None:
-    """The smallest joint error of M, B1, B2 and K that makes the loop about rest unstable.
+    """Find the smallest joint error of M, B1, B2 and K that makes the loop about rest unstable.
 
-    The least √(Σ error²) with errors from `MIN_ERROR` to `MAX_ERROR`, from the nominal model on. A
-    deterministic search: 80 directions of the corners, edges and axes, then, from the best of them,
-    the nearest point of the tangent plane of radius = 1, again and again (Hasofer–Lind). What it
-    finds destabilises the loop; that nothing smaller does is not proven.
+    The smallest √(Σ error²) with errors from `MIN_ERROR` to `MAX_ERROR` relative to the nominal
+    model. A deterministic search: 80 directions of the corners, edges and axes, then, from the best
+    of them, repeatedly the nearest point of the tangent plane of radius = 1 (Hasofer–Lind). The
+    result destabilises the loop; it is not proven that no smaller one does.
 
     Returns:
-        The error, or None where none was found or the nominal loop itself is not stable.
+        The error, or None if none was found or the nominal loop itself is not stable.
     """
     nominal = configuration.changed(actuator=configuration.nominal)
     loop = _close(linearize_tick(nominal, sigma))
@@ -254,8 +269,8 @@ def _build_perturbed(
 ) -> Callable[[np.ndarray], np.ndarray]:
     """A of the loop as a function of the relative errors of `JOINT`, (4,).
 
-    Only the plant's own step changes, x' = Φ x + Γ u: A + X (ΔΦ x + ΔΓ C), with x the first six
-    states. Φ and Γ are those of the simulated plant's Runge–Kutta step.
+    Only the step of the plant changes, x' = Φ x + Γ u: A + X (ΔΦ x + ΔΓ C), where x are the first
+    six states. Φ and Γ are those of the simulated plant's Runge–Kutta step.
     """
     nominal = configuration.nominal
     mu = float(compute_lever_ratio_for_stiffness(sigma, nominal.rotational_stiffness_nm_per_rad))

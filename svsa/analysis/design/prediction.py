@@ -36,7 +36,13 @@ _KINDS: tuple[Kind, ...] = ("refuse", "warn", "note")
 
 @dataclass(frozen=True)
 class Reason:
-    """A finding about a design. code: for programs; message: for users."""
+    """A finding about a design.
+
+    Attributes:
+        kind: Severity.
+        code: Identifier for programs.
+        message: Text for users.
+    """
 
     kind: Kind
     code: str
@@ -47,8 +53,11 @@ class Reason:
 class TorqueDemand:
     """The motor torques that the load demands in the present configuration.
 
-    peak1_nm, peak2_nm: |u| asked for where nothing limits it. limited_s: how long either
-    torque is at its limit where it is limited. fault: why that run ends, or "".
+    Attributes:
+        peak1_nm: Peak |u1| without a limit, N·m.
+        peak2_nm: Peak |u2| without a limit, N·m.
+        limited_s: Time during which a torque is at its limit in the limited run, s.
+        fault: Fault at the end of that run, or "".
     """
 
     peak1_nm: float
@@ -59,11 +68,16 @@ class TorqueDemand:
 
 @dataclass(frozen=True)
 class Prediction:
-    """The prediction for a design. noise: infinite if unstable.
+    """The prediction for a design.
 
-    steady: of the configuration's law; None where it finds no rest. adds_estimate: whether the law
-    takes the run's gains and adds an estimate to them; then fl is what the gains leave alone,
-    None without a rest point.
+    Attributes:
+        steady: Steady-state errors of the configuration's law; None if it does not come to rest.
+        adds_estimate: Whether the law adds an estimate to the run's gains.
+        fl: Steady-state errors with the gains alone, if `adds_estimate`; None without an
+            equilibrium.
+        noise: Noise of the loop; infinite if unstable.
+        demand: Torque demand of the load.
+        reasons: Findings.
     """
 
     steady: SteadyError | None
@@ -81,10 +95,18 @@ class Prediction:
 
 
 def predict(configuration: Configuration, sigma: float) -> Prediction:
-    """Predict the behaviour of the configuration's law at σ = `sigma`, N·m/rad.
+    """Predict the behaviour of the configuration's law at one stiffness.
 
     The load is the paper's, 2 N·m on link and motors. Noise is that of the encoders that the
     configuration has, or else of the paper's rig.
+
+    Args:
+        configuration: The run; its first lane, plant, nominal model and effects are used.
+        sigma: Stiffness σ, N·m/rad.
+
+    Returns:
+        Steady-state error under load, noise of the loop, torque demand, and reasons why the design
+        fails.
     """
     steady = find_steady_error(configuration, sigma, LOAD)
     law = configuration.law
@@ -106,7 +128,7 @@ def predict(configuration: Configuration, sigma: float) -> Prediction:
 def measure_demand(configuration: Configuration) -> TorqueDemand:
     """Simulate the configuration for 1.5 s around the load, with and without torque limits.
 
-    It comes from rest and fades into the motion first, so that no jump at t = 0 counts.
+    The run starts from rest and blends into the motion first, so that no jump at t = 0 counts.
     """
     limits = configuration.limits
     free, _ = _simulate_load(configuration, configuration.effects.changed(torque_limits=False))

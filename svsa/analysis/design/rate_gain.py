@@ -1,7 +1,8 @@
 """Position error per disturbance rate: gains from ẇ to e of the loop about rest.
 
-Theorem 1 says that the loop is locally input-to-state stable, without a number. These are gains of
-the *linear* loop, which hold for small motions; an ISS gain of the nonlinear loop is not computed.
+Theorem 1 states that the loop is locally input-to-state stable, without a number. These gains are
+those of the *linear* loop and valid for small motions; an ISS gain of the nonlinear loop is not
+computed.
 """
 
 import math
@@ -28,11 +29,14 @@ _POINTS = 4000
 
 
 class RateGain(NamedTuple):
-    """Error of position per rate of the link's torque, rad per N·m/s.
+    """Position error per rate of the link's torque, rad per N·m/s.
 
-    ramp: |e| that a steady ramp ẇ2 leaves. l1: the L1 gain ∫|g(t)| dt of the impulse response g
-    from ẇ2 to e, the largest |e| that any w2 with |ẇ2| ≤ 1 N·m/s causes in the linear loop. Both
-    infinite if a constant torque leaves an error already, or the loop is unstable.
+    Both are infinite if a constant torque leaves an error, or the loop is unstable.
+
+    Attributes:
+        ramp: |e| after a constant ramp of rate ẇ2, divided by |ẇ2|.
+        l1: L1 gain ∫|g(t)| dt of the impulse response g from ẇ2 to e: the largest |e| for any w2
+            with |ẇ2| ≤ 1 N·m/s in the linear loop.
     """
 
     ramp: float
@@ -44,7 +48,7 @@ def compute_rate_gain(loop: ClosedLoop) -> RateGain:
     if loop.slowest > -_MIN_RATE:
         return RateGain(math.inf, math.inf)
     A, b, c = loop.A, loop.B[:, 0], loop.C[0]
-    from scipy.linalg import expm  # late: it takes a while
+    from scipy.linalg import expm  # imported here: the import is slow
 
     before = np.linalg.solve(A.T, c)
     ramp = float(before @ np.linalg.solve(A, b))
@@ -66,8 +70,8 @@ def compute_formula(configuration: Configuration, sigma: float) -> float | None:
 
         e / ẇ2 = (Γ12/β2 + (c3 − D/M)/M) / c0,   Γ12 = (c2 − c3 D/M + (D²/M − σ)/M)/M
 
-    from the error dynamics (Eq 23, 24) under a ramp, where ŵ2 lags by ẇ2/β2. As β → ∞ the floor
-    (c3 − D/M)/(M c0) is left: ŵ is held while the error's third derivative is computed.
+    from the error dynamics (Eq 23, 24) under a ramp, for which ŵ2 lags by ẇ2/β2. For β → ∞ the
+    floor (c3 − D/M)/(M c0) remains, because ŵ is constant in the error's third derivative.
     """
     gains = build_gains(configuration.gains)
     if configuration.law != "ndobc" or gains.p0 <= 0.0:
@@ -92,9 +96,13 @@ def compute_floor(configuration: Configuration) -> float | None:
 
 
 class RampRun(NamedTuple):
-    """A simulated ramp. rate: ẇ2, N·m/s. gain: |e|/|ẇ2| at its end, rad per N·m/s.
+    """A simulated ramp.
 
-    lag: |w2 − ŵ2|/|ẇ2| there, s, or None for a law that acts on no ŵ. fault: why it ended, or "".
+    Attributes:
+        rate: ẇ2, N·m/s.
+        gain: |e|/|ẇ2| at its end, rad per N·m/s.
+        lag: |w2 − ŵ2|/|ẇ2| at its end, s; None for a law without ŵ.
+        fault: Fault at the end of the run, or "".
     """
 
     rate: float

@@ -20,7 +20,8 @@ from svsa.analysis.design.stability import Stability, assess
 from svsa.control.gains import Gains
 from svsa.control.installed import get_law
 from svsa.control.observers.disturbance import ObserverBandwidth
-from svsa.runs.configuration import Configuration, load_prototype, read_design
+from svsa.runs.configuration import Configuration
+from svsa.runs.design_file import load_prototype, read_design
 from svsa.simulation.plant.effects import IDEAL, RIG
 from svsa.simulation.reference.kinds.constant import ConstantPosition, ConstantStiffness
 
@@ -28,10 +29,13 @@ DELAYS = {0: IDEAL, 1: RIG, 2: RIG.changed(delay_samples=2)}
 
 
 class Report(NamedTuple):
-    """The report at σ_d = sigma, N·m/rad. fastest: β, rad/s, by samples of delay (0: ideal loop).
+    """The report at one stiffness.
 
-    rigid, deflected: what becomes of the starts of both maps on the paper's rig; empty without a
-    map.
+    Attributes:
+        sigma: σ_d, N·m/rad.
+        fastest: Stable bandwidth β, rad/s, by samples of delay (0: ideal loop).
+        rigid: Outcomes of the "rigid" map on the paper's rig; empty without a map.
+        deflected: Outcomes of the "deflected" map on the paper's rig; empty without a map.
     """
 
     sigma: float
@@ -70,7 +74,11 @@ class Report(NamedTuple):
 def build_configuration(
     law: str, pole: float | None, beta: float | None, parameters: Path | None
 ) -> Configuration:
-    """Build a design at rest, the paper's if no file is given; raises `ParameterError`."""
+    """Build a design at rest, by default the paper's.
+
+    Raises:
+        ParameterError: If the file or a value is invalid.
+    """
     design = read_design(parameters) if parameters else load_prototype()
     least = design.limits.stiffness_min_nm_per_rad
     c = Configuration(
@@ -93,9 +101,7 @@ def build_report(
     starts: int,
     report: Callable[[float], None] = lambda share: None,
 ) -> list[Report]:
-    """Build a report for each stiffness, N·m/rad. report: receives the finished share of the
-    maps.
-    """
+    """Build a report for each stiffness, N·m/rad; `report` receives the share of finished maps."""
     for sigma in sigmas:
         configuration.limits.check_stiffness("stiffness", sigma, sigma)
     done, total = 0, max(1, 2 * len(sigmas) * starts**2)

@@ -15,9 +15,13 @@ DURATION_S = 0.9
 
 
 class LoadResponse(NamedTuple):
-    """The response. time, s, from the load's onset. error: q_d − q, rad. torque1: u1, N·m.
+    """The response to a load.
 
-    fault: why it ended early, or "".
+    Attributes:
+        time: Time since the load's onset, s.
+        error: q_d − q, rad.
+        torque1: u1, N·m.
+        fault: Fault that ended the run early, or "".
     """
 
     time: np.ndarray
@@ -30,7 +34,7 @@ def simulate_load(configuration: Configuration, sigma: float) -> LoadResponse:
     """Simulate the configuration's first lane at rest at q = 0, σ_d = `sigma`, with the paper's
     load.
 
-    With the configuration's own limits and effects.
+    Limits and effects are those of the configuration.
     """
     run = Run(
         configuration.changed(

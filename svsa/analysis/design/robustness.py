@@ -22,11 +22,15 @@ _CLOSE = 1e-4
 
 
 class StableRange(NamedTuple):
-    """The range of one parameter, true over nominal, with a Hurwitz loop; all others nominal.
+    """The range of one parameter, true over nominal, for which the loop is Hurwitz; all others
+    nominal.
 
-    parameter: its name among `ActuatorParameters`; symbol: the paper's. low, high: None where it
-    is stable as far as was looked, from `MIN_RATIO` to `MAX_RATIO`. present: the ratio in
-    the configuration.
+    Attributes:
+        parameter: Its name in `ActuatorParameters`.
+        symbol: The paper's symbol.
+        low: Lower bound; None if the loop is stable down to `MIN_RATIO`.
+        high: Upper bound; None if the loop is stable up to `MAX_RATIO`.
+        present: The ratio in the configuration.
     """
 
     parameter: str
@@ -39,10 +43,11 @@ class StableRange(NamedTuple):
 def find_stable_ranges(
     configuration: Configuration, sigma: float, law: LawDerivatives | None = None
 ) -> list[StableRange]:
-    """Find where the loop about rest at σ_d = `sigma`, N·m/rad, is Hurwitz, one parameter at a
-    time.
+    """Find for each parameter the range in which the loop about rest at σ_d = `sigma`, N·m/rad, is
+    Hurwitz.
 
-    law: its derivatives, if they are known. Empty where the nominal loop itself is unstable.
+    `law` is the linearized law, if it is already known. Empty if the nominal loop itself is
+    unstable.
     """
     c, nominal = configuration, configuration.nominal
     derivatives = law or linearize_law(c, sigma)

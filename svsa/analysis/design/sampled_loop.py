@@ -25,23 +25,24 @@ from svsa.simulation.reference.kinds.constant import ConstantPosition, ConstantS
 TORQUES = slice(15, 17)
 APPLIED = slice(17, 19)
 _PUSH_NM = 1e-3
-_BEGINNING_S = 0.05
+_START_S = 0.05
 _NO_EFFECT = 1e-9
 
 
 class SampledLoop(NamedTuple):
     """z' = A z + B n + W w + X d, u = C z: a tick of the loop about rest.
 
-    z = (x, x̂, ŵ, torque now and of the last period, queue of the delay, memory of the law, the last
-    messages), without what never changes; it begins with x. n: noise on θ1, θ2, φ, rad.
-    w: torques on link, motor 1 and motor 2 during the tick, N·m, of which the controller is not
-    informed. d: a change of the plant's x at the end of the tick, which its sensors see. u: mean
-    torque of both motors during the tick, N·m.
+    z = (x, x̂, ŵ, present torque and that of the last period, queue of the delay, memory of the
+    law, the last messages), without parts that never change; it begins with x. n is noise on θ1,
+    θ2, φ, rad; w are torques on link, motor 1 and motor 2 during the tick, N·m, unknown to the
+    controller; d is a change of the plant's x at the end of the tick, which its sensors measure; u
+    is the mean torque of both motors during the tick, N·m.
 
-    closing: indices of the states that the motors' torque changes and that change it. kink: among
-    them the largest difference between derivatives to both sides, relative to the largest
-    derivative of the same value; near 0 for a differentiable tick, 1 and more for a law that
-    switches at rest, of which A is then an average.
+    Attributes:
+        closing: Indices of the states in the loop: changed by the motors' torque and changing it.
+        kink: Largest difference between their left and right derivatives, relative to the largest
+            derivative of the same value; near 0 for a differentiable tick, 1 and more for a law
+            that switches at rest, whose A is then an average.
     """
 
     A: np.ndarray
@@ -64,10 +65,11 @@ def compute_radius(A: np.ndarray) -> float:
 
 
 def linearize_tick(configuration: Configuration, sigma: float) -> SampledLoop:
-    """A tick at q = 0, σ = `sigma`, at rest, by central differences of the loop's own functions.
+    """Linearize a tick at q = 0, σ = `sigma`, at rest, by central differences of the loop's
+    functions.
 
-    Limits, counts, noise and friction, which have no derivative, are left out, and so is what the
-    law remembers and never changes.
+    Limits, counts, noise and friction, which have no derivative, are left out, and so are constant
+    parts of the law's memory.
     """
     smooth = configuration.effects.changed(
         encoders=None, noise=None, friction=None, torque_limits=False
@@ -88,7 +90,7 @@ def linearize_tick(configuration: Configuration, sigma: float) -> SampledLoop:
         lane, heard = _unpack(z[:-3]), z[-3:].tolist()
         call, x = build_call(law, lane.memory), lane.x
         measured = Positions(x.q + heard[0], x.theta1 + heard[1], x.theta2 + heard[2])
-        # `run_tick` in two parts, since the law is to hear what is not measured of x.
+        # The two parts of `run_tick`, because the law must not receive the unmeasured part of x.
         _, torque = decide(
             blocks, call, inputs, lane.known, lane.estimate, lane.applied, measured, 0
         )
@@ -138,7 +140,7 @@ def _spread(A: np.ndarray, inputs: np.ndarray) -> np.ndarray:
 
 def find_rest(run: Run) -> LaneState:
     """Return the first lane at rest after its law has started, since many start differently."""
-    run.advance(np.empty((1, round(_BEGINNING_S / run.period_s), len(CHANNELS))))
+    run.advance(np.empty((1, round(_START_S / run.period_s), len(CHANNELS))))
     return run.lanes[0]
 
 
@@ -174,10 +176,14 @@ _NYQUIST_SHARE = 0.98
 
 
 class FrequencyResponse(NamedTuple):
-    """e/w2 of the sampled loop about rest. frequency: Hz. magnitude: rad per N·m. phase: rad.
+    """e/w2 of the sampled loop about rest.
 
-    radius: the largest |z| of the loop's poles, 1; where it is not below 1, nothing settles and the
-    numbers have no meaning.
+    Attributes:
+        frequency: Hz.
+        magnitude: rad per N·m.
+        phase: rad.
+        radius: Largest |z| of the loop's poles, 1; if it is not below 1, the loop is unstable and
+            the response has no meaning.
     """
 
     frequency: np.ndarray
@@ -194,11 +200,11 @@ class FrequencyResponse(NamedTuple):
 def compute_disturbance_response(
     configuration: Configuration, sigma: float, points: int = POINTS
 ) -> FrequencyResponse:
-    """The error q_d − q under w2 = sin ωt, from 0.1 Hz to half the rate of the loop.
+    """Compute the error q_d − q under w2 = sin ωt, from 0.1 Hz to half the rate of the loop.
 
         e/w2 = −q/w2 = −C (e^{jωT} I − A)⁻¹ W
 
-    with the tick's A and W (see `SampledLoop`), so that sampling, delay, lag and estimator count.
+    with the tick's A and W (see `SampledLoop`), which include sampling, delay, lag and estimator.
     """
     loop = linearize_tick(configuration, sigma)
     period = configuration.sampling.period_s
@@ -215,11 +221,12 @@ _CLOSE = 1e-3
 
 
 def find_fastest_observer(configuration: Configuration, sigma: float) -> float | None:
-    """The bandwidth β, rad/s, below which the sampled loop about rest is stable; 0 where none is.
+    """Find the bandwidth β, rad/s, below which the sampled loop about rest is stable; 0 if there is
+    none.
 
-    The same β on all three channels. configuration: with its sampling, delay and estimator (see
-    `choose_sensing`); counts, noise and friction have no part in it. None where it is still
-    stable at `FASTEST_RAD_PER_S`, and for a law that acts on no observer.
+    β is the same on all three channels. Sampling, delay and estimator are those of the
+    configuration (see `choose_sensing`); counts, noise and friction are left out. None if the loop
+    is still stable at `FASTEST_RAD_PER_S`, and for a law without an observer.
     """
     if get_law(configuration.law).estimate != "observer":
         return None

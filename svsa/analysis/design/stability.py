@@ -30,10 +30,15 @@ _CLOSE = 0.05
 class Stability(NamedTuple):
     """Stability results of a design about rest at one σ.
 
-    loop: in continuous time, with the true plant. ranges: see `find_stable_ranges`. gain: from
-    ẇ2 to e. formula, floor: the same in closed form, and as β → ∞; None for laws other than NDOBC.
-    fastest_observer: β, rad/s, see `find_fastest_observer`, with the configuration's own sensing or
-    the rig's; None where any is stable, or where the law acts on no observer.
+    Attributes:
+        loop: The loop in continuous time, with the true plant.
+        ranges: See `find_stable_ranges`.
+        gain: From ẇ2 to e.
+        formula: The same in closed form; None for laws other than NDOBC.
+        floor: The closed form for β → ∞; None for laws other than NDOBC.
+        fastest_observer: β, rad/s, see `find_fastest_observer`, with the sensing of the
+            configuration or of the rig; None if any bandwidth is stable, or the law uses no
+            observer.
     """
 
     loop: ClosedLoop
@@ -45,10 +50,18 @@ class Stability(NamedTuple):
 
 
 def assess(configuration: Configuration, sigma: float) -> Stability:
-    """Compute stability of a configuration's first lane at σ_d = `sigma`, N·m/rad, in about 0.5 s.
+    """Compute the stability of a configuration's first lane, in about 0.5 s.
 
-    Raises `ParameterError` for a law that continuous time does not describe: one that switches, or
-    whose memory is more than its integral and filters.
+    Args:
+        configuration: The run; its first lane, plant, nominal model and effects are used.
+        sigma: Stiffness σ_d, N·m/rad.
+
+    Returns:
+        The closed loop, stable parameter ranges, the gain from ẇ, and the margins.
+
+    Raises:
+        ParameterError: If continuous time does not describe the law: it switches, or its memory
+            contains more than its integral and filters.
     """
     law = linearize_law(configuration, sigma)
     loop = connect(configuration, sigma, law)

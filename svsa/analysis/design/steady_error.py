@@ -30,7 +30,13 @@ _DEFLECTION = CHANNEL_INDEX["deflection_rad"]
 
 
 class SteadyError(NamedTuple):
-    """Steady-state q_d − q, rad, and σ_d − σ, N·m/rad; deflection: φ, rad."""
+    """Steady-state errors.
+
+    Attributes:
+        position: q_d − q, rad.
+        stiffness: σ_d − σ, N·m/rad.
+        deflection: φ, rad.
+    """
 
     position: float
     stiffness: float
@@ -42,11 +48,16 @@ def find_steady_error(
 ) -> SteadyError | None:
     """Find the steady-state errors of the configuration's law under a constant w.
 
-    Found by a run at q_d = 0 without counts, noise and friction: the law with what it remembers and
-    its estimate, until nothing moves by more than 1e-9 rad and 1e-7 N·m/rad in 0.5 s. None where
-    the run leaves the domain, or is not at rest after 30 s.
+    Simulates q_d = 0 without counts, noise and friction, including memory and estimate of the law,
+    until nothing moves by more than 1e-9 rad and 1e-7 N·m/rad in 0.5 s.
 
-    sigma: σ_d, N·m/rad. w: the torques on link, motor 1 and motor 2, N·m.
+    Args:
+        configuration: The run.
+        sigma: σ_d, N·m/rad.
+        w: Torques on link, motor 1 and motor 2, N·m.
+
+    Returns:
+        The errors; None if the run leaves the domain, or is not at rest after 30 s.
     """
     smooth = configuration.effects.changed(encoders=None, noise=None, friction=None)
     run = Run(
@@ -74,7 +85,8 @@ def find_steady_error(
 def compute_fl_steady_error(
     configuration: Configuration, sigma: float, w: Disturbance
 ) -> SteadyError | None:
-    """Compute FL's steady-state errors under a constant w; None without a rest in the domain.
+    """Compute FL's steady-state errors under a constant w; None without an equilibrium in the
+    domain.
 
     With u = A⁻¹(b − v) in Eq 23 (corrected: Ė = b − A u + D w) the errors obey
 
@@ -82,12 +94,17 @@ def compute_fl_steady_error(
         ė¹3 = −Σ c¹k e¹k − (D²/M − σ) w2/M² − σ w4/(M B1) + τ_e,μ μ' w6/(M B2)
         ė²0 = e²1    ė²1 = −Σ c²k e²k − Γ₂ w
 
-    so that at rest e¹0 = −Γ₁ w/c¹0 and e²0 = −Γ₂ w/c²0, with Γ(x) of Eq 24 where the load
-    has taken the actuator: τ_e(φ, θ2) = w2 and σ(φ, θ2) = σ_d + Γ₂ w/c²0. Exact at rest,
-    since inertia and damping do not act there.
+    so that at rest e¹0 = −Γ₁ w/c¹0 and e²0 = −Γ₂ w/c²0, with Γ(x) of Eq 24 at the equilibrium under
+    load: τ_e(φ, θ2) = w2 and σ(φ, θ2) = σ_d + Γ₂ w/c²0. Exact at rest, because inertia and damping
+    have no effect there.
 
-    configuration: gains, nominal model, actuator and limits of it. sigma: σ_d, N·m/rad.
-    w: the torques on link, motor 1 and motor 2, N·m.
+    Args:
+        configuration: Gains, nominal model, actuator and limits.
+        sigma: σ_d, N·m/rad.
+        w: Torques on link, motor 1 and motor 2, N·m.
+
+    Returns:
+        The errors, or None.
     """
     gains = build_gains(configuration.gains)
     K = configuration.nominal.rotational_stiffness_nm_per_rad
@@ -104,7 +121,7 @@ def compute_fl_steady_error(
         missing = sigma - linearization.sigma + stiffness / gains.s0
         return nominal.M * linearization.ddq + w.w2, missing, position
 
-    from scipy.optimize import fsolve  # late: it takes a while
+    from scipy.optimize import fsolve  # imported here: the import is slow
 
     unloaded = [w.w2 / sigma, 0.0]
     rest, *_ = fsolve(lambda point: find_demands(point)[:2], unloaded, full_output=True)

@@ -1,10 +1,10 @@
 """A motion that makes all parameters identifiable: slow, fast, soft and stiff.
 
-Slow sines cross the Stribeck velocity, where friction shows; long strokes at speed show the
-dampings; fast ones the inertias and the delay of the torque, which at one frequency alone
-would pass for damping; the spring shows where the link is thrown about. The stiffness never
-rests while the link swings fast, and no two frequencies are multiples: else every period
-would meet the same counts of the encoders, and their error would not average out.
+Slow sines cross the Stribeck velocity, where friction is visible; long fast strokes show the
+dampings; fast sines show the inertias and the delay of the torque, which at a single frequency
+could not be distinguished from damping; large accelerations of the link show the spring. The
+stiffness varies while the link moves fast, and no two frequencies are multiples: otherwise every
+period would have the same encoder counts, and their error would not average out.
 """
 
 from typing import Literal, NamedTuple

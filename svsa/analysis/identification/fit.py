@@ -1,13 +1,13 @@
 """Output error by multiple shooting: parameters with which the plant reproduces the record.
 
-The record is cut into short segments, each with a start state of its own, so that neither
-drift nor an instability grows (Bock 1983). Levenberg–Marquardt on all unknowns at once; the
-start states are eliminated segment by segment, so that the work is linear in the length of
-the record.
+The record is divided into short segments, each with its own initial state, so that neither drift
+nor an instability grows (Bock 1983). Levenberg–Marquardt estimates all unknowns at once; the
+initial states are eliminated segment by segment, so that the cost is linear in the length of the
+record.
 
-The covariance is the sandwich with the segments as clusters and their leverage taken off
-(CR3, the jackknife): counts of an encoder are not white noise, and nothing is assumed about
-them but that segments are independent.
+The covariance is the sandwich estimator with the segments as clusters, corrected for their leverage
+(CR3, the jackknife): encoder counts are not white noise, and the only assumption is that segments
+are independent.
 """
 
 from collections.abc import Callable
@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from svsa.analysis.identification.guess import guess_parameters, guess_states
+from svsa.analysis.identification.initial_guess import guess_parameters, guess_states
 from svsa.analysis.identification.problem import SHAPE, UNKNOWNS, Point, Problem
 from svsa.analysis.identification.record import Evidence, IdentificationError
 
@@ -37,10 +37,14 @@ Progress = Callable[[float], None]
 class Fit(NamedTuple):
     """The result of a fit.
 
-    values, deviations: (16,) of `Parameters` and their standard deviations; to what the
-    record gives a ten-thousandth of the value is added, for torques between samples. residual:
-    (3,) rms of θ1, θ2, φ that the model does not explain, rad. used, dropped: segments; dropped
-    are those that the model explains far worse than the others.
+    Attributes:
+        values: `Parameters`, shape (16,).
+        deviations: Standard deviations, shape (16,); a ten-thousandth of the value is added, for
+            torques between samples.
+        residual: rms residuals of θ1, θ2, φ, rad, shape (3,).
+        used: Number of segments used.
+        dropped: Number of segments dropped because the model explains them far worse than the
+            others.
     """
 
     values: np.ndarray
@@ -53,9 +57,11 @@ class Fit(NamedTuple):
 def fit(evidence: Evidence, progress: Progress = lambda _: None) -> Fit:
     """Fit the parameters to a record; `progress` receives the finished share.
 
-    A rough pass over some of the segments, then passes over all, each of which weighs the
-    angles by what the last one left of them. Raises `IdentificationError` where the model
-    does not explain the record.
+    The first pass uses some of the segments; the following passes use all, and weight the angles by
+    the residuals of the previous pass.
+
+    Raises:
+        IdentificationError: If the model does not explain the record.
     """
     segments, residual = evidence.segments, _FIRST_DEVIATION
     centre, starts = guess_parameters(evidence), guess_states(evidence)[segments]
@@ -87,8 +93,8 @@ def fit(evidence: Evidence, progress: Progress = lambda _: None) -> Fit:
 def compute_covariance(problem: Problem, point: Point) -> np.ndarray:
     """Compute the covariance of the parameters: A⁻¹ (Σ s sᵀ + P) A⁻¹.
 
-    A: their information, that of the prior P with it. s = (1 − A_k A⁻¹)⁻¹ g_k: the score of a
-    segment without its own leverage on what was found.
+    A is their information, including that of the prior P. s = (1 − A_k A⁻¹)⁻¹ g_k is the score of a
+    segment without its own leverage on the result.
     """
     reduced = problem.reduce(problem.linearize(point), 0.0)
     total, _ = problem.sum_up(reduced, point.values)
@@ -104,7 +110,7 @@ def compute_covariance(problem: Problem, point: Point) -> np.ndarray:
 def _minimize(
     problem: Problem, point: Point, tolerance: float, report: Callable[[int], None]
 ) -> tuple[Point, np.ndarray]:
-    """Minimise by Levenberg–Marquardt until the cost falls by less than this share.
+    """Minimise by Levenberg–Marquardt until the relative decrease of the cost is below `tolerance`.
 
     Returns the best point and its squares (segments, 3), see `Normal`.
     """

@@ -6,7 +6,7 @@ import numpy as np
 
 from svsa.actuators.parameters import ActuatorParameters
 from svsa.analysis.identification.fit import Progress, fit
-from svsa.analysis.identification.guess import guess_noise, guess_states
+from svsa.analysis.identification.initial_guess import guess_noise, guess_states
 from svsa.analysis.identification.kernel import Parameters
 from svsa.analysis.identification.record import Evidence, IdentificationError, read_evidence
 from svsa.runs.configuration import Configuration, Design
@@ -57,12 +57,17 @@ ACTUATOR = tuple(name for name in _FOUND if name in ActuatorParameters.model_fie
 class Identification(NamedTuple):
     """The result of an identification.
 
-    estimates: by name, those of `ACTUATOR` (Table 1) and then friction, weight of the link
-    and delay of the recorded torque, which are found on the way. residual_rad: rms of θ1,
-    θ2 and φ that the model leaves unexplained. used_s, loaded_s, dropped_s: of the record;
-    left out under a load, and for being explained far worse than the rest. misfit: by how
-    much the residual exceeds the noise of the sensors alone; about 1 where the model is
-    right. undetermined: parameters of Table 1 that the run did not excite enough.
+    Attributes:
+        run_id: Id of the run.
+        configuration: Configuration of the run.
+        estimates: By name: those of `ACTUATOR` (Table 1), then friction, gravity moment of the link
+            and delay of the recorded torque, which are estimated as well.
+        residual_rad: rms residuals of θ1, θ2 and φ, rad.
+        used_s: Length of the record that was used, s.
+        loaded_s: Length left out because of a load, s.
+        dropped_s: Length left out because the model explains it far worse than the rest, s.
+        misfit: Residual divided by the sensor noise; about 1 if the model is right.
+        undetermined: Parameters of Table 1 that the run did not excite enough.
     """
 
     run_id: str
@@ -78,7 +83,8 @@ class Identification(NamedTuple):
     def build_design(self) -> Design:
         """Build the run's design with the identified values as actuator and as nominal model.
 
-        Raises `IdentificationError` where the run leaves a value undetermined.
+        Raises:
+            IdentificationError: If the run does not determine a value.
         """
         if self.undetermined:
             symbols = ", ".join(self.estimates[name].symbol for name in self.undetermined)
@@ -117,13 +123,13 @@ def identify_evidence(
 ) -> Identification:
     """Identify the actuator by output error.
 
-    Radius, γ, μ0 and the scale of the torques are taken as known. Inertias, dampings, spring and
-    friction are found in proportion to that scale.
+    Radius, γ, μ0 and the scale of the torques are assumed to be known. Inertias, dampings, spring
+    and friction are proportional to that scale.
 
     Args:
         evidence: Measured angles and torques.
         run_id: The run, or the file of the measurement, for messages.
-        progress: Called with the share of the work that is done.
+        progress: Called with the finished share.
 
     Raises:
         IdentificationError: If the run cannot be used.
@@ -136,7 +142,7 @@ def identify_evidence(
             f"The model leaves {misfit:.0f} times the noise of the sensors unexplained in run"
             f" {run_id}: was there a load, a contact or a wrong geometry?"
         )
-    from scipy.stats import t as student  # late: it takes a while
+    from scipy.stats import t as student  # imported here: the import is slow
 
     factor = float(student.ppf(0.5 + 0.5 * CONFIDENCE, max(found.used - len(found.values), 1)))
     values = dict(zip(Parameters._fields, found.values.tolist(), strict=True))

@@ -1,7 +1,7 @@
 """Compiled identification: simulation of the plant over a segment, and its sensitivities.
 
-The equations are those of the simulated plant; no other compiled function of this room may
-be in another file, since numba's cache follows a change here by this file alone.
+The equations are those of the simulated plant. All compiled functions of the identification are in
+this file, because numba's cache detects a change only in this file.
 """
 
 import math
@@ -25,10 +25,15 @@ OUTPUTS = 3
 
 
 class Setting(NamedTuple):
-    """Known quantities. gamma, mu0, reaction: see `Actuator`.
+    """Known quantities.
 
-    period: T, s. effects: of the plant, with the lag of the current loop; friction and weight of
-    the link are estimated.
+    gamma, mu0 and reaction are those of `Actuator`.
+
+    Attributes:
+        period: T, s.
+        effects: Effects of the plant, with the lag of the current loop; friction and gravity moment
+            of the link are estimated.
+        loads: Loads on the plant.
     """
 
     gamma: float
@@ -51,9 +56,13 @@ class Torques(NamedTuple):
 class Parameters(NamedTuple):
     """All estimated parameters, SI units, in the order of the vector.
 
-    M … K: see `Actuator`. coulomb, static_ratio, stribeck, creep: of `compute_friction`.
-    gravity_moment: m g r of the link, N·m. delay1, delay2: from a recorded torque to the
-    motor's, s: drives that are commanded one after the other act one after the other.
+    M to K are those of `Actuator`; coulomb to creep those of `compute_friction`.
+
+    Attributes:
+        gravity_moment: m g r of the link, N·m.
+        delay1: Delay from a recorded torque to that of motor 1, s. Drives that receive commands one
+            after the other have different delays.
+        delay2: The same for motor 2, s.
     """
 
     M: float
@@ -85,10 +94,17 @@ def build_parameters(p: np.ndarray) -> Parameters:
 
 @compiled
 def compute_late_value(torques: np.ndarray, row: int, motor: int, shift: float) -> float:
-    """Return a motor's recorded torque at the sample `row`, delayed, N·m.
+    """Return a motor's recorded torque at the sample `row`, delayed.
 
-    torques: (rows, 2), N·m. motor: 0 or 1. shift: by how many periods; between two samples on
-    the straight line, beyond the ends the last.
+    Args:
+        torques: Shape (rows, 2), N·m.
+        row: Number of the sample.
+        motor: 0 or 1.
+        shift: Delay in periods; interpolated linearly between two samples, constant beyond the
+            ends.
+
+    Returns:
+        Torque, N·m.
     """
     whole = math.floor(shift)
     share = shift - whole
@@ -115,10 +131,15 @@ def simulate(
     first: int,
     outputs: np.ndarray,
 ) -> None:
-    """Simulate θ1, θ2, φ from the sample `first` on: outputs (samples, 3), rad, written.
+    """Simulate θ1, θ2, φ from the sample `first` on.
 
-    p: (16,) see `Parameters`. start: (6,) the state at the first sample. torques: of the
-    whole record, `Torques`.
+    Args:
+        setting: Known quantities.
+        p: `Parameters`, shape (16,).
+        start: State at the first sample, shape (6,).
+        torques: `Torques` of the whole record.
+        first: First sample.
+        outputs: Shape (samples, 3), rad, written.
     """
     c = build_parameters(p)
     actuator = Actuator(
@@ -154,10 +175,17 @@ def differentiate(
     outputs: np.ndarray,
     slopes: np.ndarray,
 ) -> None:
-    """Simulate, with difference quotients by every parameter and by the start state.
+    """Simulate, with difference quotients by every parameter and by the initial state.
 
-    steps: (16 + 6,) of the quotients. outputs: (samples, 3), slopes: (16 + 6, samples, 3),
-    both written.
+    Args:
+        setting: Known quantities.
+        p: `Parameters`, shape (16,).
+        start: State at the first sample, shape (6,).
+        steps: Steps of the quotients, shape (16 + 6,).
+        torques: `Torques` of the whole record.
+        first: First sample.
+        outputs: Shape (samples, 3), written.
+        slopes: Shape (16 + 6, samples, 3), written.
     """
     unknowns = p.shape[0]
     for i in range(-1, steps.shape[0]):
@@ -176,9 +204,10 @@ def differentiate(
 
 @compiled
 def compute_unit_torques(setting: Setting, angles: np.ndarray, torques: np.ndarray) -> None:
-    """What the spring would do with K = 1 N·m/rad: torques (rows, 3) written, as `InternalTorque`.
+    """Compute the torques of a spring with K = 1 N·m/rad: `torques` (rows, 3) is written, as
+    `InternalTorque`.
 
-    angles: (rows, 3) θ1, θ2, φ, rad.
+    `angles` are θ1, θ2, φ, rad, shape (rows, 3).
     """
     unit = Actuator(1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0, setting.gamma, setting.mu0, setting.reaction)
     for k in range(angles.shape[0]):
@@ -193,8 +222,11 @@ def measure(
 ) -> None:
     """Compute the sensor values of the true angles.
 
-    effects: `EffectConstants`. states: (rows, 3) θ1, θ2, φ. measured: (rows, 3), the same as
-    measured, written.
+    Args:
+        effects: `EffectConstants`.
+        first_tick: Tick of the first row.
+        states: θ1, θ2, φ, rad, shape (rows, 3).
+        measured: Measured θ1, θ2, φ, rad, shape (rows, 3), written.
     """
     for k in range(states.shape[0]):
         theta1, theta2, phi = states[k, 0], states[k, 1], states[k, 2]

@@ -46,26 +46,27 @@ def identify(
 ) -> Identification:
     """Estimate inertias, dampings, spring and friction of the actuator by output error.
 
-    A CSV file has a head with `time_s`, `motor1_position_rad`, `motor2_position_rad`,
-    `deflection_rad` (or `_deg` each), `torque1_nm` and `torque2_nm`: angles as measured and torques
-    as commanded, at the gearbox outputs, without a load, in equal steps of at most 10 ms.
+    A CSV file has a header with `time_s`, `motor1_position_rad`, `motor2_position_rad`,
+    `deflection_rad` (or `_deg` each), `torque1_nm` and `torque2_nm`: measured angles and commanded
+    torques, at the gearbox outputs, without a load, in equal steps of at most 10 ms.
 
     Args:
         source: Id or folder of a recorded run, a simulated result, or a CSV file (`.csv`).
-        parameters: Of a CSV file: parameter file or `Design` with the known radius and γ; the
+        parameters: For a CSV file: parameter file or `Design` with the known radius and γ; the
             paper's if left out.
-        stiffness_nm_per_rad: Of a CSV file: stiffness without deflection in its first row, N·m/rad.
-        progress: Called with the share of the work that is done, 0 to 1.
+        stiffness_nm_per_rad: For a CSV file: stiffness without deflection in its first row,
+            N·m/rad.
+        progress: Called with the finished share, 0 to 1.
 
     Returns:
-        Estimates with 95 % intervals; `build_design()` makes parameters of them.
+        Estimates with 95 % intervals; `build_design()` converts them to parameters.
 
     Raises:
-        ParameterError: If the file cannot be read, names the column, value and bound.
+        ParameterError: If the file cannot be read; the message has column, value and bound.
         IdentificationError: If the measurement cannot be used.
     """
     if not (isinstance(source, (str, Path)) and str(source).lower().endswith(".csv")):
-        from svsa.runs.result.recorded import find_record  # late: it imports pyarrow
+        from svsa.runs.result.recorded import find_record  # imported here: it imports pyarrow
 
         return identify_record(find_record(source), progress)
     if stiffness_nm_per_rad is None:
@@ -115,7 +116,7 @@ def read_csv_evidence(
 
 def _read_table(path: Path) -> dict[str, np.ndarray]:
     """The columns of a CSV file as numbers."""
-    import pyarrow.csv  # late: it takes a while
+    import pyarrow.csv  # imported here: the import is slow
 
     try:
         table = pyarrow.csv.read_csv(path)

@@ -20,13 +20,13 @@ _STATE_STEPS = np.array([1e-5, 1e-4, 1e-5, 1e-4, 1e-5, 1e-4])
 _STEP = 1e-4
 _INFINITE = np.inf
 
-# In the first pass the shape of the friction stays as guessed: as long as all else is far
-# off, it would be bent into anything.
+# The first pass keeps the guessed shape of the friction: while the other parameters are still far
+# off, a fit of the shape would compensate for their errors.
 SHAPE = ("static_ratio", "stribeck", "creep1", "creep2")
 _HELD = 1e-6
 
-# What is known before any record: how far from the first guess a value may well be. So wide
-# that it decides only where the record says nothing.
+# Prior knowledge: the standard deviation of each parameter about its first guess. The widths are so
+# large that they matter only where the record contains no information.
 _WIDTHS = Parameters(
     M=0.1, B1=0.1, B2=0.1, D=0.1, D1=0.1, D2=0.1, K=100.0, coulomb1=1.0, coulomb2=1.0,
     static_ratio=0.5, stribeck=0.1, creep1=0.02, creep2=0.02, gravity_moment=5.0, delay1=0.002,
@@ -46,17 +46,24 @@ _CREEP_SHARE = 0.5
 
 
 class Point(NamedTuple):
-    """values: (16,) of `Parameters`. starts: (segments, 6), the state at each first row."""
+    """A point of the search.
+
+    Attributes:
+        values: `Parameters`, shape (16,).
+        starts: State at the first row of each segment, shape (segments, 6).
+    """
 
     values: np.ndarray
     starts: np.ndarray
 
 
 class Normal(NamedTuple):
-    """The normal equations of every segment, of its parameters and its start state.
+    """The normal equations of every segment, for its parameters and its initial state.
 
-    information: (segments, 22, 22). score: (segments, 22). squares: (segments, 3), the sum
-    of the squared errors of θ1, θ2, φ, rad².
+    Attributes:
+        information: Shape (segments, 22, 22).
+        score: Shape (segments, 22).
+        squares: Sums of the squared errors of θ1, θ2, φ, rad², shape (segments, 3).
     """
 
     information: np.ndarray
@@ -76,7 +83,7 @@ class Reduced(NamedTuple):
 class Problem:
     """The segments of a record, the deviations (3,) as weights, and a weak prior.
 
-    held: names of `Parameters` that stay at the centre.
+    `held` are the names of `Parameters` that stay at the center of the prior.
     """
 
     def __init__(

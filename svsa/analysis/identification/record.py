@@ -1,7 +1,7 @@
 """Data for identification from a record: measured angles, torques, usable segments.
 
-Only what a bench knows is read. The angles of a simulated run, which are the true ones, are
-passed through the encoders and noise of the run; those of a bench are measured already.
+Only quantities that a bench measures are used. The true angles of a simulated run are passed
+through the encoders and noise of the run; those of a bench are already measured.
 """
 
 from collections.abc import Sequence
@@ -42,8 +42,14 @@ class IdentificationError(SvsaError):
 class Evidence(NamedTuple):
     """The data of a record for identification.
 
-    angles: (rows, 3) θ1, θ2, φ as measured, rad. segments: first rows of the pieces that are
-    used, each `length` rows long. loaded: rows under a load.
+    Attributes:
+        configuration: Configuration of the run.
+        setting: Known quantities.
+        angles: Measured θ1, θ2, φ, rad, shape (rows, 3).
+        torques: `Torques`.
+        segments: First rows of the segments that are used.
+        length: Number of rows in each segment.
+        loaded: Number of rows under a load.
     """
 
     configuration: Configuration
@@ -58,8 +64,8 @@ class Evidence(NamedTuple):
 def read_evidence(record: Record) -> Evidence:
     """Read the first lane of a record, without segments under load and missed ticks.
 
-    Raises `IdentificationError` where too little is left, or the plant was changed on the
-    way.
+    Raises:
+        IdentificationError: If too few samples are left, or the plant changed during the run.
     """
     configuration, commands = read_origin(record)
     configuration = _find_plant(record, configuration, commands)
@@ -105,7 +111,7 @@ def build_setting(
 ) -> tuple[Setting, float]:
     """Return the known quantities of the plant, and the time constant of its current loop, s.
 
-    mu0: lever ratio at θ2 = 0.
+    `mu0` is the lever ratio at θ2 = 0.
     """
     known = build_actuator(configuration.actuator, mu0)
     lag = configuration.effects.current_lag
@@ -124,12 +130,12 @@ def _hold(rows: np.ndarray, missed: np.ndarray) -> np.ndarray:
 def build_torques(recorded: np.ndarray, is_measured: bool, lag: float, period: float) -> Torques:
     """Compute actual and commanded torques from the recorded ones (rows, 2), N·m.
 
-    A bench records what it asked for, a simulation what the motors make at that instant:
-    with the lag, each follows from the other (`compute_lagged_torque`). lag, period: s.
+    A bench records the commanded torque, a simulation the actual one: with the lag, each follows
+    from the other (`compute_lagged_torque`). `lag` and `period` are in s.
     """
     rest = exp(-period / lag) if lag > 0.0 else 0.0
     if is_measured:
-        from scipy.signal import lfilter  # late: it takes a while
+        from scipy.signal import lfilter  # imported here: the import is slow
 
         made = lfilter([0.0, 1.0 - rest], [1.0, -rest], recorded, axis=0)
         return Torques(np.ascontiguousarray(made), recorded)

@@ -1,4 +1,4 @@
-"""The region of attraction, the frequency response and the response to the load, of a design."""
+"""Region of attraction, frequency response and load response of a design."""
 
 import math
 
@@ -36,14 +36,16 @@ def build(law: str = "ndobc", pole: float = 60.0, **changes: object) -> Configur
         ("fl", 60.0, 60.0, 0.94),
     ],
 )
-def test_the_share_that_comes_to_rest(law, pole, sigma, share):
+def test_share_of_starts_that_reach_rest(law, pole, sigma, share):
     starts = build_map(COARSE)
     found = find_start_outcomes(build(law, pole), sigma, starts, order_cells(COARSE))
     assert compute_share([outcome for _, outcome in found]) == pytest.approx(share, abs=0.04)
 
 
-def test_a_slice_with_deflection_shows_less_than_the_one_without():
-    """At 45/60 all rigid starts come to rest, and about 64 % of those with a bent spring."""
+def test_slice_with_deflection_has_fewer_starts_that_reach_rest():
+    """At 45/60 all starts with a rigid spring reach rest, and about 64 % of those with a
+    deflection.
+    """
     starts = build_map(21, "deflected")
     found = find_start_outcomes(build("ndobc", 45.0), 15.0, starts, order_cells(21))
     assert compute_share([outcome for _, outcome in found]) == pytest.approx(0.64, abs=0.05)
@@ -53,15 +55,15 @@ def test_a_slice_with_deflection_shows_less_than_the_one_without():
     np.testing.assert_array_equal(again.deflections, starts.deflections)
 
 
-def test_a_map_is_filled_from_coarse_to_fine():
+def test_map_is_refined_from_coarse_to_fine():
     cells = order_cells(COARSE)
     assert len(set(cells)) == len(cells) == COARSE**2
     first = cells[:9]
     assert {cell.row for cell in first} == {cell.column for cell in first} == {0, 4, 8}
 
 
-def test_a_fate_is_that_of_a_run_from_there():
-    """Rest at the middle at once; at the edge of the map, where 60/60 fails, a fault."""
+def test_outcome_of_a_start_is_that_of_a_simulation():
+    """At rest immediately in the centre; a fault at the edge of the map, where 60/60 fails."""
     starts = build_map(3)
     outcomes = dict(find_start_outcomes(build(), 15.0, starts, order_cells(3)))
     assert outcomes[1, 1] == ("rest", 0.0)
@@ -70,8 +72,8 @@ def test_a_fate_is_that_of_a_run_from_there():
     assert 0.0 < edge.after_s < 1.0
 
 
-def test_a_sine_on_the_link_is_let_through_as_predicted():
-    """4 Hz, where most of it comes through: amplitude and phase of a simulation within 2 %."""
+def test_frequency_response_to_a_link_torque_is_as_predicted():
+    """4 Hz, near the peak of the response: amplitude and phase of a simulation within 2 %."""
     c = build(effects=svsa.IDEAL)
     found = compute_disturbance_response(c, 15.0, 300)
     index = int(np.argmin(np.abs(found.frequency - 4.0)))
@@ -87,8 +89,8 @@ def test_a_sine_on_the_link_is_let_through_as_predicted():
     assert math.remainder(turned, 2 * np.pi) == pytest.approx(0.0, abs=0.03)
 
 
-def test_slow_torques_come_through_in_proportion_to_their_rate():
-    """|e/w| → 2πf · (e per ẇ), the gain that a ramp shows."""
+def test_low_frequency_response_is_proportional_to_the_torque_rate():
+    """|e/w| → 2πf · (e per ẇ), the gain for a ramp."""
     c = build(effects=svsa.IDEAL)
     found = compute_disturbance_response(c, 15.0)
     loop = linearize_loop(c, 15.0)
@@ -98,7 +100,7 @@ def test_slow_torques_come_through_in_proportion_to_their_rate():
     assert found.magnitude[0] == pytest.approx(rate * ramp, rel=0.01)
 
 
-def test_the_load_at_rest_does_what_it_does_in_a_run():
+def test_predicted_load_response_from_rest_matches_a_simulation():
     response = simulate_load(build(effects=svsa.IDEAL), 15.0)
     assert response.fault == ""
     assert response.time[0] == pytest.approx(-ONSET_S)

@@ -1,4 +1,4 @@
-"""The predictions of a design against simulations of it."""
+"""Predictions of a design compared with simulations."""
 
 import math
 
@@ -24,8 +24,8 @@ def build(law: str, sigma: float, **changes: object) -> Configuration:
 
 @pytest.mark.parametrize("sigma", [15.0, 35.0, 60.0, 100.0])
 @pytest.mark.parametrize("poles", [([-60.0] * 4, [-40.0] * 2), ([-40.0, -80.0] * 2, [-30.0] * 2)])
-def test_fl_comes_to_rest_where_its_error_dynamics_say(sigma, poles):
-    """Position and stiffness error of a simulated rest, to a part in 10⁶."""
+def test_fl_has_the_steady_state_error_of_its_error_dynamics(sigma, poles):
+    """Steady-state error of position and stiffness in a simulation, to one part in 10⁶."""
     c = build("fl", sigma, gains=svsa.Gains.from_poles(*poles))
     predicted = compute_fl_steady_error(c, sigma, LOAD)
     assert predicted is not None
@@ -39,8 +39,10 @@ def test_fl_comes_to_rest_where_its_error_dynamics_say(sigma, poles):
 
 @pytest.mark.parametrize("law", ["fl", "ndobc", "fl_integral"])
 @pytest.mark.parametrize("sigma", [15.0, 60.0])
-def test_any_law_comes_to_rest_where_a_run_does(law, sigma):
-    """FL where its error dynamics say; a law that integrates or estimates without an error."""
+def test_steady_state_error_of_every_law_matches_a_simulation(law, sigma):
+    """That of the error dynamics for FL; zero for a control law with integral action or an
+    observer.
+    """
     c = build(law, sigma)
     found = find_steady_error(c, sigma, LOAD)
     loads = [svsa.PaperLoad(start_s=0.5)]
@@ -57,8 +59,10 @@ def test_any_law_comes_to_rest_where_a_run_does(law, sigma):
         assert abs(found.position) < 1e-8
 
 
-def test_a_prediction_is_of_the_law_that_controls_and_fls_number_stands_under_no_other_name():
-    """FL's error belongs to the gains of a law that adds an estimate to them, and to no other."""
+def test_prediction_belongs_to_the_chosen_law_only():
+    """The steady-state error of FL is reported for FL, and not for a control law that adds an
+    estimate.
+    """
     found = {law: predict(build(law, 15.0), 15.0) for law in ("fl", "ndobc", "fl_integral")}
     assert {law: one.adds_estimate for law, one in found.items()} == {
         "fl": False,
@@ -74,8 +78,8 @@ def test_a_prediction_is_of_the_law_that_controls_and_fls_number_stands_under_no
     assert steady["fl"] == pytest.approx(abs(found["ndobc"].fl.position), rel=1e-6)
 
 
-def test_where_there_is_no_rest_the_simulated_run_ends_in_a_fault():
-    """Slow poles of stiffness let the load push σ out of its range."""
+def test_design_without_an_equilibrium_ends_in_a_fault():
+    """With slow stiffness poles the load drives σ out of its range."""
     c = build("fl", 140.0, gains=svsa.Gains.from_poles([-60.0] * 4, [-30.0] * 2))
     assert compute_fl_steady_error(c, 140.0, LOAD) is None
     assert find_steady_error(c, 140.0, LOAD) is None
@@ -86,7 +90,7 @@ def test_where_there_is_no_rest_the_simulated_run_ends_in_a_fault():
 
 @pytest.mark.parametrize("law", ["fl", "ndobc", "pi_observer"])
 @pytest.mark.parametrize("sigma", [15.0, 60.0])
-def test_noise_goes_through_the_loop_as_predicted(law, sigma):
+def test_noise_response_of_the_torques_is_as_predicted(law, sigma):
     """White noise on the three angles, small enough to be linear: rms of u1 and u2 within 5 %."""
     effects = Effects(
         estimation=StateEstimation(),
@@ -100,8 +104,8 @@ def test_noise_goes_through_the_loop_as_predicted(law, sigma):
     assert np.std(run.torque2_nm[2000:]) == pytest.approx(predicted.u2, rel=0.05)
 
 
-def test_counts_are_heard_in_the_order_predicted():
-    """Counts are no white noise: the rms of u1 on the rig is met within a factor of two."""
+def test_quantization_noise_has_the_predicted_order_of_magnitude():
+    """Quantization is not white noise: the rms of u1 on the rig is within a factor of two."""
     c = build("ndobc", 15.0, effects=svsa.RIG)
     predicted = compute_loop_noise(c, 15.0)
     smooth = svsa.RIG.changed(encoders=None)
@@ -110,8 +114,8 @@ def test_counts_are_heard_in_the_order_predicted():
     assert 0.5 < rms / predicted.u1 < 2.0
 
 
-def test_the_discrete_loop_is_stable_where_the_simulation_is():
-    """A pole pattern that the delay makes unstable has |z| ≥ 1, and the rig's run ends."""
+def test_discrete_loop_is_stable_if_the_simulation_is():
+    """Poles that the delay destabilises have |z| ≥ 1, and their run on the rig ends in a fault."""
     fast = svsa.Gains.from_poles([-500.0] * 4, [-200.0] * 2)
     c = build("ndobc", 60.0, effects=svsa.RIG, gains=fast)
     assert compute_loop_noise(c, 60.0).radius >= 1.0
@@ -119,7 +123,7 @@ def test_the_discrete_loop_is_stable_where_the_simulation_is():
     assert linearize_tick(build("ndobc", 60.0, effects=svsa.RIG), 60.0).radius < 1.0
 
 
-def test_the_demand_is_that_of_the_run_with_the_load():
+def test_predicted_torque_demand_is_that_of_the_run_with_load():
     demand = measure_demand(build("ndobc", 60.0))
     assert demand.fault == ""
     assert demand.limited_s == 0.0
@@ -139,7 +143,7 @@ def test_the_demand_is_that_of_the_run_with_the_load():
         ("fl", 15.0, "warn", {"no_rest", "large_error"}),
     ],
 )
-def test_the_verdict_says_what_would_happen(law, pole, verdict, codes):
+def test_verdict_describes_the_predicted_outcome(law, pole, verdict, codes):
     c = build(law, 15.0, gains=svsa.Gains.from_poles([-pole] * 4, [-40.0] * 2))
     prediction = predict(c, 15.0)
     assert prediction.verdict == verdict, prediction
@@ -147,7 +151,7 @@ def test_the_verdict_says_what_would_happen(law, pole, verdict, codes):
     assert all(reason.message for reason in prediction.reasons)
 
 
-def test_sensing_is_the_sessions_own_or_the_rigs():
+def test_sensing_is_that_of_the_session_or_of_the_rig():
     assert choose_sensing(svsa.IDEAL) == svsa.RIG
     own = svsa.RIG.changed(delay_samples=2)
     assert choose_sensing(own) is own

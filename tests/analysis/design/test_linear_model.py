@@ -1,4 +1,4 @@
-"""The linear model at rest: against differences of the plant, A(x) of Eq 18, and a simulation."""
+"""Linear model at rest: compared with differences of the plant, A(x) of Eq 18 and a simulation."""
 
 import numpy as np
 import pytest
@@ -17,7 +17,7 @@ REST = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 def build_plant(model, parameters):
-    """ẋ and y of the nonlinear plant at (x, u, w), as arrays."""
+    """Return ẋ and y of the nonlinear plant at (x, u, w) as arrays."""
     actuator = build_actuator(parameters, model.lever_ratio)
 
     def rate(x, u):
@@ -41,7 +41,7 @@ def differentiate(function, size, at):
 
 @pytest.mark.parametrize("sigma", SIGMAS)
 @pytest.mark.parametrize("part", ["actuator", "nominal"])
-def test_its_matrices_are_the_slopes_of_the_plant(sigma, part):
+def test_matrices_are_the_derivatives_of_the_plant(sigma, part):
     parameters = getattr(svsa.load_prototype(), part)
     model = svsa.design.linearize(sigma, actuator=parameters)
     rate, measure = build_plant(model, parameters)
@@ -61,8 +61,8 @@ def test_its_matrices_are_the_slopes_of_the_plant(sigma, part):
 
 
 @pytest.mark.parametrize("sigma", SIGMAS)
-def test_its_decoupling_matrix_and_relative_degrees_are_those_of_the_theory(sigma):
-    """C₁A³B = A(x) row 1 at degree 4 and C₂AB = row 2 at degree 2 (Eq 18), nothing before."""
+def test_decoupling_matrix_and_relative_degrees_match_the_theory(sigma):
+    """C₁A³B = A(x) row 1 at degree 4, C₂AB = row 2 at degree 2 (Eq 18); lower degrees are zero."""
     nominal = svsa.load_prototype().nominal
     model = svsa.design.linearize(sigma, actuator=nominal)
     A, B, C, _ = model
@@ -76,8 +76,8 @@ def test_its_decoupling_matrix_and_relative_degrees_are_those_of_the_theory(sigm
     assert theory.sigma == pytest.approx(sigma, rel=1e-12)
 
 
-def test_a_small_push_moves_it_as_it_moves_the_simulation():
-    """0.01 N·m on motor 1 for 50 ms, torque through python's own controller, to 0.1 %."""
+def test_small_torque_pulse_moves_model_and_simulation_equally():
+    """0.01 N·m on motor 1 for 50 ms, by a controller in Python, to 0.1 %."""
     from scipy.signal import StateSpace, dlsim
 
     model = svsa.design.linearize(15.0)
@@ -98,7 +98,7 @@ def test_a_small_push_moves_it_as_it_moves_the_simulation():
     np.testing.assert_allclose(result.position_rad, outputs[:, 0], atol=1e-3 * largest)
 
 
-def test_it_says_what_its_rows_and_columns_are():
+def test_labels_name_the_rows_and_columns():
     model = svsa.design.linearize(60.0)
     shapes = [matrix.shape for matrix in model]
     assert shapes == [(6, 6), (6, 5), (2, 6), (2, 5)]
@@ -111,6 +111,6 @@ def test_it_says_what_its_rows_and_columns_are():
 
 
 @pytest.mark.parametrize("sigma", [1.0, 151.0, float("nan"), "soft"])
-def test_a_stiffness_outside_the_range_is_refused(sigma):
+def test_stiffness_outside_the_range_is_rejected(sigma):
     with pytest.raises(svsa.ParameterError, match=r"from 1\.7 to 150\.56 N·m/rad"):
         svsa.design.linearize(sigma)

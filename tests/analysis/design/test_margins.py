@@ -1,4 +1,4 @@
-"""Margins of the sampled loop: against closed forms, the continuous model and simulations."""
+"""Margins of the sampled loop compared with closed forms, the continuous model and simulations."""
 
 import math
 from importlib.metadata import EntryPoint
@@ -52,8 +52,8 @@ def grow(
 ) -> float:
     """By how much a nudge of 0.01 mrad has grown from 0.8 to 2 s, in the nonlinear loop.
 
-    The plant gets the torque `late` samples later and multiplied by `gains`; the observer is fed
-    the torque that the controller believes in.
+    The plant gets the torque `late` samples later and multiplied by `gains`. The observer gets the
+    torque without this change.
     """
     run = Run(configuration)
     blocks, law, inputs, period = run.blocks[0], run.laws[0], run.inputs, run.period_s
@@ -118,7 +118,7 @@ def test_ndobc_has_the_modulus_margin_of_its_continuous_model(sigma):
 
 
 @pytest.mark.parametrize("law", ["ndobc", "pi_observer", "super_twisting"])
-def test_a_simulation_is_stable_within_the_delay_margin_and_not_beyond(law):
+def test_simulation_is_stable_only_within_the_delay_margin(law):
     c = build(law)
     margins = compute_margins(c, 15.0, seeks_error=False)
     assert margins.delay_s is not None
@@ -129,7 +129,7 @@ def test_a_simulation_is_stable_within_the_delay_margin_and_not_beyond(law):
 
 @pytest.mark.parametrize("motor", [0, 1])
 @pytest.mark.parametrize("side", ["low", "high"])
-def test_a_simulation_is_stable_within_the_gain_margins_and_not_beyond(motor, side):
+def test_simulation_is_stable_only_within_the_gain_margins(motor, side):
     c = build()
     margins = compute_margins(c, 15.0, seeks_error=False)
     end = getattr((margins.gain1, margins.gain2)[motor], side)
@@ -143,7 +143,7 @@ def test_a_simulation_is_stable_within_the_gain_margins_and_not_beyond(motor, si
     assert grow_with(end / inward) > 1.0
 
 
-def test_the_joint_error_is_where_the_linearized_tick_is_just_unstable():
+def test_joint_error_is_at_the_stability_boundary_of_the_linearized_tick():
     c = build()
     found = find_joint_error(c, 15.0)
     assert found is not None
@@ -170,7 +170,7 @@ def test_the_joint_error_is_where_the_linearized_tick_is_just_unstable():
 
 @pytest.mark.parametrize("law", list_law_names())
 def test_every_law_has_margins_or_is_unstable(law):
-    """One function for all: none of them switches at rest."""
+    """One function for all control laws: none of them switches at rest."""
     margins = compute_margins(build(law), 15.0, seeks_error=False)
     if not margins.is_stable:
         assert (margins.modulus, margins.delay_s, margins.error) == (0.0, 0.0, None)
@@ -190,7 +190,7 @@ def damp_to_one_side(nominal, constants, memory, x, reference, estimate, applied
 LOPSIDED = Law("lopsided", "Two dampings", "", "", "", damp_to_one_side)
 
 
-def test_a_law_that_switches_at_rest_is_reported(monkeypatch):
+def test_law_that_switches_at_rest_is_reported(monkeypatch):
     entry = EntryPoint("lopsided", f"{__name__}:LOPSIDED", installed.GROUP)
     monkeypatch.setitem(installed._find_entries(), "lopsided", entry)
     installed._load_law.cache_clear()

@@ -1,4 +1,4 @@
-"""Theorem 1's figures: the loop about rest under model error, ramps, and sampling."""
+"""Theorem 1: the loop near rest under model error, load ramps and sampling."""
 
 import math
 
@@ -27,19 +27,19 @@ def build(law: str = "ndobc", beta: float = 60.0, **changes: object) -> Configur
 
 
 @pytest.mark.parametrize(("sigma", "slowest"), [(15.0, -20.1), (60.0, -20.3)])
-def test_the_loop_with_table_1_is_hurwitz(sigma, slowest):
+def test_loop_with_table_1_is_hurwitz(sigma, slowest):
     loop = linearize_loop(build(), sigma)
     assert loop.slowest == pytest.approx(slowest, abs=0.05)
     assert loop.is_hurwitz
     assert loop.least_damping >= 0.41
 
 
-def test_the_least_damping_is_that_at_low_stiffness():
+def test_least_damping_is_at_low_stiffness():
     assert linearize_loop(build(), 15.0).least_damping == pytest.approx(0.41, abs=0.005)
 
 
-def test_with_the_exact_model_the_poles_are_those_that_were_placed():
-    """Each polynomial of Eq 25 and, untouched by it, the observer's −β."""
+def test_exact_model_has_the_placed_poles():
+    """Each polynomial of Eq 25 and, independent of it, the observer's −β."""
     c = build(beta=90.0, gains=svsa.Gains.from_poles([-30.0, -40.0, -50.0, -70.0], [-20.0, -25.0]))
     exact = c.changed(actuator=c.nominal)
     placed = [-90.0, -90.0, -90.0, -70.0, -50.0, -40.0, -30.0, -25.0, -20.0]
@@ -49,8 +49,8 @@ def test_with_the_exact_model_the_poles_are_those_that_were_placed():
 
 @pytest.mark.parametrize("law", ["ndobc", "fl", "fl_integral", "pi_observer", "lqi", "pid"])
 @pytest.mark.parametrize("sigma", [15.0, 60.0])
-def test_the_continuous_loop_is_the_sampled_one_at_short_periods(law, sigma):
-    """Any law, with what it remembers: ln z / T of the loop at 10 kHz, its slow poles to 2 %."""
+def test_sampled_loop_tends_to_the_continuous_loop_at_short_periods(law, sigma):
+    """Any control law with its memory: ln z / T of the loop at 10 kHz, slow poles to 2 %."""
     c = build(law)
     loop = linearize_loop(c, sigma)
     fast = c.changed(sampling=c.sampling.changed(period_s=1e-4))
@@ -61,8 +61,8 @@ def test_the_continuous_loop_is_the_sampled_one_at_short_periods(law, sigma):
 
 
 @pytest.mark.parametrize("law", ["pi_observer", "adrc", "linear_dob", "ndobc_w", "nmpc", "esp"])
-def test_a_law_is_linearized_once_it_has_begun(law):
-    """Observers of their own start from the first measurement; at rest they leave no error."""
+def test_law_is_linearized_after_its_initialization(law):
+    """Laws with their own observer start at the first measurement; at rest they leave no error."""
     loop = linearize_tick(build(law), 15.0)
     assert loop.radius < 1.0 + 1e-9
     still, *_ = np.linalg.lstsq(np.eye(len(loop.A)) - loop.A, loop.W[:, 0])
@@ -70,15 +70,15 @@ def test_a_law_is_linearized_once_it_has_begun(law):
 
 
 @pytest.mark.parametrize("law", ["ndobc_w", "adrc", "linear_dob"])
-def test_a_law_that_continuous_time_does_not_describe_is_refused_by_name(law):
+def test_law_without_a_continuous_model_is_rejected_by_name(law):
     title = get_law(law).title
     with pytest.raises(svsa.ParameterError, match=f"law is '{title}': it must be one whose cont"):
         assess(build(law), 15.0)
 
 
 @pytest.mark.parametrize("sigma", [15.0, 60.0])
-def test_within_its_layer_super_twisting_is_a_damped_linear_loop(sigma):
-    """With √(L|s|) tanh(s/d) the layer had no damping, and a nudge grew to a cycle of 0.0065°."""
+def test_super_twisting_is_a_damped_linear_loop_within_its_boundary_layer(sigma):
+    """With √(L|s|) tanh(s/d) the layer had no damping: a small error became a cycle of 0.0065°."""
     loop = assess(build("super_twisting"), sigma).loop
     assert loop.slowest < -15.0
     assert loop.least_damping > 0.25
@@ -95,7 +95,7 @@ def test_within_its_layer_super_twisting_is_a_damped_linear_loop(sigma):
 
 
 def test_each_parameter_has_its_range():
-    """The figures were found on a net of 5 %: stable at each, unstable a step further."""
+    """Found on a grid of 5 %: stable at each bound, unstable one step further."""
     ranges = {one.symbol: one for one in find_stable_ranges(build(), 15.0)}
     for low, high, symbol in ((0.24, 3.66, "M"), (None, 4.25, "B1"), (None, 9.0, "B2")):
         found = ranges[symbol]
@@ -110,8 +110,8 @@ def test_each_parameter_has_its_range():
 
 
 @pytest.mark.parametrize("side", ["low", "high"])
-def test_a_simulation_agrees_with_the_range_of_the_inertia(side):
-    """A nudge dies out just inside the range and grows just outside."""
+def test_simulation_agrees_with_the_range_of_the_inertia(side):
+    """A small deviation decays just inside the range and grows just outside it."""
     c = build()
     found = next(one for one in find_stable_ranges(c, 15.0) if one.symbol == "M")
     end = getattr(found, side)
@@ -136,7 +136,7 @@ def test_a_simulation_agrees_with_the_range_of_the_inertia(side):
 
 
 @pytest.mark.parametrize(("beta", "degrees"), [(30.0, 0.267), (60.0, 0.168), (120.0, 0.119)])
-def test_a_ramp_of_the_load_leaves_what_the_formula_says(beta, degrees):
+def test_error_under_a_load_ramp_matches_the_formula(beta, degrees):
     c = build(beta=beta)
     gain = compute_rate_gain(linearize_loop(c, 15.0))
     formula = compute_formula(c, 15.0)
@@ -150,7 +150,7 @@ def test_a_ramp_of_the_load_leaves_what_the_formula_says(beta, degrees):
         assert ramp.lag == pytest.approx(1.0 / beta, rel=2e-3)
 
 
-def test_no_observer_is_fast_enough_to_go_below_the_floor():
+def test_no_observer_gain_gives_an_error_below_the_floor():
     floor = compute_floor(build())
     assert floor is not None
     assert math.degrees(floor) == pytest.approx(0.069, abs=5e-4)
@@ -159,7 +159,7 @@ def test_no_observer_is_fast_enough_to_go_below_the_floor():
     assert floor < fast < 1.1 * floor
 
 
-def test_the_worst_torque_of_a_bounded_rate_does_what_is_said():
+def test_worst_torque_of_bounded_rate_has_the_reported_effect():
     """w whose rate switches with the sign of the impulse response, read backwards from the end."""
     c = build(actuator=build().nominal)
     loop = linearize_loop(c, 15.0)
@@ -180,7 +180,7 @@ def test_the_worst_torque_of_a_bounded_rate_does_what_is_said():
     assert abs(run.position_error_rad[-1]) == pytest.approx(gain.l1, rel=0.02)
 
 
-def test_a_law_that_a_constant_torque_moves_has_no_gain():
+def test_law_with_error_under_constant_torque_has_no_l1_gain():
     c = build("fl")
     assert compute_formula(c, 15.0) is None
     assert math.isinf(compute_rate_gain(linearize_loop(c, 15.0)).ramp)
@@ -193,7 +193,7 @@ def test_a_law_that_a_constant_torque_moves_has_no_gain():
 @pytest.mark.parametrize(
     ("sigma", "fastest"), [(5.0, 236.0), (15.0, 249.0), (30.0, 263.0), (60.0, 278.0)]
 )
-def test_sampling_bounds_the_observer_on_the_rig(sigma, fastest):
+def test_sampling_bounds_the_observer_gain_on_the_rig(sigma, fastest):
     found = find_fastest_observer(build(effects=svsa.RIG), sigma)
     assert found == pytest.approx(fastest, rel=0.012)
     late = find_fastest_observer(build(effects=svsa.RIG.changed(delay_samples=2)), sigma)
@@ -201,7 +201,7 @@ def test_sampling_bounds_the_observer_on_the_rig(sigma, fastest):
     assert 219.0 < late < 233.0
 
 
-def test_the_fastest_observer_is_where_the_loop_is_just_stable():
+def test_fastest_observer_is_at_the_stability_boundary():
     fastest = find_fastest_observer(build(effects=svsa.RIG), 15.0)
     assert fastest is not None
     for share, is_stable in ((0.99, True), (1.01, False)):
@@ -209,14 +209,14 @@ def test_the_fastest_observer_is_where_the_loop_is_just_stable():
         assert (loop.radius < 1.0) == is_stable
 
 
-def test_without_delay_and_estimator_no_observer_is_too_fast():
+def test_observer_gain_is_unbounded_without_delay_and_estimator():
     assert find_fastest_observer(build(), 15.0) is None
     assert linearize_tick(build(beta=1000.0), 15.0).radius < 1.0
     assert find_fastest_observer(build("fl", effects=svsa.RIG), 15.0) is None
 
 
-def test_an_unstable_nominal_loop_has_no_ranges():
-    """Derivatives of a law with its torque turned round."""
+def test_unstable_nominal_loop_has_no_ranges():
+    """The derivatives of a control law with inverted torque."""
     c = build()
     law = linearize_law(c, 15.0)
     turned = law._replace(torque=-law.torque)

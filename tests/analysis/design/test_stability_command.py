@@ -1,4 +1,4 @@
-"""`svsa stability`: the figures as text and JSON, and the picture."""
+"""`svsa stability`: results as text and JSON, and the picture."""
 
 import json
 
@@ -15,7 +15,7 @@ def run(*options: str) -> str:
     return result.stdout
 
 
-def test_the_numbers_as_json():
+def test_json_output():
     reported = json.loads(run("--json", "--starts", "3"))
     at_15, at_60 = reported["stability"]
     assert reported["law"] == "ndobc"
@@ -29,7 +29,7 @@ def test_the_numbers_as_json():
 
 @pytest.mark.exhaustive
 @pytest.mark.long
-def test_the_tables_and_the_picture(tmp_path):
+def test_tables_and_picture(tmp_path):
     picture = tmp_path / "stability.png"
     text = run("--stiffness", "15", "--starts", "0", "--plot", str(picture))
     assert "-20.07" in text
@@ -38,7 +38,7 @@ def test_the_tables_and_the_picture(tmp_path):
     assert picture.stat().st_size > 10_000
 
 
-def test_the_margins_of_chosen_laws():
+def test_margins_of_chosen_laws():
     result = CliRunner().invoke(
         app, ["margins", "fl", "eso_saturated", "--stiffness", "15", "--json"]
     )
@@ -51,14 +51,14 @@ def test_the_margins_of_chosen_laws():
     assert "0.50 (M −39%, B1 +26%, Ks +18%)" in table.stdout
 
 
-def test_a_law_without_an_observer_has_no_fastest_one():
+def test_law_without_an_observer_has_no_fastest_observer():
     text = run("--law", "fl", "--stiffness", "15", "--starts", "0")
     assert "none: w itself stays" in text
     fastest = next(line for line in text.splitlines() if "fastest β on the rig" in line)
     assert "–" in fastest
 
 
-def test_poles_and_observer_are_those_that_were_asked_for():
+def test_poles_and_observer_are_those_of_the_arguments():
     reported = json.loads(
         run("--json", "--starts", "0", "--stiffness", "15", "--observer", "120", "--pole", "45")
     )["stability"][0]
@@ -67,7 +67,7 @@ def test_poles_and_observer_are_those_that_were_asked_for():
     assert faster == pytest.approx(reported["error_deg_per_nm_per_s"]["simulated"][0], rel=0.01)
 
 
-def test_a_stiffness_outside_its_range_is_refused():
+def test_stiffness_outside_its_range_is_rejected():
     result = CliRunner().invoke(app, ["stability", "--stiffness", "500", "--starts", "0"])
     assert isinstance(result.exception, ParameterError)
     assert "500" in str(result.exception)

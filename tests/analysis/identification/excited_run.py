@@ -1,4 +1,4 @@
-"""The identification excitation played on a simulated rig, and its record."""
+"""The identification excitation on a simulated rig, and its record."""
 
 import numpy as np
 
@@ -25,7 +25,7 @@ BENCH = svsa.Effects(
 
 
 def build_configuration(**changes):
-    """At rest at 30 N·m/rad, with what the emulator has."""
+    """At rest at 30 N·m/rad, with the non-ideal effects of the emulator."""
     return Configuration(
         **dict(DESIGN),
         position=svsa.ConstantPosition(),
@@ -35,7 +35,7 @@ def build_configuration(**changes):
 
 
 def play(configuration, commands=None, duration_s=EXCITATION_DURATION_S):
-    """The run's samples (ticks, channels) and its fault, under the excitation or `commands`."""
+    """Return samples (ticks, channels) and fault of a run under the excitation or `commands`."""
     period = configuration.sampling.period_s
     commands = build_commands(period) if commands is None else commands
     parts, fault = [], None
@@ -46,7 +46,7 @@ def play(configuration, commands=None, duration_s=EXCITATION_DURATION_S):
 
 
 def build_run(configuration, samples, commands=()):
-    """A record of these samples, (ticks, channels)."""
+    """Build a record of these samples (ticks, channels)."""
     written = [(command.tick, command.to_json()) for command in commands]
     header = build_header(
         lanes=("ndobc",), configuration=configuration.model_dump(mode="json"), channels=CHANNELS

@@ -1,4 +1,4 @@
-"""The identification excitation: it can be played, and strains nothing."""
+"""The identification excitation can be played and stays within the limits."""
 
 import numpy as np
 import pytest
@@ -17,12 +17,12 @@ LIMITS = DESIGN.limits
 HEAVY = {"motor1_inertia_kg_m2": 0.028, "motor2_inertia_kg_m2": 0.017, "link_inertia_kg_m2": 0.013}
 LIGHT = {"motor1_inertia_kg_m2": 0.019, "motor2_inertia_kg_m2": 0.011, "link_inertia_kg_m2": 0.008}
 SOFT, HARD = {"spring_stiffness_n_per_m": 1600.0}, {"spring_stiffness_n_per_m": 2200.0}
-RMS_TORQUE2_NM = 1.2  # what an RE25 behind 50:1 bears indefinitely
+RMS_TORQUE2_NM = 1.2  # continuous rating of an RE25 with a 50:1 gear
 
 
 @pytest.mark.parametrize("changes", [{}, HEAVY, LIGHT, SOFT, HARD], ids=str)
-def test_the_excitation_stays_far_from_every_limit(changes):
-    # played before the parameters are known: it must not need them
+def test_excitation_stays_far_from_every_limit(changes):
+    # It is played before the parameters are known, so it must not need them.
     actuator = DESIGN.actuator.changed(**changes)
     samples, fault = play(build_configuration(actuator=actuator))
     assert fault is None
@@ -37,7 +37,7 @@ def test_the_excitation_stays_far_from_every_limit(changes):
         assert np.abs(get(samples, f"{motor}_velocity_rad_per_s")).max() < 8.0
 
 
-def test_it_ends_at_rest_where_it_began():
+def test_excitation_ends_at_rest_in_its_initial_position():
     samples, _ = play(build_configuration())
     last = samples[-200:]
     assert np.abs(get(last, "position_rad")).max() < 1e-3
@@ -45,8 +45,8 @@ def test_it_ends_at_rest_where_it_began():
     assert get(last, "stiffness_nm_per_rad")[-1] == pytest.approx(30.0, abs=0.2)
 
 
-def test_a_session_can_play_it():
-    # a bench session takes the same kinds and references
+def test_session_plays_the_excitation():
+    # A bench session takes the same kinds and references.
     session = SimulatedSession("bench", build_configuration())
     for cue in EXCITATION[:4]:
         session.step(round(cue.time_s * 1000) - session.run.tick or 1)
@@ -54,7 +54,7 @@ def test_a_session_can_play_it():
     assert session.run.fault is None
 
 
-def test_commands_are_in_order_and_count_from_the_present_tick():
+def test_commands_are_ordered_and_start_at_the_present_tick():
     ticks = [command.tick for command in build_commands(0.002, first_tick=70)]
     assert ticks == sorted(ticks)
     assert ticks[0] == 70

@@ -1,4 +1,4 @@
-"""Identification: Table 1 from a run as a bench records it, and how far it may be trusted."""
+"""Identification: Table 1 from a run as a bench records it, and its confidence intervals."""
 
 import json
 import math
@@ -18,7 +18,7 @@ from svsa.analysis.identification.record import (
     read_evidence,
 )
 from svsa.runs.command import build_command
-from svsa.runs.configuration import read_design
+from svsa.runs.design_file import read_design
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.runs.replay import list_loads
 from svsa.simulation.plant.effects.current_lag import CurrentLag
@@ -77,7 +77,7 @@ def contains(estimate, true):
 
 
 @pytest.mark.long
-def test_table_1_is_found_from_a_bench_record(found):
+def test_identifies_table_1_from_a_bench_record(found):
     for name in ACTUATOR:
         true = getattr(DESIGN.actuator, name)
         assert found.estimates[name].value == pytest.approx(true, rel=0.01), name
@@ -89,7 +89,7 @@ def test_table_1_is_found_from_a_bench_record(found):
 
 
 @pytest.mark.long
-def test_friction_and_the_delay_of_the_torque_are_found_with_it(found):
+def test_identifies_friction_and_torque_delay(found):
     friction = Friction()
     for name in ("coulomb1_nm", "coulomb2_nm", "static_ratio", "stribeck_rad_per_s"):
         assert found.estimates[name].value == pytest.approx(getattr(friction, name), rel=0.02)
@@ -100,9 +100,9 @@ def test_friction_and_the_delay_of_the_torque_are_found_with_it(found):
 @pytest.mark.long
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("seed", [0, 1])
-def test_intervals_hold_the_truth_as_often_as_they_say(seed):
-    # another plant, other friction, sensor noise of another seed: 7 intervals of 95 %
-    # (in 92 runs of this kind 624 of 644 held; of the dampings, the hardest, 260 of 276)
+def test_confidence_intervals_have_their_coverage(seed):
+    # Another plant, other friction, sensor noise of another seed: 7 intervals of 95 %. In 92 runs
+    # of this kind 624 of 644 contained the true value; for the dampings, the hardest, 260 of 276.
     rng = np.random.default_rng(seed)
     actuator = DESIGN.actuator.changed(
         **{n: getattr(DESIGN.actuator, n) * rng.uniform(0.85, 1.15) for n in ACTUATOR}
@@ -119,7 +119,7 @@ def test_intervals_hold_the_truth_as_often_as_they_say(seed):
     assert sum(contains(estimates[name], getattr(actuator, name)) for name in ACTUATOR) >= 6
 
 
-def test_no_design_is_written_of_what_was_not_determined(found):
+def test_undetermined_parameters_give_no_design(found):
     guessed = ("motor2_inertia_kg_m2", "motor2_damping_nms_per_rad")
     with pytest.raises(IdentificationError, match="B2, D2"):
         found._replace(undetermined=guessed).build_design()
@@ -127,8 +127,8 @@ def test_no_design_is_written_of_what_was_not_determined(found):
 
 @pytest.mark.exhaustive
 @pytest.mark.long
-def test_a_motor_that_did_not_move_is_not_determined():
-    # friction hides its inertia and damping: no file must be written with a guess
+def test_motor_that_did_not_move_is_not_determined():
+    # Friction hides its inertia and damping: no file with a guess must be written.
     move = svsa.SinePosition(amplitude_rad=0.5, frequency_hz=1.0)
     configuration = build_configuration(position=move)
     result = identify(build_run(configuration, play(configuration, [], 8.0)[0]))
@@ -139,14 +139,14 @@ def test_a_motor_that_did_not_move_is_not_determined():
 
 @pytest.mark.exhaustive
 @pytest.mark.long
-def test_a_load_that_no_user_announced_is_refused(excited):
+def test_unannounced_load_is_rejected(excited):
     configuration, _ = excited
     loaded, _ = play(configuration.changed(loads=(PUSH.changed(start_s=4.0),)), None, 7.0)
     with pytest.raises(IdentificationError, match="was there a load"):
         identify(build_run(configuration, loaded))
 
 
-def test_stretches_under_a_load_are_left_out(excited):
+def test_segments_under_load_are_excluded(excited):
     configuration, samples = excited
     commands = [build_command(10_000, "load", PUSH), build_command(12_500, "unload", 2)]
     run = build_run(configuration.changed(loads=(PULSE,)), samples, commands)
@@ -158,7 +158,7 @@ def test_stretches_under_a_load_are_left_out(excited):
     assert np.any(used >= 12_500)
 
 
-def test_ticks_that_the_loop_missed_are_left_out_and_the_torque_held_meanwhile(excited):
+def test_missed_ticks_are_excluded_with_the_torque_held_meanwhile(excited):
     configuration, samples = excited
     whole = read_evidence(build_bench_run(configuration, samples))
     missed = slice(5_100, 5_112)
@@ -173,7 +173,7 @@ def test_ticks_that_the_loop_missed_are_left_out_and_the_torque_held_meanwhile(e
     assert evidence.loaded == 0
 
 
-def test_a_load_that_stays_ends_what_can_be_used():
+def test_permanent_load_ends_the_usable_segment():
     loads = list_loads(build_configuration(), [build_command(7, "load", PUSH)])
     assert [(load.start_tick, load.end_tick) for load in loads] == [(7, math.inf)]
 
@@ -181,14 +181,14 @@ def test_a_load_that_stays_ends_what_can_be_used():
 @pytest.mark.parametrize(
     ("kind", "argument"), [("actuator", DESIGN.nominal), ("effects", svsa.IDEAL)]
 )
-def test_a_run_of_two_plants_is_refused(excited, kind, argument):
+def test_run_of_two_plants_is_rejected(excited, kind, argument):
     configuration, samples = excited
     run = build_run(configuration, samples, [build_command(9000, kind, argument)])
     with pytest.raises(IdentificationError, match="changed at 9 s"):
         read_evidence(run)
 
 
-def test_a_run_too_short_is_refused(excited):
+def test_short_run_is_rejected(excited):
     configuration, samples = excited
     with pytest.raises(IdentificationError, match="at least 6 s"):
         read_evidence(build_run(configuration, samples[:5000]))
@@ -196,8 +196,8 @@ def test_a_run_too_short_is_refused(excited):
         read_evidence(build_run(configuration, samples[:0]))
 
 
-def test_a_simulated_run_is_seen_through_its_encoders(excited):
-    # the columns hold the true angles, which no bench has
+def test_simulated_run_is_identified_through_its_encoders(excited):
+    # The columns contain the true angles, which no bench measures.
     configuration, samples = excited
     angles = read_evidence(build_run(configuration, samples)).angles
     for column, (channel, step) in enumerate(MEASURED.items()):
@@ -206,7 +206,7 @@ def test_a_simulated_run_is_seen_through_its_encoders(excited):
         assert np.abs(angles[:, column] - get(samples, channel)).max() <= 0.5001 * step
 
 
-def test_measured_angles_are_taken_as_they_are(excited):
+def test_measured_angles_are_used_unchanged(excited):
     configuration, samples = excited
     coarse = configuration.changed(effects=BENCH.changed(encoders=Encoders(motor_counts_per_rev=4)))
     run = build_bench_run(coarse, samples)
@@ -214,7 +214,7 @@ def test_measured_angles_are_taken_as_they_are(excited):
     assert np.array_equal(angles, run.read_channels(list(MEASURED))[:, 0])
 
 
-def test_torques_made_and_asked_for_follow_from_each_other():
+def test_commanded_and_actual_torques_follow_from_each_other():
     rng = np.random.default_rng(1)
     asked = rng.normal(size=(50, 2))
     of_bench = build_torques(asked, True, LAG_S, PERIOD_S)
@@ -223,7 +223,7 @@ def test_torques_made_and_asked_for_follow_from_each_other():
     assert np.array_equal(build_torques(asked, False, 0.0, PERIOD_S).asked, asked)
 
 
-def test_a_late_torque_lies_between_two_samples():
+def test_delayed_torque_lies_between_two_samples():
     torques = np.arange(10.0)[:, None] * np.array([1.0, -2.0])
     assert compute_shifted_torque(torques, 5, 0.0, 0.0) == (5.0, -10.0)
     assert compute_shifted_torque(torques, 5, 1.25, 0.0) == pytest.approx((3.75, -10.0))
@@ -232,9 +232,7 @@ def test_a_late_torque_lies_between_two_samples():
 
 
 @pytest.mark.long
-def test_the_command_writes_a_design_that_can_be_read(
-    excited, found, tmp_path, monkeypatch, capsys
-):
+def test_command_writes_a_readable_design(excited, found, tmp_path, monkeypatch, capsys):
     configuration, samples = excited
     record = build_run(configuration, samples[:10])
     catalogue = Catalogue(tmp_path / "data")

@@ -14,8 +14,8 @@ from tests.runs.records.records import build_header
 
 
 @pytest.mark.exhaustive
-def test_table_1_is_found_within_5_percent():
-    """A bench does not know its disturbance, and its torques are as sent, not as made."""
+def test_identifies_table_1_within_5_percent():
+    """A bench does not measure its disturbance; its torques are those sent, not the actual ones."""
     ticks = round(EXCITATION_DURATION_S / 0.001)
     later = build_commands(0.001)
     with start_in_process() as emulator:

@@ -33,7 +33,7 @@ def samples():
     return found
 
 
-def test_a_csv_gives_the_parameters_of_the_actuator(samples, tmp_path):
+def test_csv_file_gives_the_parameters_of_the_actuator(samples, tmp_path):
     names = ("time_s", "motor1_position_rad", "motor2_position_rad", "deflection_deg", *TORQUES)
     path = write(tmp_path / "mine.csv", samples, names, deflection_deg=180.0 / math.pi)
     found = svsa.identify(path, stiffness_nm_per_rad=30.0)
@@ -43,7 +43,7 @@ def test_a_csv_gives_the_parameters_of_the_actuator(samples, tmp_path):
     assert found.run_id == str(path)
 
 
-def test_a_wrong_file_is_named_with_column_row_and_bound(samples, tmp_path):
+def test_invalid_file_error_names_column_row_and_bound(samples, tmp_path):
     short = write(tmp_path / "short.csv", samples[:2000])
     with pytest.raises(IdentificationError, match="at least 6 s"):
         svsa.identify(short, stiffness_nm_per_rad=30.0)
@@ -65,6 +65,6 @@ def test_a_wrong_file_is_named_with_column_row_and_bound(samples, tmp_path):
         svsa.identify(tmp_path / "empty.csv", stiffness_nm_per_rad=30.0)
 
 
-def test_a_simulated_result_is_identified_without_a_record(samples):
+def test_simulated_result_is_identified_without_a_record(samples):
     with pytest.raises(IdentificationError, match="at least 6 s"):
         svsa.identify(svsa.simulate("4a", duration_s=1.0))

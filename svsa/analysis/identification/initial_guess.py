@@ -1,8 +1,8 @@
 """Initial values of the parameters: equations of motion in weak form, by least squares.
 
-Every term of Eq 1 goes through the same Gaussian window; the derivatives then fall on the
-window, not on the counts of the encoders (as in weak-form regression, e.g. Messenger and
-Bortz 2021). What is left is linear in the parameters.
+Every term of Eq 1 is filtered with the same Gaussian window; the derivatives are then applied to
+the window, not to the encoder counts (as in weak-form regression, e.g. Messenger and Bortz 2021).
+The result is linear in the parameters.
 """
 
 import numpy as np
@@ -34,7 +34,7 @@ def guess_states(evidence: Evidence) -> np.ndarray:
 
 def guess_noise(evidence: Evidence) -> np.ndarray:
     """Estimate the rms noise of θ1, θ2, φ as the residual of a smooth motion, (3,), rad."""
-    from scipy.signal import savgol_filter  # late: it takes a while
+    from scipy.signal import savgol_filter  # imported here: the import is slow
 
     rough = evidence.angles - savgol_filter(evidence.angles, _SMOOTH_ROWS, 3, axis=0)
     return np.sqrt(np.mean(rough**2, axis=0))
