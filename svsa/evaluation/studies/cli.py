@@ -13,7 +13,7 @@ from svsa.evaluation.progress_bar import Report, show_progress
 from svsa.inputs.extras import require_extra
 
 if TYPE_CHECKING:
-    from svsa.evaluation.studies.store import StoredStudy
+    from svsa.evaluation.studies.stored import StoredStudy
     from svsa.evaluation.studies.study import Study
 
 study = typer.Typer(
@@ -47,7 +47,8 @@ def run_command(
     ] = None,
 ) -> None:
     """Run or continue a study. Ctrl-C keeps the finished part."""
-    from svsa.evaluation.studies.store import count_done, keep_study
+    from svsa.evaluation.studies.rows import count_done
+    from svsa.evaluation.studies.store import keep_study
 
     if scheduler is not None:
         _check_cluster(scheduler, workers)
@@ -104,8 +105,8 @@ def _run(
     from svsa.evaluation.studies.cluster import open_cluster
 
     with open_cluster(scheduler, workers or WORKERS) as cluster:
-        rows_a_part = cluster.choose_rows_a_part(stored.study.row_count)
-        return run_study(stored, 0, rows_a_part, progress, run_parts=cluster.run_parts)
+        rows_per_part = cluster.choose_rows_per_part(stored.study.row_count)
+        return run_study(stored, 0, rows_per_part, progress, run_parts=cluster.run_parts)
 
 
 def _describe_repeat(source: str, **options: object) -> str:
@@ -117,7 +118,8 @@ def _describe_repeat(source: str, **options: object) -> str:
 def list_command() -> None:
     """List the built-in and the saved studies."""
     from svsa.evaluation.studies.file import list_built_in
-    from svsa.evaluation.studies.store import count_done, list_studies
+    from svsa.evaluation.studies.rows import count_done
+    from svsa.evaluation.studies.store import list_studies
 
     table = Table("study", "about", "runs done", title="Studies", title_justify="left")
     for stored in list_studies():
@@ -147,7 +149,8 @@ def show_command(
 
     If the actuator varies, of each actuator first, then of all.
     """
-    from svsa.evaluation.studies.store import open_study, read_rows
+    from svsa.evaluation.studies.rows import read_rows
+    from svsa.evaluation.studies.store import open_study
     from svsa.evaluation.studies.summary import (
         SUCCEEDED,
         estimate_sensitivity,
@@ -196,7 +199,8 @@ def compare_command(
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
 ) -> None:
     """Compare laws on the same samples, or the same laws in two studies."""
-    from svsa.evaluation.studies.store import open_study, read_rows
+    from svsa.evaluation.studies.rows import read_rows
+    from svsa.evaluation.studies.store import open_study
     from svsa.evaluation.studies.summary import compare_laws, pair_studies
     from svsa.evaluation.studies.tables import build_pairing_table, write_json
 

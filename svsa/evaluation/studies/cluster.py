@@ -1,7 +1,7 @@
 """Studies on a cluster: parts computed by the workers of a Dask cluster.
 
-A part is a function of the study and its samples alone, so that one whose worker was lost is run
-again by another. Parts come as the bytes that are stored: the client only writes them.
+A part depends only on the study and its samples, so that the part of a lost worker is repeated by
+another. Parts are transferred as the bytes that are stored: the client only writes them.
 """
 
 import logging
@@ -22,27 +22,31 @@ from distributed.utils import LoopRunner
 
 from svsa.errors import ParameterError, Violation
 from svsa.evaluation.studies.execution import Part
-from svsa.evaluation.studies.store import Span, StoredStudy, StudyError
+from svsa.evaluation.studies.rows import Span
+from svsa.evaluation.studies.stored import StoredStudy, StudyError
 from svsa.evaluation.studies.study import Study
 from svsa.evaluation.studies.work import run_part
-from svsa.evaluation.workers import give_way
+from svsa.evaluation.workers import set_up_worker
 from svsa.inputs.extras import __version__
 
 LOCAL = "local"
-"""In place of a scheduler's address: a cluster of this machine, for as long as the study runs."""
+"""In place of a scheduler's address: a cluster on this machine while the study runs."""
 MIN_ROWS_A_PART, MAX_ROWS_A_PART = 1024, 8192
 PARTS_A_THREAD = 8
-"""At least so many where there are rows enough, so that none waits long for the last one."""
+"""Minimum number of parts per thread if there are enough rows, so that no thread waits long for the
+last part.
+"""
 AHEAD = 2
-"""Parts asked for at once, for each thread of the cluster."""
+"""Number of parts requested at once, per thread of the cluster."""
 CONNECT_S = 10.0
 WORKERS_S = 60.0
-"""So long a scheduler's first worker is waited for."""
+"""Time to wait for a scheduler's first worker, s."""
 COUNTED_S = 2.0
-"""So often the threads of the cluster are counted: workers come and go."""
+"""Period at which the threads of the cluster are counted, because workers join and leave, s."""
 LOST = (OSError, ClosedClientError, CancelledError)
-"""What a client raises where its scheduler is gone: a connection that was closed or refused or does
-not answer in time; and, once it has seen that, a part that was cancelled and itself closed."""
+"""Exceptions of a client whose scheduler is lost: a connection that was closed, refused or timed
+out; and, after that, a cancelled part and a closed client.
+"""
 
 
 class Cluster:
@@ -54,8 +58,10 @@ class Cluster:
         self.count_threads()
 
     def count_threads(self, again: str = "") -> int:
-        """Count the threads of all workers, at least 1; raises `StudyError` if the scheduler is
-        lost.
+        """Count the threads of all workers, at least 1.
+
+        Raises:
+            StudyError: If the scheduler is lost.
         """
         if time.monotonic() - self._counted > COUNTED_S or not self._threads:
             with self._ask(again):
@@ -64,7 +70,7 @@ class Cluster:
             self._counted = time.monotonic()
         return self._threads
 
-    def choose_rows_a_part(self, rows: int) -> int:
+    def choose_rows_per_part(self, rows: int) -> int:
         """Choose the rows per part, within `MIN_ROWS_A_PART` … `MAX_ROWS_A_PART`."""
         share = rows // (PARTS_A_THREAD * self.count_threads())
         return min(MAX_ROWS_A_PART, max(MIN_ROWS_A_PART, share))
@@ -72,8 +78,9 @@ class Cluster:
     def run_parts(self, stored: StoredStudy, spans: Iterator[Span]) -> Iterator[Part]:
         """Yield the parts of these spans; after an interruption the finished ones.
 
-        Raises `StudyError` where the scheduler is lost, where workers ended over a part again and
-        again, and where a worker has another version of svsa, or none.
+        Raises:
+            StudyError: If the scheduler is lost, if workers ended repeatedly while computing a
+                part, or if a worker has another version of svsa, or none.
         """
         again = f"Finished parts are kept: continue with `svsa study run {stored.name}`."
         begun: dict[Future, Span] = {}
@@ -134,7 +141,11 @@ class Cluster:
 
 
 def _run_same_version(version: str, study: Study, first: int, count: int) -> bytes:
-    """Run a part on a worker; raises `StudyError` if its version differs."""
+    """Run a part on a worker.
+
+    Raises:
+        StudyError: If its version differs.
+    """
     if version != __version__:
         raise StudyError(
             f"A worker on {socket.gethostname()} has svsa {__version__}, and the study is run by"
@@ -147,9 +158,12 @@ def _run_same_version(version: str, study: Study, first: int, count: int) -> byt
 def open_cluster(scheduler: str, workers: int) -> Iterator[Cluster]:
     """Connect to the scheduler at an address, such as tcp://10.0.0.1:8786.
 
-    `LOCAL`: one of so many processes of this machine, reached from it alone, that ends with this.
-    Raises `ParameterError` for what is no address, and `StudyError` where no scheduler answers
-    there or it has no worker.
+    `LOCAL` starts a cluster of `workers` processes on this machine, reachable from it only, which
+    ends with this process.
+
+    Raises:
+        ParameterError: If the address is invalid.
+        StudyError: If no scheduler answers, or it has no worker.
     """
     if scheduler == LOCAL:
         with (
@@ -162,7 +176,7 @@ def open_cluster(scheduler: str, workers: int) -> Iterator[Cluster]:
             ) as local,
             Client(local, set_as_default=False) as client,
         ):
-            client.register_plugin(_GiveWay())
+            client.register_plugin(_WorkerSetup())
             yield Cluster(client, LOCAL)
         return
     _check_scheduler(scheduler)
@@ -183,11 +197,11 @@ def open_cluster(scheduler: str, workers: int) -> Iterator[Cluster]:
         yield Cluster(client, scheduler)
 
 
-class _GiveWay(WorkerPlugin):
+class _WorkerSetup(WorkerPlugin):
     """Give a local worker a low priority, and leave Ctrl-C to its parent."""
 
     def setup(self, worker: Any) -> None:
-        give_way()
+        set_up_worker()
 
 
 def _check_scheduler(address: str) -> None:

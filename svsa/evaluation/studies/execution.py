@@ -6,54 +6,58 @@ from concurrent.futures import FIRST_COMPLETED, Future, wait
 from concurrent.futures.process import BrokenProcessPool
 from functools import partial
 
-from svsa.evaluation.studies.store import (
-    Span,
-    StoredStudy,
-    StudyError,
-    claim_study,
-    count_done,
-    find_missing,
-    join_parts,
-    write_part,
-)
+from svsa.evaluation.studies.rows import Span, count_done, find_missing, join_parts, write_part
+from svsa.evaluation.studies.store import claim_study
+from svsa.evaluation.studies.stored import StoredStudy, StudyError
 from svsa.evaluation.studies.work import run_part
 from svsa.evaluation.workers import start_workers
 
 WORKERS = min(2, os.cpu_count() or 1)
-ROWS_A_PART = 1024
+ROWS_PER_PART = 1024
 
 Part = tuple[Span, bytes]
-"""Draws, and their rows as a Parquet file."""
+"""Samples, and their rows as a Parquet file."""
 
 RunParts = Callable[[StoredStudy, Iterator[Span]], Iterator[Part]]
-"""Runs spans of a study and gives each back once, in any order, as it is done. A span is taken
-when a worker is free. A `KeyboardInterrupt` passes after the parts that are kept."""
+"""Runs spans of a study and returns each once, in any order, when it is done. A span is requested
+when a worker is free. A `KeyboardInterrupt` is raised after running parts are saved.
+"""
 
 Progress = Callable[[int, int], None]
-"""Is given how many rows are done, and of how many."""
+"""Called with the numbers of finished and of all rows."""
 
 
 def run_study(
     stored: StoredStudy,
     workers: int = WORKERS,
-    rows_a_part: int = ROWS_A_PART,
+    rows_per_part: int = ROWS_PER_PART,
     progress: Progress = lambda done, total: None,
     is_cancelled: Callable[[], bool] = lambda: False,
     run_parts: RunParts | None = None,
 ) -> bool:
     """Run the missing part of a study; return whether it is then complete.
 
-    workers: processes; 0 runs it in this one. is_cancelled: asked before each part; where it says
-    so, and at Ctrl-C, the parts in progress are waited for and kept (on a cluster
-    those that are done are kept), and False is returned. run_parts: who runs it in place of
-    `workers`, such as a cluster. Raises `StudyError` where another process works at it, and where a
-    worker was ended.
+    Args:
+        stored: The study.
+        workers: Number of processes; 0 for this one.
+        rows_per_part: Number of rows of a part.
+        progress: Called with the number of finished rows.
+        is_cancelled: Called before each part. If it returns True, and at Ctrl-C, parts in progress
+            are completed and saved (on a cluster only finished ones are saved), and the function
+            returns False.
+        run_parts: Runs the parts instead of `workers`, for example a cluster.
+
+    Returns:
+        Whether the study is complete.
+
+    Raises:
+        StudyError: If another process runs the study, or a worker was killed.
     """
     laws = len(stored.study.laws)
     if run_parts is None:
         run_parts = partial(run_in_processes, workers) if workers else run_here
     with claim_study(stored):
-        spans = _cut(find_missing(stored), max(1, rows_a_part // laws), is_cancelled)
+        spans = _cut(find_missing(stored), max(1, rows_per_part // laws), is_cancelled)
         done, total = count_done(stored) * laws, stored.study.row_count
         progress(done, total)
         try:

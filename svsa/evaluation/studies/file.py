@@ -33,9 +33,18 @@ def find_study_file(source: str | Path) -> Path | None:
 def read_study(source: str | Path, runs: int | None = None) -> tuple[str, Study]:
     """Read the name and the study of a file, or of a built-in one.
 
-    A Python file makes a `Study` called `STUDY`. runs: in place of the file's. Raises
-    `ParameterError` with the file, and the lines of a TOML file, for what cannot be read and for
-    every wrong value.
+    A Python file defines a `Study` named `STUDY`.
+
+    Args:
+        source: File, or name of a built-in study.
+        runs: Number of samples, instead of that of the file.
+
+    Returns:
+        Name and study.
+
+    Raises:
+        ParameterError: If the file cannot be read or a value is invalid, with the file, and the
+            lines of a TOML file.
     """
     path = find_study_file(source)
     if path is None:
@@ -50,9 +59,10 @@ def read_study(source: str | Path, runs: int | None = None) -> tuple[str, Study]
 
 
 def parse_study(text: str, place: str = "", **changes: Any) -> Study:
-    """Parse a study in TOML, with changes replacing its fields.
+    """Parse a study in TOML; `changes` replace fields.
 
-    Raises `ParameterError` as `read_study`, with `place` as the file's name.
+    Raises:
+        ParameterError: As `read_study`, with `place` as the name of the file.
     """
     return build_checked(Study, parse_toml(text, STUDY_FILE, place), text, place, changes)
 

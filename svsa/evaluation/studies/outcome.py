@@ -22,7 +22,8 @@ _FIELDS: Any = {
 class Success(create_model("_Bounds", __base__=Checked, **_FIELDS)):
     """The success criterion: upper bounds of metrics, besides the absence of a fault.
 
-    What is left out is not asked. A run that has no such value, as one that never recovers, fails.
+    Bounds that are left out are not checked. A run without the value, such as one that never
+    recovers, fails.
     """
 
     def list_bounds(self) -> dict[str, float]:
@@ -31,7 +32,7 @@ class Success(create_model("_Bounds", __base__=Checked, **_FIELDS)):
 
 
 REFUSED = "refused"
-"""In place of a fault: the drawn settings do not go together, and nothing was run."""
+"""In place of a fault: the sampled settings are inconsistent, and the row was not run."""
 
 
 def build_outcome(
@@ -39,7 +40,7 @@ def build_outcome(
 ) -> dict[str, Any]:
     """Compute fault with time, success, and metrics of each run.
 
-    fault: None without one. fault_tick: None without a fault.
+    `fault` and `fault_tick` are None without a fault.
     """
     metrics = compute_metrics(summaries, periods, begin_s)
     faults = [FAULT_CODES.get(int(code)) for code in summaries["code"]]

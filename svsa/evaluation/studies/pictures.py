@@ -16,7 +16,8 @@ from matplotlib.figure import Figure as Picture
 from svsa.control.installed import get_title
 from svsa.evaluation.studies.outcome import REFUSED
 from svsa.evaluation.studies.replay import replay_row
-from svsa.evaluation.studies.store import StoredStudy
+from svsa.evaluation.studies.rows import select_rows
+from svsa.evaluation.studies.stored import StoredStudy
 from svsa.evaluation.studies.study import Study
 from svsa.evaluation.studies.summary import SUCCEEDED, Sensitivity
 from svsa.evaluation.studies.tables import convert_shown, format_metric, format_unit
@@ -30,7 +31,7 @@ DISTRIBUTED = (
     "rms_stiffness_error_nm_per_rad",
     "effort_n2m2_s",
 )
-"""Metrics whose distribution is drawn; of a study that keeps none of them, its first ones."""
+"""Metrics whose distribution is drawn; for a study without these, its first metrics."""
 PANELS = 4
 WORST, PEAK = 3, "peak_position_error_rad"
 BINS = 16
@@ -45,7 +46,8 @@ def save_pictures(
 ) -> list[Path]:
     """Save one PNG for each applicable kind of figure in `folder`; return their paths.
 
-    Raises `OSError` where the folder cannot be written.
+    Raises:
+        OSError: If the folder cannot be written.
     """
     study = stored.study
     rows = rows.filter(pc.field("fault").is_null() | (pc.field("fault") != REFUSED))
@@ -75,7 +77,7 @@ def draw_distributions(study: Study, rows: pa.Table) -> Picture:
         axes.remove()
     for axes, name in zip(panels, names, strict=False):
         for law in study.laws:
-            own = rows.filter(pc.field(LAW) == law)
+            own = select_rows(rows, LAW, law)
             values = np.sort(own.filter(pc.field("fault").is_null())[name].to_numpy())
             shares = 100.0 * np.arange(1, len(values) + 1) / max(len(own), 1)
             axes.step(
@@ -98,7 +100,7 @@ def draw_success(study: Study, rows: pa.Table, x: str, y: str) -> Picture:
     panels = picture.subplots(1, len(study.laws), squeeze=False, sharex=True, sharey=True)[0]
     edges = [_find_edges(study, rows, column) for column in (x, y)]
     for axes, law in zip(panels, study.laws, strict=True):
-        own = rows.filter(pc.field(LAW) == law)
+        own = select_rows(rows, LAW, law)
         values = [own[column].to_numpy() for column in (x, y)]
         succeeded = own[SUCCEEDED].to_numpy()
         every, _, _ = np.histogram2d(*values, bins=edges)
@@ -152,7 +154,7 @@ def draw_worst(stored: StoredStudy, rows: pa.Table) -> Picture:
     _entitle(picture, f"{study.title}: the {WORST} worst runs of each law")
     panels = picture.subplots(len(study.laws), 1, squeeze=False, sharex=True)[:, 0]
     for axes, law in zip(panels, study.laws, strict=True):
-        own = rows.filter(pc.field(LAW) == law)
+        own = select_rows(rows, LAW, law)
         for number, row in enumerate(find_worst(own, study.metrics)):
             result = replay_row(stored, row).result
             style: dict[str, Any] = style_law(law) | {"color": LAWLESS[number], "linestyle": "-"}
@@ -178,7 +180,7 @@ def _entitle(picture: Picture, title: str) -> None:
 def find_worst(rows: pa.Table, metrics: Sequence[str], count: int = WORST) -> list[int]:
     """Find the worst rows: faults, earliest first, then the largest peaks.
 
-    metrics: those of the table; without the peaks the first of them counts.
+    `metrics` are those of the table; without peak metrics the first one is used.
     """
     metric = PEAK if PEAK in metrics else metrics[0]
     order = rows.append_column("whole", rows["fault"].is_null()).sort_by(

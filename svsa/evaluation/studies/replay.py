@@ -4,12 +4,12 @@ import struct
 from typing import Any, NamedTuple
 
 import numpy as np
-import pyarrow.compute as pc
 
 from svsa.evaluation.metrics import METRICS, summarize_result
 from svsa.evaluation.studies.outcome import Success, build_outcome
+from svsa.evaluation.studies.rows import read_rows, select_rows
 from svsa.evaluation.studies.samples import build_configurations, draw
-from svsa.evaluation.studies.store import StoredStudy, StudyError, read_rows
+from svsa.evaluation.studies.stored import StoredStudy, StudyError
 from svsa.evaluation.studies.work import ROW
 from svsa.inputs.checked import check_number
 from svsa.runs.configuration import Configuration
@@ -21,7 +21,15 @@ from svsa.runs.result.simulate import simulate
 
 
 class Replay(NamedTuple):
-    """A row and its run. kept: the row of the table. metrics: of the replayed samples."""
+    """A row and its run.
+
+    Attributes:
+        row: Number of the row.
+        kept: Row of the table.
+        configuration: Configuration of the run.
+        result: The run.
+        metrics: Metrics of the replayed samples.
+    """
 
     row: int
     kept: dict[str, Any]
@@ -44,12 +52,13 @@ class Replay(NamedTuple):
 def replay_row(stored: StoredStudy, row: int) -> Replay:
     """Run a row again, alone and with all its samples.
 
-    Raises `ParameterError` for a row that the study has not, `StudyError` for one that is not
-    done yet, or whose settings were refused.
+    Raises:
+        ParameterError: If the study has no such row.
+        StudyError: If the row is not finished, or its settings were rejected.
     """
     study = stored.study
     check_number("row", row, "", 0, study.row_count - 1)
-    found = read_rows(stored).filter(pc.field(ROW) == row).to_pylist()
+    found = select_rows(read_rows(stored), ROW, row).to_pylist()
     if not found:
         raise StudyError(f"Row {row} of study {stored.name} is not done yet.")
     index, law = divmod(row, len(study.laws))
@@ -66,7 +75,7 @@ def replay_row(stored: StoredStudy, row: int) -> Replay:
 def measure_samples(result: Result, begin_s: float, end_s: float) -> dict[str, float]:
     """Compute the metrics of a run's samples between two times, bit-identical to a batch.
 
-    end_s: when it was to end; a run in a fault has ended before.
+    `end_s` is the planned end; a fault may have ended the run before.
     """
     period = result.configuration.sampling.period_s
     summary = summarize_result(result, begin_s, end_s)
@@ -77,9 +86,9 @@ def measure_samples(result: Result, begin_s: float, end_s: float) -> dict[str, f
 def record_replay(
     stored: StoredStudy, replay: Replay, catalogue: Catalogue, owner: str = ""
 ) -> RunEntry:
-    """Add the run to the catalogue, where the lab shows it like any recorded run.
+    """Add the run to the catalogue, so that the lab shows it like any recorded run.
 
-    owner: id of who asked for it, in a class.
+    `owner` is the id of the user who requested it, in a class.
     """
     varied = {one.column: replay.kept[one.column] for one in stored.study.vary}
     reported = [

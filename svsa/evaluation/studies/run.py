@@ -10,7 +10,8 @@ from svsa.evaluation.progress_bar import show_progress
 from svsa.evaluation.studies.execution import WORKERS
 from svsa.evaluation.studies.execution import run_study as run_stored
 from svsa.evaluation.studies.file import read_study
-from svsa.evaluation.studies.store import keep_study, read_rows
+from svsa.evaluation.studies.rows import read_rows
+from svsa.evaluation.studies.store import keep_study
 from svsa.evaluation.studies.study import Study
 from svsa.inputs.checked import check_number
 from svsa.inputs.extras import require_extra
@@ -28,23 +29,23 @@ def run_study(
 ) -> "pandas.DataFrame":
     """Run a study and return a row of settings and metrics for each run.
 
-    A study of the same name that was interrupted continues. Ctrl-C keeps what is done, and the
-    rows that are done are returned.
+    An interrupted study of the same name continues. At Ctrl-C the finished rows are saved and
+    returned.
 
     Args:
         source: File (.toml or .py), name of a built-in study, or a `Study`.
-        name: Name to save it by, in the folder of studies; that of the file if left out.
-        runs: Samples, instead of the file's.
-        workers: Processes; 0 runs it in this one. On platforms that spawn processes, the
-            calling script needs `if __name__ == "__main__":`.
+        name: Name of the study in the folder of studies; by default that of the file.
+        runs: Number of samples, instead of that of the file.
+        workers: Number of processes; 0 for this one. On platforms that spawn processes, the calling
+            script needs `if __name__ == "__main__":`.
 
     Returns:
         A frame with a column for each setting that varies, the law, the outcome and each metric, in
         SI units.
 
     Raises:
-        ParameterError: For a file that cannot be read, a wrong value, or a `Study` without a name.
-        StudyError: If another study has the name, or another process works at it.
+        ParameterError: If a file cannot be read, a value is invalid, or a `Study` has no name.
+        StudyError: If another study has the name, or another process runs it.
         MissingExtraError: If pandas, of the extra of that name, is not installed.
     """
     require_extra("pandas")

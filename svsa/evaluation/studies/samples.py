@@ -1,6 +1,6 @@
 """Samples of a study: functions of its seed and the number of the run only.
 
-So neither how runs are put together, nor their order, nor the machine or a new start changes them.
+They do not depend on how runs are grouped, their order, the machine, or a restart.
 """
 
 from typing import Any, NamedTuple
@@ -13,13 +13,16 @@ from svsa.evaluation.studies.study import Study, scale
 from svsa.runs.configuration import Configuration
 
 _WORDS = 4
-"""Of 64 bits, that Philox makes of one count."""
+"""Number of 64-bit words that Philox generates per counter."""
 
 
 class ParameterSamples(NamedTuple):
     """The samples first, first + 1, …
 
-    seeds: of each, for the sensor noise. values: of each variation those that were drawn.
+    Attributes:
+        first: Number of the first sample.
+        seeds: Seed of the sensor noise of each sample.
+        values: Sampled values of each variation.
     """
 
     first: int
@@ -33,10 +36,10 @@ class ParameterSamples(NamedTuple):
 
 
 def draw(study: Study, first: int, count: int) -> ParameterSamples:
-    """Draw the samples `first` to `first + count − 1` of a study.
+    """Generate the samples `first` to `first + count − 1` of a study.
 
-    Draws of one grid, and of one set for sensitivity, have the same chance: what differs between
-    them is what varies.
+    Samples of one grid, and of one set for sensitivity, have the same random numbers: they differ
+    only in the varied settings.
     """
     numbers = np.arange(first, first + count)
     samples, cells = numbers // study.cells, numbers % study.cells
@@ -58,7 +61,7 @@ def draw(study: Study, first: int, count: int) -> ParameterSamples:
 def _make_words(study: Study, begin: int, end: int) -> np.ndarray:
     """Compute (samples, words) of 64 bits: per sample a seed and a word for each variation.
 
-    Philox, a function of key and counter: a sample's words do not depend on those before it.
+    Philox is a function of key and counter: a sample's words do not depend on previous ones.
     """
     blocks = -(-(1 + len(study.vary)) // _WORDS)
     philox = np.random.Philox(key=study.seed, counter=begin * blocks)
@@ -68,14 +71,14 @@ def _make_words(study: Study, begin: int, end: int) -> np.ndarray:
 def _make_shares(study: Study, words: np.ndarray, begin: int, end: int) -> np.ndarray:
     """Compute (2, samples, variations) from 0 to 1: a sample, and its pair for Sobol indices.
 
-    The second is another one for sensitivity only.
+    The pair differs from the sample only if the sampling is `sensitivity`.
     """
     count = len(study.vary)
     if study.sampling == "random" or not count:
         shares = (words[:, 1 : 1 + count] >> np.uint64(11)) * 2.0**-53
         return np.stack([shares, shares])
     pairs = 2 if study.sampling == "sensitivity" else 1
-    from scipy.stats import qmc  # late: it takes a while
+    from scipy.stats import qmc  # imported here: the import is slow
 
     sequence = qmc.Sobol(pairs * count, rng=np.random.default_rng(study.seed))
     point = sequence.random(1) if begin == 0 else sequence.fast_forward(begin).random(1)

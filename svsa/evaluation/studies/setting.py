@@ -49,7 +49,7 @@ SCALED: dict[str, Callable[[Gains, float], Gains]] = {
     "position_bandwidth_rad_per_s": scale_position_poles,
     "stiffness_bandwidth_rad_per_s": scale_stiffness_poles,
 }
-"""Settings of gains that are no field: where the poles lie together."""
+"""Settings of gains that are no fields: all poles at one value."""
 _READ_SCALED: dict[str, Callable[[Gains], float]] = {
     "position_bandwidth_rad_per_s": lambda gains: gains.position_coefficients[0] ** 0.25,
     "stiffness_bandwidth_rad_per_s": lambda gains: gains.stiffness_coefficients[0] ** 0.5,
@@ -58,9 +58,10 @@ _READ_SCALED: dict[str, Callable[[Gains], float]] = {
 
 @cache
 def parse_path(path: str) -> tuple[Step, ...]:
-    """Parse names and indices of a path; raises `ParameterError` if it is invalid or fixed.
+    """Parse names and indices of a path.
 
-    Of the path itself the violation has no name.
+    Raises:
+        ParameterError: If it is invalid or not variable; the violation has no name.
     """
     if not _PATH.fullmatch(path):
         bound = "names joined by dots, with [0], [1] … for an item of a list"
@@ -74,9 +75,12 @@ def parse_path(path: str) -> tuple[Step, ...]:
 
 
 def read_setting(configuration: Configuration, path: str) -> Any:
-    """Read the value at a path; raises `ParameterError` with the existing names.
+    """Read the value at a path.
 
     An effect that is off is None, and its fields have the values that it has when switched on.
+
+    Raises:
+        ParameterError: If it does not exist; the message has the existing names.
     """
     *_, (_, _, value) = walk_to_setting(configuration, path)
     return value
@@ -85,7 +89,8 @@ def read_setting(configuration: Configuration, path: str) -> Any:
 def walk_to_setting(configuration: Configuration, path: str) -> Iterator[tuple[Any, Step, Any]]:
     """Yield each step of a path with the value before and after it.
 
-    Raises `ParameterError` as `read_setting`.
+    Raises:
+        ParameterError: As `read_setting`.
     """
     parent: Any = None
     value: Any = configuration
@@ -100,16 +105,19 @@ def walk_to_setting(configuration: Configuration, path: str) -> Iterator[tuple[A
 def change_settings(configuration: Configuration, changes: Mapping[str, Any]) -> Configuration:
     """Return the configuration with these values at their paths.
 
-    A number given to a list of numbers is that of each. A table changes what it names and leaves
-    the rest; one with a `kind` takes the place of what was there. An effect that was off is
-    switched on with what is not given at its default. The name of an actuator sets its plant,
-    nominal model and limits, in which the other paths change what they name. Raises
-    `ParameterError` as the configuration does, and where two of the paths are within each other.
+    A number for a list of numbers sets each of them. A table changes the given fields only; one
+    with a `kind` replaces the previous value. An effect that was off is switched on with defaults
+    for fields that are not given. The name of an actuator sets plant, nominal model and limits, in
+    which the other paths change fields.
+
+    Raises:
+        ParameterError: If the configuration is invalid, or one of the paths contains another.
     """
     name = changes.get(ACTUATOR)
     if isinstance(name, str):
         others = {path: given for path, given in changes.items() if path != ACTUATOR}
-        # Checked as a whole only: the stiffness before may be none of the other actuator.
+        # Validated only as a whole: the stiffness of the previous actuator may be invalid for this
+        # one.
         switched = configuration.model_copy(update=read_mechanism(name))
         return type(configuration)(**dict(_change_parts(switched, others)))
     return _change_parts(configuration, changes)
@@ -168,7 +176,11 @@ def _change(whole: Configuration, value: Any, change: Any) -> Any:
 
 
 def _step_into(whole: Configuration, value: Any, step: Step) -> Any:
-    """Return a value below `value`, a part of `whole`; raises `ParameterError` if there is none."""
+    """Return a value below `value`, a part of `whole`.
+
+    Raises:
+        ParameterError: If there is none.
+    """
     if isinstance(value, tuple) and isinstance(step, int) and step < len(value):
         return value[step]
     if isinstance(value, Gains) and step in SCALED:

@@ -16,23 +16,31 @@ _ANGULAR = "rad/s"
 
 
 class SettingName(NamedTuple):
-    """words: such as "Output link inertia M". unit: empty for a factor or without a unit."""
+    """Name of a setting.
+
+    Attributes:
+        words: Text such as "Output link inertia M".
+        unit: Unit; empty for a factor or without a unit.
+    """
 
     words: str
     unit: str
 
 
 def name_variation(base: Configuration, variation: Variation) -> SettingName:
-    """Name a varied setting; a factor with ×."""
+    """Name a varied setting; a relative one as a factor."""
     name = name_setting(base, variation.path)
-    return SettingName(f"{name.words} ×", "") if variation.relative else name
+    return SettingName(f"{name.words}, factor", "") if variation.relative else name
 
 
 def name_setting(configuration: Configuration, path: str) -> SettingName:
-    """Name the setting at a path; raises `ParameterError` if there is none.
+    """Name the setting at a path.
 
     The name contains "Nominal" for the controllers' model, the law of a law's parameter, and the
-    number of a load where there are several.
+    number of a load if there are several.
+
+    Raises:
+        ParameterError: If there is no such setting.
     """
     if path == ACTUATOR:
         return SettingName("Mechanism", "")

@@ -1,8 +1,4 @@
-"""Storage of a study: its text, the finished parts, and one table of all parts.
-
-A part is a file that is there as a whole or not at all. What is done is what is there: so a study
-goes on where it was left, however it was left, with parts of any size.
-"""
+"""The saved studies: each has a folder with its definition and its rows (see `rows`)."""
 
 import json
 import re
@@ -11,43 +7,23 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 from uuid import uuid4
 
-import pyarrow as pa
-import pyarrow.parquet as pq
-
-from svsa.errors import ParameterError, SvsaError, Violation
+from svsa.errors import ParameterError, Violation
+from svsa.evaluation.studies.rows import PARTS, find_missing
+from svsa.evaluation.studies.stored import EXAMPLES, StoredStudy, StudyError
 from svsa.evaluation.studies.study import Study
-from svsa.evaluation.studies.work import build_schema, list_repeating
+from svsa.inputs.data_folder import find_data_folder
 from svsa.inputs.extras import __version__
 from svsa.inputs.file_lock import try_lock
-from svsa.runs.records.catalogue.runs import find_data_folder
 from svsa.runs.records.former_words import METRICS, translate_fields
 from svsa.runs.records.header import replace_file
 
-STUDY_FILE, TABLE_FILE, PARTS, LOCK_FILE = "study.json", "rows.parquet", "parts", "lock"
-ROWS_A_GROUP = 65_536
-_PART = re.compile(r"(\d+)-(\d+)\.parquet")
+STUDY_FILE, LOCK_FILE = "study.json", "lock"
+EXAMPLE = "load-example"
+"""A finished study in the package: `make examples` computes it."""
 _NAME = re.compile(r"[0-9A-Za-z][0-9A-Za-z_.-]{0,63}", re.ASCII)
-
-Span = tuple[int, int]
-"""The samples from the first to before the second number."""
-
-
-class StudyError(SvsaError):
-    """A study that cannot be saved, read or continued; finished parts stay."""
-
-
-class StoredStudy(NamedTuple):
-    """A study and its folder. owner: id of the person who started it, in a class; else empty."""
-
-    name: str
-    study: Study
-    folder: Path
-    created: str
-    version: str
-    owner: str = ""
 
 
 def check_name(name: str) -> None:
@@ -65,9 +41,11 @@ def find_studies_folder() -> Path:
 def keep_study(name: str, study: Study, root: Path | None = None, owner: str = "") -> StoredStudy:
     """Save a new study, or continue one, possibly with more runs.
 
-    owner: of one that is begun; one that is gone on with keeps its own.
+    `owner` is that of a new study; an existing one keeps its owner.
 
-    Raises `ParameterError` for a name that is none, `StudyError` where another study has it.
+    Raises:
+        ParameterError: If the name is invalid.
+        StudyError: If another study has the name.
     """
     check_name(name)
     folder = (root or find_studies_folder()) / name
@@ -103,9 +81,19 @@ def is_kept(name: str, root: Path | None = None) -> bool:
     return is_name and ((root or find_studies_folder()) / name / STUDY_FILE).exists()
 
 
+def find_root(name: str) -> Path:
+    """Find the folder that contains a study: a saved one, or the example in the package."""
+    is_saved = name != EXAMPLE or is_kept(name)
+    return find_studies_folder() if is_saved else EXAMPLES
+
+
 def open_study(name: str, root: Path | None = None) -> StoredStudy:
-    """Open a study; raises `StudyError` if it does not exist or is unreadable."""
-    root = root or find_studies_folder()
+    """Open a study.
+
+    Raises:
+        StudyError: If it does not exist or is unreadable.
+    """
+    root = root or find_root(name)
     folder = root / name
     try:
         written = json.loads((folder / STUDY_FILE).read_text(encoding="utf-8"))
@@ -133,8 +121,8 @@ def read_owner(name: str, root: Path | None = None) -> str | None:
     """Return the id of a study's owner, without building the study.
 
     Args:
-        name: Of the study.
-        root: Folder of the studies; `find_studies_folder` if left out.
+        name: Name of the study.
+        root: Folder of the studies; by default `find_studies_folder`.
 
     Returns:
         The id, empty outside a class; None if there is no such study, or it cannot be read.
@@ -142,7 +130,7 @@ def read_owner(name: str, root: Path | None = None) -> str | None:
     if not _NAME.fullmatch(name):
         return None
     try:
-        written = json.loads(((root or find_studies_folder()) / name / STUDY_FILE).read_bytes())
+        written = json.loads(((root or find_root(name)) / name / STUDY_FILE).read_bytes())
     except (OSError, ValueError):
         return None
     owner = written.get("owner", "") if isinstance(written, dict) else None
@@ -170,7 +158,11 @@ def measure_bytes(owner: str, root: Path | None = None) -> int:
 
 @contextmanager
 def claim_study(stored: StoredStudy) -> Iterator[None]:
-    """Lock a study; raises `StudyError` if another process runs it."""
+    """Lock a study.
+
+    Raises:
+        StudyError: If another process runs it.
+    """
     with (stored.folder / LOCK_FILE).open("wb") as file:
         if not try_lock(file.fileno()):
             raise StudyError(f"Study {stored.name} is being run by another process.")
@@ -178,7 +170,13 @@ def claim_study(stored: StoredStudy) -> Iterator[None]:
 
 
 def delete_study(stored: StoredStudy) -> None:
-    """Delete a study with all its rows; raises `StudyError` if a process runs it."""
+    """Delete a study with all its rows.
+
+    Raises:
+        StudyError: If a process runs it.
+    """
+    if stored.is_example:
+        raise StudyError(f"Study {stored.name} is part of the package and cannot be deleted.")
     gone = stored.folder.with_name(f".{uuid4().hex}")
     try:
         with claim_study(stored):
@@ -187,104 +185,3 @@ def delete_study(stored: StoredStudy) -> None:
         shutil.rmtree(gone)
     except OSError as error:
         raise StudyError(f"Study {stored.name} cannot be deleted: {error}.") from None
-
-
-def write_part(stored: StoredStudy, span: Span, content: bytes) -> None:
-    """Save the rows of these samples in a Parquet file."""
-    replace_file(stored.folder / PARTS / f"{span[0]:010d}-{span[1]:010d}.parquet", content)
-
-
-def list_parts(stored: StoredStudy) -> list[tuple[Span, Path]]:
-    """List the files with rows, each with its samples, in order, without overlaps."""
-    parts: list[tuple[Span, Path]] = []
-    table = stored.folder / TABLE_FILE
-    if table.exists():
-        rows = pq.read_metadata(table).num_rows
-        parts.append(((0, rows // len(stored.study.laws)), table))
-    for path in sorted((stored.folder / PARTS).glob("*.parquet")):
-        if found := _PART.fullmatch(path.name):
-            span = int(found[1]), int(found[2])
-            if not parts or span[0] >= parts[-1][0][1]:
-                parts.append((span, path))
-    return parts
-
-
-def find_missing(stored: StoredStudy) -> list[Span]:
-    """Find the spans of samples that are not finished."""
-    missing: list[Span] = []
-    reached = 0
-    for (first, stop), _ in list_parts(stored):
-        if first > reached:
-            missing.append((reached, first))
-        reached = stop
-    if reached < stored.study.sample_count:
-        missing.append((reached, stored.study.sample_count))
-    return missing
-
-
-def count_done(stored: StoredStudy) -> int:
-    """Count the finished samples."""
-    return sum(stop - first for (first, stop), _ in list_parts(stored))
-
-
-def join_parts(stored: StoredStudy) -> Path | None:
-    """Join the rows from the first sample on in one table; return its path, None without rows.
-
-    In the order of the rows, and in groups of one size: neither the order in which parts came nor
-    their sizes show.
-    """
-    whole = []
-    reached = 0
-    for (first, stop), path in list_parts(stored):
-        if first == reached:
-            whole.append(path)
-            reached = stop
-    table = stored.folder / TABLE_FILE
-    if not whole or whole == [table]:
-        return table if whole else None
-    draft = table.with_suffix(".tmp")
-    schema = build_schema(stored.study)
-    with pq.ParquetWriter(draft, schema, use_dictionary=list_repeating(schema)) as writer:
-        for group in _regroup(whole):
-            writer.write_table(group, row_group_size=ROWS_A_GROUP)
-    draft.replace(table)
-    for path in whole:
-        if path != table:
-            path.unlink(missing_ok=True)
-    return table
-
-
-def _regroup(paths: list[Path]) -> Iterator[pa.Table]:
-    """Regroup the rows in tables of `ROWS_A_GROUP`, the last one shorter."""
-    waiting: list[pa.Table] = []
-    for path in paths:
-        with pq.ParquetFile(path) as file:
-            for number in range(file.num_row_groups):
-                waiting.append(_translate(file.read_row_group(number)))
-                while sum(map(len, waiting)) >= ROWS_A_GROUP:
-                    joined = pa.concat_tables(waiting)
-                    yield joined.slice(0, ROWS_A_GROUP)
-                    waiting = [joined.slice(ROWS_A_GROUP)]
-    if sum(map(len, waiting)):
-        yield pa.concat_tables(waiting)
-
-
-def _read_part(path: Path, columns: list[str] | None) -> pa.Table:
-    if columns is not None:
-        former = {present: name for name, present in METRICS.items()}
-        there = pq.read_schema(path).names
-        columns = [one if one in there else former.get(one, one) for one in columns]
-    return _translate(pq.read_table(path, columns=columns))
-
-
-def _translate(table: pa.Table) -> pa.Table:
-    """Translate columns of an earlier version to the present names."""
-    return table.rename_columns([METRICS.get(name, name) for name in table.column_names])
-
-
-def read_rows(stored: StoredStudy, columns: list[str] | None = None) -> pa.Table:
-    """Read some or all columns of the finished rows; raises `StudyError` without rows."""
-    tables = [_read_part(path, columns) for _, path in list_parts(stored)]
-    if not tables:
-        raise StudyError(f"Of study {stored.name} nothing is done: `svsa study run` it first.")
-    return pa.concat_tables(tables)

@@ -25,14 +25,23 @@ Sampling = Literal["random", "sobol", "sensitivity"]
 class Study(Checked):
     """Runs of one actuator with varied settings, and the same samples under each law.
 
-    base: the configuration that all begin from: `figure` of the paper, and settings in its place.
-    actuators: if the actuator varies (`vary` with the path "actuator" and names as values), the
-    settings of each that replace those of the base, such as a stiffness in its range.
-    runs: how many samples; where there are grids, of the whole grid; for `sensitivity` how many
-    base samples, a power of two. sampling: independent samples, Sobol's sequence, or the pairs of
-    it of which Sobol indices are made. metrics: columns of the table in this order; success may ask
-    for others. Raises `ParameterError` for every wrong value, those of the base and of what varies
-    among them.
+    Attributes:
+        title: Title of the study.
+        base: Base configuration: `figure` of the paper, and changed settings.
+        vary: Varied settings.
+        actuators: If the actuator varies (`vary` with the path "actuator" and names as values):
+            settings of each that replace those of the base, such as a stiffness in its range.
+        runs: Number of samples; with grids, of the whole grid; for `sensitivity` the number of base
+            samples, a power of two.
+        seed: Seed of the samples.
+        sampling: Independent samples, Sobol's sequence, or pairs of it for Sobol indices.
+        duration_s: Duration of a run, s.
+        measure_from_s: Time at which measuring begins, s.
+        metrics: Columns of the table in this order; the success criterion may use others.
+        success: Success criterion.
+
+    Raises:
+        ParameterError: If a value is invalid, also in the base or in the varied settings.
     """
 
     title: str = quantity("", "What the study is about", max_length=200)
@@ -134,14 +143,16 @@ class Study(Checked):
     def build_base(self, law: str) -> Configuration:
         """Build the base configuration of a law's runs, of the first actuator if it varies.
 
-        Raises `ParameterError`.
+        Raises:
+            ParameterError: If the base is invalid for the law.
         """
         return next(iter(self.build_bases(law).values()))
 
     def build_bases(self, law: str) -> dict[str | None, Configuration]:
         """Build the base configurations of a law's runs by actuator; by None if it does not vary.
 
-        Raises `ParameterError`.
+        Raises:
+            ParameterError: If the base is invalid for the law.
         """
         names = self.varied_actuators
         if not names:
@@ -153,7 +164,7 @@ class Study(Checked):
 
 
 def _is_actuator(variation: Variation) -> TypeGuard[Choice | Grid]:
-    """Whether it goes over actuators by their names."""
+    """Whether it varies the actuator by name."""
     if variation.path != ACTUATOR or not isinstance(variation, Choice | Grid):
         return False
     return all(isinstance(one, str) for one in variation.values)
@@ -167,7 +178,11 @@ def check_measured(measure_from_s: float, duration_s: float) -> None:
 
 
 def build_base(base: Mapping[str, Any], law: str) -> Configuration:
-    """Build a figure with changed settings under a law; raises `ParameterError`."""
+    """Build a figure with changed settings under a law.
+
+    Raises:
+        ParameterError: If a setting is invalid.
+    """
     changes = {name: value for name, value in base.items() if name != FIGURE}
     try:
         figure = get_simulated_figure(base.get(FIGURE, "4a"))

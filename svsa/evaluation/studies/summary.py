@@ -1,7 +1,7 @@
 """Statistics of a study: results of laws, differences of laws, sensitivities.
 
-A run that ended in a fault has no error that is comparable with that of a whole run: among the
-quantiles it is worse than every value, and in paired differences both runs must be whole.
+The error of a run that ended in a fault is not comparable with that of a complete run: in quantiles
+it counts as worse than every value, and in paired differences both runs must be complete.
 """
 
 from collections.abc import Sequence
@@ -9,7 +9,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pyarrow as pa
-import pyarrow.compute as pc
 
 from svsa.errors import ParameterError, Violation
 from svsa.evaluation.metrics import METRICS, RECOVERY
@@ -24,8 +23,9 @@ from svsa.evaluation.statistics import (
     estimate_statistic,
 )
 from svsa.evaluation.studies.outcome import REFUSED
+from svsa.evaluation.studies.rows import read_rows, select_rows
 from svsa.evaluation.studies.setting import ACTUATOR
-from svsa.evaluation.studies.store import StoredStudy, StudyError, read_rows
+from svsa.evaluation.studies.stored import StoredStudy, StudyError
 from svsa.evaluation.studies.study import Study
 from svsa.evaluation.studies.work import DRAW, LAW
 
@@ -34,8 +34,15 @@ SUCCEEDED = "succeeded"
 
 
 class LawSummary(NamedTuple):
-    """How a law did. runs: without those that were refused. quantiles: 5, 50, 95 % of each metric,
-    infinite where so many ended in a fault. faults: how many, by code.
+    """Results of a law.
+
+    Attributes:
+        law: Name of the law.
+        runs: Number of runs, without rejected ones.
+        refused: Number of rejected runs.
+        success: Success rate.
+        faults: Number of faults by code.
+        quantiles: 5, 50, 95 % of each metric, infinite if they are in the runs with a fault.
     """
 
     law: str
@@ -49,14 +56,20 @@ class LawSummary(NamedTuple):
 class Pairing(NamedTuple):
     """The difference of two laws on the same samples.
 
-    success: difference of the shares, of all pairs, with Tango's interval. only_one, only_other:
-    samples on which only one of them succeeded. differences: of each metric that both keep the mean
-    difference, with its BCa interval, over the `whole` pairs of which neither ended in a fault, and
-    of which both have it (some never recover).
-
-    success_p: of McNemar's exact test, corrected by Holm's method over the pairings that are
-    compared together. p_values: of Wilcoxon's signed-rank test of each metric, corrected over the
-    metrics of all these pairings; NaN where a metric has too few pairs.
+    Attributes:
+        one: Name of the first law.
+        other: Name of the second law.
+        pairs: Number of pairs.
+        whole: Number of pairs without a fault.
+        success: Difference of the success rates of all pairs, with Tango's interval.
+        only_one: Number of samples on which only the first law succeeded.
+        only_other: Number of samples on which only the second law succeeded.
+        differences: Mean difference of each metric with its BCa interval, over the `whole` pairs in
+            which both have a value (some never recover).
+        success_p: P-value of McNemar's exact test, corrected by Holm's method over the pairings
+            that are compared together.
+        p_values: P-values of Wilcoxon's signed-rank test of each metric, corrected over the metrics
+            of all these pairings; NaN if a metric has too few pairs.
     """
 
     one: str
@@ -72,11 +85,17 @@ class Pairing(NamedTuple):
 
 
 class Sensitivity(NamedTuple):
-    """Sobol indices of one outcome: of each variation its own share of the variance, and with all
-    its interactions; of a base of `samples`.
+    """Sobol indices of one outcome from a base of `samples`.
 
-    The intervals are those of a bootstrap that takes the points of the Sobol' sequence as
+    The intervals are those of a bootstrap that treats the points of the Sobol' sequence as
     independent. The sequence estimates more precisely: they are upper bounds of the uncertainty.
+
+    Attributes:
+        law: Name of the law.
+        outcome: Name of the outcome.
+        samples: Number of base samples.
+        first_order: Share of the variance that each variation causes alone.
+        total_order: Share of the variance including all its interactions.
     """
 
     law: str
@@ -88,15 +107,13 @@ class Sensitivity(NamedTuple):
 
 def summarize_laws(study: Study, rows: pa.Table) -> list[LawSummary]:
     """Summarize each law, in the study's order."""
-    return [
-        _summarize_law(law, study.metrics, rows.filter(pc.field(LAW) == law)) for law in study.laws
-    ]
+    return [_summarize_law(law, study.metrics, select_rows(rows, LAW, law)) for law in study.laws]
 
 
 def summarize_actuators(study: Study, rows: pa.Table) -> dict[str, list[LawSummary]]:
-    """`summarize_laws` of each actuator over which the study goes; empty if it goes over none."""
+    """`summarize_laws` of each varied actuator of a study; empty without any."""
     return {
-        name: summarize_laws(study, rows.filter(pc.field(ACTUATOR) == name))
+        name: summarize_laws(study, select_rows(rows, ACTUATOR, name))
         for name in study.varied_actuators
     }
 
@@ -125,14 +142,15 @@ def _rank(metric: str, rows: pa.Table, ended: np.ndarray) -> np.ndarray:
 def compare_laws(study: Study, rows: pa.Table) -> list[Pairing]:
     """Compare the study's first law with each other one on the same samples."""
     first, *others = study.laws
-    sides = {law: rows.filter(pc.field(LAW) == law) for law in study.laws}
+    sides = {law: select_rows(rows, LAW, law) for law in study.laws}
     return _correct([pair_rows(sides[first], sides[law], first, law) for law in others])
 
 
 def pair_studies(first: StoredStudy, second: StoredStudy) -> list[Pairing]:
     """Compare each law that both studies have, on the same samples.
 
-    Raises `StudyError` where the two did not draw the same.
+    Raises:
+        StudyError: If the studies have different samples.
     """
     drawn = ("vary", "seed", "sampling")
     for name in drawn:
@@ -145,7 +163,7 @@ def pair_studies(first: StoredStudy, second: StoredStudy) -> list[Pairing]:
     laws = [law for law in first.study.laws if law in second.study.laws]
     pairings = []
     for law in laws:
-        sides = [table.filter(pc.field(LAW) == law) for table in tables]
+        sides = [select_rows(table, LAW, law) for table in tables]
         count = min(map(len, sides))
         names = f"{law} in {first.name}", f"{law} in {second.name}"
         pairings.append(pair_rows(sides[0][:count], sides[1][:count], *names))
@@ -196,8 +214,11 @@ def pair_rows(one: pa.Table, other: pa.Table, name: str, other_name: str) -> Pai
 def estimate_sensitivity(study: Study, rows: pa.Table, law: str, outcome: str) -> Sensitivity:
     """Estimate Sobol indices of a metric or of `succeeded` under a law.
 
-    Saltelli et al. 2010 on the sets that were done. Raises `StudyError` for a study that was not
-    drawn for it, of a metric where a run has none or ended in a fault, and where nothing varies.
+    Saltelli et al. 2010 on the finished sets.
+
+    Raises:
+        StudyError: If the study was not sampled for sensitivity, a run ended in a fault or lacks
+            the metric, or nothing varies.
     """
     if study.sampling != "sensitivity":
         raise StudyError("Sobol indices need a study whose sampling is sensitivity.")
@@ -205,7 +226,7 @@ def estimate_sensitivity(study: Study, rows: pa.Table, law: str, outcome: str) -
     if outcome not in known:
         bound = "one of " + ", ".join(known)
         raise ParameterError(Violation("outcome", outcome, "", bound))
-    own = rows.filter(pc.field(LAW) == law)
+    own = select_rows(rows, LAW, law)
     samples = 1 << max(len(own) // study.cells, 1).bit_length() - 1
     if samples * study.cells > len(own):
         raise StudyError("There is no whole set of samples yet.")
@@ -220,7 +241,7 @@ def estimate_sensitivity(study: Study, rows: pa.Table, law: str, outcome: str) -
     if np.ptp(values) == 0.0:
         raise StudyError(f"{outcome} is the same in every run of {law}: nothing decides it.")
     sets = {"f_A": values[:1], "f_B": values[1:2], "f_AB": values[2:, None, :]}
-    from scipy.stats import sobol_indices  # late: it takes a while
+    from scipy.stats import sobol_indices  # imported here: the import is slow
 
     found: Any = sobol_indices(func=sets, n=samples, rng=np.random.default_rng(0))
     spread = found.bootstrap(n_resamples=1000)

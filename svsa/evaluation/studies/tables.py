@@ -25,9 +25,9 @@ _DEGREES = {"rad": "°", "rad·s": "°·s"}
 def build_summary_tables(
     study: Study, laws: Sequence[LawSummary], actuator: str = ""
 ) -> list[Table]:
-    """Success and faults in one table, the quantiles of every metric that is kept in the other.
+    """Build a table of success and faults, and one of the quantiles of every metric.
 
-    actuator: whose runs these are; empty: all runs.
+    `actuator` selects the runs of one actuator; empty: all runs.
     """
     whose = f"{get_mechanism(actuator).title}: " if actuator else ""
     asked = " and ".join(
@@ -122,7 +122,7 @@ def format_unit(metric: str) -> str:
 def format_share(share: Interval) -> str:
     """Format a share in percent with its interval, with enough digits to show differences.
 
-    Of a million runs that all succeeded the lower end is no 100 %.
+    For a million successful runs the lower bound is not shown as 100 %.
     """
     if math.isnan(share.value):
         return "–"

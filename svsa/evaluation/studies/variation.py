@@ -100,7 +100,7 @@ class Normal(_Range):
 
     def draw(self, shares: np.ndarray) -> list[Any]:
         """The values of these shares, 0 to 1, by the inverse of the distribution."""
-        from scipy.special import ndtri  # late: it takes a while
+        from scipy.special import ndtri  # imported here: the import is slow
 
         begin, width = self._cut()
         values = self.mean + self.std * ndtri(begin + shares * width)
@@ -108,7 +108,7 @@ class Normal(_Range):
 
     def _cut(self) -> tuple[float, float]:
         """Return start and size of its range within the whole distribution."""
-        from scipy.special import ndtr  # late: it takes a while
+        from scipy.special import ndtr  # imported here: the import is slow
 
         begin, end = ndtr([(end - self.mean) / self.std for end in (self.low, self.high)])
         return float(begin), float(end - begin)
@@ -160,7 +160,7 @@ class Grid(_Listed):
 
     @property
     def levels(self) -> tuple[Any, ...]:
-        """The values that are gone through one by one."""
+        """The values of a grid."""
         return self.values
 
 
@@ -184,7 +184,7 @@ class Steps(_Range):
 
     @property
     def levels(self) -> tuple[Any, ...]:
-        """The values that are gone through one by one."""
+        """The values of a grid."""
         space = np.linspace if self.spacing == "linear" else np.geomspace
         return tuple(_settle(space(self.low, self.high, self.count)))
 

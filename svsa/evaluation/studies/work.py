@@ -7,6 +7,8 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
+from svsa.actuators.domain import build_domain
+from svsa.errors import ParameterError
 from svsa.evaluation.studies.outcome import Success, build_outcome, build_refused
 from svsa.evaluation.studies.samples import ParameterSamples, build_configurations, draw
 from svsa.evaluation.studies.study import Study
@@ -19,7 +21,7 @@ ROW, DRAW, LAW, SEED = "row", "draw", "law", "seed"
 def build_schema(study: Study) -> pa.Schema:
     """Build the columns of a study's table: one row per run.
 
-    row: the run's number, by draw and then by law. fault_tick: null without a fault.
+    `row` is the run's number, by sample and then by law; `fault_tick` is null without a fault.
     """
     varied = [
         (variation.column, pa.float64() if variation.is_numeric else pa.string())
@@ -39,10 +41,10 @@ def build_schema(study: Study) -> pa.Schema:
     )
 
 
-def list_repeating(schema: pa.Schema) -> Any:  # pyarrow declares a bool and takes names
+def list_repeating(schema: pa.Schema) -> Any:  # pyarrow's stubs declare bool; it accepts names
     """List the columns that Parquet stores as a dictionary: names, but no numbers.
 
-    To look whether a number is there already is most of what writing it would cost.
+    For numbers, looking up existing values would take most of the writing time.
     """
     return [field.name for field in schema if pa.types.is_string(field.type)]
 
@@ -94,9 +96,12 @@ def measure_runs(
     measure_from_s: float,
     success: Success,
 ) -> dict[str, Any]:
-    """Compute the outcome of each run, see `build_outcome`; None: rejected settings."""
-    run = [index for index, built in enumerate(configurations) if built is not None]
-    built = [one for one in configurations if one is not None]
+    """Compute the outcome of each run, see `build_outcome`; None: rejected settings.
+
+    An actuator whose energy does not have the stiffness range of its limits is rejected, too.
+    """
+    run = [index for index, one in enumerate(configurations) if one and _has_domain(one)]
+    built = [one for index in run if (one := configurations[index]) is not None]
     outcome = build_refused(len(configurations))
     if not built:
         return outcome
@@ -104,6 +109,15 @@ def measure_runs(
     summaries = run_configurations(built, duration_s, measure_from_s)
     found = build_outcome(summaries, periods, measure_from_s, success)
     return found if len(built) == len(configurations) else _fill_in(outcome, run, found)
+
+
+def _has_domain(configuration: Configuration) -> bool:
+    """Whether the energy of a sampled actuator reaches both ends of the stiffness range."""
+    try:
+        build_domain(configuration.actuator, configuration.limits)
+    except ParameterError:
+        return False
+    return True
 
 
 def _fill_in(outcome: dict[str, Any], rows: list[int], found: dict[str, Any]) -> dict[str, Any]:
