@@ -4,8 +4,11 @@
   without a stiffness motor has one stiffness.
 * Loads and friction are multiplied by T'/T: T is the largest torque that the SVSA holds at rest at
   15 N·m/rad, T' that of the actuator at the mapped stiffness.
-* Sines of the position begin at rest. Their amplitude is limited so that the link inertia needs at
-  most T'/2. Steps rise slowly enough for the same limit, as far as their times allow.
+* Sines of the position start from rest. Their amplitude is limited so that the link inertia needs
+  at most T'/2. Steps rise slowly enough for the same limit, as far as their times permit.
+* Rates of a control law (unit rad/s or 1/s) are multiplied by the ratio of the default poles of
+  both actuators: of the stiffness for a stiffness pole, of the observer for its bandwidth, of the
+  position for all others.
 * The plant is the nominal model times the ratios of the scenario. The ratio of the spring applies
   to the parameter that the energy is proportional to.
 
@@ -24,6 +27,7 @@ from svsa.actuators.mechanism import MAX_ELASTIC, Mechanism
 from svsa.actuators.parameters import SVSA, Limits
 from svsa.actuators.reach import find_only_stiffness, find_stiffness_range
 from svsa.evaluation.scenario import Scenario
+from svsa.evaluation.tuning.search_space import Axis
 from svsa.inputs.checked import Checked
 from svsa.runs.configuration import Configuration
 from svsa.runs.shorthand import read_mechanism
@@ -37,21 +41,24 @@ from svsa.simulation.reference.kinds.steps import StepsPosition
 REFERENCE_NM_PER_RAD = 15.0
 """The paper's low stiffness."""
 MOTION_SHARE = 0.5
+RATES = ("rad/s", "1/s")
 _SPRING = "spring_stiffness_n_per_m"
 _HALVINGS = 14
 _DIGITS = 3
 _NEARLY = 1.0 + 1e-9
 _JERK_PEAK = 5.7735
-"""Greatest acceleration of a step of minimum jerk over its height and its duration squared."""
+"""Peak acceleration of a minimum-jerk step, divided by its height and multiplied by its duration
+squared.
+"""
 
 
 class ActuatorScale(NamedTuple):
     """Factors for the torques of a scenario.
 
     Attributes:
-        name: The actuator.
+        name: Name of the actuator.
         torque: T'/T, factor of loads on link and motor 1.
-        torque2: Factor of loads on motor 2, by the torque limits; 0 without a stiffness motor.
+        torque2: Factor of loads on motor 2, from the torque limits; 0 without a stiffness motor.
         largest_nm: T', N·m.
         spring: Name of the parameter that its energy is proportional to.
     """
@@ -65,13 +72,17 @@ class ActuatorScale(NamedTuple):
 
 @cache
 def measure_scale(name: str) -> ActuatorScale:
-    """Return the factors for an installed actuator; raises `ParameterError` for another name."""
+    """Return the factors for an installed actuator.
+
+    Raises:
+        ParameterError: If it is not installed.
+    """
     mechanism, svsa = get_mechanism(name), get_mechanism(SVSA)
     largest, of_svsa = (_find_largest_torque(one) for one in (mechanism, svsa))
     return ActuatorScale(
         name,
         _settle(largest / of_svsa),
-        # Nothing holds the second body of an actuator without a stiffness motor.
+        # An actuator without a stiffness motor has no torque on its second body.
         _settle(mechanism.limits.torque2_nm / svsa.limits.torque2_nm)
         if mechanism.has_stiffness_motor
         else 0.0,
@@ -84,7 +95,7 @@ def build_scenario_run(scenario: Scenario, law: str, actuator: str = SVSA) -> Co
     """Build the run of a scenario under a law with its default parameters.
 
     Args:
-        scenario: Made for the SVSA.
+        scenario: A scenario for the SVSA.
         law: Name of an installed law.
         actuator: Name of the actuator that the scenario is scaled to.
 
@@ -124,6 +135,27 @@ def scale_stiffness(mechanism: Mechanism, sigma: float) -> float:
     return _settle(to_low * (to_high / to_low) ** share, 6)
 
 
+def scale_rate(value: float, axis: Axis, actuator: str) -> float:
+    """Scale a parameter of a control law that was tuned for the SVSA, within its search range.
+
+    Args:
+        value: Tuned value.
+        axis: Its search variable.
+        actuator: Name of the actuator.
+
+    Returns:
+        The value for the actuator; the same if it is not a rate.
+    """
+    if axis.unit not in RATES:
+        return value
+    mechanism, svsa = get_mechanism(actuator), get_mechanism(SVSA)
+    kind = 1 if axis.name.startswith("stiffness") else 0
+    ratio = mechanism.poles_rad_per_s[kind] / svsa.poles_rad_per_s[kind]
+    if axis.name.startswith(("observer", "estimate")):
+        ratio = mechanism.observer_rad_per_s / svsa.observer_rad_per_s
+    return min(max(ratio * value, axis.low), axis.high)
+
+
 def _scale_stiffness(given: Any, mechanism: Mechanism) -> Any:
     match given:
         case ConstantStiffness(stiffness_nm_per_rad=sigma):
@@ -146,7 +178,7 @@ def _scale_position(given: Any, mechanism: Mechanism, scale: ActuatorScale) -> A
         case SinePosition(frequency_hz=frequency, amplitude_rad=amplitude) if frequency:
             most = highest / (2.0 * math.pi * frequency) ** 2
             amplitude = min(amplitude, _settle(most))
-            way = math.cos(given.phase_rad)  # sin at its zero: to which side it goes first
+            way = math.cos(given.phase_rad)  # sign of the first motion
             side = 1.0 if way > 0.0 else -1.0
             return given.changed(
                 amplitude_rad=amplitude,

@@ -37,10 +37,10 @@ QUANTITIES = {
     "torque1_variation_nm_per_s": ("N·m/s", "Total variation of u1 a second"),
     "limit_share": ("1", "Share of ticks with a motor at its torque limit"),
 }  # fmt: skip
-"""Each metric with its unit and meaning; from `measure_from_s` to the end, or to the fault.
-
-Those of `svsa.runs.metrics.Metrics` by its names; recovery and steady-state errors are NaN where it
-has none. Torques are those made, work is mechanical, and a limit is made to 0.1 %.
+"""Each metric with its unit and meaning; from `measure_from_s` to the end, or to the fault. Those
+of `svsa.runs.metrics.Metrics` have its names; recovery and steady-state errors are NaN if
+undefined. Torques are actual torques, work is mechanical, and a limit counts as reached within 0.1
+%.
 """
 METRICS = {name: unit for name, (unit, _) in QUANTITIES.items()}
 """The unit of each metric."""
@@ -57,7 +57,11 @@ HELD = (
 
 
 def check_metric(name: str) -> str:
-    """Return the name; raises `ParameterError` if there is no such metric."""
+    """Return the name of a metric.
+
+    Raises:
+        ParameterError: If there is no such metric.
+    """
     if name not in METRICS:
         raise ParameterError(Violation("", name, "", f"one of {', '.join(METRICS)}"))
     return name
@@ -69,9 +73,10 @@ Metric = Annotated[str, AfterValidator(check_metric)]
 def compute_metrics(
     summaries: np.ndarray, periods: np.ndarray, begin_s: float
 ) -> dict[str, np.ndarray]:
-    """The metrics of runs of which a batch gave `SUMMARY`; NaN where a run ended before `begin_s`.
+    """Compute the metrics of runs from the `SUMMARY` of a batch; NaN if a run ended before
+    `begin_s`.
 
-    periods: of each run, s.
+    `periods` are the control periods of the runs, s.
     """
     counts = summaries["ticks"] - np.round(begin_s / periods)
     counts = np.where(counts > 0, counts, np.nan)
@@ -104,12 +109,12 @@ def find_held(summaries: np.ndarray) -> np.ndarray:
 
 
 def summarize_result(result: Result, begin_s: float, end_s: float) -> np.ndarray:
-    """The `SUMMARY` (1,) of a run's samples from its start, to the bits that a batch comes to.
+    """Compute the `SUMMARY` (1,) of a run's samples from its start, bit-identical to a batch.
 
     Args:
         result: A run from t = 0 under one law.
-        begin_s: When measuring begins, s.
-        end_s: When the run was to end, s; a run in a fault has ended before.
+        begin_s: Time at which measuring begins, s.
+        end_s: Planned end of the run, s; a fault may have ended it before.
     """
     configuration = result.configuration
     period, mu0 = configuration.sampling.period_s, compute_start_ratio(configuration)

@@ -25,13 +25,13 @@ def show_progress(
     """Show a progress bar until the work ends; without a terminal, print a line every 10 s.
 
     Args:
-        console: Where the bar is shown.
-        description: In front of the bar.
-        total: How much there is to do; None until it is reported.
-        unit: What is counted, for the rate; "" shows none.
+        console: Console of the bar.
+        description: Text before the bar.
+        total: Total amount of work; None until it is reported.
+        unit: Unit of the rate; "" shows none.
 
     Yields:
-        A function that updates the bar. The first report counts as done before.
+        A function that updates the bar. The first report counts as work that was done before.
     """
     columns = (
         TextColumn("{task.description}"),

@@ -41,14 +41,14 @@ def reproduce(
 
     Args:
         figures: Names of the figures, "4a" to "7".
-        progress: Receives the share that is done, 0 to 1.
+        progress: Called with the finished share, 0 to 1.
 
     Returns:
         For each figure and law the run, and the numbers of the table.
 
     Raises:
         FaultError: If a run leaves the domain of the model.
-        ParameterError: For a figure that does not exist.
+        ParameterError: If a figure does not exist.
     """
     runs: list[tuple[str, str]] = [(get_figure(key).key, law) for key in figures for law in LAWS]
     found = []
@@ -72,9 +72,10 @@ def _run_figure(key: str, law: str, progress: Callable[[float], None]) -> Reprod
 
 
 def compute_table_row(result: Result) -> dict[str, Any]:
-    """The numbers of one run, degrees and N·m/rad: before 1–5 s, peak 5–7 s, steady 8–20 s.
+    """Compute the numbers of one run, degrees and N·m/rad: before 1–5 s, peak 5–7 s, steady 8–20 s.
 
-    recovery_s: from the load until the error stays within 2 % of its peak; None if never.
+    recovery_s is the time from the load until the error stays within 2 % of its peak; None if
+    never.
     """
     before, peak = result.measure(*BEFORE_S), result.measure(*PEAK_S)
     steady, loaded = result.measure(*STEADY_S), result.measure(LOAD_TIME_S, STEADY_S[1])

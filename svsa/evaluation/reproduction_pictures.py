@@ -42,7 +42,11 @@ def draw_figure(runs: Sequence[Reproduction]) -> Picture:
 
 
 def save_figures(runs: Sequence[Reproduction], folder: Path) -> list[Path]:
-    """One PNG a figure in `folder`; returns their paths. Raises `OSError` where it cannot."""
+    """Save one PNG per figure in `folder`; return their paths.
+
+    Raises:
+        OSError: If a file cannot be written.
+    """
     folder.mkdir(parents=True, exist_ok=True)
     paths = []
     for key in dict.fromkeys(run.figure for run in runs):

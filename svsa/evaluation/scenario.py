@@ -9,7 +9,7 @@ from svsa.simulation.plant.loads import Load
 from svsa.simulation.reference.kinds import PositionReference, StiffnessReference
 
 TrueOverNominal = tuple[tuple[str, float], ...]
-"""Names of `ActuatorParameters`, each with the true value over the nominal one."""
+"""True over nominal value by name of the field of `ActuatorParameters`."""
 INERTIAS = ("link_inertia_kg_m2", "motor1_inertia_kg_m2", "motor2_inertia_kg_m2")
 
 
@@ -17,16 +17,16 @@ class Scenario(NamedTuple):
     """A figure of the paper with other references, loads, effects and plant.
 
     Attributes:
-        name: A key, unique within its set.
+        name: Key, unique within its set.
         title: The scenario in words.
         loads: Loads on link and motors.
         effects: Non-ideal effects of plant and sensors.
-        duration_s: Length of the run, s.
-        measured_s: When measuring begins, s.
+        duration_s: Duration of the run, s.
+        measured_s: Time at which measuring begins, s.
         position: q_d; None for the figure's.
         stiffness: σ_d; None for the figure's.
-        plant: The nominal model times these.
-        seed: Of the sensor noise.
+        plant: Ratios of the plant to the nominal model.
+        seed: Seed of the sensor noise.
         figure: Key of the figure.
     """
 

@@ -1,7 +1,8 @@
 """Search of the unit cube: CMA-ES with restarts after convergence, or random points.
 
 N. Hansen, "The CMA Evolution Strategy: A Tutorial" (2016), by the package `cmaes`. A generation is
-judged as one batch. Chance is Philox, keyed by the seed and the number of the start.
+evaluated as one batch. The random numbers are Philox, keyed by the seed and the number of the
+start.
 """
 
 from collections.abc import Callable, Iterator
@@ -15,14 +16,14 @@ Method = Literal["cma", "random"]
 GENERATION = 32
 STEP = 0.3
 CONVERGED = 0.01
-"""Of the ranges: what a generation is then no wider than."""
+"""Width of a generation, as a share of the ranges, below which a start has converged."""
 PATIENCE = 15
-"""Generations that a start goes on without a worse run."""
+"""Number of generations without a worse run after which a start ends."""
 _HARMLESS = 1e30
-"""As the optimizer takes it that a run is the best of all for the law."""
+"""Cost for the optimizer of the best possible run of the law."""
 
 Judge = Callable[[np.ndarray], np.ndarray]
-"""(n, size) shares from 0 to 1 → (n,) what is maximized, infinite for what ends the search."""
+"""Maps shares (n, size) from 0 to 1 to the maximized values (n,), infinite to end the search."""
 
 
 def search(
@@ -38,12 +39,12 @@ def search(
 
     Args:
         method: CMA-ES, or random points.
-        size: Of the cube.
-        seed: Of all chance.
-        judge: What is maximized.
-        generation: Points in a generation.
-        step: First standard deviation of CMA-ES.
-        start: Where the first start of CMA-ES begins, (size,); a random point if left out.
+        size: Dimension of the cube.
+        seed: Seed of all random numbers.
+        judge: Function to maximize.
+        generation: Number of points in a generation.
+        step: Initial standard deviation of CMA-ES.
+        start: Initial mean of the first start of CMA-ES, shape (size,); by default a random point.
     """
     if method == "random":
         for shares in _draw(size, seed, generation):

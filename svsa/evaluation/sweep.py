@@ -18,7 +18,7 @@ from svsa.runs.metrics import Metrics
 from svsa.runs.paper import DURATION_S
 from svsa.runs.result.progress import Follow, follow_progress
 from svsa.runs.result.simulate import simulate
-from svsa.runs.run import check_laws
+from svsa.runs.run_checks import check_laws
 from svsa.runs.shorthand import LawChoice, Settings
 from svsa.simulation.loop.stepwise import Controller
 
@@ -54,14 +54,14 @@ def sweep(
         experiment: A figure of the paper ("4a", "4b", "5") or a `Configuration`.
         vary: Values by setting: "law", "seed", a field of the configuration ("effects"), or a path
             to a value in one ("actuator.link_inertia_kg_m2", "loads[0].torque_nm[1]").
-        law: Of all runs, where `vary` has none: a name, or a function as of `simulate`.
+        law: Law of all runs if `vary` has none: a name, or a function as for `simulate`.
         parameters: A parameter file or its `Design`, instead of the experiment's own.
-        duration_s: Of each run, s.
+        duration_s: Duration of each run, s.
         measure_from_s: Start of the window of the metrics, s.
-        threads: How many; one for each core if left out.
-        progress: Called with the share of the runs that is done, 0 to 1; without it, a sweep of
-            more than a second shows a bar if standard error is a terminal.
-        **changes: Fields of the configuration for all runs, as of `simulate`.
+        threads: Number of threads; by default one per core.
+        progress: Called with the finished share, 0 to 1; without it, a sweep of more than a second
+            shows a bar if standard error is a terminal.
+        **changes: Fields of the configuration for all runs, as for `simulate`.
 
     Returns:
         A frame in the order of `itertools.product`: a column for each setting of `vary`, `fault`
@@ -69,11 +69,12 @@ def sweep(
         `measure_from_s` are missing.
 
     Raises:
-        ParameterError: A setting does not exist or a value is out of range; nothing is simulated.
-        MissingExtraError: pandas, of the extra of that name, is not installed.
+        ParameterError: If a setting does not exist or a value is out of range; nothing is
+            simulated.
+        MissingExtraError: If pandas, of the extra of that name, is not installed.
     """
     require_extra("pandas")
-    import pandas  # late: it takes half a second
+    import pandas  # imported here: the import takes 0.5 s
 
     named = {} if law is None or callable(law) else {"law": law}
     configuration = build_experiment(experiment, parameters, {**changes, **named}, sweep)
@@ -114,7 +115,11 @@ def sweep(
 
 
 def _list_values(name: str, values: Any) -> list[Any]:
-    """List the values of a setting; raises `ParameterError` unless it is a non-empty list."""
+    """List the values of a setting.
+
+    Raises:
+        ParameterError: Unless it is a non-empty list.
+    """
     is_listed = not isinstance(values, str | Mapping | Checked) and isinstance(values, Iterable)
     listed = list(values) if is_listed else []
     if not listed:

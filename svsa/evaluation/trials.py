@@ -1,13 +1,12 @@
 """Trials: random scenarios of two families, and the training and validation sets.
 
 Family A is the paper's: 60° of motion, loads on the link, inertias ±50 %, effects of the rig with
-friction and noise. Family B is wider: stiffness from 12 to 120 N·m/rad that may vary, spring and
-dampings wrong too, a current lag, sines to 5 Hz, loads on the motors. Loads act with either sign,
-at any phase of the motion.
+friction and noise. Family B is wider: stiffness from 12 to 120 N·m/rad that may vary, wrong spring
+and dampings, a current lag, sines to 5 Hz, loads on the motors. Loads have either sign, at any
+phase of the motion.
 
-Each set has a name, and its generators a key that follows from name, family and seed.
-The set that laws are judged on is in `svsa.evaluation.ranking.test_set`, which tuning cannot
-import.
+Each set has a name; the keys of its random generators depend on name, family and seed. The test set
+is in `svsa.evaluation.ranking.test_set`, which tuning cannot import.
 """
 
 import hashlib
@@ -34,12 +33,14 @@ from svsa.simulation.reference.kinds.constant import ConstantPosition, ConstantS
 from svsa.simulation.reference.kinds.sine import SinePosition, SineStiffness
 
 PROTOCOL = "2"
-"""Changes with trials, fixed scenarios and criterion: results are compared within one."""
+"""Incremented if trials, fixed scenarios or criterion change: results are comparable only within
+one.
+"""
 Family = Literal["A", "B"]
 FAMILIES: tuple[Family, ...] = ("A", "B")
 LOAD_S, DURATION_S = 2.0, 6.0
 REST_BEGIN_S = 1.0
-"""From when on the torque at rest is measured."""
+"""Time from which the torque at rest is measured, s."""
 REST_STIFFNESSES = (12.0, 20.0, 35.0, 60.0)
 _DAMPINGS = (
     "link_damping_nms_per_rad",
@@ -59,22 +60,22 @@ def derive_key(name: str, seed: int) -> int:
 
 
 def derive_seed(secret: bytes, version: str = PROTOCOL) -> int:
-    """The seed of a hidden set, 63 bits of HMAC-SHA256(secret, version).
+    """Derive the seed of a hidden set, 63 bits of HMAC-SHA256(secret, version).
 
-    Published later, the secret lets all compute the trials again.
+    When the secret is published later, everyone can compute the trials again.
     """
     digest = hmac.digest(secret, version.encode(), hashlib.sha256)
     return int.from_bytes(digest[:8], "big") >> 1
 
 
 def build_trial(family: Family, name: str, seed: int, number: int) -> Scenario:
-    """One trial of a family. It does not depend on the others of its set.
+    """Build one trial of a family. It does not depend on the others of its set.
 
     Args:
         family: A or B.
-        name: Of the set.
-        seed: Of the set, at least 0.
-        number: From 0.
+        name: Name of the set.
+        seed: Seed of the set, at least 0.
+        number: Number of the trial, from 0.
     """
     random = start_generator(derive_key(f"{name} {family}", seed), number)
     is_wide = family == "B"
@@ -131,7 +132,7 @@ def build_set(name: str, seed: int, count: int, first: int = 0) -> tuple[Scenari
 def build_rest() -> tuple[Scenario, ...]:
     """Build runs at rest with the rig's noise, without friction, to measure torque noise.
 
-    Four stiffnesses with one and with two samples of delay.
+    There are four stiffnesses, each with one and with two samples of delay.
     """
     return tuple(
         Scenario(

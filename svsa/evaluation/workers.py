@@ -10,8 +10,9 @@ from functools import cache
 from multiprocessing.context import BaseContext
 
 NICENESS = 10
-"""A tenth of a core that something else is always busy on; with the lowest priority of all it
-would not get on for minutes."""
+"""Gives a tenth of a core that is otherwise busy; with the lowest priority the work would not
+progress for minutes.
+"""
 
 
 def start_workers(most: int, jobs_each: int | None = None) -> ProcessPoolExecutor:
@@ -23,11 +24,11 @@ def start_workers(most: int, jobs_each: int | None = None) -> ProcessPoolExecuto
 
 @cache
 def choose_start() -> BaseContext:
-    """Choose the start method: fork from a prepared process, in a fiftieth of the time of a new
-    start.
+    """Choose the start method: fork from a prepared process, which takes a fiftieth of the time of
+    a new start.
 
-    Elsewhere than on Linux each reads all for itself: libraries of macOS start threads as they are
-    read, and Windows has no copies.
+    On other platforms than Linux each worker imports everything itself: on macOS libraries start
+    threads on import, and Windows cannot fork.
     """
     if sys.platform != "linux":
         return multiprocessing.get_context("spawn")
@@ -40,13 +41,13 @@ def _begin(environment: dict[str, str]) -> None:
     """Set up a worker as its parent is now: the process that it is forked from may be older."""
     os.environ.clear()
     os.environ.update(environment)
-    give_way()
+    set_up_worker()
 
 
-def give_way() -> None:
+def set_up_worker() -> None:
     """Lower the priority, leave Ctrl-C to the parent, and end when it ends.
 
-    A worker's own workers have its priority, and no lower one.
+    The workers of a worker have the same priority.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     if sys.platform != "win32":

@@ -1,1 +1,1 @@
-"""What things cost: not tests, since a busy machine would make them fail."""
+"""Benchmarks. They are not tests, since their results depend on the load of the machine."""

@@ -23,7 +23,7 @@ from svsa_server.access.class_keys import ClassKeys
 from tests.lab import Lab, run_lab
 
 SILENCE_S = 2.0
-"""SVSA_SILENCE_S of the lab that is attacked."""
+"""SVSA_SILENCE_S of the attacked lab."""
 LONGEST_S = 60.0
 BODY_BYTES = 10 * 1024 * 1024
 EVERYTHING = "rate_hz=1000&lanes=all&channels="
@@ -42,7 +42,7 @@ FRAMES = {
 
 @contextmanager
 def run_attacked_class(**settings: str) -> Iterator[Lab]:
-    """A class, whose client here is the instructor's."""
+    """Run a class; its client has the instructor's token."""
     with tempfile.TemporaryDirectory(prefix="svsa-test-") as folder:
         _, reported = ClassKeys.open(Path(folder))
         assert reported is not None
@@ -53,24 +53,24 @@ def run_attacked_class(**settings: str) -> Iterator[Lab]:
 
 
 def read_memory_mb(lab: Lab) -> float:
-    """Resident memory of the server, MB."""
+    """Return the resident memory of the server, MB."""
     assert lab.process is not None
     status = Path(f"/proc/{lab.process.pid}/status").read_text()
     return int(status.partition("VmRSS:")[2].split()[0]) / 1000.0
 
 
 def count_sockets(lab: Lab) -> int:
-    """Sockets that the server has open."""
+    """Count the sockets that the server has open."""
     assert lab.process is not None
     count = 0
     for link in Path(f"/proc/{lab.process.pid}/fd").iterdir():
-        with suppress(FileNotFoundError):  # closed meanwhile
+        with suppress(FileNotFoundError):  # closed in the meantime
             count += str(link.readlink()).startswith("socket:")
     return count
 
 
 def open_socket(lab: Lab, receive_bytes: int | None = None) -> socket.socket:
-    """A connection, of which the attack knows every byte."""
+    """Open a connection of which the attack controls every byte."""
     place = httpx.URL(lab.url)
     plain = socket.socket()
     if receive_bytes is not None:
@@ -81,7 +81,7 @@ def open_socket(lab: Lab, receive_bytes: int | None = None) -> socket.socket:
 
 
 def build_head(lab: Lab, method: str, path: str, more: str = "") -> bytes:
-    """The head of a request of the lab's client."""
+    """Build the head of a request to the lab."""
     name = lab.client.headers.get("Authorization", "")
     authorization = f"Authorization: {name}\r\n" if name else ""
     host = lab.url.partition("//")[2]
@@ -89,7 +89,7 @@ def build_head(lab: Lab, method: str, path: str, more: str = "") -> bytes:
 
 
 def open_stream(lab: Lab, query: str, receive_bytes: int | None = None) -> socket.socket:
-    """A stream of the shared session, upgraded and not read."""
+    """Open a stream of the shared session, without reading it."""
     plain = open_socket(lab, receive_bytes)
     key = base64.b64encode(os.urandom(16)).decode()
     more = UPGRADE + f"Sec-WebSocket-Key: {key}\r\n"
@@ -100,7 +100,7 @@ def open_stream(lab: Lab, query: str, receive_bytes: int | None = None) -> socke
 
 
 def is_dropped(plain: socket.socket) -> bool:
-    """Whether it ends, once all is read that was on its way; False after `SILENCE_S`."""
+    """Whether the connection ends after the pending data; False after `SILENCE_S`."""
     end = time.monotonic() + SILENCE_S
     try:
         while time.monotonic() < end:
@@ -114,18 +114,18 @@ def is_dropped(plain: socket.socket) -> bool:
 
 
 def is_held(plain: socket.socket) -> bool:
-    """Whether the server has its end open still, though nothing was read that would tell."""
+    """Whether the server has its end of the connection open, without reading from it."""
     ends = (plain.getpeername()[1], plain.getsockname()[1])
     for line in Path("/proc/net/tcp").read_text().splitlines()[1:]:
         fields = line.split()
         local, remote = (int(field.partition(":")[2], 16) for field in fields[1:3])
         if (local, remote) == ends:
-            return fields[9] != "0"  # the inode: 0 once no process has it
+            return fields[9] != "0"  # The inode is 0 once no process has the socket open.
     return False
 
 
 def stop_reading(lab: Lab, count: int) -> tuple[int, float]:
-    """Streams of every channel that no user reads: how many are dropped, and the growth, MB."""
+    """Open streams of every channel without reading: dropped connections, memory growth in MB."""
     before, most = read_memory_mb(lab), 0.0
     query = EVERYTHING + ",".join(lab.read()["sample"])
     readers = [open_stream(lab, query, 4096) for _ in range(count)]
@@ -140,7 +140,7 @@ def stop_reading(lab: Lab, count: int) -> tuple[int, float]:
 
 
 def send_halves(lab: Lab, count: int) -> tuple[int, float]:
-    """Half a request on each of many connections: how many end, and an answer meanwhile, s."""
+    """Send half a request on many connections: closed connections, response time meanwhile, s."""
     head = build_head(lab, "PUT", lab.session + "/law", "Content-Length: 1000\r\n")
     halves = [b"", head[:20], head + b'{"law": ']
     waiting = [open_socket(lab) for _ in range(count)]
@@ -157,7 +157,7 @@ def send_halves(lab: Lab, count: int) -> tuple[int, float]:
 
 
 def send_body(lab: Lab, chunked: bool) -> tuple[bytes, float]:
-    """The answer to 10 MB, with their length said before or not; and after how long, s."""
+    """Send 10 MB with or without its length: status, and seconds until the response."""
     size = "Transfer-Encoding: chunked" if chunked else f"Content-Length: {BODY_BYTES}"
     more = f"Content-Type: application/json\r\n{size}\r\n"
     part = b" " * 65536
@@ -184,7 +184,7 @@ def _send_all(plain: socket.socket, part: bytes, count: int) -> None:
 
 
 def guess_codes(lab: Lab, count: int) -> Counter[int]:
-    """The statuses of so many joins with a wrong code, eight at a time."""
+    """Join with wrong codes, eight at a time: the statuses."""
 
     def guess(number: int) -> int:
         body = {"name": f"Eve {number}", "code": f"{number:08d}"}
@@ -198,7 +198,7 @@ def guess_codes(lab: Lab, count: int) -> Counter[int]:
 
 
 def send_frames(lab: Lab) -> dict[str, bool]:
-    """Of each malformed frame on a stream, whether it ends that stream."""
+    """For each malformed frame on a stream, whether it ends that stream."""
     found = {}
     for name, frame in FRAMES.items():
         with open_stream(lab, "rate_hz=1") as stream:
@@ -208,13 +208,13 @@ def send_frames(lab: Lab) -> dict[str, bool]:
 
 
 def vanish(plain: socket.socket) -> None:
-    """Cut the connection without a word: it is reset, not closed."""
+    """Reset the connection instead of closing it."""
     plain.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
     plain.close()
 
 
-def ask_for_replays(lab: Lab, run_id: str, count: int) -> list[httpx.Response]:
-    """The answers to so many replays of a run, asked for at once."""
+def request_replays(lab: Lab, run_id: str, count: int) -> list[httpx.Response]:
+    """Request several replays of a run at once: the statuses."""
     path = f"/api/v1/runs/{run_id}/export?kind=html"
     with ThreadPoolExecutor(count) as pool:
         return list(pool.map(lambda _: lab.client.get(path, timeout=300), range(count)))
@@ -222,7 +222,7 @@ def ask_for_replays(lab: Lab, run_id: str, count: int) -> list[httpx.Response]:
 
 @contextmanager
 def recorded(lab: Lab, name: str) -> Iterator[str]:
-    """The id of a run that is recorded meanwhile, and finished after."""
+    """Record a run meanwhile, and return its id after it is finished."""
     body = {"name": name}
     began = lab.client.post(lab.session + "/recording", json=body).raise_for_status().json()
     run_id = began["recording"]["run_id"]
@@ -235,7 +235,7 @@ def recorded(lab: Lab, name: str) -> Iterator[str]:
 
 
 def main() -> None:
-    """Print outcome of each attack, and of the recording."""
+    """Print the outcome of each attack, and of the recording."""
     joins = int(sys.argv[1]) if len(sys.argv) > 1 else 10_000
 
     def report(name: str, attack: Callable[[], object]) -> None:
@@ -262,7 +262,7 @@ def main() -> None:
             report("malformed frames", lambda: send_frames(lab))
             report(
                 "30 replays at once",
-                lambda: dict(Counter(one.status_code for one in ask_for_replays(lab, shown, 30))),
+                lambda: dict(Counter(one.status_code for one in request_replays(lab, shown, 30))),
             )
             last = lab.read()["tick"]
         run = lab.client.get(f"/api/v1/runs/{run_id}").json()

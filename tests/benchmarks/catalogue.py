@@ -23,7 +23,7 @@ WINDOW = MeasuredWindow("load", "3 kg load", 5000, 20_000, 5.0, 20.0, False, ("N
 
 
 def build_settings(number: int) -> RunSettings:
-    """Settings as varied as those of a class."""
+    """Build settings as varied as those of a class."""
     figure, stiffness = (("4a", 15.0), ("4b", 60.0), ("5", 35.0))[number % 3]
     law, load = ("ndobc", "fl")[number % 2], ("none", "paper", "mass")[number // 2 % 3]
     return RunSettings(
@@ -43,7 +43,7 @@ def build_settings(number: int) -> RunSettings:
 
 
 def fill(folder: Path) -> None:
-    """Put 10,000 runs with names, tags, notes and metrics of two lanes into a catalogue."""
+    """Add 10,000 runs with names, tags, notes and metrics of two lanes to a catalogue."""
     run = RunEntry(
         id="",
         created="",
@@ -75,7 +75,7 @@ def fill(folder: Path) -> None:
 
 
 def measure(call: Callable[[], object]) -> tuple[float, float, float]:
-    """Median and greatest wall time of a call, and median of the processor's time, ms."""
+    """Return median and maximum of the wall time of a call, and its median CPU time, ms."""
     walls, works = [], []
     for _ in range(REPEATS):
         begin, worked = time.perf_counter(), time.process_time()
@@ -86,7 +86,7 @@ def measure(call: Callable[[], object]) -> tuple[float, float, float]:
 
 
 def main() -> None:
-    """Print what every way to list costs."""
+    """Print the cost of each kind of list."""
     with tempfile.TemporaryDirectory() as folder:
         catalogue = Catalogue(folder)
         fill(Path(folder))

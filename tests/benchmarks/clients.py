@@ -1,7 +1,7 @@
 """`python -m tests.benchmarks.clients [N] [COMMANDS] [SECONDS]`: N watch one session, commands a
 second.
 
-What a command takes from being sent to the first sample on a stream that shows it.
+Measures the time from sending a command to the first sample on a stream that shows its effect.
 """
 
 import asyncio
@@ -21,7 +21,7 @@ OBSERVER = "/api/v1/sessions/lab/observer"
 
 
 def watch_in_parallel(address: str, count: int, seconds: float) -> None:
-    """So many streams of one session, in a process of their own."""
+    """Open several streams of one session in a separate process."""
 
     async def watch_all() -> None:
         await asyncio.gather(*(watch(address, seconds) for _ in range(count)))
@@ -34,8 +34,9 @@ def find_delays(
 ) -> np.ndarray:
     """Seconds from each of `count` commands to the first sample that shows it; NaN where none came.
 
-    sent: of each that was answered, at which tick it acted and when it was sent. came: of each
-    block, its last tick and when it came, which may be before the answer did.
+    sent: for each answered command, the tick from which it acted and the time at which it was sent.
+    came: for each block, its last tick and its arrival time, which may be earlier than that of the
+    answer.
     """
     ticks, times = np.array(came).T
     delays = np.full(count, np.nan)
@@ -47,7 +48,7 @@ def find_delays(
 
 
 async def measure(lab: Lab, rate: float, seconds: float) -> np.ndarray:
-    """As `find_delays`, of commands at this rate for so long."""
+    """`find_delays` for commands at this rate and for this duration."""
     sent: list[tuple[int, float]] = []
     came: list[tuple[int, float]] = []
     count = round(rate * seconds)
@@ -84,7 +85,7 @@ async def measure(lab: Lab, rate: float, seconds: float) -> np.ndarray:
 
 
 def main() -> None:
-    """Print how soon commands showed, and whether the session kept time."""
+    """Print the delays of commands, and whether the session ran in real time."""
     count = int(sys.argv[1]) if len(sys.argv) > 1 else 100
     rate = float(sys.argv[2]) if len(sys.argv) > 2 else 50.0
     seconds = float(sys.argv[3]) if len(sys.argv) > 3 else 20.0

@@ -35,7 +35,7 @@ TIME_BRUSHES = """() => {
 
 
 def drag(page: Page, plane: Locator, number: int) -> None:
-    """Draw the brush again, each time from another corner."""
+    """Draw the selection again, each time from another corner."""
     box = get_box(plane.get_by_role("application"))
     share = 0.2 + 0.4 * number / BRUSHES
     page.mouse.move(box["x"] + share * box["width"], box["y"] + 0.3 * box["height"])
@@ -46,7 +46,7 @@ def drag(page: Page, plane: Locator, number: int) -> None:
 
 
 def main() -> None:
-    """Print when the page stood, and the times of the brushes."""
+    """Print when the page was complete, and the times of the selections."""
     rows = int(sys.argv[1]) if len(sys.argv) > 1 else ROWS
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
         kept = keep_study("dots", build_study(runs=rows // 2), Path(folder) / "studies")

@@ -2,10 +2,10 @@
 
     python -m tests.benchmarks.grading [SUBMISSIONS] [SECONDS]
 
-Every second one is a law (isolated; as many trials as its grade takes), the others have two
-recorded runs of twelve seconds. Graded as `svsa grade` does, side by side, with the start of its
-processes; no more is begun after the time is up. Says what an hour would hold, and how busy the
-machine was.
+Every second submission is a law (isolated; with as many trials as its grade needs). The others have
+two recorded runs of twelve seconds. They are graded in parallel, as in `svsa grade`, including the
+start of its processes. No grading starts after the time is over. Prints the number of submissions
+per hour, and how busy the machine was.
 """
 
 import itertools
@@ -32,7 +32,7 @@ _RECORDED = ("load", "exact-model")
 
 
 def write_submissions(folder: Path, count: int) -> list[Path]:
-    """Submissions of so many students, each in a folder, and the runs that they name."""
+    """Write a submission of each student in a folder, and the runs that they name."""
     catalogue = Catalogue(folder)
     runs = {step: record_step(catalogue, step) for step in _RECORDED}
     law = find_law(find_exercise("own-law"))
@@ -50,7 +50,7 @@ def write_submissions(folder: Path, count: int) -> list[Path]:
 
 
 def grade_until(folder: Path, files: list[Path], longest_s: float) -> tuple[int, int, float]:
-    """Laws and recorded submissions that were graded, and how long that took, s."""
+    """Return the numbers of graded laws and of recorded runs, and the duration, s."""
     exercises = {one.name: one for one in read_course()}
     book, begin = Book(folder / "class"), monotonic()
     waiting = iter(files)

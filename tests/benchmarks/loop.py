@@ -2,8 +2,8 @@
 
     python -m tests.benchmarks.loop [SECONDS] [CLIENTS] [FIGURE] [LAW]
 
-The emulator against the clock, `svsa serve --bench` on it, so many stream clients, one of
-the paper's figures with its load at 5 s. Prints lateness, cost of a tick, skipped ticks,
+Runs the emulator against the clock, `svsa serve --bench` on it, the given number of stream clients,
+and one of the paper's figures with its load at 5 s. Prints lateness, cost of a tick, skipped ticks,
 memory of the loop's process, and whether the run ended in a fault.
 """
 
@@ -37,7 +37,7 @@ def write_bench(folder: Path, port: int, control_port: int) -> Path:
 
 
 def find_loop(server: int) -> int:
-    """The loop's process, a child of the server."""
+    """Return the process of the loop, a child of the server."""
     listed = subprocess.run(
         ["ps", "--ppid", str(server), "-o", "pid=,args="],
         capture_output=True,
@@ -54,7 +54,7 @@ def read_memory_kb(process: int) -> int:
 
 
 def prepare(lab: Lab, figure: str, law: str) -> None:
-    """Arm, home, and set the figure, once the loop has been started."""
+    """Arm, home and set the figure after the start of the loop."""
     while lab.read()["bench"]["loop"]["state"] == "starting":
         time.sleep(0.1)
     chosen = get_figure(figure)
@@ -85,7 +85,7 @@ async def run(lab: Lab, seconds: float, clients: int) -> tuple[int, int]:
 
 
 def main() -> None:
-    """Print the figures."""
+    """Print the results."""
     seconds = float(sys.argv[1]) if len(sys.argv) > 1 else 21.0
     clients = int(sys.argv[2]) if len(sys.argv) > 2 else 20
     figure = sys.argv[3] if len(sys.argv) > 3 else "6a"

@@ -5,16 +5,23 @@ import pytest
 
 import svsa
 from svsa.actuators.installed import get_mechanism, list_mechanism_names
+from svsa.control.installed import list_law_names
 from svsa.errors import ParameterError
-from svsa.evaluation.actuator_scale import build_scenario_run, measure_scale, scale_stiffness
+from svsa.evaluation.actuator_scale import (
+    RATES,
+    build_scenario_run,
+    measure_scale,
+    scale_stiffness,
+)
 from svsa.evaluation.metrics import compute_metrics, find_held, summarize_result
 from svsa.evaluation.ranking.cli import _read_known
-from svsa.evaluation.ranking.entry import build_entry
-from svsa.evaluation.ranking.measure import TrialSet
+from svsa.evaluation.ranking.entry import DECLARED, build_entry
+from svsa.evaluation.ranking.measure import TrialSet, run_scenario
 from svsa.evaluation.ranking.results import load_published, write_results
 from svsa.evaluation.ranking.scenarios import build_fixed_scenarios, build_link_steps
 from svsa.evaluation.ranking.test_set import build_test_set
 from svsa.evaluation.trials import DURATION_S, LOAD_S, build_rest
+from svsa.evaluation.tuning.search_space import build_space
 from svsa.simulation.reference.kinds.reference import AnyReference
 from svsa.simulation.reference.kinds.sine import SinePosition
 
@@ -40,7 +47,7 @@ def compute_start(reference: AnyReference) -> tuple[float, float]:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_every_scenario_suits_the_actuator_with_the_same_shares(name):
+def test_scenarios_scale_to_each_actuator_with_the_same_ratios(name):
     mechanism, scale = get_mechanism(name), measure_scale(name)
     for scenario in list_scenarios():
         one, of_svsa = (build_scenario_run(scenario, "fl", which) for which in (name, "svsa"))
@@ -59,16 +66,16 @@ def test_every_scenario_suits_the_actuator_with_the_same_shares(name):
             turn = 2.0 * np.pi * one.position.frequency_hz
             inertia = mechanism.nominal.link_inertia_kg_m2
             moving = inertia * one.position.amplitude_rad * turn**2
-            assert moving <= 0.503 * scale.largest_nm  # the amplitude has three digits
+            assert moving <= 0.503 * scale.largest_nm  # The amplitude has three digits.
 
 
-def test_a_scenario_of_the_svsa_is_left_as_it_is():
+def test_scenario_of_the_svsa_is_unchanged():
     assert measure_scale("svsa")[1:3] == (1.0, 1.0)
     for scenario in list_scenarios():
         assert build_scenario_run(scenario, "fl") == scenario.build_configuration("fl")
 
 
-def test_the_stiffness_goes_over_the_range_of_the_actuator():
+def test_stiffness_covers_the_range_of_the_actuator():
     limits, of_svsa = get_mechanism("qbmove").limits, get_mechanism("svsa").limits
     for end in ("stiffness_min_nm_per_rad", "stiffness_max_nm_per_rad"):
         scaled = scale_stiffness(get_mechanism("qbmove"), getattr(of_svsa, end))
@@ -76,8 +83,8 @@ def test_the_stiffness_goes_over_the_range_of_the_actuator():
     assert scale_stiffness(get_mechanism("sea"), 15.0) == 60.0
 
 
-def test_trials_of_an_actuator_are_those_of_its_runs_alone():
-    entry = build_entry("ndobc")._replace(actuator="leaf_spring")
+def test_trials_of_an_actuator_equal_single_runs():
+    entry = build_entry("ndobc", "leaf_spring")
     summaries = TrialSet(5, 4, "leaf_spring").run(entry, lambda done: None)
     held = find_held(summaries)
     for number, scenario in enumerate(build_test_set(5, 8)):
@@ -91,10 +98,41 @@ def test_trials_of_an_actuator_are_those_of_its_runs_alone():
     assert held.any()
 
 
-def test_a_file_of_results_is_of_one_actuator(tmp_path):
+def test_results_file_belongs_to_one_actuator(tmp_path):
     published, path = load_published(), tmp_path / "results.json"
     assert published.actuator == "svsa"
     write_results(path, published)
     assert _read_known(path, published.seed, published.trials, "svsa") == published.rows
     with pytest.raises(ParameterError, match="has the actuator svsa"):
         _read_known(path, published.seed, published.trials, "qbmove")
+
+
+def test_rates_of_a_law_are_scaled_by_the_default_gains_of_the_actuator():
+    """Poles and bandwidths of NDOBC; of a law with its own parameters the other numbers stay."""
+    mechanism, of_svsa = get_mechanism("qbmove"), build_entry("ndobc").design
+    found = build_entry("ndobc", "qbmove").design
+    ratio = mechanism.poles_rad_per_s[0] / 60.0
+    assert found.gains.position_coefficients[0] == pytest.approx(
+        ratio**4 * of_svsa.gains.position_coefficients[0]
+    )
+    ratio = mechanism.observer_rad_per_s / 60.0
+    scaled = [ratio * beta for beta in of_svsa.observer.bandwidth_rad_per_s]
+    assert found.observer.bandwidth_rad_per_s == pytest.approx(scaled)
+    declared = build_entry(DECLARED, "qbmove").design
+    assert declared.gains == svsa.Gains.from_poles([-25.0] * 4, [-25.0] * 2)
+    for law in list_law_names():
+        space = build_space(law)
+        values, before = (
+            space.read_values(build_entry(law, name).design) for name in ("qbmove", "svsa")
+        )
+        for axis, value, other in zip(space.axes, values, before, strict=True):
+            is_less = axis.unit in RATES and other > axis.low
+            assert value < other if is_less else value == other, (law, axis.label)
+
+
+def test_the_laws_of_the_paper_hold_with_the_effects_of_a_bench_on_qbmove():
+    """With the gains of the SVSA, NDOBC ended in a fault in each of these scenarios."""
+    entry = build_entry(DECLARED, "qbmove")
+    for fixed in build_fixed_scenarios()[1:3]:
+        for scenario in (fixed.variants[0], fixed.variants[-1]):
+            assert find_held(run_scenario(entry, scenario))[0], scenario.name

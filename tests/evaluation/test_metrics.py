@@ -1,4 +1,4 @@
-"""Metrics of runs and the criterion of a held trial, against samples computed by hand."""
+"""Metrics of runs and the success criterion of a trial, compared with values computed by hand."""
 
 import numpy as np
 import pytest
@@ -10,7 +10,7 @@ from svsa.simulation.loop.tally import SUMMARY
 BEGIN_S, END_S, T = 0.4, 1.6, 1e-3
 
 
-def test_stiffness_effort_and_the_last_second_are_those_of_the_samples():
+def test_stiffness_effort_and_final_metrics_match_the_samples():
     load = svsa.ConstantLoad(torque_nm=(1.0, 0.5, 0.2), start_s=0.6)
     run = svsa.simulate("4a", "ndobc", duration_s=END_S, loads=(load,), effects=svsa.RIG)
     summary = summarize_result(run, BEGIN_S, END_S)
@@ -47,7 +47,7 @@ def test_stiffness_effort_and_the_last_second_are_those_of_the_samples():
         ("position_peak", np.radians(30.1), False),
     ],
 )
-def test_a_trial_is_held_by_position_stiffness_and_peak(name, value, holds):
+def test_trial_succeeds_by_position_stiffness_and_peak(name, value, holds):
     summary = np.zeros(1, dtype=SUMMARY)
     summary[name] = value
     assert find_held(summary)[0] == holds

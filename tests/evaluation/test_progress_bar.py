@@ -8,7 +8,7 @@ from svsa.evaluation import progress_bar
 from svsa.evaluation.progress_bar import show_progress
 
 
-def test_a_pipe_gets_lines_with_count_and_total(monkeypatch):
+def test_pipe_receives_lines_with_count_and_total(monkeypatch):
     monkeypatch.setattr(progress_bar, "LINE_S", 0.0)
     pipe = io.StringIO()
     with show_progress(Console(file=pipe), "Practice", 200) as report:
@@ -20,7 +20,7 @@ def test_a_pipe_gets_lines_with_count_and_total(monkeypatch):
     assert any(line.startswith("Hidden trials: 200 of 200 runs") for line in lines)
 
 
-def test_a_pipe_gets_no_line_before_its_time():
+def test_pipe_receives_no_line_before_the_interval():
     pipe = io.StringIO()
     with show_progress(Console(file=pipe), "Short", 2) as report:
         report(1)

@@ -1,4 +1,4 @@
-"""Intervals, tests and corrections against published examples and against their coverage."""
+"""Intervals, tests and corrections compared with published examples and their coverage."""
 
 import math
 
@@ -13,6 +13,7 @@ from svsa.evaluation.statistics import (
     compute_mcnemar_p,
     compute_quantiles,
     correct_holm,
+    estimate_median,
     estimate_paired_share,
     estimate_share,
     estimate_statistic,
@@ -20,13 +21,13 @@ from svsa.evaluation.statistics import (
 
 
 def measure_coverage(ends, truth):
-    """The share of intervals, two arrays of ends, that contain the truth."""
+    """Return the share of intervals, two arrays of bounds, that contain the true value."""
     low, high = ends
     return np.mean((low <= truth) & (truth <= high))
 
 
-def test_wilsons_interval_is_the_published_one_and_covers_as_often_as_it_claims():
-    """10 of 100: 5.52 to 17.44 % (Brown, Cai, DasGupta 2001). Of none nothing is known."""
+def test_wilson_interval_matches_the_published_example_and_its_coverage():
+    """10 of 100: 5.52 to 17.44 % (Brown, Cai, DasGupta 2001). 0 of 0 has no interval."""
     share = estimate_share(10, 100)
     assert (share.value, share.low, share.high) == pytest.approx((0.1, 0.0552, 0.1744), abs=1e-4)
     assert estimate_share(0, 50).low == 0.0 < estimate_share(0, 50).high < 0.08
@@ -36,7 +37,7 @@ def test_wilsons_interval_is_the_published_one_and_covers_as_often_as_it_claims(
     assert measure_coverage(ends, 0.07) == pytest.approx(0.95, abs=0.025)
 
 
-def test_wilsons_interval_has_the_bits_of_scipy():
+def test_wilson_interval_has_the_bits_of_scipy():
     random = np.random.default_rng(3)
     totals = [*range(1, 40), *(int(10**x) for x in random.uniform(2.0, 7.0, 30))]
     for total in totals:
@@ -56,13 +57,13 @@ def test_wilsons_interval_has_the_bits_of_scipy():
         ((0, 5, 5), (-1.0, -0.131)),
     ],
 )
-def test_tangos_interval_is_the_published_one(counts, ends):
+def test_tango_interval_matches_the_published_example(counts, ends):
     found = estimate_paired_share(*counts)
     assert found.value == (counts[0] - counts[1]) / counts[2]
     assert found[1:] == pytest.approx(ends, abs=6e-4)
 
 
-def test_tangos_interval_excludes_zero_where_mcnemars_statistic_is_significant():
+def test_tango_interval_excludes_zero_if_mcnemar_statistic_is_significant():
     """(b − c)² / (b + c) > 3.841, McNemar (1947)."""
     for b in range(12):
         for c in range(12):
@@ -72,14 +73,14 @@ def test_tangos_interval_excludes_zero_where_mcnemars_statistic_is_significant()
             assert (found.low > 0.0 or found.high < 0.0) == is_significant, (b, c)
 
 
-def test_tangos_interval_covers_rare_discordant_pairs():
+def test_tango_interval_covers_rare_discordant_pairs():
     """Of 60 pairs 6 % and 2 % are discordant; a percentile bootstrap covers 91 % there."""
     drawn = np.random.default_rng(5).multinomial(60, (0.06, 0.02, 0.92), 1000)
     ends = np.array([estimate_paired_share(int(b), int(c), 60)[1:] for b, c, _ in drawn]).T
     assert 0.93 <= measure_coverage(ends, 0.04) <= 0.99
 
 
-def test_a_single_pair_has_no_interval():
+def test_single_pair_has_no_interval():
     assert estimate_paired_share(1, 0, 1)[0] == 1.0
     for found in (
         estimate_paired_share(0, 0, 0),
@@ -91,21 +92,21 @@ def test_a_single_pair_has_no_interval():
         assert math.isnan(found.high)
 
 
-def test_mcnemars_exact_test_is_the_binomial_one():
+def test_mcnemar_exact_test_is_the_binomial_test():
     """1 and 7 discordant pairs: 2 · (1 + 8) / 2⁸."""
     assert compute_mcnemar_p(1, 7) == pytest.approx(18 / 256, rel=1e-12)
     assert compute_mcnemar_p(7, 1) == compute_mcnemar_p(1, 7)
     assert compute_mcnemar_p(0, 0) == 1.0
 
 
-def test_holms_correction_steps_down():
-    """Four values, smallest first times 4, 3, 2, 1, never falling; NaN does not count."""
+def test_holm_correction_steps_down():
+    """Four values, ascending, times 4, 3, 2, 1, made monotone; NaN does not count."""
     assert correct_holm([0.01, 0.04, 0.03, 0.005]) == pytest.approx([0.03, 0.06, 0.06, 0.02])
     assert correct_holm([0.5, math.nan, 0.9]) == pytest.approx([1.0, math.nan, 1.0], nan_ok=True)
     assert correct_holm([]) == []
 
 
-def test_the_bca_interval_is_scipys_and_ignores_what_is_no_number():
+def test_bca_interval_matches_scipy_and_ignores_nan():
     values = np.random.default_rng(4).lognormal(size=80)
     ends = bootstrap(
         (values,),
@@ -120,13 +121,13 @@ def test_the_bca_interval_is_scipys_and_ignores_what_is_no_number():
     assert math.isnan(estimate_statistic(np.array([np.nan])).value)
 
 
-def test_values_that_are_all_the_same_have_no_interval():
+def test_equal_values_have_no_interval():
     found = estimate_statistic(np.full(50, 2.5))
     assert found == pytest.approx(Interval(2.5, math.nan, math.nan), nan_ok=True)
 
 
-def test_the_bca_interval_covers_a_skewed_mean_better_than_percentiles():
-    """Sixty log-normal values, mean exp(1/2), under which each interval covers less than 95 %."""
+def test_bca_interval_covers_a_skewed_mean_better_than_percentiles():
+    """Sixty log-normal values, mean exp(1/2), for which each interval covers less than 95 %."""
     samples = np.random.default_rng(6).lognormal(size=(600, 60))
     truth = math.exp(0.5)
     coverage = {}
@@ -149,7 +150,18 @@ def test_means_of_blocks_have_the_interval_of_their_values():
     assert found.high - found.value > found.value - found.low
 
 
-def test_a_quantile_is_a_value_of_the_sample_and_a_fault_where_so_many_faulted():
+def test_quantile_is_a_sample_value_or_a_fault():
     values = np.array([3.0, 1.0, 2.0, np.inf])
     assert compute_quantiles(values, (0.05, 0.5, 0.75, 0.95)) == [1.0, 2.0, 3.0, math.inf]
     assert math.isnan(compute_quantiles(np.empty(0), (0.5,))[0])
+
+
+def test_interval_of_a_median_covers_it_and_knows_faults():
+    """Coverage of the binomial interval at n = 24, and order statistics with infinite values."""
+    random = np.random.default_rng(1)
+    found = [estimate_median(random.lognormal(size=24)) for _ in range(2000)]
+    covered = np.mean([one.low <= 1.0 <= one.high for one in found])
+    assert 0.945 < covered < 0.985
+    values = np.array([*range(1, 15), *[np.inf] * 10], dtype=float)
+    assert estimate_median(values) == (12.0, 7.0, np.inf)
+    assert np.isnan(estimate_median(values[:5]).low)

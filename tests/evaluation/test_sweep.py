@@ -25,14 +25,14 @@ def test_each_row_has_the_metrics_of_its_own_run():
         assert row[name] == value if value is not None else pandas.isna(row[name]), name
 
 
-def test_the_number_of_threads_changes_no_bit_and_the_progress_reaches_the_end():
+def test_thread_count_changes_no_bit_and_progress_is_complete():
     shares = []
     one = svsa.sweep("4a", VARY, threads=1, progress=shares.append, **SETTINGS)
     pandas.testing.assert_frame_equal(svsa.sweep("4a", VARY, threads=4, **SETTINGS), one)
     assert shares == [number / 8 for number in range(1, 9)]
 
 
-def test_a_run_that_ends_early_has_its_fault_and_no_metrics_after_it():
+def test_run_that_ends_early_has_its_fault_and_no_later_metrics():
     vary = {"law": ["ndobc", lambda *_: (10.0, 0.0)]}
     frame = svsa.sweep("4a", vary, duration_s=1.0, measure_from_s=0.5)
     assert pandas.isna(frame["fault"][0])
@@ -40,7 +40,7 @@ def test_a_run_that_ends_early_has_its_fault_and_no_metrics_after_it():
     assert frame["rms_position_error_rad"].isna().tolist() == [False, True]
 
 
-def test_laws_in_plain_python_run_one_after_the_other():
+def test_laws_in_plain_python_run_sequentially():
     seen = set()
 
     def law(time_s, reference, x, w):
@@ -60,6 +60,6 @@ def test_laws_in_plain_python_run_one_after_the_other():
         ({"seed": [-1]}, "vary.seed is -1: it must be at least 0"),
     ],
 )
-def test_a_wrong_setting_is_named_before_anything_is_simulated(vary, reported):
+def test_invalid_setting_is_named_before_the_simulation(vary, reported):
     with pytest.raises(svsa.ParameterError, match=reported):
         svsa.sweep("4a", vary, duration_s=0.01, progress=pytest.fail)

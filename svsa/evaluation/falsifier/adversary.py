@@ -21,11 +21,22 @@ Cost = Literal["fault", "peak", "recovery"]
 
 
 class Adversary(Checked):
-    """Bounds on loads and perturbations that may degrade a law. Raises `ParameterError`.
+    """Bounds on loads and perturbations that may degrade a law.
 
-    terms: loads that come together. vary: settings that are perturbed, as of a study, but no grids;
-    what a run begins from is their nominal value. cost: a fault; or the greatest position error, or
-    the longest recovery, than each of which a fault is worse.
+    Attributes:
+        title: Title of the adversary.
+        law: Law under test.
+        cost: Failure criterion: a fault, the largest position error, or the longest recovery; a
+            fault counts as worse than each of these.
+        base: Base experiment, as in a study.
+        duration_s: Duration of a run, s.
+        measure_from_s: Time at which measuring begins, s.
+        terms: Loads that are combined.
+        vary: Perturbed settings, as in a study, but without grids; the values of the base are
+            nominal.
+
+    Raises:
+        ParameterError: If a field is invalid.
     """
 
     title: str = quantity("", "What the adversary may do", max_length=200)
@@ -67,11 +78,23 @@ class Adversary(Checked):
         return sum(len(term.axes) for term in self.terms) + len(self.vary)
 
     def build_base(self) -> Configuration:
-        """Build the run without loads and perturbations of the adversary."""
+        """Build the run without the adversary's loads and perturbations.
+
+        Returns:
+            The configuration of the base experiment under the law.
+        """
         return build_base(self.base, self.law)
 
     def build_attack(self, base: Configuration, shares: Sequence[float]) -> Attack:
-        """Build the attack at these shares of the ranges, 0 to 1. base: see `build_base`."""
+        """Build the attack at a point of the search space.
+
+        Args:
+            base: Result of `build_base`.
+            shares: Position within each range, 0 to 1, shape (`size`,).
+
+        Returns:
+            The loads and settings of the attack.
+        """
         loads, at = [], 0
         for term in self.terms:
             axes = term.axes
@@ -86,7 +109,14 @@ class Adversary(Checked):
         return Attack(tuple(loads), settings)
 
     def admits(self, attack: Attack) -> bool:
-        """Whether every load of an attack is within the bounds of a term."""
+        """Report whether an attack is within the bounds.
+
+        Args:
+            attack: Loads and settings.
+
+        Returns:
+            Whether every load is within the bounds of a term.
+        """
         return all(any(admits(term, load) for term in self.terms) for load in attack.loads)
 
 

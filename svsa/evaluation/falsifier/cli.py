@@ -165,9 +165,9 @@ def _compare_laws(
     described: dict[str, object] | None,
     picture: Path | None,
 ) -> None:
-    """Run laws through a scenario and print the results; draw them if there is a picture.
+    """Run laws in a scenario and print the results; draw them if there is a picture.
 
-    described: what the JSON holds next to the laws; None prints a table instead.
+    `described` is added to the JSON output; None prints a table instead.
     """
     from svsa.evaluation.falsifier.measure import run_scenario
     from svsa.evaluation.studies.tables import write_json

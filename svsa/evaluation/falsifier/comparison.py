@@ -19,7 +19,9 @@ class SeedResult(NamedTuple):
 
 
 class MethodComparison(NamedTuple):
-    """The results of all seeds, each of at most `runs` runs. message: which method was first."""
+    """The results of all seeds, each of at most `runs` runs; `message` reports which method was
+    first.
+    """
 
     adversary: str
     law: str
@@ -34,7 +36,11 @@ def compare_methods(
     seeds: Iterable[int],
     progress: Callable[[int, float], None] = lambda done, worst: None,
 ) -> MethodComparison:
-    """Search with every seed by both methods; raises `FalsifierError` as `falsify`."""
+    """Search with every seed by both methods.
+
+    Raises:
+        FalsifierError: As `falsify`.
+    """
     results, done = list[SeedResult](), 0
     for seed in seeds:
         found: list[tuple[int | None, float]] = []

@@ -28,11 +28,20 @@ class FalsifierError(SvsaError):
 class Falsified:
     """The result of a search.
 
-    severities: of each run how much it hurt, infinite for a fault, see `measure.judge`; with them
-    an interrupted search continues. run: number of the worst, from 1 on; the first fault.
-    nothing: how much the law is hurt without any load of the adversary. attack: the worst as it was
-    found; shrunk: made simple, None where the search was
-    interrupted or that was not requested; neighborhood: of the simple one, None as that.
+    Attributes:
+        adversary: The adversary.
+        method: Search method.
+        seed: Seed of the search.
+        runs: Maximum number of runs.
+        severities: Severity of each run, infinite for a fault, see `measure.judge`; with them an
+            interrupted search continues.
+        nothing: Severity without any load of the adversary.
+        run: Number of the worst run, from 1; the first fault.
+        attack: The worst attack as found.
+        outcome: Its outcome.
+        shrunk: The simplified attack; None if the search was interrupted or not to be simplified.
+        neighborhood: Neighborhood of the simplified attack, or None.
+        is_complete: Whether the search was completed.
     """
 
     adversary: Adversary
@@ -85,8 +94,10 @@ def _describe(
     search: tuple[Method, int, int, int],
     neighborhood: Neighborhood | None = None,
 ) -> LoadScenario:
-    """outcomes: of the law as it was found, and as it is. search: method, seed, number of
-    the run that showed it, runs.
+    """Describe the result of a search.
+
+    `outcomes` are those of the attack as found and as simplified; `search` contains method, seed,
+    number of the run that found it, and runs.
     """
     method, seed, run, runs = search
     return LoadScenario(
@@ -117,9 +128,9 @@ class _EndedError(Exception):
 
 
 class _Search:
-    """The runs of a search, counted against its limit; known ones are not repeated.
+    """The runs of a search, counted up to its limit; known ones are not repeated.
 
-    on_worse: called with each run that hurts more than all before it: its number, and what it did.
+    `on_worse` is called with number and attack of each run that is worse than all previous ones.
     """
 
     def __init__(
@@ -136,7 +147,11 @@ class _Search:
         self._on_worse = on_worse
 
     def judge(self, shares: np.ndarray) -> np.ndarray:
-        """Compute the severity of each attack of a generation; raises `_EndedError` at the end."""
+        """Compute the severity of each attack of a generation.
+
+        Raises:
+            _EndedError: At the end of the search.
+        """
         done = len(self.severities)
         if done >= self._runs:
             raise _EndedError
@@ -173,27 +188,29 @@ def falsify(
 ) -> Falsified:
     """Search for the attack with the largest cost, and simplify it with the same effect.
 
-    The search ends at the first fault, than which nothing is worse. The same arguments give the
-    same result. At Ctrl-C the worst so far is returned as it is.
+    The search ends at the first fault, which is the worst result. The same arguments give the same
+    result. At Ctrl-C the worst attack so far is returned without simplification.
 
     Args:
         adversary: Law, cost and ranges.
-        runs: Of the search at most, without those of shrinking and of the neighborhood.
-        seed: Of the search.
+        runs: Maximum number of runs of the search, without those of simplification and
+            neighborhood.
+        seed: Seed of the search.
         method: "cma", or "random" for a comparison.
-        known: `Falsified.severities` of the same search that was interrupted.
-        on_generation: Called after each generation with the runs so far and the greatest severity.
-        on_worse: Called with each attack that is worse than all before it, as a scenario.
+        known: `Falsified.severities` of the same search, if it was interrupted.
+        on_generation: Called after each generation with the number of runs and the largest
+            severity.
+        on_worse: Called with each attack that is worse than all previous ones, as a scenario.
         is_cancelled: Called before each generation; True ends the search as Ctrl-C does.
-        is_shrunk: Whether the attack is made simple and its neighborhood is run.
+        is_shrunk: Whether the attack is simplified and its neighborhood is run.
 
     Returns:
         The worst attack of the search.
 
     Raises:
-        ParameterError: For numbers out of range.
+        ParameterError: If a number is out of range.
         FalsifierError: If the law ends in a fault without a load of the adversary.
-        KeyboardInterrupt: Before the first generation.
+        KeyboardInterrupt: At Ctrl-C before the first generation.
     """
     check_number("runs", runs, "", 1, MAX_RUNS)
     check_number("seed", seed, "", 0, 2**63 - 1)

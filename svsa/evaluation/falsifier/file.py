@@ -1,4 +1,4 @@
-"""Files of the falsifier: adversaries, scenarios, and searches that were interrupted.
+"""Files of the falsifier: adversaries, scenarios, and interrupted searches.
 
 Scenarios are stored by name in the folder of the runs, so that any law can be run in them.
 """
@@ -15,13 +15,15 @@ from svsa.evaluation.falsifier.adversary import Adversary
 from svsa.evaluation.falsifier.scenario import LoadScenario
 from svsa.evaluation.search import Method
 from svsa.evaluation.studies.store import check_name
+from svsa.inputs.data_folder import find_data_folder
 from svsa.inputs.extras import __version__
 from svsa.inputs.toml_file import build_checked, parse_toml, read_checked, read_toml
-from svsa.runs.records.catalogue.runs import find_data_folder
 from svsa.runs.records.header import replace_file
 
 ADVERSARY_FILE, SCENARIO_FILE = "adversary file", "scenario file"
 ADVERSARY_FOLDER = Path(__file__).parent / "builtin"
+EXAMPLES = Path(__file__).parent / "examples"
+"""A scenario that a search found, in the package: `make examples` searches it."""
 _SUFFIX = ".toml"
 SEARCH_SUFFIX = ".search"
 
@@ -37,7 +39,15 @@ def list_adversaries() -> dict[str, str]:
 def read_adversary(source: str | Path, **changes: Any) -> Adversary:
     """Read an adversary from a .toml file, or a built-in one by its name.
 
-    changes: fields in place of the file's. Raises `ParameterError` with file and lines.
+    Args:
+        source: Path of a .toml file, or name of a built-in adversary.
+        **changes: Fields that replace those of the file.
+
+    Returns:
+        The adversary.
+
+    Raises:
+        ParameterError: If the file is missing or invalid, with file and lines.
     """
     path = Path(source)
     if path.suffix != ".toml":
@@ -49,17 +59,32 @@ def read_adversary(source: str | Path, **changes: Any) -> Adversary:
 
 
 def parse_adversary(text: str, **changes: Any) -> Adversary:
-    """Parse an adversary in TOML; changes: fields to replace."""
+    """Parse an adversary in TOML; `changes` replace fields."""
     return build_checked(Adversary, parse_toml(text, ADVERSARY_FILE, ""), text, "", changes)
 
 
 def read_scenario(path: str | Path) -> LoadScenario:
-    """Read a saved scenario; raises `ParameterError` with file and lines."""
+    """Read a saved scenario.
+
+    Args:
+        path: Path of the .toml file.
+
+    Returns:
+        The scenario.
+
+    Raises:
+        ParameterError: If the file is missing or invalid, with file and lines.
+    """
     return read_checked(LoadScenario, Path(path), SCENARIO_FILE)
 
 
 def write_scenario(path: str | Path, scenario: LoadScenario) -> None:
-    """Save a scenario for `read_scenario`."""
+    """Save a scenario for `read_scenario`.
+
+    Args:
+        path: Path of the .toml file.
+        scenario: The scenario.
+    """
     Path(path).write_text(format_scenario(scenario), encoding="utf-8")
 
 
@@ -73,10 +98,13 @@ def find_scenarios_folder() -> Path:
     return find_data_folder() / "scenarios"
 
 
-def list_scenarios() -> dict[str, LoadScenario]:
-    """List the saved scenarios that are readable, by name."""
+def list_scenarios(folder: Path | None = None) -> dict[str, LoadScenario]:
+    """List the readable scenarios of a folder, by name.
+
+    folder: None for that of the saved scenarios; `EXAMPLES` for the scenario in the package.
+    """
     found = {}
-    for path in sorted(find_scenarios_folder().glob(f"*{_SUFFIX}")):
+    for path in sorted((folder or find_scenarios_folder()).glob(f"*{_SUFFIX}")):
         try:
             found[path.stem] = read_scenario(path)
         except ParameterError:
@@ -87,7 +115,8 @@ def list_scenarios() -> dict[str, LoadScenario]:
 def keep_scenario(name: str, scenario: LoadScenario) -> Path:
     """Save a scenario under a name; return its file.
 
-    Raises `ParameterError` for a name that is none, and where another scenario has it.
+    Raises:
+        ParameterError: If the name is invalid, or another scenario has it.
     """
     path = _locate(name)
     content = format_scenario(scenario).encode()
@@ -99,14 +128,19 @@ def keep_scenario(name: str, scenario: LoadScenario) -> Path:
 
 
 def is_kept(name: str) -> bool:
-    """Whether a scenario is saved under this name; raises `ParameterError` for an invalid name."""
-    return _locate(name).exists()
+    """Return whether a scenario is saved under this name.
+
+    Raises:
+        ParameterError: If the name is invalid.
+    """
+    return _find(name).exists()
 
 
 def open_scenario(source: str) -> LoadScenario:
     """Read a scenario from a .toml file, or a saved one by its name.
 
-    Raises `ParameterError` where there is none, and with file and lines for what is wrong in it.
+    Raises:
+        ParameterError: If there is none, or its content is invalid, with file and lines.
     """
     if source.endswith(_SUFFIX):
         return read_scenario(source)
@@ -114,7 +148,12 @@ def open_scenario(source: str) -> LoadScenario:
         known = ", ".join(list_scenarios()) or "there is none"
         bound = f"a file that ends in {_SUFFIX}, or kept by its name: {known}"
         raise ParameterError(Violation("scenario", source, "", bound))
-    return read_scenario(_locate(source))
+    return read_scenario(_find(source))
+
+
+def is_example(name: str) -> bool:
+    """Whether a name is that of the scenario in the package, and no saved one has it."""
+    return _find(name).parent == EXAMPLES
 
 
 def forget_scenario(name: str) -> bool:
@@ -128,6 +167,12 @@ def forget_scenario(name: str) -> bool:
 def _locate(name: str) -> Path:
     check_name(name)
     return find_scenarios_folder() / f"{name}{_SUFFIX}"
+
+
+def _find(name: str) -> Path:
+    """Find the file of a saved scenario, or that of the example of this name."""
+    path, example = _locate(name), EXAMPLES / f"{name}{_SUFFIX}"
+    return example if example.exists() and not path.exists() else path
 
 
 def keep_search(

@@ -14,12 +14,12 @@ from svsa.simulation.plant.loads.pulse import PulseLoad
 from svsa.simulation.plant.loads.sine import SineLoad
 
 DIGITS = 6
-"""To which a searched number is settled, so that a file holds it whole."""
+"""Number of digits to which a searched number is rounded, so that a file contains it exactly."""
 Body = Literal["link", "motor1", "motor2"]
 BODIES: tuple[Body, ...] = get_args(Body)
 PHASE = "phase_rad"
 Ends = tuple[Number, Number]
-"""Least and greatest."""
+"""Smallest and greatest value."""
 
 
 class Axis(NamedTuple):

@@ -16,15 +16,20 @@ from svsa.evaluation.studies.work import measure_runs
 from svsa.runs.configuration import Configuration
 
 METRIC: dict[Cost, str] = {"peak": "peak_position_error_rad", "recovery": RECOVERY}
-"""What each cost is measured by as long as no run ends in a fault; for a fault see `_strain`."""
+"""Metric of each cost while no run ends in a fault; for a fault see `_compute_stress`."""
 KEPT_SHARE = 0.95
-"""Of what was found, where it is no fault."""
+"""Share of the cost that a simplified attack without a fault must keep."""
 REFUSAL = -np.inf
-"""How much settings hurt that do not go together."""
+"""Severity of inconsistent settings."""
 
 
 class Measured(NamedTuple):
-    """Outcomes of runs. severity: see `judge`. outcome: see `measure_runs`."""
+    """Outcomes of runs.
+
+    Attributes:
+        severity: See `judge`.
+        outcome: See `measure_runs`.
+    """
 
     severity: np.ndarray
     outcome: dict[str, Any]
@@ -40,12 +45,13 @@ def measure_attacks(
 
 
 def judge(outcome: dict[str, Any], cost: Cost, duration_s: float, limits: Limits) -> np.ndarray:
-    """Compute the severity of each run: infinite for a fault, else the metric of the cost.
+    """Compute the severity of each run: infinite for a fault, otherwise the metric of the cost.
 
-    A run that does not recover hurts more than any that does, by its error at the end.
+    A run without recovery is worse than any with recovery; such runs are ordered by their final
+    error.
     """
     if cost == "fault":
-        severity = _strain(outcome, limits)
+        severity = _compute_stress(outcome, limits)
     else:
         severity = np.array(outcome[METRIC[cost]], dtype=float)
     if cost == "recovery":
@@ -57,8 +63,8 @@ def judge(outcome: dict[str, Any], cost: Cost, duration_s: float, limits: Limits
     return severity
 
 
-def hurts_as_much(measured: Measured, found: Measured) -> np.ndarray:
-    """Whether each run is as severe as the one found: a fault, or 95 % of its cost.
+def is_as_severe(measured: Measured, found: Measured) -> np.ndarray:
+    """Return whether each run is as severe as the given one: a fault, or 95 % of its cost.
 
     Returns:
         Shape (n,), bool.
@@ -66,12 +72,12 @@ def hurts_as_much(measured: Measured, found: Measured) -> np.ndarray:
     return measured.severity >= KEPT_SHARE * found.severity[0]
 
 
-def _strain(outcome: dict[str, Any], limits: Limits) -> np.ndarray:
+def _compute_stress(outcome: dict[str, Any], limits: Limits) -> np.ndarray:
     """Compute how close a run is to a fault: peak torques over their limits, and ‰ of time at them.
 
-    A law that loses its actuator fights for it first. Errors tell less: of impulses on NDOBC with
-    the rig's effects those that end in a fault, made 3 % smaller, stand behind a quarter of all
-    impulses by their position error, and before all others by this.
+    Before a fault the torques reach their limits, while errors are less informative. Example: the
+    impulses on NDOBC with the rig's effects that end in a fault, reduced by 3 %, rank behind a
+    quarter of all impulses by position error, but before all others by this measure.
     """
     peaks = (
         outcome["peak_torque1_nm"] / limits.torque1_nm,
@@ -93,7 +99,14 @@ def list_baselines(law: str) -> tuple[str, str]:
 
 
 class LawOutcome(NamedTuple):
-    """The outcome of a law in a scenario. fault_s: time of the fault; None without a fault."""
+    """The outcome of a law in a scenario.
+
+    Attributes:
+        law: Name of the law.
+        fault: Code of the fault, or None.
+        fault_s: Time of the fault, s, or None.
+        metrics: Metrics by name.
+    """
 
     law: str
     fault: str | None
@@ -102,7 +115,18 @@ class LawOutcome(NamedTuple):
 
 
 def run_scenario(scenario: LoadScenario, laws: Sequence[str]) -> list[LawOutcome]:
-    """Run laws in a scenario; raises `ParameterError` for one that is not installed."""
+    """Run laws in a scenario.
+
+    Args:
+        scenario: Loads and settings.
+        laws: Names of installed laws.
+
+    Returns:
+        For each law its fault, if any, with its time (s), and the metrics.
+
+    Raises:
+        ParameterError: If a law is not installed.
+    """
     runs = [scenario.build_configuration(check_installed(law)) for law in laws]
     found = measure_runs(runs, scenario.duration_s, scenario.measure_from_s, Success())
     rows = zip(laws, runs, found["fault"], found["fault_tick"], strict=True)

@@ -6,7 +6,7 @@ import numpy as np
 
 from svsa.evaluation.falsifier.adversary import Adversary
 from svsa.evaluation.falsifier.load_terms import Axis, admits
-from svsa.evaluation.falsifier.measure import REFUSAL, Measured, hurts_as_much, measure_attacks
+from svsa.evaluation.falsifier.measure import REFUSAL, Measured, is_as_severe, measure_attacks
 from svsa.evaluation.falsifier.scenario import Attack
 from svsa.evaluation.falsifier.shrink import Place, list_places, replace_number
 from svsa.evaluation.studies.setting import read_setting
@@ -15,11 +15,16 @@ from svsa.runs.configuration import Configuration
 
 RUNS = 256
 WIDTH = 0.05
-"""Share of its range by which each number differs at most, either way."""
+"""Maximum deviation of each number in either direction, as a share of its range."""
 
 
 class Neighborhood(NamedTuple):
-    """Random loads around a counterexample. hurt: how many degraded the law as much."""
+    """Random loads around a counterexample.
+
+    Attributes:
+        runs: Number of runs.
+        hurt: Number of runs with at least the same effect.
+    """
 
     runs: int
     hurt: int
@@ -30,19 +35,19 @@ def measure_neighborhood(
 ) -> Neighborhood:
     """Run random neighbors of an attack, within the adversary's bounds.
 
-    Each number of the attack is uniform within ±5 % of its range, in equal ratios where it is
-    searched by them. What the attack does without stays without.
+    Each number of the attack is uniformly distributed within ±5 % of its range, logarithmically if
+    it is searched so. Loads and settings that the attack does not use stay unused.
 
     Args:
-        adversary: Whose ranges count.
+        adversary: Bounds of the numbers.
         base: The run without the attack.
         attack: The counterexample.
-        found: What it did, one row.
-        seed: Of the random numbers.
+        found: Its outcome, one row.
+        seed: Seed of the random numbers.
 
     Returns:
-        How many were run, without those whose settings do not go together, and how many of them
-        end in a fault; of an attack without a fault, in at least 95 % of its cost.
+        Number of runs, without those with inconsistent settings, and number of those that end in a
+        fault; for an attack without a fault, of those with at least 95 % of its cost.
     """
     random = np.random.Generator(np.random.Philox(seed))
     places = [
@@ -59,7 +64,7 @@ def measure_neighborhood(
         neighbors.append(neighbor)
     measured = measure_attacks(adversary, base, neighbors, adversary.duration_s)
     runs = int(np.sum(measured.severity != REFUSAL))
-    return Neighborhood(runs, int(np.sum(hurts_as_much(measured, found))))
+    return Neighborhood(runs, int(np.sum(is_as_severe(measured, found))))
 
 
 def _find_axis(

@@ -14,7 +14,7 @@ from svsa.runs.result.law_style import style_law
 
 BODIES = (("link", "#1b2733", "-"), ("motor 1", "#c0892b", "--"), ("motor 2", "#7a4fa3", ":"))
 BEFORE_S = 1.0
-"""How much is shown before the first load."""
+"""Time shown before the first load, s."""
 
 
 def save_picture(scenario: LoadScenario, laws: Sequence[str], path: Path) -> None:

@@ -24,7 +24,11 @@ class Attack(NamedTuple):
     settings: Mapping[str, Any]
 
     def apply(self, base: Configuration) -> Configuration:
-        """Apply the attack to a run; raises `ParameterError` if the result is inconsistent."""
+        """Apply the attack to a run.
+
+        Raises:
+            ParameterError: If the result is inconsistent.
+        """
         changed = change_settings(base, self.settings) if self.settings else base
         return changed.model_copy(update={"loads": (*changed.loads, *self.loads)})
 
@@ -64,10 +68,19 @@ class Finding(Checked):
 
 
 class LoadScenario(Checked):
-    """Loads and settings of a run, with a name. Raises `ParameterError`.
+    """Loads and settings of a run, with a name.
 
-    base: the configuration that it begins from, as of a study: `figure`, and settings in its place.
-    settings: by their paths, as actuator.link_inertia_kg_m2. loads: besides those of the base.
+    Attributes:
+        title: Title of the scenario.
+        base: Base experiment, as in a study: `figure`, and changed settings.
+        duration_s: Duration of the run, s.
+        measure_from_s: Time at which measuring begins, s.
+        settings: Values by path, such as actuator.link_inertia_kg_m2.
+        loads: Loads in addition to those of the base.
+        found: Origin of the scenario.
+
+    Raises:
+        ParameterError: If a field is invalid.
     """
 
     title: str = quantity("", "Title of the scenario", max_length=200)
@@ -92,7 +105,17 @@ class LoadScenario(Checked):
         return Attack(self.loads, self.settings)
 
     def build_configuration(self, law: str) -> Configuration:
-        """Build the run under a law; raises `ParameterError`."""
+        """Build the run of this scenario under a law.
+
+        Args:
+            law: Name of an installed law.
+
+        Returns:
+            The configuration.
+
+        Raises:
+            ParameterError: If the scenario does not fit the base experiment.
+        """
         base = build_base(self.base, law)
         check_load_count(len(base.loads) + len(self.loads))
         for path, value in self.settings.items():

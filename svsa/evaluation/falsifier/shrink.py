@@ -1,7 +1,7 @@
 """Simplification of an attack with the same effect, each step verified by a run.
 
-In the manner of delta debugging (Zeller and Hildebrandt, "Simplifying and isolating failure-
-inducing input", 2002): what can be left out is, then every number is made smaller and rounder.
+Similar to delta debugging (Zeller and Hildebrandt, "Simplifying and isolating failure-inducing
+input", 2002): first unnecessary parts are removed, then every number is made smaller and rounder.
 """
 
 from collections.abc import Iterator, Sequence
@@ -17,7 +17,7 @@ from svsa.evaluation.falsifier.description import (
     describe_outcome,
     format_run_number,
 )
-from svsa.evaluation.falsifier.measure import Measured, hurts_as_much, measure_attacks
+from svsa.evaluation.falsifier.measure import Measured, is_as_severe, measure_attacks
 from svsa.evaluation.falsifier.scenario import Attack
 from svsa.evaluation.studies.setting import read_setting
 from svsa.runs.configuration import Configuration
@@ -79,7 +79,7 @@ def list_places(attack: Attack) -> Iterator[tuple[Place, float]]:
 def list_smaller(attack: Attack, place: Place, base: Configuration) -> list[Step]:
     """List smaller values of a size, duration or setting, smallest first; not of a phase.
 
-    A size goes to zero, a setting to what it is without the attack. base: the run without it.
+    A size is reduced to zero, a setting to its value in `base`, the run without the attack.
     """
     value = dict(list_places(attack))[place]
     if place.name == "phase_rad":
@@ -138,7 +138,15 @@ def _count_bodies(load: Load) -> int:
 
 
 class Shrunk(NamedTuple):
-    """The simplest attack. runs: number of runs needed. steps: descriptions of the steps."""
+    """The simplest attack.
+
+    Attributes:
+        attack: The attack.
+        duration_s: Duration of the run, s.
+        outcome: Its outcome.
+        runs: Number of runs of the simplification.
+        steps: Descriptions of the steps.
+    """
 
     attack: Attack
     duration_s: float
@@ -150,7 +158,7 @@ class Shrunk(NamedTuple):
 def shrink(adversary: Adversary, base: Configuration, attack: Attack, found: Measured) -> Shrunk:
     """Simplify an attack that was measured as `found`, within the adversary's bounds.
 
-    What it must keep: the same fault, or 95 % of what it was searched by.
+    The simplified attack has the same fault, or at least 95 % of the cost.
     """
     one = _Shrinking(adversary, base, attack, found)
     one.remove()
@@ -219,4 +227,4 @@ class _Shrinking:
         fault = self._found.outcome["fault"][0]
         if fault is not None:
             return np.array([one == fault for one in measured.outcome["fault"]])
-        return hurts_as_much(measured, self._found)
+        return is_as_severe(measured, self._found)

@@ -14,8 +14,13 @@ from svsa.simulation.plant.load_table import build_load_table, compute_load
 
 
 class LawTrace(NamedTuple):
-    """A law under the loads. errors: (ticks, 2) of position, rad, and stiffness, N·m/rad; of a run
-    that ended in a fault until then. fault: its code, None without one.
+    """Errors of a law under the loads.
+
+    Attributes:
+        law: Name of the law.
+        errors: Position error, rad, and stiffness error, N·m/rad, shape (ticks, 2); until the fault
+            if there is one.
+        fault: Code of the fault, or None.
     """
 
     law: str
@@ -24,7 +29,13 @@ class LawTrace(NamedTuple):
 
 
 class ScenarioTrace(NamedTuple):
-    """time_s: (ticks,). torque_nm: (ticks, 3) of the loads on link, motor 1 and motor 2."""
+    """Loads of a scenario and errors of the laws.
+
+    Attributes:
+        time_s: Shape (ticks,).
+        torque_nm: Torques of the loads on link, motor 1 and motor 2, shape (ticks, 3).
+        laws: Traces of the laws.
+    """
 
     time_s: np.ndarray
     torque_nm: np.ndarray
@@ -32,7 +43,11 @@ class ScenarioTrace(NamedTuple):
 
 
 def trace_scenario(scenario: LoadScenario, laws: Sequence[str]) -> ScenarioTrace:
-    """Run laws, at least one, in a scenario; raises `ParameterError` for one not installed."""
+    """Run laws, at least one, in a scenario.
+
+    Raises:
+        ParameterError: If a law is not installed.
+    """
     runs = [scenario.build_configuration(check_installed(law)) for law in laws]
     times, torque = sample_torque(runs[0], scenario.duration_s)
     traces = (_trace(law, run, scenario.duration_s) for law, run in zip(laws, runs, strict=True))
@@ -46,9 +61,10 @@ def _trace(law: str, configuration: Configuration, duration_s: float) -> LawTrac
 
 
 def sample_torque(configuration: Configuration, duration_s: float) -> tuple[np.ndarray, np.ndarray]:
-    """Times, s, and of each the loads' torques on link, motor 1 and motor 2, N·m: (n,), (n, 3).
+    """Sample the loads' torques on link, motor 1 and motor 2: times (n,), s, and torques (n, 3),
+    N·m.
 
-    The weight of a mass is none of them: it depends on where the link is.
+    The weight of a mass is not included, because it depends on the position of the link.
     """
     period = configuration.sampling.period_s
     table = build_load_table(follow_loads(configuration.loads, (), period))

@@ -16,7 +16,7 @@ from svsa.evaluation.ranking.measure_bench import measure_on_bench
 from svsa.runs.paper import BENCH_FIGURES
 
 MIN_WIDTH = 132
-"""Columns of characters in which the table's numbers stand whole."""
+"""Width of the terminal, in characters, that shows the table's numbers without wrapping."""
 
 
 def bench(

@@ -1,6 +1,6 @@
-"""The paper's bench figures under any law, on the emulator, as a file and next to a comparison.
+"""The paper's bench figures under any law on the emulator, as a file and next to a comparison.
 
-Through CAN, in lockstep: twelve numbers a law, which are the same every time.
+The runs use CAN in lockstep: twelve reproducible numbers per law.
 """
 
 from collections.abc import Sequence
@@ -17,7 +17,7 @@ from svsa.runs.paper import BENCH_FIGURES
 
 PUBLISHED = Path(__file__).parent / "bench_results.json"
 NUMBERS = tuple(RecoveryErrors.model_fields)
-"""Of each figure: error before, peak, steady, and recovery."""
+"""For each figure: error before, peak, steady-state error, and recovery time."""
 
 
 class BenchRun(Checked):
@@ -46,7 +46,11 @@ class BenchRuns(Checked):
         return tuple(dict.fromkeys(run.law for run in self.runs))
 
     def list_runs(self, law: str) -> tuple[BenchRun, ...]:
-        """The runs of a law in the figures' order; raises `ParameterError` where it has none."""
+        """Return the runs of a law in the order of the figures.
+
+        Raises:
+            ParameterError: If the law has none.
+        """
         found = {run.figure: run for run in self.runs if run.law == law}
         if not found:
             raise ParameterError(Violation("law", law, "", "one of " + ", ".join(self.laws)))
@@ -90,7 +94,11 @@ class BenchRuns(Checked):
 
 
 def read_bench_runs(path: Path) -> BenchRuns:
-    """Read what `svsa ranking bench --save` wrote; raises `ParameterError` for anything else."""
+    """Read a file of `svsa ranking bench --save`.
+
+    Raises:
+        ParameterError: If it is not such a file.
+    """
     try:
         return BenchRuns.model_validate_json(path.read_bytes())
     except (OSError, ValidationError) as error:

@@ -33,7 +33,7 @@ from svsa.inputs.extras import require_extra
 ranking = typer.Typer(no_args_is_help=True, help="Every law on the same plant, limits and loads.")
 _messages = Console(stderr=True)
 MIN_WIDTH = 150
-"""Characters in a line that the table needs."""
+"""Width of the terminal, in characters, that the table needs."""
 
 
 @ranking.command("run")
@@ -57,12 +57,13 @@ def run_ranking(
     """Measure laws on the test set and the fixed scenarios, and print the table.
 
     Without names, rows of the file with the same protocol, seed, trials and parameters are kept: an
-    interrupted command continues. Gains and parameters are those tuned for the SVSA.
+    interrupted command continues. Gains and parameters are those tuned for the SVSA; for another
+    actuator poles and bandwidths are scaled by its default gains.
     """
     get_mechanism(actuator)  # an unknown name is rejected before anything is measured
     known = _read_known(save, seed, trials, actuator)
     keys = list(rows) if rows else list_entry_keys()
-    entries = [build_entry(key) for key in keys]
+    entries = [build_entry(key, actuator) for key in keys]
     if not rows:
         tuned = {entry.key: entry.tuning for entry in entries}
         done = {row.key for row in known if row.key in tuned and row.tuning == tuned[row.key]}
@@ -104,9 +105,10 @@ def publish_ranking(
 
 
 def _read_known(save: Path | None, seed: int, trials: int, actuator: str) -> tuple[Row, ...]:
-    """The rows of a file that were measured with the same protocol, seed, trials and actuator.
+    """Read the rows of a file that were measured with the same protocol, seed, trials and actuator.
 
-    Raises `ParameterError` for a file of another actuator, which would be overwritten.
+    Raises:
+        ParameterError: If the file is of another actuator, and would be overwritten.
     """
     if save is None or not save.exists():
         return ()
@@ -129,14 +131,15 @@ def _print(results: Results, as_json: bool, markdown: bool) -> None:
 
 
 def _describe_scale(actuator: str) -> str:
-    """What was done to the scenarios, which are made for the SVSA; empty for it."""
+    """Describe how scenarios of the SVSA were scaled to another actuator; empty for the SVSA."""
     if actuator == SVSA:
         return ""
     scale = measure_scale(actuator)
     sigma = scale_stiffness(get_mechanism(actuator), REFERENCE_NM_PER_RAD)
     return (
         f" Scaled from the SVSA: loads × {scale.torque:g}, {REFERENCE_NM_PER_RAD:g} N·m/rad →"
-        f" {sigma:g} N·m/rad. Gains and parameters are those tuned for the SVSA."
+        f" {sigma:g} N·m/rad. Parameters are those tuned for the SVSA, with poles and bandwidths"
+        " scaled by the default gains of the actuator."
     )
 
 

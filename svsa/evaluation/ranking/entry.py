@@ -10,14 +10,17 @@ from svsa.control.installed import (
     has_own_parameters,
     list_law_names,
 )
-from svsa.evaluation.actuator_scale import build_scenario_run
+from svsa.evaluation.actuator_scale import build_scenario_run, scale_rate
 from svsa.evaluation.scenario import Scenario
+from svsa.evaluation.tuning.search_space import build_space
 from svsa.evaluation.tuning.tuned_law import TunedLaw, load_tuned_laws
-from svsa.runs.configuration import Configuration, Design, Lane, load_prototype
+from svsa.runs.configuration import Configuration, Design, Lane
+from svsa.runs.design_file import load_prototype
+from svsa.runs.shorthand import read_mechanism
 
 Variant = Literal["tuned", "declared", "default"]
 DECLARED = f"{PAPERS_LAW}_declared"
-"""Key of NDOBC with the gains declared for the paper, which prints none."""
+"""Key of NDOBC with gains assumed by this project, because the paper prints none."""
 
 
 class Entry(NamedTuple):
@@ -25,8 +28,8 @@ class Entry(NamedTuple):
 
     Attributes:
         law: Name of the law.
-        variant: tuned: by `svsa tune --all`. declared: NDOBC with the gains declared for the paper,
-            which prints none. default: the law's defaults, of a law that was not tuned.
+        variant: tuned: by `svsa tune --all`. declared: NDOBC with gains assumed by this project,
+            because the paper prints none. default: the defaults of a law that was not tuned.
         design: Gains, observer and parameters.
         actuator: Name of the actuator that scenarios are scaled to.
     """
@@ -70,14 +73,36 @@ def get_reference(law: str) -> str:
     return DECLARED if law == PAPERS_LAW else PAPERS_LAW
 
 
-def build_entry(key: str) -> Entry:
-    """Build the entry of a row's key; raises `ParameterError` for a law that is not installed."""
+def build_entry(key: str, actuator: str = SVSA) -> Entry:
+    """Build the entry of a row's key.
+
+    Laws are tuned for the SVSA. For another actuator the rates among the tuned values (poles,
+    bandwidths) are scaled by those of its default gains, see `scale_rate`.
+
+    Args:
+        key: Key of the row.
+        actuator: Name of the actuator.
+
+    Raises:
+        ParameterError: If the law or the actuator is not installed.
+    """
+    design = load_prototype()
+    if actuator != SVSA:
+        fields = read_mechanism(actuator)
+        design = design.changed(gains=fields["gains"], observer=fields["observer"])
     if key == DECLARED:
-        return Entry(PAPERS_LAW, "declared", load_prototype())
+        return Entry(PAPERS_LAW, "declared", design, actuator)
     tuned = load_tuned_laws().get(check_installed(key))
     if tuned is None:
-        return Entry(key, "default", load_prototype())
-    return Entry(key, "tuned", tuned.build_design())
+        return Entry(key, "default", design, actuator)
+    if actuator == SVSA:
+        return Entry(key, "tuned", tuned.build_design())
+    space = build_space(key)
+    scaled = tuple(
+        scale_rate(value, axis, actuator)
+        for value, axis in zip(tuned.read_values(), space.axes, strict=True)
+    )
+    return Entry(key, "tuned", space.set_design(design, scaled), actuator)
 
 
 def list_entry_keys() -> list[str]:

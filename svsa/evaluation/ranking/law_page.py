@@ -1,4 +1,4 @@
-"""The documentation page of a law: text of its own file, numbers of the results."""
+"""Build the documentation page of a law from the text of its file and the results."""
 
 import math
 import re
@@ -56,8 +56,16 @@ PAPERS_LOAD = "rig_4a"
 
 
 def build_law_page(results: Results, bench: BenchRuns, name: str, margins: str) -> str:
-    """Build the page of a law, Markdown. bench: runs on the emulator. margins: see
-    `build_margins`.
+    """Build the page of a law in Markdown.
+
+    Args:
+        results: Results of the ranking.
+        bench: Runs on the emulator.
+        name: Name of the law.
+        margins: See `build_margins`.
+
+    Returns:
+        The page.
     """
     law = get_law(name)
     rows = [row for row in results.rows if row.law == name]
@@ -172,7 +180,7 @@ def _compare_with_ndobc(results: Results, rows: list[Row]) -> list[str]:
     for title, law_value, ndobc_value in zip(
         _COMPARED, _read_compared(rows[0]), _read_compared(ndobc), strict=True
     ):
-        # A fault has no value, which is worse than any.
+        # A run that ended in a fault has no value; it counts as the worst.
         values = [math.inf if one is None else one for one in (law_value, ndobc_value)]
         if values[0] == values[1]:
             continue

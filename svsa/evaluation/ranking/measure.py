@@ -35,14 +35,14 @@ from svsa.evaluation.statistics import compute_quantiles, estimate_share
 from svsa.evaluation.trials import DURATION_S, FAMILIES, LOAD_S, REST_BEGIN_S, build_rest
 from svsa.inputs.extras import __version__
 from svsa.runs.batch import RunSet
-from svsa.runs.configuration import load_prototype
+from svsa.runs.design_file import load_prototype
 from svsa.runs.result.simulate import simulate
 from svsa.simulation.plant.loads.load import MAX_TORQUE_NM
 
 TRIALS = 10_000
-"""Of each family."""
+"""Number of trials of each family."""
 AT_ONCE = 1024
-"""Trials of one batch, half of each family."""
+"""Number of trials in one batch, half of each family."""
 
 Report = Callable[[float], None]
 _SIZES = tuple(name for name in METRICS if name != "recovery_time_s")
@@ -56,8 +56,8 @@ class TrialSet:
         self._parts: dict[int, RunSet] = {}
 
     def run(self, entry: Entry, report: Report) -> np.ndarray:
-        """Return the `SUMMARY` of all trials, of A and B in turns. report: receives the finished
-        share.
+        """Return the `SUMMARY` of all trials, of A and B alternating; `report` receives the
+        finished share.
         """
         total, parts = 2 * self.trials, []
         for first in range(0, total, AT_ONCE):
@@ -73,11 +73,9 @@ class TrialSet:
 
 
 def measure_entry(entry: Entry, test_set: TrialSet, report: Report = lambda done: None) -> Row:
-    """Measure the row of an entry on the actuator of a test set.
-
-    report: receives the finished share.
+    """Measure the row of an entry on the actuator of a test set; `report` receives the finished
+    share.
     """
-    entry = entry._replace(actuator=test_set.actuator)
     summaries = test_set.run(entry, lambda done: report(0.7 * done))
     families = {
         family: build_family_outcome(summaries[number :: len(FAMILIES)])
@@ -117,7 +115,7 @@ def build_family_outcome(summaries: np.ndarray) -> FamilyOutcome:
         ),
         held_bits=np.packbits(held).tobytes().hex(),
         metrics={
-            # A run that ended early is worse than any that did not; one without recovery, too.
+            # A run that ended early, or without recovery, counts as worse than all others.
             name: tuple(map(round_number, compute_quantiles(_mark_ended(values, ended), QUANTILES)))
             for name, values in metrics.items()
         },

@@ -29,7 +29,10 @@ def measure_on_bench(
 ) -> BenchRuns:
     """Run laws in figures, in as many processes as there are processors.
 
-    report: is given the share that is done. Raises `MissingExtraError` without the extra `bench`.
+    `report` receives the finished share.
+
+    Raises:
+        MissingExtraError: Without the extra `bench`.
     """
     require_extra("bench")
     jobs = list(product(laws, figures))
@@ -46,7 +49,7 @@ def measure_on_bench(
 
 
 def measure_run(number: int, job: Job, report: ReportOf) -> BenchRun:
-    """Run a law in a figure of 20 s, load at 5 s. report: receives `number` and the finished
+    """Run a law in a figure of 20 s, load at 5 s; `report` receives `number` and the finished
     share.
     """
     from svsa.hardware.emulator.experiment import run_on_emulator
@@ -80,8 +83,7 @@ def _measure_side_by_side(
 ) -> tuple[BenchRun, ...]:
     """Run processes in parallel, which report their progress through a queue.
 
-    Ctrl-C reaches this process only; the runs end at their next report, and with them their
-    emulators.
+    Only this process receives Ctrl-C; the runs and their emulators end at their next report.
     """
     manager = SyncManager(ctx=choose_start())
     manager.start(signal.signal, (signal.SIGINT, signal.SIG_IGN))

@@ -21,7 +21,7 @@ from svsa.runs.result.simulate import simulate
 STIFFNESS_RMS, TORQUE_RMS = "rms_stiffness_error_nm_per_rad", "rms_torque1_nm"
 
 
-class Shown(NamedTuple):
+class Panel(NamedTuple):
     """A scenario, and the time range that is drawn, s."""
 
     title: str
@@ -50,14 +50,14 @@ def save_pareto(results: Results, path: Path) -> None:
         title="Trials of family A; area: median of rms u1",
     )  # fmt: skip
     axes.grid(alpha=0.25, which="both")
-    picture.draw_without_rendering()  # fixes the scales that the labels are placed by
+    picture.draw_without_rendering()  # fixes the scales that place the labels
     _label_points(axes, points)
     picture.savefig(path)
 
 
 def _label_points(axes: Axes, points: list[tuple[str, float, float]]) -> None:
     """Label each point, moved up until labels do not overlap, with a line to the point."""
-    height, width = 13.0, 6.0  # of a line and of a character, pixels
+    height, width = 13.0, 6.0  # height of a line and width of a character, pixels
     taken: list[tuple[float, float, float]] = []
     right = axes.bbox.x1
     for title, x, y in sorted(points, key=lambda point: point[2]):
@@ -82,9 +82,9 @@ def save_losses(path: Path) -> None:
     NDOBC-W.
     """
     runs = (
-        Shown("The load comes off", find_scenario("load_removal.positive.0"), (4.8, 6.5)),
-        Shown("2.5 N·m on the link", find_scenario("link_step_2.5.positive.0"), (4.8, 6.5)),
-        Shown("1.5 N·m at 2 Hz", find_scenario("sine_2hz.positive.0"), (4.8, 6.5)),
+        Panel("The load comes off", find_scenario("load_removal.positive.0"), (4.8, 6.5)),
+        Panel("2.5 N·m on the link", find_scenario("link_step_2.5.positive.0"), (4.8, 6.5)),
+        Panel("1.5 N·m at 2 Hz", find_scenario("sine_2hz.positive.0"), (4.8, 6.5)),
     )
     picture = Picture(figsize=(12.0, 3.7), layout="constrained")
     for axes, shown in zip(picture.subplots(1, len(runs)), runs, strict=True):
@@ -101,8 +101,8 @@ def save_law(results: Results, key: str, path: Path) -> None:
     picture = Picture(figsize=(11.0, 3.6), layout="constrained")
     rig, removal, trials = picture.subplots(1, 3)
     shown = (
-        (rig, Shown("Paper's load on the rig", find_scenario("rig_4a.positive.0"), (4.8, 6.5))),
-        (removal, Shown("Load removal", find_scenario("load_removal.positive.0"), (4.8, 6.5))),
+        (rig, Panel("Paper's load on the rig", find_scenario("rig_4a.positive.0"), (4.8, 6.5))),
+        (removal, Panel("Load removal", find_scenario("load_removal.positive.0"), (4.8, 6.5))),
     )
     keys = (get_reference(key), key)
     for number, name in enumerate(keys):
@@ -133,7 +133,7 @@ def _draw_distribution(axes: Axes, outcome: FamilyOutcome, style: dict[str, Any]
     axes.plot(*zip(*known, strict=True), **style) if known else None
 
 
-def _draw_run(axes: Axes, shown: Shown, key: str, style: dict[str, Any]) -> None:
+def _draw_run(axes: Axes, shown: Panel, key: str, style: dict[str, Any]) -> None:
     scenario = shown.scenario
     configuration = build_entry(key).build_configuration(scenario)
     result = simulate(configuration, duration_s=scenario.duration_s)

@@ -1,6 +1,6 @@
 """Results of the ranking as a file: protocol, rows, ranks; the source of page and documents."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Self
@@ -65,7 +65,11 @@ class Results(Checked):
         )
 
     def get_row(self, key: str) -> Row:
-        """The row of this key; raises `ParameterError` where there is none."""
+        """Return the row of this key.
+
+        Raises:
+            ParameterError: If there is none.
+        """
         for row in self.rows:
             if row.key == key:
                 return row
@@ -78,25 +82,9 @@ class Results(Checked):
 
 
 def compute_ranks(rows: Sequence[Row]) -> tuple[Rank, ...]:
-    """The ranks of rows in the order of their success rates over both families.
-
-    The first row without a rank and all later ones that do not differ significantly from it share
-    the next rank: McNemar's exact test on the same trials, at 5 % with Holm's correction over the
-    rows compared.
-    """
+    """Compute the ranks of rows in the order of their success rates over both families."""
     held = {row.key: _read_held(row) for row in rows}
-    ranks: dict[str, int] = {}
-    left = [row.key for row in rows]
-    while left:
-        first, *others = left
-        values = correct_holm([_compute_p(held[first], held[key]) for key in others])
-        shared = [key for key, p in zip(others, values, strict=True) if not p < SIGNIFICANT]
-        rank = len(ranks) + 1
-        ranks |= dict.fromkeys((first, *shared), rank)
-        left = [key for key in others if key not in shared]
-    compared = [row.key for row in rows if row.key != PAPERS_LAW] if PAPERS_LAW in held else []
-    values = correct_holm([_compute_p(held[key], held[PAPERS_LAW]) for key in compared])
-    p_values = dict(zip(compared, values, strict=True))
+    ranks, p_values = rank_held(held)
     return tuple(
         Rank(
             key=row.key,
@@ -107,6 +95,30 @@ def compute_ranks(rows: Sequence[Row]) -> tuple[Rank, ...]:
         )
         for row in rows
     )
+
+
+def rank_held(held: Mapping[str, np.ndarray]) -> tuple[dict[str, int], dict[str, float]]:
+    """Compute ranks, and p-values against NDOBC, of rows in the order of their success rates.
+
+    The first row without a rank, and all later ones that do not differ significantly from it, share
+    the next rank: McNemar's exact test on the same trials, at 5 % with Holm's correction over the
+    rows compared.
+
+    Args:
+        held: Success of each trial, (trials,), by the key of the row.
+    """
+    ranks: dict[str, int] = {}
+    left = list(held)
+    while left:
+        first, *others = left
+        values = correct_holm([_compute_p(held[first], held[key]) for key in others])
+        shared = [key for key, p in zip(others, values, strict=True) if not p < SIGNIFICANT]
+        rank = len(ranks) + 1
+        ranks |= dict.fromkeys((first, *shared), rank)
+        left = [key for key in others if key not in shared]
+    compared = [key for key in held if key != PAPERS_LAW] if PAPERS_LAW in held else []
+    values = correct_holm([_compute_p(held[key], held[PAPERS_LAW]) for key in compared])
+    return ranks, dict(zip(compared, values, strict=True))
 
 
 def _read_held(row: Row) -> np.ndarray:
@@ -137,14 +149,14 @@ def measure_entries(
 ) -> Iterator[Results]:
     """Yield results after each entry, including `known` rows with the same parameters.
 
-    report: receives the key of an entry and the share of it that is done. actuator: name of the
+    `report` receives the key of an entry and its finished share; `actuator` is the name of the
     actuator that trials and scenarios are scaled to.
     """
     rows = {row.key: row for row in known}
     test_set = TrialSet(seed, trials, actuator)
     for key in keys:
         rows[key] = measure_entry(
-            build_entry(key), test_set, lambda done, key=key: report(key, done)
+            build_entry(key, actuator), test_set, lambda done, key=key: report(key, done)
         )
         yield Results.build(list(rows.values()), seed, trials, actuator)
 
@@ -155,7 +167,11 @@ def write_results(path: Path, results: Results) -> None:
 
 
 def read_results(path: Path) -> Results:
-    """Read what `write_results` wrote; raises `ParameterError` for anything else."""
+    """Read a file of `write_results`.
+
+    Raises:
+        ParameterError: If it is not such a file.
+    """
     try:
         return Results.model_validate_json(path.read_bytes())
     except (OSError, ValidationError) as error:

@@ -58,7 +58,7 @@ class Noise(Checked):
 
 
 class Row(Checked):
-    """What a law with its parameters showed."""
+    """Results of a law with its parameters."""
 
     key: str = quantity("", "Name of the row")
     law: str = quantity("", "Name of the law")

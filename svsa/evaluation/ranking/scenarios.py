@@ -1,7 +1,7 @@
 """Fixed scenarios: single runs for every law, with both signs and 8 phases.
 
-All track the paper's 60° at 0.2 Hz unless they say so. The sign is that of the load, or of the
-motion where the load has none. Rig effects are `svsa.simulation.plant.effects.RIG`: encoders, a
+The reference is the paper's 60° at 0.2 Hz unless stated otherwise. The sign is that of the load, or
+of the motion if the load has none. Rig effects are `svsa.simulation.plant.effects.RIG`: encoders, a
 state estimated from them, and one sample of delay.
 """
 
@@ -32,7 +32,7 @@ from svsa.simulation.reference.kinds.sine import SinePosition
 from svsa.simulation.reference.kinds.steps import StepsPosition
 
 PUBLIC_SEED = 1
-"""Of the published test set."""
+"""Seed of the published test set."""
 PERIOD_S = 5.0
 PHASES = 8
 SIGNS = (1.0, -1.0)
@@ -44,7 +44,7 @@ _MOTION_RAD = math.radians(60.0)
 
 Torque = tuple[float, float, float]
 Loads = Callable[[float, float], tuple[Load, ...]]
-"""Onset in s and sign → loads."""
+"""Maps onset (s) and sign to loads."""
 
 
 class FixedScenario(NamedTuple):
@@ -114,7 +114,7 @@ def _build(
                 effects,
                 onset_s + after_s,
                 onset_s,
-                # A hung mass pulls the same way; so the motion has the sign.
+                # The load of a hanging mass has one sign; therefore the motion gets the sign.
                 position=_build_motion(sign if loads is _hang else 1.0),
                 stiffness=ConstantStiffness(stiffness_nm_per_rad=stiffness),
             )
@@ -225,10 +225,10 @@ def list_scenarios() -> Iterator[Scenario]:
 
 
 def find_scenario(name: str, seed: int = PUBLIC_SEED) -> Scenario:
-    """The scenario or test trial of this name.
+    """Return the scenario or test trial of this name; `seed` is that of the test set.
 
     Raises:
-        ParameterError: If there is none. seed: of the test set.
+        ParameterError: If there is none.
     """
     for family in FAMILIES:
         number = name.removeprefix(f"trial_{family}_")

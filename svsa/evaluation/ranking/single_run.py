@@ -11,7 +11,13 @@ from svsa.runs.result.simulate import simulate
 
 
 class ShownRun(NamedTuple):
-    """A run for display. titles: of its lanes. alone: why it has no baseline; empty if it has."""
+    """A run for display.
+
+    Attributes:
+        configuration: Configuration of the run.
+        titles: Titles of its lanes.
+        alone: Reason why it has no baseline; empty if it has one.
+    """
 
     configuration: Configuration
     titles: tuple[str, ...]
@@ -19,9 +25,10 @@ class ShownRun(NamedTuple):
 
 
 def build_shown_run(scenario: Scenario, key: str) -> ShownRun:
-    """An entry in a scenario compared with NDOBC, declared gains, and that with FL.
+    """Build a run of an entry in a scenario with NDOBC (declared gains) as comparison, and of the
+    latter with FL.
 
-    The lanes of a run end together: an entry is alone if its comparison would end earlier.
+    All lanes of a run end together: an entry is shown alone if its comparison would end earlier.
     """
     entry = build_entry(key)
     comparison = build_entry(BASELINE if key == DECLARED else DECLARED)
@@ -35,9 +42,9 @@ def build_shown_run(scenario: Scenario, key: str) -> ShownRun:
 
 
 def explain_alone(scenario: Scenario, name: str, key: str, ticks: int) -> str:
-    """Explain why an entry cannot be the baseline of a run of so many ticks; empty if it can.
+    """Explain why an entry cannot be the baseline of a run of this length; empty if it can.
 
-    name: of the law that is shown.
+    `name` is the title of the law that is shown.
     """
     fault, _ = _run(scenario, build_entry(key))
     if fault is None or fault.tick >= ticks:

@@ -20,15 +20,15 @@ SWITCHED: Mapping[str, Effects] = {
     "rig": RIG,
     "every": EVERY,
 }
-"""By name what is switched on. The estimation is that of encoders."""
+"""Effects that are on, by name. The estimation is that with encoders."""
 
 
 def measure_effects(
     configuration: Configuration, lanes: int, duration_s: float, repeats: int
 ) -> dict[str, float]:
-    """Measure runs per second and core, by CPU time, under each of `SWITCHED`.
+    """Measure runs per second and core, by CPU time, for each of `SWITCHED`.
 
-    Counted are ticks: a run that ends in a fault counts as the part that was run.
+    Ticks are counted: a run that ends in a fault counts only for its simulated part.
     """
     ticks = round(duration_s / configuration.sampling.period_s)
     batches = {
@@ -42,10 +42,9 @@ def measure_effects(
 
 
 def measure_two_cores(batch: Batch, ticks: int, repeats: int) -> float:
-    """Measure the speed-up of two threads over one, at best.
+    """Measure the speed-up of two threads over one; the best of several.
 
-    By the wall clock, in turns with one alone: it speaks only where two cores have nothing else to
-    do.
+    Uses the wall clock, alternating with one thread; the result is valid only on two idle cores.
     """
     alone = together = np.inf
     with ThreadPoolExecutor(2) as pool:

@@ -17,7 +17,7 @@ from svsa.runs.run import Run
 from svsa.simulation.loop.measured import (
     Actuation,
     BenchConstants,
-    Carried,
+    BenchLoopState,
     follow_and_decide,
     publish_and_predict,
 )
@@ -25,14 +25,17 @@ from svsa.simulation.loop.measured import (
 FIGURE = "4a"
 TICKS = 1000
 RUN_S = 6.0
-"""Up to 1 s after the load."""
+"""Duration of the run, up to 1 s after the load, s."""
 
 
 class TickCost(NamedTuple):
-    """Time of a tick under a law, µs.
+    """Time of a tick under a law.
 
-    loop_us: the mean in the compiled loop, plant and all. median_us, worst_us: of a bench's
-    ticks, each called from Python, which is most of it.
+    Attributes:
+        loop_us: Mean in the compiled loop including the plant, µs.
+        median_us: Median of a bench's ticks, each called from Python, which takes most of the time,
+            µs.
+        worst_us: Maximum of a bench's ticks, µs.
     """
 
     loop_us: float
@@ -43,14 +46,14 @@ class TickCost(NamedTuple):
 class BenchTicks:
     """The loop of a bench under the law of a run, with that run's measurements.
 
-    samples: (ticks, channels). asked: what the law asks for at the last tick, N·m, (2,).
+    `samples` are (ticks, channels); `asked` is the torque of the law at the last tick, N·m, (2,).
     """
 
     def __init__(self, run: Run, samples: np.ndarray) -> None:
-        self._run = run  # whose memory the call points to
+        self._run = run  # keeps the memory alive to which the call points
         call = build_call(run.laws[0], run.lanes[0].memory)
         self._constants = pack(BenchConstants(run.blocks[0], Actuation(0.0, 0.0), call))
-        self._inputs, self._carried = run.inputs, pack(Carried())
+        self._inputs, self._carried = run.inputs, pack(BenchLoopState())
         self._measured = self._carried["measured"].view(float).reshape(-1)
         self.limited = self._carried["limited"].view(float).reshape(-1)
         self._y, self._u = samples[:, MEASURED].copy(), samples[:, TORQUES].tolist()
@@ -69,8 +72,8 @@ class BenchTicks:
 def measure_law_tick(law: str = PAPERS_LAW, repeats: int = 5) -> TickCost:
     """Measure the cost of a tick under a law in Figure 4A with its load.
 
-    Each tick counts with its least cost of so many repetitions: it does the same work each time,
-    and what is more is the machine's.
+    Each tick counts with its minimum over the repetitions, because it does the same work each time
+    and the rest is caused by the machine.
     """
     configuration = get_figure(FIGURE).build_configuration(law)
     samples = simulate(FIGURE, AnyLaw(law), duration_s=RUN_S).samples
@@ -99,7 +102,7 @@ def measure_bench_tick(run: Run, repeats: int) -> float:
     """CPU time of a bench's tick, the mean of a thousand, s."""
     call = build_call(run.laws[0], run.lanes[0].memory)
     constants = pack(BenchConstants(run.blocks[0], Actuation(0.0005, 0.0), call))
-    carried, row = pack(Carried()), np.empty(len(CHANNELS))
+    carried, row = pack(BenchLoopState()), np.empty(len(CHANNELS))
 
     def work() -> None:
         for tick in range(TICKS):

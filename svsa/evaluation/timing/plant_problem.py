@@ -1,8 +1,8 @@
 """The problem of the comparison with scipy: the plant of a run under that run's torques.
 
-Each torque is held for a period. The loop is open, so only the solvers are compared and no law: the
-torques are those that the paper's law commanded over Figure 4A, from before the load to well after
-it.
+Each torque is constant for a period. The loop is open, so that only the solvers are compared and no
+law: the torques are those that the paper's law commanded in Figure 4A, from before the load to well
+after it.
 """
 
 from collections.abc import Callable
@@ -25,17 +25,24 @@ from svsa.simulation.plant.load_table import LoadTable, compute_load
 FIGURE, LAW = "4a", "ndobc"
 COLUMNS = [CHANNEL_INDEX[name] for name in STATES]
 ANGLES = [0, 2, 4]
-"""q, θ1, θ2 in a state."""
+"""Indices of q, θ1, θ2 in a state."""
 Solver = Callable[[], np.ndarray]
-"""Solves one problem: the states at the end of each period, (periods, 6)."""
+"""Solves one problem; returns the states at the end of each period, (periods, 6)."""
 
 
 class Problem(NamedTuple):
     """The plant from one state on, period after period.
 
-    actuator, effects, loads: the plant's, as the loop has them. first: tick of the state x, (6,).
-    period: s. torques: (periods, 2), of the motors. forces: (periods, 3), those and the loads, on
-    link, motor 1 and motor 2; both N·m and held for a period.
+    Attributes:
+        actuator: Actuator of the plant.
+        effects: Effects of the plant.
+        loads: Loads on the plant.
+        first: Tick of the first state.
+        period: T, s.
+        x: First state, shape (6,).
+        torques: Torques of the motors, N·m, constant for a period, shape (periods, 2).
+        forces: Torques and loads on link, motor 1 and motor 2, N·m, constant for a period, shape
+            (periods, 3).
     """
 
     actuator: Actuator

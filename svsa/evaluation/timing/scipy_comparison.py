@@ -1,8 +1,10 @@
-"""The plant solved by scipy's `solve_ivp` to our accuracy: its CPU time in multiples of ours.
+"""The plant solved by scipy's `solve_ivp` with the same accuracy: its CPU time in multiples of
+ours.
 
-Each method has the loosest tolerance whose error is not above ours. Reported is the cheapest
-method. The torques jump between periods, so there is one call per period. Its first step is the
-whole period, so that no time is lost on the search for a step. The rate is our compiled one.
+Each method has the largest tolerance whose error is not above ours. The cheapest method is
+reported. The torques jump between periods, so there is one call per period. Its first step is the
+whole period, so that no time is spent on the search for a step. The right-hand side is our compiled
+one.
 """
 
 from functools import partial
@@ -19,18 +21,23 @@ from svsa.numerics.compilation import compiled
 OURS, SCIPY = "svsa", "scipy"
 METHODS = ("RK45", "DOP853", "LSODA")
 TOLERANCES = tuple(10.0**-decade for decade in range(3, 13))
-"""Relative tolerances, the loosest first; the absolute one is a hundredth of it."""
+"""Relative tolerances, the largest first; the absolute one is a hundredth of it."""
 DURATION_S = 2.0
 ROUNDING_RAD = 1e-12
-"""The same method at the same step is as accurate, whatever the order of its operations."""
+"""Differences below this are rounding errors: the same method with the same step is as accurate in
+any order of operations.
+"""
 
 
 class Comparison(NamedTuple):
-    """What a solver needs for the problem.
+    """The cost of a solver for the problem.
 
-    ratio: to our CPU time. error_rad: the greatest of q, θ1, θ2 at the end of a period, against
-    the exact solution. setting: the method, and its tolerance or steps per period.
-    cpu_us_per_period: CPU time, µs.
+    Attributes:
+        ratio: CPU time relative to ours.
+        error_rad: Largest error of q, θ1, θ2 at the end of a period, relative to the exact
+            solution, rad.
+        setting: The method, and its tolerance or steps per period.
+        cpu_us_per_period: CPU time, µs.
     """
 
     ratio: float
@@ -49,11 +56,11 @@ class Candidate(NamedTuple):
 
 
 def compare_with_scipy(repeats: int, duration_s: float = DURATION_S) -> dict[str, Comparison]:
-    """Measure our solver and scipy's on the same problem, in turns.
+    """Measure our solver and scipy's on the same problem, alternately.
 
     Args:
-        repeats: how often each solver runs; the least CPU time counts.
-        duration_s: length of the problem, s.
+        repeats: Number of repetitions; the minimum CPU time counts.
+        duration_s: Length of the problem, s.
 
     Returns:
         By name our solver, first, and scipy.
@@ -89,7 +96,7 @@ def find_tolerance(
 
 
 def compute_error(states: np.ndarray, exact: np.ndarray) -> float:
-    """The greatest difference of an angle, rad; states, exact: (periods, 6)."""
+    """Compute the largest difference of an angle, rad; `states` and `exact` are (periods, 6)."""
     return float(np.abs(states - exact)[:, ANGLES].max())
 
 
@@ -113,10 +120,10 @@ def solve_by_scipy(problem: Problem, method: str, tolerance: float, step: float)
     """Solve the problem by `solve_ivp`.
 
     Args:
-        problem: the plant, its first state and its torques.
-        method: of `solve_ivp`.
-        tolerance: relative; the absolute one is a hundredth of it.
-        step: the first and longest step, s.
+        problem: The plant, its first state and its torques.
+        method: Method of `solve_ivp`.
+        tolerance: Relative tolerance; the absolute one is a hundredth of it.
+        step: First and longest step, s.
 
     Returns:
         The states at the end of each period, (periods, 6).

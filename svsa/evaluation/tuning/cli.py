@@ -66,7 +66,7 @@ def tune(
         return
     from svsa.evaluation.tuning.file import describe_tuned
     from svsa.evaluation.tuning.tuner import tune as search
-    from svsa.runs.configuration import read_design
+    from svsa.runs.design_file import read_design
 
     name = check_installed(law or "")
     count = budget or BUDGET

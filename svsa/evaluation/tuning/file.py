@@ -11,7 +11,7 @@ from svsa.control.installed import has_own_parameters
 from svsa.evaluation.tuning.judge import Judgment
 from svsa.evaluation.tuning.tuner import Candidate, Tuned
 from svsa.inputs.extras import __version__
-from svsa.runs.configuration import format_design
+from svsa.runs.design_file import format_design
 
 _NOT_TUNED = "as before the tuning"
 

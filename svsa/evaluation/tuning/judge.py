@@ -1,9 +1,9 @@
 """Evaluation of a candidate: one cost and one noise limit for every law.
 
-cost = mean over trials of log10(rms e / 1°) + log10(rms e_σ / σ_d), plus 2 where a trial is not
-held, at most 3; a trial that ends in a fault costs between 3 and 4, more the earlier it ends. The
-noise limit is the total variation of u1 at rest, under the rig's effects with noise, of NDOBC with
-the gains declared for the paper: it compares laws at equal noise.
+cost = mean over trials of log10(rms e / 1°) + log10(rms e_σ / σ_d), plus 2 if a trial does not
+succeed, at most 3; a trial that ends in a fault costs between 3 and 4, more the earlier it ends.
+The noise limit is the total variation of u1 at rest, under the rig's effects with noise, of NDOBC
+with the gains assumed for the paper: laws are compared at equal noise.
 """
 
 import math
@@ -25,7 +25,8 @@ from svsa.evaluation.trials import (
     list_mean_stiffnesses,
 )
 from svsa.runs.batch import RunSet
-from svsa.runs.configuration import Design, load_prototype
+from svsa.runs.configuration import Design
+from svsa.runs.design_file import load_prototype
 
 NOT_HELD, FAULT = 2.0, 4.0
 LOUD, NO_REST = 5.0, 10.0
@@ -37,12 +38,13 @@ class Judgment(NamedTuple):
     """The result of a candidate.
 
     Attributes:
-        cost: Mean over the trials; above the noise limit 5 and more.
-        torque_variation_nm_per_s: Total variation of u1 at rest.
-        held: How many trials held; the trials are not run above the noise limit.
-        trials: How many were run.
-        position_error_deg: Median of rms e, infinite where that is a fault; None without trials.
-        stiffness_error_percent: Median of rms e_σ over the mean σ_d, likewise.
+        cost: Mean over the trials; at least 5 above the noise limit.
+        torque_variation_nm_per_s: Total variation of u1 at rest, N·m/s.
+        held: Number of successful trials; the trials are not run above the noise limit.
+        trials: Number of trials that were run.
+        position_error_deg: Median of rms e, degrees, infinite if that is a fault; None without
+            trials.
+        stiffness_error_percent: Median of rms e_σ over the mean σ_d, percent, likewise.
     """
 
     cost: float
@@ -62,28 +64,42 @@ class TrialSet:
         self._sigmas = list_mean_stiffnesses(scenarios)
 
     def judge(self, law: str, design: Design, variation: float) -> Judgment:
-        """Evaluate the law on the trials. variation: of its torque at rest, N·m/s."""
+        """Evaluate the law on the trials; `variation` is that of its torque at rest, N·m/s."""
         summaries = self._runs.run(law, DURATION_S, LOAD_S, design)
-        metrics = compute_metrics(summaries, np.full(self.size, design.sampling.period_s), LOAD_S)
-        error = np.degrees(metrics["rms_position_error_rad"])
-        share = metrics["rms_stiffness_error_nm_per_rad"] / self._sigmas
-        ended, held = summaries["code"] != INSIDE, find_held(summaries)
-        cost = np.log10(np.maximum(error, _MIN_ERROR_DEG)) + np.log10(np.maximum(share, _MIN_SHARE))
-        cost = np.fmin(np.where(held, cost, cost + NOT_HELD), FAULT - 1.0)
-        survived = summaries["ticks"] * design.sampling.period_s / DURATION_S
-        cost = np.where(ended, FAULT - survived, cost)
+        return judge_summaries(summaries, self._sigmas, design.sampling.period_s, variation)
 
-        def find_median(values: np.ndarray, scale: float = 1.0) -> float:
-            return float(np.median(np.where(ended, np.inf, values))) * scale
 
-        return Judgment(
-            float(np.mean(cost)),
-            variation,
-            int(np.sum(held)),
-            self.size,
-            find_median(error),
-            find_median(share, 100.0),
-        )
+def judge_summaries(
+    summaries: np.ndarray, sigmas: np.ndarray, period: float, variation: float
+) -> Judgment:
+    """Compute the cost of runs from their `SUMMARY` (runs,), see this module.
+
+    Args:
+        summaries: Summaries of the runs.
+        sigmas: Mean σ_d of each run, (runs,), N·m/rad.
+        period: Control period, s.
+        variation: Total variation of u1 at rest, N·m/s.
+    """
+    metrics = compute_metrics(summaries, np.full(len(summaries), period), LOAD_S)
+    error = np.degrees(metrics["rms_position_error_rad"])
+    share = metrics["rms_stiffness_error_nm_per_rad"] / sigmas
+    ended, held = summaries["code"] != INSIDE, find_held(summaries)
+    cost = np.log10(np.maximum(error, _MIN_ERROR_DEG)) + np.log10(np.maximum(share, _MIN_SHARE))
+    cost = np.fmin(np.where(held, cost, cost + NOT_HELD), FAULT - 1.0)
+    survived = summaries["ticks"] * period / DURATION_S
+    cost = np.where(ended, FAULT - survived, cost)
+
+    def find_median(values: np.ndarray, scale: float = 1.0) -> float:
+        return float(np.median(np.where(ended, np.inf, values))) * scale
+
+    return Judgment(
+        float(np.mean(cost)),
+        variation,
+        int(np.sum(held)),
+        len(summaries),
+        find_median(error),
+        find_median(share, 100.0),
+    )
 
 
 @cache
@@ -107,11 +123,17 @@ def find_noise_limit() -> float:
     return measure_variation(PAPERS_LAW, load_prototype())
 
 
-def judge(trials: TrialSet, law: str, design: Design) -> Judgment:
-    """Evaluate a law with a design: noise at rest and, below the limit, cost on trials."""
-    variation, limit = measure_variation(law, design), find_noise_limit()
+def judge_variation(variation: float, limit: float) -> Judgment | None:
+    """The result of a candidate that faults at rest or exceeds the noise limit; else None."""
     if not math.isfinite(variation):
         return Judgment(NO_REST, variation)
     if variation > limit * (1.0 + 1e-9):
         return Judgment(LOUD + min(math.log10(variation / limit), 4.0), variation)
-    return trials.judge(law, design, variation)
+    return None
+
+
+def judge(trials: TrialSet, law: str, design: Design) -> Judgment:
+    """Evaluate a law with a design: noise at rest and, below the limit, cost on trials."""
+    variation = measure_variation(law, design)
+    loud = judge_variation(variation, find_noise_limit())
+    return loud or trials.judge(law, design, variation)

@@ -20,7 +20,16 @@ OBSERVER = "observer_rad_per_s"
 
 
 class Axis(NamedTuple):
-    """A search variable. place: index in a tuple, or None. low, high: in `unit`."""
+    """A search variable.
+
+    Attributes:
+        name: Name of the parameter.
+        place: Index in a tuple, or None.
+        symbol: Symbol of the parameter.
+        unit: Unit of the parameter.
+        low: Lower bound, in `unit`.
+        high: Upper bound, in `unit`.
+    """
 
     name: str
     place: int | None
@@ -107,14 +116,22 @@ class Space(NamedTuple):
 def build_space(law: str, held: Mapping[str, Any] | None = None) -> Space:
     """Build the search space of a law: every declared number except the fixed ones.
 
-    All laws are searched alike: a pole (…_pole_rad_per_s) from 20 to 80 rad/s, the observer of the
-    load (observer_rad_per_s) from 20 to 150, else a fifth to five times the default; never beyond
-    what the law declares. Of a law that takes the run's gains all four position poles are one
-    number, both stiffness poles another, and β a third where it acts on the observer.
+    All laws have the same ranges: a pole (…_pole_rad_per_s) from 20 to 80 rad/s, the load observer
+    (observer_rad_per_s) from 20 to 150, any other parameter from a fifth to five times its default,
+    always within the bounds that the law declares. For a law with the run's gains, all four
+    position poles are one variable, both stiffness poles another, and β a third if the law uses the
+    observer.
 
-    held: values by name that are not searched; of these the law's own say what may be left out.
-    Raises `ParameterError` for a name that the law has not, a wrong value, and where nothing is
-    left to search.
+    Args:
+        law: Name of the law.
+        held: Values by name that are not searched; the law's own parameters may be partial.
+
+    Returns:
+        The search space.
+
+    Raises:
+        ParameterError: If the law has no such parameter, a value is invalid, or nothing is left to
+            search.
     """
     held = dict(held or {})
     if has_own_parameters(law):

@@ -12,7 +12,8 @@ from svsa.evaluation.tuning.search_space import build_space
 from svsa.evaluation.tuning.tuner import Tuned
 from svsa.inputs.checked import Checked, Number, Whole, quantity
 from svsa.inputs.extras import __version__
-from svsa.runs.configuration import Design, load_prototype
+from svsa.runs.configuration import Design
+from svsa.runs.design_file import load_prototype
 
 FOLDER = Path(__file__).parent / "tuned"
 
@@ -43,15 +44,19 @@ class TunedLaw(Checked):
     values: dict[str, Number] = quantity("", "Tuned values by name")
 
     def build_design(self) -> Design:
-        """The prototype's design with the tuned values.
+        """Build the prototype's design with the tuned values.
 
-        Raises `ParameterError` where the law no longer has these parameters.
+        Raises:
+            ParameterError: If the law no longer has these parameters.
         """
-        space, design = build_space(self.law), load_prototype()
-        labels = [axis.label for axis in space.axes]
+        return build_space(self.law).set_design(load_prototype(), self.read_values())
+
+    def read_values(self) -> tuple[float, ...]:
+        """The tuned values in the order of the law's search space; raises as `build_design`."""
+        labels = [axis.label for axis in build_space(self.law).axes]
         if labels != list(self.values):
             raise ParameterError(Violation("values", [*self.values], "", f"those of {labels}"))
-        return space.set_design(design, tuple(self.values.values()))
+        return tuple(self.values.values())
 
 
 def build_tuned_law(tuned: Tuned) -> TunedLaw:
@@ -90,7 +95,11 @@ def write_tuned_law(folder: Path, tuned: TunedLaw) -> None:
 
 
 def list_tuned_laws(folder: Path = FOLDER) -> Iterator[TunedLaw]:
-    """List the tuned laws in a folder; raises `ParameterError` for an invalid file."""
+    """List the tuned laws in a folder.
+
+    Raises:
+        ParameterError: If a file is invalid.
+    """
     for path in sorted(folder.glob("*.json")):
         try:
             yield TunedLaw.model_validate_json(path.read_bytes())

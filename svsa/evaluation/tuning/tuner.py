@@ -10,11 +10,12 @@ import numpy as np
 
 from svsa.control.installed import check_installed
 from svsa.evaluation.search import search
-from svsa.evaluation.trials import build_training, build_validation
+from svsa.evaluation.trials import build_set
 from svsa.evaluation.tuning.judge import Judgment, TrialSet, judge
 from svsa.evaluation.tuning.search_space import Space, build_space
 from svsa.inputs.checked import check_number
-from svsa.runs.configuration import Design, load_prototype
+from svsa.runs.configuration import Design
+from svsa.runs.design_file import load_prototype
 
 BUDGET, MAX_BUDGET = 128, 100_000
 TRIALS, VALIDATION = 128, 512
@@ -34,18 +35,37 @@ class Candidate(NamedTuple):
     judgment: Judgment
 
 
+class Problem(NamedTuple):
+    """What is tuned on what.
+
+    Attributes:
+        build: Builds trials from the name of their set, a seed and their number.
+        judge: Evaluates a law with a design on such trials.
+    """
+
+    build: Callable[[str, int, int], Any]
+    judge: Callable[[Any, str, Design], Judgment]
+
+
+JOINT = Problem(
+    lambda name, seed, count: TrialSet(build_set(name, seed, count)),
+    lambda trials, law, design: judge(trials, law, design),
+)
+"""A single joint."""
+
+
 @dataclass(frozen=True)
 class Tuned:
     """The result of a search.
 
     Attributes:
-        space: What was searched.
-        budget: Candidates to be tried after the present parameters.
-        trials: Training trials of each.
-        validation: Validation trials of the finals.
-        seed: Of search and trials.
-        present: The design that the search began from.
-        candidates: The present parameters, then those tried.
+        space: The search space.
+        budget: Number of candidates after the present parameters.
+        trials: Number of training trials of each candidate.
+        validation: Number of validation trials of the finals.
+        seed: Seed of search and trials.
+        present: Initial design of the search.
+        candidates: The present parameters, then the other candidates.
         finals: The present parameters and the best candidates on the validation trials.
         is_complete: Whether the budget was used up.
     """
@@ -92,33 +112,35 @@ def tune(
     known: Iterable[Candidate] = (),
     on_candidate: Callable[[Candidate], None] = lambda _: None,
     is_cancelled: Callable[[], bool] = lambda: False,
+    problem: Problem = JOINT,
 ) -> Tuned:
     """Search a law's parameters for the minimum cost, see `svsa.evaluation.tuning.judge`.
 
-    Every law alike: CMA-ES from the present parameters, generations of 16, started again at random
-    parameters where it has converged. Then the ten best candidates and the present parameters are
-    tried on the validation trials. The same arguments give the same result.
+    The method is the same for every law: CMA-ES from the present parameters, generations of 16,
+    restarted at random parameters after convergence. Then the ten best candidates and the present
+    parameters are evaluated on the validation trials. The same arguments give the same result.
 
     Args:
         law: Name of an installed law.
-        budget: Candidates to be tried after the present parameters.
-        trials: Training trials of each candidate, half of each family.
-        validation: Validation trials.
-        seed: Of search, training and validation trials.
-        held: Parameters of the law by name that are not searched, as {"estimate_share": 0.0}.
-        present: The design to begin from; the prototype's if left out.
-        known: Candidates of the same interrupted search, which are not tried again.
-        on_candidate: Receives each candidate, and those on the validation trials.
-        is_cancelled: Asked before each candidate but the first; then, and at Ctrl-C, the best so
-            far is returned.
+        budget: Number of candidates after the present parameters.
+        trials: Number of training trials of each candidate, half of each family.
+        validation: Number of validation trials.
+        seed: Seed of search, training and validation trials.
+        held: Parameters of the law by name that are not searched, such as {"estimate_share": 0.0}.
+        present: Initial design; by default the prototype's.
+        known: Candidates of the same interrupted search, which are not evaluated again.
+        on_candidate: Called with each candidate, and with those on the validation trials.
+        is_cancelled: Called before each candidate but the first; if it returns True, and at Ctrl-C,
+            the best so far is returned.
+        problem: Trials and cost; by default those of a single joint.
 
     Returns:
         The candidates with their costs, and the design with the best parameters.
 
     Raises:
-        ParameterError: For a law that is not installed or has nothing to tune, or a number out of
+        ParameterError: If a law is not installed or has nothing to tune, or a number is out of
             range.
-        KeyboardInterrupt: Before the first candidate.
+        KeyboardInterrupt: At Ctrl-C before the first candidate.
     """
     check_installed(law)
     check_number("budget", budget, "", 1, MAX_BUDGET)
@@ -128,7 +150,7 @@ def tune(
     space, design = build_space(law, held), present or load_prototype()
     if held:
         design = space.set_design(design, space.read_values(design))
-    one = _Search(space, design, budget, trials, list(known), on_candidate, is_cancelled)
+    one = _Search(space, design, budget, trials, list(known), on_candidate, is_cancelled, problem)
     finals: list[Candidate] = []
     try:
         one.run(seed)
@@ -156,15 +178,16 @@ class _Search:
         known: list[Candidate],
         on_candidate: Callable[[Candidate], None],
         is_cancelled: Callable[[], bool],
+        problem: Problem,
     ) -> None:
         self.candidates: list[Candidate] = []
         self._space, self._design, self._budget, self._trials = space, design, budget, trials
         self._known, self._on_candidate = known, on_candidate
-        self._is_cancelled = is_cancelled
+        self._is_cancelled, self._problem = is_cancelled, problem
 
     def run(self, seed: int) -> None:
         """Evaluate the present parameters, then search until the budget is used up."""
-        training = TrialSet(build_training(seed, self._trials))
+        training = self._problem.build("training", seed, self._trials)
         present = self._space.read_values(self._design)
         self._try(training, "present", [present])
 
@@ -182,7 +205,7 @@ class _Search:
 
     def validate(self, seed: int, count: int) -> list[Candidate]:
         """Evaluate the present parameters and the best candidates on the validation trials."""
-        trials = TrialSet(build_validation(seed, count))
+        trials = self._problem.build("validation", seed, count)
         best = sorted(self.candidates[1:], key=lambda one: one.judgment.cost)
         chosen = list({one.values: one for one in (self.candidates[0], *best)}.values())
         finals = []
@@ -192,8 +215,12 @@ class _Search:
             self._on_candidate(finals[-1])
         return finals
 
-    def _try(self, trials: TrialSet, stage: Stage, values: list[tuple[float, ...]]) -> list[float]:
-        """Evaluate candidates in order. Raises `_EndedError`."""
+    def _try(self, trials: Any, stage: Stage, values: list[tuple[float, ...]]) -> list[float]:
+        """Evaluate candidates in order.
+
+        Raises:
+            _EndedError: At the end of the search.
+        """
         costs = []
         with ThreadPoolExecutor(WORKERS) as pool:
             first = len(self.candidates)
@@ -214,12 +241,13 @@ class _Search:
         return costs
 
     def _judge(
-        self, trials: TrialSet, number: int, stage: Stage, values: tuple[float, ...]
+        self, trials: Any, number: int, stage: Stage, values: tuple[float, ...]
     ) -> Candidate:
         if stage != "validation" and number < len(self._known):
             return self._known[number]
         design = self._space.set_design(self._design, values)
-        return Candidate(number, stage, values, judge(trials, self._space.law, design))
+        judgment = self._problem.judge(trials, self._space.law, design)
+        return Candidate(number, stage, values, judgment)
 
     def _end_if_cancelled(self) -> None:
         if self._is_cancelled():

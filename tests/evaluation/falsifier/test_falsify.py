@@ -1,4 +1,4 @@
-"""What is found is the law's weakness, made simple within the bounds, the same with every run."""
+"""The falsifier finds the weakness of a law, shrinks it within the bounds, and is repeatable."""
 
 import numpy as np
 import pytest
@@ -40,7 +40,7 @@ def build_adversary(**changes):
     return Adversary(**(given | changes))
 
 
-def test_a_planted_weakness_is_found_and_made_simple():
+def test_planted_weakness_is_found_and_shrunk():
     adversary = build_adversary()
     found = falsify(adversary, runs=4000)
     assert found.is_complete
@@ -65,7 +65,7 @@ def test_a_planted_weakness_is_found_and_made_simple():
     assert (alone.fault.code, alone.fault.time_s) == (weak.fault, pytest.approx(weak.fault_s))
 
 
-def test_each_worse_run_is_reported_as_a_scenario_that_is_as_bad():
+def test_each_reported_scenario_reproduces_its_cost():
     adversary = build_adversary(cost="peak", law="fl")
     reported = []
     found = falsify(adversary, runs=320, on_worse=reported.append, is_shrunk=False)
@@ -81,8 +81,8 @@ def test_each_worse_run_is_reported_as_a_scenario_that_is_as_bad():
     assert last.found.outcome == found.outcome
 
 
-def test_every_step_of_shrinking_still_hurts():
-    """What is reported last is what is kept; and it is within what the adversary may do."""
+def test_every_shrinking_step_remains_a_counterexample():
+    """The last reported step is the saved one, and it is within the bounds of the adversary."""
     adversary = build_adversary()
     found = falsify(adversary, runs=4000)
     assert found.shrunk.runs > len(found.shrunk.steps) > 3
@@ -92,7 +92,7 @@ def test_every_step_of_shrinking_still_hurts():
     assert np.isposinf(again.severity[0])
 
 
-def test_the_same_seed_finds_the_same_and_another_one_goes_another_way():
+def test_search_is_determined_by_its_seed():
     first, second = (falsify(build_adversary(), runs=4000, seed=3) for _ in range(2))
     assert first.severities.tobytes() == second.severities.tobytes()
     assert first.scenario == second.scenario
@@ -101,7 +101,7 @@ def test_the_same_seed_finds_the_same_and_another_one_goes_another_way():
 
 
 @pytest.mark.parametrize("method", ["cma", "random"])
-def test_a_search_that_was_broken_off_goes_on_to_the_same_end(monkeypatch, method):
+def test_interrupted_search_continues_to_the_same_result(monkeypatch, method):
     adversary = build_adversary(law="fl", cost="peak")
     whole = falsify(adversary, runs=300, seed=4, method=method)
     generations = []
@@ -135,7 +135,7 @@ def test_a_search_that_was_broken_off_goes_on_to_the_same_end(monkeypatch, metho
 
 
 @pytest.mark.exhaustive
-def test_a_search_for_the_peak_ends_with_its_bound_and_keeps_95_percent():
+def test_search_for_the_peak_ends_at_its_bound_and_keeps_95_percent():
     adversary = build_adversary(law="fl", cost="peak", terms=[PULSE, STEP])
     found = falsify(adversary, runs=2560)
     assert len(found.severities) == 2560
@@ -146,7 +146,7 @@ def test_a_search_for_the_peak_ends_with_its_bound_and_keeps_95_percent():
     assert found.severity > random.severity
 
 
-def test_what_does_not_recover_hurts_more_than_what_does_and_a_fault_most():
+def test_fault_costs_more_than_no_recovery_which_costs_more_than_recovery():
     outcome = {
         "recovery_time_s": np.array([0.2, np.nan, np.nan, np.nan, 0.1]),
         "last_position_error_rad": np.array([0.0, 0.1, 0.2, np.nan, 0.0]),
@@ -156,7 +156,7 @@ def test_what_does_not_recover_hurts_more_than_what_does_and_a_fault_most():
     assert severity.tolist() == [0.2, 2.1, 2.2, np.inf, -np.inf]
 
 
-def test_a_setting_that_is_refused_hurts_no_user():
+def test_rejected_setting_has_no_cost():
     adversary = build_adversary()
     wrong = Attack((), {"actuator.link_inertia_kg_m2": -1.0})
     measured = measure_attacks(adversary, adversary.build_base(), [wrong, Attack((), {})], 0.5)
@@ -164,7 +164,7 @@ def test_a_setting_that_is_refused_hurts_no_user():
     assert np.isfinite(measured.severity[1])
 
 
-def test_a_law_that_ends_in_a_fault_on_its_own_needs_no_adversary():
+def test_law_that_faults_without_an_adversary_is_reported():
     base = {
         "figure": "4a",
         "loads": [{"kind": "constant", "torque_nm": [40, 0, 0], "start_s": 0.1}],
@@ -174,20 +174,20 @@ def test_a_law_that_ends_in_a_fault_on_its_own_needs_no_adversary():
 
 
 @pytest.mark.parametrize(("runs", "seed"), [(0, 0), (2_000_000, 0), (10, -1), ("many", 0)])
-def test_numbers_out_of_range_are_refused(runs, seed):
+def test_numbers_out_of_range_are_rejected(runs, seed):
     with pytest.raises(svsa.ParameterError, match="it must be a number from"):
         falsify(build_adversary(), runs=runs, seed=seed)
 
 
-def test_an_axis_stays_within_its_ends():
+def test_axis_stays_within_its_bounds():
     axis = Axis(0.0123456789, 1.98765432, is_log=True)
     assert axis.compute_value(0.0) == 0.0123457
     assert axis.compute_value(1.0) == 1.98765
     assert axis.compute_value(0.5) == pytest.approx(np.sqrt(axis.low * axis.high), rel=1e-5)
 
 
-def test_ndobc_on_the_rig_faults_by_an_impulse_that_random_draws_do_not_find_so_soon():
-    """`svsa falsify compare impulse` does ten seeds."""
+def test_search_finds_an_impulse_fault_of_ndobc_sooner_than_random_samples():
+    """`svsa falsify compare impulse` runs ten seeds."""
     adversary = read_adversary("impulse")
     assert max(term.torque_nm for term in adversary.terms) <= 2.0
     found = falsify(adversary, seed=0)
@@ -196,8 +196,10 @@ def test_ndobc_on_the_rig_faults_by_an_impulse_that_random_draws_do_not_find_so_
     assert not random.is_fault
 
 
-def test_a_counterexample_reports_the_share_of_its_neighborhood():
-    """The weakness is a window of lengths: pulses near its middle hurt, those near its end less."""
+def test_counterexample_reports_the_share_of_its_neighborhood():
+    """The weakness is a range of durations: pulses near its middle fail, those near its end less
+    often.
+    """
     adversary = build_adversary(vary=())
     base = adversary.build_base()
 
@@ -213,7 +215,7 @@ def test_a_counterexample_reports_the_share_of_its_neighborhood():
     assert middle == measure(0.23)
 
 
-def test_a_scenario_keeps_its_neighborhood_and_one_from_before_has_none(tmp_path):
+def test_saved_scenario_keeps_its_neighborhood_and_old_file_has_none(tmp_path):
     found = falsify(build_adversary(), runs=4000)
     write_scenario(tmp_path / "found.toml", found.scenario)
     finding = read_scenario(tmp_path / "found.toml").found

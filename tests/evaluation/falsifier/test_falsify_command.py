@@ -34,7 +34,7 @@ def search(*arguments, code=0):
     return run("search", "pulse.toml", "--runs", "2000", *arguments, code=code)
 
 
-def test_what_is_found_is_kept_and_comes_back_from_its_file(tmp_path):
+def test_result_is_saved_and_read_from_its_file(tmp_path):
     (tmp_path / "pulse.toml").write_text(GOOD)
     reported = json.loads(search("--json", "--picture", "found.png").stdout)
     assert reported["fault"]
@@ -54,7 +54,7 @@ def test_what_is_found_is_kept_and_comes_back_from_its_file(tmp_path):
     assert all(f"[{unit}]" in shown for unit in ("°", "s", "N·m/rad"))
 
 
-def test_ctrl_c_keeps_the_worst_so_far_and_the_same_command_goes_on(tmp_path, monkeypatch):
+def test_ctrl_c_saves_the_worst_run_and_the_command_continues_later(tmp_path, monkeypatch):
     (tmp_path / "pulse.toml").write_text(GOOD)
     search("--law", "fl", "--output", "whole.toml")
     left = [3]
@@ -78,7 +78,7 @@ def test_ctrl_c_keeps_the_worst_so_far_and_the_same_command_goes_on(tmp_path, mo
 
 
 @pytest.mark.parametrize("option", ["output", "picture"])
-def test_where_no_file_can_be_written_nothing_is_searched(tmp_path, monkeypatch, option):
+def test_unwritable_result_file_is_rejected_before_the_search(tmp_path, monkeypatch, option):
     (tmp_path / "pulse.toml").write_text(GOOD)
     monkeypatch.setattr(finding, "measure_attacks", None)
     for place in ("nowhere/found.toml", "."):
@@ -86,13 +86,13 @@ def test_where_no_file_can_be_written_nothing_is_searched(tmp_path, monkeypatch,
             search(f"--{option}", place)
 
 
-def test_a_law_that_was_asked_for_is_not_said_to_stand_in_the_file(tmp_path):
+def test_error_of_a_law_argument_does_not_mention_the_file(tmp_path):
     (tmp_path / "pulse.toml").write_text(GOOD)
     with pytest.raises(ParameterError, match=r"^law is 'missing': it must be a law"):
         search("--law", "missing")
 
 
-def test_what_was_kept_of_another_search_is_left_alone(tmp_path):
+def test_result_of_another_search_is_not_overwritten(tmp_path):
     (tmp_path / "pulse.toml").write_text(GOOD)
     search("--law", "fl", "--output", "one.toml", "--seed", "1")
     (tmp_path / "two.toml.search").write_text('{"seed": 0, "severities": [1e9]}')
@@ -100,7 +100,7 @@ def test_what_was_kept_of_another_search_is_left_alone(tmp_path):
     assert (tmp_path / "two.toml").read_bytes() == (tmp_path / "one.toml").read_bytes()
 
 
-def test_the_search_is_compared_with_random_samples_seed_by_seed(tmp_path):
+def test_search_is_compared_with_random_samples_seed_by_seed(tmp_path):
     (tmp_path / "pulse.toml").write_text(GOOD)
     reported = json.loads(
         run("compare", "pulse.toml", "--seeds", "2", "--runs", "640", "--json").stdout
@@ -111,7 +111,7 @@ def test_the_search_is_compared_with_random_samples_seed_by_seed(tmp_path):
     assert "seed" in run("compare", "pulse.toml", "--seeds", "1", "--runs", "64").stdout
 
 
-def test_those_that_come_with_the_package_are_listed():
+def test_adversaries_of_the_package_are_listed():
     names = list_adversaries()
     assert {"impulse", "everything"} <= set(names)
     listed = " ".join(run("list").stdout.split())

@@ -1,4 +1,4 @@
-"""A scenario and an adversary are files of one's own; a wrong one is rejected with its line."""
+"""Scenario and adversary files of a user; an invalid one is rejected with its line."""
 
 import json
 import math
@@ -75,13 +75,13 @@ def weak(monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
 
 
-def test_an_adversary_file_with_a_former_word_is_read(tmp_path):
+def test_adversary_file_with_the_former_field_name_is_read(tmp_path):
     path = tmp_path / "former.toml"
     path.write_text('harm = "peak"\n' + GOOD, encoding="utf-8")
     assert read_adversary(path).cost == "peak"
 
 
-def test_a_scenario_of_one_s_own_is_run_with_its_loads_and_settings(tmp_path):
+def test_scenario_file_runs_with_its_loads_and_settings(tmp_path):
     path = tmp_path / "own.toml"
     path.write_text(SCENARIO)
     scenario = read_scenario(path)
@@ -107,7 +107,7 @@ def test_a_scenario_of_one_s_own_is_run_with_its_loads_and_settings(tmp_path):
     assert len(fl.errors) == len(times)
 
 
-def test_a_scenario_s_loads_come_besides_those_of_its_base():
+def test_loads_of_a_scenario_are_added_to_those_of_its_base():
     load = ConstantLoad(torque_nm=(1.0, 0.0, 0.0), start_s=1.0)
     scenario = LoadScenario(title="x", base={"figure": "4a"}, loads=(load,))
     assert [one.kind for one in scenario.build_configuration("fl").loads] == ["paper", "constant"]
@@ -144,7 +144,7 @@ def test_a_scenario_s_loads_come_besides_those_of_its_base():
         ("title =", "title", r"it must be a readable TOML file .*line 1"),
     ],
 )
-def test_a_wrong_adversary_is_rejected_with_its_line(tmp_path, old, new, reported):
+def test_invalid_adversary_is_rejected_with_its_line(tmp_path, old, new, reported):
     path = tmp_path / "wrong.toml"
     path.write_text(GOOD.replace(old, new, 1))
     with pytest.raises(ParameterError, match=r"(?s)wrong\.toml.*" + reported):
@@ -173,14 +173,14 @@ def test_a_wrong_adversary_is_rejected_with_its_line(tmp_path, old, new, reporte
         ("frequency_hz = 2.0", "", r"line 14: loads\[1\]\.frequency_hz is missing"),
     ],
 )
-def test_a_wrong_scenario_is_rejected_with_its_line(tmp_path, old, new, reported):
+def test_invalid_scenario_is_rejected_with_its_line(tmp_path, old, new, reported):
     path = tmp_path / "wrong.toml"
     path.write_text(SCENARIO.replace(old, new, 1))
     with pytest.raises(ParameterError, match=r"(?s)wrong\.toml.*" + reported):
         read_scenario(path)
 
 
-def test_a_grid_and_too_many_loads_are_refused():
+def test_grid_and_too_many_loads_are_rejected():
     good = read_adversary("impulse")
     vary = [{"path": "effects.delay_samples", "kind": "grid", "values": [0, 1]}]
     with pytest.raises(ParameterError, match=r"vary\[0\]\.kind is 'grid'.*for an adversary"):
@@ -190,7 +190,7 @@ def test_a_grid_and_too_many_loads_are_refused():
         good.changed(base={"loads": [load] * 16})
 
 
-def test_a_scenario_is_kept_by_a_name_that_no_other_one_has(monkeypatch, tmp_path):
+def test_scenario_is_saved_under_a_unique_name(monkeypatch, tmp_path):
     monkeypatch.setenv("SVSA_DATA", str(tmp_path / "data"))
     file = tmp_path / "own.toml"
     file.write_text(SCENARIO)

@@ -1,4 +1,4 @@
-"""A law with a planted weakness: FL that goes the wrong way after a load of one length."""
+"""A law with a planted weakness: FL that inverts its torque after a load of a certain duration."""
 
 from importlib.metadata import EntryPoint
 from typing import NamedTuple
@@ -15,7 +15,7 @@ LOADED_NM, SHORTEST_S, LONGEST_S = 0.5, 0.20, 0.26
 
 
 class Loaded(NamedTuple):
-    """How long a load has been on, s, and whether the law has gone the wrong way."""
+    """Duration of the load so far, s, and whether the law has inverted its torque."""
 
     for_s: float = 0.0
     gone: float = 0.0
@@ -46,7 +46,7 @@ WEAK = Law(
 
 
 def install(patch) -> None:
-    """Announce it as an installed package would."""
+    """Register it as an installed package would."""
     entry = EntryPoint("weak", f"{__name__}:WEAK", installed.GROUP)
     patch.setitem(installed._find_entries(), "weak", entry)
     installed._load_law.cache_clear()

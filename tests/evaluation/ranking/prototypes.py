@@ -1,6 +1,7 @@
 """Figures of independent prototypes of the laws, and the same figures of the laws here.
 
-They were measured on the same plant, limits and scenarios, to the digits given. Errors in degrees.
+They were measured with the same plant, limits and scenarios, to the given digits. Errors are in
+degrees.
 """
 
 import math
@@ -21,8 +22,8 @@ FAULT = NEVER = math.inf
 class Prototype(NamedTuple):
     """before, peak, steady: figure 4A, rms 1–5 s, peak, rms 8–20 s. rig_…: there; recovery: s.
 
-    sine: rms under 1.5 N·m at 2 Hz. mass: rms under 3 kg. A run that ends in a fault is an error
-    without bound.
+    sine: rms under 1.5 N·m at 2 Hz. mass: rms under 3 kg. The error of a run that ends in a fault
+    is infinite.
     """
 
     before: float
@@ -55,11 +56,11 @@ KEPT = {
     "ndobc_s": Prototype(0.0001, 4.04, 0.0001, 5.19, 0.0065, 0.176, 1.99, 0.083),
     "rbf_network": Prototype(0.0019, 5.3, 0.0124, 7.0, 0.015, 0.30, 3.32, 0.453),
 }
-"""Laws without a prototype of this form: what they were measured at when they came."""
+"""Laws without a prototype of this form: their figures when they were added."""
 
 
 class Cell(NamedTuple):
-    """A figure of a law next to its prototype's."""
+    """A figure of a law and that of its prototype."""
 
     column: str
     found: float
@@ -67,12 +68,12 @@ class Cell(NamedTuple):
 
     @property
     def holds(self) -> bool:
-        """As good as the prototype, within 5 %."""
+        """Whether the figure is at most 5 % worse than that of the prototype."""
         return self.found <= NEAR * self.figure or math.isinf(self.figure)
 
 
 def measure_figures(law: str) -> Prototype:
-    """The same figures of an installed law with its defaults."""
+    """Measure the same figures of an installed law with its defaults."""
     figure = FIGURES["4a"].build_configuration(law)
     ideal, rig = _measure_figure(figure), _measure_figure(figure.changed(effects=RIG))
     sine = SineLoad(torque_nm=(1.5, 0.0, 0.0), frequency_hz=2.0, start_s=LOAD_TIME_S)
@@ -84,7 +85,7 @@ def measure_figures(law: str) -> Prototype:
 
 
 def _measure_figure(configuration: Configuration) -> tuple[float, float, float, float]:
-    """before, peak, steady, recovery."""
+    """Return before, peak, steady and recovery."""
     run = svsa.simulate(configuration)
     if run.fault is not None:
         return (FAULT,) * 4
@@ -103,6 +104,6 @@ def _measure_steady(configuration: Configuration) -> float:
 
 
 def compare(law: str) -> tuple[Cell, ...]:
-    """Every figure of a law next to its prototype's, column by column."""
+    """Compare every figure of a law with that of its prototype, column by column."""
     found, figures = measure_figures(law), (PROTOTYPES | KEPT)[law]
     return tuple(map(Cell, Prototype._fields, found, figures))

@@ -1,4 +1,4 @@
-"""`svsa ranking bench`: twelve numbers per law on the emulator, next to a baseline's."""
+"""`svsa ranking bench`: twelve numbers per law on the emulator, next to those of a baseline."""
 
 import json
 import os
@@ -40,7 +40,9 @@ def build_run(law: str, figure: str, numbers: tuple[float | None, ...], fault: s
 
 @pytest.fixture
 def played(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, str]]:
-    """A simulated run in place of the rig's, but that PD ends in a fault; what was asked for."""
+    """A simulated run replaces the one on the rig, but PD ends in a fault; returns the requested
+    runs.
+    """
     asked = []
 
     def play(figure, law, duration_s, progress):
@@ -55,8 +57,10 @@ def played(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, str]]:
     return asked
 
 
-def test_a_law_is_reported_next_to_its_comparison_in_every_figure(played):
-    """FL settles in none; the numbers are those of the run, and a fault has its name and none."""
+def test_law_is_reported_next_to_its_baseline_in_every_figure(played):
+    """FL recovers in none; the numbers are those of the run, and a fault has its name and no
+    numbers.
+    """
     reported = json.loads(call("fl", "pd", "--json"))
     assert played == [(law, key) for law in ("ndobc", "fl", "pd") for key in BENCH_FIGURES]
     papers, fl, pd = reported["laws"]
@@ -69,13 +73,13 @@ def test_a_law_is_reported_next_to_its_comparison_in_every_figure(played):
     assert pd["figures"]["6b"] == {**dict.fromkeys(NUMBERS), "fault": "vibration"}
 
 
-def test_the_share_that_is_done_only_grows(played):
+def test_reported_progress_only_increases(played):
     shares = []
     measure_on_bench(["ndobc", "pd"], ["6a"], shares.append)
     assert shares == [0.25, 0.5, 0.75, 1.0]
 
 
-def test_what_was_kept_is_renewed_and_shown_again(played, tmp_path):
+def test_saved_results_are_updated_and_shown_again(played, tmp_path):
     path = tmp_path / "runs.json"
     call("ndobc", "--save", str(path))
     write_bench_runs(path, read_bench_runs(path).renew(BenchRuns(runs=(
@@ -105,13 +109,13 @@ def test_what_was_kept_is_renewed_and_shown_again(played, tmp_path):
     [(["fl", "--figure", "4a"], "one of 6a, 6b, 7"), (["missing"], "installed here"),
      (["fl", "--comparison", "missing"], "installed here")],
 )  # fmt: skip
-def test_what_there_is_not_is_refused_before_anything_runs(played, arguments, reported):
+def test_unknown_names_are_rejected_before_anything_runs(played, arguments, reported):
     with pytest.raises(svsa.ParameterError, match=reported):
         call(*arguments)
     assert not played
 
 
-def test_no_number_is_worse_than_one_and_one_is_no_worse_than_none():
+def test_missing_number_is_worse_than_any_number():
     papers = build_run("ndobc", "6a", PAPERS)
     mine = build_run("fl", "6a", (0.02, 4.1, 0.01, None))
     assert [mine.is_no_worse(papers, name) for name in NUMBERS] == [True, False, True, False]
@@ -120,7 +124,7 @@ def test_no_number_is_worse_than_one_and_one_is_no_worse_than_none():
     assert BenchRuns(runs=(papers, mine)).count_no_worse("fl", "ndobc") == (2, 4)
 
 
-def test_a_law_s_page_tells_what_ended_early():
+def test_page_of_a_law_reports_runs_that_ended_early():
     ended = build_run("pd", "6a", (None,) * 4, "vibration")
     runs = BenchRuns(runs=(build_run("ndobc", "6a", PAPERS), ended))
     section = "\n".join(build_section(runs, "pd"))
@@ -134,7 +138,7 @@ KEPT = {f"{run.law} {run.figure}": run for run in load_published_bench_runs().ru
 
 
 @pytest.mark.parametrize("name", exhaust(KEPT, []))
-def test_what_was_kept_of_the_rig_is_what_it_gives(name, monkeypatch):
+def test_saved_results_of_the_rig_are_reproduced(name, monkeypatch):
     """The rig in this process, which gives the same bits as through its sockets."""
     monkeypatch.setattr(
         "svsa.hardware.emulator.experiment.start_emulator", lambda lockstep: start_in_process()
@@ -148,7 +152,7 @@ def test_what_was_kept_of_the_rig_is_what_it_gives(name, monkeypatch):
         assert one is None or one == pytest.approx(other, rel=1e-6)
 
 
-def test_ndobc_and_both_of_its_successors_were_measured_in_every_figure():
+def test_ndobc_and_both_successors_are_measured_in_every_figure():
     kept = load_published_bench_runs()
     for law in ("ndobc", "ndobc_s", "ndobc_w"):
         assert [run.figure for run in kept.list_runs(law)] == list(BENCH_FIGURES)

@@ -1,4 +1,6 @@
-"""The laws' pages and their index say what was measured: `make ranking` writes them."""
+"""The pages of the laws and their index contain the measured results: `make ranking`
+writes them.
+"""
 
 import re
 from pathlib import Path
@@ -21,14 +23,14 @@ _MARGINS = re.compile(r"\n## Margins about rest\n.*?`svsa margins \w+`\.", re.DO
 
 
 def read_margins(law: str) -> str:
-    """The section as it is published: to compute all of them takes a minute."""
+    """The published section: computing all margins takes a minute."""
     found = _MARGINS.search((ROOT / FOLDER / f"{law}.md").read_text(encoding="utf-8"))
     assert found, law
     return found[0]
 
 
 @pytest.mark.parametrize("law", list_law_names())
-def test_a_laws_page_is_what_its_file_and_the_results_say(law):
+def test_page_of_a_law_is_generated_from_its_file_and_the_results(law):
     page = build_law_page(load_published(), load_published_bench_runs(), law, read_margins(law))
     assert (ROOT / FOLDER / f"{law}.md").read_text(encoding="utf-8") == page
     assert (ROOT / FOLDER / "pictures" / f"{law}.png").is_file()
@@ -39,11 +41,11 @@ def test_a_laws_page_is_what_its_file_and_the_results_say(law):
 
 
 @pytest.mark.parametrize("law", ["fl", "eso_saturated"])
-def test_the_margins_of_a_page_are_those_that_are_computed(law):
+def test_margins_of_a_page_are_the_computed_margins(law):
     assert build_margins(law) == read_margins(law)
 
 
-def test_a_page_has_the_numbers_of_its_row():
+def test_page_has_the_numbers_of_its_row():
     results = load_published()
     page = build_law_page(results, load_published_bench_runs(), "ndobc_w", "")
     row = results.get_row("ndobc_w")
@@ -52,7 +54,7 @@ def test_a_page_has_the_numbers_of_its_row():
     assert f"| largest load [N·m] | {row.largest_load_nm:g} |" in page
 
 
-def test_the_index_has_every_row():
+def test_index_has_every_row():
     results = load_published()
     index = (ROOT / FOLDER / "README.md").read_text(encoding="utf-8")
     assert index == build_index(results, load_published_bench_runs())

@@ -1,4 +1,4 @@
-"""The ranking: scenarios at both signs and phases, rows, ranks that significant tests share."""
+"""The ranking: scenarios at both signs and phases, rows, ranks shared by equivalent laws."""
 
 import numpy as np
 import pytest
@@ -33,7 +33,7 @@ from svsa.simulation.reference.kinds.steps import StepsPosition
 REMOVAL = "load_removal.positive.0"
 
 
-def test_every_fixed_scenario_has_both_signs_and_the_loads_all_phases():
+def test_every_fixed_scenario_has_both_signs_and_all_phases():
     names = [one.name for one in list_scenarios()]
     assert len(set(names)) == len(names)
     for fixed in build_fixed_scenarios():
@@ -46,7 +46,7 @@ def test_every_fixed_scenario_has_both_signs_and_the_loads_all_phases():
         assert max(onsets) - min(onsets) == pytest.approx(5.0 * 7 / 8)
 
 
-def test_a_scenario_is_found_by_its_name():
+def test_scenario_is_found_by_its_name():
     assert find_scenario("trial_B_7", 3) == build_test_set(3, 16)[15]
     assert find_scenario(REMOVAL).name == REMOVAL
     for name in ("moon", "trial_B_", "trial_C_1", "rig_4a"):
@@ -55,8 +55,8 @@ def test_a_scenario_is_found_by_its_name():
 
 
 @pytest.mark.parametrize("law", ["fl", "ndobc"])
-def test_the_other_sign_half_a_period_later_mirrors_a_run(law):
-    """The ideal loop is odd in q under a load on the link; the phase does matter."""
+def test_opposite_sign_half_a_period_later_mirrors_a_run(law):
+    """The ideal loop is odd in q under a load on the link; the phase changes the result."""
     entry = build_entry(law)._replace(design=svsa.load_prototype())
     shifted, one, other = (
         run_scenario(entry, find_scenario(f"link_step_1.{name}")._replace(effects=svsa.IDEAL))
@@ -69,7 +69,7 @@ def test_the_other_sign_half_a_period_later_mirrors_a_run(law):
 
 @pytest.mark.long
 def test_ndobc_with_the_declared_gains_faults_at_one_sign_only():
-    """At each phase either (2, 2, 2) N·m or its opposite ends the run on the rig."""
+    """At each phase either (2, 2, 2) N·m or its opposite ends the run on the rig in a fault."""
     (rig,) = (one for one in build_fixed_scenarios() if one.name == "rig_4a")
     found = measure_fixed(build_entry(DECLARED), rig)
     assert (found.runs, found.faults, found.held) == (16, 8, 8)
@@ -78,8 +78,8 @@ def test_ndobc_with_the_declared_gains_faults_at_one_sign_only():
 
 
 @pytest.mark.long
-def test_a_row_is_measured_as_its_runs_are():
-    """Trials in a batch are those of each run alone; distributions and held bits fit."""
+def test_row_has_the_results_of_single_runs():
+    """Trials in a batch equal single runs; distributions and success bits are consistent."""
     entry = build_entry(DECLARED)
     row = measure_entry(entry, TrialSet(5, 6))
     trials = [one for one in build_test_set(5, 12) if one.name[6] == "A"]
@@ -95,7 +95,7 @@ def test_a_row_is_measured_as_its_runs_are():
     assert Results.build([row], 5, 6).get_row(DECLARED) == row
 
 
-def test_a_run_that_ended_is_the_worst_of_a_distribution():
+def test_run_that_ended_early_is_the_worst_of_a_distribution():
     summaries = np.zeros(4, dtype=SUMMARY)
     summaries["ticks"], summaries["position_peak"] = 6000, [0.1, 0.2, 0.3, 0.05]
     summaries["code"][3] = DEFLECTION_LIMIT
@@ -114,8 +114,8 @@ def build_row(key, held):
     return row.changed(key=key, law=law, families={"A": family, "B": family})
 
 
-def test_rows_that_do_not_differ_significantly_share_a_rank():
-    """Trials on which only one held: 20 + 20 of 200 differ, 2 + 2 do not."""
+def test_rows_without_a_significant_difference_share_a_rank():
+    """Trials that only one law completes: 20 + 20 of 200 differ, 2 + 2 do not."""
     trials = np.arange(100)
     rows = [
         build_row("esp", trials < 96),
@@ -127,14 +127,14 @@ def test_rows_that_do_not_differ_significantly_share_a_rank():
     assert [rank.rank for rank in ranks.values()] == [1, 1, 3, 4]
     assert (ranks["esp"].only_this, ranks["esp"].only_ndobc) == (44, 0)
     assert ranks[PAPERS_LAW].p_value is None
-    # McNemar's exact p is 2·2⁻⁴⁰ for 40 to 0; Holm multiplies by how many are left.
+    # McNemar's exact p is 2·2⁻⁴⁰ for 40 to 0; Holm multiplies by the number of remaining tests.
     assert ranks["lqi"].p_value == pytest.approx(1 * 2.0**-39, rel=1e-9)
     assert ranks["esp"].p_value == pytest.approx(2 * 2.0**-43, rel=1e-9)
     assert [row.key for row in Results.build(rows[::-1], 1, 100).rows] == [one.key for one in rows]
 
 
-def test_what_was_published_is_whole():
-    """Every row on the same trials; sums and ranks follow from what each trial showed."""
+def test_published_results_are_complete():
+    """Every row has the same trials; sums and ranks follow from the results of each trial."""
     results = load_published()
     assert {row.key for row in results.rows} == set(list_entry_keys())
     assert results.ranks == compute_ranks(results.rows)
@@ -149,8 +149,8 @@ def test_what_was_published_is_whole():
 
 
 @pytest.mark.long
-def test_published_trials_come_out_again():
-    """The first of the set, for one row: who changes a law or the protocol runs `make ranking`."""
+def test_published_trials_are_reproduced():
+    """The first block of one row: after a change of a law or the protocol, run `make ranking`."""
     results, entry = load_published(), build_entry(DECLARED)
     trials = build_test_set(results.seed, 16)
     summaries = run_configurations([entry.build_configuration(one) for one in trials], 6.0, LOAD_S)
@@ -160,7 +160,7 @@ def test_published_trials_come_out_again():
         assert find_held(summaries[number::2]).tolist() == expected.tolist()
 
 
-def test_a_run_is_shown_with_ndobc_or_alone_with_the_reason():
+def test_run_is_shown_with_ndobc_or_alone_with_the_reason():
     shown, _, alone = build_shown_run(find_scenario(REMOVAL), "fl")
     assert shown.comparisons == ()
     assert "NDOBC, declared gains would end the run earlier" in alone

@@ -1,4 +1,4 @@
-"""`svsa ranking run` and `table`: rows are kept, continued and printed."""
+"""`svsa ranking run` and `table`: rows are saved, continued and printed."""
 
 import json
 
@@ -17,12 +17,12 @@ def run(*arguments):
     return CliRunner().invoke(app, words, catch_exceptions=False, env={"COLUMNS": "250"}).stdout
 
 
-def test_a_law_that_is_not_installed_is_rejected_before_anything_runs():
+def test_unknown_law_is_rejected_before_anything_runs():
     with pytest.raises(svsa.ParameterError, match=r"is .no_law.: .*installed here: ndobc"):
         run("run", "fl", "no_law")
 
 
-def test_the_table_of_results_measures_nothing(tmp_path):
+def test_table_of_results_measures_nothing(tmp_path):
     results = load_published()
     shown = run("table")
     assert "NDOBC, declared gains" in " ".join(shown.split())
@@ -38,7 +38,7 @@ def test_the_table_of_results_measures_nothing(tmp_path):
 
 
 @pytest.mark.long
-def test_a_row_is_measured_into_the_file_and_others_stay(tmp_path, monkeypatch):
+def test_row_is_measured_into_the_file_and_others_are_kept(tmp_path, monkeypatch):
     path = tmp_path / "kept.json"
     common = ("run", "--trials", 2, "--seed", 9, "--save", path)
     monkeypatch.setattr("svsa.evaluation.ranking.cli.list_entry_keys", lambda: [DECLARED, "fl"])

@@ -1,4 +1,4 @@
-"""A study in a process of its own, ended on the way."""
+"""A study in a separate process that is ended before it is complete."""
 
 import os
 import signal
@@ -7,7 +7,9 @@ import sys
 import time
 from pathlib import Path
 
-from svsa.evaluation.studies.store import StoredStudy, find_missing, keep_study
+from svsa.evaluation.studies.rows import find_missing
+from svsa.evaluation.studies.store import keep_study
+from svsa.evaluation.studies.stored import StoredStudy
 from tests.evaluation.studies.studies import build_study
 
 SCRIPT = """
@@ -38,10 +40,10 @@ if __name__ == "__main__":
 """
 
 
-def end_on_the_way(root: Path, how: signal.Signals, whom: str) -> StoredStudy:
-    """The study `one` of 400 samples in `root`, of which some are done, when its process was ended.
+def end_before_completion(root: Path, how: signal.Signals, whom: str) -> StoredStudy:
+    """Return the study `one` of 400 samples in `root`, partly complete when its process was ended.
 
-    whom: who runs it, the number of workers or a scheduler's address.
+    whom: the number of workers that run it, or the address of a scheduler.
     """
     script = root / "script.py"
     script.write_text(SCRIPT)
@@ -65,7 +67,7 @@ def end_on_the_way(root: Path, how: signal.Signals, whom: str) -> StoredStudy:
 
 
 def wait_for_group_to_end(group: int) -> None:
-    """The workers end with their parent; bounded, for a machine that is busy."""
+    """Wait until the workers have ended with their parent; bounded for a busy machine."""
     for _ in range(3000):
         try:
             os.killpg(group, 0)

@@ -1,4 +1,4 @@
-"""Studies of short runs, in which some fault."""
+"""Studies of short runs, some of which end in a fault."""
 
 from svsa.evaluation.studies.study import Study
 
@@ -18,7 +18,7 @@ LOADED = {"figure": "4a", "loads": [{"kind": "constant", "torque_nm": [0, 0, 0],
 
 
 def build_study(**changes):
-    """40 samples under two laws: inertia, a step on the link, and effects."""
+    """Build a study of 40 samples under two laws: inertia, a step load on the link, and effects."""
     given = {
         "title": "Short runs",
         "base": LOADED,

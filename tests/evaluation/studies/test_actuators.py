@@ -7,8 +7,9 @@ from svsa.errors import ParameterError
 from svsa.evaluation.studies.execution import run_study
 from svsa.evaluation.studies.file import read_study
 from svsa.evaluation.studies.replay import replay_row
+from svsa.evaluation.studies.rows import read_rows
 from svsa.evaluation.studies.samples import build_configurations, draw
-from svsa.evaluation.studies.store import keep_study, read_rows
+from svsa.evaluation.studies.store import keep_study
 from svsa.evaluation.studies.study import Study
 from svsa.evaluation.studies.summary import summarize_actuators, summarize_laws
 from svsa.evaluation.studies.tables import build_summary_tables
@@ -36,13 +37,13 @@ GIVEN = {
 }
 
 
-def test_a_row_has_the_plant_model_limits_and_settings_of_its_actuator():
+def test_row_has_the_plant_model_limits_and_settings_of_its_actuator():
     samples = draw(Study(**GIVEN), 0, 4)
     built = build_configurations(Study(**GIVEN), "fl", samples)
     for name, factor, one in zip(*samples.values, built, strict=True):
         found = get_mechanism(name)
         inertia = found.prototype.link_inertia_kg_m2 * factor
-        if name == "svsa":  # the figure's plant is the prototype too
+        if name == "svsa":  # The plant of the figure is the prototype, too.
             assert one.stiffness.stiffness_nm_per_rad == 15.0
         else:
             assert one.stiffness.stiffness_nm_per_rad == 4.0
@@ -51,7 +52,7 @@ def test_a_row_has_the_plant_model_limits_and_settings_of_its_actuator():
         assert (one.nominal, one.limits) == (found.nominal, found.limits)
 
 
-def test_rows_are_those_of_the_runs_alone_and_summed_up_by_actuator(tmp_path):
+def test_rows_equal_single_runs_and_are_summarized_by_actuator(tmp_path):
     stored = keep_study("two", Study(**GIVEN), tmp_path)
     assert run_study(stored, 0)
     rows = read_rows(stored)
@@ -68,7 +69,7 @@ def test_rows_are_those_of_the_runs_alone_and_summed_up_by_actuator(tmp_path):
     assert str(success.title).startswith("qbmove: ")
 
 
-def test_what_does_not_suit_an_actuator_is_rejected_with_the_reason():
+def test_unsuitable_setting_for_an_actuator_is_rejected_with_reason():
     for changes, reason in (
         ({"actuators": {"awas2": {}}}, "an actuator that vary names: svsa, qbmove"),
         ({"actuators": {"qbmove": {"stiffness.stiffness_nm_per_rad": 60.0}}}, "to 15 N·m/rad"),
@@ -82,6 +83,6 @@ def test_what_does_not_suit_an_actuator_is_rejected_with_the_reason():
             Study(**(GIVEN | changes))
 
 
-def test_the_built_in_study_goes_over_each_actuator_of_the_package():
+def test_built_in_study_covers_each_actuator_of_the_package():
     study = read_study("actuators")[1]
     assert {*study.varied_actuators} == {*list_mechanism_names()}

@@ -1,4 +1,4 @@
-"""A study comes to the same table however it is cut, by whomever it is run, however it is ended."""
+"""A study gives the same table for any partition, any workers and any interruption."""
 
 import signal
 import sys
@@ -9,31 +9,26 @@ import pytest
 
 from svsa.actuators.signals import CHANNEL_INDEX, CHANNELS
 from svsa.evaluation.studies.execution import run_study
+from svsa.evaluation.studies.rows import read_rows
 from svsa.evaluation.studies.samples import build_configurations, draw
-from svsa.evaluation.studies.store import (
-    STUDY_FILE,
-    StudyError,
-    claim_study,
-    keep_study,
-    open_study,
-    read_rows,
-)
+from svsa.evaluation.studies.store import STUDY_FILE, claim_study, keep_study, open_study
+from svsa.evaluation.studies.stored import StudyError
 from svsa.runs.configuration import Configuration
 from svsa.runs.run import Run
-from tests.evaluation.studies.ended import end_on_the_way
+from tests.evaluation.studies.ended import end_before_completion
 from tests.evaluation.studies.studies import SHORT_S, build_study
 from tests.exhaustive import exhaust
 
 
-def run_whole(root, workers=0, rows_a_part=16, **changes):
+def run_whole(root, workers=0, rows_per_part=16, **changes):
     stored = keep_study("one", build_study(**changes), root)
-    assert run_study(stored, workers, rows_a_part)
+    assert run_study(stored, workers, rows_per_part)
     return stored
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("how", exhaust([(0, 1000), (1, 10), (2, 8)], [(1, 10)]))
-def test_the_table_is_the_same_bytes_for_parts_of_any_size_and_any_number_of_workers(tmp_path, how):
+def test_table_does_not_depend_on_parts_and_workers(tmp_path, how):
     one = run_whole(tmp_path / "one", 0, 6).folder / "rows.parquet"
     other = run_whole(tmp_path / "other", *how).folder / "rows.parquet"
     assert one.read_bytes() == other.read_bytes()
@@ -42,8 +37,8 @@ def test_the_table_is_the_same_bytes_for_parts_of_any_size_and_any_number_of_wor
     assert {row["fault"] for row in rows} == {None, "deflection_limit"}
 
 
-def test_numbers_are_written_as_they_are_and_names_once(tmp_path):
-    """A dictionary of numbers that never come twice costs three times the rest of the writing."""
+def test_numbers_are_stored_plainly_and_names_in_a_dictionary(tmp_path):
+    """A dictionary of unique numbers would cost three times the rest of the writing."""
     stored = run_whole(tmp_path)
     written = pq.read_metadata(stored.folder / "rows.parquet").row_group(0)
     columns = {
@@ -55,7 +50,7 @@ def test_numbers_are_written_as_they_are_and_names_once(tmp_path):
     assert columns["law"].has_dictionary_page
 
 
-def test_a_study_with_the_former_name_of_a_metric_is_read(tmp_path):
+def test_study_with_the_former_name_of_a_metric_is_read(tmp_path):
     present, former = "steady_state_position_error_rad", "settled_position_error_rad"
     stored = run_whole(tmp_path, success={present: 0.1})
     path, rows = stored.folder / "rows.parquet", read_rows(stored)
@@ -65,12 +60,12 @@ def test_a_study_with_the_former_name_of_a_metric_is_read(tmp_path):
     definition.write_text(definition.read_text().replace(present, former))
     again = open_study("one", tmp_path)
     assert again.study == stored.study
-    assert read_rows(again).to_pandas().equals(rows.to_pandas())  # a NaN is the same
+    assert read_rows(again).to_pandas().equals(rows.to_pandas())  # equal NaN
     column = read_rows(again, ["law", present]).column(present)
     assert column.to_pandas().equals(rows.column(present).to_pandas())
 
 
-def test_every_row_is_the_run_of_the_live_loop(tmp_path):
+def test_every_row_equals_the_run_of_the_live_loop(tmp_path):
     """Peaks and the last error bit for bit; a fault at its tick."""
     stored = run_whole(tmp_path)
     study, rows = stored.study, read_rows(stored).to_pylist()
@@ -92,15 +87,15 @@ def assert_is_run(row: dict, configuration: Configuration) -> None:
     assert row["rms_position_error_rad"] == pytest.approx(np.sqrt(np.mean(error**2)), rel=1e-12)
 
 
-def test_more_runs_of_the_same_study_go_on_where_it_ended(tmp_path):
+def test_extended_study_continues_after_the_existing_rows(tmp_path):
     run_whole(tmp_path / "a", runs=24)
     grown, whole = run_whole(tmp_path / "a", runs=40), run_whole(tmp_path / "b", runs=40)
-    assert read_rows(grown).to_pandas().equals(read_rows(whole).to_pandas())  # a NaN is the same
+    assert read_rows(grown).to_pandas().equals(read_rows(whole).to_pandas())  # equal NaN
     with pytest.raises(StudyError, match=r"begun with other settings.*--name"):
         keep_study("one", build_study(seed=6), tmp_path / "a")
 
 
-def test_a_study_of_another_version_is_not_mixed_with_runs_of_this_one(tmp_path, monkeypatch):
+def test_study_of_another_version_is_not_mixed_with_new_runs(tmp_path, monkeypatch):
     run_whole(tmp_path, runs=8)
     monkeypatch.setattr("svsa.evaluation.studies.store.__version__", "99.0")
     assert keep_study("one", build_study(runs=8), tmp_path).study.runs == 8
@@ -108,8 +103,8 @@ def test_a_study_of_another_version_is_not_mixed_with_runs_of_this_one(tmp_path,
         keep_study("one", build_study(runs=9), tmp_path)
 
 
-def test_settings_that_do_not_go_together_are_reported_and_the_others_are_run(tmp_path):
-    """An upper limit of the stiffness below the reference's in some samples: nothing is run."""
+def test_contradictory_settings_are_reported_and_other_samples_run(tmp_path):
+    """In some samples the upper limit of the stiffness is below the reference: these do not run."""
     limit = {
         "kind": "uniform",
         "path": "limits.stiffness_min_nm_per_rad",
@@ -126,7 +121,7 @@ def test_settings_that_do_not_go_together_are_reported_and_the_others_are_run(tm
     assert 0 < sum(row["fault"] == "refused" for row in rows) < len(rows)
 
 
-def test_one_works_at_a_study_at_a_time(tmp_path):
+def test_study_has_one_process_at_a_time(tmp_path):
     stored = keep_study("one", build_study(), tmp_path)
     with claim_study(stored), pytest.raises(StudyError, match="by another process"):
         run_study(stored, 0)
@@ -134,9 +129,9 @@ def test_one_works_at_a_study_at_a_time(tmp_path):
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
 @pytest.mark.parametrize("how", exhaust([signal.SIGINT, signal.SIGKILL], [signal.SIGKILL]))
-def test_a_study_that_was_ended_goes_on_to_the_same_table(tmp_path, how):
-    stored = end_on_the_way(tmp_path, how, "2")
+def test_ended_study_continues_to_the_same_table(tmp_path, how):
+    stored = end_before_completion(tmp_path, how, "2")
     assert run_study(stored, 0)
-    whole = run_whole(tmp_path / "whole", rows_a_part=400, runs=400)
+    whole = run_whole(tmp_path / "whole", rows_per_part=400, runs=400)
     names = "rows.parquet"
     assert (stored.folder / names).read_bytes() == (whole.folder / names).read_bytes()

@@ -1,5 +1,6 @@
-"""A lost scheduler differs from an error of the work: one in this process, whose calls fail
-as those over a broken connection do, before its client has seen that it broke."""
+"""A lost scheduler differs from an error of the work. A scheduler in this process fails its calls
+as those over a broken connection fail before the client detects it.
+"""
 
 import concurrent.futures
 import re
@@ -10,7 +11,8 @@ from distributed.comm.core import CommClosedError
 
 from svsa.evaluation.studies import cluster as dask
 from svsa.evaluation.studies.cluster import Cluster
-from svsa.evaluation.studies.store import StudyError, keep_study
+from svsa.evaluation.studies.store import keep_study
+from svsa.evaluation.studies.stored import StudyError
 from tests.evaluation.studies.studies import build_study
 
 LOST = r"The scheduler at inproc was lost\. Finished parts are kept: .*`svsa study run one`"
@@ -22,7 +24,7 @@ BROKEN = (
 
 
 class BrokenScheduler:
-    """What the client asks of its scheduler, each an error: of these calls, or of all."""
+    """The scheduler of a client that raises an error in these calls, or in all."""
 
     def __init__(self, whole, error, *calls):
         self._whole, self._error, self._calls = whole, error, calls
@@ -38,7 +40,7 @@ class BrokenScheduler:
 
 @pytest.fixture(scope="module")
 def workers():
-    """A worker of this process that runs nothing: each part is of the same bytes."""
+    """A worker of this process that runs nothing: each part has the same bytes."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(dask, "run_part", lambda study, first, count: b"rows")
         alone = {"n_workers": 1, "threads_per_worker": 1, "processes": False}
@@ -61,14 +63,14 @@ def parts(client, tmp_path):
 
 
 @pytest.mark.parametrize("error", BROKEN, ids=lambda error: type(error).__name__)
-def test_a_connection_that_breaks_over_a_finished_part_is_a_lost_scheduler(client, parts, error):
+def test_broken_connection_after_a_finished_part_is_a_lost_scheduler(client, parts, error):
     assert next(parts)[1] == b"rows"
     client.scheduler = BrokenScheduler(client.scheduler, error, "gather")
     with pytest.raises(StudyError, match=LOST):
         list(parts)
 
 
-def test_a_connection_that_breaks_over_the_count_of_threads_is_too(client, parts, monkeypatch):
+def test_broken_connection_during_the_thread_count_is_a_lost_scheduler(client, parts, monkeypatch):
     next(parts)
     monkeypatch.setattr(dask, "COUNTED_S", 0.0)
     client.scheduler = BrokenScheduler(client.scheduler, BROKEN[0], "ncores")
@@ -78,7 +80,7 @@ def test_a_connection_that_breaks_over_the_count_of_threads_is_too(client, parts
         Cluster(client, "inproc")
 
 
-def test_a_client_that_gave_its_scheduler_up_is_too(client, parts):
+def test_closed_client_is_a_lost_scheduler(client, parts):
     next(parts)
     client.close()
     with pytest.raises(StudyError, match=LOST):
@@ -86,7 +88,7 @@ def test_a_client_that_gave_its_scheduler_up_is_too(client, parts):
 
 
 @pytest.mark.parametrize("error", BROKEN[:2], ids=lambda error: type(error).__name__)
-def test_an_error_of_the_work_is_reported_as_it_is(parts, monkeypatch, error):
+def test_error_of_the_work_is_raised_unchanged(parts, monkeypatch, error):
     def fail(study, first, count):
         raise error
 

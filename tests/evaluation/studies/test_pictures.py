@@ -1,4 +1,4 @@
-"""What a study's pictures show are its numbers."""
+"""The pictures of a study show its numbers."""
 
 import numpy as np
 import pytest
@@ -20,11 +20,11 @@ ISHIGAMI = Sensitivity(
         "x3": Interval(0.244, 0.2, 0.3),
     },
 )
-"""An interval of a bootstrap need not hold its estimate, as that of x2's total does not."""
+"""An interval of a bootstrap may exclude its estimate, as that of x2's total does."""
 ORDER = ["x3", "x2", "x1"]
 
 
-def test_the_bars_of_sobol_indices_are_as_long_as_these_with_their_intervals():
+def test_bars_of_sobol_indices_have_their_length_and_intervals():
     (axes,) = draw_sensitivity([ISHIGAMI]).axes
     assert [label.get_text() for label in axes.get_yticklabels()] == ORDER
     bars = [one for one in axes.containers if isinstance(one, BarContainer)]

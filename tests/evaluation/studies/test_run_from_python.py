@@ -7,7 +7,7 @@ from svsa.errors import ParameterError
 from svsa.evaluation.studies.file import read_study
 
 
-def test_a_study_is_run_and_continued_and_returns_a_row_for_each_run(tmp_path, monkeypatch):
+def test_study_is_run_and_continued_and_returns_a_row_for_each_run(tmp_path, monkeypatch):
     monkeypatch.setenv("SVSA_DATA", str(tmp_path))
     name, study = read_study("perturbation", runs=4)
     rows = svsa.run_study(study, name="mine", workers=0)
@@ -19,7 +19,7 @@ def test_a_study_is_run_and_continued_and_returns_a_row_for_each_run(tmp_path, m
     assert name == "perturbation"
 
 
-def test_a_study_without_a_name_is_rejected(tmp_path, monkeypatch):
+def test_study_without_a_name_is_rejected(tmp_path, monkeypatch):
     monkeypatch.setenv("SVSA_DATA", str(tmp_path))
     with pytest.raises(ParameterError, match="name"):
         svsa.run_study(read_study("perturbation", runs=4)[1])

@@ -1,4 +1,4 @@
-"""What is drawn depends on the seed and the run's number alone, and is distributed as asked for."""
+"""Samples depend on the seed and the run's number alone, and have the requested distribution."""
 
 from itertools import chain, pairwise
 
@@ -17,7 +17,7 @@ GRID = {"kind": "grid", "path": "observer.bandwidth_rad_per_s", "values": [30, 6
 @pytest.mark.parametrize("sampling", ["random", "sobol", "sensitivity"])
 @settings(max_examples=25, deadline=None)
 @given(cuts=st.sets(st.integers(1, 63), max_size=6))
-def test_draws_are_the_same_however_they_are_cut(sampling, cuts):
+def test_samples_do_not_depend_on_the_partition(sampling, cuts):
     study = build_study(sampling=sampling, runs=64)
     whole = draw(study, 0, 64)
     ends = [0, *sorted(cuts), 64]
@@ -27,13 +27,13 @@ def test_draws_are_the_same_however_they_are_cut(sampling, cuts):
         assert [*chain.from_iterable(part.values[number] for part in parts)] == values
 
 
-def test_another_seed_is_another_draw_and_every_run_has_its_own():
+def test_seeds_and_runs_have_distinct_samples():
     first, second = (draw(build_study(seed=seed), 0, 40) for seed in (5, 6))
     assert not set(first.seeds) & set(second.seeds)
     assert len(set(first.seeds)) == len(set(first.values[0])) == 40
 
 
-def test_laws_are_run_on_the_same_draws():
+def test_laws_run_on_the_same_samples():
     study = build_study()
     samples = draw(study, 3, 5)
     for one, other in zip(
@@ -43,7 +43,7 @@ def test_laws_are_run_on_the_same_draws():
         assert one.changed(law=other.law) == other
 
 
-def test_a_grid_is_gone_through_as_often_as_asked_with_the_same_chance_in_each_cell():
+def test_grid_is_repeated_with_the_same_samples_in_each_cell():
     study = build_study(vary=(*VARIED[:2], GRID), runs=2)
     assert (study.cells, study.sample_count, study.row_count) == (3, 6, 12)
     samples = draw(study, 0, 6)
@@ -52,7 +52,7 @@ def test_a_grid_is_gone_through_as_often_as_asked_with_the_same_chance_in_each_c
     assert samples.seeds[0] == samples.seeds[2] != samples.seeds[3]
 
 
-def test_a_set_for_sensitivity_has_two_samples_and_each_with_one_value_of_the_other():
+def test_sensitivity_set_has_two_samples_and_their_single_exchanges():
     study = build_study(sampling="sensitivity", runs=4)
     assert study.cells == len(VARIED) + 2
     rows = list(zip(*draw(study, 0, study.sample_count).values, strict=True))
@@ -73,7 +73,7 @@ def test_a_set_for_sensitivity_has_two_samples_and_each_with_one_value_of_the_ot
         ),
     ],
 )
-def test_values_are_distributed_as_they_are_called(variation, distribution):
+def test_values_have_their_named_distribution(variation, distribution):
     from scipy import stats
 
     name, *parameters = distribution
@@ -83,14 +83,14 @@ def test_values_are_distributed_as_they_are_called(variation, distribution):
     assert variation.low <= variation.draw(np.array([0.0]))[0]
 
 
-def test_a_choice_gives_each_value_as_often_and_its_name():
+def test_choice_gives_equal_frequencies_and_names():
     choice = Choice(path="effects", values=({"noise": {}}, "rig"), names=("noise", "rig"))
     drawn = choice.draw((np.arange(100) + 0.5) / 100)
     assert choice.label(drawn) == ["noise"] * 50 + ["rig"] * 50
     assert Steps(path="x", low=1.0, high=100.0, count=3, spacing="log").levels == (1.0, 10.0, 100.0)
 
 
-def test_what_varies_reaches_the_configuration_and_the_rest_stays():
+def test_sampled_values_reach_the_configuration_and_others_are_unchanged():
     vary = (
         {"kind": "grid", "path": "observer.bandwidth_rad_per_s", "values": [30.0]},
         {"kind": "grid", "path": "gains.position_bandwidth_rad_per_s", "values": [30.0]},

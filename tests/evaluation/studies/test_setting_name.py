@@ -1,4 +1,4 @@
-"""A setting is called as its field is declared, with the unit that its number has."""
+"""The name of a setting is that of its declared field, with the unit of its number."""
 
 import pytest
 
@@ -31,12 +31,12 @@ TWO_LOADS = {
         ("loads[1].duration_s", "2: Duration", "s"),
     ],
 )
-def test_a_setting_has_the_words_and_the_unit_of_its_field(path, words, unit):
+def test_setting_has_the_name_and_unit_of_its_field(path, words, unit):
     base = build_study(base=TWO_LOADS, vary=()).build_base("ndobc")
     assert name_setting(base, path) == (words, unit)
 
 
-def test_what_varies_in_the_studies_of_the_package_is_called_by_no_path():
+def test_settings_of_the_packaged_studies_have_names():
     for name in list_built_in():
         study = read_study(name)[1]
         base = study.build_base(study.laws[0])
@@ -44,10 +44,10 @@ def test_what_varies_in_the_studies_of_the_package_is_called_by_no_path():
         assert len({one.words for one in reported}) == len(reported)
         for variation, one in zip(study.vary, reported, strict=True):
             assert variation.path.split(".")[-1] not in one.words
-            assert one.words.endswith(" ×") == variation.relative
+            assert one.words.endswith(", factor") == variation.relative
             assert not (variation.relative and one.unit)
 
 
-def test_a_setting_that_is_not_there_has_no_name():
+def test_unknown_setting_has_no_name():
     with pytest.raises(ParameterError, match="one of link_inertia"):
         name_setting(build_study().build_base("ndobc"), "actuator.mass")

@@ -1,4 +1,4 @@
-"""`svsa study`: what was run is listed, summed up, compared, drawn, and each row runs again."""
+"""`svsa study`: studies are listed, summarized, compared and plotted, and each row runs again."""
 
 import dataclasses
 import json
@@ -16,14 +16,16 @@ from svsa.evaluation.statistics import MIN_VALUES
 from svsa.evaluation.studies.execution import run_study
 from svsa.evaluation.studies.outcome import Success
 from svsa.evaluation.studies.replay import replay_row
-from svsa.evaluation.studies.store import StudyError, keep_study, open_study, read_rows
+from svsa.evaluation.studies.rows import read_rows
+from svsa.evaluation.studies.store import keep_study, open_study
+from svsa.evaluation.studies.stored import StudyError
 from svsa.evaluation.studies.work import ROW, run_trials
 from tests.evaluation.studies.studies import SHORT_S, build_study
 
 
 @pytest.fixture(scope="module")
 def data(tmp_path_factory):
-    """A folder with two studies of the same samples, the second under less of a load."""
+    """A folder with two studies of the same samples, the second under a smaller load."""
     folder = tmp_path_factory.mktemp("data")
     patch = pytest.MonkeyPatch()
     patch.setenv("SVSA_DATA", str(folder))
@@ -39,13 +41,13 @@ def run(*arguments, code=0):
     return outcome.stdout
 
 
-def test_the_list_has_what_was_begun_and_what_comes_with_the_package(data):
+def test_list_contains_started_and_packaged_studies(data):
     listed = " ".join(run("list").split())
     assert "80 of 80" in listed
     assert "built in, not begun" in listed
 
 
-def test_a_finished_study_that_is_run_again_is_done_at_once(data):
+def test_complete_study_runs_nothing_again(data):
     begun = json.loads((data / "studies" / "one" / "study.json").read_text())["created"]
     assert run("run", "one", "--workers", "1") == ""
     assert open_study("one").created == begun
@@ -62,7 +64,7 @@ def test_success_is_that_of_the_table(data):
     assert "fault" in run("show", "one")
 
 
-def test_a_study_of_some_metrics_keeps_shows_replays_and_draws_those(data, tmp_path):
+def test_study_with_chosen_metrics_stores_shows_replays_and_plots_them(data, tmp_path):
     kept = ("limit_share", "peak_torque2_nm", "effort_n2m2_s")
     few = build_study(metrics=kept, runs=8, success={"rms_position_error_rad": 0.2})
     run_study(keep_study("few", few), 0)
@@ -81,7 +83,7 @@ def test_a_study_of_some_metrics_keeps_shows_replays_and_draws_those(data, tmp_p
     assert (tmp_path / "few_distributions.png").exists()
 
 
-def test_a_study_that_was_begun_before_one_could_choose_keeps_every_metric(data):
+def test_study_from_before_the_choice_of_metrics_has_every_metric(data):
     path = data / "studies" / "one" / "study.json"
     written = json.loads(path.read_text())
     reported = path.read_bytes()
@@ -93,7 +95,7 @@ def test_a_study_that_was_begun_before_one_could_choose_keeps_every_metric(data)
 
 
 @pytest.mark.parametrize("metric", METRICS)
-def test_success_may_ask_for_any_metric(data, metric):
+def test_success_criterion_accepts_any_metric(data, metric):
     rows = read_rows(open_study("one"))
     values = rows[metric].to_numpy()
     bound = float(np.nanmedian(values[rows["fault"].is_null().to_numpy()])) or 1e-9
@@ -105,7 +107,7 @@ def test_success_may_ask_for_any_metric(data, metric):
     assert found["succeeded"].to_numpy().tolist() == expected.tolist()
 
 
-def test_laws_are_compared_on_the_same_draws_and_studies_that_drew_the_same(data):
+def test_laws_are_compared_on_the_same_samples_and_studies_with_equal_samples(data):
     (pairing,) = json.loads(run("compare", "one", "--json"))["pairings"]
     assert (pairing["one"], pairing["other"], pairing["pairs"]) == ("ndobc", "fl", 40)
     difference = pairing["differences"]["last_position_error_rad"]
@@ -120,7 +122,7 @@ def test_laws_are_compared_on_the_same_draws_and_studies_that_drew_the_same(data
         run("compare", "one", "three")
 
 
-def test_every_row_runs_again_to_the_same_bits(data):
+def test_every_row_runs_again_bit_for_bit(data):
     stored = open_study("one")
     recovered = 0
     for row in read_rows(stored)[ROW].to_pylist():
@@ -132,7 +134,7 @@ def test_every_row_runs_again_to_the_same_bits(data):
 
 
 def assert_are_metrics(replay):
-    """Those of the live loop under the same names, but for the order of its sums."""
+    """The metrics of the live loop under the same names, except for the order of summation."""
     reported = replay.result.measure(0.05, SHORT_S)
     for name in set(replay.metrics) & {field.name for field in dataclasses.fields(reported)}:
         value = getattr(reported, name)
@@ -141,7 +143,7 @@ def assert_are_metrics(replay):
     return reported.recovery_time_s is not None
 
 
-def test_a_row_that_runs_again_is_a_recorded_run_of_the_lab(data):
+def test_repeated_row_is_a_recorded_run_of_the_lab(data):
     reported = json.loads(run("replay", "one", "1", "--json"))
     assert reported["identical"]
     opened = svsa.open_run(reported["run_id"])
@@ -152,8 +154,8 @@ def test_a_row_that_runs_again_is_a_recorded_run_of_the_lab(data):
     assert (entry.state, entry.tags) == ("complete", ("study", "one"))
 
 
-def test_a_row_that_is_no_longer_the_same_is_said_so(data, monkeypatch):
-    """As where another version computed the table."""
+def test_row_that_is_not_reproduced_is_reported(data, monkeypatch):
+    """As if another version had computed the table."""
     stored = open_study("one")
     rows = read_rows(stored)
     wrong = rows.set_column(
@@ -167,20 +169,20 @@ def test_a_row_that_is_no_longer_the_same_is_said_so(data, monkeypatch):
     ]
 
 
-def test_a_row_that_is_not_there_is_refused(data):
+def test_missing_row_is_rejected(data):
     with pytest.raises(svsa.ParameterError, match=r"row is 80: it must be a number from 0 to 79"):
         run("replay", "one", "80")
     with pytest.raises(StudyError, match="There is no study nix"):
         run("show", "nix")
 
 
-def test_an_outcome_is_asked_of_a_study_for_sensitivity_only(data):
+def test_outcome_is_an_option_of_sensitivity_studies_only(data):
     for outcome in ("succeeded", "nothing"):
         with pytest.raises(StudyError, match="sampling is sensitivity"):
             run("show", "one", "--outcome", outcome)
 
 
-def test_pictures_are_drawn_of_what_there_is(data, tmp_path):
+def test_pictures_show_the_available_results(data, tmp_path):
     run("show", "one", "--pictures", str(tmp_path))
     names = sorted(path.name for path in tmp_path.iterdir())
     assert names == ["one_distributions.png", "one_success.png", "one_worst.png"]

@@ -1,4 +1,4 @@
-"""A wrong study is refused with file, line, name, value and bound, before anything runs."""
+"""An invalid study is rejected with file, line, name, value and bound before anything runs."""
 
 import pytest
 
@@ -62,14 +62,14 @@ values = [0, 1]
         ("runs = 10", "runs =", r"it must be a readable TOML file .*line 2"),
     ],
 )
-def test_a_wrong_value_is_reported_with_its_line(tmp_path, old, new, reported):
+def test_invalid_value_is_reported_with_its_line(tmp_path, old, new, reported):
     path = tmp_path / "wrong.toml"
     path.write_text(GOOD.replace(old, new, 1))
     with pytest.raises(ParameterError, match=r"(?s)wrong\.toml.*" + reported):
         read_study(path)
 
 
-def test_a_setting_varies_once_and_not_within_another(tmp_path):
+def test_setting_varies_once_and_not_within_another(tmp_path):
     path = tmp_path / "wrong.toml"
     for other, reported in (
         ("actuator.link_inertia_kg_m2", "varied once"),
@@ -80,7 +80,7 @@ def test_a_setting_varies_once_and_not_within_another(tmp_path):
             read_study(path)
 
 
-def test_a_study_in_python_is_the_same_as_in_toml(tmp_path):
+def test_study_in_python_equals_that_in_toml(tmp_path):
     (tmp_path / "a.toml").write_text(GOOD)
     (tmp_path / "b.py").write_text(
         "import tomllib, pathlib\nfrom svsa.evaluation.studies.study import Study\n"
@@ -101,7 +101,7 @@ def test_a_study_in_python_is_the_same_as_in_toml(tmp_path):
         read_study(tmp_path / "b.py")
 
 
-def test_a_value_that_was_given_next_to_the_file_is_not_said_to_stand_in_it(tmp_path):
+def test_error_of_an_argument_does_not_mention_the_file(tmp_path):
     path = tmp_path / "good.toml"
     path.write_text(GOOD)
     with pytest.raises(ParameterError, match=r"^runs is 0: it must be at least 1"):
@@ -111,7 +111,7 @@ def test_a_value_that_was_given_next_to_the_file_is_not_said_to_stand_in_it(tmp_
         read_study(path, runs=0)
 
 
-def test_those_of_the_package_can_be_read_and_found_by_name():
+def test_packaged_studies_are_readable_and_found_by_name():
     for name, title in list_built_in().items():
         assert read_study(name, runs=2)[1].title == title
     with pytest.raises(ParameterError, match=r"one of actuators, .*perturbation"):

@@ -1,4 +1,4 @@
-"""Intervals and indices against distributions whose truth is known."""
+"""Intervals and indices compared with distributions with known values."""
 
 import math
 
@@ -9,7 +9,7 @@ import pytest
 from svsa.errors import ParameterError
 from svsa.evaluation.statistics import estimate_paired_share, estimate_share
 from svsa.evaluation.studies.samples import draw
-from svsa.evaluation.studies.store import StudyError
+from svsa.evaluation.studies.stored import StudyError
 from svsa.evaluation.studies.summary import (
     compare_laws,
     estimate_sensitivity,
@@ -27,7 +27,7 @@ ISHIGAMI = tuple(
 
 
 def build_rows(study, outcomes):
-    """The table of a study of which each row has these columns; the rest is of no account."""
+    """The table of a study with these columns in each row; all others are irrelevant."""
     rows = []
     for number, outcome in enumerate(outcomes):
         index, law = divmod(number, len(study.laws))
@@ -36,7 +36,7 @@ def build_rows(study, outcomes):
     return pa.Table.from_pylist(rows, schema=build_schema(study))
 
 
-def test_a_summary_counts_faults_as_failures_and_leaves_refused_draws_out():
+def test_summary_counts_faults_as_failures_and_excludes_rejected_samples():
     study = build_study(laws=("ndobc",))
     fault = {"fault": "lever_end", "fault_tick": 3, "succeeded": False}
     refused = {"fault": "refused", "succeeded": False}
@@ -47,7 +47,7 @@ def test_a_summary_counts_faults_as_failures_and_leaves_refused_draws_out():
     assert law.quantiles["rms_position_error_rad"] == [0.1, 0.2, math.inf]
 
 
-def test_a_share_that_is_not_all_never_reads_100_percent():
+def test_incomplete_share_is_never_shown_as_100_percent():
     for count, total, reported in (
         (10**6, 10**6, "100.0000 % (99.9996 to 100.0000)"),
         (0, 10**6, "0.0000 % (0.0000 to 0.0004)"),
@@ -57,7 +57,7 @@ def test_a_share_that_is_not_all_never_reads_100_percent():
         assert format_share(estimate_share(count, total)) == reported
 
 
-def test_a_summary_is_of_the_metrics_that_are_kept_and_a_pairing_of_those_of_both():
+def test_summary_has_the_stored_metrics_and_a_pairing_the_common_ones():
     kept = ("effort_n2m2_s", "limit_share", "peak_torque1_nm")
     one = build_study(metrics=kept, laws=("ndobc",))
     other = build_study(metrics=("limit_share", "recovery_time_s"), laws=("ndobc",))
@@ -74,7 +74,7 @@ def test_a_summary_is_of_the_metrics_that_are_kept_and_a_pairing_of_those_of_bot
         estimate_sensitivity(drawn, rows, "ndobc", "rms_position_error_rad")
 
 
-def test_pairs_are_compared_where_both_are_whole_and_success_over_all():
+def test_pairs_are_compared_if_both_finished_and_success_over_all():
     study = build_study()
     fault = {"fault": "lever_end", "succeeded": False}
     outcomes = [
@@ -94,7 +94,7 @@ def test_pairs_are_compared_where_both_are_whole_and_success_over_all():
     assert math.isnan(difference.low)
 
 
-def test_p_values_are_corrected_over_the_laws_and_their_metrics():
+def test_p_values_are_corrected_over_laws_and_metrics():
     """Twelve samples: fl fails on six of them, esp on none; both have the larger errors."""
     names = ("rms_position_error_rad", "peak_torque1_nm")
     study = build_study(laws=("ndobc", "fl", "esp"), metrics=names)
@@ -114,7 +114,7 @@ def test_p_values_are_corrected_over_the_laws_and_their_metrics():
         assert pairing.differences[names[0]].high < 0.0
 
 
-def test_a_single_sample_has_no_interval():
+def test_single_sample_has_no_interval():
     study = build_study()
     (pairing,) = compare_laws(study, build_rows(study, [{"rms_position_error_rad": 0.1}] * 2))
     assert pairing.pairs == pairing.whole == 1
@@ -126,7 +126,9 @@ def test_a_single_sample_has_no_interval():
 
 
 def estimate_ishigami(seed, runs):
-    """Sobol indices of Ishigami's function (1990, a 7, b 0.1) by a study of this seed."""
+    """Estimate the Sobol indices of Ishigami's function (1990, a 7, b 0.1) by a study of
+    this seed.
+    """
     study = build_study(
         vary=ISHIGAMI, sampling="sensitivity", runs=runs, laws=("ndobc",), seed=seed
     )
@@ -136,7 +138,7 @@ def estimate_ishigami(seed, runs):
     return study, rows, estimate_sensitivity(study, rows, "ndobc", "rms_position_error_rad")
 
 
-def test_sobol_indices_are_those_of_ishigamis_function():
+def test_sobol_indices_match_those_of_ishigamis_function():
     """S = 0.314, 0.442, 0; S_T = 0.558, 0.442, 0.244."""
     study, rows, found = estimate_ishigami(0, 1024)
     expected = {"first_order": (0.314, 0.442, 0.0), "total_order": (0.558, 0.442, 0.244)}
@@ -149,7 +151,7 @@ def test_sobol_indices_are_those_of_ishigamis_function():
 
 
 def test_sobol_intervals_are_upper_bounds():
-    """Over scrambles of the sequence the indices vary less than their intervals claim."""
+    """Over scrambles of the sequence the indices vary less than their intervals state."""
     found = [estimate_ishigami(seed, 512)[2].first_order.values() for seed in range(10)]
     estimates = np.array([list(orders) for orders in found])
     spread = 1.96 * estimates[:, :, 0].std(axis=0, ddof=1)
@@ -157,7 +159,7 @@ def test_sobol_intervals_are_upper_bounds():
     assert np.all(spread < half_width)
 
 
-def test_indices_that_would_mean_nothing_are_refused():
+def test_undefined_indices_are_rejected():
     study = build_study(vary=ISHIGAMI, sampling="sensitivity", runs=2, laws=("ndobc",))
     same = build_rows(study, [{"rms_position_error_rad": 1.0}] * 10)
     with pytest.raises(StudyError, match="nothing decides it"):

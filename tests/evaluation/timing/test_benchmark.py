@@ -1,4 +1,4 @@
-"""What `svsa benchmark` compares: a C loop that does the same work, and the figures it tells."""
+"""`svsa benchmark`: a C loop that does the same work, and the reported figures."""
 
 import json
 import shutil
@@ -10,6 +10,7 @@ from numpy.testing import assert_allclose
 from typer.testing import CliRunner
 
 import svsa
+from svsa.actuators.installed import list_mechanism_names
 from svsa.actuators.signals import CHANNEL_INDEX, TORQUES
 from svsa.cli import app
 from svsa.evaluation.timing import batch_rates, bench_tick, benchmark, scipy_comparison
@@ -29,35 +30,36 @@ def c_loop(tmp_path_factory: pytest.TempPathFactory) -> benchmark.CLoop:
 
 
 @pytest.fixture(scope="module")
-def ours() -> np.ndarray:
+def loop_samples() -> np.ndarray:
     return svsa.simulate(benchmark.FIGURE, benchmark.LAW, duration_s=TICKS * 0.001).samples
 
 
-def test_the_c_loop_computes_every_channel_of_the_same_run(
-    c_loop: benchmark.CLoop, ours: np.ndarray
+def test_c_loop_computes_every_channel_of_the_same_run(
+    c_loop: benchmark.CLoop, loop_samples: np.ndarray
 ) -> None:
     run = Run(benchmark.get_figure(benchmark.FIGURE).build_configuration(benchmark.LAW))
-    samples = np.full_like(ours, np.nan)
+    samples = np.full_like(loop_samples, np.nan)
     assert benchmark.run_c(c_loop, run, samples) == TICKS
-    assert_allclose(samples, ours, rtol=1e-10, atol=1e-11)
+    assert_allclose(samples, loop_samples, rtol=1e-10, atol=1e-11)
 
 
-def test_the_lanes_of_the_c_loop_run_the_same(c_loop: benchmark.CLoop, ours: np.ndarray) -> None:
+def test_lanes_of_the_c_loop_are_equal(c_loop: benchmark.CLoop, loop_samples: np.ndarray) -> None:
     run = Run(benchmark.get_figure(benchmark.FIGURE).build_configuration(benchmark.LAW))
     squares, peaks = benchmark.run_c_lanes(c_loop, run, TICKS)
-    error = ours[:, CHANNEL_INDEX["position_error_rad"]]
+    error = loop_samples[:, CHANNEL_INDEX["position_error_rad"]]
     assert_allclose(squares, np.sum(error**2), rtol=1e-9)
     assert_allclose(peaks, np.abs(error).max(), rtol=1e-9)
 
 
 @pytest.mark.exhaustive
-def test_the_command_tells_costs_and_their_ratio_to_c(c_loop: benchmark.CLoop) -> None:
+def test_command_prints_costs_and_ratios_to_c(c_loop: benchmark.CLoop) -> None:
     answer = RUNNER.invoke(app, ["benchmark", "--json", "--repeats", "1", "--no-start"])
     assert answer.exit_code == 0, answer.output
     costs = json.loads(answer.stdout)
     numbers = (
         "ratio_to_c",
         "kernel_ratio_to_c",
+        "arm_ratio_to_kernel",
         "batch_ratio_to_c",
         "single_run_realtime_factor",
         "batch_runs_per_second_1_core",
@@ -65,6 +67,9 @@ def test_the_command_tells_costs_and_their_ratio_to_c(c_loop: benchmark.CLoop) -
         "two_cores_over_one",
     )
     assert all(costs[name] > 0.0 for name in numbers)
+    ratios = costs["actuator_ratio_to_kernel"]
+    assert list(ratios) == [name for name in list_mechanism_names() if name != "svsa"]
+    assert all(0.0 < ratio < 2.0 for ratio in ratios.values())  # 1.25 or less on quiet cores
     assert costs["solvers"]["svsa"]["ratio"] == 1.0
     assert costs["solvers"]["scipy"]["ratio"] > 1.0
     rates = costs["runs_per_second_1_core_by_effects"]
@@ -72,8 +77,8 @@ def test_the_command_tells_costs_and_their_ratio_to_c(c_loop: benchmark.CLoop) -
     assert rates["ideal"] > rates["every"] > 0.0
 
 
-def test_a_run_that_ends_in_a_fault_counts_as_the_part_that_was_run(monkeypatch) -> None:
-    """Else its rate would be the greater, the sooner it faults."""
+def test_run_that_ends_in_a_fault_counts_its_executed_part(monkeypatch) -> None:
+    """Otherwise an early fault would increase the reported rate."""
     monkeypatch.setattr(
         batch_rates, "measure_in_turns", lambda works, repeats: dict.fromkeys(works, 1.0)
     )
@@ -86,13 +91,13 @@ def test_a_run_that_ends_in_a_fault_counts_as_the_part_that_was_run(monkeypatch)
 
 
 @pytest.mark.long
-def test_without_the_c_loop_the_ratios_are_unknown_and_it_says_why(
+def test_ratios_without_the_c_loop_are_unknown_with_a_reason(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     """As in an installed package, which has no tests."""
     monkeypatch.setattr(benchmark, "C_LOOP", tmp_path / "loop.c")
     one = {"ideal": svsa.IDEAL}
-    monkeypatch.setattr(batch_rates, "SWITCHED", one)  # each is compiled, and not the subject
+    monkeypatch.setattr(batch_rates, "SWITCHED", one)  # Each is compiled, which is not tested here.
     monkeypatch.setattr(scipy_comparison, "METHODS", ())
     answer = RUNNER.invoke(app, ["benchmark", "--json", "--repeats", "1", "--no-start"])
     costs = json.loads(answer.stdout)
@@ -103,8 +108,8 @@ def test_without_the_c_loop_the_ratios_are_unknown_and_it_says_why(
 
 
 @pytest.mark.parametrize("law", ["ndobc", "nmpc"])
-def test_the_ticks_that_are_timed_decide_what_the_run_did(law: str) -> None:
-    """So that they are ticks of that law at work, and not of one that is lost."""
+def test_reported_outcome_is_that_of_the_timed_ticks(law: str) -> None:
+    """So that the timed ticks are those of a working law."""
     samples = svsa.simulate("4a", law, duration_s=6.0).samples
     run = Run(benchmark.get_figure("4a").build_configuration(law))
     ticks, limits = bench_tick.BenchTicks(run, samples), [15.0, 5.0]
@@ -116,7 +121,7 @@ def test_the_ticks_that_are_timed_decide_what_the_run_did(law: str) -> None:
     assert_allclose(np.clip(asked, np.negative(limits), limits), samples[:, TORQUES], atol=1e-9)
 
 
-def test_the_command_tells_the_ticks_of_every_law(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_command_prints_the_ticks_of_every_law(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(bench_tick, "list_law_names", lambda: ("ndobc", "ilc"))
     answer = RUNNER.invoke(app, ["benchmark", "--laws", "--json", "--repeats", "1"])
     assert answer.exit_code == 0, answer.output

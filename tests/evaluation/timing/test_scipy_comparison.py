@@ -1,4 +1,4 @@
-"""scipy in `svsa benchmark`: the same problem, solved to our accuracy."""
+"""scipy in `svsa benchmark`: the same problem, solved to the accuracy of the lab."""
 
 import numpy as np
 import pytest
@@ -20,7 +20,7 @@ def exact(posed: problem.Problem) -> np.ndarray:
     return comparison.solve_exactly(posed)
 
 
-def test_the_problem_is_the_plant_of_the_run_bit_for_bit(posed: problem.Problem) -> None:
+def test_problem_is_the_plant_of_the_run_bit_for_bit(posed: problem.Problem) -> None:
     samples = svsa.simulate("4a", "ndobc", duration_s=6.0).samples
     following = samples[posed.first + 1 : posed.first + len(posed.torques) + 1, problem.COLUMNS]
     assert np.array_equal(problem.solve(posed), following)
@@ -31,10 +31,12 @@ def test_the_problem_is_the_plant_of_the_run_bit_for_bit(posed: problem.Problem)
     assert np.all(posed.forces[middle:, 1:] == posed.torques[middle:] + 2.0)
 
 
-def test_the_exact_solution_is_what_ever_smaller_steps_of_ours_tend_to(
+def test_exact_solution_is_the_limit_of_smaller_steps(
     posed: problem.Problem, exact: np.ndarray
 ) -> None:
-    """By order 4: a sixteenth of the error with half the step. It is another method, not ours."""
+    """Of order 4: half the step has a sixteenth of the error. The exact solution is from another
+    method.
+    """
     errors = [comparison.compute_error(problem.solve(posed, steps), exact) for steps in (1, 2, 4)]
     assert 1e-9 < errors[0] < 1e-7
     assert 12.0 < errors[0] / errors[1] < 20.0
@@ -42,7 +44,7 @@ def test_the_exact_solution_is_what_ever_smaller_steps_of_ours_tend_to(
 
 
 @pytest.mark.parametrize("method", comparison.METHODS)
-def test_a_method_has_its_loosest_tolerance_whose_error_is_not_above_ours(
+def test_method_gets_its_loosest_tolerance_with_at_most_the_error_of_the_lab(
     posed: problem.Problem, exact: np.ndarray, method: str
 ) -> None:
     ours = comparison.compute_error(problem.solve(posed), exact) + comparison.ROUNDING_RAD
@@ -57,7 +59,7 @@ def test_a_method_has_its_loosest_tolerance_whose_error_is_not_above_ours(
         assert comparison.compute_error(worse, exact) > ours
 
 
-def test_a_method_that_never_gets_as_exact_is_not_compared(
+def test_method_without_sufficient_accuracy_is_excluded(
     posed: problem.Problem, exact: np.ndarray
 ) -> None:
     assert comparison.find_tolerance("LSODA", posed, exact, -1.0) is None

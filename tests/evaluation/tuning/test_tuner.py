@@ -1,4 +1,4 @@
-"""`svsa tune`: one search, cost and noise limit for every law; repeatable, and it can continue."""
+"""`svsa tune`: one search, cost and noise limit for every law; repeatable and resumable."""
 
 import json
 import math
@@ -23,7 +23,7 @@ from svsa.evaluation.tuning.judge import (
 from svsa.evaluation.tuning.search_space import build_space
 from svsa.evaluation.tuning.tuned_law import TunedLaw, build_tuned_law, load_tuned_laws
 from svsa.evaluation.tuning.tuner import tune
-from svsa.runs.configuration import parse_design
+from svsa.runs.design_file import parse_design
 
 LAW = "fl_integral"
 SHORT = {"trials": 2, "validation": 2}
@@ -36,7 +36,7 @@ def build_design(position, stiffness):
 
 @pytest.fixture
 def planted(monkeypatch):
-    """A cost whose least is at known values, without any run."""
+    """A cost with a minimum at known values, without any run."""
     best = {"position_pole_rad_per_s": 33.0, "stiffness_pole_rad_per_s": 61.0}
 
     def measure(trials, law, design):
@@ -48,7 +48,7 @@ def planted(monkeypatch):
     return best
 
 
-def test_a_planted_optimum_is_found(planted):
+def test_planted_optimum_is_found(planted):
     tuned = tune(LAW, budget=160, **SHORT)
     found = tuned.design.parameters[LAW]
     for name, best in planted.items():
@@ -58,7 +58,7 @@ def test_a_planted_optimum_is_found(planted):
 
 
 @pytest.mark.usefixtures("planted")
-def test_an_interrupted_search_continues_to_the_same_result(tmp_path):
+def test_interrupted_search_continues_to_the_same_result(tmp_path):
     whole = tune(LAW, budget=40, **SHORT)
     seen = []
     stopped = tune(
@@ -81,7 +81,7 @@ def test_an_interrupted_search_continues_to_the_same_result(tmp_path):
 
 
 @pytest.mark.usefixtures("planted")
-def test_ctrl_c_keeps_the_best(tmp_path, monkeypatch):
+def test_ctrl_c_saves_the_best_candidate(tmp_path, monkeypatch):
     def stop(candidate):
         if candidate.number == 2:
             raise KeyboardInterrupt
@@ -102,7 +102,7 @@ def test_ctrl_c_keeps_the_best(tmp_path, monkeypatch):
     assert (tmp_path / "mine.toml").exists()
 
 
-def test_a_poor_choice_is_improved_in_real_runs_below_the_noise_limit():
+def test_poor_gains_are_improved_in_real_runs_below_the_noise_limit():
     tuned = tune(LAW, budget=16, present=build_design(8.0, 6.0), trials=8, validation=8)
     assert tuned.is_complete
     before, after = tuned.finals[0].judgment, tuned.best.judgment
@@ -112,7 +112,7 @@ def test_a_poor_choice_is_improved_in_real_runs_below_the_noise_limit():
 
 
 def test_cost_and_noise_limit_are_as_defined():
-    """NDOBC with the declared gains is at the limit; fast poles are above it, and are not run."""
+    """NDOBC with the declared gains is at the limit; fast poles are above it and do not run."""
     trials, design = TrialSet(build_training(0, 8)), svsa.load_prototype()
     one = judge(trials, "ndobc", design)
     assert one.torque_variation_nm_per_s == find_noise_limit()
@@ -126,8 +126,8 @@ def test_cost_and_noise_limit_are_as_defined():
     assert worse.held < one.held
 
 
-def test_every_law_is_searched_within_what_it_declares():
-    """Poles from 20 to 80 rad/s, the observer of the load from 20 to 150, for all alike."""
+def test_every_law_is_searched_within_its_declared_bounds():
+    """Poles from 20 to 80 rad/s and the observer gain from 20 to 150 for all laws."""
     for law in list_law_names():
         space = build_space(law)
         for axis in space.axes:
@@ -143,7 +143,7 @@ def test_every_law_is_searched_within_what_it_declares():
             assert space.compute_shares(values) == pytest.approx(share, abs=1e-9)
 
 
-def test_what_identifies_a_law_is_not_searched():
+def test_identifying_parameters_of_a_law_are_not_searched():
     assert "estimate_share" not in {axis.name for axis in build_space("esp").axes}
     assert "period_s" not in {axis.name for axis in build_space("ilc").axes}
     space = build_space("esp", {"estimate_share": 0.0})
@@ -160,12 +160,12 @@ def test_what_identifies_a_law_is_not_searched():
         ("pd", {"motor1_damping": 9.0}, "motor1_damping is 9"),
     ],
 )
-def test_what_cannot_be_searched_is_rejected(law, held, reported):
+def test_unsearchable_parameter_is_rejected(law, held, reported):
     with pytest.raises(svsa.ParameterError, match=reported):
         tune(law, budget=1, held=held, **SHORT)
 
 
-def test_the_file_names_its_source_and_goes_back_into_a_run(tmp_path):
+def test_file_names_its_source_and_configures_a_run(tmp_path):
     """FL and NDOBC are tuned in [gains] and [observer], others in a table of their own."""
     for law, section in (("ndobc", "gains"), (LAW, f"parameters.{LAW}")):
         tuned = tune(law, budget=2, **SHORT)
@@ -180,7 +180,7 @@ def test_the_file_names_its_source_and_goes_back_into_a_run(tmp_path):
         assert np.array_equal(here.samples, there.samples)
 
 
-def test_the_command_writes_a_file_or_prints_all_candidates(tmp_path):
+def test_command_writes_a_file_or_prints_all_candidates(tmp_path):
     path = tmp_path / "mine.toml"
     common = ["tune", LAW, "--budget", "2", "--seed", "1", "--trials", "2", "--validation", "2"]
     runner = CliRunner()
@@ -216,8 +216,8 @@ def test_all_laws_are_tuned_once_with_a_file_each(tmp_path, monkeypatch):
     assert path.read_bytes() != kept
 
 
-def test_the_tuned_laws_of_the_ranking_fit_the_installed_laws():
-    """Every law with something to tune has a file of one budget, seed and noise limit."""
+def test_tuned_laws_of_the_ranking_fit_the_installed_laws():
+    """Every law with tunable parameters has a file of one budget, seed and noise limit."""
     tuned = load_tuned_laws()
     assert set(tuned) == set(list_law_names())
     budgets = {(one.candidates, one.trials, one.validation, one.seed) for one in tuned.values()}
