@@ -23,8 +23,19 @@ def emulator(
             help="Ask for real-time priority; left out, not in lockstep.",
         ),
     ] = None,
+    actuator: Annotated[
+        str | None, typer.Option(help="Installed actuator; its prototype is emulated.")
+    ] = None,
     file: Annotated[
-        Path | None, typer.Option(help="What the emulator is made of (TOML); else the prototype.")
+        Path | None,
+        typer.Option(help="What the emulator is made of (TOML); else the actuator's prototype."),
+    ] = None,
+    write_bench: Annotated[
+        Path | None,
+        typer.Option(
+            help="Write the bench file of this emulator for `svsa serve --bench`, and its"
+            " calibration record next to it."
+        ),
     ] = None,
     idle_s: Annotated[
         float, typer.Option(min=0, help="End after so long without a client; 0: never.")
@@ -38,20 +49,33 @@ def emulator(
         ),
     ] = 0.0,
 ) -> None:
-    """Emulate the bench on CAN: two drives, an encoder and the actuator.
+    """Emulate the bench of an actuator on CAN: two drives, an encoder and the mechanism.
 
     Clients connect as to a socketcand server (python-can's interface `socketcand`), or to a printed
     terminal as to a slcan adapter, which carries CAN FD too. Reachable from this machine only.
     """
+    from svsa.actuators.parameters import SVSA
+    from svsa.errors import ParameterError, Violation
+    from svsa.hardware.emulator import bench_file
     from svsa.hardware.emulator.control import ControlServer
     from svsa.hardware.emulator.emulator import Emulator
-    from svsa.hardware.emulator.parameters import EmulatorParameters, read_emulator_parameters
+    from svsa.hardware.emulator.parameters import (
+        build_emulator_parameters,
+        read_emulator_parameters,
+    )
     from svsa.hardware.emulator.process import EmulatorProcess
     from svsa.hardware.emulator.slcan import SlcanServer
     from svsa.hardware.emulator.socketcand import SocketcandServer
     from svsa.hardware.schedule import EMULATOR_PRIORITY, request_real_time
 
-    machine = Emulator(read_emulator_parameters(file) if file else EmulatorParameters())
+    if file is not None and (actuator is not None or write_bench is not None):
+        bound = "left out with --file, which describes actuator and motors"
+        name, value = ("--actuator", actuator) if actuator else ("--write-bench", str(write_bench))
+        raise ParameterError(Violation(name, value, "", bound))
+    parameters = (
+        read_emulator_parameters(file) if file else build_emulator_parameters(actuator or SVSA)
+    )
+    machine = Emulator(parameters)
     host = "127.0.0.1"
     terminals, network = (SlcanServer(), SlcanServer()), SocketcandServer(host, port)
     control = ControlServer(machine, host, control_port)
@@ -64,6 +88,8 @@ def emulator(
 
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, stop)
+    if write_bench is not None:
+        bench_file.write_bench(write_bench, parameters, network.port, control.port, lockstep)
     mode = "EMULATED, lockstep" if lockstep else "EMULATED"
     print(
         f"SVSA emulator: socketcand {host}:{network.port}, slcan"
@@ -72,7 +98,7 @@ def emulator(
         flush=True,
     )
     if real_time if real_time is not None else not lockstep:
-        request_real_time(EMULATOR_PRIORITY)  # hardware does not wait for other programs
+        request_real_time(EMULATOR_PRIORITY)  # real hardware does not wait for other programs
     try:
         process.run()
     finally:

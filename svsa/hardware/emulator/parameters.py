@@ -1,33 +1,43 @@
-"""The emulated bench as a value: the plant of Table 1, and its drives and encoders."""
+"""The emulated bench as a value: the true plant of an actuator, its drives and encoders."""
 
-from functools import cache
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Self
+from typing import Annotated, Any, Self
 
 from pydantic import BeforeValidator, Field, SerializeAsAny, model_validator
 
-from svsa.actuators.lever import compute_lever_ratio_for_stiffness
-from svsa.actuators.parameters import ActuatorParameters
+from svsa.actuators.domain import build_domain
+from svsa.actuators.dynamics import build_actuator
+from svsa.actuators.elasticity import compute_coordinate_for_stiffness, compute_torques
+from svsa.actuators.installed import InstalledActuator, find_mechanism, get_mechanism
+from svsa.actuators.mechanism import Mechanism
+from svsa.actuators.parameters import SVSA, MechanismParameters
 from svsa.errors import ParameterError, Violation
 from svsa.hardware.drives.emulated import EmulatedMotor, EmulatorClock
 from svsa.hardware.drives.installed import get_family, read_emulated_motor
 from svsa.hardware.settings import DEFAULT_DRIVE, Sign
 from svsa.inputs.checked import Checked, Number, Whole, quantity
 from svsa.inputs.toml_file import read_toml
-from svsa.runs.configuration import load_prototype
+from svsa.runs.design_file import load_prototype
+from svsa.runs.experiment import choose_stiffness
 from svsa.simulation.plant.effects.current_lag import CurrentLag
 from svsa.simulation.plant.effects.friction import Friction
 from svsa.simulation.plant.effects.gravity import LinkGravity
 
 HOME_STIFFNESS_NM_PER_RAD = 30.0
-_MOTORS = (
-    {"torque_constant_nm_per_a": 0.0396, "phase_s": 0.0003},
-    {"torque_constant_nm_per_a": 0.0234, "phase_s": 0.0005},
-)
+"""Of the SVSA; another actuator is at its default stiffness."""
+STOP_MARGIN = 0.02
+"""Distance of the stops of s from the ends of the domain, as a share of its range."""
+GEAR_RATIOS = (50.0, 100.0, 200.0)
+HOLDING, HOLDING_RAD_PER_S = 2.0, 0.01
+"""Breakaway torque over the preload of the springs, and the Stribeck velocity then."""
+RE50_NM_PER_A, RE25_NM_PER_A = 0.0396, 0.0234
+LARGEST_CURRENT_A = 12.0
+_PHASES_S = (0.0003, 0.0005)
 
 
 class EmulatedDeflection(EmulatorClock):
-    """The deflection encoder, a node of its own: counts as i32 big-endian, every ms."""
+    """The deflection encoder, a separate node: counts as i32 big-endian, every ms."""
 
     can_id: Whole = quantity("", "Its standard identifier", ge=0, le=0x7FF, default=0x700)
     counts_per_rev: Whole = quantity("1", "Counts a turn", ge=4, le=10**8, default=8000)
@@ -37,44 +47,127 @@ class EmulatedDeflection(EmulatorClock):
     )
 
 
-@cache
-def _compute_home_ratio() -> float:
-    K = load_prototype().actuator.rotational_stiffness_nm_per_rad
-    return float(compute_lever_ratio_for_stiffness(HOME_STIFFNESS_NM_PER_RAD, K))
+Given = Mapping[str, Any]
+"""The fields of `EmulatorParameters` that are known already."""
+
+
+def _choose_home(given: Given) -> float:
+    """The stiffness coordinate at θ2 = 0."""
+    actuator: MechanismParameters = given["actuator"]
+    mechanism = find_mechanism(actuator)
+    is_svsa = mechanism.name == SVSA
+    sigma = HOME_STIFFNESS_NM_PER_RAD if is_svsa else choose_stiffness(mechanism)
+    return float(compute_coordinate_for_stiffness(build_actuator(actuator, 0.0), sigma))
+
+
+def _choose_stops(given: Given) -> tuple[float, float]:
+    """Lower and upper stop of s: outside the domain, and where the energy is described."""
+    mechanism = find_mechanism(given["actuator"])
+    if mechanism.name == SVSA:
+        return 0.25, 0.83
+    domain = build_domain(given["actuator"], mechanism.limits)
+    margin = STOP_MARGIN * (domain.mu_max - domain.mu_min)
+    low, high = mechanism.coordinate
+    return max(low, domain.mu_min - margin), min(high, domain.mu_max + margin)
 
 
 Motor = Annotated[SerializeAsAny[EmulatedMotor], BeforeValidator(read_emulated_motor)]
 
 
-def build_motor(number: int, drive: str = DEFAULT_DRIVE) -> EmulatedMotor:
-    """A motor of the prototype with a drive of this family; number: 0 or 1."""
-    address = get_family(drive).examples[number]
-    return read_emulated_motor({"drive": drive, **_MOTORS[number], **address})
+def build_motor(
+    number: int, drive: str = DEFAULT_DRIVE, actuator: MechanismParameters | None = None
+) -> EmulatedMotor:
+    """Build a motor with a drive of this family.
+
+    Args:
+        number: 0 or 1.
+        drive: Family of the drive.
+        actuator: Whose torque limit it makes. The SVSA has an RE50 and an RE25, as the paper's;
+            for another actuator both are RE50, behind the smallest gearbox that is enough.
+    """
+    mechanism = get_mechanism(SVSA) if actuator is None else find_mechanism(actuator)
+    constant, ratio = RE25_NM_PER_A if number else RE50_NM_PER_A, GEAR_RATIOS[0]
+    if mechanism.name != SVSA:
+        constant, ratio = RE50_NM_PER_A, _choose_gear(mechanism)
+    return read_emulated_motor(
+        {
+            "drive": drive,
+            "torque_constant_nm_per_a": constant,
+            "gear_ratio": ratio,
+            "phase_s": _PHASES_S[number],
+            **get_family(drive).examples[number],
+        }
+    )
+
+
+def _choose_gear(mechanism: Mechanism) -> float:
+    torque = max(mechanism.limits.torque1_nm, mechanism.limits.torque2_nm)
+    per_ratio = (
+        RE50_NM_PER_A * LARGEST_CURRENT_A * float(EmulatedMotor.model_fields["efficiency"].default)
+    )
+    return next((one for one in GEAR_RATIOS if one * per_ratio >= torque), GEAR_RATIOS[-1])
+
+
+def _choose_friction(given: Given) -> Friction:
+    """Friction in proportion to the torque limits, and enough to hold the preload at home.
+
+    Springs that are tensioned at φ = 0 turn the stiffness motor, which has no current before a run
+    and must stay at its zero mark.
+    """
+    friction, of_svsa = Friction(), get_mechanism(SVSA).limits
+    actuator: MechanismParameters = given["actuator"]
+    limits, s = find_mechanism(actuator).limits, given["lever_ratio"]
+    preload = abs(compute_torques(build_actuator(actuator, s), s, 0.0).reaction)
+    scaled = friction.coulomb2_nm * limits.torque2_nm / of_svsa.torque2_nm
+    held = HOLDING * preload / friction.static_ratio
+    return friction.changed(
+        coulomb1_nm=friction.coulomb1_nm * limits.torque1_nm / of_svsa.torque1_nm,
+        coulomb2_nm=max(scaled, held),
+        stribeck_rad_per_s=HOLDING_RAD_PER_S if held > scaled else friction.stribeck_rad_per_s,
+    )
 
 
 class EmulatorParameters(Checked):
-    """All parameters of the emulated bench; by default the prototype of Table 1.
+    """All parameters of the emulated bench; by default those of the actuator's prototype.
 
-    The parts speak at different moments of each ms, none of them at the loop's. Supply
-    voltage is taken as ample: no back-EMF limits the current.
+    The actuator is by default the SVSA of Table 1. The nodes send at different times of each ms,
+    none synchronous with the loop. The supply voltage is assumed to be sufficient: no back-EMF
+    limits the current.
     """
 
-    actuator: ActuatorParameters = Field(default_factory=lambda: load_prototype().actuator)
+    actuator: InstalledActuator = Field(default_factory=lambda: load_prototype().actuator)
     lever_ratio: Number = Field(
-        default_factory=_compute_home_ratio,
-        description="μ at θ2 = 0; left out, that of σ = 30 N·m/rad, 1",
+        default_factory=_choose_home,
+        description="s where θ2 = 0, of the SVSA μ; left out, that of the SVSA at 30 N·m/rad, of"
+        " another actuator at its default stiffness",
         json_schema_extra={"unit": "1"},
-        gt=0,
-        lt=1,
     )
-    lever_ratio_min: Number = quantity("1", "Lower stop of μ", gt=0, lt=1, default=0.25)
-    lever_ratio_max: Number = quantity("1", "Upper stop of μ", gt=0, lt=1, default=0.83)
-    deflection_max_rad: Number = quantity("rad", "Stop of |φ|", gt=0, le=1.5, default=0.75)
-    motor1: Motor = Field(default_factory=lambda: build_motor(0))
-    motor2: Motor = Field(default_factory=lambda: build_motor(1))
+    lever_ratio_min: Number = Field(
+        default_factory=lambda given: _choose_stops(given)[0],
+        description="Lower stop of s, of the SVSA of μ",
+        json_schema_extra={"unit": "1"},
+    )
+    lever_ratio_max: Number = Field(
+        default_factory=lambda given: _choose_stops(given)[1],
+        description="Upper stop of s, of the SVSA of μ",
+        json_schema_extra={"unit": "1"},
+    )
+    deflection_max_rad: Number = Field(
+        default_factory=lambda given: find_mechanism(given["actuator"]).limits.deflection_max_rad,
+        description="Stop of |φ|",
+        json_schema_extra={"unit": "rad"},
+        gt=0,
+        le=1.5,
+    )
+    motor1: Motor = Field(default_factory=lambda given: build_motor(0, actuator=given["actuator"]))
+    motor2: Motor = Field(default_factory=lambda given: build_motor(1, actuator=given["actuator"]))
     deflection: EmulatedDeflection = EmulatedDeflection(phase_s=0.0008)
     current_lag: CurrentLag | None = quantity("", "Lag of the current loops", default=CurrentLag())
-    friction: Friction | None = quantity("", "Motor friction", default=Friction())
+    friction: Friction | None = Field(
+        default_factory=_choose_friction,
+        description="Motor friction; left out, that of a gearbox which suits the torque limits",
+        json_schema_extra={"unit": ""},
+    )
     gravity: LinkGravity | None = quantity("", "Weight of the link", default=None)
     seed: Whole = quantity("", "Seed of what is random in faults", ge=0, le=2**31, default=0)
 
@@ -83,6 +176,10 @@ class EmulatorParameters(Checked):
         if not self.lever_ratio_min < self.lever_ratio < self.lever_ratio_max:
             bound = f"between its stops, {self.lever_ratio_min:g} and {self.lever_ratio_max:g}"
             raise ParameterError(Violation("lever_ratio", self.lever_ratio, "1", bound))
+        mechanism = find_mechanism(self.actuator)
+        if not mechanism.has_stiffness_motor:
+            bound = "an actuator with two motors: a bench has two drives"
+            raise ParameterError(Violation("actuator.mechanism", mechanism.name, "", bound))
         one, two = self.motor1, self.motor2
         if (one.drive, one.place) == (two.drive, two.place):
             name = two.address_field
@@ -91,6 +188,16 @@ class EmulatorParameters(Checked):
         return self
 
 
+def build_emulator_parameters(actuator: str) -> EmulatorParameters:
+    """Build the emulated bench of an installed actuator; raises `ParameterError` for another."""
+    prototype: Any = get_mechanism(actuator).prototype
+    return EmulatorParameters(actuator=prototype)
+
+
 def read_emulator_parameters(path: Path | str) -> EmulatorParameters:
-    """Read an emulator's file (TOML); raises `ParameterError` for every wrong value."""
+    """Read an emulator's file (TOML).
+
+    Raises:
+        ParameterError: If a value is invalid.
+    """
     return EmulatorParameters(**read_toml(path, "rig file"))
