@@ -1,8 +1,8 @@
 """The calibration record of a bench: signs, scales and zero counts, with date and name.
 
-It is stored next to the bench file, as NAME.calibration.toml, and holds for that bench file only:
-a fingerprint of the motors, the deflection encoder and the home marks ties the two together.
-Without it, or with that of another bench, nothing is armed.
+It is stored next to the bench file, as NAME.calibration.toml, and is valid for that bench file
+only: it contains a fingerprint of the motors, the deflection encoder and the home marks. Without a
+valid record the bench cannot be armed.
 """
 
 import hashlib
@@ -35,7 +35,7 @@ def compute_fingerprint(bench: BenchFile) -> str:
     """Compute a fingerprint of everything a calibration depends on: motors, encoder, home marks."""
     parts = bench.model_dump(mode="json", include={"motor1", "motor2", "deflection", "home"})
     for motor in (parts["motor1"], parts["motor2"]):
-        # A bench from before there was a choice of drives keeps its calibration.
+        # Calibrations of earlier versions, which had one family of drives, stay valid.
         if motor["drive"] == DEFAULT_DRIVE:
             del motor["drive"]
     return hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()[:16]
@@ -48,7 +48,11 @@ def get_calibration_path(bench: BenchFile) -> Path:
 
 
 def find_calibration(bench: BenchFile) -> Calibration | None:
-    """The record next to the bench file, or None; raises `ParameterError` for a damaged one."""
+    """Return the record next to the bench file, or None.
+
+    Raises:
+        ParameterError: If it is damaged.
+    """
     path = get_calibration_path(bench)
     if not path.exists():
         return None
@@ -75,7 +79,7 @@ def write_calibration(bench: BenchFile, calibration: Calibration) -> Path:
 def note_signs(bench: BenchFile, right: bool) -> None:
     """Store in the record of this bench whether its signs were confirmed.
 
-    Does nothing without a record, or with one that was made for other settings.
+    Does nothing without a record, or with one for other settings.
     """
     calibration = find_calibration(bench)
     if calibration is not None and calibration.fingerprint == compute_fingerprint(bench):

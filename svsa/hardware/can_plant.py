@@ -26,15 +26,15 @@ from svsa.hardware.settings import AXIS_WORDS
 
 HOME_TOLERANCE_RAD = 0.05
 PAUSE_S = 0.0001
-"""Beyond the time that the drives need between two commands."""
+"""Additional pause beyond the minimum time between two commands of the drives, s."""
 _ORDER = (Phase.SILENT, Phase.OFF, Phase.RESET, Phase.CONFIG, Phase.MODE, Phase.READY)
 
 
 class CanPlant:
     """Two drives, a deflection encoder and the bench's states, on one bus.
 
-    Each tick calls `read`, then `write`. skipped_commands: currents not sent because a tick
-    came too soon after the one before.
+    Each tick calls `read`, then `write`. `skipped_commands` counts currents that were not sent
+    because a tick came too soon after the previous one.
     """
 
     def __init__(
@@ -54,7 +54,7 @@ class CanPlant:
         )
         self._drives = (one, two)
         zero = calibration.deflection_zero_counts if calibration else 0
-        self._sensing = Sensing(bench, self._drives, self._scales, zero, clock)
+        self._sensing = Sensing(bench, self._drives, self._scales, zero, clock, guard.real)
         self._machine = Machine(bench, guard, list_problems(bench, calibration))
         self._bus: can.BusABC | None = None
         stops = [build_stop(motor) for motor in motors]
@@ -97,7 +97,8 @@ class CanPlant:
     def open(self) -> None:
         """Open bus and encoder, and reset the drives, which may hold an old current.
 
-        Raises `SvsaError` with what to do, and holds neither then.
+        Raises:
+            SvsaError: If one of them cannot be opened, with what to do; both are closed then.
         """
         bus = open_bus(self._bench.bus)
         try:
@@ -110,9 +111,11 @@ class CanPlant:
         self._send_resets(bus)
 
     def arm(self, now: float) -> None:
-        """Reset both drives and bring them to READY; raises `StateError` or `BusError`.
+        """Reset both drives and bring them to READY; a lost bus is opened again.
 
-        A bus that was lost is opened again.
+        Raises:
+            StateError: If arming is not permitted.
+            BusError: If the bus cannot be opened.
         """
         bus = self._get_bus()
         self._machine.check_arming()
@@ -130,9 +133,13 @@ class CanPlant:
             drive.begin()
 
     def confirm_home(self, step: str, by: str) -> None:
-        """Confirm that an axis is at its zero mark, by `by`; raises `StateError`.
+        """Confirm that an axis is at its zero mark, by `by`.
 
-        A drive's zero is where it was reset: what has moved since is not at its mark.
+        A drive's zero is its position at the reset: an axis that has moved since is not at its
+        mark.
+
+        Raises:
+            StateError: If the axis has moved, or it is not its turn.
         """
         angle = self._sensing.find_angle(step)
         if self.status is BenchStatus.READY and abs(angle) > HOME_TOLERANCE_RAD:
@@ -144,7 +151,11 @@ class CanPlant:
         self._machine.confirm_home(step, by)
 
     def start(self, now: float) -> None:
-        """RUN from the next tick on; raises `StateError`."""
+        """Enter RUN at the next tick.
+
+        Raises:
+            StateError: If that is not permitted.
+        """
         self._machine.start(self._find_age("operator"))
 
     def stop(self, now: float, reason: str) -> None:
@@ -156,7 +167,11 @@ class CanPlant:
         self.fail("quick_stop", f"Zero current at once: {reason}.", {})
 
     def clear(self, now: float) -> None:
-        """FAULT → OFF; raises `StateError`."""
+        """FAULT → OFF.
+
+        Raises:
+            StateError: In any other state.
+        """
         self._machine.clear()
         self._reset_sent = self._zero_sent = False
         for drive in self._drives:
@@ -175,15 +190,25 @@ class CanPlant:
         self._sensing.listen(self._get_bus())
 
     def read(self, now: float, known: State) -> Reading:
-        """Read the bench for this tick. known: x̂ now, whose velocities compensate the ages."""
+        """Read the bench for this tick; `known` is the present x̂, whose velocities compensate the
+        ages.
+        """
         return self._sensing.read(self._get_bus(), now, known)
 
     def write(
         self, now: float, limited: Torque, known: State, estimate: Disturbance, missed: int
     ) -> Torque:
-        """Send the permitted part of `limited`; return the torque actually sent, N·m.
+        """Send the permitted part of the limited torque.
 
-        known: x̂. estimate: ŵ, N·m. missed: ticks lost before this one.
+        Args:
+            now: Time, s.
+            limited: Torque of the law within its limits, N·m.
+            known: x̂, `State`.
+            estimate: ŵ, `Disturbance`, N·m.
+            missed: Number of ticks lost before this one.
+
+        Returns:
+            The torque actually sent, N·m.
         """
         if missed:
             held_s = self._bench.safety.loop_s if self._is_stopped else math.inf
@@ -192,12 +217,15 @@ class CanPlant:
         torque = self._machine.update(self._find_conditions(missed), limited, known, estimate)
         status, sent = self._machine.status, NO_TORQUE
         try:
-            # In every tick again, since a drive may hold its last current indefinitely: not every
-            # family has a watchdog.
+            # Repeated in every tick: a drive may keep its last current indefinitely, since not
+            # every family has a watchdog.
             if status is BenchStatus.FAULT:
                 self._silence(now)
             elif status is not BenchStatus.OFF:
-                sent = Torque(self._send(0, torque.u1, now), self._send(1, torque.u2, now))
+                wanted = self._guard.real.split(torque)
+                sent = self._guard.real.join(
+                    Torque(self._send(0, wanted.u1, now), self._send(1, wanted.u2, now))
+                )
         except BUS_TROUBLE as error:
             self._sensing.lost = True
             self.fail("bus_error", f"The bus failed: {error}.", {})
@@ -281,7 +309,7 @@ class CanPlant:
         with contextlib.suppress(SvsaError, *BUS_TROUBLE):
             self._pause(self._gap_s + PAUSE_S)
             for drive in self._drives:
-                # An infinite time is later than any command: no gap holds it back.
+                # An infinite time is later than any command, so no gap delays it.
                 self._try_zero(bus, drive, math.inf)
             self._pause(self._gap_s + PAUSE_S)
             self._send_resets(bus)

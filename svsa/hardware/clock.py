@@ -19,7 +19,7 @@ SAME_DAY_S = 5.0
 RESTART_S = 0.1
 DRIFT = 2e-4
 SPIN_S = 0.00015
-"""A sleep this short would end late: waking up takes some 0.03 to 0.1 ms."""
+"""Shorter sleeps would end late, because waking up takes about 0.03 to 0.1 ms."""
 
 
 class ClockError(SvsaError):
@@ -46,7 +46,7 @@ class BenchClock(Protocol):
         ...
 
     def convert(self, timestamp: float, arrival: float) -> float:
-        """The time of a frame in this clock's, from its timestamp; arrival: when it was read."""
+        """Convert a frame's timestamp to this clock; `arrival` is the time of reading."""
         ...
 
     def find_lateness(self, deadline: float) -> float:
@@ -66,12 +66,14 @@ class WallClock:
         self._offset = self._arrival = 0.0
         self._sleep = None
         if sys.platform == "linux":
-            # `time.sleep` is relative: a pause between its computation and its beginning would be
-            # added to the tick.
+            # `time.sleep` is relative: a delay between computing the pause and starting it would
+            # lengthen the tick.
             self._sleep = ctypes.CDLL(None, use_errno=True).clock_nanosleep
 
     def bind(self, bus: can.BusABC) -> None:
-        """Its first frame shows whether this bus stamps with the time of day or its own."""
+        """The first frame shows whether the bus uses the time of day or its own clock for
+        timestamps.
+        """
         self._of_day = None
 
     def now(self) -> float:
@@ -79,7 +81,7 @@ class WallClock:
         return time.monotonic()
 
     def wait_until(self, deadline: float) -> None:
-        """Return at this time, or at once if it is past; where it is near, without sleeping."""
+        """Return at this time, or at once if it is past; without sleeping if it is near."""
         if deadline - time.monotonic() < SPIN_S:
             while time.monotonic() < deadline:
                 pass
@@ -89,13 +91,13 @@ class WallClock:
             return
         seconds = int(deadline)
         wanted = _Timespec(seconds, int((deadline - seconds) * 1e9))
-        # Another result than 0 is an interruption by a signal: sleep on.
+        # A non-zero result means interruption by a signal: sleep again.
         while self._sleep(_CLOCK_MONOTONIC, _TIMER_ABSTIME, ctypes.byref(wanted), None):
             if time.monotonic() >= deadline:
                 return
 
     def find_lateness(self, deadline: float) -> float:
-        """How long ago this deadline was due, s."""
+        """Return the time since this deadline, s."""
         return time.monotonic() - deadline
 
     def take_frames(self) -> list[can.Message]:
@@ -103,11 +105,11 @@ class WallClock:
         return []
 
     def convert(self, timestamp: float, arrival: float) -> float:
-        """From the time of day, or from an adapter's own clock of unknown origin.
+        """Convert the time of day, or the time of an adapter's clock of unknown origin.
 
-        No frame comes before it was sent: the least distance between arrival and timestamp is
-        that between the two clocks, up to a drift of 2e-4. A distance 0.1 s greater
-        means that the adapter's clock was restarted; the silence before it has been a fault.
+        No frame arrives before it was sent: the smallest difference of arrival and timestamp is the
+        offset between the two clocks, up to a drift of 2e-4. A difference 0.1 s greater means that
+        the adapter's clock was restarted; the silence before it has already caused a fault.
         """
         if self._of_day is None:
             self._of_day = abs(time.time() - timestamp) < SAME_DAY_S
@@ -131,7 +133,11 @@ class LockstepClock:
         self._frames: list[can.Message] = []
 
     def bind(self, bus: can.BusABC) -> None:
-        """Ask the emulator for its time; raises `ClockError` where it does not answer."""
+        """Request the time of the emulator.
+
+        Raises:
+            ClockError: If it does not answer.
+        """
         self._bus = bus
         self._now_us = self._advance(0)
 
@@ -151,7 +157,8 @@ class LockstepClock:
             raise ClockError("The clock of an emulator in lockstep has no bus.")
         ask = can.Message(arbitration_id=ADVANCE_ID, is_extended_id=True, data=encode_time(time_us))
         self._bus.send(ask)
-        # The emulator sends the frames of the interval before the echo: with it nothing is missing.
+        # The emulator sends the frames of the interval before the echo, so after the echo none is
+        # missing.
         while (message := self._bus.recv(_ECHO_S)) is not None:
             if message.is_extended_id and message.arbitration_id == ADVANCE_ID:
                 return self._check(decode_time(message.data), time_us)
@@ -183,7 +190,7 @@ class LockstepClock:
 
 
 CATCH_UP_S = 0.05
-"""Lost time beyond this is not made up for by ticks without a pause between them, s."""
+"""Maximum lost time that is made up for by ticks without a pause, s."""
 
 
 class PacedClock(LockstepClock):
@@ -199,9 +206,10 @@ class PacedClock(LockstepClock):
         self._ahead_s = -math.inf
 
     def wait_until(self, deadline: float) -> None:
-        """Let the emulator advance to this time, once it is due in wall time.
+        """Let the emulator advance to this time, once it is due in wall-clock time.
 
-        An emulator that had no loop for a while went on alone: its time is not waited for again.
+        An emulator that had no loop for a while has advanced on its own: that time is not waited
+        for.
         """
         if math.isinf(self._ahead_s):
             self._ahead_s = self._wall.now() - self.now()
@@ -209,7 +217,7 @@ class PacedClock(LockstepClock):
         late_s = self._wall.now() - max(deadline, self.now())
         self._ahead_s = max(self._ahead_s, late_s - CATCH_UP_S)
         super().wait_until(deadline)
-        # If the emulator went on alone, its time is ahead: the plan follows it.
+        # If the emulator advanced without the loop, its time is ahead, and the plan follows it.
         self._ahead_s = min(self._ahead_s, self._wall.now() - self.now())
 
     def find_lateness(self, deadline: float) -> float:

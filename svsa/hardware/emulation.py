@@ -1,13 +1,11 @@
 """Frames of the emulated bus, and messages that only an emulated bench sends.
 
-Both identifiers are extended (29 bits), from the end of the range, which no known drive uses: no
-drive takes them for a command.
+Both identifiers are extended (29 bits), from the end of the range, which no known drive uses.
 
 Lockstep: a client sends `ADVANCE_ID` with a time; the emulator simulates up to it, sends every
-frame that is due until then and answers that client with the same identifier and the time that it
-is then: the time asked for, or, at once, a later one that it has reached already. `EMULATED_ID` is
-sent to each client when it begins to listen and then every 100 ms: its receiver knows that
-there is no machine behind the wire.
+frame that is due until then, and answers that client with the same identifier and its present time:
+the requested time, or, at once, a later one that it has already reached. `EMULATED_ID` is sent to
+each client when it connects and then every 100 ms: it marks the bench as emulated.
 """
 
 from typing import NamedTuple
@@ -31,7 +29,9 @@ def decode_time(data: bytes | bytearray) -> int:
 class Frame(NamedTuple):
     """A frame on the emulated bus: identifier (11 bits, or 29 if extended) and up to 8 bytes.
 
-    fd: CAN FD, up to 64 bytes. error: marks bus trouble.
+    Attributes:
+        fd: Whether it is CAN FD, with up to 64 bytes.
+        error: Whether it is an error frame.
     """
 
     can_id: int

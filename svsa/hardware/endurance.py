@@ -20,10 +20,13 @@ Motor = Literal["motor1", "motor2"]
 
 
 class Endurance(NamedTuple):
-    """A motor that a load overheats. torque_nm: demanded rms torque.
+    """A motor that a load overheats.
 
-    lasting_torque_nm: continuous rating. seconds: from the load's onset, the motor cold, until
-    heat holds its torque back.
+    Attributes:
+        motor: Number of the motor.
+        torque_nm: Demanded rms torque, N·m.
+        lasting_torque_nm: Continuous rating, N·m.
+        seconds: Time from the load's onset, with a cold motor, until heat limits its torque, s.
     """
 
     motor: Motor
@@ -37,11 +40,17 @@ def find_endurance(
 ) -> Endurance | None:
     """Find the motor that heat limits first under these loads; None if neither within 30 s.
 
-    The bench's simulated twin moves as the configuration says and is given the loads after 2 s; its
-    torques warm windings that are cold then, in steps of 10 ms. None, too, where the run ends in
-    a fault before.
+    The bench's simulated twin moves as in the configuration and gets the loads after 2 s; its
+    torques heat windings that are cold at that time, in steps of 10 ms. None also if the run ends
+    in a fault before.
 
-    configuration: of the bench, see `build_bench_configuration`. loads: all that are on then.
+    Args:
+        bench: The bench.
+        configuration: Configuration of the bench, see `build_bench_configuration`.
+        loads: All active loads.
+
+    Returns:
+        The motor, or None.
     """
     run = Run(configuration.changed(comparisons=(), loads=()))
     limits = configuration.limits
@@ -78,7 +87,7 @@ def _warm(windings: tuple[Winding, Winding], asked: np.ndarray) -> Literal[0, 1]
     """
     for number, winding in enumerate(windings):
         torque = np.abs(asked[:, number])
-        if winding.find_held_back(float(np.max(torque))) is not None:
+        if winding.find_heat_reduction(float(np.max(torque))) is not None:
             return 1 if number else 0
         winding.warm(math.sqrt(float(np.mean(torque**2))), _STEP_S)
     return None

@@ -1,7 +1,7 @@
 """A bench as described by its file: bus, drives, motors, encoders, timing and safety.
 
-What belongs to a particular motor or encoder has no silent default: a bench whose winding,
-gearbox, efficiency, sign or counts are not given can be checked, but does not arm.
+Properties of a particular motor or encoder have no silent default: a bench without values for
+winding, gearbox, efficiency, sign or counts can be checked, but cannot be armed.
 """
 
 from pathlib import Path
@@ -9,6 +9,7 @@ from typing import Annotated
 
 from pydantic import BeforeValidator, SerializeAsAny
 
+from svsa.actuators.parameters import SVSA
 from svsa.errors import ParameterError, Violation
 from svsa.hardware.drives.installed import get_family, read_motor
 from svsa.hardware.settings import AXIS_WORDS, BusSettings, DeflectionSettings, MotorSettings
@@ -21,7 +22,9 @@ PERIODS_S = (0.001, 0.002)
 class HomeSettings(Checked):
     """Values at the zero marks."""
 
-    lever_ratio: Number = quantity("1", "μ at the stiffness motor's zero mark", gt=0, lt=1)
+    lever_ratio: Number = quantity(
+        "1", "Stiffness coordinate s where θ2 = 0; of the SVSA the lever ratio μ", ge=-1e3, le=1e3
+    )
 
 
 class TimingSettings(Checked):
@@ -76,7 +79,12 @@ class SafetySettings(Checked):
 class DesignSettings(Checked):
     """The control design of this bench."""
 
-    file: str | None = quantity("", "Parameter file; left out, the prototype's", default=None)
+    actuator: str | None = quantity(
+        "", "Installed actuator; left out, that of the file, or the SVSA", default=None
+    )
+    file: str | None = quantity(
+        "", "Parameter file; left out, the actuator's prototype", default=None
+    )
     corner_rad_per_s: Number = quantity(
         "rad/s", "Corner of the state estimator", ge=1, le=2000, default=200.0
     )
@@ -95,7 +103,7 @@ class EmulatorSettings(Checked):
 
 
 Motor = Annotated[SerializeAsAny[MotorSettings], BeforeValidator(read_motor)]
-"""A motor's section, checked as its family of drives describes it."""
+"""A motor's section, validated by its family of drives."""
 
 
 class BenchFile(Checked):
@@ -141,7 +149,11 @@ _WORDS = {
 
 
 def read_bench(path: Path | str) -> BenchFile:
-    """Read a bench file (TOML); raises `ParameterError` for every wrong value."""
+    """Read a bench file (TOML).
+
+    Raises:
+        ParameterError: If a value is invalid.
+    """
     bench = BenchFile(**{**read_toml(path, "bench file"), "path": str(path)})
     for name in ("motor1", "motor2"):
         motor: MotorSettings = getattr(bench, name)
@@ -166,4 +178,16 @@ def read_bench(path: Path | str) -> BenchFile:
             if get_family(motor.drive).needs_fd and bus is not None and not bus.fd:
                 bound = f"true: the drive of {AXIS_WORDS[name]} ({motor.drive}) needs CAN FD"
                 raise ParameterError(Violation(f"{section}.fd", False, "", bound))
+    if bench.design.file is None and bench.design.actuator in (None, SVSA):
+        check_home(bench)
     return bench
+
+
+def check_home(bench: BenchFile, low: float = 0.0, high: float = 1.0) -> None:
+    """Raise `ParameterError` unless s at the zero mark is between its ends.
+
+    low, high: ends of s; by default those of the lever ratio of the SVSA.
+    """
+    if not low < bench.home.lever_ratio < high:
+        bound = f"greater than {low:.4g} and less than {high:.4g}"
+        raise ParameterError(Violation("home.lever_ratio", bench.home.lever_ratio, "", bound))

@@ -1,8 +1,8 @@
-"""Homing by hand: link, principal motor and stiffness motor, each confirmed at its mark.
+"""Homing by hand: link, motor 1 and motor 2, each confirmed at its mark.
 
-A drive's reset takes its position as zero, so the marks are confirmed after every arming:
-the mechanism stands at its marks when the drives are reset. What outlives a power cycle is
-the deflection encoder's zero, in the calibration record.
+A drive's zero is its position at the reset, so the marks are confirmed after every arming: the
+mechanism must be at its marks when the drives are reset. Only the deflection encoder's zero
+survives a power cycle, in the calibration record.
 """
 
 from typing import Literal, NamedTuple
@@ -22,8 +22,8 @@ class HomingStep(NamedTuple):
 
 STEPS = (
     HomingStep("link", "Set the link to its zero mark by hand, spring relaxed: q = 0, φ = 0."),
-    HomingStep("motor1", "See that the principal motor stands at its zero mark: θ1 = 0."),
-    HomingStep("motor2", "See that the spiral stands at its zero mark: θ2 = 0."),
+    HomingStep("motor1", "Check that motor 1 is at its zero mark."),
+    HomingStep("motor2", "Check that motor 2 is at its zero mark."),
 )
 DONE = "All axes are at home."
 
@@ -40,7 +40,11 @@ class Homing:
         return next((step.name for step in STEPS if step.name not in self.confirmed), None)
 
     def confirm(self, step: str, by: str) -> None:
-        """Confirm that `by` has seen this axis at its mark; raises `StateError` if out of order."""
+        """Confirm that `by` has seen this axis at its mark.
+
+        Raises:
+            StateError: If another axis is next.
+        """
         names = [known.name for known in STEPS]
         if step not in names:
             raise ParameterError(Violation("step", step, "", "one of " + ", ".join(names)))

@@ -6,11 +6,14 @@ from svsa.actuators.signals import Measurement
 
 
 class Reading(NamedTuple):
-    """What a tick found. measurement: angles moved on to now; None until all three are known,
-    and where one has not been heard of for `stale_fault_s`.
+    """The readings of a tick.
 
-    current_a: of both motors, as their drives say, and 0 where they have not for that long.
-    ages_s: of motor 1, motor 2, deflection. counts: the same three.
+    Attributes:
+        measurement: Angles extrapolated to the present; None until all three are known, and if one
+            is older than `stale_fault_s`.
+        current_a: Measured currents of both motors, A; 0 if they are older than that.
+        ages_s: Ages of motor 1, motor 2, deflection, s.
+        counts: Counts of the same three.
     """
 
     measurement: Measurement | None

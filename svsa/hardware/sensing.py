@@ -16,13 +16,14 @@ from svsa.hardware.encoders import read_source
 from svsa.hardware.encoders.source import EncoderError
 from svsa.hardware.file import BenchFile
 from svsa.hardware.reading import Reading
+from svsa.hardware.real_motors import RealMotors
 from svsa.hardware.safety.faults import Alarm
 from svsa.hardware.safety.standstill import NewCounts
 from svsa.hardware.settings import AXIS_WORDS
 
 MAX_FRAMES_A_TICK = 200
 MAX_FRAMES_UNHEARD = 100_000
-"""Some seconds of a bus that never rests."""
+"""Number of frames of some seconds on a busy bus."""
 NEW_PERIODS = 2
 FRESH_PERIODS = 5
 """Older feedback is not used: x̂ is predicted by the model alone."""
@@ -32,9 +33,11 @@ UNHEARD = (math.inf, math.inf, math.inf)
 class Sensing:
     """Feedback of two drives and a deflection encoder.
 
-    zero: counts of the deflection encoder at φ = 0. ages_s, current_a, counts: of the last reading.
-    emulated: the bus says that it is an emulator. lost: the bus failed, and has to be
-    opened again.
+    Attributes:
+        zero: Counts of the deflection encoder at φ = 0; with a pair of motors it measures the link.
+        ages_s: Ages of the last reading, s; current_a and counts likewise.
+        emulated: Whether the bus is that of an emulator.
+        lost: Whether the bus failed and must be opened again.
     """
 
     def __init__(
@@ -44,8 +47,9 @@ class Sensing:
         scales: tuple[MotorScale, MotorScale],
         zero: int,
         clock: BenchClock,
+        real: RealMotors,
     ) -> None:
-        self._drives, self._clock, self._zero = drives, clock, zero
+        self._drives, self._clock, self._zero, self._real = drives, clock, zero, real
         self._angles = tuple(scale.angle_per_count for scale in scales)
         self._takers = {key: drive for drive in drives for key in drive.heard_ids}
         self._commands = drives[0].obeyed_ids | drives[1].obeyed_ids
@@ -55,7 +59,7 @@ class Sensing:
         self._heard_deflection: float | None = None
         self._settings = bench.bus
         self._stamped = bench.bus.timestamps == "bus"
-        self._wait = 0.5 * bench.timing.period_s  # on average, where nothing stamps a frame
+        self._wait = 0.5 * bench.timing.period_s  # mean delay of frames without timestamps
         self._new_s = NEW_PERIODS * bench.timing.period_s
         self._fresh_s = FRESH_PERIODS * bench.timing.period_s
         self._age, self._oldest = bench.timing.feedback_age_s, bench.safety.stale_fault_s
@@ -82,7 +86,9 @@ class Sensing:
             self._early += take_waiting(bus, self._settings, room)
 
     def read(self, bus: can.BusABC, now: float, known: State) -> Reading:
-        """Return the reading of this tick. known: x̂ now, whose velocities compensate the ages."""
+        """Return the reading of this tick; `known` is the present x̂, whose velocities compensate
+        the ages.
+        """
         self._drain(bus, now)
         one, two = self._drives
         heard1, heard2, heard3 = one.heard_s, two.heard_s, self._read_deflection(now)
@@ -93,15 +99,7 @@ class Sensing:
         self.counts = counts = (one.counts, two.counts, self._deflection.counts)
         measurement = None
         if max(self.ages_s) <= self._oldest:
-            phi = (counts[2] - self._zero) * self._deflection_scale
-            measurement = Measurement(
-                self._bridge(counts[0] * self._angles[0], known.dtheta1, age1, known.theta1),
-                self._bridge(counts[1] * self._angles[1], known.dtheta2, age2, known.theta2),
-                self._bridge(phi, known.dq - known.dtheta1, age3, known.q - known.theta1),
-                known.dq,
-                known.dtheta1,
-                known.dtheta2,
-            )
+            measurement = self._measure(counts, known)
         self.current_a = (
             one.current_ma * 1e-3 if age1 <= self._oldest else 0.0,
             two.current_ma * 1e-3 if age2 <= self._oldest else 0.0,
@@ -109,12 +107,32 @@ class Sensing:
         self._measurement = measurement
         return Reading(measurement, self.current_a, self.ages_s, counts)
 
-    def _bridge(self, angle: float, velocity: float, age: float, known: float) -> float:
-        """Extrapolate an angle (rad) of that age to now; if it is too old, use x̂.
+    def _measure(self, counts: tuple[int, int, int], known: State) -> Measurement:
+        """Convert the counts to angles of the model at this tick."""
+        age1, age2, age3 = self.ages_s
+        one, two = self._real.find_angles(known.theta1, known.theta2)
+        # `known` has its velocities at the middle of each age. The ages of a pair differ by a part
+        # of a period, which is less than a count.
+        done, dtwo = self._real.find_angles(known.dtheta1, known.dtheta2)
+        theta1, theta2 = self._real.find_coordinates(
+            self._bridge(counts[0] * self._angles[0], done, age1, one),
+            self._bridge(counts[1] * self._angles[1], dtwo, age2, two),
+        )
+        turned = (counts[2] - self._zero) * self._deflection_scale
+        if self._real.is_pair:
+            phi = self._bridge(turned, known.dq, age3, known.q) - theta1
+        else:
+            velocity = known.dq - known.dtheta1
+            phi = self._bridge(turned, velocity, age3, known.q - known.theta1)
+        return Measurement(theta1, theta2, phi, known.dq, known.dtheta1, known.dtheta2)
 
-        With it moved on for longer, an error of the velocity would come back as a greater one.
+    def _bridge(self, angle: float, velocity: float, age: float, known: float) -> float:
+        """Extrapolate an angle (rad) of that age to the present; if it is too old, use x̂.
+
+        Longer extrapolation would amplify errors of the velocity.
         """
-        # With a late frame the run goes on by the model for `FRESH_PERIODS`; a fault comes later.
+        # If a frame is late, the run continues on the model for `FRESH_PERIODS`; after that a fault
+        # ends it.
         if age > self._fresh_s and self._measurement is not None:
             return known
         return angle + velocity * age
@@ -134,7 +152,8 @@ class Sensing:
         y = self._measurement
         if y is None:
             return 0.0
-        angles = {"link": y.theta1 + y.phi, "motor1": y.theta1, "motor2": y.theta2}
+        one, two = self._real.find_angles(y.theta1, y.theta2)
+        angles = {"link": y.theta1 + y.phi, "motor1": one, "motor2": two}
         return angles.get(step, 0.0)
 
     def _drain(self, bus: can.BusABC, now: float) -> None:
@@ -159,7 +178,7 @@ class Sensing:
             return
         if message.is_remote_frame or not message.is_rx:
             return
-        # As `compute_key`, without a call for each frame.
+        # Same as `compute_key`, without a function call for each frame.
         key = message.arbitration_id
         if message.is_extended_id:
             key |= EXTENDED

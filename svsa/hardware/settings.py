@@ -10,9 +10,9 @@ AXIS_WORDS = {
     "motor2": "motor 2",
     "deflection": "the deflection",
 }
-"""What an axis is called in a message."""
+"""Name of each axis in messages."""
 DEFAULT_DRIVE = "robomodule"
-"""The family of drives of a bench file that names none: files from before there was a choice."""
+"""The family of drives of a bench file without a family: earlier versions had one."""
 Sign = Literal[-1, 1]
 
 
@@ -39,7 +39,7 @@ class BusSettings(Checked):
 class MotorSettings(Checked):
     """A motor and its drive. Torque is at the gearbox output; None: not known yet.
 
-    The family of the drive adds its own fields: its address, and what it is configured with.
+    The family of the drive adds its own fields: its address and its configuration.
     """
 
     address_field: ClassVar[str] = ""
@@ -77,5 +77,7 @@ class DeflectionSettings(Checked):
     counts_per_rev: Whole | None = quantity(
         "1", "Counts a turn, after quadrature", ge=4, le=10**8, default=None
     )
-    sign: Sign | None = quantity("", "1 where counts grow with φ = q − θ1", default=None)
+    sign: Sign | None = quantity(
+        "", "1 where counts grow with φ = q − θ1, of two antagonistic motors with q", default=None
+    )
     options: dict[str, Any] = quantity("", "Settings of the source", default={})

@@ -29,8 +29,12 @@ def calibrate(
 ) -> tuple[Path, Calibration]:
     """Read the zero and write the record; confirmed signs of this bench are kept.
 
-    Raises `StateError` while a mark is unconfirmed or the deflection moves, `BusError` and
-    `EncoderError` where it cannot be read. An older record is replaced.
+    An older record is replaced.
+
+    Raises:
+        StateError: While a mark is unconfirmed or the deflection moves.
+        BusError: If the bus cannot be read.
+        EncoderError: If the encoder cannot be read.
     """
     if homing.next_step is not None:
         axis = AXIS_WORDS[homing.next_step].capitalize()

@@ -1,4 +1,4 @@
-"""What can be made to go wrong on the emulator, and the faults of which it leads to one."""
+"""Faults injected into the emulator, and the fault codes that may result."""
 
 import math
 from collections.abc import Callable
@@ -41,7 +41,7 @@ SEEN_IN_MOTION = {*WRONG, "deflection_limit", "position_limit", "overload"}
 
 
 class Case(NamedTuple):
-    """A cause, and the faults of which it leads to one."""
+    """A cause, and the fault codes that may result."""
 
     cause: Callable[[Bench], Any]
     codes: set[str]
@@ -64,7 +64,7 @@ def quick_stop(b: Bench) -> None:
 
 
 def intrude(b: Bench) -> None:
-    """Another program on the bus resets the drives, and waits until the emulator has heard it."""
+    """Another program on the bus resets the drives; wait until the emulator has received it."""
     bus = can_plant.open_bus(b.bench.bus)
     for frame in build_stop(b.bench.motor1).reset:
         bus.send(frame)
@@ -122,7 +122,8 @@ CASES = {
 def check_stopped(b: Bench, case: Case, begin_s: float) -> None:
     """The fault is one of those expected, in time, latched, with its values; nothing flows.
 
-    The time of a fault that shows in the mechanism's motion counts from the tick that shows it.
+    If the motion of the mechanism shows the fault, its time counts from the first tick that shows
+    it.
     """
     b.tick_until_fault()
     fault = b.plant.fault
@@ -149,7 +150,7 @@ def check_stopped(b: Bench, case: Case, begin_s: float) -> None:
 
 
 def check_speeds(b: Bench, share: float) -> None:
-    """How fast and how far the true mechanism went, against what the bench file allows."""
+    """Compare velocity and travel of the mechanism with the limits of the bench file."""
     safety = b.bench.safety
     assert b.fastest["dtheta1"] <= share * b.bench.motor1.speed_max_rad_per_s
     assert b.fastest["dtheta2"] <= share * b.bench.motor2.speed_max_rad_per_s

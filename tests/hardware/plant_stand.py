@@ -1,4 +1,4 @@
-"""A plant to stand before: a simulated one, or one on the wire, with the truth about it."""
+"""A plant under test, simulated or on the wire, with its true state."""
 
 import math
 from collections.abc import Callable, Iterator
@@ -37,16 +37,17 @@ NO_TORQUE = Torque(0.0, 0.0)
 MOTEUS = Path(svsa.__file__).parent / "hardware" / "drives" / "moteus"
 FIGURE = get_figure("4a").build_configuration(load=False)
 PHASE_S = 0.0007
-"""Where the paper's gains bear that an adapter without timestamps knows no age of a count: the
-principal motor, whose frame comes at 0.43 ms, must be heard less than half a tick late."""
+"""Limit of the paper's gains for an adapter without timestamps, which does not know the age of a
+count: the frame of the principal motor, sent at 0.43 ms, must arrive within half a tick.
+"""
 ARMING_TICKS = 4
-"""Arming takes a second of waiting for the drives; the contract begins when they are READY."""
+"""Arming waits a second for the drives; the contract starts when they are READY."""
 UNSTAMPED_AGE_S = 0.0005
-"""An adapter without timestamps: a count is half a tick old when it is read, on the average."""
+"""An adapter without timestamps: a count is half a tick old on average when it is read."""
 
 
 class SimulatedPlant:
-    """The mechanism of Table 1 without drives and wire, within the bench's states and limits."""
+    """The mechanism of Table 1 without drives and wire, within the states and limits of a bench."""
 
     def __init__(self, bench: BenchFile) -> None:
         self._guard = build_guard(bench)
@@ -56,7 +57,7 @@ class SimulatedPlant:
         self.now_s = 0.0
 
     def __getattr__(self, name: str) -> Any:
-        """What the machine does, as a plant of the bench does it."""
+        """The state machine, as in a plant of the bench."""
         return getattr(self._machine, name)
 
     @property
@@ -102,10 +103,10 @@ class SimulatedPlant:
 
 
 class Stand:
-    """A plant, time that goes on, and the truth about it.
+    """A plant, advancing time, and the true state.
 
-    wait: lets time go on to a time, s. Ticks are at `PHASE_S` of each ms, so that frames are of
-    the same age in every test. describe: x, the torques that the motors aim at, and the modes
+    wait: advances the time to a given time, s. Ticks are at `PHASE_S` of each ms, so frames have
+    the same age in every test. describe: returns x, the target torques of the motors, and the modes
     of the drives.
     """
 
@@ -141,13 +142,13 @@ class Stand:
         self._wait(self._now)
 
     def tick(self, ticks: int = 1) -> None:
-        """Periods of the bench's own loop."""
+        """Run periods of the loop of the bench."""
         for _ in range(ticks):
             self.go_on()
             self.loop.tick(self._now)
 
     def push(self, torque: Torque, ticks: int = 1) -> Torque:
-        """Periods with this torque, by hand; what the last one really sent."""
+        """Run periods with this torque; return the last torque sent."""
         sent = NO_TORQUE
         for _ in range(ticks):
             self.go_on()

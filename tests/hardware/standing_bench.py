@@ -1,10 +1,10 @@
-"""A bench that holds a load still, in a process of its own: something to be killed.
+"""A bench that holds a load at rest, in a separate process that tests kill.
 
     python -m tests.hardware.standing_bench BENCH
 
-It arms, confirms the marks, runs, and goes on as the server does. It prints a line when it
-runs, and the code and the message of its fault whenever one comes to be known. A machine that
-is too busy to let it run at first is given other attempts.
+The process arms the bench, confirms the marks, starts the run, and continues as the server does. It
+prints a line when the bench runs, and the code and message of each fault. If the machine is too
+busy for the first attempt, the process tries again.
 """
 
 import sys

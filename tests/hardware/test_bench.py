@@ -1,4 +1,4 @@
-"""Bench files: what is refused and how, and what an unfinished bench lacks."""
+"""Bench files: rejected values with their reasons, and missing values of an incomplete bench."""
 
 import tomllib
 from pathlib import Path
@@ -13,7 +13,7 @@ from tests.hardware.wired_bench import EMULATOR_BENCH
 
 
 def write(folder: Path, **changes: Any) -> Path:
-    """The emulator's bench file with fields replaced (section__name=value; None: left out)."""
+    """Write the emulator's bench file with fields replaced (section__name=value; None: omitted)."""
     sections = tomllib.loads(EMULATOR_BENCH.read_text(encoding="utf-8"))
     for name, value in changes.items():
         section, field = name.split("__")
@@ -26,14 +26,14 @@ def write(folder: Path, **changes: Any) -> Path:
     return path
 
 
-def test_the_rigs_own_file_lacks_nothing() -> None:
+def test_file_of_the_rig_is_complete() -> None:
     bench = read_bench(EMULATOR_BENCH)
     assert bench.find_missing() == []
     assert bench.path == str(EMULATOR_BENCH)
 
 
-def test_what_belongs_to_a_motor_has_no_default(tmp_path: Path) -> None:
-    """Winding, gearbox, efficiency, sign and counts: not given, they are missed one by one."""
+def test_motor_specific_values_have_no_default(tmp_path: Path) -> None:
+    """Winding, gearbox, efficiency, sign and counts: each omitted one is reported."""
     names = ["counts_per_rev", "gear_ratio", "torque_constant_nm_per_a", "efficiency", "sign"]
     changes = {f"motor1__{name}": None for name in names}
     bench = read_bench(write(tmp_path, **changes, deflection__sign=None))
@@ -66,7 +66,7 @@ def test_what_belongs_to_a_motor_has_no_default(tmp_path: Path) -> None:
         ("home__lever_ratio", 1.0, "lever_ratio"),
     ],
 )
-def test_a_wrong_value_is_named_with_its_bound(
+def test_invalid_value_is_named_with_its_bound(
     tmp_path: Path, name: str, value: Any, words: str
 ) -> None:
     with pytest.raises(ParameterError) as refused:
@@ -75,7 +75,7 @@ def test_a_wrong_value_is_named_with_its_bound(
 
 
 @pytest.mark.parametrize("text", ["not toml", "name = 'empty'", ""])
-def test_a_file_that_is_none_is_an_error_with_words(tmp_path: Path, text: str) -> None:
+def test_other_file_is_an_error_with_reason(tmp_path: Path, text: str) -> None:
     path = tmp_path / "bench.toml"
     path.write_text(text, encoding="utf-8")
     with pytest.raises(ParameterError):

@@ -1,8 +1,8 @@
 """Every fault that can be caused is caused, on the emulator while it runs Figure 4A.
 
-In lockstep, in this process. What counts is what the emulator's own drives
-were reported, in the emulator's time, and where its true mechanism went; physics decides which of
-several faults comes first, so some causes name more than one.
+The emulator runs in lockstep, in this process. The tests check the commands that the emulator's
+drives received, in the emulator's time, and the true motion of its mechanism. Some causes list more
+than one fault, because the motion determines which of them is detected first.
 """
 
 import math
@@ -48,7 +48,7 @@ def emulator() -> Iterator[InProcessEmulator]:
 
 
 class Place:
-    """The one bench of this module: READY for each test, made again after one that failed."""
+    """The bench of this module: READY for each test, recreated after a failed one."""
 
     def __init__(self, emulator: InProcessEmulator) -> None:
         self._rig = emulator
@@ -79,14 +79,14 @@ def ready(place: Place) -> Bench:
 
 
 def is_shown(name: str) -> bool:
-    """One node stands for the others of which the same is caused."""
+    """One node represents others with the same cause."""
     first = name.replace("motor2", "motor1").replace("deflection", "motor1")
     return first == name or first not in CASES
 
 
 @pytest.mark.parametrize("name", exhaust(CASES, [*filter(is_shown, CASES)]))
-def test_a_fault_ends_the_run_and_is_cleared_by_hand_only(ready: Bench, name: str) -> None:
-    """Coasting included, no axis becomes much faster than it is allowed to be, unless pulled."""
+def test_fault_ends_the_run_and_is_cleared_manually_only(ready: Bench, name: str) -> None:
+    """Including coasting, no axis becomes much faster than permitted, unless pulled."""
     ready.run()
     begin = ready.begin_watch()
     CASES[name].cause(ready)
@@ -98,12 +98,10 @@ def test_a_fault_ends_the_run_and_is_cleared_by_hand_only(ready: Bench, name: st
 
 @pytest.mark.parametrize("fault", [FrozenEncoder, ReversedEncoder])
 @pytest.mark.parametrize("node", NODES)
-def test_an_encoder_that_is_wrong_from_the_start_lets_nothing_run_away(
-    ready: Bench, fault: Any, node: str
-) -> None:
-    """Worst where no user has seen it right before: the run begins with it.
+def test_initially_wrong_encoder_causes_no_runaway(ready: Bench, fault: Any, node: str) -> None:
+    """The worst case, without a previous correct reading: the run starts with it.
 
-    A deflection that stays near zero may go on: it moves nothing wrong.
+    If the deflection stays near zero, the run may continue, because there is no wrong motion.
     """
     ready.emulator.control.fault(fault(node=node))
     ready.start()
@@ -120,7 +118,7 @@ def test_an_encoder_that_is_wrong_from_the_start_lets_nothing_run_away(
     ready.recover()
 
 
-def test_a_not_finite_torque_is_never_sent(ready: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_non_finite_torque_is_never_sent(ready: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
     ready.run()
     begin, decide = ready.begin_watch(), ready.loop._decide
     broken = Torque(math.nan, 0.0)
@@ -130,8 +128,8 @@ def test_a_not_finite_torque_is_never_sent(ready: Bench, monkeypatch: pytest.Mon
     ready.recover()
 
 
-def test_a_third_of_all_frames_lost_is_borne(ready: Bench) -> None:
-    """Below the 5 ms nothing happens to the run: x̂ bridges what is missing."""
+def test_run_continues_with_a_third_of_all_frames_lost(ready: Bench) -> None:
+    """Within the limit of 5 ms the run continues: x̂ bridges the missing feedback."""
     for node in NODES:
         ready.emulator.control.fault(DropFrames(node=node, probability=0.3))
     ready.run(1000)
@@ -143,10 +141,10 @@ def test_a_third_of_all_frames_lost_is_borne(ready: Bench) -> None:
 
 
 @pytest.mark.parametrize("node", DRIVES)
-def test_a_drive_without_its_cable_holds_its_current_and_the_other_is_stopped(
+def test_disconnected_drive_holds_its_current_and_the_other_is_stopped(
     ready: Bench, node: DriveName
 ) -> None:
-    """What no software can cover, said plainly: the supply must be cut by the button."""
+    """A limitation of any software: the emergency stop must cut the supply."""
     ready.run()
     ready.emulator.control.fault(Unplugged(node=node))
     ready.tick(30)
@@ -158,9 +156,9 @@ def test_a_drive_without_its_cable_holds_its_current_and_the_other_is_stopped(
     ready.recover()
 
 
-def test_a_motor_that_a_drive_turns_at_rest_ends_it(ready: Bench) -> None:
-    """The drive of the weak motor makes 15 A while the bench commands none: its speed limit comes
-    before that of its heat.
+def test_motor_turned_by_a_faulty_drive_at_rest_is_a_fault(ready: Bench) -> None:
+    """The drive of the weak motor produces 15 A at zero command: the speed limit acts before the
+    heat limit.
     """
     ready.emulator.control.fault(CurrentOffset(node="motor2", offset_a=15))
     ready.tick_until_fault()
@@ -172,7 +170,7 @@ def test_a_motor_that_a_drive_turns_at_rest_ends_it(ready: Bench) -> None:
     ready.recover()
 
 
-def test_a_drive_that_does_not_answer_is_named_while_arming(ready: Bench) -> None:
+def test_silent_drive_is_named_during_arming(ready: Bench) -> None:
     ready.emulator.control.fault(Silence(node="motor2"))
     begin = ready.now()
     ready.plant.arm(begin)
@@ -191,10 +189,10 @@ def test_a_drive_that_does_not_answer_is_named_while_arming(ready: Bench) -> Non
         ({"link_position_max_rad": 0.15}, "position_limit"),
     ],
 )
-def test_a_limit_of_the_bench_file_ends_the_run(
+def test_limit_of_the_bench_file_ends_the_run(
     place: Place, emulator: InProcessEmulator, safety: dict[str, float], code: str
 ) -> None:
-    """The figure itself goes beyond a limit this low: no fault has to be injected."""
+    """The figure itself exceeds a limit this low: no fault has to be injected."""
     place.close()
     bench = make_ready(emulator, **safety)
     try:
@@ -206,7 +204,7 @@ def test_a_limit_of_the_bench_file_ends_the_run(
         bench.close()
 
 
-def test_the_operators_silence_ramps_to_zero_without_a_fault(
+def test_silence_of_the_operator_ramps_to_zero_without_a_fault(
     place: Place, emulator: InProcessEmulator
 ) -> None:
     place.close()
@@ -230,7 +228,7 @@ def test_the_operators_silence_ramps_to_zero_without_a_fault(
         bench.close()
 
 
-def test_it_neither_starts_before_home_nor_arms_uncalibrated(
+def test_bench_neither_starts_before_homing_nor_arms_uncalibrated(
     place: Place, emulator: InProcessEmulator, tmp_path: Any
 ) -> None:
     place.close()
@@ -261,8 +259,8 @@ def test_it_neither_starts_before_home_nor_arms_uncalibrated(
         bare.close()
 
 
-def test_every_fault_but_these_was_caused_on_the_rig() -> None:
-    """The rest cannot happen in lockstep: `test_can_plant_faults`, and `test_survivors`."""
+def test_every_fault_was_caused_on_the_rig_with_listed_exceptions() -> None:
+    """The others cannot occur in lockstep: `test_can_plant_faults`, and `test_survivors`."""
     elsewhere = {"encoder_lost", "singular_decoupling"}
     others = {"not_finite", "overload", "drive_silent", "overspeed", "position_limit"}
     caused = set().union(*(case.codes for case in CASES.values()))

@@ -1,4 +1,4 @@
-"""Faults whose causes come over the wire itself, with the emulator in a process of its own."""
+"""Faults with causes on the wire, with the emulator in a separate process."""
 
 import pytest
 
@@ -16,8 +16,8 @@ from .watched_bench import make_ready
         ["no frames of motor1"],
     ),
 )
-def test_over_sockets_it_ends_the_same(name: str) -> None:
-    """As `test_bench_faults` has it in one process."""
+def test_faults_over_sockets_have_the_same_outcome(name: str) -> None:
+    """As in `test_bench_faults` in one process."""
     with start_emulator(lockstep=True) as emulator:
         bench = make_ready(emulator)
         try:

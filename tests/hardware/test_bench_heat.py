@@ -1,6 +1,6 @@
 """A load that a motor does not bear for long, on the emulator in lockstep, from cold.
 
-The printed 3 kg have 2 N·m on motor 2, which bears 1.22 N·m indefinitely.
+The 3 kg of the paper cause 2 N·m on motor 2, whose continuous torque is 1.22 N·m.
 """
 
 import socket
@@ -29,13 +29,13 @@ from tests.hardware.emulator.in_process_emulator import start_in_process
 from .watched_bench import FIGURE, Bench, make_ready
 
 LEFT_HEAT = [0.001, 0.002]
-"""Of a loop before this one: as good as cold."""
+"""The remaining heat of an earlier loop: practically cold."""
 BEFORE_TICKS, LONGEST_TICKS = 2000, 10_000
 LASTING_NM = 1.16 * 50.0 * 0.9 * 0.0234
 
 
 class Reported(NamedTuple):
-    """What the loop's process shared and said while the load hung."""
+    """Shared values and messages of the loop's process during the load."""
 
     seconds: float
     allowed_nm: float
@@ -91,23 +91,23 @@ def hang_paper_load(bench: Bench, process: LoopProcess, memory: LoopMemory, link
     raise AssertionError("the motor bore it")
 
 
-def test_the_fault_that_it_ends_in_names_the_heat_first(reported: Reported) -> None:
+def test_fault_due_to_heat_names_the_heat_first(reported: Reported) -> None:
     assert reported.fault.code == "lever_end"
     assert reported.fault.message.startswith("Motor 2 was held back by heat")
-    assert "End of the spiral" in reported.fault.message
+    assert "End of stiffness range" in reported.fault.message
     assert reported.fault.values["motor2_heat"] > 0.9
     assert LASTING_NM <= reported.allowed_nm < 2.0
 
 
-def test_the_loop_tells_which_motor_is_held_back_before_the_fault(reported: Reported) -> None:
+def test_loop_reports_the_limited_motor_before_the_fault(reported: Reported) -> None:
     said = [(message["status"], message["held_back"]) for message in reported.messages]
     assert said[0] == (BenchStatus.RUN, [])
     assert (BenchStatus.RUN, ["motor2"]) in said
     assert said[-1] == (BenchStatus.FAULT, ["motor2"])
 
 
-def test_it_is_predicted_from_the_twin(reported: Reported) -> None:
-    """The twin has no friction and less noise: the emulator's motor is warm a little earlier."""
+def test_fault_is_predicted_from_the_twin(reported: Reported) -> None:
+    """The twin has no friction and less noise: the emulator's motor warms up slightly earlier."""
     predicted = predict(PaperLoad())
     assert predicted is not None
     assert predicted.motor == "motor2"
@@ -129,11 +129,11 @@ def predict(*loads: Load) -> Endurance | None:
         PulseLoad(torque_nm=(0.0, 0.0, 2.0), duration_s=2.0),
     ],
 )
-def test_what_a_motor_bears_is_predicted_as_nothing(load: Load) -> None:
+def test_continuous_load_has_no_predicted_fault(load: Load) -> None:
     assert predict(load) is None
 
 
-def test_two_loads_that_are_borne_alone_may_be_too_much_together() -> None:
+def test_two_continuous_loads_may_exceed_the_limit_together() -> None:
     half = ConstantLoad(torque_nm=(0.0, 0.0, 1.0))
     assert predict(half) is None
     both = predict(half, half)

@@ -1,7 +1,7 @@
 """One contract for all plants behind read and write: a simulated one, and those on the wire.
 
-What a controller may rely on is the same wherever it runs: signs, limits, states, and the
-torque that it is reported was sent.
+Every plant gives a controller the same guarantees: signs, limits, states, and the reported torque
+that was sent.
 """
 
 import math
@@ -45,7 +45,7 @@ def stand(
         yield from stand_emulated(wired, request.param)
 
 
-def test_at_rest_it_stays_at_rest(stand: Stand) -> None:
+def test_plant_at_rest_stays_at_rest(stand: Stand) -> None:
     stand.start()
     stand.push(NO_TORQUE, 200)
     assert stand.plant.status is BenchStatus.RUN
@@ -56,8 +56,10 @@ def test_at_rest_it_stays_at_rest(stand: Stand) -> None:
 
 
 @pytest.mark.parametrize("number", [0, 1])
-def test_positive_torque_grows_the_angle_of_its_own_motor_first(stand: Stand, number: int) -> None:
-    """And φ = q − θ1 falls where θ1 goes ahead of the link."""
+def test_positive_torque_first_increases_the_angle_of_its_own_motor(
+    stand: Stand, number: int
+) -> None:
+    """And φ = q − θ1 decreases where θ1 leads the link."""
     stand.start()
     torque = Torque(1.0, 0.0) if number == 0 else Torque(0.0, 1.0)
     sent = stand.push(torque, 20)
@@ -78,8 +80,8 @@ def test_positive_torque_grows_the_angle_of_its_own_motor_first(stand: Stand, nu
         assert y.phi == pytest.approx(x.q - x.theta1, abs=0.004)
 
 
-def test_the_torque_reported_is_the_torque_that_the_motors_aim_at(stand: Stand) -> None:
-    """To the last mA: what is rounded away or cut off at 15 and 5 N·m is known to the observer."""
+def test_reported_torque_is_the_target_torque_of_the_motors(stand: Stand) -> None:
+    """To the last mA: rounding and the limits of 15 and 5 N·m are known to the observer."""
     stand.start()
     sent = stand.push(Torque(0.123456, -0.0654321), 5)
     stand.go_on()
@@ -94,7 +96,7 @@ def test_the_torque_reported_is_the_torque_that_the_motors_aim_at(stand: Stand) 
     assert stand.targets == pytest.approx([15.0, -5.0], abs=0.002)
 
 
-def test_what_is_not_finite_is_refused(stand: Stand) -> None:
+def test_non_finite_torque_is_rejected(stand: Stand) -> None:
     stand.start()
     stand.push(Torque(0.5, 0.1), 5)
     assert stand.push(Torque(math.nan, 0.0)) == NO_TORQUE
@@ -121,7 +123,7 @@ def test_stop_ramps_to_zero(stand: Stand) -> None:
     assert stand.targets == [0.0, 0.0]
 
 
-def test_closed_it_makes_no_torque_and_has_no_mode(stand: Stand) -> None:
+def test_closed_plant_makes_no_torque_and_has_no_mode(stand: Stand) -> None:
     stand.start()
     stand.push(Torque(0.5, 0.1), 5)
     stand.plant.close()
@@ -129,7 +131,7 @@ def test_closed_it_makes_no_torque_and_has_no_mode(stand: Stand) -> None:
     assert not any(stand.describe()[2]), "no mode, or stopped"
 
 
-def test_it_follows_a_second_of_figure_4a(stand: Stand) -> None:
+def test_plant_follows_a_second_of_figure_4a(stand: Stand) -> None:
     """Through encoders, currents and the wire within half a degree, and 1 N·m/rad at the end."""
     stand.start(by_hand=False)
     stand.tick(1000)

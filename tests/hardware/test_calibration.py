@@ -1,4 +1,4 @@
-"""The calibration record: it holds for the bench that it was made for, and for no other."""
+"""The calibration record is valid for its bench only."""
 
 from datetime import datetime
 
@@ -60,7 +60,7 @@ def confirm_all(by="Ada"):
     return homing
 
 
-def test_a_record_is_read_as_it_was_written(bench):
+def test_record_is_read_as_written(bench):
     path = write_calibration(bench, build(bench))
     assert path == get_calibration_path(bench)
     assert path.name == "bench.calibration.toml"
@@ -69,21 +69,21 @@ def test_a_record_is_read_as_it_was_written(bench):
     assert [each.name for each in path.parent.iterdir() if each.suffix == ".tmp"] == []
 
 
-def test_without_a_record_it_says_what_to_run(bench):
+def test_missing_record_reports_what_to_run(bench):
     assert find_calibration(bench) is None
     (problem,) = list_problems(bench, None)
     assert "bench-home" in problem
 
 
 @pytest.mark.parametrize(("old", "new"), MOTOR_CHANGES)
-def test_a_change_of_motor_encoder_or_mark_makes_it_void(tmp_path, bench, old, new):
+def test_change_of_motor_encoder_or_mark_invalidates_the_record(tmp_path, bench, old, new):
     calibration = build(bench)
     changed = read_bench(copy_bench(tmp_path, lambda text: text.replace(old, new, 1)))
     (problem,) = list_problems(changed, calibration)
     assert "changed after the calibration of 2026-01-02" in problem
 
 
-def test_what_does_not_touch_the_marks_leaves_it_valid(tmp_path, bench):
+def test_unrelated_change_keeps_the_record_valid(tmp_path, bench):
     """Another adapter or a narrower limit needs no new zero."""
     changed = read_bench(
         copy_bench(
@@ -94,7 +94,7 @@ def test_what_does_not_touch_the_marks_leaves_it_valid(tmp_path, bench):
     assert list_problems(changed, build(bench)) == []
 
 
-def test_unconfirmed_signs_and_missing_values_keep_it_from_arming(tmp_path, bench):
+def test_unconfirmed_signs_and_missing_values_prevent_arming(tmp_path, bench):
     (problem,) = list_problems(bench, build(bench, signs_confirmed=False))
     assert "bench-check --move" in problem
     unknown = read_bench(copy_bench(tmp_path, lambda text: text.replace("efficiency = 0.9", "", 1)))
@@ -117,13 +117,13 @@ def test_unconfirmed_signs_and_missing_values_keep_it_from_arming(tmp_path, benc
     ],
     ids=["no TOML", "fields missing", "no UTF-8", "no zone", "no date", "wrong values"],
 )
-def test_a_damaged_record_is_refused_and_not_passed_over(bench, text):
+def test_damaged_record_is_rejected(bench, text):
     get_calibration_path(bench).write_bytes(text.encode("latin-1"))
     with pytest.raises(ParameterError):
         find_calibration(bench)
 
 
-def test_signs_are_noted_in_a_record_of_this_bench_only(bench):
+def test_signs_are_stored_in_a_record_of_this_bench_only(bench):
     note_signs(bench, True)
     assert find_calibration(bench) is None
     write_calibration(bench, build(bench, signs_confirmed=False))
@@ -135,13 +135,13 @@ def test_signs_are_noted_in_a_record_of_this_bench_only(bench):
     assert find_calibration(bench) == stranger
 
 
-def test_the_rigs_own_record_fits_its_bench_file():
-    """Else `svsa emulator` and the figures through CAN would not arm."""
+def test_record_of_the_rig_fits_its_bench_file():
+    """Otherwise `svsa emulator` and the figures through CAN would not arm."""
     bench = read_bench(EMULATOR_BENCH)
     assert list_problems(bench, find_calibration(bench)) == []
 
 
-def test_calibrating_reads_the_zero_and_says_who_and_when(bench):
+def test_calibration_stores_the_zero_with_user_and_time(bench):
     bus = EmulatorBus(
         Emulator(
             EmulatorParameters(deflection=EmulatedDeflection(offset_counts=-321, phase_s=0.0008))
@@ -157,7 +157,7 @@ def test_calibrating_reads_the_zero_and_says_who_and_when(bench):
     assert not bus.is_open
 
 
-def test_calibrating_again_keeps_signs_that_were_confirmed_for_these_settings(bench):
+def test_new_calibration_keeps_signs_confirmed_for_these_settings(bench):
     write_calibration(bench, build(bench))
     bus = EmulatorBus()
     assert calibrate(bench, confirm_all(), bus.open, bus.now)[1].signs_confirmed
@@ -173,7 +173,7 @@ def test_nothing_is_written_before_every_mark_is_confirmed(bench):
     assert find_calibration(bench) is None
 
 
-def test_a_link_that_still_swings_is_not_taken_for_a_zero(bench):
+def test_oscillating_link_is_not_taken_for_a_zero(bench):
     bus = EmulatorBus()
     bus.emulator.add_load(ConstantLoad(torque_nm=(0.5, 0.0, 0.0)))
     with pytest.raises(StateError, match="release the link"):
@@ -181,15 +181,15 @@ def test_a_link_that_still_swings_is_not_taken_for_a_zero(bench):
     assert find_calibration(bench) is None
 
 
-def test_a_silent_encoder_and_a_missing_bus_have_no_zero(bench):
+def test_silent_encoder_and_missing_bus_have_no_zero(bench):
     bus = EmulatorBus()
     bus.emulator.inject(DropFrames(node="deflection"))
     with pytest.raises(EncoderError, match="bench-check"):
         read_deflection_zero(bench, bus.open, bus.now)
     assert not bus.is_open
 
-    def refuse(settings):
+    def reject(settings):
         raise BusError("no adapter")
 
     with pytest.raises(BusError):
-        read_deflection_zero(bench, refuse, bus.now)
+        read_deflection_zero(bench, reject, bus.now)

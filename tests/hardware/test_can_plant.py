@@ -1,4 +1,4 @@
-"""The plant over CAN, state by state: what it sends, measures and refuses."""
+"""The plant over CAN, state by state: frames sent, measurements and rejections."""
 
 import itertools
 import math
@@ -35,7 +35,7 @@ def test_arms_step_by_step_and_starts_at_zero() -> None:
         )
 
 
-def test_opening_resets_the_drives_which_may_hold_a_current() -> None:
+def test_opening_resets_drives_which_may_hold_a_current() -> None:
     with WiredBench() as b:
         b.tick()
         assert b.find_resets() == [0.0]
@@ -57,7 +57,7 @@ def test_start_needs_ready_and_every_mark() -> None:
             b.plant.start(b.now)
 
 
-def test_an_axis_that_moved_since_its_reset_is_not_at_its_mark() -> None:
+def test_axis_that_moved_since_its_reset_is_not_at_its_mark() -> None:
     with WiredBench() as b:
         b.plant.arm(b.now)
         b.tick_until(BenchStatus.READY)
@@ -69,7 +69,7 @@ def test_an_axis_that_moved_since_its_reset_is_not_at_its_mark() -> None:
         assert b.plant.status is BenchStatus.RESET
 
 
-def test_an_uncalibrated_bench_does_not_arm_and_says_why() -> None:
+def test_uncalibrated_bench_does_not_arm_and_reports_why() -> None:
     bench = read_bench(EMULATOR_BENCH)
     bench = bench.changed(motor2=bench.motor2.changed(sign=None))
     with WiredBench(bench) as b, pytest.raises(StateError, match=r"motor2\.sign is not given"):
@@ -88,7 +88,7 @@ def test_returns_the_torque_of_whole_milliamperes() -> None:
         assert target == pytest.approx(sent.u1, rel=1e-9), "and that is what the drive holds"
 
 
-def test_outside_run_nothing_but_zero_is_sent() -> None:
+def test_only_zero_is_sent_outside_run() -> None:
     with WiredBench() as b:
         b.tick(5, PUSH)
         assert b.read_currents() == []
@@ -97,7 +97,7 @@ def test_outside_run_nothing_but_zero_is_sent() -> None:
         assert {current for _, _, current in b.read_currents()} == {0}
 
 
-def test_measures_angles_moved_on_to_now_by_their_age() -> None:
+def test_measured_angles_are_extrapolated_by_their_age() -> None:
     with WiredBench() as b:
         b.make_ready()
         b.clock.say(Frame(0x01B, encode(Feedback(0, 0, 1000))), b.now)
@@ -129,7 +129,7 @@ def test_stop_ramps_to_zero_and_ends_ready() -> None:
         assert b.plant.status is BenchStatus.RUN, "and may go on without being armed again"
 
 
-def test_without_the_operators_switch_it_neither_starts_nor_goes_on() -> None:
+def test_missing_operator_switch_prevents_start_and_ends_the_run() -> None:
     beats = FakeBeats()
     with WiredBench(beats=beats, dead_man=True) as b:
         b.make_ready()
@@ -145,16 +145,16 @@ def test_without_the_operators_switch_it_neither_starts_nor_goes_on() -> None:
         b.tick_until(BenchStatus.READY, 0.4, torque=PUSH)
 
 
-def test_a_dead_mans_switch_that_no_user_can_hold_keeps_it_still() -> None:
+def test_unusable_dead_mans_switch_prevents_the_start() -> None:
     with WiredBench(dead_man=True) as b:
         b.make_ready()
         with pytest.raises(StateError, match="dead-man"):
             b.plant.start(b.now)
 
 
-def test_without_a_supervisor_only_an_emulated_rig_gets_ready() -> None:
+def test_only_an_emulated_rig_gets_ready_without_a_supervisor() -> None:
     with WiredBench() as b:
-        b.emulator._beat = lambda: None  # a bus that does not say EMULATED
+        b.emulator._beat = lambda: None  # a bus that does not send EMULATED
         b.emulator._events = [event for event in b.emulator._events if event[0] != 100_000]
         b.plant.arm(b.now)
         b.tick_until(BenchStatus.FAULT)
@@ -162,7 +162,7 @@ def test_without_a_supervisor_only_an_emulated_rig_gets_ready() -> None:
         assert b.plant.fault.code == "supervisor_lost"
 
 
-def test_old_feedback_takes_the_torque_away_and_fresh_gives_it_back() -> None:
+def test_old_feedback_removes_the_torque_and_fresh_feedback_restores_it() -> None:
     with WiredBench() as b:
         b.make_run(PUSH)
         b.clock.mute = True
@@ -175,7 +175,7 @@ def test_old_feedback_takes_the_torque_away_and_fresh_gives_it_back() -> None:
         assert b.tick(1, PUSH).u1 > 0.0
 
 
-def test_a_tick_too_early_leaves_the_last_current() -> None:
+def test_early_tick_keeps_the_last_current() -> None:
     with WiredBench() as b:
         b.make_run(PUSH)
         count = len(b.read_currents())
@@ -198,7 +198,7 @@ def test_close_leaves_zero_current_and_drives_without_mode() -> None:
     b.wire.shutdown()
 
 
-def test_one_drive_that_cannot_receive_zero_does_not_keep_the_other(
+def test_failed_zero_of_one_drive_does_not_prevent_that_of_the_other(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     with WiredBench() as b:
@@ -221,7 +221,7 @@ def test_one_drive_that_cannot_receive_zero_does_not_keep_the_other(
         assert b.find_zero_time(begin) <= b.now
 
 
-def test_a_lost_bus_is_opened_again_when_it_is_armed(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_lost_bus_is_opened_again_at_arming(monkeypatch: pytest.MonkeyPatch) -> None:
     with WiredBench() as b:
         b.make_run(PUSH)
         b.plant_bus.shutdown()
@@ -244,7 +244,7 @@ def test_a_lost_bus_is_opened_again_when_it_is_armed(monkeypatch: pytest.MonkeyP
     ],
     ids=["short", "remote", "extended", "short node", "a stranger"],
 )
-def test_frames_that_are_not_for_us_change_nothing(message: can.Message) -> None:
+def test_other_frames_change_nothing(message: can.Message) -> None:
     with WiredBench() as b:
         b.make_run(PUSH)
         before = b.plant.read(b.now, AT_REST).counts
@@ -254,7 +254,7 @@ def test_frames_that_are_not_for_us_change_nothing(message: can.Message) -> None
         assert b.plant.fault is None
 
 
-def test_a_babbling_bus_does_not_hold_the_tick_up() -> None:
+def test_busy_bus_does_not_delay_the_tick() -> None:
     with WiredBench() as b:
         b.make_run(PUSH)
         junk = can.Message(arbitration_id=0x456, is_extended_id=False, data=b"")
@@ -264,7 +264,7 @@ def test_a_babbling_bus_does_not_hold_the_tick_up() -> None:
         assert b.plant_bus.recv(0) is not None, "the rest waits for later ticks"
 
 
-def test_frames_that_are_fetched_before_the_tick_say_the_same() -> None:
+def test_frames_read_before_the_tick_give_the_same_result() -> None:
     readings = []
     for early in (False, True):
         with WiredBench() as b:
@@ -279,7 +279,7 @@ def test_frames_that_are_fetched_before_the_tick_say_the_same() -> None:
     assert len({reading.counts for reading in readings if reading}) > 10
 
 
-def test_a_bus_that_fails_while_it_is_listened_to_is_a_fault_of_the_next_tick() -> None:
+def test_bus_failure_while_listening_is_a_fault_of_the_next_tick() -> None:
     with WiredBench() as b:
         b.make_run(PUSH)
         b.plant_bus.shutdown()

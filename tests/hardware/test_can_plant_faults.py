@@ -1,4 +1,6 @@
-"""Every fault of the plant over CAN: its reason, and zero current in time; latched till cleared."""
+"""Every fault of the plant over CAN: its reason, and zero current in time; latched until
+cleared.
+"""
 
 import math
 from collections.abc import Callable
@@ -80,7 +82,7 @@ def _lose_encoder(b: WiredBench) -> None:
 
 
 def _break_bus(b: WiredBench) -> None:
-    """Receiving fails; sending goes on, or nothing could be said of the wire."""
+    """Receiving fails; sending continues, since otherwise the frames could not be checked."""
 
     def fail(*_: object) -> None:
         raise can.CanOperationError("the adapter is gone")
@@ -144,10 +146,10 @@ LISTED = [
     for code, ways in causes.items()
     for number, cause in enumerate(ways)
 ]
-"""`make test` has each while running; of the machine in every state, `safety.test_machine`."""
+"""`make test` runs each in run; `safety.test_machine` tests every state of the machine."""
 ELSEWHERE = {"drive_silent", "encoder_frozen", "singular_decoupling", "loop_late"}
 PROCESSES = {"loop_silent", "loop_lost", "loop_and_supervisor_lost"}
-"""What the server finds, with real processes: `test_survivors`."""
+"""Detected by the server, with real processes: `test_survivors`."""
 
 
 def test_every_fault_is_tested() -> None:
@@ -186,7 +188,7 @@ def test_every_fault_ends_in_zero_current_in_time(
         assert set(after) == {0}
 
 
-def test_a_drive_that_makes_current_of_its_own_is_an_overload() -> None:
+def test_drive_with_uncommanded_current_is_an_overload() -> None:
     with WiredBench() as b:
         b.make_ready()
         b.emulator.inject(CurrentOffset(node="motor2", offset_a=15.0))
@@ -195,7 +197,7 @@ def test_a_drive_that_makes_current_of_its_own_is_an_overload() -> None:
         assert b.plant.fault.code == "overload"
 
 
-def test_a_drive_that_says_nothing_is_named_while_arming() -> None:
+def test_silent_drive_is_named_during_arming() -> None:
     with WiredBench() as b:
         b.emulator.inject(Silence(node="motor2"))
         b.plant.arm(b.now)
@@ -207,7 +209,7 @@ def test_a_drive_that_says_nothing_is_named_while_arming() -> None:
 
 
 @pytest.mark.parametrize("status", ["off", "reset", "config", "mode", "ready", "run", "ramp"])
-def test_a_quick_stop_latches_in_every_state(status: str) -> None:
+def test_quick_stop_latches_in_every_state(status: str) -> None:
     with WiredBench() as b:
         b.tick(5)
         if status in ("reset", "config", "mode"):
@@ -228,7 +230,7 @@ def test_a_quick_stop_latches_in_every_state(status: str) -> None:
         assert len(b.find_resets(begin)) == 1
 
 
-def test_the_first_fault_stays_until_it_is_cleared_and_then_all_begins_again() -> None:
+def test_first_fault_is_latched_until_it_is_cleared() -> None:
     with WiredBench() as b:
         b.make_run(PUSH)
         b.plant.quick_stop(b.now, "a test")
@@ -252,7 +254,7 @@ def test_the_first_fault_stays_until_it_is_cleared_and_then_all_begins_again() -
         assert b.plant.status is BenchStatus.RUN
 
 
-def test_faults_of_before_do_not_count_after_arming() -> None:
+def test_earlier_faults_do_not_count_after_arming() -> None:
     with WiredBench() as b:
         b.emulator.inject(BusErrors(count=3))
         b.clock.say(Frame(0x01D, b"\x01" + b"\x55" * 7), b.now)
@@ -263,8 +265,8 @@ def test_faults_of_before_do_not_count_after_arming() -> None:
 
 
 @pytest.mark.parametrize("heard", ["in the late tick", "in the one after it"])
-def test_a_loop_that_stood_still_names_itself_and_not_a_stranger(heard: str) -> None:
-    """The supervisor's frames are on the bus; how late the loop was is what matters."""
+def test_suspended_loop_names_itself_and_not_another_program(heard: str) -> None:
+    """The supervisor's frames are on the bus; the reported reason is the delay of the loop."""
     with WiredBench(beats=FakeBeats(), missed_ticks=100) as b:
         b.make_run(PUSH)
         b.skip(0.05)
@@ -282,7 +284,7 @@ def test_a_loop_that_stood_still_names_itself_and_not_a_stranger(heard: str) -> 
         assert "supervisor" in fault.message
 
 
-def test_a_late_loop_of_before_arming_is_no_fault_of_the_run_after_it() -> None:
+def test_late_loop_before_arming_is_no_fault_of_the_next_run() -> None:
     with WiredBench(beats=FakeBeats()) as b:
         b.beats.stops += 1
         b.make_run(PUSH)

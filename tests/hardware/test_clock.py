@@ -1,4 +1,4 @@
-"""The time of frames in the loop's own clock, and waits on absolute deadlines."""
+"""Times of frames in the clock of the loop, and waits until absolute deadlines."""
 
 import time
 
@@ -21,8 +21,8 @@ from tests.hardware.wired_bench import EMULATOR_BENCH
 
 
 class Adapter:
-    """A bus that answers as an emulator in lockstep, or not at all. alone_us: how far it went
-    alone.
+    """A bus that responds as an emulator in lockstep, or not at all. alone_us: its time without a
+    loop.
     """
 
     def __init__(self, answers: bool = True) -> None:
@@ -44,7 +44,7 @@ class Adapter:
         return self._waiting.pop(0) if self._waiting else None
 
 
-def test_waits_until_a_deadline_and_not_for_one_that_is_past() -> None:
+def test_waits_until_a_deadline_and_not_for_a_past_one() -> None:
     clock = WallClock()
     deadline = clock.now() + 0.02
     clock.wait_until(deadline)
@@ -54,7 +54,7 @@ def test_waits_until_a_deadline_and_not_for_one_that_is_past() -> None:
     assert clock.now() - late < 1.0
 
 
-def test_a_near_deadline_is_never_early() -> None:
+def test_near_deadline_is_never_early() -> None:
     clock = WallClock()
     for _ in range(200):
         deadline = clock.now() + 0.5 * SPIN_S
@@ -71,8 +71,8 @@ def test_frames_stamped_with_the_time_of_day() -> None:
     assert clock.convert(of_day - 0.001, now) - one == pytest.approx(0.002, abs=0.01)
 
 
-def test_frames_stamped_by_a_clock_of_its_own() -> None:
-    """Origin 7 s after start-up: the frame that waited least tells how far apart they are."""
+def test_frames_stamped_by_another_clock() -> None:
+    """Origin 7 s after start-up: the frame with the least delay gives the offset."""
     clock = WallClock()
     clock.bind(None)  # pyright: ignore[reportArgumentType]
     for tick in range(100):
@@ -82,8 +82,8 @@ def test_frames_stamped_by_a_clock_of_its_own() -> None:
     assert reported == pytest.approx(sent, abs=2e-5)
 
 
-def test_a_drifting_clock_is_followed() -> None:
-    """An adapter that is 100 ppm slow for an hour would look 0.36 s late, were it not."""
+def test_drifting_clock_is_followed() -> None:
+    """An adapter that is 100 ppm slow for an hour would otherwise appear 0.36 s late."""
     clock = WallClock()
     clock.bind(None)  # pyright: ignore[reportArgumentType]
     for tick in range(36_000):
@@ -101,7 +101,7 @@ def test_late_frames_are_reported_as_late_and_a_new_origin_is_found() -> None:
     assert clock.convert(0.5, 101.5) == pytest.approx(101.5, abs=1e-3)
 
 
-def test_lockstep_lets_the_rig_go_on_and_keeps_its_frames() -> None:
+def test_lockstep_advances_the_rig_and_keeps_its_frames() -> None:
     clock, bus = LockstepClock(), Adapter()
     clock.bind(bus)  # pyright: ignore[reportArgumentType]
     assert clock.now() == 0.0
@@ -115,7 +115,7 @@ def test_lockstep_lets_the_rig_go_on_and_keeps_its_frames() -> None:
     assert clock.convert(1.25, 3.0) == 1.25
 
 
-def test_a_rig_that_does_not_answer_is_an_error() -> None:
+def test_silent_rig_is_an_error() -> None:
     with pytest.raises(ClockError, match="lockstep"):
         LockstepClock().wait_until(1.0)
     with pytest.raises(ClockError, match="lockstep"):
@@ -123,7 +123,7 @@ def test_a_rig_that_does_not_answer_is_an_error() -> None:
 
 
 class Wall:
-    """The clock on the wall, which goes on when it is waited for and when a test says so."""
+    """A wall clock that advances while it is waited for, and when a test advances it."""
 
     def __init__(self) -> None:
         self.time = 500.0
@@ -136,7 +136,7 @@ class Wall:
 
 
 def tick(clock: PacedClock, ticks: int) -> list[float]:
-    """So many periods of 1 ms; how late each was on the wall."""
+    """Run periods of 1 ms; return the delay of each on the wall clock."""
     late, deadline = [], clock.now()
     for _ in range(ticks):
         deadline += 0.001
@@ -146,7 +146,7 @@ def tick(clock: PacedClock, ticks: int) -> list[float]:
     return late
 
 
-def test_a_paced_rig_keeps_step_with_the_wall_and_waits_for_a_late_loop() -> None:
+def test_paced_rig_is_synchronous_with_the_wall_clock_and_waits_for_a_late_loop() -> None:
     clock, wall = PacedClock(), Wall()
     clock._wall = wall  # pyright: ignore[reportAttributeAccessIssue]
     clock.bind(Adapter())  # pyright: ignore[reportArgumentType]
@@ -163,7 +163,7 @@ def test_a_paced_rig_keeps_step_with_the_wall_and_waits_for_a_late_loop() -> Non
     assert wall.time == pytest.approx(501.34 - CATCH_UP_S, abs=0.002), "the rest is lost to both"
 
 
-def test_a_rig_that_went_on_alone_is_not_waited_for() -> None:
+def test_rig_that_advanced_alone_is_not_waited_for() -> None:
     """While a loop was loading: its first tick is late, and the next is due a tick later."""
     clock, wall, emulator = PacedClock(), Wall(), Adapter()
     clock._wall = wall  # pyright: ignore[reportAttributeAccessIssue]
@@ -177,7 +177,7 @@ def test_a_rig_that_went_on_alone_is_not_waited_for() -> None:
         assert wall.time == pytest.approx(begin + 0.1)
 
 
-def test_the_bench_file_says_whether_the_rig_waits() -> None:
+def test_bench_file_states_whether_the_rig_waits() -> None:
     bench = read_bench(EMULATOR_BENCH)
     assert isinstance(choose_clock(bench), WallClock)
     assert bench.emulator is not None
@@ -186,7 +186,7 @@ def test_the_bench_file_says_whether_the_rig_waits() -> None:
     assert isinstance(choose_clock(bench.changed(emulator=None)), WallClock)
 
 
-def test_a_rig_whose_time_goes_on_its_own_is_no_lockstep() -> None:
+def test_rig_that_advances_automatically_is_not_in_lockstep() -> None:
     bus = Adapter()
     clock = LockstepClock()
     clock.bind(bus)  # pyright: ignore[reportArgumentType]

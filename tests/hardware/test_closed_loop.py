@@ -1,4 +1,4 @@
-"""The bench's own loop on the emulator in lockstep: in this process, once through sockets."""
+"""The loop of the bench on the emulator in lockstep: in this process, once through sockets."""
 
 import numpy as np
 import pytest
@@ -23,12 +23,12 @@ SETTLED = slice(2000, TICKS)
 
 
 def run(law, start=start_in_process):
-    """Three seconds of Figure 4A, with the cable's 2 N·m on the link from 1 s on; its samples."""
+    """Return the samples of 3 s of Figure 4A, with 2 N·m on the link from 1 s on."""
     return run_and_remember(law, start)[0]
 
 
 def run_and_remember(law, start=start_in_process, load=LOAD):
-    """The same under this load; its samples, and what the law remembers at the end."""
+    """Return the samples under this load, and the memory of the law at the end."""
     assert LOADED_S < LOAD_TIME_S
     with start() as emulator:
         bench = LockstepBench(emulator, FIGURES["4a"].build_configuration(law), TICKS)
@@ -60,25 +60,25 @@ def read_worst(samples, name):
     return float(np.max(np.abs(samples[SETTLED, CHANNEL_INDEX[name]])))
 
 
-def test_the_loop_compensates_the_load_through_the_wire(compensated):
-    """A second after the load the link follows to a tenth of a degree, and ŵ knows the load."""
+def test_loop_compensates_the_load_through_the_wire(compensated):
+    """A second after the load the link follows to a tenth of a degree, and ŵ has converged."""
     assert np.all(np.isfinite(compensated[:, CHANNEL_INDEX["position_rad"]]))
     assert read_worst(compensated, "position_error_rad") < np.radians(0.2)
     seen = compensated[SETTLED, CHANNEL_INDEX["estimate_link_nm"]]
     assert np.mean(seen) == pytest.approx(2.0, abs=0.1)
 
 
-def test_without_compensation_the_same_load_moves_the_link(compensated):
-    """So that the test before has found the observer's work, not a load that was never there."""
+def test_same_load_moves_the_link_without_compensation(compensated):
+    """So that the previous test measures the effect of the observer, not a missing load."""
     plain = run("fl")
     assert read_worst(plain, "position_error_rad") > 10.0 * read_worst(
         compensated, "position_error_rad"
     )
 
 
-def test_a_law_integrates_every_tick_of_the_bench():
-    """FL + I, no motor at its limit: ∫e dt is T times the sum over all recorded ticks of q_d less q
-    as the law knew it, as in the simulated loop; it takes the load away without an observer.
+def test_law_integrates_every_tick_of_the_bench():
+    """FL + I without saturation: ∫e dt is T times the sum over all recorded ticks of q_d minus the
+    q of the law, as in the simulated loop; it removes the load error without an observer.
     """
     load = ConstantLoad(torque_nm=(0.5, 0.0, 0.0))
     samples, memory = run_and_remember("fl_integral", load=load)
@@ -94,7 +94,7 @@ def test_a_law_integrates_every_tick_of_the_bench():
 
 
 @pytest.mark.parametrize("law", exhaust(list_law_names(), SHOWN_IN_BATCHES))
-def test_every_law_does_the_same_twice_on_the_bench_s_own_loop(law: str) -> None:
+def test_every_law_is_reproducible_on_the_loop_of_the_bench(law: str) -> None:
     """A quarter of a second of Figure 4A in lockstep, without a load."""
     first, again = (play_in_lockstep(law) for _ in range(2))
     assert np.array_equal(first, again, equal_nan=True)
@@ -116,14 +116,14 @@ def play_in_lockstep(law: str) -> np.ndarray:
 
 
 @pytest.mark.exhaustive
-def test_through_sockets_the_same_run_gives_the_same_samples_to_the_bit(compensated):
-    """With the emulator in a process of its own: what holds in this process holds over the wire."""
+def test_run_through_sockets_gives_the_same_samples_bit_for_bit(compensated):
+    """With the emulator in a separate process: results in this process apply to the wire."""
     assert np.array_equal(run("ndobc", start_emulator), compensated, equal_nan=True)
 
 
 @pytest.mark.exhaustive
-def test_a_series_and_a_chirp_are_followed_through_the_wire() -> None:
-    """Given while the bench moves, in the loop's packed constants; the same again to the bit."""
+def test_series_and_chirp_are_followed_through_the_wire() -> None:
+    """Set while the bench moves, in the packed constants of the loop; reproducible bit for bit."""
     times = [0.05 * number for number in range(21)]
     series = {
         "kind": "series",
@@ -157,10 +157,10 @@ def test_a_series_and_a_chirp_are_followed_through_the_wire() -> None:
     assert np.abs(recorded[0][1200:, CHANNEL_INDEX["position_error_rad"]]).max() < np.radians(0.5)
 
 
-def test_a_law_with_its_own_estimate_takes_over_the_present_one() -> None:
+def test_law_with_its_own_estimate_starts_from_the_present_one() -> None:
     """ESP after NDOBC under 2 N·m: from ŵ = 0 the torque jumped by 16 N·m, the link moved by 1.7°.
 
-    Through sockets, with the emulator in a process of its own.
+    The test uses sockets, with the emulator in a separate process.
     """
     before, ticks = 700, 1000
     hold = FIGURES["4a"].build_configuration("ndobc", load=False)
@@ -185,8 +185,8 @@ def test_a_law_with_its_own_estimate_takes_over_the_present_one() -> None:
 
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("law", list_law_names())
-def test_a_law_that_is_not_for_a_moving_bench_says_so(law: str) -> None:
-    """Chosen after NDOBC, 2 s of Figure 4A under 2 N·m: without a fault, or its summary warns."""
+def test_law_unsuitable_for_a_moving_bench_states_it(law: str) -> None:
+    """Selected after NDOBC, 2 s of Figure 4A under 2 N·m: without a fault, or its summary warns."""
     with start_in_process() as emulator:
         bench = LockstepBench(emulator, FIGURES["4a"].build_configuration("ndobc"), TICKS)
         try:
@@ -205,8 +205,8 @@ def test_a_law_that_is_not_for_a_moving_bench_says_so(law: str) -> None:
     )
 
 
-def test_500_hz_tracks_as_well() -> None:
-    """At σ = 60 N·m/rad, from 1 s on; the drives' feedback comes every 2 ms then."""
+def test_tracking_at_500_hz_is_as_accurate() -> None:
+    """At σ = 60 N·m/rad, from 1 s on; the feedback of the drives arrives every 2 ms then."""
     ticks = 1000
     with start_in_process() as emulator:
         bench = connect_bench(emulator)

@@ -1,4 +1,4 @@
-"""What is true or false in a bench's files is written so: a 0, a 1 or a word is refused."""
+"""Flags in the files of a bench are true or false: 0, 1 and words are rejected."""
 
 from pathlib import Path
 from typing import Any
@@ -24,15 +24,15 @@ FLAGS: list[tuple[Checked, str]] = [
 
 @pytest.mark.parametrize(("settings", "name"), FLAGS, ids=[name for _, name in FLAGS])
 @pytest.mark.parametrize("value", [1, 0, "yes", "false", 1.0])
-def test_a_flag_is_true_or_false(settings: Checked, name: str, value: Any) -> None:
+def test_flag_is_true_or_false(settings: Checked, name: str, value: Any) -> None:
     with pytest.raises(ParameterError, match=name):
         settings.changed(**{name: value})
     assert getattr(settings.changed(**{name: True}), name) is True
 
 
 @pytest.mark.parametrize("value", ["1", '"true"', '"on"'])
-def test_signs_count_as_confirmed_by_nothing_but_true(tmp_path: Path, value: str) -> None:
-    """A bench whose record says so may arm: a slip of the hand must not."""
+def test_signs_are_confirmed_by_true_only(tmp_path: Path, value: str) -> None:
+    """A bench with confirmed signs may arm: a typing error must not confirm them."""
     text = EMULATOR_BENCH.with_name("bench.calibration.toml").read_text(encoding="utf-8")
     assert "signs_confirmed = true" in text
     bench = BENCH.changed(path=str(tmp_path / "bench.toml"))

@@ -6,7 +6,7 @@ from svsa.errors import ParameterError, StateError
 from svsa.hardware.homing import DONE, STEPS, Homing, get_instruction
 
 
-def test_the_marks_are_confirmed_in_turn_and_by_whom_is_kept():
+def test_marks_are_confirmed_in_order_with_the_user():
     homing, seen = Homing(), []
     while (step := homing.next_step) is not None:
         seen.append(step)
@@ -18,15 +18,15 @@ def test_the_marks_are_confirmed_in_turn_and_by_whom_is_kept():
 
 
 @pytest.mark.parametrize("step", ["motor1", "motor2"])
-def test_no_mark_is_confirmed_out_of_turn(step):
-    """The spring is relaxed by the link's mark: the motors' zeros mean nothing before."""
+def test_mark_is_not_confirmed_out_of_order(step):
+    """The spring is relaxed at the link's mark: the motors' zeros are undefined before."""
     homing = Homing()
     with pytest.raises(StateError, match="link"):
         homing.confirm(step, "Ada")
     assert homing.next_step == "link"
 
 
-def test_a_mark_is_not_confirmed_twice_nor_after_the_last():
+def test_mark_is_not_confirmed_twice_nor_after_the_last():
     homing = Homing()
     homing.confirm("link", "Ada")
     with pytest.raises(StateError, match="motor 1"):
@@ -38,7 +38,7 @@ def test_a_mark_is_not_confirmed_twice_nor_after_the_last():
     assert homing.confirmed["link"] == "Ada"
 
 
-def test_an_unknown_mark_or_no_user_is_refused():
+def test_unknown_mark_or_missing_user_is_rejected():
     homing = Homing()
     with pytest.raises(ParameterError, match="one of link, motor1, motor2"):
         homing.confirm("elbow", "Ada")
@@ -47,7 +47,7 @@ def test_an_unknown_mark_or_no_user_is_refused():
     assert homing.confirmed == {}
 
 
-def test_a_reset_of_the_drives_forgets_all_marks():
+def test_reset_of_the_drives_discards_all_marks():
     homing = Homing()
     homing.confirm("link", "Ada")
     homing.reset()

@@ -1,4 +1,4 @@
-"""The limits that hold while no torque is made, on an emulator in a process of its own."""
+"""The limits without torque, on an emulator in a separate process."""
 
 from svsa.hardware.emulator.experiment import LockstepBench
 from svsa.hardware.emulator.launch import start_emulator
@@ -7,7 +7,7 @@ from svsa.runs.paper import get_figure
 from svsa.simulation.plant.loads.constant import ConstantLoad
 
 
-def test_a_link_that_a_load_turns_after_a_stop_ends_in_a_fault():
+def test_link_turned_by_a_load_after_a_stop_ends_in_a_fault():
     with start_emulator(lockstep=True) as emulator:
         bench = LockstepBench(emulator, get_figure("4a").build_configuration(load=False), 1000)
         try:

@@ -1,4 +1,4 @@
-"""What the plant makes of a bench: signs and zeros, ages, gaps on the wire, any frame at all."""
+"""Measurements of the plant: signs and zeros, ages, gaps on the wire, any frame."""
 
 import math
 from itertools import pairwise
@@ -20,7 +20,7 @@ from tests.hardware import wired_bench
 from tests.hardware.wired_bench import AT_REST, EMULATOR_BENCH, WiredBench
 
 PUSH = Torque(0.8, 0.25)
-HOLD = Torque(0.02, 0.01)  # less than the friction holds: the axes stay at their marks
+HOLD = Torque(0.02, 0.01)  # less than the friction, so that the axes stay at their marks
 ZERO_COUNTS = -2500
 COUNT1_RAD = 2.0 * math.pi / 2000 / 50
 COUNT_PHI_RAD = 2.0 * math.pi / 8000
@@ -48,12 +48,12 @@ def build_bench(monkeypatch, signs, zero):
 
 
 @pytest.mark.parametrize("signs", [(1, 1, 1), (-1, -1, -1), (1, -1, 1), (-1, 1, -1)])
-def test_whatever_the_wiring_a_positive_torque_grows_the_angle_and_all_is_measured_as_it_is(
-    signs, monkeypatch
-):
-    """The truth is the emulator's, at the very moment of the reading; the bench knows its velocity.
+def test_positive_torque_increases_the_measured_angle_for_any_wiring(signs, monkeypatch):
+    """The true state is that of the emulator at the time of the reading; the bench knows its
+    velocity.
 
-    Half a count of rounding, and what a velocity changes within the age of a frame.
+    The tolerance is half a count of rounding, plus the change by the velocity within the age of a
+    frame.
     """
     with build_bench(monkeypatch, signs, ZERO_COUNTS) as b:
         b.make_run()
@@ -70,8 +70,8 @@ def test_whatever_the_wiring_a_positive_torque_grows_the_angle_and_all_is_measur
         assert b.plant.fault is None
 
 
-def test_without_the_velocity_the_age_of_a_frame_is_an_error_many_times_a_count(monkeypatch):
-    """That the reading is moved on to now matters: the same reading, taken as it is."""
+def test_age_of_a_frame_is_an_error_without_extrapolation(monkeypatch):
+    """The reading is extrapolated to the present: the raw reading has many counts of error."""
     with build_bench(monkeypatch, (1, 1, 1), 0) as b:
         b.make_run()
         for _ in range(60):
@@ -82,8 +82,8 @@ def test_without_the_velocity_the_age_of_a_frame_is_an_error_many_times_a_count(
         assert truth.theta1 - y.theta1 > 3.0 * COUNT1_RAD
 
 
-def test_what_has_not_been_heard_of_is_not_measured():
-    """Off, after a reset: the last angles of a drive say nothing, nor do its currents."""
+def test_missing_feedback_is_not_measured():
+    """Off, after a reset: the last angles and currents of a drive are obsolete."""
     with WiredBench() as b:
         b.tick(5)
         assert b.reading is not None
@@ -98,7 +98,9 @@ def test_what_has_not_been_heard_of_is_not_measured():
 
 
 def list_gaps(b, number):
-    """Between the commands that reached a drive, s; a broadcast is one to every drive."""
+    """Return the times between commands that reached a drive, s; a broadcast reaches
+    every drive.
+    """
     times = [
         sent.time_s
         for sent in b.clock.sent
@@ -109,8 +111,8 @@ def list_gaps(b, number):
     return [later - earlier for earlier, later in pairwise(times)]
 
 
-def test_no_drive_ever_gets_two_commands_within_a_millisecond():
-    """Through arming, running, a fault, clearing and arming in one breath, and the end."""
+def test_no_drive_gets_two_commands_within_a_millisecond():
+    """During arming, running, a fault, immediate clearing and arming, and the end."""
     b = WiredBench()
     b.plant.arm(b.now)
     b.tick_until(BenchStatus.READY)
@@ -154,8 +156,10 @@ FRAMES = st.builds(
     max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )
 @given(frames=st.lists(FRAMES, max_size=20))
-def test_no_frame_whatever_breaks_the_tick(frames):
-    """Whatever is on the bus, a tick reads, writes, and what it sends is zero or the limits'."""
+def test_any_frame_leaves_the_tick_working(frames):
+    """With any frames on the bus a tick reads and writes; its commands are zero or within the
+    limits.
+    """
     with WiredBench() as b:
         b.plant.arm(b.now)
         b.tick(3)

@@ -1,4 +1,4 @@
-"""A bench on the emulator in lockstep that moves Figure 4A and is watched tick by tick."""
+"""A bench on the emulator in lockstep that follows Figure 4A and is monitored tick by tick."""
 
 from collections.abc import Callable
 from typing import Any
@@ -16,7 +16,7 @@ KEPT_TICKS = 2 * (MOVING_TICKS + LONGEST_TICKS)
 
 
 class EmulatorBeats:
-    """Heartbeats in the emulator's time: `stopped` is when a slot fell silent, s."""
+    """Heartbeats in the emulator's time: `stopped` is the time of the last beat of a slot, s."""
 
     def __init__(self) -> None:
         self.now: Callable[[], float] = lambda: 0.0
@@ -28,10 +28,10 @@ class EmulatorBeats:
 
 
 class Bench(LockstepBench):
-    """A bench on the emulator that has been brought to READY, and watched tick by tick.
+    """A bench on the emulator in the state READY, monitored tick by tick.
 
-    fastest, farthest: the true |dq|, |dθ1|, |dθ2| and |q| since `watch` began. last_current_s:
-    when a drive that hears last received anything but zero, in the emulator's time.
+    fastest, farthest: the true |dq|, |dθ1|, |dθ2| and |q| since `watch` began. last_current_s: the
+    last time at which a drive that receives frames got a nonzero current, in the emulator's time.
     """
 
     def __init__(self, emulator: RunningEmulator | InProcessEmulator, **safety: Any) -> None:
@@ -48,13 +48,13 @@ class Bench(LockstepBench):
         assert self.plant.status is BenchStatus.RUN, self.plant.fault
 
     def miss(self, ticks: int) -> None:
-        """The loop does not run for so long."""
+        """Suspend the loop for this time."""
         self._deadline += ticks * self.bench.timing.period_s
         self._clock.wait_until(self._deadline)
         self.loop.tick(self.now(), ticks)
 
     def begin_watch(self) -> float:
-        """Forget what was fastest and farthest; the emulator's time now, s."""
+        """Reset the maxima of velocity and travel; return the emulator's time, s."""
         self.fastest, self.farthest = dict.fromkeys(self.fastest, 0.0), 0.0
         self.last_current_s = self.now()
         return self.now()
@@ -78,7 +78,7 @@ class Bench(LockstepBench):
             self.last_current_s = state["time_s"]
 
     def read_currents(self, state: dict[str, Any] | None = None) -> list[int]:
-        """What both drives were reported, mA; a drive without power makes none."""
+        """Return the commanded currents of both drives, mA; zero for a drive without power."""
         drives = (state or self.emulator.control.read_state())["drives"].values()
         return [drive["commanded_ma"] if drive["powered"] else 0 for drive in drives]
 

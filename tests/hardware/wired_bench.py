@@ -1,7 +1,7 @@
 """The emulator on a bus inside this process, in virtual time: no socket, no waiting.
 
-python-can's `virtual` interface carries the frames; the emulator goes on when the plant's clock
-does. Everything that the plant sends is kept, with its time, as a sniffer on the wire would.
+python-can's `virtual` interface carries the frames; the emulator advances with the plant's clock.
+Every frame that the plant sends is stored with its time, as by a sniffer on the bus.
 """
 
 import itertools
@@ -32,7 +32,7 @@ _channels = itertools.count()
 
 
 class Sent(NamedTuple):
-    """A frame that the plant sent. time_s: virtual."""
+    """A frame of the plant. time_s: virtual."""
 
     time_s: float
     can_id: int
@@ -40,7 +40,7 @@ class Sent(NamedTuple):
 
 
 class VirtualClock:
-    """Time that goes on when it is waited for, and takes the emulator along."""
+    """Time that advances while it is waited for, together with the emulator."""
 
     def __init__(self, emulator: Emulator, wire: can.BusABC) -> None:
         self._rig, self._wire = emulator, wire
@@ -60,7 +60,7 @@ class VirtualClock:
         return []
 
     def collect(self) -> None:
-        """Give the emulator what the plant has sent."""
+        """Pass the frames of the plant to the emulator."""
         while (message := self._wire.recv(0)) is not None:
             self.sent.append(Sent(self.now(), message.arbitration_id, bytes(message.data)))
             self._rig.receive(read_frame(message), self)
@@ -88,7 +88,7 @@ class FakeBeats:
 
 
 class WiredBench:
-    """Plant, emulator and clock, wired together. A context manager."""
+    """Plant, emulator and clock, connected. A context manager."""
 
     def __init__(
         self,
@@ -127,7 +127,7 @@ class WiredBench:
         return self.plant._get_bus()
 
     def ask(self, **asked: Any) -> None:
-        """One tick with something strange in it."""
+        """Run one tick with additional options."""
         self.tick(1, **{"torque": self.push} | asked)
 
     @property
@@ -142,7 +142,7 @@ class WiredBench:
         estimate: Disturbance = UNDISTURBED,
         missed: int = 0,
     ) -> Torque:
-        """So many periods with this torque asked for; what the last one really sent."""
+        """Run periods with this commanded torque; return the last torque sent."""
         sent = NO_TORQUE
         for _ in range(count):
             self._tick += 1
@@ -155,7 +155,7 @@ class WiredBench:
         return sent
 
     def drive(self, loop: BenchLoop, count: int = 1, missed: int = 0) -> None:
-        """So many periods of the bench's own loop; missed: ticks lost before each."""
+        """Run periods of the loop of the bench; missed: ticks lost before each."""
         for _ in range(count):
             self._tick += 1
             self.clock.wait_until(self._tick * self.bench.timing.period_s)
@@ -163,12 +163,12 @@ class WiredBench:
             self.clock.collect()
 
     def skip(self, seconds: float) -> None:
-        """Time goes on and the plant does nothing, as when its process does not run."""
+        """Advance the time without the plant, as when its process does not run."""
         self._tick += round(seconds / self.bench.timing.period_s)
         self.clock.wait_until(self._tick * self.bench.timing.period_s)
 
     def tick_until(self, status: BenchStatus, longest_s: float = 3.0, **asked: Any) -> None:
-        """Periods until the bench has this status."""
+        """Run periods until the bench has this status."""
         for _ in range(round(longest_s / self.bench.timing.period_s)):
             if self.plant.status is status:
                 return
@@ -176,7 +176,7 @@ class WiredBench:
         raise AssertionError(f"{self.plant.status} instead of {status}: {self.plant.fault}")
 
     def make_ready(self) -> None:
-        """Armed, and at home."""
+        """Arm and home the bench."""
         self.plant.arm(self.now)
         self.tick_until(BenchStatus.READY)
         while (step := self.plant.homing_step) is not None:
@@ -184,13 +184,13 @@ class WiredBench:
         self.tick(2)
 
     def make_run(self, torque: Torque = NO_TORQUE) -> None:
-        """Running, with this torque on the motors."""
+        """Run with this torque on the motors."""
         self.make_ready()
         self.plant.start(self.now)
         self.tick(3, torque)
 
     def read_currents(self, since_s: float = 0.0) -> list[tuple[float, int, int]]:
-        """Current commands on the wire: (time, drive number, mA)."""
+        """Return current commands on the wire: (time, drive number, mA)."""
         found = []
         for sent in self.clock.sent:
             address, command = split_id(sent.can_id)
@@ -200,11 +200,11 @@ class WiredBench:
         return found
 
     def find_resets(self, since_s: float = 0.0) -> list[float]:
-        """When a broadcast reset was on the wire."""
+        """Return the times of broadcast resets on the wire."""
         return [sent.time_s for sent in self.clock.sent if sent[1] == 0 and sent[0] >= since_s]
 
     def find_zero_time(self, since_s: float) -> float:
-        """When both drives had received zero, and received nothing else any more; s."""
+        """Return the time from which both drives received zero only, s."""
         last = [sent for sent in self.read_currents() if sent[2] != 0]
         after = max((sent[0] for sent in last), default=0.0)
         zeros = [

@@ -1,7 +1,7 @@
 """The bench check: file, bus, drives, encoders, signs and latency, step by step.
 
-Each step says what was measured and, where that is not right, what to do about it. Every step
-is bounded in time, and however the check ends the drives are left at zero current.
+Each step reports the measured value and, if it is not right, what to do. Every step has a time
+limit, and at the end of the check the drives always have zero current.
 """
 
 import time
@@ -9,7 +9,7 @@ from collections.abc import Callable, Generator, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from svsa.actuators.parameters import ActuatorParameters
+from svsa.actuators.parameters import MechanismParameters
 from svsa.errors import ParameterError
 from svsa.hardware.calibration import find_calibration, list_problems, note_signs
 from svsa.hardware.commissioning.coupling import check_coupling
@@ -21,10 +21,11 @@ from svsa.hardware.commissioning.motion import check_motion
 from svsa.hardware.commissioning.plausible import list_implausible
 from svsa.hardware.commissioning.probe import BusOpener, Clock, Probe
 from svsa.hardware.commissioning.pulse import Turn
-from svsa.hardware.commissioning.signs import ask_directions, judge_signs
+from svsa.hardware.commissioning.signs import judge_signs, prompt_directions
 from svsa.hardware.commissioning.step import CheckStep, Result
 from svsa.hardware.drives.bus import BusError, open_bus
 from svsa.hardware.file import BenchFile, read_bench
+from svsa.hardware.real_motors import RealMotors
 from svsa.hardware.realtime.configuration import read_bench_design
 
 SIGN_STEPS = ("motor1: sign", "deflection: sign", "motor2: sign")
@@ -33,6 +34,11 @@ _LOCKSTEP_ADVICE = (
     "An emulator in lockstep advances time only when its loop requests it, and the check waits"
     " for the clock: start the emulator without --lockstep, and set lockstep = false in the bench"
     " file."
+)
+_PAIR_ADVICE = (
+    "A pulse of one of two antagonistic motors turns both coordinates of the model, and the check"
+    " judges motors that turn one each. Turn each motor and the link by hand, compare the direction"
+    " of their counts, and set signs_confirmed = true in the calibration record."
 )
 
 
@@ -45,10 +51,16 @@ def check_bench(
 ) -> Generator[CheckStep, None, None]:
     """Yield the steps of the check, each when it is finished.
 
-    move: also turn both motors a little, by short pulses of at most 15 % of their nominal
-    current, and compare signs and magnitudes of currents, motors and deflection. watch: asked
-    afterwards which way they turned; without it the signs stay unconfirmed. Close the iterator
-    (or exhaust it) to leave the bench.
+    Close the iterator (or exhaust it) to leave the bench.
+
+    Args:
+        path: The bench file.
+        move: Whether to turn both motors a little, by short pulses of at most 15 % of their nominal
+            current, and compare signs and magnitudes of currents, motors and deflection.
+        watch: Called afterwards for the directions that the operator saw; without it the signs stay
+            unconfirmed.
+        opener: Opens the bus.
+        now: Clock, s.
     """
     try:
         bench = read_bench(path)
@@ -67,6 +79,9 @@ def check_bench(
             "bus", Result.FAIL, "not tried: the emulator is in lockstep", _LOCKSTEP_ADVICE
         )
         return
+    if move and RealMotors.of(design.actuator).is_pair:
+        yield CheckStep("signs", Result.WARN, "not tried: two antagonistic motors", _PAIR_ADVICE)
+        move = False
     moved, judged = Moved(), list[CheckStep]()
     try:
         yield from _check_on_bus(probe, moved if move else None)
@@ -92,14 +107,14 @@ class Moved:
 
 def _judge(
     bench: BenchFile,
-    actuator: ActuatorParameters,
+    actuator: MechanismParameters,
     moved: Moved,
     watch: Callable[[str], bool] | None,
 ) -> Iterator[CheckStep]:
     """Check signs and magnitudes with the pulses, and with what the user has observed."""
     step, link = check_coupling(bench, actuator, moved.turns, moved.rest)
     yield step
-    yield from judge_signs(bench, moved.turns, link, ask_directions(moved.turns, watch))
+    yield from judge_signs(bench, moved.turns, link, prompt_directions(moved.turns, watch))
     if link is not None:
         yield from compare_magnitudes(bench, actuator, moved.turns, link, moved.rest)
 
@@ -125,9 +140,12 @@ def _describe_file(bench: BenchFile) -> CheckStep:
 
 
 def _check_on_bus(probe: Probe, moved: Moved | None) -> Iterator[CheckStep]:
-    """From the first frame heard to the last pulse; raises `BusError`.
+    """Check from the first frame received to the last pulse.
 
-    moved: filled with what the motors did; None where they must not move.
+    `moved` is filled with the motion of the motors; None if they must not move.
+
+    Raises:
+        BusError: If the bus is lost.
     """
     probe.open()
     step = check_bus(probe)
@@ -169,7 +187,7 @@ def _check_on_bus(probe: Probe, moved: Moved | None) -> Iterator[CheckStep]:
 
 
 def _check_calibration(bench: BenchFile, signs: bool | None) -> CheckStep:
-    """What is still missing before this bench arms; notes what was found out of the signs."""
+    """List what is missing before this bench can be armed; stores the result of the sign check."""
     try:
         if signs is not None:
             note_signs(bench, signs)

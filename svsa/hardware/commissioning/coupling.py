@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from svsa.actuators.parameters import ActuatorParameters
+from svsa.actuators.parameters import MechanismParameters
 from svsa.hardware.commissioning.fit import LinkFit, fit_link
 from svsa.hardware.commissioning.pulse import MIN_DEFLECTION_COUNTS, Trace, Turn
 from svsa.hardware.commissioning.step import CheckStep, Result
@@ -12,24 +12,24 @@ from svsa.hardware.encoders import read_source
 from svsa.hardware.file import BenchFile
 
 _FARTHEST = 0.5
-"""Of a turn: no spring is deflected so far, so the counts are read in a wrong format."""
+"""Deflection in turns beyond which the counts must have a wrong format."""
 _COUNTS = 10_000
-"""Counts a turn where the bench file does not give them."""
+"""Counts per turn if the bench file does not give them."""
 
 
 def check_coupling(
-    bench: BenchFile, actuator: ActuatorParameters, turns: Mapping[str, Turn], rest: float
+    bench: BenchFile, actuator: MechanismParameters, turns: Mapping[str, Turn], rest: float
 ) -> tuple[CheckStep, LinkFit | None]:
-    """Whether the deflection moves with motor 1, and not with motor 2.
+    """Check that the deflection moves with motor 1, and not with motor 2.
 
     Args:
         bench: The bench file.
         actuator: Inertias and damping of the bench's design.
-        turns: Of each motor that has moved, motor 1 among them.
+        turns: Turns of the motors that have moved, motor 1 among them.
         rest: Counts of the deflection at rest.
 
     Returns:
-        The step, and what the deflection has shown; None where it has failed the step.
+        The step, and the result of the deflection; None if the step has failed.
     """
     title = "deflection: motion"
     farthest = {name: _find_farthest(turn, rest) for name, turn in turns.items()}
@@ -82,7 +82,7 @@ def _advise_on_format(bench: BenchFile, turns: Mapping[str, Turn], limit: float)
 
 
 def _swap(trace: Trace, width: int, is_big: bool) -> float:
-    """How far the counts move, read in the other byte order."""
+    """Return the range of the counts in the other byte order."""
     first, second = ("big", "little") if is_big else ("little", "big")
     raw = [
         int.from_bytes((int(counts) % 256**width).to_bytes(width, first), second, signed=True)

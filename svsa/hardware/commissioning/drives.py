@@ -18,7 +18,7 @@ SLOW_ECHO_S = 0.002
 
 STEP_S = 0.001
 RESET_S = 0.02
-"""A drive that has just been reset may still have feedback on its way."""
+"""Time for which a drive that was reset may still deliver feedback, s."""
 
 
 def describe_wiring(bench: BenchFile) -> str:
@@ -72,7 +72,7 @@ def check_drive(probe: Probe, name: str) -> CheckStep:
             if name in traffic.answers:
                 delays.append(traffic.answers[name][0] - sent)
                 break
-        # A drive that is silent three times is not waited for seventeen times more.
+        # A drive that is silent three times will not answer the other attempts either.
         if attempt == ATTEMPTS - 1 and not delays:
             break
     if not delays:
@@ -96,7 +96,7 @@ def check_drive(probe: Probe, name: str) -> CheckStep:
 
 def _advise_on_silence(probe: Probe, name: str) -> str:
     """Query every address, and report at which a drive answers."""
-    traffic = probe.ask_everywhere(name)
+    traffic = probe.query_all_addresses(name)
     place, advice = probe.drives[name].place, probe.families[name].advice
     if traffic.places:
         return (

@@ -6,11 +6,11 @@ deflection m, and the current I obey
     n = k ∬I − c ∬sgn ṅ + h ∬m                         the motor with Coulomb friction (Eq 1)
     −n − d ∫n = r (m + d ∫m) + r s ∬m + v t + n0       the link, M q̈ + D q̇ = −σ φ (Eq 1)
 
-    k = N² η K_t n_t / (2π B)              counts/s² per A, n_t counts a turn, N gear ratio
+    k = N² η K_t n_t / (2π B)              counts/s² per A, n_t counts per turn, N gear ratio
     r = N n_t / m_t                        motor counts per count of the deflection
     s = σ / M, d = D / M                   1/s², 1/s
 
-Friction is fitted, so it needs no value.
+Friction is estimated, so its value need not be known.
 """
 
 import math
@@ -23,7 +23,7 @@ from svsa.hardware.commissioning.pulse import Trace, Turn
 MAX_ERROR = 0.15
 MAX_FRICTION = 0.75
 _FADE = 0.1
-"""Share of the fastest speed below which friction fades out."""
+"""Share of the maximum speed below which friction is blended out."""
 _SLOPE_SAMPLES = 3
 
 
@@ -40,7 +40,12 @@ class Fitted(NamedTuple):
 
 
 class MotorFit(NamedTuple):
-    """gain: k, counts/s² per A. friction: the share of the motor's torque that friction takes."""
+    """Fit of a motor.
+
+    Attributes:
+        gain: k, counts/s² per A.
+        friction: Friction torque as a share of the motor's torque.
+    """
 
     gain: Fitted
     friction: float
@@ -52,14 +57,21 @@ class MotorFit(NamedTuple):
 
 
 class LinkFit(NamedTuple):
-    """ratio: r, motor counts per deflection count. stiffness: s = σ/M, 1/s²."""
+    """Fit of the link.
+
+    Attributes:
+        ratio: r, motor counts per deflection count.
+        stiffness: s = σ/M, 1/s².
+    """
 
     ratio: Fitted
     stiffness: Fitted
 
 
 def fit_motor(turn: Turn, rest: float | None) -> MotorFit:
-    """Fit k; rest: deflection counts at rest; None for a motor without a spring at its side."""
+    """Fit k; `rest` are the deflection counts at rest, None for a motor without a spring on its
+    side.
+    """
     rows, moved = [], []
     for trace in (turn.forth.trace, turn.back.trace):
         time = trace.time_s
@@ -74,11 +86,20 @@ def fit_motor(turn: Turn, rest: float | None) -> MotorFit:
 
 
 def fit_link(turn: Turn, rest: float, damping: float) -> LinkFit:
-    """Fit r and s to a turn of motor 1; rest: deflection counts at rest; damping: d, 1/s."""
+    """Fit r and s to a turn of motor 1.
+
+    Args:
+        turn: The turn.
+        rest: Deflection counts at rest.
+        damping: d, 1/s.
+
+    Returns:
+        The fit.
+    """
     rows, moved = [], []
     for number, trace in enumerate((turn.forth.trace, turn.back.trace)):
         time, deflected = trace.time_s, trace.deflected - rest
-        # The link still swings when the second pulse begins: each pulse has its own v and n0.
+        # The link still oscillates when the second pulse begins: each pulse has its own v and n0.
         own = np.zeros((time.size, 4))
         own[:, 2 * number], own[:, 2 * number + 1] = time, 1.0
         damped = deflected + damping * _integrate(deflected, time)
@@ -113,7 +134,7 @@ def _compute_direction(trace: Trace) -> np.ndarray:
 def _solve(rows: list[np.ndarray], wanted: list[np.ndarray]) -> list[Fitted]:
     """Least squares; the error is infinite where the columns do not determine the values."""
     a, b = np.concatenate(rows), np.concatenate(wanted)
-    # Columns of equal length: theirs range over ten powers of ten.
+    # Columns are normalised: their lengths differ by up to ten powers of ten.
     lengths = np.linalg.norm(a, axis=0)
     if b.size <= a.shape[1] or not np.all(lengths > 0.0):
         return [Fitted(0.0, math.inf)] * a.shape[1]

@@ -30,8 +30,7 @@ def check_latency(probe: Probe, name: str) -> CheckStep:
                     delays.append(heard[-1].time_s - sent)
                     break
             probe.send_current(name, 0)
-            # Pauses of different lengths: the steps fall at different places of the feedback
-            # period.
+            # Pauses of different lengths sample different phases of the feedback period.
             probe.listen(0.006 + 0.00037 * (number % 8))
     finally:
         probe.send_current(name, 0)

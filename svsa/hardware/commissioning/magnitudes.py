@@ -1,17 +1,18 @@
 """Check the scales of the bench file: fitted values, compared with those of the file.
 
-The gain k of a motor contains its gear ratio twice, its counts a turn and its torque constant
+The gain k of a motor contains its gear ratio twice, its counts per turn and its torque constant
 once. The ratio r of motor 1 to the deflection contains gear ratio and counts once, and no torque
-constant. So both errors together name the field of motor 1 or of the deflection that is wrong.
+constant. Therefore the errors of both together identify the wrong field of motor 1 or of the
+deflection.
 """
 
 import math
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
-from svsa.actuators.lever import compute_lever_ratio_for_stiffness
-from svsa.actuators.parameters import ActuatorParameters
-from svsa.actuators.spring import compute_stiffness
+from svsa.actuators.dynamics import build_actuator
+from svsa.actuators.elasticity import compute_coordinate_for_stiffness, compute_stiffness_of
+from svsa.actuators.parameters import MechanismParameters
 from svsa.hardware.commissioning.fit import LinkFit, fit_motor
 from svsa.hardware.commissioning.pulse import Turn
 from svsa.hardware.commissioning.step import CheckStep, Result
@@ -19,16 +20,16 @@ from svsa.hardware.file import BenchFile
 from svsa.hardware.settings import MotorSettings
 
 GAIN_TOLERANCE = 1.5
-"""Factor by which k may differ: inertia, efficiency and friction are not known better."""
+"""Factor by which k may differ, because of the uncertainty of inertia, efficiency and friction."""
 RATIO_TOLERANCE = 1.25
-"""The same of r, in which there are only counts and a gear ratio."""
+"""The same for r, which depends only on counts and a gear ratio."""
 STIFFNESS_TOLERANCE = 1.5
 _SOLD = {
     "counts_per_rev": (16.0, 100_000.0),
     "gear_ratio": (1.0, 1000.0),
     "torque_constant_nm_per_a": (0.001, 1.0),
 }
-"""Values of motors and encoders that are sold: others are not proposed."""
+"""Values of commercial motors and encoders: others are not proposed."""
 _HINTS = {
     "counts_per_rev": " (after quadrature: four times the lines)",
     "torque_constant_nm_per_a": " (or efficiency, or this is another motor)",
@@ -36,7 +37,14 @@ _HINTS = {
 
 
 class Cause(NamedTuple):
-    """A field that may be wrong. gain, ratio: the powers of its value in k and in r."""
+    """A field that may be wrong.
+
+    Attributes:
+        section: Section of the bench file.
+        field: Name of the field.
+        gain: Power of its value in k.
+        ratio: Power of its value in r.
+    """
 
     section: str
     field: str
@@ -56,18 +64,18 @@ def list_causes(motor: str) -> tuple[Cause, ...]:
 
 def compare_magnitudes(
     bench: BenchFile,
-    actuator: ActuatorParameters,
+    actuator: MechanismParameters,
     turns: Mapping[str, Turn],
     link: LinkFit | None,
     rest: float,
 ) -> Iterator[CheckStep]:
-    """Compare what was measured with what the bench file makes of it.
+    """Compare the measured scales with those of the bench file.
 
     Args:
         bench: The bench file.
         actuator: Inertias and spring of the bench's design.
-        turns: Of each motor that has moved.
-        link: Of the turn of motor 1; None where the deflection was not measured.
+        turns: Turns of the motors that have moved.
+        link: Fit of the turn of motor 1; None if the deflection was not measured.
         rest: Counts of the deflection at rest.
     """
     inertias = {"motor1": actuator.motor1_inertia_kg_m2, "motor2": actuator.motor2_inertia_kg_m2}
@@ -163,15 +171,15 @@ def _write(value: float) -> str:
     return f"{float(f'{value:.3g}'):g}"
 
 
-def _compare_stiffness(bench: BenchFile, actuator: ActuatorParameters, link: LinkFit) -> CheckStep:
+def _compare_stiffness(bench: BenchFile, actuator: MechanismParameters, link: LinkFit) -> CheckStep:
     """σ at rest from σ/M, with that of the lever ratio at the zero mark."""
     title, mu = "home: lever ratio", bench.home.lever_ratio
-    K, M = actuator.rotational_stiffness_nm_per_rad, actuator.link_inertia_kg_m2
+    plant, M = build_actuator(actuator, mu), actuator.link_inertia_kg_m2
     if not link.stiffness.is_sharp or link.stiffness.value <= 0.0:
         advice = "Free the link, take loads off it, and run the check again."
         return CheckStep(title, Result.WARN, "the link's movement shows no stiffness", advice)
-    expected, measured = float(compute_stiffness(mu, 0.0, K)), link.stiffness.value * M
-    found = float(compute_lever_ratio_for_stiffness(measured, K))
+    expected, measured = float(compute_stiffness_of(plant, mu, 0.0)), link.stiffness.value * M
+    found = float(compute_coordinate_for_stiffness(plant, measured))
     words = (
         f"{measured:.3g} N·m/rad at rest, lever ratio {found:.3f}; expected {expected:.3g} N·m/rad,"
         f" {mu:.3f} (tolerance: factor {STIFFNESS_TOLERANCE:g})"

@@ -10,8 +10,8 @@ def check_motion(probe: Probe, name: str) -> tuple[CheckStep, Turn | None]:
     """Turn a motor a little forth and back.
 
     Returns:
-        The step, and a turn whose traces are long enough for its signs and magnitudes to be
-        judged; None where the motor has failed the step.
+        The step, and a turn whose traces are long enough to check signs and magnitudes; None if the
+        motor has failed the step.
     """
     turn = turn_a_little(probe, name)
     step = _judge(name, turn, probe.families[name].advice)

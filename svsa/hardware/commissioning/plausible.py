@@ -3,20 +3,23 @@
 import math
 from collections.abc import Iterator
 
-from svsa.actuators.lever import compute_lever_ratio_for_stiffness
+from svsa.actuators.dynamics import build_actuator
+from svsa.actuators.elasticity import compute_coordinate_for_stiffness, compute_coordinate_slope
 from svsa.hardware.commissioning.step import CheckStep, Result
 from svsa.hardware.drives.conversion import MA_PER_A, build_motor_scale
 from svsa.hardware.file import BenchFile
 from svsa.hardware.settings import MotorSettings
 from svsa.runs.configuration import Design
 
-MOST_TURN_RAD = 2.0 * math.pi
+MAX_ANGLE_RAD = 2.0 * math.pi
+TURN_SHARE = 1.5
+"""Position limit of motor 2 over its turn to the end of the stiffness range."""
 MOST_MOTOR_RPM = 20_000.0
 MOST_LINK_RAD_PER_S = 100.0
 MOST_DISTURBANCE = 2.0
-"""Of the design's torque limit."""
+"""Maximum plausible value, as a multiple of the design's torque limit."""
 MOST_PEAK = 2.0
-"""The same of the torque at the peak current."""
+"""The same for the torque at the peak current."""
 
 
 def list_implausible(bench: BenchFile, design: Design) -> Iterator[CheckStep]:
@@ -29,15 +32,24 @@ def list_implausible(bench: BenchFile, design: Design) -> Iterator[CheckStep]:
             " prototype",
             "Write a parameter file with the values of this bench, and name it in [design] file.",
         )
-    for name, torque_nm in (
-        ("motor1", design.limits.torque1_nm),
-        ("motor2", design.limits.torque2_nm),
+    plant, home = build_actuator(design.actuator, bench.home.lever_ratio), bench.home.lever_ratio
+    low, high = sorted(
+        float(compute_coordinate_for_stiffness(plant, sigma))
+        for sigma in (
+            design.limits.stiffness_min_nm_per_rad,
+            design.limits.stiffness_max_nm_per_rad,
+        )
+    )
+    turn = max(abs(end - home) for end in (low, high)) / abs(compute_coordinate_slope(plant))
+    for name, torque_nm, most_turn in (
+        ("motor1", design.limits.torque1_nm, MAX_ANGLE_RAD),
+        ("motor2", design.limits.torque2_nm, max(MAX_ANGLE_RAD, TURN_SHARE * turn)),
     ):
-        yield from _list_of_motor(name, getattr(bench, name), torque_nm)
+        yield from _list_of_motor(name, getattr(bench, name), torque_nm, most_turn)
     safety, most_nm = bench.safety, design.limits.torque1_nm
     angle = "Give the angle at which the mechanism ends, in rad: 90° are 1.571 rad."
     for field, unit, most, advice in (
-        ("link_position_max_rad", "rad", MOST_TURN_RAD, angle),
+        ("link_position_max_rad", "rad", MAX_ANGLE_RAD, angle),
         (
             "link_speed_max_rad_per_s",
             "rad/s",
@@ -59,25 +71,25 @@ def list_implausible(bench: BenchFile, design: Design) -> Iterator[CheckStep]:
         ),
     ):
         yield from _compare(f"safety.{field}", getattr(safety, field), unit, 0.0, most, advice)
-    K = design.actuator.rotational_stiffness_nm_per_rad
-    least, most = (
-        float(compute_lever_ratio_for_stiffness(sigma, K))
-        for sigma in (
-            design.limits.stiffness_min_nm_per_rad,
-            design.limits.stiffness_max_nm_per_rad,
-        )
-    )
     advice = "Give the lever ratio at the zero mark of the stiffness motor, within its end stops."
-    yield from _compare("home.lever_ratio", bench.home.lever_ratio, "", least, most, advice)
+    yield from _compare("home.lever_ratio", home, "", low, high, advice)
 
 
-def _list_of_motor(name: str, motor: MotorSettings, torque_nm: float) -> Iterator[CheckStep]:
-    """torque_nm: the design's limit for this motor."""
+def _list_of_motor(
+    name: str, motor: MotorSettings, torque_nm: float, most_turn: float
+) -> Iterator[CheckStep]:
+    """List the implausible values of a motor.
+
+    Args:
+        name: Section of the motor.
+        motor: Its settings.
+        torque_nm: The design's limit for it.
+        most_turn: Largest plausible angle, rad.
+    """
     for field in ("position_min_rad", "position_max_rad"):
         advice = "Give the angle at which the mechanism ends, in rad: 90° are 1.571 rad."
         value = getattr(motor, field)
-        most = MOST_TURN_RAD
-        yield from _compare(f"{name}.{field}", value, "rad", -most, most, advice)
+        yield from _compare(f"{name}.{field}", value, "rad", -most_turn, most_turn, advice)
     if motor.gear_ratio is not None:
         most = MOST_MOTOR_RPM * 2.0 * math.pi / 60.0 / motor.gear_ratio
         advice = (

@@ -1,7 +1,7 @@
 """The bus traffic of a bench for its check.
 
-Every wait ends by the clock, and whatever was switched on is at zero current and reset when
-the probe is closed.
+Every wait has a time limit, and a drive that was switched on has zero current and is reset when the
+probe is closed.
 """
 
 import contextlib
@@ -34,8 +34,11 @@ Clock = Callable[[], float]
 class Probe:
     """A bench's bus and its deflection encoder.
 
-    emulated: an emulator said so. encoder_failure: why the deflection encoder cannot be
-    read, or None. Everything that talks or listens raises `BusError` where the bus is gone.
+    Methods that send or receive raise `BusError` if the bus is lost.
+
+    Attributes:
+        emulated: Whether the bench reported that it is emulated.
+        encoder_failure: Why the deflection encoder cannot be read, or None.
     """
 
     def __init__(
@@ -61,7 +64,11 @@ class Probe:
         return build_drive(motor, self.bench.timing.period_s, speed_max)
 
     def open(self) -> None:
-        """Open the bus, and the encoder as far as it works; raises `BusError`."""
+        """Open the bus, and the encoder if possible.
+
+        Raises:
+            BusError: If the bus cannot be opened.
+        """
         self._bus = self._opener(self.bench.bus)
         try:
             self._source.open()
@@ -112,7 +119,7 @@ class Probe:
         with self._sending():
             self.drives[name].ask(self._get_bus(), self.now())
 
-    def ask_everywhere(self, name: str) -> Traffic:
+    def query_all_addresses(self, name: str) -> Traffic:
         """Query every possible address of this motor's drive family."""
         traffic = Traffic()
         for question in self.families[name].list_questions():
@@ -152,8 +159,8 @@ class Probe:
     def release(self) -> None:
         """Send zero current and resets to commanded drives until they are silent.
 
-        The last frames must also have left: an adapter behind a socket loses what is on its way
-        when it is closed too soon.
+        Waits until the last frames have been sent: an adapter behind a socket loses frames in
+        transit when it is closed too soon.
         """
         if self._bus is None or not self._commanding:
             return

@@ -1,9 +1,9 @@
 """Short pulses of current, and the resulting motion of motor and deflection.
 
 The pulses grow from 1 % to 15 % of the motor's nominal current and get shorter as they grow, so
-that a motor whose encoder is dead gets no more impulse than one that works. A motor that has
-moved gets one more pulse in each direction, which is ended by its travel: its trace is long
-enough to compare magnitudes.
+that a motor with a dead encoder gets no larger impulse than one with a working encoder. A motor
+that has moved gets one more pulse in each direction, which ends after a given travel: its trace is
+long enough to compare magnitudes.
 """
 
 import math
@@ -24,23 +24,26 @@ MAX_TRAVEL_RAD = 0.03
 MIN_COUNTS = 8
 MIN_DEFLECTION_COUNTS = 4
 COAST_S = 0.02
-"""A motor's counts are followed for so long after a pulse: both lag behind the current."""
+"""Time for which a motor's counts are read after a pulse, s: both lag behind the current."""
 SETTLE_S = 0.2
 REST_S = 0.5
-"""How long a pulse waits at most for the motor to stand still, to within `STILL_COUNTS`."""
+"""Maximum time that a pulse waits for the motor to rest, within `STILL_COUNTS`, s."""
 STILL_COUNTS = 2
 MAX_UNHEARD = 0.25
 """A pulse is valid if its longest time without feedback is at most this share of it."""
 MAX_REPEATS = 5
-"""Of invalid pulses, per motor: this bounds the impulse that the motor gets."""
+"""Maximum number of invalid pulses per motor, which limits the impulse."""
 _SEND_S = 0.002
 
 
 class Trace(NamedTuple):
-    """A pulse and what followed, at the times of the motor's feedback; each an array of (n,).
+    """A pulse and the motion after it, at the times of the motor's feedback; arrays of shape (n,).
 
-    time_s: from the first feedback on. moved: change of the motor's counts. deflected: counts of
-    the deflection encoder. current_ma: as the drive measured it.
+    Attributes:
+        time_s: Time since the first feedback, s.
+        moved: Change of the motor's counts.
+        deflected: Counts of the deflection encoder.
+        current_ma: Current measured by the drive, mA.
     """
 
     time_s: np.ndarray
@@ -53,11 +56,17 @@ NO_TRACE = Trace(*(np.zeros(0) for _ in Trace._fields))
 
 
 class Pulse(NamedTuple):
-    """The result of a pulse. current_ma, duration_s: commanded.
+    """The result of a pulse.
 
-    moved, deflected: largest change of counts, either way. measured_ma: largest feedback of
-    the current, with its sign. errors: of the drive. unheard_s: longest time of the pulse without
-    feedback.
+    Attributes:
+        current_ma: Commanded current, mA.
+        duration_s: Commanded duration, s.
+        moved: Largest change of the motor's counts, in either direction.
+        deflected: Largest change of the deflection's counts, in either direction.
+        measured_ma: Largest measured current with its sign, mA.
+        errors: Errors of the drive.
+        unheard_s: Longest time without feedback during the pulse, s.
+        trace: The trace.
     """
 
     current_ma: int
@@ -78,7 +87,7 @@ class Turn(NamedTuple):
 
     @property
     def errors(self) -> int:
-        """How many errors the drive reported in both."""
+        """Return the number of errors that the drive reported in both."""
         return self.forth.errors + self.back.errors
 
     @property
@@ -93,9 +102,9 @@ class Turn(NamedTuple):
 
 
 def turn_a_little(probe: Probe, name: str) -> Turn:
-    """Pulse a motor with increasing strength until the result is conclusive; return the last.
+    """Pulse a motor with increasing strength until the result is conclusive; return the last pulse.
 
-    A turn that was not followed, because computer or bus paused, is repeated.
+    A turn without continuous feedback, because computer or bus paused, is repeated.
     """
     levels = list(reversed(LEVELS))
     repeats = MAX_REPEATS
@@ -114,7 +123,7 @@ def turn_a_little(probe: Probe, name: str) -> Turn:
 def turn_farther(probe: Probe, name: str, turn: Turn) -> Turn:
     """Pulse a motor with the next current until it or the spring has moved far enough.
 
-    Only for a motor that a turn has shown to move and count: no impulse bounds these pulses.
+    Only for a motor that has been shown to move and count, because no impulse limits these pulses.
     """
     nominal_ma = 1e3 * getattr(probe.bench, name).nominal_current_a
     level = abs(turn.forth.current_ma) / nominal_ma
@@ -127,7 +136,9 @@ def turn_farther(probe: Probe, name: str, turn: Turn) -> Turn:
 
 
 def _turn(probe: Probe, name: str, level: float, duration_s: float = 0.0) -> Turn:
-    """level: share of the nominal current. duration_s: at most; 0 for the usual impulse."""
+    """Send one pulse; `level` is the share of the nominal current, `duration_s` a maximum, or 0 for
+    the usual impulse.
+    """
     motor: MotorSettings = getattr(probe.bench, name)
     current_ma = (motor.sign or 1) * round(1e3 * level * motor.nominal_current_a)
     duration_s = duration_s or min(LONGEST_PULSE_S, IMPULSE_S / level)
@@ -195,12 +206,14 @@ def _await_rest(probe: Probe, name: str) -> Traffic:
 
 
 def _build_trace(traffic: Traffic, name: str, start: int, is_stamped: bool) -> Trace:
-    """is_stamped: whether the deflection has the times of the bus, as the feedback has."""
+    """Build the trace; `is_stamped` is whether the deflection has the timestamps of the bus, like
+    the feedback.
+    """
     heard = traffic.feedback.get(name, [])
     if not (heard and traffic.deflection):
         return NO_TRACE
     times = np.array([frame.stamp_s if is_stamped else frame.time_s for frame in heard])
-    # The newest reading at that time: between two readings there are no counts.
+    # The latest reading at that time: between two readings the counts are unknown.
     later = np.searchsorted([reading.time_s for reading in traffic.deflection], times, "right")
     counts = np.array([float(reading.counts) for reading in traffic.deflection])
     deflected = counts[np.maximum(later - 1, 0)]

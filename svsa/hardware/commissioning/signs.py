@@ -1,7 +1,7 @@
 """Check that motors and encoders turn in the directions of the bench file.
 
-Three observations determine every sign: whether the counts of a motor follow its current,
-whether the deflection goes the other way than motor 1, and which way a motor was seen to turn.
+Three observations determine every sign: whether the counts of a motor follow its current, whether
+the deflection moves opposite to motor 1, and the direction in which the operator saw a motor turn.
 """
 
 from collections.abc import Callable, Iterator, Mapping
@@ -17,7 +17,7 @@ _WAYS = {
 }
 
 
-def ask_directions(
+def prompt_directions(
     turns: Mapping[str, Turn], watch: Callable[[str], bool] | None
 ) -> dict[str, bool]:
     """Ask the user in which direction each moved motor turned first."""
@@ -27,7 +27,7 @@ def ask_directions(
 
 
 def judge_motor(bench: BenchFile, name: str, turn: Turn, seen: bool | None) -> CheckStep:
-    """Judge the sign of a motor; seen: whether it turned the positive way first, None if
+    """Judge the sign of a motor; `seen` is whether it turned in positive direction first, None if
     unknown.
     """
     title, sign = f"{name}: sign", getattr(bench, name).sign
@@ -63,7 +63,7 @@ def judge_motor(bench: BenchFile, name: str, turn: Turn, seen: bool | None) -> C
 
 
 def judge_deflection(bench: BenchFile, turn: Turn, link: LinkFit, seen: bool | None) -> CheckStep:
-    """The sign of the deflection φ = q − θ1; seen: as in `judge_motor`, of motor 1."""
+    """Judge the sign of the deflection φ = q − θ1; `seen` as in `judge_motor`, for motor 1."""
     title, sign = "deflection: sign", bench.deflection.sign
     motor_sign = bench.motor1.sign or 1
     ratio = link.ratio.value
@@ -73,7 +73,7 @@ def judge_deflection(bench: BenchFile, turn: Turn, link: LinkFit, seen: bool | N
         f" {-100.0 / ratio:+.1f}"
     )
     follows = turn.forth.moved * turn.forth.current_ma > 0
-    # Counts of motor 1 are a witness of its direction as far as they are right themselves.
+    # Counts of motor 1 confirm its direction only if their own sign is right.
     is_right = fits == follows if seen is not False else fits != follows
     if not is_right:
         change = (
@@ -97,7 +97,7 @@ def judge_deflection(bench: BenchFile, turn: Turn, link: LinkFit, seen: bool | N
 def judge_signs(
     bench: BenchFile, turns: Mapping[str, Turn], link: LinkFit | None, seen: Mapping[str, bool]
 ) -> Iterator[CheckStep]:
-    """Judge the signs of all moved motors; link: None if the deflection was not measured."""
+    """Judge the signs of all moved motors; `link` is None if the deflection was not measured."""
     for name, turn in turns.items():
         yield judge_motor(bench, name, turn, seen.get(name))
         if name == "motor1" and link is not None:

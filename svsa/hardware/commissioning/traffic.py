@@ -14,9 +14,11 @@ class HeardFeedback(NamedTuple):
 
 
 class Counts(NamedTuple):
-    """A reading of the deflection encoder, unwrapped, and its time.
+    """A reading of the deflection encoder, unwrapped.
 
-    time_s: of an encoder on the bus as its frame is stamped, else when it was read.
+    Attributes:
+        counts: The counts.
+        time_s: Timestamp of the frame for an encoder on the bus, otherwise time of reading, s.
     """
 
     counts: int
@@ -27,10 +29,16 @@ class Counts(NamedTuple):
 class Traffic:
     """Recorded traffic, by motor.
 
-    answers: when its drive answered. engaged: whose drive sent feedback from the mode in which it
-    makes torque. errors: how many its drive reported. commanded: whose drive another program sends
-    commands to. places: addresses of other drives that answered. bus_errors: error frames of the
-    adapter.
+    Attributes:
+        frames: Number of frames.
+        bus_errors: Error frames of the adapter.
+        feedback: Feedback of the drives.
+        answers: Times of the drives' answers.
+        engaged: Motors whose drive sent feedback in the mode in which it produces torque.
+        errors: Number of errors that the drive reported.
+        commanded: Motors whose drive receives commands of another program.
+        places: Addresses of other drives that answered.
+        deflection: Readings of the deflection encoder.
     """
 
     frames: int = 0

@@ -15,7 +15,8 @@ from svsa.inputs.nearest import suggest
 
 _ANSWER_S = 5.0
 DELIVERY_S = 0.05
-"""How long a bus stays open after the last frame: closing a socket may take back what was sent."""
+"""Time for which a bus stays open after the last frame, s: closing a socket may discard sent data.
+"""
 
 
 _ACKNOWLEDGEMENTS = 8
@@ -32,15 +33,17 @@ _DRIVERS = {
     "ixxat": "HMS' VCI driver; it is there for Windows only",
     "vector": "Vector's XL driver library; it is there for Windows only",
 }
-"""What to install where python-can brings an interface without its driver."""
+"""Package to install if python-can has an interface without its driver."""
 BUS_TROUBLE = (can.CanError, OSError, ValueError)
-"""What an open bus raises when it is lost."""
+"""Exceptions of an open bus that is lost."""
 
 
 class BusError(SvsaError):
-    """A bus that cannot be opened or used.
+    """A bus that cannot be opened or used. The message contains finding and advice.
 
-    finding: what failed. advice: what to do; "" where the cause is not known. The message has both.
+    Attributes:
+        finding: What failed.
+        advice: What to do; "" if the cause is unknown.
     """
 
     def __init__(self, finding: str, advice: str = "") -> None:
@@ -49,13 +52,16 @@ class BusError(SvsaError):
 
 
 def open_bus(settings: BusSettings) -> can.BusABC:
-    """The bus that a bench file names; raises `BusError` with the reason.
+    """Open the bus of a bench file.
 
-    Adapters behind a socket get a timeout: one that accepts the call and then says nothing
-    would be waited for without end.
+    Adapters behind a socket get a timeout, because an adapter that accepts the connection and then
+    does not answer would block indefinitely.
+
+    Raises:
+        BusError: If it cannot be opened, with the reason.
     """
     logging.getLogger("can").setLevel(logging.ERROR)
-    # python-can's back ends open their sockets themselves: only the default reaches them.
+    # python-can's back ends open their own sockets: only the default timeout affects them.
     before = socket.getdefaulttimeout()
     socket.setdefaulttimeout(_ANSWER_S)
     try:
@@ -66,7 +72,7 @@ def open_bus(settings: BusSettings) -> can.BusABC:
             bitrate=settings.bitrate,
             **_choose_options(settings),
         )
-    except Exception as error:  # a driver that is missing shows as any kind, even NameError
+    except Exception as error:  # a missing driver raises exceptions of any kind, even NameError
         raise _describe_failure(settings, error) from None
     finally:
         socket.setdefaulttimeout(before)
@@ -134,10 +140,10 @@ def _choose_options(settings: BusSettings) -> dict[str, Any]:
 
 
 def take_waiting(bus: can.BusABC, settings: BusSettings, most: int) -> Iterator[can.Message]:
-    """Read waiting messages, at most so many.
+    """Read at most `most` waiting messages.
 
-    An slcan adapter acknowledges every command, and python-can returns None for that: there,
-    the end is several None in a row.
+    An slcan adapter acknowledges every command, for which python-can returns None: with such an
+    adapter several None in a row mean the end.
     """
     patience = nothings = _ACKNOWLEDGEMENTS if settings.interface == _SLCAN else 1
     for _ in range(most):

@@ -16,9 +16,9 @@ class MotorScale(NamedTuple):
 
 
 def build_motor_scale(motor: MotorSettings) -> MotorScale:
-    """τ = I N η K_t / 1000, θ = 2π counts / (counts a turn · N), both with the sign.
+    """τ = I N η K_t / 1000, θ = 2π counts / (counts per turn · N), both with the sign.
 
-    What is not known of the motor counts as 1: such a bench does not arm.
+    Unknown values of the motor count as 1: such a bench cannot be armed.
     """
     ratio, sign = motor.gear_ratio or 1.0, motor.sign or 1
     constant, efficiency = motor.torque_constant_nm_per_a or 1.0, motor.efficiency or 1.0
@@ -41,7 +41,7 @@ def build_deflection_scale(deflection: DeflectionSettings) -> float:
 class Unwrapped:
     """A counter of `bits` bits, unwrapped.
 
-    start: the first reading is taken as the nearest to it that the counter can mean.
+    The first reading is interpreted as the possible value nearest to `start`.
     """
 
     def __init__(self, bits: int, start: int = 0) -> None:

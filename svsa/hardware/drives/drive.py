@@ -1,8 +1,8 @@
 """The interface of a drive that every family implements.
 
 The plant, the supervisor, the third line, the bench check and the emulator use this interface and
-know no frame. A drive takes a current in mA and reports counts and a current: torque, angle, sign
-and limits belong to the bench (`conversion`, `svsa.hardware.safety`).
+do not depend on the frames of a family. A drive receives a current in mA and reports counts and a
+current: torque, angle, sign and limits belong to the bench (`conversion`, `svsa.hardware.safety`).
 
     OFF → RESET → (CONFIG) → MODE → READY            SILENT: no answer in time
 """
@@ -19,14 +19,16 @@ from svsa.hardware.settings import MotorSettings
 EXTENDED = 1 << 31
 """Marks the key of a 29-bit identifier, as SocketCAN's CAN_EFF_FLAG does."""
 GATE_JITTER_S = 0.0001
-"""By which a tick may come late and the next one not."""
+"""Tolerance for a late tick followed by a punctual one, s."""
 
 
 class StopFrames(NamedTuple):
     """Frames that remove the torque of a drive in any state.
 
-    zero: zero current, sent first. reset: leaves the mode, so that nothing but a new start-up makes
-    torque; it may reach several drives at once.
+    Attributes:
+        zero: Zero current, sent first.
+        reset: Leaves the mode, so that only a new start-up can produce torque; may reach several
+            drives at once.
     """
 
     zero: tuple[can.Message, ...]
@@ -41,18 +43,19 @@ def compute_key(message: can.Message) -> int:
 class Drive(ABC):
     """One drive: started up to READY, commanded each tick, and read.
 
-    No method waits. Methods that send raise what the bus raises.
+    No method waits. Methods that send raise the exceptions of the bus.
 
     Attributes:
-        gap_s: The time that the drive needs between two commands.
+        gap_s: Minimum time between two commands, s.
         heard_ids: Keys (`compute_key`) of the frames that the drive sends.
-        obeyed_ids: Keys of the frames that the drive obeys: from another program, they are a fault.
-        phase: How far the start-up is.
-        sent_s: The time of the last command.
-        heard_s: The time of the last feedback; None before the first after a reset.
-        counts: The position of the motor, from where it was reset.
-        current_ma: The measured current, mA.
-        engaged: Whether the last feedback was sent in the mode in which the drive makes torque.
+        obeyed_ids: Keys of the frames that the drive obeys: if another program sends them, that is
+            a fault.
+        phase: Phase of the start-up.
+        sent_s: Time of the last command, s.
+        heard_s: Time of the last feedback, s; None before the first one after a reset.
+        counts: Position of the motor, relative to its position at the reset.
+        current_ma: Measured current, mA.
+        engaged: Whether the last feedback was sent in the mode in which the drive produces torque.
         answers: Number of answers to `ask` since the reset.
         errors: Number of errors that the drive has reported since the reset.
         zeroed: Whether the drive has lost its position without a reset.
@@ -88,15 +91,15 @@ class Drive(ABC):
 
     @abstractmethod
     def send_current(self, bus: can.BusABC, current_ma: int, now: float) -> bool:
-        """Command a current; where feedback is not pushed, also ask for it.
+        """Command a current; a drive that does not push feedback is also queried.
 
         Args:
             bus: The bus.
-            current_ma: The current, mA, in the drive's own sense.
-            now: The time, s.
+            current_ma: Current, mA, in the drive's own direction.
+            now: Time, s.
 
         Returns:
-            False if the last command was too short ago: then nothing was sent.
+            False if the last command was too recent: then nothing was sent.
         """
 
     @abstractmethod
@@ -104,7 +107,7 @@ class Drive(ABC):
         """Remove the torque; repeated in each tick of a fault, also after a reset.
 
         Returns:
-            False if the last command was too short ago: then nothing was sent.
+            False if the last command was too recent: then nothing was sent.
         """
 
     @abstractmethod
@@ -113,7 +116,7 @@ class Drive(ABC):
 
         Args:
             message: The frame.
-            time_s: When its content was true.
+            time_s: Time of its content, s.
         """
 
     @abstractmethod

@@ -1,7 +1,7 @@
 """The interface of an emulated drive that every family implements.
 
-The base class has what is of the motor and its encoder; a family adds its protocol, written from
-the maker's manual.
+The base class models the motor and its encoder; a family adds its protocol, according to the
+manufacturer's manual.
 """
 
 import math
@@ -62,10 +62,11 @@ class EmulatedDrive(ABC):
     """A drive, its motor's counter, and the commanded current.
 
     Attributes:
-        answers_with_feedback: Whether the faults of its feedback are those of its answers.
-        current_ma: Commanded, the same since `since_us`.
-        errors: Number of commands at the wrong moment.
-        stalled, powered, plugged, frozen, offset_ma: See `svsa.hardware.emulator.faults`.
+        answers_with_feedback: Whether the faults of its feedback also affect its answers.
+        current_ma: Commanded current, mA, constant since `since_us`.
+        errors: Number of commands in a wrong state.
+        stalled: See `svsa.hardware.emulator.faults`, also for powered, plugged, frozen and
+            offset_ma.
     """
 
     answers_with_feedback = False
@@ -96,12 +97,12 @@ class EmulatedDrive(ABC):
 
     @abstractmethod
     def receive(self, frame: Frame, time_us: int, observe: Callable[[], Motion]) -> list[Frame]:
-        """Take a frame of the bus.
+        """Receive a frame of the bus.
 
         Args:
             frame: The frame.
-            time_us: The time, µs.
-            observe: Counts the encoder now, and returns the motion.
+            time_us: Time, µs.
+            observe: Reads the encoder, and returns the motion.
 
         Returns:
             The frames with which the drive answers.

@@ -1,6 +1,6 @@
 """A drive family: one value with everything that the bench needs to know about it.
 
-A package announces it as an entry point of the group `svsa.drives`, as `robomodule` is.
+A package registers it as an entry point of the group `svsa.drives`, like `robomodule`.
 """
 
 from collections.abc import Callable, Iterable, Mapping
@@ -22,11 +22,15 @@ HOST = "host"
 
 
 class Advice(NamedTuple):
-    """Advice of `svsa bench-check` on drives of a family.
+    """Advice of `svsa bench-check` for drives of a family.
 
-    supply: "… is on and within …". wiring: what their maker presets on the bus. factory: the
-    address of a new one. mode: what to look at where the mode is not taken. error: where a drive
-    reports an error. current: where no current flows.
+    Attributes:
+        supply: Completes "… is on and within …".
+        wiring: Bus settings preset by the manufacturer.
+        factory: Address of a new drive.
+        mode: What to check if the drive does not enter its mode.
+        error: What to check if a drive reports an error.
+        current: What to check if no current flows.
     """
 
     supply: str
@@ -42,21 +46,21 @@ class DriveFamily:
     """A family of drives.
 
     Attributes:
-        name: The name of its entry point, and of `drive` in a bench file.
-        title: Its maker and model.
+        name: Name of its entry point, and of `drive` in a bench file.
+        title: Manufacturer and model.
         needs_fd: Whether it uses CAN FD.
-        settings: The fields of `[motor1]` and `[motor2]` in a bench file.
-        emulated: The fields of the same sections in an emulator's file.
-        examples: The addresses of the two drives of the emulator, if its file gives none.
-        build: Makes a drive from its settings, the control period (s) and a speed (counts/s) that
+        settings: Fields of `[motor1]` and `[motor2]` in a bench file.
+        emulated: Fields of the same sections in an emulator's file.
+        examples: Default addresses of the two drives of the emulator.
+        build: Creates a drive from its settings, the control period (s) and a speed (counts/s) that
             the motor never reaches.
-        build_stop: The frames that stop a drive.
-        emulate: Makes an emulated drive.
-        describe: The messages of a DBC file, from the settings of its drives by their names.
-        list_questions: A frame for each address that a drive can have, which one there answers.
-        find_place: The address of the drive that has sent an answer to such a frame, in words;
-            None for other frames.
-        advice: What `svsa bench-check` says of it.
+        build_stop: Returns the frames that stop a drive.
+        emulate: Creates an emulated drive.
+        describe: Returns the messages of a DBC file, from the settings of the drives by name.
+        list_questions: Returns a frame for each possible address, which the drive there answers.
+        find_place: Returns as text the address of the drive that answered such a frame; None for
+            other frames.
+        advice: Advice of `svsa bench-check`.
     """
 
     name: str

@@ -1,6 +1,6 @@
-"""The families of drives that are installed: the entry points `svsa.drives` of packages.
+"""The installed drive families: the entry points `svsa.drives` of packages.
 
-Families need python-can, an extra: they are imported when a motor's section is read, not before.
+Families need python-can, an extra; therefore they are imported only when a motor's section is read.
 """
 
 from collections.abc import Callable
@@ -24,7 +24,7 @@ _Section = TypeVar("_Section", bound=Checked)
 
 
 class DriveFamilyError(SvsaError):
-    """A family of drives whose package does not work."""
+    """A family of drives with a package that does not work."""
 
 
 @cache
@@ -40,11 +40,11 @@ def list_drive_names() -> tuple[str, ...]:
 
 @cache
 def get_family(name: str) -> "DriveFamily":
-    """A family of drives by its name.
+    """Return a family of drives by its name.
 
     Raises:
-        ParameterError: No family of that name is installed.
-        DriveFamilyError: Its package does not load.
+        ParameterError: If no family of that name is installed.
+        DriveFamilyError: If its package cannot be loaded.
     """
     entry = _find_entries().get(name)
     if entry is None:
@@ -118,12 +118,15 @@ def _find_family(section: Any) -> "DriveFamily":
 
 
 def build_drive(motor: MotorSettings, period_s: float, speed_max: float) -> "Drive":
-    """The drive of a motor.
+    """Create the drive of a motor.
 
     Args:
-        motor: Its section of the bench file.
-        period_s: The control period, s.
+        motor: Section of the motor in the bench file.
+        period_s: Control period, s.
         speed_max: A speed that the motor never reaches, counts/s.
+
+    Returns:
+        The drive.
     """
     return get_family(motor.drive).build(motor, period_s, speed_max)
 

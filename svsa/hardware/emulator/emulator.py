@@ -1,8 +1,8 @@
 """The emulator: drives, encoder node and mechanics on one bus, in the order of their events.
 
-Time is whole microseconds since the start. A frame takes 0.13 ms: 8 bytes at 1 Mbit/s, and CAN FD
-with up to 48 bytes at 5 Mbit/s takes no longer. Where several wait, the lowest identifier goes
-first. The same frames in at the same times, and the same seed, give the same frames out.
+Time is whole microseconds since the start. A frame takes 0.13 ms: 8 bytes at 1 Mbit/s; CAN FD with
+up to 48 bytes at 5 Mbit/s takes no longer. If several frames wait, the lowest identifier is sent
+first. The output depends only on the input frames, their times, and the seed.
 """
 
 import heapq
@@ -34,6 +34,7 @@ from svsa.hardware.emulator.faults import (
 )
 from svsa.hardware.emulator.mechanics import Mechanics
 from svsa.hardware.emulator.parameters import EmulatorParameters
+from svsa.hardware.real_motors import RealMotors
 from svsa.simulation.plant.loads import Load
 
 FRAME_US = 130
@@ -42,19 +43,22 @@ MAX_WAITING = 1000
 _EMULATED_US = round(EMULATED_PERIOD_S * 1e6)
 _ERROR_FRAME_US = 1000
 
-Said = tuple[int, Frame, Any]
+TimedFrame = tuple[int, Frame, Any]
 
 
 class Emulator:
-    """The emulated bench. `advance_to` returns the frames sent meanwhile.
+    """The emulated bench. `advance_to` returns the frames sent in between.
 
-    now_us: µs. frames: how many have been on the bus.
+    Attributes:
+        now_us: Time, µs.
+        frames: Number of frames sent on the bus.
     """
 
     def __init__(self, parameters: EmulatorParameters | None = None) -> None:
         self.parameters = parameters or EmulatorParameters()
         p = self.parameters
         self.mechanics = Mechanics(p)
+        self._motors = RealMotors.of(p.actuator)
         self.drives: dict[str, EmulatedDrive] = {
             name: get_family(motor.drive).emulate(motor)
             for name, motor in (("motor1", p.motor1), ("motor2", p.motor2))
@@ -66,7 +70,7 @@ class Emulator:
         self._waiting: list[tuple[int, int, Frame, Any]] = []
         self._busy = False
         self._order = 0
-        self._said: list[Said] = []
+        self._sent: list[TimedFrame] = []
         self._drops: dict[str, float] = {}
         self._delays: dict[str, int] = {}
         for name, drive in self.drives.items():
@@ -80,13 +84,13 @@ class Emulator:
         """The time of the next event, µs."""
         return self._events[0][0]
 
-    def advance_to(self, time_us: int) -> list[Said]:
+    def advance_to(self, time_us: int) -> list[TimedFrame]:
         """Advance to this time; return the frames until then, (µs, frame, sender or None)."""
         while self._events[0][0] <= time_us:
             self.now_us, _, happen = heapq.heappop(self._events)
             happen()
         self.now_us = max(self.now_us, time_us)
-        said, self._said = self._said, []
+        said, self._sent = self._sent, []
         return said
 
     def receive(self, frame: Frame, sender: Any) -> None:
@@ -120,7 +124,7 @@ class Emulator:
                 self._delays[fault.node] = round(fault.delay_s * 1e6)
             case BusErrors():
                 for number in range(fault.count):
-                    self._at(self.now_us + number * _ERROR_FRAME_US, self._say_error)
+                    self._at(self.now_us + number * _ERROR_FRAME_US, self._send_error_frame)
             case FrozenEncoder() | ReversedEncoder() if fault.node == "deflection":
                 self.encoder.fail(frozen=fault.kind == "freeze")
             case FrozenEncoder():
@@ -158,14 +162,15 @@ class Emulator:
 
     def _at(self, time_us: int, happen: Callable[[], None]) -> None:
         self._order += 1
-        # The number keeps events of one instant in the order in which they were scheduled, and
-        # heapq from comparing functions.
+        # The number keeps simultaneous events in the order in which they were scheduled, and
+        # prevents heapq from comparing functions.
         heapq.heappush(self._events, (time_us, self._order, happen))
 
     def _drive(self) -> None:
         """Set the target torques of the drives' current loops."""
         one, two = self.drives.values()
-        self.mechanics.set_target(self.now_us, Torque(one.target_nm, two.target_nm))
+        target = self._motors.join(Torque(one.target_nm, two.target_nm))
+        self.mechanics.set_target(self.now_us, target)
 
     def _beat_at(self, clock: EmulatorClock, number: int, happen: Callable[[int], None]) -> None:
         """Schedule an action at every ms of this clock, from beat `number` on."""
@@ -186,12 +191,10 @@ class Emulator:
 
     def _observe(self, name: str, drive: EmulatedDrive) -> Motion:
         """Update a motor's encoder; return the motion of the motor."""
-        x, torque = self.mechanics.read(self.now_us), self.mechanics.torque
-        if name == "motor1":
-            drive.look(x.theta1)
-            return Motion(x.dtheta1, torque.u1)
-        drive.look(x.theta2)
-        return Motion(x.dtheta2, torque.u2)
+        x, number = self.mechanics.read(self.now_us), 0 if name == "motor1" else 1
+        drive.look(self._motors.find_angles(x.theta1, x.theta2)[number])
+        velocity = self._motors.find_angles(x.dtheta1, x.dtheta2)[number]
+        return Motion(velocity, self._motors.split(self.mechanics.torque)[number])
 
     def _complain(self, drive: EmulatedDrive) -> None:
         self._at(self.now_us + ERROR_PERIOD_US, lambda: self._complain(drive))
@@ -200,14 +203,15 @@ class Emulator:
 
     def _count_deflection(self) -> None:
         x = self.mechanics.read(self.now_us)
-        self._send("deflection", self.encoder.build_frame(compute_deflection(x)))
+        angle = x.q if self._motors.is_pair else compute_deflection(x)
+        self._send("deflection", self.encoder.build_frame(angle))
 
     def _beat(self) -> None:
         self._at(self.now_us + _EMULATED_US, self._beat)
-        self._said.append((self.now_us, Frame(EMULATED_ID, EMULATED_DATA, extended=True), None))
+        self._sent.append((self.now_us, Frame(EMULATED_ID, EMULATED_DATA, extended=True), None))
 
-    def _say_error(self) -> None:
-        self._said.append((self.now_us, Frame(0, b"", error=True), None))
+    def _send_error_frame(self) -> None:
+        self._sent.append((self.now_us, Frame(0, b"", error=True), None))
 
     def _send(self, node: str, frame: Frame) -> None:
         """A sensor's frame, unless a fault drops or delays it."""
@@ -224,7 +228,8 @@ class Emulator:
         if len(self._waiting) >= MAX_WAITING:
             return
         self._order += 1
-        # CAN's arbitration: the lowest identifier first, equal ones in their order.
+        # CAN arbitration: the lowest identifier first; frames with equal identifiers keep their
+        # order.
         heapq.heappush(self._waiting, (_compute_priority(frame), self._order, frame, sender))
         if not self._busy:
             self._busy = True
@@ -238,7 +243,7 @@ class Emulator:
 
     def _deliver(self, frame: Frame, sender: Any) -> None:
         self.frames += 1
-        self._said.append((self.now_us, frame, sender))
+        self._sent.append((self.now_us, frame, sender))
         if sender is not None:
             for name, drive in self.drives.items():
                 observe = partial(self._observe, name, drive)

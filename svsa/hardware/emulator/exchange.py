@@ -17,10 +17,12 @@ LONGEST_STEP_US = 10_000_000
 
 
 class Exchange:
-    """Carries frames between an emulator and the clients of its servers.
+    """Transfers frames between an emulator and the clients of its servers.
 
-    lockstep: time advances only when a client requests it with `ADVANCE_ID`. origin_s: what the
-    stamps of frames count from, s, in the emulator's time. `asked`: number of requests for time.
+    Attributes:
+        lockstep: Whether time advances only when a client requests it with `ADVANCE_ID`.
+        origin_s: Origin of the frames' timestamps in the emulator's time, s.
+        asked: Number of requests for time.
     """
 
     def __init__(
@@ -51,7 +53,7 @@ class Exchange:
                 server.send(frame, self._stamp(said_us), but=sender)
 
     def _flush(self) -> None:
-        """Send all of a client's frames in one write, so that it wakes up once."""
+        """Send all frames of a client in one write, which wakes it up once."""
         for server in self._servers:
             server.flush()
 

@@ -1,16 +1,16 @@
 """A figure of the paper on the emulator: through CAN, in lockstep, faster than real time.
 
-The same loop, plant and limits as on a bench; time advances when the loop requests it, so that
-a run gives the same samples every time.
+Loop, plant and limits are those of a bench; time advances when the loop requests it, so that a run
+gives the same samples every time.
 """
 
 from collections.abc import Callable
-from pathlib import Path
 
 from svsa.errors import FaultError, StateError
 from svsa.hardware.calibration import find_calibration
 from svsa.hardware.can_plant import CanPlant
 from svsa.hardware.clock import LockstepClock
+from svsa.hardware.emulator.bench_file import EMULATOR_BENCH
 from svsa.hardware.emulator.launch import RunningEmulator, start_emulator
 from svsa.hardware.file import BenchFile, read_bench
 from svsa.hardware.realtime.configuration import (
@@ -26,16 +26,18 @@ from svsa.runs.configuration import Configuration
 from svsa.runs.paper import LOAD_TIME_S, Figure
 from svsa.runs.result.result import Result
 
-EMULATOR_BENCH = Path(__file__).parent / "bench.toml"
 ARMING_S = 5.0
 SETTLING_S = 0.2
 
 
 class LockstepBench:
-    """The emulator behind the bench's own loop, a tick at a time.
+    """The emulator with the bench's own loop, one tick at a time.
 
-    wanted: law, references and loads of the run. ticks: how many samples are kept. bench:
-    the bench file, else that of the emulator. beats: heartbeats, where they are watched.
+    Args:
+        wanted: Law, references and loads of the run.
+        ticks: Number of samples to store.
+        bench: Bench file; by default that of the emulator.
+        beats: Heartbeats, if they are monitored.
     """
 
     def __init__(
@@ -70,7 +72,12 @@ class LockstepBench:
             self.loop.tick(self.now())
 
     def tick_until(self, status: BenchStatus, longest_s: float = ARMING_S) -> None:
-        """Run until the bench has this status; raises `FaultError` or `StateError`."""
+        """Run until the bench has this status.
+
+        Raises:
+            FaultError: If the bench has a fault.
+            StateError: If the status is not reached in time.
+        """
         end = self.now() + longest_s
         while self.plant.status is not status:
             if self.plant.fault is not None:
@@ -106,9 +113,10 @@ def connect_bench(emulator: RunningEmulator) -> BenchFile:
 def run_on_emulator(
     figure: Figure, law: str, duration_s: float, progress: Callable[[float], None]
 ) -> Result:
-    """Run a figure with its load on the emulator; progress: called with the share done.
+    """Run a figure with its load on the emulator; `progress` receives the finished share.
 
-    Raises `FaultError` where the run ends in a fault.
+    Raises:
+        FaultError: If the run ends in a fault.
     """
     with start_emulator(lockstep=True) as emulator:
         bench = LockstepBench(emulator, figure.build_configuration(law), round(duration_s / 0.001))

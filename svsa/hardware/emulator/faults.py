@@ -9,7 +9,7 @@ DriveName = Literal["motor1", "motor2"]
 
 
 class DropFrames(Checked):
-    """Frames of a node that never come, each with this probability (seeded)."""
+    """Frames of a node are lost, each with this probability (seeded)."""
 
     kind: Literal["drop"] = "drop"
     node: Node = quantity("", "Whose frames")
@@ -17,7 +17,7 @@ class DropFrames(Checked):
 
 
 class LateFrames(Checked):
-    """Frames of a node that come late."""
+    """Frames of a node are late."""
 
     kind: Literal["late"] = "late"
     node: Node = quantity("", "Whose frames")
@@ -39,7 +39,7 @@ class ReversedEncoder(Checked):
 
 
 class ReversedMotor(Checked):
-    """Torque that goes the wrong way."""
+    """Torque with the wrong sign."""
 
     kind: Literal["reverse_motor"] = "reverse_motor"
     node: DriveName = quantity("", "Which motor")
@@ -60,14 +60,16 @@ class Stall(Checked):
 
 
 class Unplugged(Checked):
-    """A drive whose CAN cable is off: it holds its last current, hears and says nothing."""
+    """A drive with a disconnected CAN cable: it holds its last current, and receives and sends
+    nothing.
+    """
 
     kind: Literal["unplugged"] = "unplugged"
     node: DriveName = quantity("", "Which drive")
 
 
 class ZeroedCounter(Checked):
-    """A drive that takes its position for zero without leaving its mode."""
+    """A drive that sets its position to zero without leaving its mode."""
 
     kind: Literal["zeroed_counter"] = "zeroed_counter"
     node: DriveName = quantity("", "Which drive")
@@ -88,7 +90,7 @@ class BusErrors(Checked):
 
 
 class CurrentOffset(Checked):
-    """A drive that makes more current than asked."""
+    """A drive with more current than commanded."""
 
     kind: Literal["current_offset"] = "current_offset"
     node: DriveName = quantity("", "Which drive")

@@ -1,8 +1,8 @@
-"""The interface of all servers that carry frames to clients.
+"""The interface of all servers that transfer frames to clients.
 
-A server only carries: it hears frames from its clients and says frames to them. What a frame
-that one client sends does to the others is the bus's affair: the emulator says it to all with
-`send(frame, time_s, but=client)`, on this server and on the other ones.
+A server receives frames from its clients and sends frames to them. The emulator decides what a
+client's frame does on the bus: it sends it to all other clients with `send(frame, time_s,
+but=client)`, on this server and on the others.
 """
 
 from collections.abc import Callable
@@ -58,7 +58,7 @@ RETRY_S = 0.002
 class Outbox:
     """Buffers messages in order for `flush`: many short texts in one write.
 
-    write: a non-blocking write of some of the bytes, as `os.write`; how many went.
+    `write` is a non-blocking write such as `os.write`; it returns the number of bytes written.
     """
 
     def __init__(self, write: Callable[[bytes | bytearray], int]) -> None:
@@ -71,7 +71,11 @@ class Outbox:
         return RETRY_S if self._kept else None
 
     def push(self, text: bytes) -> None:
-        """Buffer a message. Raises `OSError` for a client that has left or long read nothing."""
+        """Buffer a message.
+
+        Raises:
+            OSError: If the client has disconnected or has not read for a long time.
+        """
         if len(self._kept) + len(text) > MAX_BYTES:
             raise ConnectionError("the client does not read")
         self._kept += text
@@ -79,7 +83,11 @@ class Outbox:
             self.flush()
 
     def flush(self) -> None:
-        """Send buffered messages. Raises `OSError` for a client that has left."""
+        """Send buffered messages.
+
+        Raises:
+            OSError: If the client has disconnected.
+        """
         try:
             while self._kept:
                 del self._kept[: self._write(self._kept)]

@@ -41,8 +41,8 @@ def start_emulator(
         "0",
     ]
     command += ["--idle-s", str(idle_s), *options, *(["--lockstep"] if lockstep else [])]
-    # In a session of its own: Ctrl-C reaches who uses the emulator first, and does not end it
-    # under an open bus.
+    # A separate process session: Ctrl-C reaches the program that uses the emulator first and does
+    # not end the emulator while its bus is open.
     process = subprocess.Popen(  # noqa: S603
         command,
         stdout=subprocess.PIPE,

@@ -12,16 +12,16 @@ from svsa.hardware.emulator.frame import FrameServer
 
 LONGEST_SLEEP_S = 0.5
 GRAIN_S = 0.00025
-"""Against the clock frames come so late at most, and then together, as from an adapter on USB."""
+"""Maximum delay of frames in real time, s, after which they are sent together, as by a USB adapter.
+"""
 
 
 class EmulatorProcess:
     """Serves an emulator to its clients until `stopped`, or idle for `idle_s` (0: indefinitely).
 
-    lockstep: time advances only when a client requests it. Frames are stamped with the emulator's
-    time then, and with the time of day against the clock, as adapters do. alone_s: if no
-    client asks for time for so long, time goes on in real time until one does, as on a machine
-    whose loop is gone.
+    With `lockstep`, time advances only when a client requests it, and frames have the timestamps of
+    the emulator's time; otherwise the time of day, as from adapters. If no client requests time for
+    `alone_s`, time advances in real time until one does, as on a machine whose loop has ended.
     """
 
     def __init__(
@@ -56,13 +56,13 @@ class EmulatorProcess:
                 self._exchange.serve(server)
             now = time.monotonic()
             if self._lockstep:
-                self._go_on_alone(now)
+                self._advance_alone(now)
             if any(server.listening for server in self._servers):
                 self._last_use = now
             elif self._idle_s and now - self._last_use > self._idle_s:
                 return
 
-    def _go_on_alone(self, now: float) -> None:
+    def _advance_alone(self, now: float) -> None:
         """Continue in real time if no client has requested time for `alone_s`."""
         if self._exchange.asked != self._asked:
             self._asked = self._exchange.asked

@@ -1,12 +1,13 @@
 """A slcan (LAWICEL) adapter on a pseudo-terminal: one client at a time, as with a cable.
 
 Source: LAWICEL CANUSB manual, its ASCII commands. Each line ends with CR and is answered with CR,
-or with BELL where it is not known or not to be had now. Every bit rate is taken and makes no
-difference; a remote frame is acknowledged and dropped, since no node here would answer it.
-The protocol has no error frames: bus trouble is bit 7 of the status flags.
+or with BELL if it is unknown or not possible at present. Every bit rate is accepted and has no
+effect; a remote frame is acknowledged and dropped, since no node here would answer it. The protocol
+has no error frames: bus errors are bit 7 of the status flags.
 
-CAN FD is an extension of the CANable 2.0 firmware, as python-can's slcan interface has it: `d` and
-`D` as `t` and `T`, `b` and `B` with the data at the higher bit rate, `Y2` and `Y5` for that rate.
+CAN FD is an extension of the CANable 2.0 firmware, as in python-can's slcan interface: `d` and `D`
+correspond to `t` and `T`, `b` and `B` have the data at the higher bit rate, `Y2` and `Y5` set that
+rate.
 """
 
 import os
@@ -139,7 +140,7 @@ class SlcanServer:
         self._write(f"{name}{length:X}{frame.data.hex().upper()}{stamp}\r".encode())
 
     def _write(self, text: bytes) -> None:
-        """Write to the client; closes the channel if it has long read nothing."""
+        """Write to the client; closes the channel if it has not read for a long time."""
         try:
             self._outbox.push(text)
         except OSError:

@@ -1,17 +1,18 @@
 """A socketcand server: frames as text over TCP, for python-can's `socketcand`.
 
 Source: github.com/linux-can/socketcand, its protocol and `state_raw.c`. An identifier of eight
-digits is extended, of three standard; `< frame ID s.µs DATA >` has its data in one word, where
-`< send ID LENGTH D0 D1 … >` has a word a byte; a `send` that makes no sense is passed over.
+digits is extended, of three digits standard; `< frame ID s.µs DATA >` has its data in one word,
+while `< send ID LENGTH D0 D1 … >` has one word per byte; an invalid `send` is ignored.
 
 `< hi >`, then `< ok >` for open and for rawmode, each written separately: python-can reads each
-answer with one call and takes anything more for an error. A client is therefore said frames
-only after its first frame, or a moment after rawmode.
+answer with one call and treats additional data as an error. Therefore a client receives frames only
+after its first frame, or a moment after rawmode.
 
-python-can has no CAN FD on socketcand: such frames are for clients of the slcan adapter only.
+python-can does not support CAN FD on socketcand: such frames are for clients of the slcan adapter
+only.
 
-What has come is acknowledged at once: a client without `tcp_tune` holds its next frame back until
-then, which a lazy system would put off by 40 ms.
+Received data are acknowledged at once: a client without `tcp_tune` delays its next frame until
+then, which the operating system could otherwise delay by 40 ms.
 """
 
 import re
@@ -55,7 +56,7 @@ class SocketcandServer:
 
     @property
     def listening(self) -> int:
-        """How many clients listen."""
+        """Number of connected clients."""
         return sum(client.listening for client in self._clients)
 
     def sources(self) -> list[socket.socket]:
@@ -115,7 +116,11 @@ class SocketcandServer:
         self._write(client, b"< hi >")
 
     def _read(self, client: _Client) -> list[Frame]:
-        """Parse the received frames; raises `ValueError` for invalid data."""
+        """Parse the received frames.
+
+        Raises:
+            ValueError: If the data are invalid.
+        """
         chunk = client.connection.recv(65536)
         if not chunk:
             raise ConnectionError
@@ -182,7 +187,7 @@ class SocketcandServer:
                 self._write(client, text.encode())
 
     def _write(self, client: _Client, text: bytes) -> None:
-        """Write to a client; disconnects one that has long read nothing."""
+        """Write to a client; disconnects one that has not read for a long time."""
         try:
             client.outbox.push(text)
         except OSError:

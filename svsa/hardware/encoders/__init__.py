@@ -6,9 +6,10 @@ from svsa.hardware.settings import DeflectionSettings
 
 
 def read_source(settings: DeflectionSettings) -> DeflectionSource:
-    """Build the source named in the bench file, not yet open.
+    """Build the source in the bench file, not yet open.
 
-    Raises `ParameterError` for wrong options of it.
+    Raises:
+        ParameterError: If its options are invalid.
     """
     try:
         return _build_source(settings)

@@ -38,7 +38,7 @@ class CanNode:
     def feed(self, message: can.Message, time_s: float) -> bool:
         """Read the counts of a frame of this node.
 
-        A short frame, a request for one (remote frame) or an error frame has no counts.
+        A short frame, a request for one (remote frame) or an error frame is ignored.
         """
         ours = (
             message.arbitration_id == self._id

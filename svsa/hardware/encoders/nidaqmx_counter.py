@@ -1,6 +1,6 @@
 """An encoder at a counter of an NI card, such as the paper's PCI-6259, read on demand.
 
-`pip install 'svsa-lab[nidaqmx]'` and NI's driver are needed; both are looked for at `open` only.
+`pip install 'svsa-lab[nidaqmx]'` and NI's driver are required; both are loaded at `open` only.
 """
 
 import math
@@ -37,7 +37,11 @@ class NidaqmxCounter:
         self._failure: type[Exception] = OSError
 
     def open(self) -> None:
-        """Start the counter at zero; raises `EncoderError` with what is missing."""
+        """Start the counter at zero.
+
+        Raises:
+            EncoderError: If something is missing, with its name.
+        """
         try:
             require_extra("nidaqmx")
         except MissingExtraError as error:
@@ -72,7 +76,11 @@ class NidaqmxCounter:
         return False
 
     def read(self, now_s: float) -> tuple[int, float] | None:
-        """Read the present counts; raises `EncoderError` if the card does not answer."""
+        """Read the present counts.
+
+        Raises:
+            EncoderError: If the card does not answer.
+        """
         if self._task is None:
             return None
         try:

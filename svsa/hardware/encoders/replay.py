@@ -27,7 +27,11 @@ class Replay:
         self._start: float | None = None
 
     def open(self) -> None:
-        """Read the file; raises `EncoderError` if it is not readable."""
+        """Read the file.
+
+        Raises:
+            EncoderError: If it is not readable.
+        """
         try:
             rows = np.loadtxt(self._path, delimiter=",", skiprows=1, ndmin=2)
             self._times, self._counts = rows[:, 0], rows[:, 1].astype(np.int64)

@@ -40,7 +40,11 @@ class SerialLine:
         self._begun = False
 
     def open(self) -> None:
-        """Open the port; raises `EncoderError` with the reason."""
+        """Open the port.
+
+        Raises:
+            EncoderError: If that fails, with the reason.
+        """
         s = self._settings
         try:
             self._line = serial.Serial(s.port, s.baudrate, timeout=0)
@@ -55,7 +59,11 @@ class SerialLine:
         return False
 
     def read(self, now_s: float) -> tuple[int, float] | None:
-        """Return the newest reading; raises `EncoderError` if the connection is lost."""
+        """Return the newest reading.
+
+        Raises:
+            EncoderError: If the connection is lost.
+        """
         if self._line is None:
             return None
         try:

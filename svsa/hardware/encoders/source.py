@@ -14,14 +14,18 @@ class EncoderError(SvsaError):
 class DeflectionSource(Protocol):
     """Counts of the deflection encoder, with the time of their measurement.
 
-    Scale, sign, zero and unwrapping are the plant's; see `svsa.hardware.drives.conversion`.
-    bits: width after which the counts wrap around.
+    The plant applies scale, sign, zero and unwrapping; see `svsa.hardware.drives.conversion`. The
+    counts wrap around after `bits` bits.
     """
 
     bits: int
 
     def open(self) -> None:
-        """Open the source; raises `EncoderError`."""
+        """Open the source.
+
+        Raises:
+            EncoderError: If that fails.
+        """
         ...
 
     def feed(self, message: can.Message, time_s: float) -> bool:
@@ -29,9 +33,10 @@ class DeflectionSource(Protocol):
         ...
 
     def read(self, now_s: float) -> tuple[int, float] | None:
-        """The newest counts and their time (s), or None before the first.
+        """Return the newest counts and their time (s), or None before the first; never waits.
 
-        Never waits; raises `EncoderError` where the source is gone.
+        Raises:
+            EncoderError: If the source is lost.
         """
         ...
 

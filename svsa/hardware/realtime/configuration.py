@@ -4,11 +4,18 @@ from collections.abc import Iterable
 
 from svsa.actuators.domain import build_domain
 from svsa.actuators.dynamics import build_actuator
-from svsa.actuators.parameters import require_svsa
-from svsa.errors import StateError
-from svsa.hardware.file import BenchFile
+from svsa.actuators.installed import find_mechanism
+from svsa.actuators.parameters import SVSA, get_mechanism_name
+from svsa.control.installed import PAPERS_LAW
+from svsa.errors import ParameterError, StateError, Violation
+from svsa.hardware.file import BenchFile, check_home
+from svsa.hardware.real_motors import RealMotors
 from svsa.hardware.safety.guard import Guard
-from svsa.runs.configuration import Configuration, Design, Lane, load_prototype, read_design
+from svsa.runs.configuration import Configuration, Design, Lane
+from svsa.runs.design_file import load_prototype, read_design
+from svsa.runs.experiment import build_actuator_experiment
+from svsa.runs.paper import get_figure
+from svsa.runs.shorthand import read_mechanism
 from svsa.simulation.loop.measured import Actuation
 from svsa.simulation.plant.effects import Effects
 from svsa.simulation.plant.effects.current_lag import CurrentLag
@@ -23,19 +30,53 @@ MAX_LOAD_POINTS = 1000
 
 
 def read_bench_design(bench: BenchFile) -> Design:
-    """Read the design of a bench: its parameter file, or the prototype, at the bench's period."""
-    design = read_design(bench.design.file) if bench.design.file else load_prototype()
+    """Read the design of a bench, at the bench's period.
+
+    Args:
+        bench: The bench file. It names a parameter file or an actuator; else the SVSA's prototype.
+
+    Raises:
+        ParameterError: The actuator is not installed, is not that of the file, has no stiffness
+            motor, or has not the stiffness coordinate of the zero mark in its range.
+    """
+    given, design = bench.design, load_prototype()
+    if given.file:
+        design = read_design(given.file)
+    elif given.actuator:
+        fields = read_mechanism(given.actuator, "design.actuator")
+        design = design.changed(**{name: fields[name] for name in fields if name != "stiffness"})
+    name = get_mechanism_name(design.actuator)
+    if given.actuator not in (None, name):
+        bound = f"{name}, the actuator of {given.file}, or left out"
+        raise ParameterError(Violation("design.actuator", given.actuator, "", bound))
+    if not find_mechanism(design.actuator).has_stiffness_motor:
+        bound = "an actuator with two motors: a bench has two drives"
+        raise ParameterError(Violation("design.actuator", name, "", bound))
+    if name == SVSA:
+        check_home(bench)
+    else:
+        domain = build_domain(design.nominal, design.limits)
+        check_home(bench, domain.mu_min, domain.mu_max)
     sampling = design.sampling.changed(period_s=bench.timing.period_s)
     return design.changed(sampling=sampling)
 
 
 def build_bench_configuration(bench: BenchFile, wanted: Configuration) -> Configuration:
-    """`wanted` (law, references, loads) on a bench, with its simulated twin as a comparison.
+    """Build the configuration of a bench with `wanted` (law, references, loads) and its simulated
+    twin as comparison.
 
-    The twin has what is known of the bench: counts, estimated velocities, a sample of
+    The twin has the known properties of the bench: counts, estimated velocities, one sample of
     delay and the lag of the current loop.
+
+    Raises:
+        ParameterError: `wanted` is of another actuator than the bench, or its stiffness is out of
+            range.
     """
     design = read_bench_design(bench)
+    mechanism, other = map(get_mechanism_name, (design.actuator, wanted.actuator))
+    if other != mechanism:
+        bound = f"{mechanism}, the actuator of this bench"
+        raise ParameterError(Violation("actuator.mechanism", other, "", bound))
     encoders = None
     motor = bench.motor1
     if motor.counts_per_rev and motor.gear_ratio and bench.deflection.counts_per_rev:
@@ -63,6 +104,17 @@ def build_bench_configuration(bench: BenchFile, wanted: Configuration) -> Config
     )
 
 
+def build_first_experiment(bench: BenchFile) -> Configuration:
+    """Build what a session of a bench begins with, without a load.
+
+    Figure 4A of the paper for the SVSA, else the default experiment of the actuator.
+    """
+    name = get_mechanism_name(read_bench_design(bench).actuator)
+    if name == SVSA:
+        return get_figure("4a").build_configuration(load=False)
+    return build_actuator_experiment(name, PAPERS_LAW, load=False)
+
+
 def read_actuation(bench: BenchFile) -> Actuation:
     """Read delay and lag of the torque from the bench's file."""
     return Actuation(bench.timing.latency_s, bench.timing.current_lag_s)
@@ -71,7 +123,7 @@ def read_actuation(bench: BenchFile) -> Actuation:
 def check_takes_no_time(reference: AnyReference) -> None:
     """Raise `StateError` for a curve that the loop cannot process between two ticks.
 
-    One of 200 points takes it 2 ms, one of 2000 points 7 ms: long enough to lose the bench.
+    A curve of 200 points takes 2 ms, one of 2000 points 7 ms, which is long enough for a fault.
     """
     curve = reference.get_shape().curve
     if curve is not None and len(curve.breaks) > MAX_POINTS_IN_MOTION:
@@ -84,11 +136,11 @@ def check_takes_no_time(reference: AnyReference) -> None:
 def check_loads(loads: Iterable[Load]) -> None:
     """Check that the loop of a bench can process these loads while it ticks.
 
-    A series of 1000 points takes it 1.5 ms, one of 20 000 points 30 ms, and its message is longer
-    than the link to the loop holds.
+    A series of 1000 points takes 1.5 ms, one of 20 000 points 30 ms, and its message exceeds the
+    buffer of the link to the loop.
 
     Args:
-        loads: That are applied or planned.
+        loads: Loads that are applied or planned.
 
     Raises:
         StateError: If a series has more than `MAX_LOAD_POINTS` points.
@@ -104,10 +156,10 @@ def check_loads(loads: Iterable[Load]) -> None:
 def build_guard(bench: BenchFile) -> Guard:
     """Build the limits of a bench, with torques and domain of its design."""
     design = read_bench_design(bench)
-    require_svsa(design.nominal, "a bench")
     return Guard(
         bench,
         (design.limits.torque1_nm, design.limits.torque2_nm),
         build_domain(design.nominal, design.limits),
         build_actuator(design.nominal, bench.home.lever_ratio),
+        RealMotors.of(design.nominal),
     )

@@ -1,6 +1,6 @@
 """Start of the processes of a bench, loop and supervisor, and communication with the loop.
 
-Everything waits by `rest` only: a caller with other work passes its own function.
+All waiting uses `rest`: a caller with other work passes its own function.
 """
 
 import contextlib
@@ -30,14 +30,14 @@ _REST_S = 0.001
 
 Process = subprocess.Popen[bytes]
 Rest = Callable[[float], None]
-"""Let so many seconds pass."""
+"""Lets this number of seconds pass."""
 
-Teller = Callable[[str, float], None]
+ReportProgress = Callable[[str, float], None]
 COLD = (0.0, 0.0)
 """The heat of both motors before their first run."""
 
 
-def keep_quiet(step: str, seconds: float) -> None:
+def ignore_progress(step: str, seconds: float) -> None:
     """Ignore the progress of a starting loop."""
 
 
@@ -46,13 +46,20 @@ class BenchError(StateError):
 
 
 class BenchProcesses:
-    """The loop and the supervisor of one bench, each in a starting process.
+    """The loop and the supervisor of one bench, each in a process that is being started.
 
-    `memory`: see `LoopMemory`. rest: lets time pass while they start, answer or end. `events`:
-    messages of the loop that were not read yet. `notes`: what real time was granted. `step`:
-    what the loop does until it is ready. `failure`: why it did not get ready, or None. heat: of
-    both motors as a loop before this one left them, see `Winding`. patience_s: a loop that has not
-    ticked for longer is silent, and a command is answered within it.
+    Attributes:
+        memory: See `LoopMemory`.
+        events: Unread messages of the loop.
+        notes: Real-time privileges that were granted.
+        step: Present activity of the loop until it is ready.
+        failure: Why it did not become ready, or None.
+        patience_s: Time after which a loop without ticks counts as silent; a command is answered
+            within it.
+
+    Args:
+        rest: Lets time pass while they start, answer or end.
+        heat: Heat of both motors when the previous loop ended, see `Winding`.
     """
 
     def __init__(
@@ -78,10 +85,10 @@ class BenchProcesses:
         supervise = [str(bench), self.beats.name]
         self._loop = _start("svsa.hardware.realtime.process", names, theirs.fileno())
         self._supervisor = _start("svsa.hardware.safety.supervisor", supervise)
-        # Only the child may hold its end: otherwise its death would not close the link.
+        # Only the child may keep its end open: otherwise its death would not close the link.
         theirs.close()
         self.third_line = _watch(bench, self.beats, self._loop, self._supervisor)
-        with contextlib.suppress(LinkClosedError):  # who waits until it is ready reads why
+        with contextlib.suppress(LinkClosedError):  # the server waits for it and reads the reason
             self._link.send({"configuration": configuration.model_dump(mode="json")})
         self.step, self._begun_s = "starting its process", time.monotonic()
         self.failure: str | None = None
@@ -91,11 +98,14 @@ class BenchProcesses:
         """Time since the start, s."""
         return time.monotonic() - self._begun_s
 
-    def wait_until_ready(self, silence_s: float, report: Teller) -> None:
+    def wait_until_ready(self, silence_s: float, report: ReportProgress) -> None:
         """Wait while the loop makes progress: a first compilation has no time limit.
 
-        report: hears what it is doing, with the seconds since its start. Raises `BenchError` where
-        the loop cannot open the bench, ends, or says nothing for silence_s; both are ended then.
+        `report` receives the activity, with the seconds since the start.
+
+        Raises:
+            BenchError: If the loop cannot open the bench, ends, or is silent for silence_s; both
+                processes are then ended.
         """
         try:
             self._wait_until_ready(silence_s, report)
@@ -104,7 +114,7 @@ class BenchProcesses:
             self.end()
             raise BenchError(self.failure) from None
 
-    def _wait_until_ready(self, silence_s: float, report: Teller) -> None:
+    def _wait_until_ready(self, silence_s: float, report: ReportProgress) -> None:
         heard = time.monotonic()
         while time.monotonic() - heard < silence_s:
             report(self.step, self.age_s)
@@ -152,9 +162,12 @@ class BenchProcesses:
     def request(self, wanted: str, argument: Any = None) -> dict[str, Any]:
         """Send a request for the loop to execute between two ticks, and wait for its answer.
 
-        Raises what the loop refused with (`ParameterError`, `StateError`), and `BenchError`
-        where it is silent or does not answer in time; a command that comes too late is not
-        carried out. Requests that rest at the same time are answered in their order.
+        Requests that wait at the same time are answered in order; a command that arrives too late
+        is not executed.
+
+        Raises:
+            ParameterError, StateError: If the loop rejects the request.
+            BenchError: If the loop is silent or does not answer in time.
         """
         if not self.listens:
             raise BenchError(self._describe_silence())
@@ -167,8 +180,7 @@ class BenchProcesses:
             try:
                 while time.monotonic() < until:
                     self._read()
-                    # Several requests may rest at a time; the journal needs their answers in their
-                    # order.
+                    # Several requests may wait at a time; the journal needs their answers in order.
                     if number in self._answers and self._waiting[0] == number:
                         return _check(self._answers.pop(number))
                     self._rest(_REST_S)
@@ -220,7 +232,7 @@ class BenchProcesses:
             self._loop.kill()
         self._link.close()
         self._wait(self._loop)
-        # Before the supervisor ends: with both gone it would intervene.
+        # Before the supervisor ends: if loop and supervisor were both gone, it would intervene.
         self.third_line.stop(self._rest)
         self._supervisor.terminate()
         self._wait(self._supervisor)
@@ -241,7 +253,7 @@ class BenchProcesses:
 
 
 def _watch(bench: Path, beats: Heartbeats, loop: Process, supervisor: Process) -> "ThirdLine":
-    from svsa.hardware.safety.third_line import ThirdLine  # late: it needs the extra `bench`
+    from svsa.hardware.safety.third_line import ThirdLine  # imported here: needs the extra `bench`
 
     return ThirdLine(read_bench(bench), beats, loop, supervisor)
 

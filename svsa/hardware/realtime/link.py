@@ -10,7 +10,7 @@ MAX_UNSENT_BYTES = 1 << 20
 
 
 class LinkClosedError(ConnectionError):
-    """The other side is gone."""
+    """The other side has closed the link."""
 
 
 class Link:
@@ -32,9 +32,13 @@ class Link:
         return self._socket.fileno()
 
     def send(self, message: dict[str, Any]) -> None:
-        """Send a message; raises `LinkClosedError` if the other side is gone."""
+        """Send a message.
+
+        Raises:
+            LinkClosedError: If the other side has closed the link.
+        """
         self._unsent += json.dumps(message).encode() + b"\n"
-        # A side that never reads must not make the loop wait, nor its memory grow.
+        # A peer that never reads must neither block the loop nor let its memory grow.
         if len(self._unsent) > MAX_UNSENT_BYTES:
             raise LinkClosedError("the other side does not read")
         self.flush()
@@ -51,7 +55,11 @@ class Link:
             del self._unsent[:sent]
 
     def receive(self, timeout_s: float = 0.0) -> list[dict[str, Any]]:
-        """Return the received messages in order; raises `LinkClosedError` at the end."""
+        """Return the received messages in order.
+
+        Raises:
+            LinkClosedError: At the end of the link.
+        """
         if timeout_s > 0.0:
             select.select([self._socket], [], [], timeout_s)
         try:

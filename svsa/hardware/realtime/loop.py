@@ -1,8 +1,8 @@
 """The loop on a bench, tick by tick: read, observe, control, write, publish.
 
-The same pieces as on the simulated plant, around a plant that is read and written. It
-knows neither processes nor shared memory: a test or an experiment runs it in lockstep, the
-loop's process against the clock.
+It uses the functions of the simulated loop with a plant that is read and written. It is independent
+of processes and shared memory: tests and experiments run it in lockstep, the loop's process runs it
+in real time.
 """
 
 import math
@@ -26,7 +26,7 @@ from svsa.simulation.loop.lane import AT_REST, NO_TORQUE, UNDISTURBED, Blocks
 from svsa.simulation.loop.measured import (
     Actuation,
     BenchConstants,
-    Carried,
+    BenchLoopState,
     follow_and_decide,
     pass_ticks,
     publish_and_predict,
@@ -35,10 +35,10 @@ from svsa.simulation.loop.measured import (
 STATUSES = tuple(BenchStatus)
 MOVING = (BenchStatus.RUN, BenchStatus.RAMP)
 MOTION = ("known", "actual", "before", "sent")
-"""Of what is carried (`Carried`): what the first tick of a run finds."""
+"""Fields of `BenchLoopState` at the first tick of a run."""
 FARTHEST_RAD = 2.0 * math.pi
-"""Where a reference may be."""
-_NOTHING = pack(Carried())
+"""Bound of a position reference, rad."""
+_NOTHING = pack(BenchLoopState())
 
 
 class Plant(Protocol):
@@ -50,11 +50,15 @@ class Plant(Protocol):
         ...
 
     def start(self, now: float) -> None:
-        """RUN from the next tick on; raises `StateError`."""
+        """Enter RUN at the next tick.
+
+        Raises:
+            StateError: If that is not permitted.
+        """
         ...
 
     def read(self, now: float, known: State) -> Reading:
-        """Read the bench. known: x̂ now."""
+        """Read the bench; `known` is the present x̂."""
         ...
 
     def write(
@@ -87,9 +91,13 @@ class SampleSink(Protocol):
 class BenchLoop:
     """Controller and observer on a bench. `run` has the settings; `tick` is one period.
 
-    plant: open. actuation: from a torque that is decided to one that acts. mu0: lever ratio at the
-    zero marks. configuration: its references, law, gains and observer are used; see
-    `build_bench_configuration`. bind: binds the law of a lane.
+    Args:
+        plant: The open plant.
+        actuation: Delay and lag from the decision about a torque to its effect.
+        mu0: Lever ratio at the zero marks, 1.
+        configuration: Its references, law, gains and observer are used; see
+            `build_bench_configuration`.
+        bind: Binds the law of a lane.
     """
 
     def __init__(
@@ -124,19 +132,26 @@ class BenchLoop:
         self.run.lanes[0].memory[:] = get_law(self.run.configuration.law).start_memory()
 
     def load(self, configuration: Configuration) -> None:
-        """Use this configuration from the next start on; raises `StateError` during motion."""
+        """Use this configuration from the next start on.
+
+        Raises:
+            StateError: During motion.
+        """
         if self.plant.status in MOVING:
             raise StateError("The bench is moving: stop it before another run is loaded.")
         x = State(*self._known.tolist())
-        # A reference cannot start farther away; `start` rejects such a run and says why.
+        # A reference cannot start farther away; `start` rejects such a run with the reason.
         near = x if abs(x.q) <= FARTHEST_RAD else AT_REST
         self.run = Run(configuration, start=Start(self._mu0, near), bind=self._bind)
 
     def start(self, now: float) -> Start:
-        """Start a run at tick 0 from the measured position; raises `StateError`.
+        """Start a run at tick 0 from the measured position.
 
-        The references fade in from the measured position and stiffness, and ŵ begins at
-        zero, so that the first torque is about zero.
+        The references blend in from the measured position and stiffness, and ŵ starts at zero, so
+        that the first torque is about zero.
+
+        Raises:
+            StateError: If a start is not permitted.
         """
         if self.plant.status is BenchStatus.READY and not self._is_known:
             raise StateError("The bench has not been read yet: arm it and wait until READY.")
@@ -169,8 +184,11 @@ class BenchLoop:
     def change(self, command: Command) -> int:
         """Apply a command now; return the tick at which it takes effect.
 
-        Raises `ParameterError` or `StateError`, and then nothing has changed. A law that brings its
-        own ŵ begins with the present one: from zero it would drop the load that is held.
+        A law with its own ŵ starts with the present one: from zero it would drop the load that it
+        holds.
+
+        Raises:
+            ParameterError, StateError: If the command is rejected; nothing has changed.
         """
         before = self.run.configuration.law
         self.run.change(command)
@@ -187,11 +205,15 @@ class BenchLoop:
         self._forget()
 
     def tick(self, now: float, missed: int = 0) -> None:
-        """Run one period. now: plant clock, s. missed: ticks lost before it.
+        """Run one period.
 
-        A run's time goes on with that of the world: a tick that was missed has its number, and
-        no sample. Tick 0 is the first that a run has, and finds the bench as `start` did. Where
-        nothing was measured the run does not go on: the server waits for every tick of a run.
+        The time of a run advances with real time: a missed tick has its number, but no sample. Tick
+        0 is the first tick of a run, with the state of the bench at `start`. Without a measurement
+        the run does not advance: the server waits for every tick of a run.
+
+        Args:
+            now: Time of the plant's clock, s.
+            missed: Number of ticks lost before it.
         """
         plant = self.plant
         begins = not self.run.tick and plant.status in MOVING
@@ -210,7 +232,7 @@ class BenchLoop:
         known, estimate, limited = self._decide(measurement, reading.ages_s)
         sent = plant.write(now, limited if moving else NO_TORQUE, known, estimate, missed)
         tick = self.run.tick
-        # Computed at rest as well: the prediction in it brings the next counts to their tick.
+        # Computed at rest as well: its prediction assigns the next counts to their tick.
         row = self.sink.get_row(tick) if moving else self._scratch
         self._publish(sent, row)
         if moving:
@@ -237,7 +259,7 @@ class BenchLoop:
         """Pack the constants of the present run, and its law with its memory."""
         run = self.run
         blocks, law, memory = run.blocks[0], run.laws[0], run.lanes[0].memory
-        self._connected = blocks, law, memory  # the constants hold the addresses of these arrays
+        self._connected = blocks, law, memory  # owners of the memory
         self._constants = pack(BenchConstants(blocks, self._actuation, build_call(law, memory)))
 
     def _publish(self, sent: Torque, row: np.ndarray) -> None:

@@ -17,10 +17,13 @@ _WHAT = {
 
 
 class Loss(NamedTuple):
-    """code: in `svsa.actuators.faults.LOSSES`. message: cause and action taken.
+    """Loss of the loop.
 
-    stopped_by: who keeps the drives at zero current; None while that is not done. problem: why
-    the server cannot.
+    Attributes:
+        code: Code in `svsa.actuators.faults.LOSSES`.
+        message: Cause and action taken.
+        stopped_by: The process that keeps the drives at zero current; None before that.
+        problem: Why the server cannot do so.
     """
 
     code: str
@@ -35,7 +38,7 @@ def is_supervised(processes: BenchProcesses) -> bool:
 
 
 def find_loss(processes: BenchProcesses) -> Loss | None:
-    """Find what was lost, as far as the server knows; None while the loop ticks."""
+    """Return the loss that the server has detected; None while the loop ticks."""
     if processes.failure is not None:
         return Loss("bench_not_opened", f"{processes.failure} Restart the loop.", None, None)
     if processes.listens:

@@ -43,11 +43,16 @@ _LAYOUT = np.dtype(
 class LoopMemory:
     """A block of shared memory; `fields` are views of it by name, see `_LAYOUT`.
 
-    run: number of the present run. end_tick: its samples so far. skipped_in_run: ticks that it
-    missed. ticks, skipped: of the loop since its start. status: index of the bench's state.
-    quick_stop: 1 asks for it. heat, allowed_nm, is_held_back: of both motors, see
-    `Winding`; the heat is at first that of a loop before this one.
-    lateness, cost: histograms over `LATENESS_EDGES_S` (upper edges).
+    Its fields:
+
+    - run: number of the present run; end_tick: number of its samples so far; skipped_in_run: ticks
+      that it missed.
+    - ticks, skipped: ticks of the loop since its start, and missed ones.
+    - status: index of the bench's state.
+    - quick_stop: 1 requests it.
+    - heat, allowed_nm, is_held_back: of both motors, see `Winding`; the heat is initially that of
+      the previous loop.
+    - lateness, cost: histograms over `LATENESS_EDGES_S` (upper edges).
     """
 
     def __init__(self, block: shared_memory.SharedMemory, owner: bool) -> None:
@@ -80,7 +85,8 @@ class LoopMemory:
 
     def begin_run(self, number: int) -> None:
         """Start a run: samples from now on are its, from tick 0."""
-        # The count before the number: a reader that sees the new run must not find the old count.
+        # The count is reset before the number is set: a reader that sees the new run must not read
+        # the old count.
         self.fields["end_tick"] = self.fields["skipped_in_run"] = 0
         self.fields["run"] = number
 

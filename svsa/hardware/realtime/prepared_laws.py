@@ -1,8 +1,8 @@
 """The laws of a bench's loop, compiled and loaded before READY, so that a tick only looks them up.
 
-To import, compile or load a law takes 10 to 100 ms, and so do the constants of some laws (LQI
-solves twenty Riccati equations). A tick has 1 ms. The loop's process therefore loads every law
-before its first tick. Constants that it does not have yet are computed by the server's process.
+Importing, compiling or loading a law takes 10 to 100 ms, and so do the constants of some laws (LQI
+solves twenty Riccati equations), but a tick lasts 1 ms. Therefore the loop's process loads every
+law before its first tick. Missing constants are computed by the server's process.
 """
 
 import json
@@ -11,7 +11,10 @@ from typing import Any
 import numpy as np
 
 from svsa.actuators.domain import Domain
-from svsa.actuators.dynamics import Actuator
+from svsa.actuators.elasticity import Actuator, ElasticActuator
+from svsa.actuators.energy import compile_energy
+from svsa.actuators.installed import get_mechanism
+from svsa.actuators.parameters import SVSA, get_mechanism_name
 from svsa.control.call import BoundLaw
 from svsa.control.installed import get_law
 from svsa.control.law import LawError, Setting
@@ -23,7 +26,7 @@ from svsa.runs.configuration import Configuration, Lane
 from svsa.simulation.loop.lane import Blocks
 
 MAX_BOUND = 256
-"""Bound laws that are kept: those that were used last."""
+"""Number of bound laws that are kept: the most recently used."""
 _RESTART = "Restart the loop of the bench when it is corrected."
 
 _KEY = ("law", "parameters", "setting")
@@ -33,7 +36,7 @@ class UnpreparedLawError(StateError):
     """The loop lacks the constants of a law.
 
     Attributes:
-        wanted: What `compute_constants` needs, as JSON can hold it.
+        wanted: Arguments of `compute_constants`, as JSON values.
     """
 
     def __init__(self, wanted: dict[str, Any]) -> None:
@@ -47,7 +50,7 @@ class PreparedLaws:
     """Binds laws for the loop; after `close`, only prepared ones.
 
     Attributes:
-        refused: Why a law cannot be used on this bench, by its name.
+        refused: Why a law cannot be used on this bench, by name of the law.
     """
 
     def __init__(self) -> None:
@@ -64,27 +67,29 @@ class PreparedLaws:
         """Bind the law of one lane, as `svsa.runs.blocks.bind_law` does.
 
         Args:
-            configuration: Of the run.
-            lane: Its law and parameters.
-            blocks: The blocks of the lane.
+            configuration: Configuration of the run.
+            lane: Law and parameters.
+            blocks: Blocks of the lane.
 
         Returns:
             The law as the compiled loop calls it.
 
         Raises:
-            LawError: If the law is not usable on this bench.
-            UnpreparedLawError: If its constants have to be computed first.
+            LawError: If the law cannot be used on this bench.
+            UnpreparedLawError: If its constants must be computed first.
         """
         if self._is_closed and lane.law in self.refused:
             reason = self.refused[lane.law]
             raise LawError(f"The law {lane.law} is not ready on this bench. {reason} {_RESTART}")
         parameters, setting = configuration.get_parameters(lane), build_setting(blocks)
         key = lane.law, parameters.model_dump_json(), setting
-        # Taken out and put back at the end: the order of the dictionary is that of the last use,
-        # and `_keep` drops the first.
+        # Removed and inserted again at the end: the dictionary is ordered by last use, and `_keep`
+        # drops the first entry.
         bound = self._bound.pop(key, None)
         if bound is None and self._is_closed:
-            raise UnpreparedLawError(dict(zip(_KEY, key, strict=True)))
+            wanted = dict(zip(_KEY, key, strict=True))
+            mechanism = get_mechanism_name(configuration.nominal)
+            raise UnpreparedLawError({**wanted, "mechanism": mechanism})
         self._keep(key, bound or self._load(lane.law, parameters, setting))
         return self._bound[key]
 
@@ -92,12 +97,12 @@ class PreparedLaws:
         """Add constants computed by another process.
 
         Args:
-            computed: As `compute_constants` returns it.
+            computed: Result of `compute_constants`.
 
         Raises:
             LawError: If the law is not compiled for constants of this layout.
         """
-        name, setting = computed["law"], _read_setting(computed["setting"])
+        name, setting = computed["law"], _read_setting(computed)
         layout = self._layouts.get((name, computed["layout"]))
         if layout is None:
             raise LawError(
@@ -105,7 +110,7 @@ class PreparedLaws:
                 " parameters decide how many numbers it has. Use parameters that leave the layout"
                 " as it was when the loop was started."
             )
-        # As bits: the constants hold whole numbers and floats, and JSON keeps both exactly so.
+        # As bits: the constants are integers and floats, and JSON stores integers exactly.
         words = np.array(computed["constants"], np.uint64)
         bound = get_law(name).bind_packed(pack(setting.nominal), words.view(layout[1]))
         self._keep((name, computed["parameters"], setting), bound)
@@ -128,24 +133,39 @@ def compute_constants(wanted: dict[str, Any]) -> dict[str, Any]:
     """Compute the constants of a law that a loop lacks, outside the loop's process.
 
     Args:
-        wanted: Of an `UnpreparedLawError`.
+        wanted: `wanted` of an `UnpreparedLawError`.
 
     Returns:
         `wanted` with the constants, for `PreparedLaws.add`.
 
     Raises:
-        LawError: If the law's own code fails at it.
+        LawError: If the code of the law fails.
     """
-    law, setting = get_law(wanted["law"]), _read_setting(wanted["setting"])
+    law, setting = get_law(wanted["law"]), _use_own_addresses(wanted)
     parameters = law.parameters(**json.loads(wanted["parameters"]))
     constants = law.pack_constants(parameters, setting)
     layout = _describe_layout(pack(setting.nominal), constants)
     return {**wanted, "layout": layout, "constants": constants.view(np.uint64).tolist()}
 
 
-def _read_setting(numbers: Any) -> Setting:
-    nominal, domain, *others = numbers
-    return Setting(Actuator(*nominal), Domain(*domain), *others)
+def _read_setting(wanted: dict[str, Any]) -> Setting:
+    nominal, domain, *others = wanted["setting"]
+    kind: Any = Actuator if wanted["mechanism"] == SVSA else ElasticActuator
+    return Setting(kind(*nominal), Domain(*domain), *others)
+
+
+def _use_own_addresses(wanted: dict[str, Any]) -> Setting:
+    """Read the setting for this process: the addresses of an energy are those of the loop's."""
+    setting, mechanism = _read_setting(wanted), wanted["mechanism"]
+    if mechanism == SVSA:
+        return setting
+    own = compile_energy(get_mechanism(mechanism)).addresses
+    nominal = setting.nominal._replace(
+        torques_address=own["compute_torques"],
+        margin_address=own["compute_margin"],
+        state_address=own["compute_state"],
+    )
+    return setting._replace(nominal=nominal)
 
 
 def _describe_layout(nominal: np.ndarray, constants: np.ndarray) -> str:

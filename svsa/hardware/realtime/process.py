@@ -2,8 +2,8 @@
 
     python -m svsa.hardware.realtime.process BENCH MEMORY HEARTBEATS DESCRIPTOR
 
-The first message is the configuration to start from. It ends when the server says so or is
-gone, and leaves the drives at zero current.
+The first message is the initial configuration. The process ends on request of the server or when
+the server has ended, and leaves the drives at zero current.
 """
 
 import dataclasses
@@ -34,7 +34,7 @@ from svsa.runs.configuration import Configuration
 
 FIRST_MESSAGE_S = 10.0
 LISTEN_S = 0.00015
-"""So long before a tick is due its frames are fetched: what comes later is read in the tick."""
+"""Time before a tick at which its frames are read, s; later frames are read in the tick."""
 
 
 class LoopProcess:
@@ -73,18 +73,18 @@ class LoopProcess:
             self._clock.wait_until(deadline - LISTEN_S)
             self._plant.listen()
             self._clock.wait_until(deadline)
-            # Two clocks: that of the bench, which an emulator in lockstep stops, and the wall's for
-            # the cost.
+            # Two clocks: that of the bench, which an emulator in lockstep stops, and the monotonic
+            # clock for the cost.
             begin, lateness = self._clock.now(), self._clock.find_lateness(deadline)
             begin_s = time.monotonic()
             missed = int((begin - deadline) / period)
             self._loop.tick(begin, missed)
-            # After the tick, so that a loop that hangs in a tick stops beating.
+            # After the tick, so that a loop that blocks in a tick stops beating.
             self._beats.beat("loop")
             self._note(lateness, time.monotonic() - begin_s, missed)
             deadline += missed * period
-            # Shared memory reaches the loop also if the link is full or the server's sessions are
-            # blocked.
+            # Shared memory reaches the loop even if the link is full or the sessions of the server
+            # are blocked.
             if self._fields["quick_stop"]:
                 self._fields["quick_stop"] = 0
                 self._plant.quick_stop(begin, "quick stop")
@@ -135,7 +135,7 @@ class LoopProcess:
                 raise SvsaError("The command came too late, and was not carried out.")
             return self._do(message["do"], message.get("argument"))
         except ParameterError as error:
-            # A refused value may be an object of ours, which JSON cannot hold.
+            # A rejected value may be an object that JSON cannot represent.
             violations = to_jsonable_python(error.violations, fallback=repr)
             return {"refused": str(error), "violations": violations}
         except UnpreparedLawError as error:
@@ -153,7 +153,7 @@ class LoopProcess:
             case "prepare":
                 self._laws.add(argument)
             case "arm":
-                # The collector is off while the loop runs. Here no torque is sent.
+                # Garbage collection is off while the loop runs. No torque is sent at this point.
                 gc.collect()
                 self._beats.beat("loop")
                 plant.arm(now)
@@ -200,7 +200,7 @@ class LoopProcess:
 
 
 class Progress:
-    """Reports to the server what a loop does while it starts."""
+    """Reports the activity of a starting loop to the server."""
 
     def __init__(self, link: Link) -> None:
         self._link = link
@@ -260,7 +260,7 @@ def main(arguments: list[str]) -> int:
         sys.stderr.write(f"Loop: {error}\n")
         return 1
     finally:
-        # First of all: zero current, whatever fails after it.
+        # First: zero current, whatever fails afterwards.
         plant.close()
         beats.end("loop")
         memory.close()

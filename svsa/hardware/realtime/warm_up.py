@@ -1,7 +1,7 @@
 """Execution of every command of a bench once before the first tick, to load its code.
 
 The first use of a law, of a kind of reference or of an effect imports modules, loads machine code
-from the cache, and compiles what is not there. That takes up to 100 ms, and a tick has 1 ms.
+from the cache, and compiles missing code. That takes up to 100 ms, but a tick lasts 1 ms.
 """
 
 from collections.abc import Callable
@@ -25,13 +25,13 @@ _TORQUE_NM = [0.1, 0.0, 0.0]
 def warm_up(loop: BenchLoop, laws: PreparedLaws, report: Callable[[str], None]) -> None:
     """Use every law and every kind of command once, and restore the loop.
 
-    From then on `laws` looks up what is prepared, and computes nothing. A law that fails is
-    refused with its reason; the others are not affected.
+    After that `laws` looks up prepared laws and computes nothing. A law that fails is rejected with
+    its reason; the others are not affected.
 
     Args:
-        loop: At rest; its laws are bound by `laws`.
-        laws: Of the loop.
-        report: Is called with each step.
+        loop: The loop at rest; its laws are bound by `laws`.
+        laws: Laws of the loop.
+        report: Called with each step.
     """
     configuration = loop.run.configuration
     names = list_law_names()
@@ -46,8 +46,7 @@ def warm_up(loop: BenchLoop, laws: PreparedLaws, report: Callable[[str], None]) 
     ready = [name for name in names if name not in laws.refused]
     for kind, argument in list_changes(configuration, ready):
         _use(loop, kind, argument)
-    # From here a law that was not prepared is rejected: loading it would cost 10 to 100 ms in a
-    # tick.
+    # From here on an unprepared law is rejected: loading one in a tick would take 10 to 100 ms.
     laws.close()
     loop.load(configuration)
 
@@ -62,11 +61,11 @@ def list_changes(configuration: Configuration, laws: list[str]) -> list[tuple[st
     """List a change of every kind, with every kind of reference and load.
 
     Args:
-        configuration: What the bench runs on.
-        laws: The laws that can be used.
+        configuration: Configuration of the bench.
+        laws: Usable laws.
 
     Returns:
-        Kind and argument of each, as JSON has them. The bench takes all of them.
+        Kind and argument of each, as JSON values. The bench accepts all of them.
     """
     c, limits = configuration.model_dump(mode="json"), configuration.limits
     middle = 0.5 * (limits.stiffness_min_nm_per_rad + limits.stiffness_max_nm_per_rad)

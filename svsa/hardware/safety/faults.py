@@ -1,8 +1,8 @@
 """A fault on a bench: the alarm of a check, and the latch that holds it until it is cleared.
 
-Two processes hold a fault, each in a latch of its own: that of the loop, whose `Machine` sends zero
-current while it holds one, and that of the server, which outlives the loop. Both follow one rule.
-The codes are in `svsa.actuators.faults`.
+Two processes have a latch: the loop, whose `Machine` sends zero current while a fault is latched,
+and the server, which outlives the loop. Both follow the same rule. The codes are in
+`svsa.actuators.faults`.
 """
 
 from typing import Any, NamedTuple
@@ -22,9 +22,8 @@ class Alarm(NamedTuple):
 class FaultLatch:
     """Holds a fault until it is cleared.
 
-    The first fault counts: what follows from it changes nothing. The loss of the loop (`LOSSES`) is
-    held only until more is known: another loss, or a fault that the loop itself reports, replaces
-    it.
+    The first fault counts: its consequences change nothing. The loss of the loop (`LOSSES`) is
+    preliminary: another loss, or a fault that the loop itself reports, replaces it.
     """
 
     def __init__(self) -> None:
@@ -39,10 +38,10 @@ class FaultLatch:
         """Latch a fault, unless the present one has priority.
 
         Args:
-            fault: The fault that was found or reported.
+            fault: The fault that was detected or reported.
 
         Returns:
-            Whether another fault is held now; False if only its message has changed.
+            Whether another fault is latched now; False if only its message has changed.
         """
         held = self._fault
         if held is not None and (held.code not in LOSSES or held.message == fault.message):

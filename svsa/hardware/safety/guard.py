@@ -4,12 +4,18 @@ import math
 from collections import deque
 
 from svsa.actuators.domain import INSIDE, Bounds, Domain, check_packed_domain
-from svsa.actuators.dynamics import Actuator
+from svsa.actuators.elasticity import AnyActuator
 from svsa.actuators.faults import FAULT_CODES, HELD_BACK, label_fault
 from svsa.actuators.signals import Disturbance, State, Torque
 from svsa.hardware.file import BenchFile
+from svsa.hardware.real_motors import RealMotors
 from svsa.hardware.safety.faults import Alarm
-from svsa.hardware.safety.heat import HeldBack, HoldingBack, Winding, describe_held_back
+from svsa.hardware.safety.heat import (
+    HeatReduction,
+    HeatReductionState,
+    Winding,
+    describe_heat_reduction,
+)
 from svsa.hardware.safety.standstill import NewCounts, Standstill
 from svsa.hardware.settings import AXIS_WORDS, MotorSettings
 from svsa.numerics.packed import pack
@@ -20,11 +26,11 @@ WINDOW_S = 0.5
 
 
 class Vibration:
-    """Counts the reversals of one motor; period: of the ticks, s.
+    """Counts the reversals of one motor; `period` is that of the ticks, s.
 
-    A motor that vibrates shows a loop that is unstable within its limits. Causes: a deflection
-    encoder that is frozen or counts in the wrong direction, late feedback, gains that are too
-    high. ŵ stays plausible, but the motor reverses faster than any reference (5 Hz) requires.
+    A vibrating motor indicates a loop that is unstable within its limits. Causes: a deflection
+    encoder that is frozen or counts in the wrong direction, late feedback, gains that are too high.
+    ŵ stays plausible, but the motor reverses faster than any reference (5 Hz) requires.
     """
 
     def __init__(self, period: float) -> None:
@@ -33,9 +39,9 @@ class Vibration:
         self._tick, self._sign = 0, 0
 
     def update(self, velocity: float) -> bool:
-        """Update with a tick; return whether the motor reversed ten times within 0.5 s at ±2 rad/s.
+        """Update with the velocity of a tick (rad/s at the output).
 
-        velocity: in this tick, rad/s at the output.
+        Returns whether the motor reversed ten times within 0.5 s at ±2 rad/s.
         """
         self._tick += 1
         if abs(velocity) > SWING_RAD_PER_S:
@@ -60,19 +66,19 @@ _STILL = State(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 class MotorGuard:
     """The limits of one motor.
 
-    Its winding is warmed by the commanded current or, if that is greater, by the one that the
-    drive reports. A drive that makes more than heat allows brings it above 1.05, which
-    ends the run. last: sent, N·m.
+    Its winding is heated by the commanded current or, if that is greater, by the reported one. A
+    drive with more current than heat permits brings it above 1.05, which ends the run. `last` is
+    the last torque sent, N·m.
     """
 
     def __init__(self, name: str, motor: MotorSettings, torque_max: float, rate: float) -> None:
         self.name, self._title, self._motor = name, AXIS_WORDS[name].capitalize(), motor
         self._rate = rate
-        self.winding, self._holding = Winding(motor, torque_max), HoldingBack()
+        self.winding, self._holding = Winding(motor, torque_max), HeatReductionState()
         self.last = 0.0
 
     @property
-    def held_back(self) -> HeldBack | None:
+    def held_back(self) -> HeatReduction | None:
         """Torque reduction by heat, now or within the last half second; None without."""
         return self._holding.present
 
@@ -81,20 +87,22 @@ class MotorGuard:
         self._holding.forget()
 
     def warm(self, current_a: float, seconds: float) -> None:
-        """Update the heat after this time with the last command; current_a: as reported."""
+        """Update the heat after this time with the last command; `current_a` is the reported
+        current.
+        """
         made = abs(current_a) * self.winding.scale
         self.winding.warm(max(abs(self.last), made), seconds)
         self._holding.pass_time(seconds)
 
     def limit(self, torque: float, angle: float, period: float) -> float:
         """Return the permitted torque (N·m): limit, rate, heat, and position ends."""
-        self._holding.note(self.winding.find_held_back(torque))
+        self._holding.note(self.winding.find_heat_reduction(torque))
         most = self.winding.allow()
         torque = min(max(torque, -most), most)
         step = self._rate * period
         torque = min(max(torque, self.last - step), self.last + step)
-        # Last of all: beyond its end the outward torque becomes zero at once, whatever the rate
-        # limit allows.
+        # Last: beyond the end of the range the outward torque becomes zero at once, regardless of
+        # the rate limit.
         if angle > self._motor.position_max_rad:
             torque = min(torque, 0.0)
         elif angle < self._motor.position_min_rad:
@@ -139,48 +147,61 @@ class MotorGuard:
             f"{self.name}_commanded_nm": held.commanded_nm,
             self.name + HELD_BACK: held.allowed_nm,
         }
-        words = describe_held_back(self.name, held, self.winding)
+        words = describe_heat_reduction(self.name, held, self.winding)
         return Alarm(alarm.code, f"{words} {alarm.message}", {**alarm.values, **values})
 
 
 class Guard:
     """The limits of the whole bench.
 
-    counts: of motor 1, motor 2 and deflection in this tick; None where one is too old.
+    `counts` are those of motor 1, motor 2 and deflection in this tick; None for one that is too
+    old.
+    The limits of torque, heat, speed and position are those of the motors `real`.
     """
 
     def __init__(
-        self, bench: BenchFile, torque_max: tuple[float, float], domain: Domain, actuator: Actuator
+        self,
+        bench: BenchFile,
+        torque_max: tuple[float, float],
+        domain: Domain,
+        actuator: AnyActuator,
+        real: RealMotors,
     ) -> None:
         rate = bench.safety.torque_rate_nm_per_s
         self._safety, self._period = bench.safety, bench.timing.period_s
-        self._bounds = pack(Bounds(domain, actuator))
+        self._bounds, self.real = pack(Bounds(domain, actuator)), real
         self.motor1 = MotorGuard("motor1", bench.motor1, torque_max[0], rate)
         self.motor2 = MotorGuard("motor2", bench.motor2, torque_max[1], rate)
         self.motors = (self.motor1, self.motor2)
         self.counts: NewCounts | None = None
         self._standstill = Standstill(bench.safety.standstill_max_nm)
         self._vibrations = (Vibration(self._period), Vibration(self._period))
-        check_packed_domain(self._bounds, _STILL)  # compiled here, not in the first tick that runs
+        check_packed_domain(self._bounds, _STILL)  # compiled here, not in the first running tick
 
     def limit(self, limited: Torque, known: State) -> Torque:
         """Return the permitted part of `limited`, N·m."""
-        return Torque(
-            self.motor1.limit(limited.u1, known.theta1, self._period),
-            self.motor2.limit(limited.u2, known.theta2, self._period),
+        wanted = self.real.split(limited)
+        one, two = self.real.find_angles(known.theta1, known.theta2)
+        return self.real.join(
+            Torque(
+                self.motor1.limit(wanted.u1, one, self._period),
+                self.motor2.limit(wanted.u2, two, self._period),
+            )
         )
 
     def note(self, sent: Torque, current_a: tuple[float, float]) -> None:
         """Note the torque sent in this period, N·m, and the reported currents."""
-        for motor, torque, current in zip(self.motors, sent, current_a, strict=True):
+        for motor, torque, current in zip(
+            self.motors, self.real.split(sent), current_a, strict=True
+        ):
             motor.last = torque
             motor.warm(current, self._period)
 
     def pass_ticks(self, missed: int, held_s: float, current_a: tuple[float, float]) -> None:
-        """Note periods without a command: a drive holds its last current meanwhile.
+        """Account for periods without a command, during which a drive holds its last current.
 
-        held_s: for so long at most, s; the supervisor then sent zero current. current_a: as the
-        drives say now.
+        `held_s` is the maximum of that time, s, after which the supervisor sent zero current;
+        `current_a` are the reported currents.
         """
         seconds = missed * self._period
         for motor, current in zip(self.motors, current_a, strict=True):
@@ -194,25 +215,25 @@ class Guard:
         return self.motor1.find_overload() or self.motor2.find_overload()
 
     def check(self, limited: Torque, known: State, estimate: Disturbance) -> Alarm | None:
-        """Return the alarm that ends the run, or None. known: x̂. estimate: ŵ, N·m."""
-        # First of all: every comparison below is false with NaN.
+        """Return the alarm that ends the run, or None; `known` is x̂, `estimate` ŵ, N·m."""
+        # First, because every comparison below is false with NaN.
         if not math.isfinite(limited.u1 + limited.u2 + sum(known) + sum(estimate)):
             return Alarm("not_finite", "A torque or a state was not a finite number.", {})
         alarm = (
             self.check_motion(known)
             or self._check_domain(known)
             or self._check_estimate(estimate)
-            or self._standstill.check(self.counts, estimate)
+            or self._check_standstill(estimate)
             or self._check_vibration(known)
         )
         return alarm and self.motor1.explain(self.motor2.explain(alarm))
 
     def check_motion(self, known: State) -> Alarm | None:
         """Which limit of position or speed is exceeded, or None; holds without torque as well."""
+        one, two = self.real.find_angles(known.theta1, known.theta2)
+        done, dtwo = self.real.find_angles(known.dtheta1, known.dtheta2)
         return (
-            self.motor1.check(known.theta1, known.dtheta1)
-            or self.motor2.check(known.theta2, known.dtheta2)
-            or self._check_link(known)
+            self.motor1.check(one, done) or self.motor2.check(two, dtwo) or self._check_link(known)
         )
 
     def begin(self) -> None:
@@ -247,12 +268,17 @@ class Guard:
         )
         return Alarm(FAULT_CODES[code], message, values)
 
+    def _check_standstill(self, estimate: Disturbance) -> Alarm | None:
+        motors = self.real.split(Torque(estimate.w4, estimate.w6))
+        return self._standstill.check(self.counts, Disturbance(estimate.w2, *motors))
+
     def _check_vibration(self, known: State) -> Alarm | None:
-        shakes1 = self._vibrations[0].update(known.dtheta1)
-        shakes2 = self._vibrations[1].update(known.dtheta2)
+        velocity1, velocity2 = self.real.find_angles(known.dtheta1, known.dtheta2)
+        shakes1 = self._vibrations[0].update(velocity1)
+        shakes2 = self._vibrations[1].update(velocity2)
         if not (shakes1 or shakes2):
             return None
-        name, velocity = ("motor1", known.dtheta1) if shakes1 else ("motor2", known.dtheta2)
+        name, velocity = ("motor1", velocity1) if shakes1 else ("motor2", velocity2)
         words = (
             f"{AXIS_WORDS[name].capitalize()} shakes: it turned around {REVERSALS} times within"
             f" {WINDOW_S:g} s. The loop is unstable: an encoder stands still or counts the wrong"
@@ -272,7 +298,9 @@ class Guard:
 
 
 def _exceeded(code: str, subject: str, name: str, value: float, most: float, unit: str) -> Alarm:
-    """subject: the quantity above its limit, for users; name: the same for scripts."""
+    """Build the alarm of an exceeded limit; `subject` is the quantity for users, `name` for
+    scripts.
+    """
     words = f"{subject} {value:.4g} {unit}: the limit is {most:.4g} {unit}."
     return Alarm(
         code, words.replace(" :", ":").replace(" .", "."), {name: value, f"{name}_limit": most}

@@ -1,6 +1,6 @@
 """Heartbeats of the processes of a bench, in shared memory.
 
-Also how often the supervisor has stopped the drives: a loop that was late learns why.
+It also counts the interventions of the supervisor, so that a loop that was late can detect them.
 """
 
 import math
@@ -19,7 +19,7 @@ SLOTS: tuple[Slot, ...] = ("loop", "supervisor", "server", "operator", "stopping
 class Heartbeats:
     """A time (CLOCK_MONOTONIC, s) for each slot; 0 before its first beat.
 
-    stopping: beats whenever the supervisor has sent zero current and resets.
+    The slot `stopping` beats whenever the supervisor has sent zero current and resets.
     """
 
     def __init__(self, block: shared_memory.SharedMemory, owner: bool) -> None:
@@ -72,7 +72,11 @@ class Heartbeats:
 
 
 def create_block(size: int) -> shared_memory.SharedMemory:
-    """Create a block of shared memory, bytes; raises `StateError` if the system has none."""
+    """Create a block of shared memory of `size` bytes.
+
+    Raises:
+        StateError: If the system has none.
+    """
     try:
         return shared_memory.SharedMemory(create=True, size=size)
     except OSError as error:
@@ -93,7 +97,7 @@ def check_shared_memory() -> None:
 def attach_block(name: str) -> shared_memory.SharedMemory:
     """Attach a block of shared memory that another process created and will remove.
 
-    Python's resource tracker would remove it when this process ends: it is unregistered there.
+    It is unregistered from Python's resource tracker, which would remove it when this process ends.
     """
     block = shared_memory.SharedMemory(name)
     resource_tracker.unregister(block._name, "shared_memory")  # pyright: ignore[reportAttributeAccessIssue]

@@ -9,7 +9,7 @@ from svsa.numerics.exponential import expm1
 
 WARM = 0.9
 LINGERS_S = 0.5
-"""So long after it held a torque back heat still counts as a reason for what happens."""
+"""Time for which a reduction by heat counts as a possible cause of later faults, s."""
 
 
 def compute_lasting_torque(motor: MotorSettings) -> float:
@@ -22,19 +22,20 @@ def _compute_scale(motor: MotorSettings) -> float:
     return abs(build_motor_scale(motor).torque_per_ma) * 1000.0
 
 
-class HeldBack(NamedTuple):
-    """A torque that heat reduced, of what the cold motor gives, and the resulting one, N·m."""
+class HeatReduction(NamedTuple):
+    """A torque reduced by heat: available torque of the cold motor, and resulting torque, N·m."""
 
     commanded_nm: float
     allowed_nm: float
 
 
 class Winding:
-    """Heat h of one winding, 1 at its limit, and the torque that it allows.
+    """Heat h of one winding, 1 at its limit, and the torque that it permits.
 
     ḣ = ((τ/τ_n)² − h)/T and |τ| ≤ τ_n + (τ_p − τ_n) (1 − h)/(1 − 0.9) for 0.9 ≤ h ≤ 1, with the
     torques τ_n, τ_p of nominal and peak current: at τ_n, the continuous rating, heat stays at 1.
-    torque_max: of the design, N·m. scale: N·m at the output for 1 A.
+
+    `torque_max` is the design's limit, N·m; `scale` is the torque at the output for 1 A, N·m.
     """
 
     def __init__(self, motor: MotorSettings, torque_max: float) -> None:
@@ -58,25 +59,25 @@ class Winding:
         room = max((1.0 - self.heat) / (1.0 - WARM), 0.0)
         return min(self.cold_nm, self.lasting_nm + room * (self._peak - self.lasting_nm))
 
-    def find_held_back(self, torque: float) -> HeldBack | None:
+    def find_heat_reduction(self, torque: float) -> HeatReduction | None:
         """Return the reduction of a commanded torque by heat, N·m; None without."""
         asked, allowed = min(abs(torque), self.cold_nm), self.allow()
-        return HeldBack(asked, allowed) if asked > allowed else None
+        return HeatReduction(asked, allowed) if asked > allowed else None
 
 
-class HoldingBack:
+class HeatReductionState:
     """Whether heat reduces a motor's torque, now or within the last half second."""
 
     def __init__(self) -> None:
-        self._newest: HeldBack | None = None
+        self._newest: HeatReduction | None = None
         self._since_s = math.inf
 
     @property
-    def present(self) -> HeldBack | None:
+    def present(self) -> HeatReduction | None:
         """The latest reduced torque; None if it was longer ago."""
         return self._newest if self._since_s <= LINGERS_S else None
 
-    def note(self, held: HeldBack | None) -> None:
+    def note(self, held: HeatReduction | None) -> None:
         """Note the reduction of the torque of this tick."""
         if held is not None:
             self._newest, self._since_s = held, 0.0
@@ -90,8 +91,10 @@ class HoldingBack:
         self._since_s = math.inf
 
 
-def describe_held_back(name: str, held: HeldBack, winding: Winding) -> str:
-    """Describe a reduction by heat, as the first sentence of a later fault. name: of the axis."""
+def describe_heat_reduction(name: str, held: HeatReduction, winding: Winding) -> str:
+    """Describe a reduction by heat, as the first sentence of a later fault; `name` is that of the
+    axis.
+    """
     motor = AXIS_WORDS[name]
     return (
         f"{motor.capitalize()} was held back by heat: its winding had {100.0 * winding.heat:.0f} %"

@@ -2,8 +2,8 @@
 
     OFF → RESET → CONFIG → MODE → READY → RUN → RAMP → READY        any → FAULT → OFF
 
-A fault is latched with its values, the first one counts, and only `clear` leaves it. Outside
-RUN and RAMP the torque is zero.
+A fault is latched with its values, the first one counts, and only `clear` leaves it. Outside RUN
+and RAMP the torque is zero.
 """
 
 import math
@@ -39,10 +39,15 @@ class BenchStatus(StrEnum):
 class Conditions(NamedTuple):
     """The conditions of a bench in a tick.
 
-    phase: of the drive that is behind. ages_s: of motor 1, motor 2, deflection; infinite
-    before the first. missed: ticks lost before this one. supervisor_age_s, operator_age_s:
-    since their last heartbeat; infinite where there is none. late_s: how late the loop was when
-    the supervisor stopped the drives; None where it has not since they were armed.
+    Attributes:
+        phase: Phase of the drive with the slower start-up.
+        ages_s: Ages of motor 1, motor 2, deflection, s; infinite before the first reading.
+        alarm: Alarm of the sensing, or None.
+        missed: Number of ticks lost before this one.
+        supervisor_age_s: Time since the supervisor's last heartbeat, s; infinite if there is none.
+        operator_age_s: Time since the operator's last heartbeat, s; infinite if there is none.
+        late_s: Delay of the loop when the supervisor stopped the drives, s; None if it has not
+            since they were armed.
     """
 
     phase: Phase
@@ -90,19 +95,31 @@ class Machine:
             raise StateError("The bench does not arm. " + "; ".join(self.problems) + ".")
 
     def arm(self) -> None:
-        """Start up the drives; raises `StateError` as `check_arming` does."""
+        """Start up the drives.
+
+        Raises:
+            StateError: As `check_arming`.
+        """
         self.check_arming()
         self.homing.reset()
         self.status = BenchStatus.RESET
 
     def confirm_home(self, step: str, by: str) -> None:
-        """Confirm that an axis is at its zero mark; raises `StateError` unless READY."""
+        """Confirm that an axis is at its zero mark.
+
+        Raises:
+            StateError: Unless READY.
+        """
         if self.status is not BenchStatus.READY:
             raise StateError(f"The bench is {self.status}: its marks are confirmed in READY.")
         self.homing.confirm(step, by)
 
     def start(self, operator_age_s: float) -> None:
-        """Enter RUN; raises `StateError` unless READY, homed, and with the switch held."""
+        """Enter RUN.
+
+        Raises:
+            StateError: Unless READY, homed, and with the dead-man's switch held.
+        """
         if self.status is not BenchStatus.READY:
             raise StateError(f"The bench is {self.status}: it starts from READY; arm it first.")
         if self.homing.next_step is not None:
@@ -119,7 +136,11 @@ class Machine:
             self.status = BenchStatus.RAMP
 
     def clear(self) -> None:
-        """FAULT → OFF; raises `StateError` elsewhere."""
+        """FAULT → OFF.
+
+        Raises:
+            StateError: In any other state.
+        """
         if self.status is not BenchStatus.FAULT:
             raise StateError(f"The bench is {self.status}: there is no fault to clear.")
         self._latch.clear()
@@ -134,18 +155,25 @@ class Machine:
     def update(
         self, conditions: Conditions, limited: Torque, known: State, estimate: Disturbance
     ) -> Torque:
-        """Update the state; return the permitted torque of this tick, N·m.
+        """Update the state.
 
-        limited: torque of the law, N·m. known: x̂. estimate: ŵ.
+        Args:
+            conditions: Conditions of this tick.
+            limited: Torque of the law within its limits, N·m.
+            known: x̂, `State`.
+            estimate: ŵ, `Disturbance`, N·m.
+
+        Returns:
+            The permitted torque of this tick, N·m.
         """
-        # What was missed before tick 0 is not part of the run.
+        # Ticks missed before tick 0 are not part of the run.
         if self._tick and self.status in MOVING:
             self._tick += conditions.missed
         alarm = self._find_alarm(conditions)
         if alarm is None and self.status in MOVING:
             alarm = self._guard.check(limited, known, estimate)
         elif alarm is None and self.status is not BenchStatus.OFF:
-            # A load moves the mechanism without torque as well.
+            # A load can move the mechanism without motor torque.
             alarm = self._guard.check_motion(known)
         if alarm is not None:
             self.fail(alarm)
@@ -173,8 +201,8 @@ class Machine:
         """Return the alarm that the bench's conditions cause in the monitored states."""
         if self.status in (BenchStatus.OFF, BenchStatus.FAULT):
             return None
-        # Before the alarms of the bus: the frames of the supervisor would be taken for those of
-        # another program, and its reset for a drive that restarted.
+        # Before the alarms of the bus: they would report the supervisor's frames as those of
+        # another program, and its reset as a restart of a drive.
         if conditions.late_s is not None:
             return _describe_lateness(conditions.late_s, self._safety.loop_s)
         supervisor_age_s = conditions.supervisor_age_s

@@ -1,7 +1,7 @@
 """Detection of a stuck encoder: constant counts while the torque on its axis changes.
 
-An axis at rest is in balance: the torque that the observer estimates there changes by no more than
-friction can balance. If the counts have stopped although the axis moves, ŵ grows against the
+An axis at rest is in equilibrium: the torque that the observer estimates there changes by no more
+than friction can balance. If the counts are constant although the axis moves, ŵ grows against the
 commanded torque; the change is detected long before ŵ exceeds any load.
 """
 
@@ -10,7 +10,7 @@ from svsa.hardware.safety.faults import Alarm
 from svsa.hardware.settings import AXIS_WORDS
 
 NewCounts = tuple[int | None, int | None, int | None]
-"""Of motor 1, motor 2, deflection; None where nothing new was heard of one in this tick."""
+"""Counts of motor 1, motor 2, deflection; None without a new reading in this tick."""
 
 _AXES = (("motor1", "w4"), ("motor2", "w6"), ("deflection", "w2"))
 
@@ -30,7 +30,7 @@ class Standstill:
     def check(self, counts: NewCounts | None, estimate: Disturbance) -> Alarm | None:
         """Return the axis with a stuck encoder, or None; a late reading is not stuck.
 
-        counts: None where they are too old for x̂ to follow them. estimate: ŵ, N·m.
+        `counts` are None if they are too old; `estimate` is ŵ, N·m.
         """
         if counts is None:
             self.reset()

@@ -2,9 +2,10 @@
 
     python -m svsa.hardware.safety.supervisor BENCH HEARTBEATS
 
-The drives hold their last current indefinitely. When the loop, once begun, has not beaten for
-`loop_s` (20 ms), the supervisor sends zero current to both drives and resets every drive, and
-repeats that until the loop beats. It ends at SIGTERM, or if its parent is gone and the loop silent.
+The drives hold their last current indefinitely. If the loop, after its first beat, has not beaten
+for `loop_s` (20 ms), the supervisor sends zero current to both drives and resets every drive, and
+repeats that until the loop beats. It ends at SIGTERM, or if its parent has ended and the loop is
+silent.
 """
 
 import math
@@ -41,15 +42,16 @@ class Supervisor:
         self.silenced = False
 
     def watch(self) -> None:
-        """Check once: stop the drives if the loop is silent; beat while the bus is alive.
+        """Check once: stop the drives if the loop is silent; beat while the bus works.
 
-        A bus can be lost without an error: a supervisor that hears nothing on it cannot act.
+        A bus can be lost without an error: a supervisor that receives nothing cannot act.
         """
         now = time.monotonic()
         if self.listen():
             self._heard_s = now
         if now - self._heard_s <= DEAF_S:
-            # Only while the bus is heard: the loop then ends a run that no process could stop.
+            # Beats only while the bus works: without beats the loop ends a run that the supervisor
+            # could not stop.
             self._beats.beat("supervisor")
         age = self._beats.age_s("loop")
         if age == math.inf or age <= self._loop_s:
@@ -57,13 +59,13 @@ class Supervisor:
             return
         is_first, self.silenced = not self.silenced, True
         if is_first:
-            # Counted before the first frame: a loop that wakes up in between must know whose frames
-            # they are.
+            # Counted before the first frame, so that a loop that resumes in between can attribute
+            # the frames to the supervisor.
             self._beats.count_stop()
         self.stop_drives()
         self._beats.beat("stopping")
         if is_first:
-            # After the frames: a standard output that nothing reads would block here.
+            # After the frames: printing blocks if no process reads the standard output.
             print(f"Supervisor: the loop is silent, the drives are stopped ({age:.3f} s).")
             sys.stdout.flush()
 

@@ -1,9 +1,9 @@
 """The last stop: the process that started loop and supervisor stops the drives if both are lost.
 
-Without a supervisor the loop stops the drives, and without the loop the supervisor does.
-Without both the drives would hold their last current indefinitely: the process that started them,
-and lives, opens the bus and does what the supervisor would. Many adapters serve one program
-only: a process that hangs and holds the bus is killed first.
+Without a supervisor the loop stops the drives, and without the loop the supervisor does. Without
+both the drives would hold their last current indefinitely: the process that started them opens the
+bus and does the same as the supervisor. Many adapters serve one program only: a blocked process
+that holds the bus is killed first.
 """
 
 import math
@@ -21,18 +21,20 @@ from svsa.hardware.safety.supervisor import PERIOD_S, Supervisor
 from svsa.hardware.schedule import SUPERVISOR_PRIORITY, request_priority
 
 STILL = 5.0
-"""So many times `loop_s`: a supervisor that lives has acted by then."""
+"""Multiple of `loop_s` after which a working supervisor would have acted."""
 LOOKS = 5
-"""Both must be silent in so many looks in a row: this process was awake, and they were not."""
+"""Number of consecutive checks in which both must be silent, so that this process was awake."""
 RETRY_S = 0.05
 STOP_S = 10.0
-"""A bus that is being opened cannot be interrupted: `stop` waits no longer for it."""
+"""Maximum time that `stop` waits for a bus that is being opened, which cannot be interrupted, s."""
 
 
 class Intervention(NamedTuple):
-    """after_s: from the loop's last tick to the first frame, s; None before a frame.
+    """An intervention of the third line.
 
-    problem: why the drives cannot be reached now, in words, or None.
+    Attributes:
+        after_s: Time from the loop's last tick to the first frame, s; None before a frame.
+        problem: Why the drives cannot be reached now, or None.
     """
 
     after_s: float | None
@@ -89,9 +91,10 @@ class ThirdLine:
     def _intervene(self) -> None:
         """Kill both processes, and stop the drives until `stop`.
 
-        A process that is being ended may hold the bus for some time yet: then it is tried again.
+        A process that is being killed may still hold the bus for some time: then opening is
+        retried.
         """
-        # Many adapters serve one program only: a process that hangs may still hold the bus.
+        # Many adapters serve one program only, and a blocked process may still hold the bus.
         for process in (self._loop, self._supervisor):
             process.kill()
         while not self._ended.is_set():

@@ -15,17 +15,20 @@ from svsa.runs.session.journal import Journal
 CHANGING_S = 0.001
 _REFERENCES = ("position", "stiffness")
 LONGEST_CHANGES_S = 10.0
-"""A command waits for so long for the loop to answer to those before it."""
+"""Maximum time that a command waits for the loop's answers to earlier ones, s."""
 
 Ask = Callable[[str, object], dict[str, Any]]
-"""Have the loop do something; its answer."""
+"""Sends a request to the loop and returns its answer."""
 
 
 class BenchCommands:
-    """Sends commands to the loop, and enters each at the tick reported by the loop.
+    """Sends commands to the loop, and logs each at the tick reported by the loop.
 
-    journal: of the present run. ask: raises what the loop refuses with. is_moving: whether the
-    bench moves. rest: lets time pass.
+    Args:
+        journal: Journal of the present run.
+        ask: Sends a request; raises the loop's rejection.
+        is_moving: Returns whether the bench moves.
+        rest: Lets time pass.
     """
 
     def __init__(
@@ -47,9 +50,11 @@ class BenchCommands:
         self._journal.enter(self._give(self._complete(command)))
 
     def patch(self, build: Callable[[Configuration], Command]) -> None:
-        """`change` after the loop has answered earlier changes; no effect if nothing would change.
+        """Call `change` after the loop has answered earlier changes; no effect if nothing would
+        change.
 
-        Raises `StateError` where it has not answered to all of them within `LONGEST_CHANGES_S`.
+        Raises:
+            StateError: If it has not answered all of them within `LONGEST_CHANGES_S`.
         """
         self._wait()
         configuration = self._journal.run.configuration
@@ -90,6 +95,6 @@ class BenchCommands:
             tick = self._ask("change", command.to_json())["tick"]
         finally:
             self._pending -= 1
-        # Another run may have begun meanwhile, whose samples are not those up to this tick.
+        # Another run may have started; its samples are not those up to this tick.
         self._journal.advance(tick - self._journal.run.tick)
         return command.at(self._journal.run.tick)

@@ -1,7 +1,7 @@
-"""Verification of a bench's record: its measurements through the bench's own loop.
+"""Verification of a bench's record: its measurements are passed through the bench's own loop.
 
-A bench cannot be run again. But its loop consists of functions of what was measured and what was
-sent, so that everything else in the record must be the same when it is computed again.
+A bench run cannot be repeated. But its loop consists of functions of the measured and sent values,
+so that all other values in the record must be identical when they are computed again.
 """
 
 from typing import NamedTuple
@@ -10,6 +10,7 @@ import numpy as np
 
 from svsa.actuators.signals import MEASURED, TORQUES, Disturbance, Measurement, State, Torque
 from svsa.hardware.reading import Reading
+from svsa.hardware.real_motors import RealMotors
 from svsa.hardware.realtime.loop import BenchLoop
 from svsa.hardware.realtime.memory import SampleArray
 from svsa.hardware.safety.machine import BenchStatus
@@ -27,9 +28,13 @@ _HALF_STEP = 0.5 + 1e-6
 class Verified(NamedTuple):
     """The result of verifying a bench's record.
 
-    ticks, missed: samples, and those of them that the loop was too late for. lanes: simulated ones
-    in parallel. share_as_limited: of the samples in which the torque sent is the limited torque of
-    the law, to a step of the drive's current; in the others the guard reduced it.
+    Attributes:
+        plant: Plant of the record.
+        ticks: Number of samples.
+        missed: Number of samples that the loop missed.
+        lanes: Number of simulated lanes in parallel.
+        share_as_limited: Share of the samples in which the torque sent is the limited torque of the
+            law, to a step of the drive's current; in the others the guard reduced it.
     """
 
     plant: PlantKind
@@ -81,7 +86,11 @@ class RecordedPlant:
 
 
 def verify_bench_record(record: Record) -> Verified:
-    """Compute a bench's record again from its measurements; raises `RecordError` if it differs."""
+    """Compute a bench's record again from its measurements.
+
+    Raises:
+        RecordError: If it differs.
+    """
     header, start = record.header, record.start
     if start is None or record.first_tick:
         raise RecordError(
@@ -103,7 +112,8 @@ def verify_bench_record(record: Record) -> Verified:
     for _ in play(run, later, record.tick_count, again):
         pass
     _compare(record, again, samples)
-    share = _compare_torques(record, plant, start.torque_step_nm)
+    real = RealMotors.of(configuration.actuator)
+    share = _compare_torques(record, real, plant, start.torque_step_nm)
     missed = int(np.isnan(plant.sent[:, 0]).sum())
     return Verified(header.plant, record.tick_count, missed, len(samples) - 1, share)
 
@@ -139,15 +149,22 @@ def _compare(record: Record, again: np.ndarray, samples: np.ndarray) -> None:
 
 
 def _compare_torques(
-    record: Record, plant: RecordedPlant, torque_step_nm: tuple[float, float]
+    record: Record, real: RealMotors, plant: RecordedPlant, torque_step_nm: tuple[float, float]
 ) -> float:
-    """The share of samples whose torques are as limited; raises `RecordError` where one is beyond.
+    """Return the share of samples whose torques are as limited.
 
-    What a bench holds back (limits, heat, rate of change, its ramp, a drive that takes nothing
-    yet) lies between zero, the torque before, and the limited one.
+    The torques are compared motor by motor, as the bench limits them.
+    A torque that the bench reduces (limits, heat, rate of change, ramp, a drive that is not ready)
+    lies between zero, the previous torque, and the limited one.
+
+    Raises:
+        RecordError: If a torque lies outside.
     """
     there = np.flatnonzero(np.isfinite(plant.sent[:, 0]))
-    sent, limited = plant.sent[there], plant.limited[there]
+    sent, limited = (
+        np.stack(real.split(Torque(*torques[there].T)), axis=1)
+        for torques in (plant.sent, plant.limited)
+    )
     last = np.vstack([np.zeros(2), sent[:-1]])
     room = _HALF_STEP * np.array(torque_step_nm)
     least = np.minimum(np.minimum(limited, last), 0.0) - room

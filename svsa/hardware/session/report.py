@@ -19,9 +19,9 @@ class HeatEvents:
         self._axes: frozenset[str] = frozenset()
 
     def log(self, axes: Iterable[str], moving: bool, journal: Journal) -> None:
-        """Log changes of the reduction by heat; at rest nothing is demanded, so none ends.
+        """Log changes of the reduction by heat; at rest no torque is demanded, so that none ends.
 
-        axes: which are held back now.
+        `axes` are those that are limited now.
         """
         held = frozenset(axes)
         for axis in sorted(held ^ self._axes):
@@ -35,8 +35,10 @@ class HeatEvents:
 class BenchReport:
     """Applies each state report once, keeps the latched fault, and logs events in the journal.
 
-    `loop_status`: the loop's own word. `problems`: what is not known yet of the bench or not right
-    with it. `homing_step`: the axis whose mark is next, None where all were confirmed.
+    Attributes:
+        loop_status: Status reported by the loop.
+        problems: Unknown or wrong properties of the bench.
+        homing_step: Axis whose mark is next, None if all were confirmed.
     """
 
     def __init__(self, loop: SupervisedLoop, journal: Journal, problems: list[str]) -> None:
@@ -65,7 +67,7 @@ class BenchReport:
         """State reported by the loop; FAULT if the report is outdated."""
         return self.loop_status if self.fault is None else BenchStatus.FAULT
 
-    def look_for_stop(self, states: list[dict[str, Any]]) -> None:
+    def check_for_stop(self, states: list[dict[str, Any]]) -> None:
         """Start a window at a ramp, before its first sample is read."""
         ramps = any(reported["status"] == BenchStatus.RAMP for reported in states)
         if ramps and self.loop_status is BenchStatus.RUN:
@@ -85,8 +87,8 @@ class BenchReport:
             self.loop_status = BenchStatus(reported["status"])
             self._journal.version += 1
 
-    def look_for_loss(self) -> None:
-        """Latch the loss of a loop that does not tick, as far as it is known."""
+    def check_for_loss(self) -> None:
+        """Latch the known loss of a loop that does not tick."""
         loss, run = self._loop.find_lasting_loss(), self._journal.run
         if loss is None:
             return

@@ -11,8 +11,9 @@ from svsa.hardware.file import BenchFile
 from svsa.hardware.realtime.configuration import read_actuation
 from svsa.runs.command import Command
 from svsa.runs.configuration import Configuration
+from svsa.runs.lane_origins import find_origins
 from svsa.runs.records.bench_start import BenchStart
-from svsa.runs.run import Run, Start, find_origins
+from svsa.runs.run import Run, Start
 from svsa.simulation.plant.load_table import ScheduledLoad
 
 if TYPE_CHECKING:
@@ -46,10 +47,12 @@ class BenchRun(Run):
     """Lane 1 comes from the loop's memory; the other lanes follow it tick for tick.
 
     The first comparison is the bench's twin: the same law, commands and loads on the simulated
-    plant. A twin that leaves the domain of the model ends, with NaN from there on; the bench
-    goes on. Ticks that the bench's loop missed have a time and no numbers in lane 1.
-    is_still: it has no ticks, and none of the samples of the run before.
-    fault: the bench's, set by who watches its state.
+    plant. A twin that leaves the domain of the model ends, with NaN from then on; the bench
+    continues. Ticks that the bench's loop missed have a time but no values in lane 1.
+
+    Attributes:
+        is_still: Whether it has no ticks, and none of the samples of the previous run.
+        fault: Fault of the bench, set by the owner of its state.
     """
 
     is_bench = True
@@ -75,11 +78,11 @@ class BenchRun(Run):
     def advance(self, samples: np.ndarray) -> int:
         """Read and simulate as many ticks as `samples` (lanes, ticks, channels) has.
 
-        How many were done: no more than the bench has done.
+        Returns the number done, at most that of the bench.
         """
         done = min(samples.shape[1], self.count_ready())
         self._memory.read(self.tick, samples[0, :done])
-        # The rows of missed ticks are NaN, also in their time, which is known.
+        # The rows of missed ticks are NaN, except for their time, which is known.
         samples[0, :done, 0] = (self.tick + np.arange(done)) * self.period_s
         for number in range(1, len(self.lanes)):
             self._advance_twin(number, samples[number, :done])
@@ -112,7 +115,7 @@ class BenchRun(Run):
 def describe_start(
     bench: BenchFile, mu0: float, motion: dict[str, list[float]], commands: int
 ) -> BenchStart:
-    """`BenchStart` of a run of this bench; mu0, motion, commands: as its fields."""
+    """Build the `BenchStart` of a run of this bench; the arguments are its fields."""
     actuation = read_actuation(bench)
     motors = bench.motor1, bench.motor2
     step1, step2 = (abs(build_motor_scale(motor).torque_per_ma) for motor in motors)

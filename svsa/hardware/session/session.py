@@ -10,21 +10,21 @@ from svsa.errors import Fault, StateError
 from svsa.hardware.calibration import find_calibration, list_problems
 from svsa.hardware.file import read_bench
 from svsa.hardware.realtime.configuration import build_bench_configuration, check_loads
-from svsa.hardware.realtime.launch import Rest, Teller, keep_quiet
+from svsa.hardware.realtime.launch import ReportProgress, Rest, ignore_progress
 from svsa.hardware.safety.machine import MOVING, BenchStatus
 from svsa.hardware.session.commands import BenchCommands
 from svsa.hardware.session.report import BenchReport
 from svsa.hardware.session.run import BenchRun, describe_start
 from svsa.hardware.session.supervised_loop import SupervisedLoop
 from svsa.inputs.extras import require_extra
-from svsa.runs.command import Command
+from svsa.runs.command import NO_ARM, Command, JointNumber
 from svsa.runs.configuration import Configuration
 from svsa.runs.records.header import PlantKind
 from svsa.runs.records.recorder import Recorder
 from svsa.runs.run import Start
 from svsa.runs.session.clock import Pace
 from svsa.runs.session.journal import Journal
-from svsa.runs.session.session import PROGRAM_ERROR, Hands, Status
+from svsa.runs.session.session import PROGRAM_ERROR, Operator, Status
 from svsa.simulation.loop.lane import AT_REST
 
 UNWATCHED_S = 1.0
@@ -33,11 +33,20 @@ UNWATCHED_S = 1.0
 class BenchSession:
     """A `Session` of a bench: `start` begins a run at t = 0, `pause` ramps to zero torque.
 
-    Every start begins a new run, from the measured position. hands: is called with the active
-    loads whenever they change, and at the marks. rest: lets time pass where a command waits for
-    the bench; `wake` waits for nothing. `bench`: the bench file. `loop`: its processes, which are
-    being started until `open` returns. `report`: their reports. Raises `BenchError` where the
-    loop is silent, `MissingExtraError` without the extra `bench`.
+    Every start begins a new run, from the measured position.
+
+    Attributes:
+        bench: The bench file.
+        loop: Its processes, which are being started until `open` returns.
+        report: Their reports.
+
+    Args:
+        operator: Called with the active loads whenever they change, and at the marks.
+        rest: Lets time pass while a command waits for the bench; `wake` waits for nothing.
+
+    Raises:
+        BenchError: If the loop is silent.
+        MissingExtraError: Without the extra `bench`.
     """
 
     def __init__(
@@ -45,20 +54,20 @@ class BenchSession:
         name: str,
         path: Path,
         wanted: Configuration,
-        hands: Hands | None = None,
+        operator: Operator | None = None,
         rest: Rest = time.sleep,
     ) -> None:
         require_extra("bench")
         self.name = name
         self.watched = self.closed = False
-        self.bench, self._hands = read_bench(path), hands or Hands()
+        self.bench, self._operator = read_bench(path), operator or Operator()
         self.calibration = find_calibration(self.bench)
         self._unwatched_since = 0.0
         self.loop = SupervisedLoop(path, self.bench, rest)
         configuration = build_bench_configuration(self.bench, wanted)
         self.loop.launch(configuration)
         self._run = self._build_still_run(configuration)
-        self.journal = Journal(self._run, is_bench=True, hang=self._hands.hang)
+        self.journal = Journal(self._run, is_bench=True, hang=self._operator.hang)
         problems = list_problems(self.bench, self.calibration)
         self.report = BenchReport(self.loop, self.journal, problems)
         self._commands = BenchCommands(self.journal, self._ask, self._is_moving, rest)
@@ -72,10 +81,11 @@ class BenchSession:
         self._run = run
         self.journal.begin(run)
 
-    def open(self, notify: Teller = keep_quiet) -> None:
-        """Wait until the bench can be armed; raises `BenchError` if it cannot be opened.
+    def open(self, notify: ReportProgress = ignore_progress) -> None:
+        """Wait until the bench can be armed; `notify` receives the activity of the loop.
 
-        notify: hears what the loop does meanwhile.
+        Raises:
+            BenchError: If it cannot be opened.
         """
         try:
             self.loop.open(notify)
@@ -128,35 +138,43 @@ class BenchSession:
         return Pace()
 
     def load(self, configuration: Configuration) -> None:
-        """Use law, references and loads from the next start on; raises `StateError` during
-        motion.
+        """Use law, references and loads from the next start on.
+
+        Raises:
+            StateError: During motion.
         """
         self._load(build_bench_configuration(self.bench, configuration))
 
     def _load(self, configuration: Configuration) -> None:
         check_loads(configuration.loads)
         self._ask("load", configuration.model_dump(mode="json"))
-        self._hands.hang(())
+        self._operator.hang(())
         self.journal.stop_recording()
         self._begin(self._build_still_run(configuration))
 
     def reset(self) -> None:
-        """Restart at t = 0 at the next start; raises `StateError` during motion."""
+        """Restart at t = 0 at the next start.
+
+        Raises:
+            StateError: During motion.
+        """
         self._load(self.journal.build_restart())
 
     def arm(self) -> None:
         """Bring the drives to READY: reset, configuration, mode."""
         self.loop.check_started()
         if self.bench_status is BenchStatus.OFF:
-            self._hands.set_to_marks()
+            self._operator.set_to_marks()
         self._ask("arm")
 
     def confirm_home(self, step: str, by: str) -> None:
-        """Confirm that an axis is at its zero mark; by: name of the observer."""
+        """Confirm that an axis is at its zero mark; `by` is the name of the observer."""
         self._ask("home", {"step": step, "by": by})
 
     def clear(self) -> None:
-        """Clear the latched fault: FAULT → OFF; loop and supervisor restart if one is gone."""
+        """Clear the latched fault: FAULT → OFF; loop and supervisor are restarted if one has
+        ended.
+        """
         if self.loop.loss is not None or not self.loop.processes.supervisor_alive:
             self.restart()
         elif self.report.loop_status is BenchStatus.FAULT:
@@ -167,7 +185,9 @@ class BenchSession:
     def restart(self) -> None:
         """Restart loop and supervisor, by force if they do not respond.
 
-        Raises `StateError` in motion, and `BenchError` where the bench cannot be opened.
+        Raises:
+            StateError: During motion.
+            BenchError: If the bench cannot be opened.
         """
         if self.loop.starting:
             raise StateError("The loop of the bench is being started already.")
@@ -204,7 +224,11 @@ class BenchSession:
         self.journal.stop_recording()
 
     def start(self) -> None:
-        """Start a run; raises `StateError` unless READY, homed and watched."""
+        """Start a run.
+
+        Raises:
+            StateError: Unless READY, homed and watched.
+        """
         if self.bench.safety.needs_watcher and not self.watched:
             raise StateError("No client watches this bench: open the page or a stream of it first.")
         answer = self._ask("start")
@@ -230,9 +254,9 @@ class BenchSession:
 
     def quick_stop(self) -> None:
         """Quick stop: zero current, latched, even if the loop does not respond."""
-        # Through shared memory first: that needs no answer of the loop.
+        # Through shared memory first, because that works without an answer of the loop.
         self.stop_from_keyboard()
-        self.report.look_for_loss()
+        self.report.check_for_loss()
         if self.loop.loss is None and not self.loop.starting:
             self._ask("quick_stop", "quick stop")
 
@@ -240,7 +264,7 @@ class BenchSession:
         """Quick stop without waiting for the loop's report."""
         self.loop.request_quick_stop()
 
-    def hear_operator(self) -> None:
+    def note_operator_beat(self) -> None:
         """Note a message of the operator, which holds the dead-man's switch."""
         self.loop.processes.beats.beat("operator")
 
@@ -262,11 +286,11 @@ class BenchSession:
             return
         self.loop.processes.beats.beat("server")
         reported = self.loop.take_states()
-        self.report.look_for_stop(reported)
+        self.report.check_for_stop(reported)
         if not self._commands.is_pending:
             self.journal.advance(self._run.count_ready())
         self.report.take(reported)
-        self.report.look_for_loss()
+        self.report.check_for_loss()
         if self.watched or self.bench_status is not BenchStatus.RUN:
             self._unwatched_since = now
         elif self.bench.safety.needs_watcher and now - self._unwatched_since > UNWATCHED_S:
@@ -277,7 +301,7 @@ class BenchSession:
         """Send a request to the loop; its state is up to date on return."""
         answer = self.loop.ask(wanted, argument)
         reported = self.loop.take_states()
-        self.report.look_for_stop(reported)
+        self.report.check_for_stop(reported)
         self.report.take(reported)
         return answer
 
@@ -289,9 +313,19 @@ class BenchSession:
         """Apply a command unless nothing would change."""
         self._commands.patch(lambda _: command)
 
-    def patch(self, build: Callable[[Configuration], Command]) -> None:
+    def patch(
+        self,
+        build: Callable[[Configuration], Command],
+        joint: JointNumber | None = None,
+        again: bool = False,
+    ) -> None:
         """Apply `set` after the loop has answered earlier changes."""
-        self._commands.patch(build)
+        if joint == 2:
+            raise StateError(NO_ARM)
+        if again:
+            self.change(build(self.run.configuration))
+        else:
+            self._commands.patch(build)
 
     def close(self) -> None:
         """Ramp to zero, and end the bench's processes."""

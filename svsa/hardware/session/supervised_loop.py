@@ -12,27 +12,35 @@ from svsa.hardware.realtime.launch import (
     COLD,
     PATIENCE_S,
     BenchProcesses,
+    ReportProgress,
     Rest,
-    Teller,
-    keep_quiet,
+    ignore_progress,
 )
 from svsa.hardware.realtime.loss import Loss, find_loss, is_supervised
 from svsa.hardware.realtime.prepared_laws import UnpreparedLawError, compute_constants
 from svsa.runs.configuration import MAX_LANES, Configuration
 
 UNKNOWN_S = 0.25
-"""For so long after the last tick it may be unknown who stops the drives, s."""
+"""Time after the last tick for which the process that stops the drives may be unknown, s."""
 SILENT = 2.0
-"""So many times `loop_s`, by which a loop may be late: the supervisor comes before the server."""
+"""Multiple of `loop_s` after which the loop counts as silent: the supervisor acts before the
+server.
+"""
 LISTENED_S = 3.0 * EMULATED_PERIOD_S
-"""Who has heard no emulator on the bus for so long has none."""
+"""Time without frames of an emulator after which a bench counts as real, s."""
 
 
 class SupervisedLoop:
     """Both processes, started and restarted by `launch`.
 
-    path: of the bench file. bench: that file. rest: lets time pass where a command waits.
-    `starting`: they refuse commands until `open` returns. `memory`: see `LoopMemory`.
+    Attributes:
+        starting: Whether they reject commands, until `open` returns.
+        memory: See `LoopMemory`.
+
+    Args:
+        path: Path of the bench file.
+        bench: The bench file.
+        rest: Lets time pass while a command waits.
     """
 
     def __init__(self, path: Path, bench: BenchFile, rest: Rest = time.sleep) -> None:
@@ -48,10 +56,11 @@ class SupervisedLoop:
         )
         self.memory = self.processes.memory
 
-    def open(self, report: Teller = keep_quiet) -> None:
-        """Wait until the bench may be armed; raises `BenchError` where it cannot be opened.
+    def open(self, report: ReportProgress = ignore_progress) -> None:
+        """Wait until the bench may be armed; `report` receives the activity of the loop.
 
-        report: hears what the loop does meanwhile.
+        Raises:
+            BenchError: If it cannot be opened.
         """
         try:
             self.processes.wait_until_ready(self._timing.start_silence_s, report)
@@ -61,7 +70,7 @@ class SupervisedLoop:
     def restart(self, launch: Callable[[], None]) -> None:
         """End both processes, by force if they do not respond, start them, and open.
 
-        The motors are as warm as the loop before left them: how long they cooled is unknown.
+        The heat of the motors is that at the end of the previous loop: the cooling time is unknown.
         """
         self.starting = True
         try:
@@ -99,7 +108,7 @@ class SupervisedLoop:
         return is_supervised(self.processes)
 
     def find_lasting_loss(self) -> Loss | None:
-        """Return `loss` once it is known who stops the drives."""
+        """Return `loss` once the process that stops the drives is known."""
         loss = self.loss
         is_unknown = loss is not None and loss.stopped_by is None
         return None if is_unknown and 0.0 < self.processes.silence_s < UNKNOWN_S else loss
@@ -115,10 +124,11 @@ class SupervisedLoop:
     def ask(self, wanted: str, argument: object = None) -> dict[str, Any]:
         """Send a request to the loop, and wait for its answer.
 
-        Constants of a law that the loop lacks are computed here: it has no time for it.
+        Constants of a law that the loop lacks are computed here, because the loop has no time for
+        it.
         """
         self.check_started()
-        # Each lane may lack the constants of its law, and the loop reports one of them at a time.
+        # The constants of several lanes' laws may be missing; the loop reports one at a time.
         for _ in range(MAX_LANES):
             try:
                 return self.processes.request(wanted, argument)

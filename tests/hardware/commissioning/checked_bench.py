@@ -1,4 +1,4 @@
-"""A check of a bench's file on an emulator's bus, over in time, and what it has sent."""
+"""The check of a bench file on the bus of an emulator, its duration, and the frames it sent."""
 
 from svsa.hardware.commissioning import check_bench
 from svsa.hardware.drives.robomodule import (
@@ -11,7 +11,7 @@ LONGEST_S = 20.0
 
 
 def check(path, bus, move=False, watch=None):
-    """Every step of a check; it is over in time and the drives are at zero current."""
+    """Run every step of a check; it ends in time with the drives at zero current."""
     steps = list(check_bench(path, move, watch, bus.open, bus.now))
     assert bus.now() < LONGEST_S
     assert_left_alone(bus)
@@ -19,7 +19,7 @@ def check(path, bus, move=False, watch=None):
 
 
 class Watcher:
-    """A user who sees on the emulator which way each motor turns first."""
+    """A user who sees on the emulator in which direction each motor turns first."""
 
     def __init__(self, bus):
         self._bus, self._seen = bus, {}
@@ -42,7 +42,7 @@ def assert_left_alone(bus):
 
 
 def find_current(message, motor):
-    """The current that a frame asks of this motor, mA; None for every other frame."""
+    """Return the current that a frame commands for this motor, mA; None for other frames."""
     address, command = split_id(message.arbitration_id)
     if command is not Command.CURRENT or address.number != int(motor[-1]):
         return None

@@ -1,4 +1,4 @@
-"""The bus of an emulator, the file of its bench, and what its motors did of the check's pulses."""
+"""The bus of an emulator, its bench file, and the motion of its motors under the check's pulses."""
 
 import pytest
 
@@ -21,7 +21,7 @@ def path(tmp_path):
 
 @pytest.fixture(scope="package")
 def turns():
-    """A turn of each motor of the emulated bench, whose deflection rests at 0 counts."""
+    """Turn each motor of the emulated bench, whose deflection rests at 0 counts."""
     bus = EmulatorBus()
     probe = Probe(read_bench(EMULATOR_BENCH), bus.open, bus.now)
     probe.open()

@@ -1,4 +1,4 @@
-"""The bench check finds what is wrong, and says what to do."""
+"""The bench check finds errors and reports what to do."""
 
 import itertools
 
@@ -30,7 +30,7 @@ from tests.hardware.emulator.bus_in_time import EmulatorBus, copy_bench
 MOVING_S = 1.6
 
 
-def test_a_healthy_bench_passes_every_step_without_moving(path, bus):
+def test_valid_bench_passes_every_step_without_moving(path, bus):
     steps = check(path, bus)
     assert {step.result for step in steps.values()} == {Result.OK}
     assert "EMULATED" in steps["bus"].measured
@@ -38,7 +38,7 @@ def test_a_healthy_bench_passes_every_step_without_moving(path, bus):
     assert bus.emulator.mechanics.read(bus.emulator.now_us).theta1 == 0.0
 
 
-def test_a_healthy_bench_that_moves_has_its_signs_confirmed(path, bus):
+def test_valid_bench_that_moves_has_its_signs_confirmed(path, bus):
     path.with_name("bench.calibration.toml").unlink()
     bench, homing = read_bench(path), Homing()
     for step in STEPS:
@@ -55,12 +55,12 @@ def test_a_healthy_bench_that_moves_has_its_signs_confirmed(path, bus):
 
 @pytest.fixture(scope="module")
 def moved(tmp_path_factory):
-    """The steps of a check that moves a healthy bench without an observer, and its bus."""
+    """The steps of a check that moves a valid bench without a watching user, and its bus."""
     bus = EmulatorBus()
     return check(copy_bench(tmp_path_factory.mktemp("bench")), bus, move=True), bus
 
 
-def test_pulses_stay_small_and_keep_the_gate_of_the_drives(moved):
+def test_pulses_stay_small_and_respect_the_command_gap_of_the_drives(moved):
     """At most 15 % of nominal, both axes back within a few degrees, 1 ms between commands."""
     bus = moved[1]
     currents = list_currents(bus)
@@ -73,13 +73,13 @@ def test_pulses_stay_small_and_keep_the_gate_of_the_drives(moved):
         assert min(b - a for a, b in itertools.pairwise(times)) >= 0.00099
 
 
-def test_signs_are_not_confirmed_without_a_user_who_watches(moved):
+def test_signs_are_not_confirmed_without_a_watching_user(moved):
     steps = moved[0]
     assert steps["motor1: sign"].result is Result.WARN
     assert steps["motor2: sign"].result is Result.WARN
 
 
-def test_a_motor_that_was_seen_to_turn_the_wrong_way_takes_the_confirmation_back(path, bus):
+def test_observed_wrong_direction_revokes_the_confirmation(path, bus):
     steps = check(path, bus, move=True, watch=lambda question: "motor2" not in question)
     assert "sign = -1 in [motor2]" in steps["motor2: sign"].advice
     calibration = find_calibration(read_bench(path))
@@ -87,15 +87,15 @@ def test_a_motor_that_was_seen_to_turn_the_wrong_way_takes_the_confirmation_back
     assert steps["calibration"].result is Result.WARN
 
 
-def test_the_latency_is_that_of_bus_lag_and_feedback_period(moved):
+def test_latency_is_that_of_bus_lag_and_feedback_period(moved):
     """Frame 0.13 ms, lag 0.5 ms · ln 2, half a ms of waiting for B, frame 0.13 ms."""
     steps = moved[0]
     median = float(steps["motor1: latency"].measured.split("after ")[1].split(" ms")[0])
     assert median == pytest.approx(0.13 + 0.35 + 0.5 + 0.13, abs=0.5)
 
 
-def test_a_pulse_that_the_computer_slept_through_is_given_again(path, bus):
-    """Late by 30 ms where it lasts 27 ms: it is over before it was felt."""
+def test_pulse_during_a_scheduling_delay_is_repeated(path, bus):
+    """A delay of 30 ms exceeds the pulse of 27 ms: it is over before it is measured."""
     slept = []
 
     def sleep_once(message):
@@ -109,7 +109,7 @@ def test_a_pulse_that_the_computer_slept_through_is_given_again(path, bus):
     assert steps["motor2: motion"].result is Result.OK
 
 
-def test_pulses_that_are_slept_through_again_and_again_tell_of_the_computer(path, bus):
+def test_repeated_scheduling_delays_are_reported_as_a_problem_of_the_computer(path, bus):
     def sleep(message):
         if find_current(message, "motor2"):
             bus.sleep(0.16)
@@ -140,7 +140,7 @@ REPEATED = [
 
 
 @pytest.mark.parametrize("case", exhaust(FAULTS + REPEATED, FAULTS), ids=lambda case: case[2])
-def test_a_fault_is_found_and_what_to_do_is_said(path, bus, case):
+def test_fault_is_found_with_instructions(path, bus, case):
     fault, at_s, step, advice = case
     bus.emulator.schedule(round(at_s * 1e6), lambda: bus.emulator.inject(fault))
     steps = check(path, bus, move=True, watch=Watcher(bus))
@@ -149,21 +149,21 @@ def test_a_fault_is_found_and_what_to_do_is_said(path, bus, case):
     assert [name for name, each in steps.items() if each.result is Result.FAIL] == [step]
 
 
-def test_no_motor_moves_where_an_encoder_is_silent(path, bus):
+def test_no_motor_moves_if_an_encoder_is_silent(path, bus):
     bus.emulator.inject(DropFrames(node="deflection"))
     check(path, bus, move=True)
     assert all(current == 0 for _, _, current in list_currents(bus))
 
 
-def test_a_dead_motor_encoder_does_not_make_the_motor_run_away(path, bus):
-    """The worst case of pulses that nothing measures: the shaft stays within a turn or so."""
+def test_dead_motor_encoder_does_not_cause_a_runaway(path, bus):
+    """The worst case of unmeasured pulses: the shaft stays within about a turn."""
     bus.emulator.inject(FrozenEncoder(node="motor1"))
     steps = check(path, bus, move=True)
     assert steps["motor1: motion"].result is Result.FAIL
     assert abs(bus.emulator.mechanics.read(bus.emulator.now_us).theta1) < 0.5
 
 
-def test_a_load_that_pulls_the_motor_is_not_taken_for_a_sign(path, bus):
+def test_motor_moved_by_a_load_is_not_taken_for_a_sign(path, bus):
     bus.emulator.schedule(
         round(MOVING_S * 1e6),
         lambda: bus.emulator.add_load(ConstantLoad(torque_nm=(0.0, 2.0, 0.0))),
@@ -173,24 +173,24 @@ def test_a_load_that_pulls_the_motor_is_not_taken_for_a_sign(path, bus):
     assert "something else moves it" in steps["motor1: motion"].advice
 
 
-def test_a_drive_at_another_address_is_found(tmp_path, bus):
+def test_drive_at_another_address_is_found(tmp_path, bus):
     path = copy_bench(tmp_path, lambda text: text.replace("drive_number = 2", "drive_number = 3"))
     steps = check(path, bus)
     assert "A drive answers at group 0 number 2" in steps["motor2: drive group 0 number 3"].advice
 
 
-def test_a_drive_that_answers_nowhere_next_to_one_that_does(path, bus):
+def test_missing_drive_next_to_a_present_one(path, bus):
     bus.emulator.inject(Silence(node="motor1"))
     assert "factory address" in check(path, bus)["motor1: drive group 0 number 1"].advice
 
 
-def test_a_wrong_deflection_sign_of_the_bench_is_found(tmp_path):
+def test_wrong_deflection_sign_of_the_bench_is_found(tmp_path):
     emulator = Emulator(EmulatorParameters(deflection=EmulatedDeflection(sign=-1, phase_s=0.0008)))
     steps = check(copy_bench(tmp_path), EmulatorBus(emulator), move=True)
     assert steps["deflection: sign"].result is Result.FAIL
 
 
-def test_an_uncalibrated_bench_can_be_checked(tmp_path, bus):
+def test_uncalibrated_bench_can_be_checked(tmp_path, bus):
     path = copy_bench(
         tmp_path,
         lambda text: text.replace("sign = 1\n", "").replace("efficiency = 0.9\n", ""),
@@ -203,14 +203,14 @@ def test_an_uncalibrated_bench_can_be_checked(tmp_path, bus):
 
 
 @pytest.mark.parametrize("text", ["", "name = ", "name = 'x'\n[bus]\ninterface = 3\n"])
-def test_a_wrong_file_is_one_step_with_the_reason(tmp_path, bus, text):
+def test_invalid_file_is_one_step_with_the_reason(tmp_path, bus, text):
     path = tmp_path / "bench.toml"
     path.write_text(text, "utf-8")
     (step,) = check_bench(path, opener=bus.open, now=bus.now)
     assert (step.name, step.result) == ("file", Result.FAIL)
 
 
-def test_a_missing_file_and_a_wrong_encoder_option_are_said(tmp_path, bus):
+def test_missing_file_and_invalid_encoder_option_are_reported(tmp_path, bus):
     (step,) = check_bench(tmp_path / "none.toml", opener=bus.open, now=bus.now)
     assert "none.toml" in step.measured
     path = copy_bench(tmp_path, lambda text: text.replace("width = 32", "width = 12"))

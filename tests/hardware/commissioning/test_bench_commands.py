@@ -1,4 +1,4 @@
-"""`svsa bench-check` and `svsa bench-home` as they are typed."""
+"""The commands `svsa bench-check` and `svsa bench-home`."""
 
 import time
 
@@ -17,8 +17,8 @@ APP.command("bench-check")(bench_check)
 APP.command("bench-home")(bench_home)
 
 
-def test_the_command_moves_nothing_where_it_is_not_allowed_to(tmp_path):
-    """The answer no, and no emulator behind the port: it is asked before anything is opened."""
+def test_command_moves_nothing_without_permission(tmp_path):
+    """The answer no, and no emulator on the port: the question precedes the opening of the bus."""
     result = CliRunner().invoke(
         APP, ["bench-check", str(copy_bench(tmp_path)), "--move"], input="n\n"
     )
@@ -27,13 +27,13 @@ def test_the_command_moves_nothing_where_it_is_not_allowed_to(tmp_path):
     assert "drive 0.1" not in result.output
 
 
-def test_the_command_ends_with_an_error_where_a_step_fails(tmp_path):
+def test_command_ends_with_an_error_if_a_step_fails(tmp_path):
     result = CliRunner().invoke(APP, ["bench-check", str(tmp_path / "none.toml")])
     assert result.exit_code == 1
     assert "Give the path of a bench file" in result.output
 
 
-def test_the_command_names_the_fields_of_the_bench_file_with_their_sections(tmp_path):
+def test_command_names_the_fields_of_the_bench_file_with_their_sections(tmp_path):
     path = copy_bench(tmp_path, lambda text: text.replace("sign = 1\n", "").replace("29536", "1"))
     result = CliRunner().invoke(APP, ["bench-check", str(path)])
     assert "motor1.sign is not given" in result.output
@@ -42,8 +42,8 @@ def test_the_command_names_the_fields_of_the_bench_file_with_their_sections(tmp_
 
 @pytest.mark.exhaustive
 @pytest.mark.wall_clock
-def test_the_commands_over_a_socket_in_wall_clock_time(tmp_path):
-    """An emulator in its own process, python-can in between: the record is written, all is left
+def test_commands_run_over_a_socket_in_real_time(tmp_path):
+    """An emulator in a separate process, with python-can: the record is written, all drives are
     off.
     """
     with start_emulator(lockstep=False) as emulator:
@@ -54,7 +54,7 @@ def test_the_commands_over_a_socket_in_wall_clock_time(tmp_path):
         assert "run `svsa bench-check --move`" in " ".join(homed.output.split())
         checked = CliRunner().invoke(APP, ["bench-check", str(path), "--move"], input="y\ny\ny\n")
         path.write_text(path.read_text("utf-8").replace("= 8000", "= 2000"), "utf-8")
-        time.sleep(0.6)  # a drive that was reset answers nothing for half a second
+        time.sleep(0.6)  # A drive does not respond for half a second after a reset.
         wrong = CliRunner().invoke(APP, ["bench-check", str(path), "--move"], input="y\ny\ny\n")
         drives = emulator.control.read_state()["drives"]
     assert "motor2: scale" in checked.output, checked.output

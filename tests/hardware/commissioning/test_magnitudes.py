@@ -1,4 +1,4 @@
-"""A wrong scale of the bench file is found by its magnitude, and its field is named."""
+"""A wrong scale in the bench file is found by its magnitude, and its field is named."""
 
 import re
 
@@ -30,14 +30,14 @@ CASES = [
 
 
 def compare(turns, bench=BENCH):
-    """The steps of the comparison."""
+    """Return the steps of the comparison."""
     actuator = read_bench_design(bench).actuator
     step, link = check_coupling(bench, actuator, turns, 0.0)
     assert step.result is Result.OK
     return list(compare_magnitudes(bench, actuator, turns, link, 0.0))
 
 
-def test_the_right_file_is_met_within_a_fifth(turns):
+def test_valid_file_agrees_within_a_fifth(turns):
     steps = compare(turns)
     assert [step.name for step in steps] == [ONE, "home: lever ratio", "motor2: scale"]
     for step in steps:
@@ -48,7 +48,7 @@ def test_the_right_file_is_met_within_a_fifth(turns):
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: f"{case[0]}.{case[1]}={case[2]}")
-def test_a_wrong_value_is_found_with_the_right_one(turns, case):
+def test_wrong_value_is_found_with_the_right_one(turns, case):
     section, field, wrong, title = case
     present = getattr(BENCH, section)
     bench = BENCH.changed(**{section: present.changed(**{field: wrong})})
@@ -81,7 +81,7 @@ FILES = [
 
 
 @pytest.mark.parametrize("case", exhaust(FILES, FILES[:3:2]), ids=lambda case: case[1])
-def test_a_wrong_file_is_found_by_the_whole_check(tmp_path, case):
+def test_complete_check_finds_a_wrong_file(tmp_path, case):
     """With pulses whose travel is limited by the wrong values."""
     right, wrong, title, advice = case
     bus = EmulatorBus()

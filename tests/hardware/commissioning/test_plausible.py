@@ -1,4 +1,4 @@
-"""A value that is allowed and that no bench has is a warning with value, limit and next step."""
+"""An implausible value is a warning with value, limit and next step."""
 
 import pytest
 
@@ -25,16 +25,16 @@ CASES = [
 
 
 def list_warnings(bench):
-    """The implausible values of a bench."""
+    """Return the implausible values of a bench."""
     return list(list_implausible(bench, read_bench_design(bench)))
 
 
-def test_the_bench_of_the_emulator_is_plausible():
+def test_bench_of_the_emulator_is_plausible():
     assert list_warnings(BENCH) == []
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case[2])
-def test_an_implausible_value_is_found(case):
+def test_implausible_value_is_found(case):
     section, changes, measured, limit = case
     (step,) = list_warnings(BENCH.changed(**{section: getattr(BENCH, section).changed(**changes)}))
     assert step.result is Result.WARN
@@ -42,7 +42,7 @@ def test_an_implausible_value_is_found(case):
     assert step.advice
 
 
-def test_the_check_warns_of_a_bench_without_a_design_and_goes_on(tmp_path, bus):
+def test_check_warns_of_a_bench_without_a_design_and_continues(tmp_path, bus):
     path = copy_bench(
         tmp_path,
         lambda text: text.partition("\n[emulator]")[0].replace("rad = 2.5", "rad = 90.0"),
@@ -54,7 +54,7 @@ def test_the_check_warns_of_a_bench_without_a_design_and_goes_on(tmp_path, bus):
     assert steps["at rest"].result is Result.OK
 
 
-def test_a_design_file_that_is_missing_ends_the_check(tmp_path, bus):
+def test_missing_design_file_ends_the_check(tmp_path, bus):
     path = copy_bench(
         tmp_path, lambda text: text.replace("[design]", '[design]\nfile = "none.toml"')
     )

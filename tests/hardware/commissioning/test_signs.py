@@ -1,4 +1,4 @@
-"""Every combination of wrong signs, motor leads and encoder channels gets the fitting advice."""
+"""Every combination of wrong signs, motor leads and encoder channels gets the right advice."""
 
 import itertools
 
@@ -16,7 +16,7 @@ WRONG = (False, True)
 
 
 def reverse_counts(turn):
-    """As with A and B of the encoder swapped."""
+    """With A and B of the encoder exchanged."""
     return Turn(
         *(
             pulse._replace(moved=-pulse.moved, trace=pulse.trace._replace(moved=-pulse.trace.moved))
@@ -26,7 +26,7 @@ def reverse_counts(turn):
 
 
 def reverse_leads(turn):
-    """As with the leads of the motor swapped: a current does what the opposite one did."""
+    """With the leads of the motor exchanged: a current has the opposite effect."""
     return Turn(
         turn.back._replace(current_ma=turn.forth.current_ma),
         turn.forth._replace(current_ma=turn.back.current_ma),
@@ -36,8 +36,8 @@ def reverse_leads(turn):
 def judge(turns, sign1, sign2, sign3, watched=True, leads=False, channels=False):
     """The steps of a bench whose signs are right where they are 1.
 
-    sign1, sign2, sign3: of motor 1, motor 2 and deflection in the file. leads, channels: whether
-    those of motor 1 are swapped.
+    sign1, sign2, sign3: signs of motor 1, motor 2 and deflection in the file. leads, channels:
+    whether the leads or the encoder channels of motor 1 are swapped.
     """
     bench = read_bench(EMULATOR_BENCH)
     bench = bench.changed(
@@ -71,10 +71,10 @@ def test_every_combination_of_wrong_signs_is_named(turns, signs):
 @pytest.mark.parametrize("sign1", [1, -1])
 @pytest.mark.parametrize("leads", WRONG)
 @pytest.mark.parametrize("channels", WRONG)
-def test_leads_and_channels_are_distinguished_by_the_direction_seen(
+def test_leads_and_channels_are_distinguished_by_the_observed_direction(
     turns, channels, leads, sign1, sign3
 ):
-    """Swapped leads with a wrong sign are as swapped channels, and the other way round."""
+    """Exchanged leads with a wrong sign look like exchanged channels, and vice versa."""
     steps = judge(turns, sign1, 1, sign3, leads=leads, channels=channels)
     advice, turned_wrong = steps["motor1: sign"].advice, (sign1 < 0) != leads
     if channels != leads:
@@ -86,7 +86,7 @@ def test_leads_and_channels_are_distinguished_by_the_direction_seen(
 
 
 @pytest.mark.parametrize("signs", [(-1, 1, 1), (1, 1, -1)], ids=str)
-def test_without_a_direction_seen_both_signs_are_named(turns, signs):
+def test_both_signs_are_named_without_an_observed_direction(turns, signs):
     steps = judge(turns, *signs, watched=False)
     advice = steps["deflection: sign"].advice
     assert f"sign = {-signs[2]} in [deflection]" in advice

@@ -1,6 +1,6 @@
 """One contract for all families of drives, over a real bus to an emulator in another process.
 
-A family subclasses `DriveContract`. The emulator is in lockstep: what a test asserts does not
+A family subclasses `DriveContract`. The emulator is in lockstep, so the results of a test do not
 depend on how busy the machine is.
 """
 
@@ -36,7 +36,7 @@ PUSH_MA = (400, -150)
 
 
 class DriveContract:
-    """What the bench relies on. family: the name of its entry point. addresses: of two drives, as
+    """Requirements of the bench. family: the name of its entry point. addresses: of two drives, as
     their sections in a bench file give them.
     """
 
@@ -65,7 +65,7 @@ class DriveContract:
 
     @pytest.fixture
     def path(self, emulator: RunningEmulator, tmp_path: Path) -> Path:
-        """A bench file with this family's drives, on the emulator's terminals."""
+        """A bench file with this family's drives, on the terminals of the emulator."""
         sections: dict[str, Any] = tomllib.loads(EMULATOR_BENCH.read_text(encoding="utf-8"))
         bus = {
             "interface": "slcan",
@@ -90,7 +90,7 @@ class DriveContract:
         yield rig
         rig.close()
 
-    def test_the_start_up_ends_ready_without_torque(self, rig: Rig) -> None:
+    def test_start_up_ends_ready_without_torque(self, rig: Rig) -> None:
         rig.tick(count=5)
         assert rig.sent == [], "a drive that is off is sent nothing"
         rig.start()
@@ -100,8 +100,10 @@ class DriveContract:
         assert rig.targets == [0.0, 0.0]
         assert not any(drive["errors"] for drive in rig.read())
 
-    def test_a_current_becomes_torque_and_is_reported(self, rig: Rig) -> None:
-        """Each drive makes its own current, in its own sense, and reports current and motion."""
+    def test_current_becomes_torque_and_is_reported(self, rig: Rig) -> None:
+        """Each drive produces its own current, with its own sign, and reports current and
+        motion.
+        """
         rig.start()
         rig.tick(PUSH_MA, 20)
         scales = [build_motor_scale(getattr(rig.bench, name)) for name in MOTORS]
@@ -111,7 +113,7 @@ class DriveContract:
             assert drive.current_ma == pytest.approx(current, rel=0.02)
             assert drive.counts * current > 0
 
-    def test_feedback_comes_in_every_tick(self, rig: Rig) -> None:
+    def test_feedback_arrives_in_every_tick(self, rig: Rig) -> None:
         rig.start()
         for _ in range(50):
             rig.tick(PUSH_MA)
@@ -119,8 +121,8 @@ class DriveContract:
                 assert drive.heard_s is not None
                 assert rig.clock.now() - drive.heard_s < 2.0 * TICK_S
 
-    def test_feedback_can_be_had_while_the_current_stays(self, rig: Rig) -> None:
-        """As the bench check listens: the drive neither falls silent nor loses its current."""
+    def test_feedback_is_available_with_constant_current(self, rig: Rig) -> None:
+        """As the bench check listens: the drive neither becomes silent nor loses its current."""
         rig.start()
         rig.tick(PUSH_MA, 5)
         before = rig.targets
@@ -131,8 +133,8 @@ class DriveContract:
         assert all(rig.clock.now() - (drive.heard_s or 0.0) < 3.0 * TICK_S for drive in rig.drives)
         assert rig.targets == before != [0.0, 0.0]
 
-    def test_zero_current_acts_at_once_and_stays(self, rig: Rig) -> None:
-        """Also after a reset, which the zero of the next ticks must not undo."""
+    def test_zero_current_acts_immediately_and_persists(self, rig: Rig) -> None:
+        """Also after a reset, which the zero of the next ticks must not cancel."""
         rig.start()
         rig.tick(PUSH_MA, 5)
         rig.zero()
@@ -146,8 +148,8 @@ class DriveContract:
         assert rig.targets == [0.0, 0.0]
         assert not any(drive["mode"] for drive in rig.read()), "no mode, or stopped"
 
-    def test_its_stop_needs_no_knowledge_of_its_state(self, rig: Rig) -> None:
-        """As the supervisor has it: after it, only a new start-up makes torque."""
+    def test_stop_works_in_any_state_of_the_drive(self, rig: Rig) -> None:
+        """As the supervisor sends it: afterwards only a new start-up produces torque."""
         rig.start()
         rig.tick(PUSH_MA, 5)
         for frame in merge_stops(*(build_stop(getattr(rig.bench, name)) for name in MOTORS)):
@@ -159,7 +161,7 @@ class DriveContract:
         rig.tick(PUSH_MA, 5)
         assert all(rig.targets)
 
-    def test_it_begins_at_zero_again(self, rig: Rig) -> None:
+    def test_drive_restarts_at_zero(self, rig: Rig) -> None:
         rig.start()
         rig.tick(PUSH_MA, 30)
         assert all(drive.counts for drive in rig.drives)
@@ -173,7 +175,7 @@ class DriveContract:
         assert max(moved) < 1e-3
         assert not any(drive.errors or drive.zeroed for drive in rig.drives)
 
-    def test_commands_keep_the_gap_that_the_drive_needs(self, rig: Rig) -> None:
+    def test_commands_keep_the_required_gap(self, rig: Rig) -> None:
         rig.start()
         rig.tick(PUSH_MA, 20)
         for drive in rig.drives:
@@ -182,12 +184,12 @@ class DriveContract:
             assert len(gaps) > 20
             assert min(gaps) >= drive.gap_s - GATE_JITTER_S - 1e-9
 
-    def test_without_an_answer_it_is_silent(self, rig: Rig) -> None:
+    def test_drive_without_responses_is_silent(self, rig: Rig) -> None:
         rig.control.fault(Silence(node="motor2"))
         assert rig.start() < LONGEST_START_S
         assert [drive.phase for drive in rig.drives] == [Phase.READY, Phase.SILENT]
 
-    def test_an_error_of_the_drive_is_counted_and_described(self, rig: Rig) -> None:
+    def test_error_of_the_drive_is_counted_and_described(self, rig: Rig) -> None:
         rig.start()
         assert [drive.errors for drive in rig.drives] == [0, 0]
         rig.control.fault(Stall(node="motor2"))
@@ -196,7 +198,7 @@ class DriveContract:
         assert rig.drives[1].errors > 0
         assert rig.drives[1].describe_error()
 
-    def test_a_question_is_answered_in_any_state_and_makes_no_torque(self, rig: Rig) -> None:
+    def test_query_is_answered_in_any_state_without_torque(self, rig: Rig) -> None:
         for drive in rig.drives:
             drive.ask(rig.bus, rig.clock.now())
         rig.wait(5.0 * TICK_S)
@@ -212,7 +214,7 @@ class DriveContract:
         found = {place for message in rig.heard if (place := family.find_place(message))}
         assert found == {drive.place for drive in rig.drives}
 
-    def test_what_it_sends_and_what_it_obeys_are_distinguished(self, rig: Rig) -> None:
+    def test_transmitted_and_received_frames_are_distinguished(self, rig: Rig) -> None:
         one, two = rig.drives
         assert not one.heard_ids & two.heard_ids
         assert not (one.heard_ids | two.heard_ids) & (one.obeyed_ids | two.obeyed_ids)
@@ -224,7 +226,7 @@ class DriveContract:
         assert {compute_key(message) for _, message in rig.sent} <= one.obeyed_ids | two.obeyed_ids
 
     @pytest.mark.parametrize("length", range(9))
-    def test_no_bytes_break_it(self, path: Path, length: int) -> None:
+    def test_invalid_bytes_are_ignored(self, path: Path, length: int) -> None:
         drive = build_drive(read_bench(path).motor1, TICK_S, 1e6)
         for key in sorted(drive.heard_ids):
             for byte in (0x00, 0x55, 0x80, 0xFF):
@@ -238,8 +240,8 @@ class DriveContract:
                 )
         assert drive.describe_error()
 
-    def test_a_capture_is_decoded_with_its_dbc(self, rig: Rig) -> None:
-        """Every frame that was on the bus has a message, from both sides."""
+    def test_capture_is_decoded_with_its_dbc(self, rig: Rig) -> None:
+        """Every frame on the bus has a message, in both directions."""
         database = cantools.database.load_string(describe_bench(rig.bench), "dbc")
         rig.start()
         rig.tick(PUSH_MA, 5)
@@ -253,15 +255,15 @@ class DriveContract:
                 is not None
             )
 
-    def test_two_drives_of_one_address_are_refused(self, path: Path) -> None:
+    def test_two_drives_with_one_address_are_rejected(self, path: Path) -> None:
         sections = tomllib.loads(path.read_text(encoding="utf-8"))
         sections["motor2"] |= self.addresses[0]
         path.write_text(tomli_w.dumps(sections), encoding="utf-8")
         with pytest.raises(ParameterError, match=r"motor2\..*another than motor1's"):
             read_bench(path)
 
-    def test_the_supervisor_stops_it_if_the_loop_is_silent(self, rig: Rig, path: Path) -> None:
-        """A third process, with a bus of its own: nothing but its stop leaves the mode."""
+    def test_supervisor_stops_the_drive_if_the_loop_is_silent(self, rig: Rig, path: Path) -> None:
+        """A third process with its own bus: only its stop ends the mode."""
         beats = Heartbeats.create()
         command = [sys.executable, "-m", "svsa.hardware.safety.supervisor", str(path), beats.name]
         try:
@@ -276,7 +278,7 @@ class DriveContract:
                 while not beats.stops:
                     assert time.monotonic() < end
                     time.sleep(0.001)
-                # Its frames come when they come; a watchdog of the drive leaves a mode behind.
+                # Its frames arrive at any time; a watchdog of the drive leaves the mode set.
                 while any(drive["mode"] for drive in rig.read()):
                     assert time.monotonic() < end
                     rig.wait()

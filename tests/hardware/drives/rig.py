@@ -1,4 +1,4 @@
-"""The two drives of a bench on a real bus, ticked as the loop does it."""
+"""The two drives of a bench on a real bus, with the ticks of the loop."""
 
 from typing import Any
 
@@ -17,13 +17,13 @@ TICK_S = 0.001
 LONGEST_START_S = 3.0
 STARTING_TICKS = 4
 RESET_S = 0.6
-"""A drive may be deaf for so long after a reset."""
+"""Time for which a drive may ignore frames after a reset."""
 REST_MA = (0, 0)
 MOTORS = ("motor1", "motor2")
 
 
 class Rig:
-    """The two drives of a bench, ticked as the loop does it; what was on the bus."""
+    """The two drives of a bench, with the ticks of the loop; stores the frames on the bus."""
 
     def __init__(self, bench: BenchFile, emulator: RunningEmulator) -> None:
         self.bench, self.control = bench, emulator.control
@@ -47,7 +47,7 @@ class Rig:
         self._send(message, timeout)
 
     def wait(self, seconds: float = TICK_S) -> None:
-        """Let time go on, and give the drives what has come."""
+        """Advance the time, and pass the received frames to the drives."""
         self.clock.wait_until(self.clock.now() + seconds)
         now = self.clock.now()
         for message in (*self.clock.take_frames(), *take_waiting(self.bus, self.bench.bus, 1000)):
@@ -68,7 +68,7 @@ class Rig:
                     drive.advance(self.bus, now)
 
     def start(self) -> float:
-        """From off to READY; how long that takes, s."""
+        """Bring the drives from off to READY; return the duration, s."""
         begin = self.clock.now()
         for drive in self.drives:
             drive.begin()
@@ -79,19 +79,19 @@ class Rig:
         return self.clock.now() - begin
 
     def zero(self, count: int = 1) -> None:
-        """Ticks of a fault."""
+        """Run the ticks of a fault."""
         for _ in range(count):
             self.wait()
             for drive in self.drives:
                 assert drive.send_zero(self.bus, self.clock.now())
 
     def read(self) -> list[dict[str, Any]]:
-        """The emulated drives, as they are."""
+        """Return the emulated drives."""
         return list(self.control.read_state()["drives"].values())
 
     @property
     def targets(self) -> list[float]:
-        """The torques that the drives aim at, N·m."""
+        """Return the target torques of the drives, N·m."""
         return [drive["target_nm"] for drive in self.read()]
 
     def close(self) -> None:

@@ -1,4 +1,4 @@
-"""A CAN bus that cannot be opened: why, what to install, and in a bounded time."""
+"""A CAN bus that cannot be opened: the reason, what to install, within bounded time."""
 
 import re
 import socket
@@ -12,14 +12,14 @@ from svsa.hardware.drives.bus import BusError, open_bus
 from svsa.hardware.settings import BusSettings
 
 
-def test_unknown_interfaces_and_wrong_options_are_errors_of_the_bus():
+def test_unknown_interfaces_and_invalid_options_are_errors_of_the_bus():
     for options in ({"interface": "nonesuch"}, {"interface": "socketcand", "options": {"x": 1}}):
         with pytest.raises(BusError, match="cannot be opened"):
             open_bus(BusSettings(**{"channel": "can0", **options}))
 
 
-def test_the_advice_fits_the_interface():
-    """A server that does not answer is not an adapter that is not plugged in."""
+def test_advice_fits_the_interface():
+    """A server that does not respond is not a disconnected adapter."""
     with socket.create_server(("127.0.0.1", 0)) as server:
         port = server.getsockname()[1]
     options = {"host": "127.0.0.1", "port": port}
@@ -43,10 +43,10 @@ def test_the_advice_fits_the_interface():
         ("pcan", "libpcanbasic", OSError("PCANBasic library not found.")),
     ],
 )
-def test_an_interface_without_its_driver_names_what_to_install(
+def test_interface_without_its_driver_names_what_to_install(
     monkeypatch, interface, package, raised
 ):
-    """python-can's kvaser ends in a NameError where CANlib is not there."""
+    """python-can's kvaser raises a NameError without CANlib."""
 
     def fail(**_):
         raise raised
@@ -56,7 +56,7 @@ def test_an_interface_without_its_driver_names_what_to_install(
         open_bus(BusSettings(interface=interface, channel="0"))
 
 
-def test_a_daemon_that_says_nothing_is_not_waited_for(monkeypatch):
+def test_silent_daemon_is_not_waited_for(monkeypatch):
     monkeypatch.setattr(bus_module, "_ANSWER_S", 0.2)
     with socket.create_server(("127.0.0.1", 0)) as server:
         options = {"host": "127.0.0.1", "port": server.getsockname()[1]}

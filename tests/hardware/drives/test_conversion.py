@@ -1,4 +1,4 @@
-"""Whole numbers of the drives ↔ SI: the maker's numbers by hand, and counters that wrap."""
+"""Integers of the drives ↔ SI: numbers of the manufacturer by hand, and counters that wrap."""
 
 import math
 
@@ -38,18 +38,18 @@ def test_current_of_a_torque() -> None:
     assert scale.torque_per_ma == pytest.approx(1.782e-3)
 
 
-def test_a_count_is_a_share_of_a_motor_turn_behind_the_gearbox() -> None:
+def test_count_is_a_share_of_a_motor_turn_behind_the_gearbox() -> None:
     assert build_motor_scale(MOTOR).angle_per_count * 2000 * 50 == pytest.approx(2.0 * math.pi)
 
 
-def test_the_sign_turns_torque_and_angle_together() -> None:
+def test_sign_inverts_torque_and_angle_together() -> None:
     plain, turned = build_motor_scale(MOTOR), build_motor_scale(MOTOR.changed(sign=-1))
     assert turned == (-plain.torque_per_ma, -plain.angle_per_count)
     assert compute_current_ma(1.782, turned) == -1000
 
 
 @given(torque=st.floats(-15.0, 15.0))
-def test_rounding_costs_half_a_milliampere_at_most(torque: float) -> None:
+def test_rounding_error_is_at_most_half_a_milliampere(torque: float) -> None:
     scale = build_motor_scale(MOTOR)
     sent = compute_current_ma(torque, scale) * scale.torque_per_ma
     assert abs(sent - torque) <= 0.5000001 * scale.torque_per_ma
@@ -65,8 +65,8 @@ def test_deflection_scale() -> None:
     start=st.integers(-(2**31), 2**31 - 1),
     steps=st.lists(st.integers(-(2**15) + 1, 2**15 - 1), max_size=50),
 )
-def test_a_counter_that_wraps_goes_on(bits: int, start: int, steps: list[int]) -> None:
-    """Steps of less than half the counter's range are never mistaken, however far it goes."""
+def test_wrapped_counter_continues(bits: int, start: int, steps: list[int]) -> None:
+    """Steps of less than half the counter's range are never ambiguous, over any distance."""
     unwrapped, true = Unwrapped(bits, start), start
     for step in steps:
         true += step
@@ -74,8 +74,8 @@ def test_a_counter_that_wraps_goes_on(bits: int, start: int, steps: list[int]) -
         assert unwrapped.update(raw) == true
 
 
-def test_the_first_reading_is_the_nearest_to_the_start() -> None:
-    """A 16-bit encoder whose zero lies next to its wrap: −32 760 is 8 counts past 32 768."""
+def test_first_reading_is_the_nearest_to_the_start() -> None:
+    """A 16-bit encoder whose zero is next to its wrap: −32 760 is 8 counts after 32 768."""
     unwrapped = Unwrapped(16, 32_760)
     assert unwrapped.update(-32_760) == 32_776
     unwrapped.reset()

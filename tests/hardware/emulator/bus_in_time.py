@@ -1,4 +1,4 @@
-"""The emulator as a python-can bus in virtual time: who waits for a frame moves time on."""
+"""The emulator as a python-can bus in virtual time: waiting for a frame advances the time."""
 
 import copy
 import math
@@ -16,7 +16,7 @@ EMULATOR_BENCH = Path(__file__).parents[3] / "svsa" / "hardware" / "emulator" / 
 
 
 def copy_bench(folder: Path, change: Callable[[str], str] = str) -> Path:
-    """The emulator's bench file and record in a folder of the test's own."""
+    """Copy the emulator's bench file and record into a folder of the test."""
     for name in ("bench.toml", "bench.calibration.toml"):
         (folder / name).write_text(EMULATOR_BENCH.with_name(name).read_text("utf-8"), "utf-8")
     path = folder / "bench.toml"
@@ -25,7 +25,7 @@ def copy_bench(folder: Path, change: Callable[[str], str] = str) -> Path:
 
 
 class EmulatorBus:
-    """What `can.BusABC` is to a probe. sent: every frame of the probe, with its time."""
+    """The interface of `can.BusABC`. sent: every frame of the test, with its time."""
 
     def __init__(self, emulator: Emulator | None = None) -> None:
         self.emulator = emulator or Emulator()
@@ -53,7 +53,7 @@ class EmulatorBus:
         return self._heard.popleft() if self._heard else None
 
     def sleep(self, duration_s: float) -> None:
-        """Who talks and listens here is not let run for so long; the emulator goes on."""
+        """A scheduling delay of the test process; the emulator continues."""
         self._advance_to(self.emulator.now_us + round(duration_s * 1e6))
 
     def _advance_to(self, end_us: int) -> None:

@@ -9,16 +9,18 @@ from unittest.mock import patch
 
 import can
 
+from svsa.actuators.parameters import SVSA
 from svsa.hardware.emulation import Frame
 from svsa.hardware.emulator.control import EmulatorControl, EmulatorError, answer
 from svsa.hardware.emulator.emulator import Emulator
 from svsa.hardware.emulator.exchange import Exchange
+from svsa.hardware.emulator.parameters import build_emulator_parameters
 from svsa.hardware.settings import BusSettings
 from tests.hardware.emulator.wire_frames import build_message, read_frame
 
 
 class InProcessBus:
-    """What `can.BusABC` is to a plant in lockstep: what it sends is done before `send` returns."""
+    """`can.BusABC` for a plant in lockstep: a frame is processed before `send` returns."""
 
     def __init__(self, emulator: "InProcessEmulator") -> None:
         self._rig = emulator
@@ -35,7 +37,7 @@ class InProcessBus:
 
 
 class InProcessControl(EmulatorControl):
-    """The control port's commands, without the port."""
+    """The commands of the control port, without the port."""
 
     def __init__(self, emulator: Emulator) -> None:
         self._rig = emulator
@@ -48,12 +50,13 @@ class InProcessControl(EmulatorControl):
 
 
 class InProcessEmulator:
-    """An emulator and the buses that are open to it; a `FrameServer` for its exchange of frames."""
+    """An emulator and its open buses; a `FrameServer` for its exchange of frames."""
 
     port = 0
 
-    def __init__(self) -> None:
-        machine = Emulator()
+    def __init__(self, actuator: str = SVSA) -> None:
+        machine = Emulator(build_emulator_parameters(actuator))
+        self.parameters = machine.parameters
         self.control = InProcessControl(machine)
         self.buses: list[InProcessBus] = []
         self._exchange = Exchange(machine, [self], lockstep=True)
@@ -102,8 +105,8 @@ class InProcessEmulator:
 
 
 @contextlib.contextmanager
-def start_in_process() -> Iterator[InProcessEmulator]:
-    """An emulator to which every bus goes that a plant opens meanwhile."""
-    emulator = InProcessEmulator()
+def start_in_process(actuator: str = SVSA) -> Iterator[InProcessEmulator]:
+    """An emulator whose buses replace those that a plant opens."""
+    emulator = InProcessEmulator(actuator)
     with patch("svsa.hardware.can_plant.open_bus", emulator.open_bus):
         yield emulator

@@ -1,4 +1,4 @@
-"""The emulator as a whole: who speaks when, and the same frames for the same commands."""
+"""The complete emulator: times of its frames, and equal frames for equal commands."""
 
 import itertools
 
@@ -52,8 +52,8 @@ def list_times(said, can_id):
     return [time_us for time_us, frame, _ in said if frame.can_id == can_id]
 
 
-def test_the_parts_speak_at_their_own_moments_of_each_ms():
-    """No part is in step with another or with the loop, as on a bench."""
+def test_nodes_send_at_their_own_times_in_each_ms():
+    """No node is synchronous with another or with the loop, as on a bench."""
     said = run(bring_up(), 3)
     for can_id, phase in ((0x01B, 300), (0x02B, 500), (0x700, 800)):
         times = list_times(said, can_id)
@@ -61,22 +61,22 @@ def test_the_parts_speak_at_their_own_moments_of_each_ms():
 
 
 @pytest.mark.parametrize("period", [2, 5])
-def test_feedback_and_inputs_come_at_the_period_asked_for(period):
+def test_feedback_and_inputs_arrive_at_the_configured_period(period):
     said = run(bring_up(period, period), 20)
     for can_id in (0x01B, 0x01C, 0x02B, 0x02C):
         gaps = {b - a for a, b in itertools.pairwise(list_times(said, can_id))}
         assert gaps == {1000 * period}
 
 
-def test_nothing_flows_before_a_mode_but_the_deflection():
+def test_only_the_deflection_is_sent_before_a_mode():
     emulator = Emulator()
     emulator.receive(build(Config(1, 1), 1), LOOP)
     ids = {frame.can_id for _, frame, _ in emulator.advance_to(300_000)}
     assert ids == {build_id(Address(0, 1), Command.CONFIG), 0x700, EMULATED_ID}
 
 
-def test_frames_follow_one_another_by_the_length_of_a_frame():
-    """Ten at once take 1.3 ms; the lowest identifier of those that wait goes first."""
+def test_frames_are_spaced_by_the_length_of_a_frame():
+    """Ten at once take 1.3 ms; the lowest identifier is sent first."""
     emulator = bring_up(0)
     emulator.advance_to(READY_US + 940)
     for number in range(15, 5, -1):
@@ -90,14 +90,14 @@ def test_frames_follow_one_another_by_the_length_of_a_frame():
     assert all(b - a >= FRAME_US for (a, _), (b, _) in itertools.pairwise(said))
 
 
-def test_the_emulation_says_so_every_100_ms():
+def test_emulation_marker_is_sent_every_100_ms():
     said = Emulator().advance_to(1_000_000)
     times = list_times(said, EMULATED_ID)
     assert times == [100_000 * k for k in range(1, 11)]
 
 
-def test_a_current_turns_the_motor_and_is_reported_with_its_lag():
-    """0.5 ms is the time constant; the first B comes 0.1 ms after the first torque."""
+def test_current_turns_the_motor_and_is_reported_with_its_lag():
+    """0.5 ms is the time constant; the first B is sent 0.1 ms after the first torque."""
     said = run(bring_up(), 40, lambda _: (1000, 0))
     currents = [
         decode(Command.FEEDBACK, f.data).current_ma for _, f, _ in said if f.can_id == 0x01B
@@ -111,7 +111,7 @@ def test_a_current_turns_the_motor_and_is_reported_with_its_lag():
     assert counts[-1] > 100
 
 
-def test_two_runs_say_the_same_bytes():
+def test_two_runs_send_the_same_bytes():
     def script(tick):
         return 800 if tick // 40 % 2 else -800, 150 if tick // 25 % 2 else -150
 
@@ -124,8 +124,8 @@ def test_two_runs_say_the_same_bytes():
     assert len({frame.data for _, frame, _ in records[0]}) > 300
 
 
-def test_how_far_one_goes_at_once_changes_nothing():
-    """One advance over 50 ms says the frames of fifty advances over 1 ms, and of odd ones."""
+def test_step_size_of_the_advance_changes_nothing():
+    """One advance over 50 ms sends the frames of fifty advances over 1 ms, and of odd ones."""
 
     def collect(step):
         emulator = bring_up()
@@ -138,7 +138,7 @@ def test_how_far_one_goes_at_once_changes_nothing():
     assert collect(1000) == collect(50_000) == collect(137)
 
 
-def test_time_does_not_go_back():
+def test_time_does_not_decrease():
     emulator = bring_up()
     assert emulator.advance_to(5) == []
     assert emulator.now_us == READY_US

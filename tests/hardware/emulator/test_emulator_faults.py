@@ -1,4 +1,4 @@
-"""Every fault that the emulator can be given does what its name says, and goes again."""
+"""Every injectable fault of the emulator has its effect, and can be removed."""
 
 import itertools
 
@@ -39,7 +39,7 @@ def drive_out(tick):
 
 
 @pytest.mark.parametrize("node, can_id", NODES)
-def test_dropped_frames_are_missing_by_their_probability_and_the_seed(node, can_id):
+def test_frames_are_dropped_by_probability_and_seed(node, can_id):
     found = []
     for _ in range(2):
         emulator = bring_up()
@@ -50,7 +50,7 @@ def test_dropped_frames_are_missing_by_their_probability_and_the_seed(node, can_
 
 
 @pytest.mark.parametrize("node, can_id", NODES)
-def test_frames_of_one_node_can_be_lost_while_the_others_flow(node, can_id):
+def test_frames_of_one_node_are_lost_while_others_arrive(node, can_id):
     emulator = bring_up()
     emulator.inject(DropFrames(node=node))
     said = run(emulator, 20)
@@ -62,8 +62,8 @@ def test_frames_of_one_node_can_be_lost_while_the_others_flow(node, can_id):
 
 
 @pytest.mark.parametrize("node, can_id", NODES)
-def test_late_frames_hold_counts_as_old_as_they_are_late(node, can_id):
-    """The bus stamps them when they come: their age shows in the motion, not in the stamp."""
+def test_late_frames_contain_counts_as_old_as_their_delay(node, can_id):
+    """The bus stamps them on arrival: their age is visible in the motion, not in the stamp."""
     said = {}
     for late in (False, True):
         emulator = bring_up()
@@ -76,7 +76,7 @@ def test_late_frames_hold_counts_as_old_as_they_are_late(node, can_id):
 
 
 @pytest.mark.parametrize("node, can_id", NODES)
-def test_a_frozen_encoder_stays_while_frames_flow(node, can_id):
+def test_frozen_encoder_is_constant_while_frames_arrive(node, can_id):
     emulator = bring_up()
     before = read_counts(run(emulator, 10, drive_out), can_id)[-1]
     emulator.inject(FrozenEncoder(node=node))
@@ -86,7 +86,7 @@ def test_a_frozen_encoder_stays_while_frames_flow(node, can_id):
 
 
 @pytest.mark.parametrize("node, can_id", NODES)
-def test_a_reversed_encoder_counts_the_other_way(node, can_id):
+def test_reversed_encoder_counts_in_reverse(node, can_id):
     counts = []
     for turned in (False, True):
         emulator = bring_up()
@@ -98,9 +98,7 @@ def test_a_reversed_encoder_counts_the_other_way(node, can_id):
 
 
 @pytest.mark.parametrize("node, can_id, number", MOTORS)
-def test_a_reversed_motor_turns_the_other_way_and_says_the_current_it_was_reported(
-    node, can_id, number
-):
+def test_reversed_motor_turns_in_reverse_and_reports_the_commanded_current(node, can_id, number):
     emulator = bring_up()
     emulator.inject(ReversedMotor(node=node))
     said = run(emulator, 30, drive_out)
@@ -110,7 +108,7 @@ def test_a_reversed_motor_turns_the_other_way_and_says_the_current_it_was_report
 
 
 @pytest.mark.parametrize("node, can_id, number", MOTORS)
-def test_a_brown_out_ends_mode_current_and_feedback(node, can_id, number):
+def test_brown_out_ends_mode_current_and_feedback(node, can_id, number):
     emulator = bring_up()
     run(emulator, 20, drive_out)
     emulator.inject(BrownOut(node=node))
@@ -124,7 +122,7 @@ def test_a_brown_out_ends_mode_current_and_feedback(node, can_id, number):
 
 
 @pytest.mark.parametrize("node, can_id, number", MOTORS)
-def test_stall_protection_stops_the_motor_and_is_said_every_100_ms(node, can_id, number):
+def test_stall_protection_stops_the_motor_and_is_reported_every_100_ms(node, can_id, number):
     emulator = bring_up()
     run(emulator, 20, drive_out)
     emulator.inject(Stall(node=node))
@@ -135,7 +133,7 @@ def test_stall_protection_stops_the_motor_and_is_said_every_100_ms(node, can_id,
 
 
 @pytest.mark.parametrize("node, can_id, number", MOTORS)
-def test_a_silent_drive_neither_speaks_nor_hears(node, can_id, number):
+def test_silent_drive_neither_sends_nor_receives(node, can_id, number):
     emulator = bring_up()
     run(emulator, 20, drive_out)
     emulator.inject(Silence(node=node))
@@ -147,7 +145,7 @@ def test_a_silent_drive_neither_speaks_nor_hears(node, can_id, number):
     assert emulator.drives[node].mode is None
 
 
-def test_bus_errors_are_said_as_error_frames():
+def test_bus_errors_are_sent_as_error_frames():
     emulator = bring_up()
     emulator.inject(BusErrors(count=7))
     errors = [frame for _, frame, _ in emulator.advance_to(READY_US + 20_000) if frame.error]
@@ -155,7 +153,7 @@ def test_bus_errors_are_said_as_error_frames():
 
 
 @pytest.mark.parametrize("node, can_id, number", MOTORS)
-def test_a_current_offset_is_made_although_nothing_is_asked(node, can_id, number):
+def test_current_offset_acts_without_a_command(node, can_id, number):
     emulator = bring_up()
     emulator.inject(CurrentOffset(node=node, offset_a=0.4))
     assert emulator.drives[node].target_nm > 0.0
@@ -175,6 +173,6 @@ def test_a_current_offset_is_made_although_nothing_is_asked(node, can_id, number
         {"kind": "fire"},
     ],
 )
-def test_a_fault_that_makes_no_sense_is_refused(written):
+def test_invalid_fault_is_rejected(written):
     with pytest.raises((ValidationError, ParameterError)):
         TypeAdapter(EmulatorFault).validate_python(written)

@@ -1,4 +1,4 @@
-"""The emulator's mechanism: the same plant as the simulation's, and stops that hold."""
+"""The mechanism of the emulator: the plant of the simulation, with end stops."""
 
 import math
 
@@ -10,7 +10,7 @@ from svsa.actuators.signals import State, Torque
 from svsa.errors import ParameterError
 from svsa.hardware.emulator.mechanics import GRID_US, Mechanics
 from svsa.hardware.emulator.parameters import EmulatorParameters, read_emulator_parameters
-from svsa.runs.configuration import load_prototype
+from svsa.runs.design_file import load_prototype
 from svsa.simulation.plant.effects import Effects, build_effect_constants
 from svsa.simulation.plant.effects.current_lag import CurrentLag
 from svsa.simulation.plant.effects.friction import Friction
@@ -28,7 +28,7 @@ FREE = EmulatorParameters(friction=None, current_lag=None)
 
 
 @pytest.mark.parametrize("count", [0, 1, 37])
-def test_coasting_is_so_many_periods_of_the_simulated_plant(count):
+def test_coasting_equals_periods_of_the_simulated_plant(count):
     """One compiled call gives the bits that `integrate_period` gives period by period."""
     effects = Effects(friction=Friction(), current_lag=CurrentLag())
     bench = build_effect_constants(effects, 0, load_prototype().actuator, PERIOD)
@@ -44,8 +44,8 @@ def test_coasting_is_so_many_periods_of_the_simulated_plant(count):
     assert made == target
 
 
-def test_a_long_way_at_once_is_the_same_as_many_short_ones():
-    """When someone looks does not change what happens: lockstep depends on it."""
+def test_one_long_advance_equals_many_short_ones():
+    """Readings do not change the motion: lockstep depends on it."""
     ends = []
     for step in (100, 300, 50_000):
         mechanics = Mechanics(EmulatorParameters())
@@ -56,14 +56,14 @@ def test_a_long_way_at_once_is_the_same_as_many_short_ones():
     assert ends[0] == ends[1] == ends[2]
 
 
-def test_a_target_acts_from_the_next_point_of_the_grid():
+def test_target_acts_from_the_next_point_of_the_grid():
     mechanics = Mechanics(FREE)
     mechanics.set_target(130, Torque(2.0, 0.0))
     assert mechanics.read(200).dtheta1 == 0.0
     assert mechanics.read(300).dtheta1 == pytest.approx(2.0 * PERIOD / 0.0234, rel=1e-3)
 
 
-def test_between_points_the_angles_go_on_with_their_velocities():
+def test_angles_continue_with_their_velocities_between_grid_points():
     mechanics = Mechanics(FREE)
     mechanics.set_target(0, Torque(2.0, 0.0))
     here, between = mechanics.read(5000), mechanics.read(5050)
@@ -71,7 +71,7 @@ def test_between_points_the_angles_go_on_with_their_velocities():
     assert between.dtheta1 == here.dtheta1
 
 
-def test_loads_come_at_their_time_and_go():
+def test_loads_start_and_end_at_their_times():
     mechanics = Mechanics(FREE)
     mechanics.add_load(0, ConstantLoad(torque_nm=(1.0, 0.0, 0.0), start_s=0.01))
     assert mechanics.read(10_000).dq == 0.0
@@ -80,8 +80,8 @@ def test_loads_come_at_their_time_and_go():
     assert mechanics.load_count == 0
 
 
-def test_a_hung_mass_swings_and_comes_to_rest():
-    """Pulled aside and released, m g r sin q brings it back, friction of the motor stops it."""
+def test_hanging_mass_oscillates_and_comes_to_rest():
+    """Displaced and released, m g r sin q accelerates it back, friction of the motor stops it."""
     mechanics = Mechanics(EmulatorParameters())
     mechanics.add_load(0, MassLoad())
     mechanics.add_load(0, PulseLoad(torque_nm=(1.0, 0.0, 0.0), duration_s=0.1))
@@ -91,8 +91,8 @@ def test_a_hung_mass_swings_and_comes_to_rest():
 
 
 @pytest.mark.parametrize("torques", [(27.0, 5.0), (-27.0, -5.0), (27.0, -5.0)])
-def test_the_mechanism_stays_between_its_stops_whatever_is_asked(torques):
-    """A runaway ends at the stops, finite, and not in numbers that kill the emulator."""
+def test_mechanism_stays_between_its_stops_under_any_command(torques):
+    """A runaway ends at the stops with finite numbers, which do not stop the emulator."""
     p = EmulatorParameters()
     mechanics = Mechanics(p)
     mechanics.set_target(0, Torque(*torques))
@@ -105,7 +105,7 @@ def test_the_mechanism_stays_between_its_stops_whatever_is_asked(torques):
         assert p.lever_ratio_min - 1e-9 <= mu <= p.lever_ratio_max + 1e-9
 
 
-def test_a_hit_keeps_the_momentum_and_makes_no_energy():
+def test_impact_conserves_momentum_and_adds_no_energy():
     x = State(0.9, 2.0, 0.0, -1.0, 0.0, 0.0)
     after = hit_stops(Stops(-1.0, 1.0, 0.75), x, 0.01, 0.02)
     assert after.q - after.theta1 == pytest.approx(0.75)
@@ -115,7 +115,7 @@ def test_a_hit_keeps_the_momentum_and_makes_no_energy():
     assert hit_stops(Stops(-1.0, 1.0, 0.75), AT_REST, 0.01, 0.02) == AT_REST
 
 
-def test_home_is_at_rest_and_its_stiffness_is_the_bench_files():
+def test_home_is_at_rest_with_the_stiffness_of_the_bench_file():
     mechanics = Mechanics(EmulatorParameters())
     mechanics.set_target(0, Torque(1.0, 0.5))
     mechanics.read(100_000)
@@ -124,7 +124,7 @@ def test_home_is_at_rest_and_its_stiffness_is_the_bench_files():
     assert EmulatorParameters().lever_ratio == pytest.approx(0.62733965, abs=1e-8)
 
 
-def test_a_rig_file_is_checked(tmp_path):
+def test_rig_file_is_validated(tmp_path):
     path = tmp_path / "rig.toml"
     path.write_text("[friction]\ncoulomb1_nm = 0.0\n[gravity]\nmoment_nm = 0.4\n")
     assert read_emulator_parameters(path).gravity is not None

@@ -17,7 +17,7 @@ HANG_S = 60.0
 
 
 class Wire:
-    """A socketcand client of a few lines, so that the emulator is tested without our own plant."""
+    """A minimal socketcand client, which tests the emulator without the plant of the lab."""
 
     def __init__(self, port):
         self._socket = socket.create_connection(("127.0.0.1", port), HANG_S)
@@ -37,7 +37,7 @@ class Wire:
         return head.strip("< ").split()
 
     def send(self, *frames):
-        """Identifiers and data of frames, in one piece."""
+        """Send identifiers and data of frames in one write."""
         text = ""
         for can_id, data in frames:
             name = f"{can_id:08X}" if can_id > 0x7FF else f"{can_id:03X}"
@@ -45,7 +45,7 @@ class Wire:
         self._socket.sendall(text.encode())
 
     def advance(self, time_us, *before):
-        """Send frames and ask for that time; all that is said until the echo."""
+        """Send frames and request this time; return everything received until the echo."""
         self.send(*before, (ADVANCE_ID, encode_time(time_us)))
         said = []
         while True:
@@ -67,7 +67,7 @@ def only_emulator():
 
 @pytest.fixture
 def emulator(only_emulator):
-    """The one of this module, at its marks, without load or fault; its time goes on."""
+    """The emulator of this module, at its marks, without load or fault; its time continues."""
     only_emulator.control.clear_faults()
     only_emulator.control.set_loads(())
     only_emulator.control.home()
@@ -78,7 +78,7 @@ def read_time_us(emulator):
     return round(1e6 * emulator.control.read_state()["time_s"])
 
 
-def test_in_lockstep_time_stands_until_it_is_asked_to_go_on(emulator):
+def test_time_in_lockstep_advances_on_request_only(emulator):
     wire = Wire(emulator.port)
     begin = read_time_us(emulator)
     time.sleep(0.05)
@@ -93,7 +93,7 @@ def test_in_lockstep_time_stands_until_it_is_asked_to_go_on(emulator):
 
 
 @pytest.mark.exhaustive
-def test_lockstep_over_the_wire_is_the_same_to_the_byte():
+def test_lockstep_over_the_socket_is_reproducible_to_the_byte():
     def record():
         with start_emulator(lockstep=True) as running:
             wire = Wire(running.port)
@@ -118,8 +118,8 @@ def test_lockstep_over_the_wire_is_the_same_to_the_byte():
 
 
 @pytest.mark.parametrize("together", [True, False])
-def test_a_client_is_greeted_before_its_first_frame_acts(emulator, together):
-    """However its frames are cut: else two runs in lockstep would not be the same."""
+def test_client_is_greeted_before_its_first_frame_acts(emulator, together):
+    """For any split of its frames: otherwise two runs in lockstep would differ."""
     wire = Wire(emulator.port)
     begin = read_time_us(emulator)
     reset = (0x000, b"\x55" * 8)
@@ -132,7 +132,7 @@ def test_a_client_is_greeted_before_its_first_frame_acts(emulator, together):
     wire.close()
 
 
-def test_a_client_is_notified_that_this_is_an_emulation(emulator):
+def test_client_is_notified_of_the_emulation(emulator):
     wire = Wire(emulator.port)
     assert f"{EMULATED_ID:08X}" in {
         words[1] for words in wire.advance(read_time_us(emulator) + 150_000)
@@ -140,7 +140,7 @@ def test_a_client_is_notified_that_this_is_an_emulation(emulator):
     wire.close()
 
 
-def test_loads_and_faults_are_reported_over_the_control_port(emulator):
+def test_loads_and_faults_are_set_over_the_control_port(emulator):
     begin = read_time_us(emulator)
     emulator.control.load(MassLoad())
     emulator.control.load(ConstantLoad(torque_nm=(2.0, 0.0, 0.0)), at_s=1e-6 * begin + 0.05)
@@ -157,7 +157,7 @@ def test_loads_and_faults_are_reported_over_the_control_port(emulator):
     wire.close()
 
 
-def test_what_the_control_port_does_not_understand_is_answered_with_why(emulator):
+def test_invalid_request_on_the_control_port_is_answered_with_the_reason(emulator):
     lines = (
         b"nonsense",
         b"[]",
@@ -181,14 +181,14 @@ def test_what_the_control_port_does_not_understand_is_answered_with_why(emulator
     assert read_time_us(emulator) == begin
 
 
-def test_against_the_clock_time_goes_on_on_its_own():
+def test_time_against_the_clock_advances_automatically():
     with start_emulator(lockstep=False) as running:
         deadline = time.monotonic() + HANG_S
         while running.control.read_state()["time_s"] < 0.1:
             assert time.monotonic() < deadline
 
 
-def test_in_lockstep_time_goes_on_where_its_loop_is_gone_until_there_is_another():
+def test_time_in_lockstep_advances_without_a_loop_until_one_connects():
     with start_emulator(True, 120.0, "--alone-s", "0.2") as running:
         loop = Wire(running.port)
         assert read_time_us(running) == 0, "no user has asked yet"
@@ -203,7 +203,7 @@ def test_in_lockstep_time_goes_on_where_its_loop_is_gone_until_there_is_another(
         loop.close()
 
 
-def test_it_ends_when_reported_and_when_idle():
+def test_emulator_ends_on_request_and_when_idle():
     with start_emulator(lockstep=True) as running:
         process = running.process
     assert process.returncode == 0

@@ -1,4 +1,4 @@
-"""What a client has still to be said: together, in order, and only as far as it reads."""
+"""The pending output of a client: combined, in order, limited by the reading client."""
 
 import pytest
 
@@ -11,7 +11,7 @@ ROOM = 10
 
 
 class Pipe:
-    """It takes up to `room` bytes. texts: what was written, a write each."""
+    """Accepts up to `room` bytes. texts: one entry per write."""
 
     def __init__(self, room: int = 10**6) -> None:
         self.room, self.texts = room, []
@@ -25,7 +25,7 @@ class Pipe:
         return len(taken)
 
 
-def test_what_is_said_goes_in_one_write() -> None:
+def test_pending_texts_are_sent_in_one_write() -> None:
     pipe = Pipe()
     kept = Outbox(pipe.write)
     kept.push(b"one ")
@@ -37,7 +37,7 @@ def test_what_is_said_goes_in_one_write() -> None:
     assert kept.wait_s is None
 
 
-def test_what_does_not_go_stays_in_order() -> None:
+def test_unsent_rest_stays_in_order() -> None:
     pipe = Pipe(ROOM)
     kept = Outbox(pipe.write)
     kept.push(b"0123456789abcdef")
@@ -49,7 +49,7 @@ def test_what_does_not_go_stays_in_order() -> None:
     assert b"".join(pipe.texts) == b"0123456789abcdef!"
 
 
-def test_a_long_burst_does_not_wait_for_its_end() -> None:
+def test_long_burst_is_sent_in_parts() -> None:
     pipe = Pipe()
     kept = Outbox(pipe.write)
     for _ in range(FULL_BYTES // 8):
@@ -57,7 +57,7 @@ def test_a_long_burst_does_not_wait_for_its_end() -> None:
     assert pipe.texts == [b"12345678" * (FULL_BYTES // 8)]
 
 
-def test_who_reads_nothing_for_long_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_client_that_does_not_read_is_dropped(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("svsa.hardware.emulator.frame.MAX_BYTES", 15)
     kept = Outbox(Pipe(0).write)
     kept.push(b"0123456789")
@@ -67,7 +67,7 @@ def test_who_reads_nothing_for_long_is_given_up(monkeypatch: pytest.MonkeyPatch)
 
 
 class OneClient:
-    """A `FrameServer` whose client asks for time to go on."""
+    """A `FrameServer` whose client requests the advance of time."""
 
     def __init__(self) -> None:
         self.pipe, self.listening = Pipe(), 1
@@ -88,8 +88,8 @@ class OneClient:
         self._outbox.flush()
 
 
-def test_a_tick_of_the_rig_reaches_its_client_at_once() -> None:
-    """All frames of the time that has gone on, and the answer after them."""
+def test_tick_of_the_rig_reaches_its_client_immediately() -> None:
+    """All frames of the elapsed time, and then the answer."""
     client = OneClient()
     exchange = Exchange(Emulator(), [client], lockstep=True)  # pyright: ignore[reportArgumentType]
     client.asked.append(Frame(ADVANCE_ID, encode_time(5_000), extended=True))

@@ -1,4 +1,4 @@
-"""Frames from one of python-can's own clients to the others, over sockets and a terminal."""
+"""Frames between the clients of python-can, over sockets and a terminal."""
 
 import queue
 import select
@@ -19,7 +19,7 @@ EMULATOR_TIME_S = 1234.000567
 
 
 class Bus:
-    """A bus with nothing on it but what clients say: each frame goes to all the others."""
+    """A bus with client frames only: each frame is sent to all other clients."""
 
     def __init__(self):
         self.socketcand, self.slcan = SocketcandServer(), SlcanServer()
@@ -74,8 +74,8 @@ def bus():
     running.close()
 
 
-def hear(client):
-    """The next message, past what slcan takes for one: an acknowledgement."""
+def receive(client):
+    """Return the next message; slcan also returns acknowledgements, which are skipped."""
     deadline = time.monotonic() + HANG_S
     while time.monotonic() < deadline:
         if (message := client.recv(0.1)) is not None:
@@ -83,8 +83,8 @@ def hear(client):
     raise AssertionError("nothing was heard")
 
 
-def hear_frame(client):
-    message = hear(client)
+def receive_frame(client):
+    message = receive(client)
     return Frame(
         message.arbitration_id, bytes(message.data), message.is_extended_id, message.is_error_frame
     )
@@ -96,67 +96,67 @@ def say(client, frame):
     )
 
 
-def test_each_client_of_python_can_hears_the_others_and_not_itself(bus):
+def test_each_client_of_python_can_receives_frames_of_others_only(bus):
     clients = [bus.connect() for _ in range(3)] + [bus.plug_in(bitrate=1_000_000)]
     for client in clients:
-        assert hear_frame(client) == GREETING
+        assert receive_frame(client) == GREETING
     for sender in clients:
         for frame in FRAMES:
             say(sender, frame)
         for other in clients:
             if other is not sender:
-                assert [hear_frame(other) for _ in FRAMES] == FRAMES
+                assert [receive_frame(other) for _ in FRAMES] == FRAMES
     end = Frame(0x321, b"end")
     bus.to_say.put(end)
     for client in clients:
-        assert hear_frame(client) == end, "a client heard itself"
+        assert receive_frame(client) == end, "a client heard itself"
         client.shutdown()
     assert bus.heard == FRAMES * len(clients)
 
 
-def test_a_frame_has_the_time_of_the_rig_to_the_microsecond(bus):
+def test_frame_has_the_time_of_the_rig_to_the_microsecond(bus):
     client = bus.connect()
-    assert hear(client).timestamp == pytest.approx(EMULATOR_TIME_S, abs=1e-9)
+    assert receive(client).timestamp == pytest.approx(EMULATOR_TIME_S, abs=1e-9)
     client.shutdown()
 
 
-def test_bus_trouble_is_an_error_frame(bus):
+def test_bus_error_is_an_error_frame(bus):
     client, adapter = bus.connect(), bus.plug_in()
-    assert hear_frame(client) == hear_frame(adapter) == GREETING
+    assert receive_frame(client) == receive_frame(adapter) == GREETING
     bus.to_say.put(Frame(0x020, b"", error=True))
-    message = hear(client)
+    message = receive(client)
     assert message.is_error_frame
     assert message.timestamp == pytest.approx(EMULATOR_TIME_S)
     bus.to_say.put(Frame(0x123, DATA))
-    assert hear_frame(adapter) == Frame(0x123, DATA), "slcan has no error frames"
+    assert receive_frame(adapter) == Frame(0x123, DATA), "slcan has no error frames"
     client.shutdown()
     adapter.shutdown()
 
 
-def test_clients_come_and_go_on_a_busy_bus(bus):
-    """A frame right after the handshake's `< ok >` would be read as one with it."""
+def test_clients_connect_and_disconnect_on_a_busy_bus(bus):
+    """A frame right after the handshake's `< ok >` would be read as part of it."""
     bus.chatter = True
     for _ in range(5):
         client = bus.connect()
-        assert hear_frame(client).can_id in (EMULATED_ID, 0x01B)
-        assert hear_frame(client).can_id == 0x01B
+        assert receive_frame(client).can_id in (EMULATED_ID, 0x01B)
+        assert receive_frame(client).can_id == 0x01B
         client.shutdown()
 
 
-def test_the_adapter_tells_python_can_what_it_is(bus):
+def test_adapter_identifies_itself_to_python_can(bus):
     adapter = bus.plug_in(bitrate=1_000_000)
     assert adapter.get_version(HANG_S) == (10, 13)
     assert adapter.get_serial_number(HANG_S) == "SVSA"
     adapter.shutdown()
 
 
-def test_a_remote_frame_goes_nowhere_and_breaks_nothing(bus):
+def test_remote_frame_is_ignored(bus):
     for client in (bus.connect(), bus.plug_in()):
         client.send(
             can.Message(arbitration_id=0x01F, is_remote_frame=True, dlc=8, is_extended_id=False)
         )
         say(client, FRAMES[0])
-        assert hear_frame(client) == GREETING
+        assert receive_frame(client) == GREETING
         client.shutdown()
     deadline = time.monotonic() + HANG_S
     while len(bus.heard) < 2 and time.monotonic() < deadline:

@@ -1,4 +1,4 @@
-"""The slcan adapter on a terminal: the maker's manual, bursts, and what is no line at all."""
+"""The slcan adapter on a terminal: the manufacturer's manual, bursts, and invalid lines."""
 
 import os
 import select
@@ -14,7 +14,7 @@ from .wire_frames import DATA, FRAMES
 
 
 class Terminal:
-    """The far end of the adapter's cable."""
+    """The other end of the adapter's cable."""
 
     def __init__(self):
         self.server = SlcanServer()
@@ -22,7 +22,7 @@ class Terminal:
         self.frames = []
 
     def ask(self, text):
-        """Write this; what comes back."""
+        """Write this, and return the answer."""
         while text:
             text = text[os.write(self._fd, text) :]
             self.poll()
@@ -51,7 +51,7 @@ def terminal():
     plugged.close()
 
 
-def test_the_adapter_answers_as_the_makers_manual_says(terminal):
+def test_adapter_answers_as_in_the_manual(terminal):
     transcript = [
         (b"\r\r\r", b"\r\r\r"),
         (b"V\r", b"V1013\r"),
@@ -87,7 +87,7 @@ def test_the_adapter_answers_as_the_makers_manual_says(terminal):
     assert terminal.frames == [Frame(0x013, DATA), Frame(0x1FFF0001, b"", extended=True)]
 
 
-def test_the_adapter_says_frames_only_while_its_channel_is_open(terminal):
+def test_adapter_sends_frames_only_while_its_channel_is_open(terminal):
     server = terminal.server
     server.send(FRAMES[0], 0.0)
     assert terminal.ask(b"O\r") == b"\r"
@@ -104,21 +104,21 @@ def test_the_adapter_says_frames_only_while_its_channel_is_open(terminal):
     assert server.listening == 0
 
 
-def test_bus_trouble_is_a_flag_of_the_adapter_once(terminal):
+def test_bus_error_is_a_flag_of_the_adapter_once(terminal):
     terminal.ask(b"O\r")
     terminal.server.send(Frame(0, b"", error=True), 0.0)
     assert terminal.ask(b"F\r") == b"F80\r"
     assert terminal.ask(b"F\r") == b"F00\r"
 
 
-def test_the_adapter_stamps_frames_where_it_is_asked_to(terminal):
+def test_adapter_stamps_frames_if_configured(terminal):
     assert terminal.ask(b"Z1\r") == b"\r"
     terminal.ask(b"O\r")
     terminal.server.send(FRAMES[1], 61.2349)
     assert terminal.read() == b"t7FF10004D2\r"
 
 
-def test_an_adapter_that_no_user_reads_closes_and_opens_fresh(terminal, monkeypatch):
+def test_adapter_without_a_reader_closes_and_can_be_opened_again(terminal, monkeypatch):
     monkeypatch.setattr("svsa.hardware.emulator.frame.MAX_BYTES", 100_000)
     terminal.ask(b"O\r")
     for _ in range(20_000):
@@ -130,7 +130,7 @@ def test_an_adapter_that_no_user_reads_closes_and_opens_fresh(terminal, monkeypa
     assert terminal.read() == b"t7FF100\r"
 
 
-def test_a_burst_comes_whole_through_the_terminal(terminal):
+def test_burst_is_complete_through_the_terminal(terminal):
     terminal.ask(b"O\r")
     count = 3_000
     for number in range(count):
@@ -152,7 +152,7 @@ LINES = st.sampled_from(
 @given(
     junk=st.lists(LINES | st.binary(max_size=20), max_size=40).map(b"".join), is_open=st.booleans()
 )
-def test_no_line_at_all_harms_the_adapter(junk, is_open):
+def test_invalid_lines_do_not_affect_the_adapter(junk, is_open):
     terminal = Terminal()
     try:
         terminal.ask(b"O\r" if is_open else b"\r")

@@ -1,4 +1,4 @@
-"""The socketcand server: its handshake, streams cut anywhere, and what is no text at all."""
+"""The socketcand server: its handshake, streams split anywhere, and invalid text."""
 
 import select
 import socket
@@ -25,7 +25,7 @@ class Peer:
         self.frames = []
 
     def write(self, text):
-        """Say this and let the server take all of it."""
+        """Write this, and let the server read all of it."""
         self.socket.sendall(text)
         self.pump()
 
@@ -34,7 +34,7 @@ class Peer:
             self.frames += [frame for _, frame in self.server.poll()]
 
     def read(self):
-        """What has come."""
+        """Return the received text."""
         self.server.flush()
         text = b""
         while select.select([self.socket], [], [], 0.01)[0]:
@@ -64,7 +64,7 @@ def server():
     serving.close()
 
 
-def test_a_client_is_said_nothing_before_it_can_have_read_the_handshake(server, monkeypatch):
+def test_client_receives_no_frame_before_the_handshake(server, monkeypatch):
     monkeypatch.setattr(socketcand, "QUIET_S", 3600.0)
     peer = Peer(server).enter()
     server.send(FRAMES[0], 0.0)
@@ -80,7 +80,7 @@ def test_a_client_is_said_nothing_before_it_can_have_read_the_handshake(server, 
     assert peer.read() == b"< frame 013 0.500000 138803E855555555 >"
 
 
-def test_a_client_that_only_listens_is_said_frames_after_a_moment(server, monkeypatch):
+def test_listening_client_receives_frames_after_a_delay(server, monkeypatch):
     monkeypatch.setattr(socketcand, "QUIET_S", -1.0)
     peer = Peer(server).enter()
     server.poll()
@@ -112,7 +112,7 @@ def test_a_client_that_only_listens_is_said_frames_after_a_moment(server, monkey
         (b"nothing between tags", b""),
     ],
 )
-def test_what_makes_no_sense_is_no_frame(server, text, answer):
+def test_invalid_text_is_no_frame(server, text, answer):
     peer = Peer(server).enter()
     peer.write(text)
     assert peer.read() == answer
@@ -121,7 +121,7 @@ def test_what_makes_no_sense_is_no_frame(server, text, answer):
     assert peer.frames == [Frame(0x123, b"\x0a", extended=True)]
 
 
-def test_before_rawmode_a_client_says_nothing(server):
+def test_client_sends_no_frame_before_rawmode(server):
     peer = Peer(server)
     peer.pump()
     peer.write(b"< send 123 1 A >")
@@ -129,8 +129,8 @@ def test_before_rawmode_a_client_says_nothing(server):
     assert peer.frames == []
 
 
-def test_frames_one_after_the_other_are_not_held_back(server):
-    """Without `tcp_tune` the second would wait for the first to be acknowledged."""
+def test_consecutive_frames_are_not_delayed(server):
+    """Without `tcp_tune` the second would wait for the acknowledgement of the first."""
     peer = Peer(server).enter()
     for number in range(5):
         peer.write(b"< send 123 1 %d >" % number)
@@ -139,7 +139,7 @@ def test_frames_one_after_the_other_are_not_held_back(server):
 
 @settings(max_examples=30, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(cuts=st.lists(st.integers(0, 400), max_size=6))
-def test_a_stream_may_be_cut_anywhere(server, cuts):
+def test_stream_may_be_split_anywhere(server, cuts):
     text = b"".join(
         b"< send %s %d %s >"
         % (
@@ -168,7 +168,7 @@ JUNK = st.lists(WORDS | st.binary(max_size=20), max_size=40).map(b"".join)
 
 @settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(junk=JUNK, raw=st.booleans())
-def test_no_text_at_all_harms_the_server(server, junk, raw):
+def test_any_text_leaves_the_server_working(server, junk, raw):
     peer = Peer(server)
     peer.write(b"< open x >< rawmode >" + junk if raw else junk)
     for frame in peer.frames:
@@ -183,8 +183,8 @@ def test_no_text_at_all_harms_the_server(server, junk, raw):
 
 
 @pytest.mark.parametrize("unit", [b"<", b" ", b"< ", b"< send 123 8 0 ", b"x"])
-def test_a_tag_that_never_ends_is_cut_off(server, unit):
-    """And is looked through in linear time: backtracking would take hours here."""
+def test_unterminated_tag_is_limited(server, unit):
+    """And is scanned in linear time: backtracking would take hours here."""
     peer = Peer(server).enter()
     peer.write(b"<" + unit * (70_000 // len(unit)))
     peer.write(unit * (70_000 // len(unit)))
@@ -192,7 +192,7 @@ def test_a_tag_that_never_ends_is_cut_off(server, unit):
     assert len(server.sources()) == 1
 
 
-def test_a_client_that_does_not_read_is_let_go_and_the_others_are_not(server, monkeypatch):
+def test_client_that_does_not_read_is_dropped_and_others_are_not(server, monkeypatch):
     monkeypatch.setattr("svsa.hardware.emulator.frame.MAX_BYTES", 100_000)
     deaf, well = Peer(server).enter(), Peer(server).enter()
     for peer in (deaf, well):
@@ -214,8 +214,8 @@ def test_a_client_that_does_not_read_is_let_go_and_the_others_are_not(server, mo
     assert text.count(b"< frame 013 ") == said
 
 
-def test_a_burst_reaches_who_reads_it_late(server):
-    """A long step of lockstep is said at once: more than a socket holds."""
+def test_burst_reaches_a_late_reader(server):
+    """A long step of lockstep is sent at once: more than a socket buffer holds."""
     peer = Peer(server).enter()
     peer.write(b"< send 123 0 >")
     server.sources()[1].setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, 16_384)
@@ -232,7 +232,7 @@ def test_a_burst_reaches_who_reads_it_late(server):
     assert said == list(range(count))
 
 
-def test_more_clients_than_a_bench_can_have_are_turned_away(server, monkeypatch):
+def test_clients_above_the_limit_are_rejected(server, monkeypatch):
     monkeypatch.setattr(socketcand, "MAX_CLIENTS", 2)
     peers = [Peer(server).enter() for _ in range(2)]
     turned_away = Peer(server)

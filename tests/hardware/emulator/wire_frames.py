@@ -1,4 +1,4 @@
-"""Frames of every kind that the wire carries, and the same as messages of python-can."""
+"""Frames of every kind on the wire, and the same as messages of python-can."""
 
 import can
 

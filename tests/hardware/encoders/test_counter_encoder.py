@@ -1,4 +1,4 @@
-"""A deflection encoder at the counter of an NI card, with a package laid out as nidaqmx is."""
+"""A deflection encoder at the counter of an NI card, with a package in the layout of nidaqmx."""
 
 import math
 import sys
@@ -13,7 +13,7 @@ ONE_TURN = 2.0 * math.pi
 
 
 class FakeError(Exception):
-    """As nidaqmx.errors.Error: the root of what the package raises."""
+    """Like nidaqmx.errors.Error: the base class of the package's errors."""
 
 
 class FakeChannels:
@@ -41,7 +41,7 @@ class FakeChannels:
 
 
 class FakeTask:
-    """What of nidaqmx.Task is used. angle: rad, None where the card is gone."""
+    """The used part of nidaqmx.Task. angle: rad, None if the card is gone."""
 
     made: "list[FakeTask]" = []
 
@@ -66,7 +66,7 @@ class FakeTask:
 
 @pytest.fixture
 def card(monkeypatch):
-    """A package as nidaqmx is laid out, with one card."""
+    """A package in the layout of nidaqmx, with one card."""
     package, constants, errors = (
         types.ModuleType(f"nidaqmx{tail}") for tail in ("", ".constants", ".errors")
     )
@@ -80,8 +80,8 @@ def card(monkeypatch):
     return FakeTask.made
 
 
-def test_a_counter_counts_every_edge(card):
-    """2000 lines are 8000 counts a turn, read on demand, signed."""
+def test_counter_counts_every_edge(card):
+    """2000 lines are 8000 counts per turn, read on demand, signed."""
     counter = NidaqmxCounter(CounterSettings(counter="Dev1/ctr0", lines=2000, a_terminal="PFI8"))
     counter.open()
     (task,) = card
@@ -95,7 +95,7 @@ def test_a_counter_counts_every_edge(card):
     assert counter.read(4.0) is None
 
 
-def test_a_counter_that_does_not_exist_or_goes_away_is_said(card):
+def test_missing_or_lost_counter_is_reported(card):
     wrong = NidaqmxCounter(CounterSettings(counter="Dev7/ctr0", lines=2000))
     with pytest.raises(EncoderError, match=r"Dev7/ctr0.*driver"):
         wrong.open()
@@ -107,7 +107,7 @@ def test_a_counter_that_does_not_exist_or_goes_away_is_said(card):
         counter.read(0.0)
 
 
-def test_without_the_package_it_says_how_to_install_it(monkeypatch):
+def test_missing_package_is_reported_with_its_installation(monkeypatch):
     monkeypatch.setitem(sys.modules, "nidaqmx", None)
     counter = NidaqmxCounter(CounterSettings(counter="Dev1/ctr0", lines=2000))
     with pytest.raises(EncoderError, match=r"pip install 'svsa-lab\[nidaqmx\]'"):

@@ -1,4 +1,4 @@
-"""Where the deflection's counts come from: a CAN node or a file; options that are refused."""
+"""Sources of deflection counts: a CAN node or a file; rejected options."""
 
 import can
 import pytest
@@ -16,7 +16,7 @@ def build(source, **options):
     return read_source(DeflectionSettings(source=source, options=options))
 
 
-def test_a_source_is_chosen_by_its_name():
+def test_source_is_selected_by_its_name():
     assert isinstance(build("serial", port="/dev/ttyUSB0"), SerialLine)
     assert isinstance(build("nidaqmx", counter="Dev1/ctr0", lines=2000), NidaqmxCounter)
 
@@ -35,7 +35,7 @@ def build_frame(data, number=0x700, **kind):
         ({"offset": 5, "width": 24, "big_endian": False}, "5555555555 85ffff", -123),
     ],
 )
-def test_counts_lie_where_the_options_say(options, data, counts):
+def test_counts_have_the_position_of_the_options(options, data, counts):
     node = build("can", id=0x700, **options)
     assert node.read(0.0) is None
     assert node.feed(build_frame(bytes.fromhex(data)), 1.5)
@@ -53,14 +53,14 @@ def test_counts_lie_where_the_options_say(options, data, counts):
     ],
     ids=["another id", "extended", "too short", "a request", "an error frame"],
 )
-def test_what_is_not_a_frame_of_the_node_changes_nothing(frame):
+def test_other_frames_change_nothing(frame):
     node = build("can", id=0x700)
     node.feed(build_frame((7).to_bytes(4, "big")), 1.0)
     assert not node.feed(frame, 2.0)
     assert node.read(3.0) == (7, 1.0)
 
 
-def test_a_narrow_counter_is_unwrapped_by_its_own_width():
+def test_narrow_counter_is_unwrapped_by_its_own_width():
     node = build("can", id=0x700, width=16)
     unwrapped = Unwrapped(node.bits)
     for counts in (32_000, 33_000, 65_000, 66_000, 40_000):
@@ -71,12 +71,12 @@ def test_a_narrow_counter_is_unwrapped_by_its_own_width():
 @pytest.mark.parametrize(
     "options", [{}, {"id": 1, "width": 12}, {"id": 1, "offset": 6}, {"id": 1, "other": 1}]
 )
-def test_wrong_options_are_refused_by_name(options):
+def test_invalid_options_are_rejected_by_name(options):
     with pytest.raises(ParameterError):
         build("can", **options)
 
 
-def test_a_recorded_file_is_replayed_in_its_own_time(tmp_path):
+def test_recorded_file_is_replayed_in_its_own_time(tmp_path):
     path = tmp_path / "counts.csv"
     path.write_text("time_s,counts\n0.0,5\n0.1,6\n0.3,-7\n", "utf-8")
     source = build("replay", file=str(path))
@@ -93,7 +93,7 @@ def test_a_recorded_file_is_replayed_in_its_own_time(tmp_path):
     "text", [None, "", "time_s,counts\n", "a,b\n0,x\n", "t,c\n1,2\n1,3\n", "t,c\n1\n"]
 )
 @pytest.mark.filterwarnings("ignore:.*input contained no data")
-def test_a_file_that_cannot_be_replayed_is_an_error(tmp_path, text):
+def test_unreadable_file_is_an_error(tmp_path, text):
     path = tmp_path / "counts.csv"
     if text is not None:
         path.write_text(text, "utf-8")
@@ -102,7 +102,7 @@ def test_a_file_that_cannot_be_replayed_is_an_error(tmp_path, text):
         source.open()
 
 
-def test_a_wrong_option_is_called_by_its_path_in_the_bench_file():
+def test_invalid_option_is_named_by_its_path_in_the_bench_file():
     with pytest.raises(ParameterError) as refused:
         build("can", id=0x700, width=99)
     assert [violation.name for violation in refused.value.violations] == [

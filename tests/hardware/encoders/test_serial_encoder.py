@@ -1,4 +1,4 @@
-"""A deflection encoder behind a serial line, on a terminal in place of the line."""
+"""A deflection encoder on a serial line, with a terminal in place of the line."""
 
 import os
 import time
@@ -12,7 +12,7 @@ LONGEST_S = 20.0
 
 
 class Device:
-    """The far end of a serial line."""
+    """The device at the other end of a serial line."""
 
     def __init__(self):
         self.handle, slave = os.openpty()
@@ -41,7 +41,7 @@ def open_serial(device, **options):
 
 
 def read_until(line, counts):
-    """The first reading with these counts; the terminal may take its time."""
+    """Return the first reading with these counts; the terminal may take some time."""
     end = time.monotonic() + LONGEST_S
     while time.monotonic() < end:
         reading = line.read(2.5)
@@ -51,7 +51,7 @@ def read_until(line, counts):
     raise AssertionError(f"{counts} has not come: {line.read(2.5)}")
 
 
-def test_lines_are_read_as_they_come_and_the_newest_counts(device):
+def test_lines_are_read_on_arrival_and_the_newest_counts(device):
     line = open_serial(device)
     assert line.read(0.0) is None
     device.say(b"1\n2\n-345\n")
@@ -63,8 +63,8 @@ def test_lines_are_read_as_they_come_and_the_newest_counts(device):
     line.close()
 
 
-def test_a_line_that_began_before_it_was_heard_is_not_taken_for_a_number(device):
-    """Of -1234567 only the end would be there."""
+def test_first_incomplete_line_is_ignored(device):
+    """Of -1234567 only the end would be received."""
     line = open_serial(device)
     device.say(b"567\n12\n")
     read_until(line, 12)
@@ -79,7 +79,7 @@ def test_a_line_that_began_before_it_was_heard_is_not_taken_for_a_number(device)
     line.close()
 
 
-def test_damaged_lines_are_passed_over(device):
+def test_damaged_lines_are_skipped(device):
     line = open_serial(device)
     device.say(b"\n5\n" + b"x" * 300 + b"6\n1_0\n\xff\xfe\n--3\n\n12345678901234\n")
     read_until(line, 5)
@@ -93,8 +93,8 @@ def build_word(counts):
     return b"\xa5" + content + bytes([sum(content) % 256])
 
 
-def test_words_are_found_again_where_their_marker_stands_in_the_counts(device):
-    """Every byte of these counts is the marker, and the line is joined in the middle."""
+def test_words_are_resynchronized_if_counts_contain_the_marker(device):
+    """Every byte of these counts is the marker, and reading starts inside a word."""
     line = open_serial(device, binary=True)
     counts = int.from_bytes(b"\xa5" * 4, "little", signed=True)
     device.say(build_word(counts)[3:] + build_word(counts) * 3 + build_word(-2))
@@ -106,7 +106,7 @@ def test_words_are_found_again_where_their_marker_stands_in_the_counts(device):
     line.close()
 
 
-def test_noise_does_not_pile_up(device):
+def test_noise_does_not_accumulate(device):
     line = open_serial(device, binary=True)
     for _ in range(20):
         device.say(b"\x11" * 500)
@@ -117,7 +117,7 @@ def test_noise_does_not_pile_up(device):
     line.close()
 
 
-def test_a_serial_port_that_is_not_there_says_what_to_check():
+def test_missing_serial_port_is_reported_with_instructions():
     line = SerialLine(SerialLineSettings(port="/dev/no-such-port"))
     with pytest.raises(EncoderError, match=r"no-such-port cannot be opened.*cable"):
         line.open()
@@ -125,7 +125,7 @@ def test_a_serial_port_that_is_not_there_says_what_to_check():
     line.close()
 
 
-def test_a_device_that_is_pulled_out_is_an_error_and_not_a_hang():
+def test_disconnected_device_is_an_error():
     device = Device()
     line = open_serial(device)
     device.close()

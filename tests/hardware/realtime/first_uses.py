@@ -30,11 +30,11 @@ from tests.hardware.wired_bench import WiredBench
 
 ARMING_TICKS, RAMP_TICKS = 1500, 500
 EMULATOR_S = 0.1
-"""In which the emulator, which is in this process, has loaded what it needs itself."""
+"""In which the emulator, in this process, has loaded its own code."""
 
 
 class LoadCounter(event.Listener):
-    """Counts how often numba took its lock: to compile, or to load compiled code."""
+    """Counts how often numba acquired its lock: to compile, or to load compiled code."""
 
     loads = 0
 
@@ -46,7 +46,7 @@ class LoadCounter(event.Listener):
 
 
 class Rehearsal:
-    """A loop that has been warmed up, and its answers."""
+    """A warmed-up loop, and its answers."""
 
     def __init__(self, wired: WiredBench, memory: LoopMemory) -> None:
         self.wired, self.laws, bench = wired, PreparedLaws(), wired.bench
@@ -70,9 +70,9 @@ class Rehearsal:
         event.register("numba:compiler_lock", self.counter)
 
     def give(self, do: str, argument: Any = None, ticks: int = 1) -> dict[str, Any]:
-        """What the loop answered, and what it and its next ticks loaded.
+        """Send a command; return the answer, and the code loaded in it and in the next ticks.
 
-        What the server computes for it meanwhile is not counted.
+        Computations of the server for this command are not counted.
         """
         loads, modules = 0, list[str]()
         for _ in range(10):
@@ -98,7 +98,7 @@ class Rehearsal:
 
 
 def vary(parameters: LawParameters) -> Iterator[LawParameters]:
-    """The parameters with each number in turn a little or much larger or smaller."""
+    """Vary the parameters: each number in turn slightly or much larger or smaller."""
     for name, value in parameters:
         for factor in (1.01, 0.99, 2.0, 0.5):
             try:
@@ -111,7 +111,7 @@ def vary(parameters: LawParameters) -> Iterator[LawParameters]:
 
 
 def list_other_parameters() -> dict[str, list[LawParameters]]:
-    """Of every law that has its own."""
+    """For every law with its own parameters."""
     laws = [get_law(name) for name in list_law_names()]
     return {law.name: [*vary(law.parameters())] for law in laws if law.parameters is not Gains}
 

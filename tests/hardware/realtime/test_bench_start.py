@@ -1,4 +1,4 @@
-"""A bench's loop that starts: waited for as long as it gets on, and heard meanwhile."""
+"""The start of a bench's loop: the server waits while it progresses, and handles requests."""
 
 import io
 import types
@@ -16,7 +16,7 @@ from svsa_server.sessions.bench_start import show_steps
 
 
 class ScriptedLink:
-    """Says each message at its time. is_gone: the loop has ended before it receives anything."""
+    """Sends each message at its time. is_gone: the loop has ended before it receives anything."""
 
     is_gone = False
 
@@ -44,7 +44,7 @@ class ScriptedLink:
 
 @pytest.fixture
 def start(monkeypatch):
-    """Starts a bench whose loop says these messages, and gives what was reported of it."""
+    """Start a bench whose loop sends these messages, and return the reports."""
 
     def begin(messages, silence_s):
         link, reported = ScriptedLink(messages), []
@@ -74,7 +74,7 @@ def starting(step):
     return {"event": "starting", "step": step}
 
 
-def test_a_loop_that_gets_on_is_waited_for_and_shown(start):
+def test_progressing_loop_is_waited_for_with_its_progress(start):
     compiling = [(50.0 * n, starting(f"compiling, {n} functions")) for n in range(1, 8)]
     state = {"event": "state"}
     processes, reported = start(
@@ -87,22 +87,22 @@ def test_a_loop_that_gets_on_is_waited_for_and_shown(start):
     processes.free()
 
 
-def test_a_loop_that_stands_still_is_given_up_with_what_it_was_doing(start):
+def test_stalled_loop_is_abandoned_with_its_last_step(start):
     with pytest.raises(BenchError, match=r"not got on for 60 s.*opening the bus.*start_silence_s"):
         start([(1.0, starting("opening the bus"))], 60.0)
 
 
-def test_a_loop_that_ends_is_not_waited_for(start):
+def test_ended_loop_is_not_waited_for(start):
     with pytest.raises(BenchError, match="has ended, which was opening the bus"):
         start([(1.0, starting("opening the bus")), (2.0, "closed")], 1e9)
 
 
-def test_a_bench_that_cannot_be_opened_says_why(start):
+def test_bench_that_cannot_be_opened_reports_the_reason(start):
     with pytest.raises(BenchError, match="no adapter"):
         start([(1.0, {"event": "failed", "message": "no adapter"})], 60.0)
 
 
-def test_a_loop_that_ended_before_it_received_anything_has_said_why(start, monkeypatch):
+def test_loop_that_ended_before_the_first_message_has_its_reason(start, monkeypatch):
     monkeypatch.setattr(ScriptedLink, "is_gone", True)
     with pytest.raises(BenchError, match="no adapter"):
         start([(0.0, {"event": "failed", "message": "no adapter"})], 60.0)
@@ -120,7 +120,7 @@ def test_every_compiled_function_is_reported_once():
     assert names.count("double") == 1
 
 
-def test_a_log_gets_a_line_every_ten_seconds():
+def test_log_gets_a_line_every_ten_seconds():
     console = Console(file=io.StringIO(), force_terminal=False, width=100)
     report = show_steps(console)
     for second in range(25):

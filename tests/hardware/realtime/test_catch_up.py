@@ -1,4 +1,4 @@
-"""What came on the bus while the loop was loaded is taken before its first tick is due."""
+"""Frames that arrived while the loop was loaded are read before its first tick is due."""
 
 from types import SimpleNamespace
 from typing import Any
@@ -12,7 +12,7 @@ from tests.hardware.wired_bench import AT_REST, WiredBench
 LOADING_S = 2.0
 
 
-def test_thousands_of_frames_wait_for_no_tick() -> None:
+def test_thousands_of_pending_frames_delay_no_tick() -> None:
     with WiredBench() as bench:
         bench.clock.wait_until(bench.clock.now() + LOADING_S)
         waiting = bench.plant_bus.queue.qsize()  # pyright: ignore
@@ -23,7 +23,7 @@ def test_thousands_of_frames_wait_for_no_tick() -> None:
         assert reading.ages_s[2] < 0.002, "what was taken last is the present"
 
 
-def test_the_first_tick_is_due_after_that() -> None:
+def test_first_tick_is_due_after_the_pending_frames() -> None:
     done: list[str] = []
 
     def now() -> float:

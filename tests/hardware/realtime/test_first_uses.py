@@ -1,4 +1,4 @@
-"""No command to a bench whose loop runs imports, compiles or loads code in a tick."""
+"""No command to a bench with a running loop imports, compiles or loads code in a tick."""
 
 import json
 import subprocess
@@ -24,10 +24,11 @@ from svsa.hardware.realtime.warm_up import list_changes
 from svsa.hardware.session.supervised_loop import SupervisedLoop
 from svsa.numerics.compilation import compiled
 from svsa.runs.blocks import bind_law, build_blocks
-from svsa.runs.command import COMMANDS
+from svsa.runs.command import COMMANDS, OF_ARM
 from svsa.runs.configuration import Lane
 from svsa.runs.paper import get_figure
 from svsa.simulation.plant.loads import LOADS
+from svsa.simulation.plant.loads.load import TIP
 from svsa.simulation.reference.kinds import POSITIONS, STIFFNESSES
 from tests.hardware.realtime.first_uses import Rehearsal, list_other_parameters
 from tests.hardware.wired_bench import WiredBench
@@ -38,7 +39,7 @@ OWN_PARAMETERS = list_other_parameters()
 
 @pytest.mark.parametrize("state", ["ready", "run"])
 def test_first_uses_load_nothing_in_a_tick(state: str) -> None:
-    """Every law, with other parameters too, and every kind of command, in a new process."""
+    """Every law, also with other parameters, and every kind of command, in a new process."""
     program = [sys.executable, "-m", "tests.hardware.realtime.first_uses", state]
     reported = json.loads(subprocess.run(program, check=True, stdout=subprocess.PIPE).stdout)
     assert reported["status"] == state
@@ -48,22 +49,23 @@ def test_first_uses_load_nothing_in_a_tick(state: str) -> None:
     assert {name: found for name, found in reported["found"] if found != nothing} == {}
 
 
-def test_the_warm_up_has_every_kind_of_command_reference_and_load() -> None:
+def test_warm_up_has_every_kind_of_command_reference_and_load() -> None:
     changes = list_changes(FIGURE, list(list_law_names()))
-    assert {kind for kind, _ in changes} == set(COMMANDS)
-    for kind, found in (("position", POSITIONS), ("stiffness", STIFFNESSES), ("load", LOADS)):
+    assert {kind for kind, _ in changes} == set(COMMANDS) - set(OF_ARM)
+    loads = [load for load in LOADS if load.acts_as != TIP]
+    for kind, found in (("position", POSITIONS), ("stiffness", STIFFNESSES), ("load", loads)):
         kinds = {one.model_fields["kind"].default for one in found}
         assert {argument["kind"] for of, argument in changes if of == kind} == kinds
 
 
 class Rows(LawParameters):
-    """How many numbers the constants have."""
+    """The number of constants."""
 
     rows: int = 2
 
 
 class Table(NamedTuple):
-    """As many numbers as the parameters say."""
+    """As many numbers as the parameters state."""
 
     table: tuple[float, ...]
 
@@ -87,7 +89,7 @@ VARIABLE = Law("variable", "Variable", "", "", "", rest, parameters=Rows, build=
 
 @pytest.fixture(scope="module")
 def rehearsal() -> Iterator[Rehearsal]:
-    """A loop that has been warmed up, with laws of other packages that do not work."""
+    """A warmed-up loop, with broken laws of other packages."""
     others = {"failing": f"{__name__}:FAILING", "variable": f"{__name__}:VARIABLE"}
     others["missing"] = "no_such_package_of_laws:LAW"
     memory, entries = LoopMemory.create(), installed._find_entries()
@@ -104,7 +106,7 @@ def rehearsal() -> Iterator[Rehearsal]:
 @pytest.mark.parametrize(
     ("law", "reason"), [("failing", "no gain"), ("missing", "No module named 'no_such_package")]
 )
-def test_a_law_that_does_not_work_is_refused_with_its_reason(
+def test_broken_law_is_rejected_with_its_reason(
     rehearsal: Rehearsal, law: str, reason: str
 ) -> None:
     before = rehearsal.loop.run.configuration
@@ -117,8 +119,8 @@ def test_a_law_that_does_not_work_is_refused_with_its_reason(
     assert rehearsal.change("law", "pid")["refused"] is None, "the others are not affected"
 
 
-def test_constants_of_another_layout_are_refused(rehearsal: Rehearsal) -> None:
-    """To compile the law for them would stop the loop."""
+def test_constants_of_another_layout_are_rejected(rehearsal: Rehearsal) -> None:
+    """Compiling the law for them would stop the loop."""
     assert rehearsal.change("law", "variable")["refused"] is None
     before = rehearsal.loop.run.configuration
     found = rehearsal.ask("change", write("parameters", {"variable": {"rows": 3}}))
@@ -134,19 +136,20 @@ def write(kind: str, argument: Any) -> dict[str, Any]:
 
 
 @pytest.mark.parametrize("law", OWN_PARAMETERS)
-def test_other_parameters_of_a_law_leave_the_layout_of_its_constants(law: str) -> None:
+def test_parameters_of_a_law_do_not_change_the_layout_of_its_constants(law: str) -> None:
     layouts = set()
     for parameters in [installed.get_law(law).parameters(), *OWN_PARAMETERS[law]]:
         configuration = FIGURE.changed(law=law, parameters={law: parameters})
         blocks = build_blocks(configuration, Lane(law=law), 0.5)
         key = law, parameters.model_dump_json(), prepared_laws.build_setting(blocks)
-        wanted = json.loads(json.dumps(dict(zip(prepared_laws._KEY, key, strict=True))))
+        wanted = {**dict(zip(prepared_laws._KEY, key, strict=True)), "mechanism": "svsa"}
+        wanted = json.loads(json.dumps(wanted))
         layouts.add(compute_constants(wanted)["layout"])
     assert len(layouts) == 1
 
 
 @pytest.mark.parametrize("law", OWN_PARAMETERS)
-def test_what_the_server_computes_is_what_the_loop_would_have_to_the_bit(
+def test_constants_of_the_server_equal_those_of_the_loop_bit_for_bit(
     rehearsal: Rehearsal, law: str
 ) -> None:
     rehearsal.loop.load(rehearsal.loop.run.configuration)
@@ -163,10 +166,10 @@ def test_what_the_server_computes_is_what_the_loop_would_have_to_the_bit(
             np.testing.assert_array_equal(found.view(np.uint64), expected.view(np.uint64))
 
 
-def test_a_law_that_comes_back_before_the_next_tick_remembers_nothing(
+def test_law_that_returns_before_the_next_tick_starts_without_memory(
     rehearsal: Rehearsal,
 ) -> None:
-    """Prepared laws come back as the same object, but the memory is a new one."""
+    """Prepared laws are the same object, but the memory is a new one."""
     loop = rehearsal.loop
     loop.load(loop.run.configuration)
     assert rehearsal.change("law", "fl_integral")["refused"] is None
@@ -180,7 +183,7 @@ def test_a_law_that_comes_back_before_the_next_tick_remembers_nothing(
     assert loop._connected[2] is loop.run.lanes[0].memory
 
 
-def test_only_what_was_used_last_is_kept(
+def test_only_the_most_recent_laws_are_kept(
     rehearsal: Rehearsal, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(prepared_laws, "MAX_BOUND", len(rehearsal.laws._bound))
@@ -191,8 +194,8 @@ def test_only_what_was_used_last_is_kept(
     assert len(rehearsal.laws._bound) == prepared_laws.MAX_BOUND
 
 
-def test_the_server_computes_what_the_loop_lacks_and_asks_again() -> None:
-    """Once for each lane at most; what the loop refuses then is the answer."""
+def test_server_computes_missing_constants_and_repeats_the_request() -> None:
+    """At most once for each lane; a later rejection of the loop is the answer."""
 
     class Processes:
         def __init__(self, lacking: int) -> None:

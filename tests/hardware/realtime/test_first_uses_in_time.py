@@ -1,4 +1,4 @@
-"""The first use of each law on a bench against the clock: the loop goes on meanwhile."""
+"""The first use of each law on a bench against the clock, with a running loop."""
 
 import contextlib
 import time
@@ -19,7 +19,7 @@ from svsa.simulation.reference.kinds.constant import ConstantPosition
 from tests.hardware.live_bench import IDLE_S, write_bench
 
 MISSED = 60
-"""Ticks of all 19 laws together: they were 300. A busy machine takes some itself."""
+"""Late ticks of all 19 laws together: they were 300. A busy machine causes some itself."""
 WAKE_S = 1.0 / 60.0
 PATIENCE_S = 30.0
 
@@ -38,7 +38,7 @@ def wake_until(session: BenchSession, status: BenchStatus) -> None:
 @contextlib.contextmanager
 def open_bench(folder: Path) -> Iterator[BenchSession]:
     figure = get_figure("4a").build_configuration(load=False)
-    for law in list_law_names():  # as `svsa serve` does, so that its twin does not wait for them
+    for law in list_law_names():  # as in `svsa serve`, so that its twin does not wait for them
         Run(figure.changed(law=law))
     with start_emulator(False, IDLE_S, "--real-time") as emulator:
         path = write_bench(folder, emulator, lockstep=False)
@@ -56,8 +56,8 @@ def open_bench(folder: Path) -> Iterator[BenchSession]:
 
 
 @pytest.mark.parametrize("status", [BenchStatus.READY, BenchStatus.RUN])
-def test_the_first_use_of_each_law_makes_no_tick_late(status: BenchStatus, tmp_path: Path) -> None:
-    """Each for some ms: with the late feedback of a busy machine some would vibrate."""
+def test_first_use_of_each_law_makes_no_tick_late(status: BenchStatus, tmp_path: Path) -> None:
+    """Each for some ms: with the late feedback of a busy machine some would oscillate."""
     with open_bench(tmp_path) as session:
         if status is BenchStatus.RUN:
             session.start()

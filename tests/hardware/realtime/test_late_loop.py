@@ -1,4 +1,4 @@
-"""A loop that is late once: the state that it knows goes on meanwhile, and moves nothing wrong."""
+"""A loop that is late once: its state estimate continues, and no wrong motion follows."""
 
 import numpy as np
 import pytest
@@ -14,11 +14,11 @@ from svsa.runs.paper import get_figure
 from tests.hardware.wired_bench import WiredBench
 
 MOVING_TICKS = 400
-"""Figure 4A has faded in then, and the link moves at 1.3 rad/s."""
+"""Figure 4A has faded in by then, and the link moves at 1.3 rad/s."""
 
 
 def begin(bench: WiredBench) -> BenchLoop:
-    """The bench's own loop on Figure 4A, at tick 0."""
+    """The loop of the bench on Figure 4A, at tick 0."""
     wanted = get_figure("4a").build_configuration(load=False)
     configuration = build_bench_configuration(bench.bench, wanted)
     actuation, mu0 = read_actuation(bench.bench), bench.bench.home.lever_ratio
@@ -35,13 +35,14 @@ def begin(bench: WiredBench) -> BenchLoop:
 
 
 def read(bench: WiredBench) -> State:
-    """The true state."""
+    """Return the true state."""
     return bench.emulator.mechanics.read(bench.emulator.now_us)
 
 
-def test_a_late_tick_makes_no_velocity_that_is_not_there() -> None:
-    """All that an axis moved in 15 ms, taken for one tick's, is a velocity of 5 instead of 2 rad/s,
-    and what the law then asks for makes it true: the fourth time the motor turns with 22 rad/s.
+def test_late_tick_causes_no_false_velocity() -> None:
+    """The motion of an axis in 15 ms, attributed to one tick, is a velocity of 5 instead of 2
+    rad/s, and the torque commanded for it makes it true: the fourth time the motor turns at 22
+    rad/s.
     """
     with WiredBench() as bench:
         loop = begin(bench)
@@ -59,8 +60,8 @@ def test_a_late_tick_makes_no_velocity_that_is_not_there() -> None:
         assert bench.plant.fault is None
 
 
-def test_the_time_of_a_run_goes_on_while_ticks_are_missed() -> None:
-    """Each has its number and no sample, and the references are those of the world's time."""
+def test_time_of_a_run_advances_while_ticks_are_missed() -> None:
+    """Each has its number and no sample, and the references are those of real time."""
     with WiredBench() as bench:
         loop = begin(bench)
         assert isinstance(loop.sink, SampleArray)
@@ -82,7 +83,7 @@ def test_the_time_of_a_run_goes_on_while_ticks_are_missed() -> None:
     assert rows[-1, :4] == pytest.approx(wanted), "time, q_d, its velocity, σ_d"
 
 
-def test_a_fault_after_missed_ticks_has_the_time_of_the_run() -> None:
+def test_fault_after_missed_ticks_has_the_time_of_the_run() -> None:
     with WiredBench() as bench:
         loop = begin(bench)
         bench.drive(loop, MOVING_TICKS)
@@ -94,7 +95,7 @@ def test_a_fault_after_missed_ticks_has_the_time_of_the_run() -> None:
         assert loop.run.tick == MOVING_TICKS + 26
 
 
-def test_ticks_that_end_in_silence_are_none_that_the_server_would_wait_for() -> None:
+def test_server_does_not_wait_for_ticks_after_silence() -> None:
     """The supervisor has reset the drives meanwhile: nothing is measured, and the run has ended."""
     with WiredBench() as bench:
         loop = begin(bench)
@@ -107,8 +108,8 @@ def test_ticks_that_end_in_silence_are_none_that_the_server_would_wait_for() -> 
         assert loop.change(Set("law", "fl")) == loop.sink.done == MOVING_TICKS
 
 
-def test_what_is_missed_before_the_first_tick_is_not_of_the_run() -> None:
-    """To begin a run takes the loop longer than a tick."""
+def test_missed_ticks_before_the_first_one_are_not_of_the_run() -> None:
+    """The start of a run takes the loop longer than a tick."""
     with WiredBench() as bench:
         loop = begin(bench)
         bench.skip(3 * bench.bench.timing.period_s)
@@ -116,8 +117,8 @@ def test_what_is_missed_before_the_first_tick_is_not_of_the_run() -> None:
         assert loop.run.tick == 1
 
 
-def test_in_a_fault_it_says_so_and_not_that_it_was_not_read_yet() -> None:
-    """The drives are reset and say nothing any more; the reason is another."""
+def test_read_during_a_fault_reports_the_fault() -> None:
+    """The reset drives send nothing; the error must not be that nothing was read yet."""
     with WiredBench() as bench:
         loop = begin(bench)
         bench.drive(loop, 10)
@@ -127,8 +128,8 @@ def test_in_a_fault_it_says_so_and_not_that_it_was_not_read_yet() -> None:
             loop.start(bench.now)
 
 
-def test_a_link_that_a_load_has_turned_away_begins_no_run() -> None:
-    """A load that stays after a stop keeps turning the link; the motors have no torque."""
+def test_link_displaced_by_a_load_starts_no_run() -> None:
+    """A load that remains after a stop keeps turning the link; the motors have no torque."""
     with WiredBench() as bench:
         loop = begin(bench)
         bench.drive(loop, 10)
@@ -145,10 +146,11 @@ def test_a_link_that_a_load_has_turned_away_begins_no_run() -> None:
 LATE_TICKS = 60
 
 
-def test_feedback_that_is_late_is_no_frozen_encoder_and_moves_nothing_wrong() -> None:
-    """The bench file lets the torque stay for 0.9 s: x̂ goes on by its model meanwhile.
+def test_late_feedback_is_no_frozen_encoder_and_causes_no_wrong_motion() -> None:
+    """The bench file keeps the torque for 0.9 s: x̂ continues by its model meanwhile.
 
-    Moved on with x̂'s velocity instead, an error would grow fourfold in each tick after 60 ms.
+    If x̂ continued with its velocity instead, an error would grow fourfold in each tick after 60
+    ms.
     """
     with WiredBench(stale_zero_s=0.9, stale_fault_s=1.0) as bench:
         loop = begin(bench)

@@ -1,11 +1,11 @@
-"""The link between server and loop: whole messages, in order, and never waited for."""
+"""The link between server and loop: complete messages, in order, without waiting."""
 
 import pytest
 
 from svsa.hardware.realtime.link import MAX_UNSENT_BYTES, LinkClosedError, build_links
 
 
-def test_messages_arrive_whole_and_in_order():
+def test_messages_arrive_complete_and_in_order():
     one, other = build_links()
     for number in range(300):
         one.send({"number": number, "text": "σ" * number})
@@ -25,7 +25,7 @@ def test_receiving_does_not_wait():
         other.receive()
 
 
-def test_a_peer_that_does_not_read_is_given_up():
+def test_peer_that_does_not_read_is_dropped():
     one, _other = build_links()
     with pytest.raises(LinkClosedError, match="does not read"):
         for _ in range(1000):

@@ -1,4 +1,4 @@
-"""What loop and server share: rows by tick, histograms, and one owner."""
+"""The shared memory of loop and server: rows by tick, histograms, and one owner."""
 
 import subprocess
 import sys
@@ -33,7 +33,7 @@ def test_rows_are_read_by_tick_around_the_end_of_the_ring(memory):
     assert memory.fields["end_tick"] == CAPACITY_TICKS + 5
 
 
-def test_another_process_writes_and_its_end_leaves_the_block(memory):
+def test_block_persists_after_the_end_of_a_writing_process(memory):
     program = (
         "import sys\n"
         "from svsa.hardware.realtime.memory import LoopMemory\n"

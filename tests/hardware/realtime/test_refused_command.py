@@ -1,4 +1,4 @@
-"""A command that the loop of a bench refuses: the server gets the reason, and the loop goes on."""
+"""A command that the loop of a bench rejects: the server gets the reason, the loop continues."""
 
 from collections.abc import Iterator
 
@@ -27,10 +27,10 @@ def rehearsal() -> Iterator[Rehearsal]:
 
 
 @pytest.mark.parametrize(("kind", "argument", "name"), REFUSED)
-def test_the_refused_value_reaches_the_server(
+def test_rejected_value_reaches_the_server(
     rehearsal: Rehearsal, kind: str, argument: object, name: str
 ) -> None:
-    """Whatever the value is: four lanes are objects, which JSON does not hold as they are."""
+    """For any value: four lanes are objects, which JSON cannot represent directly."""
     before = rehearsal.loop.run.configuration
     answer = rehearsal.ask("change", {"tick": 0, "kind": kind, "argument": argument})
     with pytest.raises(ParameterError) as raised:

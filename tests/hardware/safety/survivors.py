@@ -1,5 +1,5 @@
-"""What the drives are reported when processes of a bench are killed or stopped, by the emulator's
-clock.
+"""Frames that the drives receive when processes of a bench are killed or stopped, in
+emulator time.
 """
 
 import contextlib
@@ -25,10 +25,10 @@ SAID = "bench: "
 
 
 class Outcome(NamedTuple):
-    """before_ma: the last command of both drives as they came to hold.
+    """before_ma: the last command of both drives before they held the load.
 
-    zero_s: from the signal to zero, the emulator's time. modes: what the drives are in at the end,
-    None after a reset.
+    zero_s: time from the signal to zero current, in the emulator's time. modes: the modes of the
+    drives at the end, None after a reset.
     """
 
     before_ma: list[int]
@@ -37,7 +37,7 @@ class Outcome(NamedTuple):
 
 
 class StandingBench:
-    """`standing_bench` as a process, and those that it has started."""
+    """`standing_bench` as a process, and its child processes."""
 
     def __init__(self, process: subprocess.Popen[str]) -> None:
         self._process = process
@@ -50,7 +50,7 @@ class StandingBench:
         }
 
     def read_line(self) -> str:
-        """The next that it says; empty where it is gone."""
+        """Return its next line; empty after its end."""
         assert self._process.stdout is not None
         for line in self._process.stdout:
             if line.startswith(SAID):
@@ -58,7 +58,7 @@ class StandingBench:
         return ""
 
     def wait_for(self, code: str) -> None:
-        """Until it says this fault, which may become known after another."""
+        """Wait until it reports this fault, which may follow another."""
         guard = threading.Timer(PATIENCE_S, self._process.kill)
         guard.start()
         said = []
@@ -68,7 +68,7 @@ class StandingBench:
         guard.cancel()
 
     def wait_for_end(self) -> None:
-        """Until neither loop nor supervisor goes on."""
+        """Wait until neither loop nor supervisor runs."""
         end = time.monotonic() + PATIENCE_S
         while left := [one for one in ("loop", "supervisor") if find(self.ids[one]).exists()]:
             assert time.monotonic() < end, f"{left} goes on without its server"
@@ -80,7 +80,7 @@ class StandingBench:
 
 
 def find(process: int) -> Path:
-    """What the system knows of a process while there is one."""
+    """Return the system's folder of a process, which exists while the process does."""
     return Path(f"/proc/{process}")
 
 
@@ -109,14 +109,14 @@ def run_standing_bench(path: Path, emulator: RunningEmulator) -> Iterator[Standi
 
 
 def read_currents(emulator: RunningEmulator) -> list[int]:
-    """What both drives hold, mA."""
+    """Return the currents of both drives, mA."""
     return [drive["commanded_ma"] for drive in emulator.control.read_state()["drives"].values()]
 
 
 def wait_until_held(emulator: RunningEmulator) -> list[int]:
-    """The currents by which both drives come to hold the load; none where the bench stops before.
+    """Return the currents with which both drives hold the load; none if the bench stops earlier.
 
-    A moment later that of motor 2, which is small, may pass through zero.
+    Shortly afterwards the current of motor 2, which is small, may pass through zero.
     """
     end = time.monotonic() + PATIENCE_S
     while time.monotonic() < end:
@@ -137,10 +137,10 @@ def measure(
     number: signal.Signals,
     codes: tuple[str, ...] = (),
 ) -> Outcome:
-    """Bring it to hold a load, send the signal, and wait for zero; again where it stopped before.
+    """Bring the bench to hold a load, send the signal, wait for zero; repeat after an earlier stop.
 
-    codes: the faults that it then says; before the second of two the victims go on. Without the
-    server the others end.
+    codes: the faults that the bench then reports; before the second of two faults, the signalled
+    processes continue. Without the server the other processes end.
     """
     for _ in range(ATTEMPTS):
         with run_standing_bench(path, emulator) as bench:

@@ -1,4 +1,4 @@
-"""The latch of the loop and of the server: the first fault counts, a lost loop yields to it."""
+"""The fault latch of loop and server: the first fault counts, except after a lost loop."""
 
 import pytest
 
@@ -20,7 +20,7 @@ def latch() -> FaultLatch:
     return FaultLatch()
 
 
-def test_the_first_fault_of_the_loop_counts_until_the_loop_clears_it(latch: FaultLatch) -> None:
+def test_first_fault_of_the_loop_counts_until_the_loop_clears_it(latch: FaultLatch) -> None:
     assert latch.take(OVERLOAD)
     assert not latch.take(SILENT)
     assert latch.fault is OVERLOAD
@@ -28,7 +28,7 @@ def test_the_first_fault_of_the_loop_counts_until_the_loop_clears_it(latch: Faul
     assert latch.fault is None
 
 
-def test_a_lost_loop_is_reported_once_and_what_was_done_comes_to_be_known(
+def test_lost_loop_is_reported_once_and_its_stop_later(
     latch: FaultLatch,
 ) -> None:
     assert latch.take(LOST)
@@ -40,7 +40,7 @@ def test_a_lost_loop_is_reported_once_and_what_was_done_comes_to_be_known(
     assert latch.fault is STOPPED, "a loop that knows of no fault was lost all the same"
 
 
-def test_the_loop_s_own_fault_is_the_better_reason(latch: FaultLatch) -> None:
+def test_fault_of_the_loop_replaces_a_lost_loop(latch: FaultLatch) -> None:
     latch.take(LOST)
     assert latch.take(OVERLOAD)
     assert latch.fault is OVERLOAD
@@ -49,7 +49,7 @@ def test_the_loop_s_own_fault_is_the_better_reason(latch: FaultLatch) -> None:
 
 
 @pytest.mark.parametrize("fault", [OVERLOAD, LOST])
-def test_a_cleared_latch_takes_the_next_fault(latch: FaultLatch, fault: Fault) -> None:
+def test_cleared_latch_takes_the_next_fault(latch: FaultLatch, fault: Fault) -> None:
     latch.take(fault)
     latch.clear()
     assert latch.fault is None

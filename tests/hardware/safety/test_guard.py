@@ -1,4 +1,4 @@
-"""The limits of one tick: what of a torque is let through, and what ends the run."""
+"""The limits of one tick: the permitted torque, and conditions that end the run."""
 
 import itertools
 import math
@@ -11,6 +11,7 @@ from svsa.actuators.domain import build_domain
 from svsa.actuators.dynamics import build_actuator
 from svsa.actuators.signals import Disturbance, State, Torque
 from svsa.hardware.file import read_bench
+from svsa.hardware.real_motors import RealMotors
 from svsa.hardware.realtime.configuration import build_guard, read_bench_design
 from svsa.hardware.safety.guard import Guard
 from tests.hardware.wired_bench import AT_REST, EMULATOR_BENCH, UNDISTURBED
@@ -27,8 +28,8 @@ def build(**safety: float) -> Guard:
     return build_guard(BENCH.changed(safety=BENCH.safety.changed(**safety)))
 
 
-def test_the_torque_stays_within_design_and_peak_current() -> None:
-    """Motor 1: 15 N·m of the design. Motor 2: 5 A give 5.265 N·m, the design says 5."""
+def test_torque_stays_within_design_and_peak_current() -> None:
+    """Motor 1: 15 N·m of the design. Motor 2: 5 A give 5.265 N·m, the design limit is 5."""
     guard = build()
     assert guard.limit(FULL, AT_REST) == (15.0, -5.0)
     weak = BENCH.changed(motor1=BENCH.motor1.changed(peak_current_a=9.0, nominal_current_a=4.0))
@@ -49,7 +50,7 @@ def test_no_torque_changes_faster_than_its_rate(asked: list[tuple[float, float]]
         last = sent
 
 
-def test_beyond_an_end_only_the_torque_further_out_is_blocked() -> None:
+def test_only_the_outward_torque_is_blocked_beyond_an_end() -> None:
     guard, beyond = build(), AT_REST._replace(theta1=2.6, theta2=-3.1)
     assert guard.limit(Torque(1.0, -1.0), beyond) == (0.0, 0.0)
     assert guard.limit(Torque(-1.0, 1.0), beyond) == (-1.0, 1.0)
@@ -59,8 +60,8 @@ def test_beyond_an_end_only_the_torque_further_out_is_blocked() -> None:
     assert guard.check(Torque(0.0, 0.0), AT_REST._replace(theta1=2.6, q=2.4), UNDISTURBED) is None
 
 
-def test_a_warm_motor_is_held_to_its_nominal_current() -> None:
-    """I²t: full torque indefinitely settles at the nominal current, evenly, without a fault."""
+def test_warm_motor_is_limited_to_its_nominal_current() -> None:
+    """I²t: permanent full torque settles at the nominal current, smoothly, without a fault."""
     guard, sent = build(), [Torque(0.0, 0.0)]
     nominal = BENCH.motor2.nominal_current_a * NM_PER_A[1]
     for _ in range(60_000):
@@ -77,7 +78,7 @@ def test_a_warm_motor_is_held_to_its_nominal_current() -> None:
     assert guard.limit(FULL, AT_REST).u2 == -5.0, "rested, it has the peak again"
 
 
-def test_heat_counts_what_the_drive_makes_where_that_is_more() -> None:
+def test_heat_uses_the_current_of_the_drive_if_it_is_larger() -> None:
     guard = build()
     for _ in range(3000):
         guard.note(Torque(0.0, 0.0), (0.0, -3.0))
@@ -89,8 +90,8 @@ def test_heat_counts_what_the_drive_makes_where_that_is_more() -> None:
     assert alarm.values["motor2_heat_limit"] == 1.05
 
 
-def test_heat_counts_the_time_that_has_really_passed() -> None:
-    """A loop that gets to every tenth tick warms the motor as fast as one that gets to all."""
+def test_heat_uses_the_elapsed_time() -> None:
+    """A loop that runs every tenth tick warms the motor as fast as one that runs every tick."""
     late, punctual = build(), build()
     for _ in range(300):
         late.pass_ticks(9, math.inf, CALM)
@@ -101,7 +102,7 @@ def test_heat_counts_the_time_that_has_really_passed() -> None:
     assert late.motor2.winding.heat == pytest.approx(punctual.motor2.winding.heat, rel=0.01)
 
 
-def test_a_drive_that_the_supervisor_has_stopped_is_warmed_no_longer() -> None:
+def test_drive_stopped_by_the_supervisor_cools_down() -> None:
     """After 60 s without a loop the motor is cool, and may have its peak again."""
     guard = build()
     guard.note(PEAK, CALM)
@@ -127,7 +128,7 @@ def test_a_drive_that_the_supervisor_has_stopped_is_warmed_no_longer() -> None:
         (AT_REST._replace(q=math.nan), "not_finite"),
     ],
 )
-def test_a_state_that_must_not_be_ends_the_run(known: State, code: str | None) -> None:
+def test_forbidden_state_ends_the_run(known: State, code: str | None) -> None:
     alarm = build().check(Torque(0.0, 0.0), known, UNDISTURBED)
     assert (alarm and alarm.code) == code
     if alarm is not None and code != "not_finite":
@@ -135,8 +136,8 @@ def test_a_state_that_must_not_be_ends_the_run(known: State, code: str | None) -
         assert all(math.isfinite(value) for value in alarm.values.values())
 
 
-def test_the_deflection_that_ends_a_run_depends_on_the_lever_ratio() -> None:
-    """Stiff (μ larger), the spring's stiffness is zero earlier: 0.5 rad is too much there only."""
+def test_deflection_limit_of_a_run_depends_on_the_lever_ratio() -> None:
+    """Stiff (larger μ), the stiffness is zero earlier: 0.5 rad is beyond the limit only there."""
     guard, soft = build(), AT_REST._replace(theta2=-1.5, q=0.5)
     stiff = AT_REST._replace(theta2=1.0, q=0.5)
     assert guard.check(Torque(0.0, 0.0), soft, UNDISTURBED) is None
@@ -145,7 +146,7 @@ def test_the_deflection_that_ends_a_run_depends_on_the_lever_ratio() -> None:
     assert alarm.code == "deflection_limit"
 
 
-def test_a_decoupling_matrix_near_singular_ends_the_run() -> None:
+def test_nearly_singular_decoupling_matrix_ends_the_run() -> None:
     design = read_bench_design(BENCH)
     limits = design.limits.changed(singularity_fraction=0.6)
     guard = Guard(
@@ -153,6 +154,7 @@ def test_a_decoupling_matrix_near_singular_ends_the_run() -> None:
         (15.0, 5.0),
         build_domain(design.nominal, limits),
         build_actuator(design.nominal, BENCH.home.lever_ratio),
+        RealMotors(is_pair=False),
     )
     alarm = guard.check(Torque(0.0, 0.0), AT_REST._replace(q=0.45), UNDISTURBED)
     assert alarm is not None
@@ -161,7 +163,7 @@ def test_a_decoupling_matrix_near_singular_ends_the_run() -> None:
 
 @pytest.mark.parametrize("axis", [0, 1, 2])
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
-def test_a_torque_that_no_load_makes_ends_the_run(axis: int, sign: float) -> None:
+def test_torque_without_a_load_ends_the_run(axis: int, sign: float) -> None:
     below, above = [0.0] * 3, [0.0] * 3
     below[axis], above[axis] = 11.9 * sign, 12.1 * sign
     guard = build()
@@ -172,7 +174,7 @@ def test_a_torque_that_no_load_makes_ends_the_run(axis: int, sign: float) -> Non
     assert f"torque on {('the link', 'motor 1', 'motor 2')[axis]} that no load" in alarm.message
 
 
-def test_counts_that_are_late_are_not_frozen() -> None:
+def test_late_counts_are_not_frozen() -> None:
     guard = build()
     guard.counts = (100, 200, 300)
     assert guard.check(NO_TORQUE, AT_REST, UNDISTURBED) is None

@@ -1,4 +1,4 @@
-"""Heartbeats across processes: seen at once, and left alone by who only reads."""
+"""Heartbeats between processes: visible immediately, unchanged by readers."""
 
 import math
 import subprocess
@@ -16,7 +16,7 @@ beats.close()
 """
 
 
-def test_before_its_first_beat_a_slot_is_infinitely_old() -> None:
+def test_slot_is_infinitely_old_before_its_first_beat() -> None:
     beats = Heartbeats.create()
     try:
         assert {beats.age_s(slot) for slot in SLOTS} == {math.inf}
@@ -29,7 +29,7 @@ def test_before_its_first_beat_a_slot_is_infinitely_old() -> None:
         beats.close()
 
 
-def test_another_process_beats_and_its_end_does_not_remove_the_block() -> None:
+def test_block_persists_after_the_end_of_a_beating_process() -> None:
     beats = Heartbeats.create()
     try:
         beats.beat("server")

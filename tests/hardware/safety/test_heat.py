@@ -1,4 +1,4 @@
-"""The heat of a winding: what it allows, and until when it counts as a reason."""
+"""The heat of a winding: the torque it permits, and how long it is a reason of a fault."""
 
 import math
 
@@ -20,13 +20,13 @@ AT_ITS_END = AT_REST._replace(theta2=1.4)
 
 
 def press(guard: Guard, torque2: float, ticks: int) -> None:
-    """So many ticks with this torque asked of motor 2."""
+    """Run this many ticks with this commanded torque of motor 2."""
     for _ in range(ticks):
         guard.note(guard.limit(Torque(0.0, torque2), AT_REST), CALM)
 
 
 def find_onset(guard: Guard, torque2: float) -> int:
-    """The tick in which heat takes something of this torque for the first time."""
+    """Return the first tick in which heat reduces this torque."""
     for tick in range(20_000):
         if guard.motor2.held_back is not None:
             return tick
@@ -34,7 +34,7 @@ def find_onset(guard: Guard, torque2: float) -> int:
     raise AssertionError("heat held nothing back")
 
 
-def test_a_cold_motor_is_held_back_when_its_heat_allows_no_more() -> None:
+def test_cold_motor_is_limited_when_its_heat_reaches_the_bound() -> None:
     """h(t) = (τ/τ_n)² (1 − exp(−t/T)) reaches 1 − 0.1 (τ − τ_n)/(τ_p − τ_n)."""
     winding = Winding(BENCH.motor2, 5.0)
     assert winding.lasting_nm == compute_lasting_torque(BENCH.motor2) == pytest.approx(LASTING_NM)
@@ -45,7 +45,7 @@ def test_a_cold_motor_is_held_back_when_its_heat_allows_no_more() -> None:
 
 
 @pytest.mark.parametrize("torque", [0.0, 1.2, -1.2])
-def test_a_torque_that_is_borne_for_ever_is_never_held_back(torque: float) -> None:
+def test_continuous_torque_is_never_limited(torque: float) -> None:
     guard = build_guard(BENCH)
     press(guard, torque, 60_000)
     assert guard.motor2.held_back is None
@@ -53,19 +53,19 @@ def test_a_torque_that_is_borne_for_ever_is_never_held_back(torque: float) -> No
 
 
 @pytest.mark.parametrize("asked", [5.0, 40.0])
-def test_a_cold_motor_that_gives_its_most_is_held_back_by_its_limit_alone(asked: float) -> None:
+def test_cold_motor_at_full_torque_is_limited_by_heat_alone(asked: float) -> None:
     guard = build_guard(BENCH)
     press(guard, asked, 100)
     assert guard.motor2.winding.allow() == 5.0
     assert guard.motor2.held_back is None
 
 
-def test_a_fault_that_comes_while_heat_holds_back_says_so_first() -> None:
+def test_fault_during_a_heat_limit_reports_the_heat_first() -> None:
     """With name, value, unit and bound in words, and the values for scripts."""
     guard = build_guard(BENCH)
     cold = guard.check(Torque(0.0, 0.0), AT_ITS_END, UNDISTURBED)
     assert cold is not None
-    assert cold.message.startswith("End of the spiral")
+    assert cold.message.startswith("End of stiffness range")
     press(guard, TORQUE_NM, find_onset(build_guard(BENCH), TORQUE_NM) + 3000)
     warm = guard.check(Torque(0.0, TORQUE_NM), AT_ITS_END, UNDISTURBED)
     assert warm is not None

@@ -1,4 +1,4 @@
-"""The states of a bench: every call in every state, and what each condition leads to."""
+"""The states of a bench: every call in every state, and the result of each condition."""
 
 import math
 from typing import Any
@@ -32,7 +32,7 @@ def update(machine: Machine, **changes: Any) -> Torque:
 
 
 def bring(status: BenchStatus, **safety: Any) -> Machine:
-    """A machine in this state, by the way that leads there."""
+    """Bring a machine to this state, by its transitions."""
     machine = build(**safety)
     if status is BenchStatus.FAULT:
         machine.fail(Alarm("bus_error", "a test", {}))
@@ -63,7 +63,7 @@ def is_refused(status: BenchStatus, call: str, *arguments: Any) -> bool:
     return False
 
 
-def test_what_may_be_called_in_which_state() -> None:
+def test_permitted_calls_of_each_state() -> None:
     takes = {
         call: {status for status in ALL if not is_refused(status, call, *arguments)}
         for call, arguments in {
@@ -84,26 +84,26 @@ def test_what_may_be_called_in_which_state() -> None:
 
 
 @pytest.mark.parametrize("status", ALL)
-def test_torque_flows_in_run_and_ramp_only(status: BenchStatus) -> None:
+def test_torque_is_sent_in_run_and_ramp_only(status: BenchStatus) -> None:
     phase = Phase(status) if status in Phase else Phase.READY
     torque = update(bring(status), phase=phase)
     assert (torque != (0.0, 0.0)) == (status in (BenchStatus.RUN, BenchStatus.RAMP))
 
 
 @pytest.mark.parametrize("status", ALL)
-def test_stop_leaves_run_alone(status: BenchStatus) -> None:
+def test_stop_leaves_run_only(status: BenchStatus) -> None:
     machine = bring(status)
     machine.stop()
     assert machine.status is (BenchStatus.RAMP if status is BenchStatus.RUN else status)
 
 
-def test_problems_keep_it_from_arming() -> None:
+def test_problems_prevent_arming() -> None:
     machine = Machine(BENCH, build_guard(BENCH), ["uncalibrated: this", "uncalibrated: that"])
     with pytest.raises(StateError, match="uncalibrated: this; uncalibrated: that"):
         machine.arm()
 
 
-def test_arming_again_asks_for_the_marks_again() -> None:
+def test_arming_again_requires_the_marks_again() -> None:
     machine = bring(BenchStatus.RAMP)
     while machine.status is BenchStatus.RAMP:
         update(machine)
@@ -115,7 +115,7 @@ def test_arming_again_asks_for_the_marks_again() -> None:
 
 
 @pytest.mark.parametrize("by", ["", "  "])
-def test_a_mark_is_confirmed_by_a_user(by: str) -> None:
+def test_mark_is_confirmed_by_a_user(by: str) -> None:
     with pytest.raises(ParameterError, match="by"):
         bring(BenchStatus.READY).confirm_home("link", by)
 
@@ -134,7 +134,7 @@ ARMING = (BenchStatus.RESET, BenchStatus.CONFIG, BenchStatus.MODE)
 
 @pytest.mark.parametrize("code", CONDITIONS)
 @pytest.mark.parametrize("status", [status for status in ALL if status is not BenchStatus.FAULT])
-def test_where_each_condition_is_a_fault(status: BenchStatus, code: str) -> None:
+def test_each_condition_is_a_fault_in_its_states(status: BenchStatus, code: str) -> None:
     machine = bring(status)
     phase = Phase(status) if status in Phase else Phase.READY
     assert update(machine, **{"phase": phase} | CONDITIONS[code]) is not None
@@ -159,13 +159,13 @@ def test_where_each_condition_is_a_fault(status: BenchStatus, code: str) -> None
         ({"supervisor_age_s": 0.0499}, True),
     ],
 )
-def test_just_within_the_bounds_it_goes_on(conditions: Any, torque: bool) -> None:
+def test_run_continues_just_within_the_bounds(conditions: Any, torque: bool) -> None:
     machine = bring(BenchStatus.RUN)
     assert (update(machine, **conditions) != (0.0, 0.0)) == torque
     assert machine.status is BenchStatus.RUN
 
 
-def test_an_axis_never_heard_of_is_a_fault_and_no_infinity_is_reported() -> None:
+def test_axis_without_feedback_is_a_fault_with_finite_values() -> None:
     machine = bring(BenchStatus.READY)
     update(machine, ages_s=(0.001, 0.001, math.inf))
     assert machine.fault is not None
@@ -173,7 +173,7 @@ def test_an_axis_never_heard_of_is_a_fault_and_no_infinity_is_reported() -> None
     assert all(math.isfinite(value) for value in machine.fault.values.values())
 
 
-def test_a_late_loop_says_how_late_and_that_the_supervisor_acted() -> None:
+def test_late_loop_reports_its_delay_and_the_action_of_the_supervisor() -> None:
     machine = bring(BenchStatus.RUN)
     update(machine, late_s=0.05)
     assert machine.fault is not None
@@ -186,7 +186,7 @@ def test_a_late_loop_says_how_late_and_that_the_supervisor_acted() -> None:
     assert machine.fault.values["late_s"] == 0.02, "it was late by what the supervisor waits"
 
 
-def test_a_supervisor_that_has_ended_is_missed_without_an_infinity() -> None:
+def test_ended_supervisor_is_reported_with_finite_values() -> None:
     machine = bring(BenchStatus.RUN)
     update(machine, supervisor_age_s=math.inf)
     assert machine.fault is not None
@@ -194,7 +194,7 @@ def test_a_supervisor_that_has_ended_is_missed_without_an_infinity() -> None:
     assert "its process has ended" in machine.fault.message
 
 
-def test_the_operators_silence_ramps_only_where_a_switch_is_asked_for() -> None:
+def test_silence_of_the_operator_ramps_down_only_if_a_switch_is_required() -> None:
     machine = bring(BenchStatus.RUN)
     update(machine, operator_age_s=math.inf)
     assert machine.status is BenchStatus.RUN
@@ -205,7 +205,7 @@ def test_the_operators_silence_ramps_only_where_a_switch_is_asked_for() -> None:
     assert machine.status is BenchStatus.RAMP
 
 
-def test_a_fault_has_the_time_of_its_run() -> None:
+def test_fault_has_the_time_of_its_run() -> None:
     machine = bring(BenchStatus.RUN)
     for _ in range(250):
         update(machine)
@@ -216,13 +216,13 @@ def test_a_fault_has_the_time_of_its_run() -> None:
     assert machine.fault.time_s == pytest.approx(0.25)
 
 
-def test_every_fault_of_a_bench_has_words_for_a_mark() -> None:
+def test_every_fault_of_a_bench_has_a_label() -> None:
     labels = [kind.label for kind in FAULTS.values()]
     assert all(0 < len(label) < 26 and "_" not in label for label in labels)
     assert len(set(labels)) == len(labels)
 
 
-def test_the_ramp_takes_its_time_whatever_ticks_are_missed() -> None:
+def test_ramp_has_its_duration_with_any_missed_ticks() -> None:
     machine = bring(BenchStatus.RAMP, missed_ticks=1000)
     update(machine, missed=199)
     assert machine.status is BenchStatus.RAMP, "0.2 of 0.3 s"

@@ -1,4 +1,4 @@
-"""The supervisor: another process with its own bus stops the drives of a loop that is dead."""
+"""The supervisor: another process with its own bus stops the drives after the end of the loop."""
 
 import contextlib
 import io
@@ -38,7 +38,7 @@ while True:
 
 
 class RecordingBus:
-    """Takes what is sent; says a frame whenever it is asked, or nothing at all."""
+    """Stores sent frames; returns a frame at each call, or none."""
 
     def __init__(self) -> None:
         self.sent: list[tuple[int, bytes]] = []
@@ -77,7 +77,7 @@ def watched() -> tuple[Supervisor, RecordingBus, Ages]:
     return Supervisor(read_bench(EMULATOR_BENCH), bus, ages), bus, ages  # pyright: ignore[reportArgumentType]
 
 
-def test_stops_the_drives_after_20_ms_and_until_the_loop_beats_again(
+def test_supervisor_stops_the_drives_after_20_ms_until_the_loop_beats_again(
     watched: tuple[Supervisor, RecordingBus, Ages], capsys: pytest.CaptureFixture[str]
 ) -> None:
     supervisor, bus, ages = watched
@@ -98,7 +98,7 @@ def test_stops_the_drives_after_20_ms_and_until_the_loop_beats_again(
     assert not supervisor.silenced
 
 
-def test_the_drives_are_stopped_before_anything_is_written(
+def test_drives_are_stopped_before_any_output(
     watched: tuple[Supervisor, RecordingBus, Ages], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     supervisor, bus, ages = watched
@@ -115,7 +115,7 @@ def test_the_drives_are_stopped_before_anything_is_written(
     assert ages.beats[-1] == "stopping"
 
 
-def test_how_long_it_waits_is_said_in_the_bench_file() -> None:
+def test_bench_file_sets_the_timeout() -> None:
     bench, ages = read_bench(EMULATOR_BENCH), Ages()
     bench = bench.changed(safety=bench.safety.changed(loop_s=0.3))
     supervisor = Supervisor(bench, RecordingBus(), ages)  # pyright: ignore[reportArgumentType]
@@ -127,10 +127,10 @@ def test_how_long_it_waits_is_said_in_the_bench_file() -> None:
     assert supervisor.silenced
 
 
-def test_beats_only_while_it_hears_the_bus(
+def test_supervisor_beats_only_while_it_receives_from_the_bus(
     watched: tuple[Supervisor, RecordingBus, Ages], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A bus can be lost without an error; a supervisor with a dead bus must not look alive."""
+    """A bus can be lost without an error; a supervisor with a dead bus must not appear alive."""
     supervisor, bus, ages = watched
     now = [100.0]
     monkeypatch.setattr(time, "monotonic", lambda: now[0])
@@ -173,7 +173,7 @@ def run(*arguments: str) -> Iterator[subprocess.Popen[str]]:
 
 
 class Wire:
-    """The bus as the drives hear it: serves the supervisor, and keeps what it says."""
+    """The bus from the side of the drives: serves the supervisor, and stores its frames."""
 
     def __init__(self) -> None:
         self.server = SocketcandServer()
@@ -187,7 +187,7 @@ class Wire:
             self.heard += [(frame.can_id, frame.data) for _, frame in self.server.poll()]
             self.server.send(Frame(EMULATED_ID, EMULATED_DATA, extended=True), time.monotonic())
 
-    def hears_all(self, since: int) -> bool:
+    def receives_all(self, since: int) -> bool:
         return set(self.heard[since:]) >= STOPPED
 
 
@@ -205,7 +205,7 @@ def beats() -> Iterator[Heartbeats]:
     made.close()
 
 
-def test_a_loop_killed_with_kill_9_leaves_drives_at_zero(
+def test_loop_killed_with_kill_9_leaves_drives_at_zero(
     wire: Wire, beats: Heartbeats, tmp_path: Path
 ) -> None:
     bench = write_bench(tmp_path, wire.server.port)
@@ -217,19 +217,19 @@ def test_a_loop_killed_with_kill_9_leaves_drives_at_zero(
         loop.send_signal(signal.SIGKILL)
         loop.wait()
         since = len(wire.heard)
-        wire.serve_until(lambda: wire.hears_all(since))
+        wire.serve_until(lambda: wire.receives_all(since))
         again = len(wire.heard)
-        wire.serve_until(lambda: wire.hears_all(again))
+        wire.serve_until(lambda: wire.receives_all(again))
         supervisor.terminate()
         last = len(wire.heard)
         wire.serve_until(lambda: supervisor.poll() is not None)
-        wire.serve_until(lambda: wire.hears_all(last))
+        wire.serve_until(lambda: wire.receives_all(last))
         assert supervisor.returncode == 0
         assert supervisor.stdout is not None
         assert "the loop is silent" in supervisor.stdout.read()
 
 
-def test_on_command_to_end_it_leaves_a_last_zero(
+def test_supervisor_sends_a_last_zero_when_it_is_ended(
     wire: Wire, beats: Heartbeats, tmp_path: Path
 ) -> None:
     bench = write_bench(tmp_path, wire.server.port)
@@ -237,11 +237,11 @@ def test_on_command_to_end_it_leaves_a_last_zero(
         wire.serve_until(lambda: beats.age_s("supervisor") < 0.1)
         assert wire.heard == []
         supervisor.terminate()
-        wire.serve_until(lambda: supervisor.poll() is not None and wire.hears_all(0))
+        wire.serve_until(lambda: supervisor.poll() is not None and wire.receives_all(0))
         assert supervisor.returncode == 0
 
 
-def test_without_a_bus_it_says_so_and_fails(beats: Heartbeats, tmp_path: Path) -> None:
+def test_supervisor_without_a_bus_reports_it_and_fails(beats: Heartbeats, tmp_path: Path) -> None:
     closed = SocketcandServer()
     closed.close()
     bench = write_bench(tmp_path, closed.port)

@@ -1,7 +1,7 @@
 """Two of three are enough: what is left of loop, supervisor and server stops the drives.
 
-Real processes, signals that no user can refuse, and the emulator's own clock. How long it took is
-reported (`pytest -rP`); that it comes is asserted.
+The tests use real processes, signals that a process cannot ignore, and the emulator's own clock.
+They report the time to zero current (`pytest -rP`), and assert that the current becomes zero.
 """
 
 import signal
@@ -33,11 +33,11 @@ CASES = [
     (STOP, ("loop", "supervisor"), ("loop_and_supervisor_lost",)),
 ]
 SHOWN = [case for case in CASES if case[:2] == (KILL, ("loop", "server"))]
-"""A supervisor alone; a server alone is shown by `test_bench_loss`."""
+"""A supervisor alone; `test_bench_loss` tests a server alone."""
 
 _SAFETY = read_bench(EMULATOR_BENCH).safety
 WAITS = {name: getattr(_SAFETY, name) for name in ("loop_s", "supervisor_s", "server_s")}
-"""The processes wait for one another as long as they do on a bench: that is what is measured."""
+"""The processes have the timeouts of a bench, which are measured here."""
 pytestmark = pytest.mark.wall_clock
 
 
@@ -51,7 +51,7 @@ def emulator() -> Iterator[RunningEmulator]:
 @pytest.mark.parametrize(
     "case", exhaust(CASES, SHOWN), ids=lambda case: f"{case[0].name}-{'-'.join(case[1])}"
 )
-def test_the_remaining_processes_stop_the_drives(
+def test_remaining_processes_stop_the_drives(
     emulator: RunningEmulator,
     tmp_path: Path,
     case: tuple[signal.Signals, tuple[str, ...], tuple[str, ...]],

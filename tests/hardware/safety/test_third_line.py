@@ -1,4 +1,4 @@
-"""The third line: needed where loop and supervisor are both gone, and what it says of it."""
+"""The third line of safety: it acts if loop and supervisor are both lost, and reports it."""
 
 import threading
 import time
@@ -21,7 +21,7 @@ PATIENCE_S = 60.0
 
 
 class Bus:
-    """Keeps what is sent."""
+    """Stores sent frames."""
 
     def __init__(self) -> None:
         self.sent: list[int] = []
@@ -38,7 +38,7 @@ class Bus:
 
 
 class Process:
-    """A process that is there until it is killed."""
+    """A process that exists until it is killed."""
 
     def __init__(self) -> None:
         self.returncode: int | None = None
@@ -51,7 +51,7 @@ class Process:
 
 
 class Watched:
-    """A third line, with the processes and the bus that it has to do with."""
+    """A third line, with its processes and its bus."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.bus, self.refusals = Bus(), 0
@@ -89,7 +89,9 @@ def watched(monkeypatch: pytest.MonkeyPatch) -> Iterator[Watched]:
     made.beats.close()
 
 
-def test_it_does_nothing_while_one_is_left_or_none_has_begun(watched: Watched) -> None:
+def test_third_line_is_passive_while_one_process_is_left_or_none_has_started(
+    watched: Watched,
+) -> None:
     watched.loop.kill()
     watched.supervisor.kill()
     time.sleep(0.1)
@@ -104,7 +106,7 @@ def test_it_does_nothing_while_one_is_left_or_none_has_begun(watched: Watched) -
     assert watched.bus.sent == []
 
 
-def test_where_both_have_ended_it_stops_the_drives_until_stopped(watched: Watched) -> None:
+def test_third_line_stops_the_drives_after_the_end_of_both(watched: Watched) -> None:
     watched.beats.beat("loop")
     watched.loop.kill()
     watched.supervisor.kill()
@@ -121,14 +123,14 @@ def test_where_both_have_ended_it_stops_the_drives_until_stopped(watched: Watche
     assert not watched.bus.is_open
 
 
-def test_where_both_stand_still_it_ends_them_first(watched: Watched) -> None:
+def test_third_line_first_ends_suspended_processes(watched: Watched) -> None:
     watched.beats.beat("supervisor")
     watched.beats.beat("loop")
     wait_until(lambda: watched.bus.sent)
     assert (watched.loop.returncode, watched.supervisor.returncode) == (-9, -9)
 
 
-def test_a_bus_that_cannot_be_opened_is_reported_and_tried_again(watched: Watched) -> None:
+def test_failed_opening_of_the_bus_is_reported_and_repeated(watched: Watched) -> None:
     watched.refusals = 10**9
     watched.beats.beat("loop")
     watched.loop.kill()
@@ -143,8 +145,8 @@ def test_a_bus_that_cannot_be_opened_is_reported_and_tried_again(watched: Watche
     assert watched.find_loss().problem is None
 
 
-def test_a_loop_that_ended_in_order_is_lost_and_has_left_nothing_behind(watched: Watched) -> None:
-    """As where the bench could not be opened again."""
+def test_loop_that_ended_regularly_is_lost_and_leaves_nothing(watched: Watched) -> None:
+    """As if the bench could not be opened again."""
     watched.beats.beat("loop")
     watched.beats.end("loop")
     watched.loop.kill()
@@ -155,7 +157,7 @@ def test_a_loop_that_ended_in_order_is_lost_and_has_left_nothing_behind(watched:
     assert "not stopped" not in loss.message
 
 
-def test_a_bus_that_is_being_opened_without_end_is_not_waited_for(
+def test_blocked_opening_of_the_bus_is_not_waited_for(
     watched: Watched, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     released = threading.Event()

@@ -1,4 +1,4 @@
-"""A run of the emulator in virtual time, recorded as a session records it."""
+"""A run of the emulator in virtual time, recorded like that of a session."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -27,9 +27,10 @@ def run_bench(
     later: Sequence[Command] = (),
     late: Mapping[int, int] | None = None,
 ) -> tuple[Configuration, np.ndarray, BenchStart]:
-    """Its configuration before any command, its samples (lanes, ticks, channels), and its start.
+    """Return its initial configuration, its samples (lanes, ticks, channels), and its start.
 
-    before: commands given before it starts. late: at which ticks of the loop so many are missed.
+    before: commands before the start. late: the number of missed ticks, by the tick of the loop at
+    which they are missed.
     """
     with WiredBench() as wired:
         bench, plant = wired.bench, wired.plant
@@ -66,7 +67,7 @@ def write_bench_record(
     run: tuple[Configuration, np.ndarray, BenchStart],
     commands: Sequence[Command] = (),
 ) -> None:
-    """The record of `run_bench`. commands: all that it was given."""
+    """Write the record of `run_bench`. commands: all its commands."""
     configuration, samples, start = run
     header = build_header(
         folder.name,

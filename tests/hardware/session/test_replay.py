@@ -1,4 +1,4 @@
-"""A bench's record says on its own whether it follows from what was measured and sent."""
+"""The record of a bench contains all that is needed to verify it from its measurements."""
 
 import dataclasses
 import math
@@ -40,8 +40,8 @@ def verify(folder: Path, run: Run, commands: tuple = (SLOWER, TO_ESP)) -> Verifi
     return verify_bench_record(open_record(folder / "run-1"))
 
 
-def test_every_number_follows_from_what_was_measured_and_sent(run: Run, tmp_path: Path) -> None:
-    """Also where ticks were missed, before the run and in it, and where the law was changed."""
+def test_every_number_follows_from_measured_and_sent_values(run: Run, tmp_path: Path) -> None:
+    """Also with missed ticks, before and during the run, and after a change of law."""
     found = verify(tmp_path, run)
     assert (found.plant, found.ticks, found.missed, found.lanes) == ("emulated", TICKS, MISSED, 1)
     assert found.share_as_limited > 0.9
@@ -55,9 +55,7 @@ WORKED_OUT = ("position_rad", "estimate_link_nm", "position_error_rad", "stiffne
 @pytest.mark.parametrize(
     ("lane", "channel"), [(0, one) for one in WORKED_OUT] + [(1, "torque1_nm")]
 )
-def test_one_bit_that_is_another_is_found(
-    run: Run, tmp_path: Path, lane: int, channel: str
-) -> None:
+def test_one_different_bit_is_found(run: Run, tmp_path: Path, lane: int, channel: str) -> None:
     configuration, samples, start = run
     changed = samples.copy()
     changed.view(np.uint64)[lane, 700, CHANNEL_INDEX[channel]] ^= 1
@@ -69,10 +67,10 @@ def test_one_bit_that_is_another_is_found(
     ("channel", "by"),
     [("deflection_rad", COUNT_RAD), ("motor1_position_rad", COUNT_RAD), ("torque1_nm", 0.01)],
 )
-def test_a_count_or_a_torque_that_is_another_is_found(
+def test_changed_count_or_torque_is_found(
     run: Run, tmp_path: Path, channel: str, by: float
 ) -> None:
-    """They are taken as they are; what was worked out from them is not."""
+    """They are inputs; the values computed from them are not."""
     configuration, samples, start = run
     changed = samples.copy()
     changed[0, 700, CHANNEL_INDEX[channel]] += by
@@ -80,7 +78,7 @@ def test_a_count_or_a_torque_that_is_another_is_found(
         verify(tmp_path, (configuration, changed, start))
 
 
-def test_another_start_is_found(run: Run, tmp_path: Path) -> None:
+def test_other_start_is_found(run: Run, tmp_path: Path) -> None:
     configuration, samples, start = run
     motion = start.motion | {"known": [0.0, 0.01, 0.0, 0.0, 0.0, 0.0]}
     other = dataclasses.replace(start, motion=motion)
@@ -88,14 +86,14 @@ def test_another_start_is_found(run: Run, tmp_path: Path) -> None:
         verify(tmp_path, (configuration, samples, other))
 
 
-def test_a_command_that_is_left_out_or_comes_later_is_found(run: Run, tmp_path: Path) -> None:
+def test_missing_or_delayed_command_is_found(run: Run, tmp_path: Path) -> None:
     for number, commands in enumerate([(SLOWER,), (SLOWER, TO_ESP.at(601))]):
         with pytest.raises(RecordError, match="does not follow"):
             verify(tmp_path / str(number), run, commands)
 
 
-def test_gains_that_were_not_those_that_controlled_are_found(tmp_path: Path) -> None:
-    """Where no twin tells it, for all else follows from any torque, the torques do."""
+def test_wrong_gains_are_found(tmp_path: Path) -> None:
+    """Without a twin the torques reveal them, for all other values follow from any torque."""
     wanted = get_figure("4a").build_configuration("fl", load=False)
     configuration, samples, start = run_bench(wanted, 200)
     alone = samples[:1].copy()
@@ -108,20 +106,20 @@ def test_gains_that_were_not_those_that_controlled_are_found(tmp_path: Path) -> 
         verify(tmp_path / "other", (reported.changed(gains=gains), alone, start), ())
 
 
-def test_a_law_that_receives_what_was_measured_follows_from_it_too(tmp_path: Path) -> None:
+def test_law_with_measured_values_is_verified(tmp_path: Path) -> None:
     wanted = get_figure("4a").build_configuration("pi_observer", load=False)
     run = run_bench(wanted, 300, later=[], late={100: 3})
     assert verify(tmp_path, run, ()).share_as_limited > 0.9
 
 
-def test_a_record_that_does_not_say_what_it_began_from_is_refused(run: Run, tmp_path: Path) -> None:
+def test_record_without_its_initial_state_is_rejected(run: Run, tmp_path: Path) -> None:
     verify(tmp_path, run)
     (tmp_path / "run-1" / START_FILE).unlink()
     with pytest.raises(RecordError, match="nothing of it can be verified"):
         verify_bench_record(open_record(tmp_path / "run-1"))
 
 
-def test_an_exported_run_can_be_verified_elsewhere(run: Run, tmp_path: Path) -> None:
+def test_exported_run_can_be_verified_elsewhere(run: Run, tmp_path: Path) -> None:
     verify(tmp_path, run)
     export(open_record(tmp_path / "run-1"), "parquet", tmp_path / "run.parquet")
     unpack_parquet((tmp_path / "run.parquet").read_bytes(), tmp_path / "elsewhere")

@@ -1,4 +1,4 @@
-"""What the server reads of a bench's run: its samples, those it missed, and the twin next to it."""
+"""The server's view of a bench run: its samples, missed ticks, and its twin."""
 
 from collections.abc import Iterator
 
@@ -33,7 +33,7 @@ def build_run(memory: LoopMemory) -> BenchRun:
     return BenchRun(build_bench_configuration(bench, wanted), start, memory)
 
 
-def test_ticks_that_the_loop_missed_have_a_time_and_no_numbers(memory: LoopMemory) -> None:
+def test_missed_ticks_have_a_time_and_no_numbers(memory: LoopMemory) -> None:
     write(memory, 0, 10)
     memory.skip(10, 5)
     assert memory.fields["end_tick"] == 10, "nothing is reported before there is a sample"
@@ -49,7 +49,7 @@ def test_ticks_that_the_loop_missed_have_a_time_and_no_numbers(memory: LoopMemor
     assert rows[TWIN, :, 0].tolist() == times.tolist()
 
 
-def test_a_loop_that_stood_still_for_longer_than_the_ring_leaves_nothing_old_in_it(
+def test_loop_suspended_for_longer_than_the_ring_leaves_no_old_samples(
     memory: LoopMemory,
 ) -> None:
     write(memory, 0, 10)
@@ -60,7 +60,7 @@ def test_a_loop_that_stood_still_for_longer_than_the_ring_leaves_nothing_old_in_
 
 
 class CountedMemory(LoopMemory):
-    """Fails a test that asks for samples again and again."""
+    """Fails a test that requests samples repeatedly."""
 
     counted = 0
 
@@ -70,7 +70,7 @@ class CountedMemory(LoopMemory):
         return super().count(number)
 
 
-def test_samples_that_never_come_are_not_waited_for() -> None:
+def test_missing_samples_are_not_waited_for() -> None:
     memory = CountedMemory.create()
     try:
         memory.begin_run(1)

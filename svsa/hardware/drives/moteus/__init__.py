@@ -1,12 +1,13 @@
 """The frames of moteus controllers: CAN FD, each command answered by one reply.
 
 Source: mjbots, moteus documentation, "CAN Protocol" and "Register Reference" (2025). An identifier
-is 16 bits, `reply << 15 | source << 8 | destination`, extended if it is above 0x7FF. A frame is a
-row of subframes that write or read registers, little-endian; unused bytes are 0x50. A controller
-answers a command whose bit 15 is set with the values of the registers that the command reads.
+has 16 bits, `reply << 15 | source << 8 | destination`, and is extended above 0x7FF. A frame is a
+sequence of subframes that write or read registers, little-endian; unused bytes are 0x50. A
+controller answers a command with bit 15 set with the values of the registers that the command
+reads.
 
-Torque is commanded in position mode with all gains at zero, as the maker's guide says ("Control
-Modes", torque control): this is the mode with a documented watchdog.
+Torque is commanded in position mode with all gains at zero, as the manufacturer's guide recommends
+("Control Modes", torque control), because this mode has a documented watchdog.
 """
 
 import struct
@@ -14,7 +15,7 @@ from enum import IntEnum
 from typing import NamedTuple
 
 HOST = 0
-"""The source of this computer's commands. A controller has 1 to 127."""
+"""The address of this computer as source. Controllers have 1 to 127."""
 REPLY = 1 << 15
 NOP = 0x50
 FIRST_FAULT, LAST_FAULT = 32, 95
@@ -22,7 +23,7 @@ FIRST_FAULT, LAST_FAULT = 32, 95
 
 
 class Mode(IntEnum):
-    """Register 0x000, as far as it is used here."""
+    """Register 0x000; only the values used here."""
 
     STOPPED = 0
     FAULT = 1
@@ -60,10 +61,10 @@ QUERY = bytes((0x11, Register.MODE, 0x19, Register.POSITION))
 QUERY += bytes((0x19, Register.Q_CURRENT, 0x11, Register.FAULT))
 """Read mode (int8), position and current (int32) and fault code (int8)."""
 STOP = bytes((0x01, Register.MODE, Mode.STOPPED)) + QUERY + bytes((NOP,))
-"""Stop, which also clears a fault. The motor makes no torque."""
+"""Stop, which also clears a fault. The motor produces no torque."""
 
-# Mode; position -128, which is "where it is now", and velocity 0; torque (float); no gains; timeout
-# (int16, ms); no integral term.
+# Mode; position −128 ("present position") and velocity 0; torque (float); no gains; timeout (int16,
+# ms); no integral term.
 _TORQUE = struct.Struct("<3s4s2sf4s2sh3s8s")
 _TORQUE_PARTS = (
     bytes((0x01, Register.MODE, Mode.POSITION)),
@@ -83,9 +84,14 @@ def build_id(source: int, destination: int, reply: bool = False) -> int:
 
 
 def encode_torque(torque_nm: float, timeout_ms: int) -> bytes:
-    """The 32 bytes that command a torque at the motor, N·m, and read its feedback.
+    """Encode the 32 bytes that command a torque and query feedback.
 
-    timeout_ms: without another command for so long, the controller stops to make the torque.
+    Args:
+        torque_nm: Torque at the motor, N·m.
+        timeout_ms: Time after which the controller removes the torque without another command, ms.
+
+    Returns:
+        The bytes.
     """
     mode, here, torque, gains, timeout, integral = _TORQUE_PARTS
     return _TORQUE.pack(mode, here, torque, torque_nm, gains, timeout, timeout_ms, integral, QUERY)

@@ -68,7 +68,7 @@ def _signal(
     scale: float = 1,
     is_float: bool = False,
 ) -> Signal:
-    """start: the first byte."""
+    """Describe a signal; `start` is its first byte."""
     return Signal(
         name,
         8 * start,

@@ -1,6 +1,7 @@
 """A moteus controller: its start-up, its commands and its last reply.
 
-OFF → RESET (stopped, 0.1 s) → MODE → READY. It reports only when it is asked: each command asks.
+OFF → RESET (stopped, 0.1 s) → MODE → READY. It sends feedback only in reply: each command includes
+a query.
 """
 
 import can
@@ -20,7 +21,7 @@ from svsa.hardware.drives.moteus.settings import MoteusSettings
 from svsa.hardware.drives.phase import Phase
 
 SETTLE_S = 0.1
-"""Replies flow for so long before READY: the supervisor has heard the bus by then."""
+"""Time of continuous replies before READY, s: by then the supervisor has received frames."""
 FIRST_ANSWER_S = 0.5
 FAULT_WORDS = {
     32: "calibration fault",
@@ -46,8 +47,8 @@ FAULT_WORDS = {
 class MoteusDrive(Drive):
     """The frames to and from one controller.
 
-    Its position is not set to zero: counts are from the position at the end of the reset. errors:
-    replies in READY from another mode than that in which it makes torque.
+    Its position is not set to zero: counts are relative to the position at the end of the reset.
+    `errors` counts replies in READY from any mode except that in which it produces torque.
     """
 
     def __init__(self, settings: MoteusSettings) -> None:

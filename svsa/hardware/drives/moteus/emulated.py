@@ -1,8 +1,8 @@
-"""One emulated moteus controller, as the maker's documentation describes it.
+"""One emulated moteus controller, as the manufacturer's documentation describes it.
 
-It reads any row of subframes, writes and reads the registers of torque control, and reports an
-error for others. A command in position mode is valid for its timeout: without another one the
-controller goes to the mode `TIMEOUT`, where it makes no torque here, and leaves it by a stop only.
+It parses any sequence of subframes, writes and reads the registers of torque control, and reports
+an error for others. A command in position mode is valid for its timeout: after that the controller
+enters the mode `TIMEOUT`, in which it produces no torque, and which only a stop leaves.
 """
 
 import struct
@@ -33,11 +33,19 @@ _UNITS: dict[int, tuple[float, float, float]] = {
     Register.ILIMIT_SCALE: (1 / 127, 1 / 32767, 1 / 2147483647),
     Register.TIMEOUT: (0.01, 0.001, 0.000001),
 }
-"""What one step of int8, int16 and int32 is, in the register's unit."""
+"""Resolution of int8, int16 and int32 in the register's unit."""
 
 
 class _Subframe(NamedTuple):
-    """kind: `_WRITE` or `_READ`. width: 0 to 2 integers, 3 a float. values: of a write."""
+    """A subframe.
+
+    Attributes:
+        kind: `_WRITE` or `_READ`.
+        width: 0 to 2 integers, 3 a float.
+        start: First register.
+        registers: Number of registers.
+        values: Values of a write.
+    """
 
     kind: int
     width: int
@@ -157,7 +165,7 @@ def _pack(value: float, register: int, width: int) -> bytes:
 
 
 def _parse(data: bytes) -> Iterator[_Subframe]:
-    """The subframes that write and read; raises for what is none."""
+    """Parse the subframes that write and read; raises an error for invalid ones."""
     at = 0
     while at < len(data):
         kind = data[at]

@@ -82,14 +82,22 @@ class FrameError(SvsaError):
 
 
 def build_id(address: Address, command: Command) -> int:
-    """The identifier of a command; raises `FrameError` for an address out of range."""
+    """Build the identifier of a command.
+
+    Raises:
+        FrameError: If the address is out of range.
+    """
     group = _check("group", address.group, "", 0, 7)
     number = _check("number", address.number, "", 0, 15)
     return group << 8 | number << 4 | command
 
 
 def split_id(can_id: int) -> tuple[Address, Command]:
-    """Address and command of a standard identifier. Raises `FrameError` for any other."""
+    """Split a standard identifier into address and command.
+
+    Raises:
+        FrameError: If it is not such an identifier.
+    """
     _check("can_id", can_id, "", 0, 0x7FF)
     command = _COMMANDS.get(can_id & 0xF)
     if command is None:
@@ -98,7 +106,11 @@ def split_id(can_id: int) -> tuple[Address, Command]:
 
 
 def encode(message: Message) -> bytes:
-    """The eight bytes of a message. Raises `FrameError` for a value that is out of range."""
+    """Encode a message to eight bytes.
+
+    Raises:
+        FrameError: If a value is out of range.
+    """
     data = bytearray(_EMPTY)
     for field, value in zip(LAYOUTS[message.command].fields, message, strict=True):
         number = _check(field.name, value, field.unit, field.least, field.most)
@@ -107,9 +119,10 @@ def encode(message: Message) -> bytes:
 
 
 def decode(command: Command, data: bytes | bytearray) -> Any:
-    """The message in these bytes; bytes that it does not use may be anything.
+    """Decode a message; unused bytes are ignored.
 
-    Raises `FrameError` for a frame that is not 8 bytes long or holds a value out of range.
+    Raises:
+        FrameError: If the frame is not 8 bytes long or contains a value out of range.
     """
     if len(data) != LENGTH:
         raise FrameError(Violation("data", bytes(data).hex(" "), "", f"{LENGTH} bytes"))

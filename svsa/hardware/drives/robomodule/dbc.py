@@ -1,7 +1,7 @@
 """The messages of RoboModule drives for a DBC file.
 
-Numbers are those of the wire (counts, mA, rev/min), each field as `LAYOUTS` has it; each command
-is a message of its own, since every mode lays its bytes out differently.
+Numbers are those on the bus (counts, mA, rev/min), each field as in `LAYOUTS`; each command is a
+separate message, because every mode has a different layout.
 """
 
 from collections import OrderedDict
@@ -30,9 +30,10 @@ _CHOICES = {
 
 
 def describe_drives(drives: Mapping[str, Address]) -> list[Message]:
-    """The messages of some drives, and the commands to their groups.
+    """Describe the messages of some drives, and the commands to their groups.
 
-    Raises `FrameError` for an address that no drive has.
+    Raises:
+        FrameError: If no drive can have an address.
     """
     messages: list[Message] = []
     for name, address in drives.items():
@@ -44,7 +45,7 @@ def describe_drives(drives: Mapping[str, Address]) -> list[Message]:
 
 
 def _list_messages(name: str, address: Address, drives: tuple[str, ...]) -> Iterator[Message]:
-    """What is said to a drive and by it; a group as such says nothing."""
+    """Commands to a drive and its messages; a group sends no messages."""
     for command, layout in LAYOUTS.items():
         if command not in _FROM_DRIVE:
             senders, receivers = (HOST,), drives

@@ -1,7 +1,7 @@
 """A RoboModule drive: its start-up to current mode, its commands and its last feedback.
 
-OFF → RESET (500 ms) → CONFIG → MODE (500 ms) → READY, by time; READY needs the echo of the
-online check and feedback that flows. Commands to a drive are 1 ms apart.
+OFF → RESET (500 ms) → CONFIG → MODE (500 ms) → READY, by time; READY requires the echo of the
+online check and periodic feedback. Commands to a drive are 1 ms apart.
 """
 
 import struct
@@ -40,10 +40,11 @@ _FILL = b"\x55" * 4
 
 
 class RoboModuleDrive(Drive):
-    """The frames to and from one drive. speed_max: counts/s that its motor never reaches.
+    """The frames to and from one drive.
 
-    errors: D frames since the reset. answers: echoes of the online check. zeroed: the position
-    jumped to zero without a reset.
+    `speed_max` is a speed that its motor never reaches, counts/s. `errors` counts D frames since
+    the reset, `answers` echoes of the online check; `zeroed` is set if the position jumped to zero
+    without a reset.
     """
 
     gap_s = GAP_S
@@ -57,7 +58,7 @@ class RoboModuleDrive(Drive):
         self._error_id = build_id(address, Command.ERROR)
         self._online_id = build_id(address, Command.ONLINE)
         self.heard_ids = frozenset((self._feedback_id, self._error_id, self._online_id))
-        # All that it obeys: from reset to configuration, alone or with its group.
+        # All commands that it accepts: from reset to configuration, alone or with its group.
         self.obeyed_ids = frozenset(
             build_id(Address(address.group, number), Command(command))
             for number in (BROADCAST, address.number)
@@ -79,7 +80,7 @@ class RoboModuleDrive(Drive):
         self.phase, self._until = Phase.RESET, None
 
     def advance(self, bus: can.BusABC, now: float) -> None:
-        """Send what is due of the sequence."""
+        """Send the commands of the sequence that are due."""
         if not self.is_open(now):
             return
         if self._until is None:
@@ -122,10 +123,10 @@ class RoboModuleDrive(Drive):
         current, _, raw = _FEEDBACK.unpack(message.data)
         before, heard = self.counts, self.heard_s
         self.counts, self.current_ma = self._unwrapped.update(raw), current
-        # Feedback flows only in a mode.
+        # Drives send feedback only while a mode is active.
         self.heard_s, self.engaged = time_s, True
-        # A reset sets the counter to zero: only a jump towards zero, farther than the motor can
-        # turn in that time, is one.
+        # A reset sets the counter to zero: a jump towards zero counts as a reset only if it is
+        # larger than the motor can turn in that time.
         if heard is not None and abs(raw) < abs(before):
             farthest = self._speed_max * (abs(time_s - heard) + self._period_s)
             if abs(self.counts - before) > JUMP_FACTOR * farthest + MIN_JUMP_COUNTS:
@@ -136,7 +137,7 @@ class RoboModuleDrive(Drive):
         if not self.is_open(now):
             return False
         self.sent_s = now
-        # The same message in every tick, packed by `struct` in about 0.1 µs.
+        # Every tick sends the same message object, packed by `struct` in about 0.1 µs.
         self._current.data[:] = _CURRENT.pack(self._pwm, current_ma, _FILL)
         bus.send(self._current)
         return True
@@ -150,7 +151,7 @@ class RoboModuleDrive(Drive):
         self._send(bus, now, Online())
 
     def describe_error(self) -> str:
-        """The only error that the manual knows."""
+        """The only error in the manual."""
         return "sent an error frame: stall protection is on"
 
     def _send(self, bus: can.BusABC, now: float, message: Message) -> None:

@@ -1,8 +1,7 @@
-"""One emulated RMDS-102, as the maker's CAN manual (2018-07) describes it.
+"""One emulated RMDS-102, as the manufacturer's CAN manual (2018-07) describes it.
 
-Nothing here is kinder than the manual: a mode is taken once, 500 ms after a reset, and data
-500 ms after that; a command at another moment is an error and does nothing; the last
-current is held indefinitely.
+It is as strict as the manual: a mode is accepted once, 500 ms after a reset, and data 500 ms after
+that; a command at another time is an error without effect; the last current is held indefinitely.
 """
 
 import math

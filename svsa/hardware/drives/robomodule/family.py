@@ -40,7 +40,7 @@ def _list_questions() -> Iterable[can.Message]:
 
 
 def _find_place(message: can.Message) -> str | None:
-    """Where an echo of the online check comes from."""
+    """Source of an echo of the online check."""
     if message.is_extended_id:
         return None
     try:

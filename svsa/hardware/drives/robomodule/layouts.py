@@ -1,6 +1,6 @@
 """Layout of each message's eight bytes, with the range of each field.
 
-`LAYOUTS` is the one place that knows: the codec, the DBC file and the emulated drive all read it.
+`LAYOUTS` is used by the codec, the DBC file and the emulated drive.
 """
 
 from struct import Struct
@@ -29,7 +29,7 @@ MAX_PWM = 5000
 
 
 class Field(NamedTuple):
-    """One number in a frame: its first byte, how it is stored, and what it may be."""
+    """One number in a frame: its first byte, format, and range."""
 
     name: str
     unit: str

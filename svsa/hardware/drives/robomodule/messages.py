@@ -1,7 +1,7 @@
 """The messages between a RoboModule drive and its master.
 
-Messages are named tuples and so compare as tuples (`Reset() == Online()`): tell them apart by
-their type or their `command`.
+Messages are named tuples and therefore compare as tuples (`Reset() == Online()`): distinguish them
+by type or `command`.
 """
 
 from enum import IntEnum
@@ -12,7 +12,7 @@ BROADCAST = 0
 
 
 class Mode(IntEnum):
-    """How a drive works; taken only after a reset."""
+    """Operating mode of a drive; accepted only after a reset."""
 
     OPEN_LOOP = 1
     CURRENT = 2
@@ -50,7 +50,7 @@ class Command(IntEnum):
 
 
 class Address(NamedTuple):
-    """A drive: group 0 to 7, number 1 to 15; number 0 speaks to all drives of the group."""
+    """A drive: group 0 to 7, number 1 to 15; number 0 addresses all drives of the group."""
 
     group: int
     number: int
@@ -101,7 +101,7 @@ class Position(NamedTuple):
 
 
 class VelocityPosition(NamedTuple):
-    """To a drive: motor position at no more than a velocity."""
+    """To a drive: motor position with a velocity limit."""
 
     pwm_limit: int
     velocity_rpm: int
@@ -110,7 +110,7 @@ class VelocityPosition(NamedTuple):
 
 
 class CurrentVelocity(NamedTuple):
-    """To a drive: motor velocity with no more than a current."""
+    """To a drive: motor velocity with a current limit."""
 
     current_limit_ma: int
     velocity_rpm: int
@@ -118,7 +118,7 @@ class CurrentVelocity(NamedTuple):
 
 
 class CurrentPosition(NamedTuple):
-    """To a drive: motor position with no more than a current."""
+    """To a drive: motor position with a current limit."""
 
     current_limit_ma: int
     position_counts: int
@@ -126,7 +126,7 @@ class CurrentPosition(NamedTuple):
 
 
 class CurrentVelocityPosition(NamedTuple):
-    """To a drive: motor position with no more than a current and a velocity."""
+    """To a drive: motor position with a current limit and a velocity limit."""
 
     current_limit_ma: int
     velocity_rpm: int

@@ -1,4 +1,4 @@
-"""moteus controllers keep the contract of all families: CAN FD, and feedback by query only."""
+"""moteus controllers fulfil the contract of all families: CAN FD, feedback by query only."""
 
 from tests.hardware.drives.contract import DriveContract
 

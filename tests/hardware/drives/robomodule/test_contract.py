@@ -1,4 +1,4 @@
-"""RoboModule drives keep the contract of all families."""
+"""RoboModule drives fulfil the contract of all families."""
 
 from tests.hardware.drives.contract import DriveContract
 

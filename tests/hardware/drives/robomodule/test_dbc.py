@@ -1,4 +1,4 @@
-"""The DBC file, read by cantools: it says of every frame what our codec says."""
+"""The DBC file, read by cantools: it agrees with our codec on every frame."""
 
 from pathlib import Path
 
@@ -29,7 +29,7 @@ FROM_DRIVE = {Command.FEEDBACK, Command.INPUTS, Command.ERROR}
 
 
 def build_dbc(motor1, motor2, node=None):
-    """The DBC text of a bench with drives at these addresses, and with this encoder."""
+    """Build the DBC text of a bench with drives at these addresses, and with this encoder."""
     motors = {
         name: getattr(BENCH, name).changed(drive_group=address.group, drive_number=address.number)
         for name, address in (("motor1", motor1), ("motor2", motor2))
@@ -43,7 +43,7 @@ DATABASE = cantools.database.load_string(TEXT, "dbc")
 
 
 @given(message=messages(), address=st.sampled_from([MOTOR1, MOTOR2]))
-def test_cantools_reads_every_frame_as_we_do(message, address):
+def test_cantools_decodes_every_frame_like_our_codec(message, address):
     data = encode(message)
     can_id = build_id(address, message.command)
     read = DATABASE.decode_message(can_id, data, decode_choices=False)
@@ -51,14 +51,14 @@ def test_cantools_reads_every_frame_as_we_do(message, address):
 
 
 @given(message=messages(), address=st.sampled_from([MOTOR1, MOTOR2]))
-def test_cantools_builds_a_frame_that_we_read(message, address):
+def test_our_codec_decodes_frames_of_cantools(message, address):
     can_id = build_id(address, message.command)
     values = {name: int(value) for name, value in message._asdict().items()}
     data = DATABASE.encode_message(can_id, values, padding=True)
     assert decode(message.command, data) == message
 
 
-def test_two_drives_have_thirty_messages_and_their_groups_commands():
+def test_two_drives_have_thirty_messages_including_group_commands():
     expected = {build_id(address, command) for address in (MOTOR1, MOTOR2) for command in Command}
     for group in (0, 3):
         commands = set(Command) - FROM_DRIVE
@@ -70,7 +70,7 @@ def test_two_drives_have_thirty_messages_and_their_groups_commands():
     assert max(map(len, names)) <= 32, "the longest name that a DBC file may have"
 
 
-def test_who_says_what_to_whom_and_in_which_unit():
+def test_messages_have_sender_receiver_and_units():
     feedback = DATABASE.get_message_by_name("motor2_feedback")
     assert feedback.senders == ["motor2"]
     assert feedback.receivers == {"host"}
@@ -92,7 +92,7 @@ def test_modes_and_stall_protection_are_named():
 
 
 @given(data=st.data(), width=st.sampled_from([16, 24, 32]), flags=st.tuples(*[st.booleans()] * 3))
-def test_the_encoder_lies_where_the_bench_says(data, width, flags):
+def test_encoder_has_the_position_of_the_bench_file(data, width, flags):
     big_endian, signed, extended = flags
     offset = data.draw(st.integers(0, 8 - width // 8))
     node = CanNodeSettings(
@@ -113,7 +113,7 @@ def test_the_encoder_lies_where_the_bench_says(data, width, flags):
     assert message.decode(payload) == {"counts": counts}
 
 
-def test_without_an_encoder_on_the_bus_there_is_none_in_the_file():
+def test_file_without_a_can_encoder_has_no_encoder_message():
     database = cantools.database.load_string(build_dbc(MOTOR1, MOTOR2), "dbc")
     assert "deflection" not in {message.name for message in database.messages}
 
@@ -125,12 +125,12 @@ def test_without_an_encoder_on_the_bus_there_is_none_in_the_file():
         (Address(0, 1), Address(0, 2), CanNodeSettings(id=0x02B)),
     ],
 )
-def test_two_frames_with_one_identifier_are_refused(motor1, motor2, node):
+def test_two_frames_with_one_identifier_are_rejected(motor1, motor2, node):
     with pytest.raises(ParameterError, match="another than"):
         build_dbc(motor1, motor2, node)
 
 
-def test_the_bench_file_of_the_rig_is_described():
+def test_bench_file_of_the_rig_is_described():
     database = cantools.database.load_string(describe_bench(BENCH), "dbc")
     assert database.get_message_by_name("deflection").frame_id == 0x700
     assert database.get_message_by_name("motor2_feedback").frame_id == 0x02B

@@ -1,4 +1,4 @@
-"""One drive: how it is brought to READY, the gaps between its commands, what it says."""
+"""One drive: its start-up to READY, the gaps between its commands, its feedback."""
 
 from itertools import pairwise
 from pathlib import Path
@@ -38,7 +38,7 @@ SPEED_MAX = 300_000.0
 
 
 class Listener:
-    """A bus that keeps what is sent, and when."""
+    """A bus that stores the frames sent, with their times."""
 
     def __init__(self):
         self.now = 0.0
@@ -53,7 +53,7 @@ class Listener:
 
 
 class Driven:
-    """A drive that is given its ticks, with the answers of a real one if it is alive."""
+    """A drive that receives ticks, with the responses of a real one unless it is dead."""
 
     def __init__(self, period_s=TICK_S, echoes=True, feeds=True, obeys_config=True):
         self.bus, self.drive = Listener(), RoboModuleDrive(BENCH.motor1, period_s, SPEED_MAX)
@@ -86,7 +86,7 @@ class Driven:
         return self
 
 
-def test_the_sequence_keeps_the_drives_waits_and_ends_ready():
+def test_sequence_keeps_the_waiting_times_and_ends_ready():
     """Reset, 500 ms, configuration and mode, 500 ms, and no data before that."""
     driven = Driven().bring_up()
     (reset,), (mode,) = driven.bus.list_times(Reset), driven.bus.list_times(SetMode)
@@ -101,13 +101,13 @@ def test_the_sequence_keeps_the_drives_waits_and_ends_ready():
 
 
 @pytest.mark.parametrize(("period_s", "wanted"), [(0.001, 1), (0.002, 2)])
-def test_feedback_is_asked_for_once_a_period_of_the_loop(period_s, wanted):
+def test_feedback_is_configured_once_per_period_of_the_loop(period_s, wanted):
     driven = Driven(period_s).bring_up()
     configs = [message for _, message in driven.bus.sent if type(message) is Config]
     assert configs == [Config(wanted, 0)]
 
 
-def test_nothing_is_sent_before_it_is_begun():
+def test_nothing_is_sent_before_the_start():
     driven = Driven()
     driven.tick(1.0)
     assert not driven.bus.sent
@@ -115,8 +115,8 @@ def test_nothing_is_sent_before_it_is_begun():
 
 
 @pytest.mark.parametrize("missing", ["echoes", "feeds"])
-def test_without_an_echo_or_without_feedback_a_drive_is_silent_not_ready(missing):
-    """It is asked again and again, and given up after half a second."""
+def test_drive_without_echo_or_feedback_is_silent_and_not_ready(missing):
+    """The request is repeated, and abandoned after half a second."""
     driven = Driven(**{missing: False})
     driven.drive.begin()
     driven.tick(2.0 * SETTLE_S + FIRST_ANSWER_S)
@@ -127,13 +127,13 @@ def test_without_an_echo_or_without_feedback_a_drive_is_silent_not_ready(missing
     assert len(asked) > 10
 
 
-def test_a_drive_that_takes_its_configuration_only_in_a_mode_is_configured_there():
+def test_drive_that_accepts_its_configuration_only_in_a_mode_is_configured_there():
     driven = Driven(obeys_config=False).bring_up()
     assert len(driven.bus.list_times(Config)) == 2
 
 
-def test_two_commands_to_a_drive_are_never_closer_than_the_gate():
-    """Through the sequence, and where currents are asked for at every tenth of a period."""
+def test_two_commands_to_a_drive_keep_the_minimum_gap():
+    """During the sequence, and with currents commanded at each tenth of a period."""
     driven = Driven().bring_up()
     drive, bus = driven.drive, driven.bus
     sent = 0
@@ -146,7 +146,7 @@ def test_two_commands_to_a_drive_are_never_closer_than_the_gate():
     assert min(gaps) >= COMMAND_GATE_S - 1e-12
 
 
-def test_a_tick_that_comes_a_little_late_does_not_cost_the_next_one_its_command():
+def test_slightly_late_tick_does_not_delay_the_next_command():
     driven = Driven().bring_up()
     start = driven.bus.now
     for number in range(1, 101):
@@ -154,7 +154,7 @@ def test_a_tick_that_comes_a_little_late_does_not_cost_the_next_one_its_command(
         assert driven.drive.send_current(driven.bus, 5, start + number * TICK_S + late)
 
 
-def test_a_current_is_the_manuals_frame():
+def test_current_frame_matches_the_manual():
     """+1000 mA at a limit of 5000 to drive 1: 013# 13 88 03 E8 55 55 55 55."""
     frames = []
     bus = Listener()
@@ -165,7 +165,7 @@ def test_a_current_is_the_manuals_frame():
     assert bytes(frame.data) == bytes.fromhex("138803E855555555")
 
 
-def test_feedback_counts_go_on_over_the_wrap_of_32_bits():
+def test_feedback_counts_continue_over_the_wrap_of_32_bits():
     driven = Driven().bring_up()
     position = 0
     for _ in range(9):
@@ -177,7 +177,7 @@ def test_feedback_counts_go_on_over_the_wrap_of_32_bits():
 
 
 def run_to(driven, counts):
-    """Move at 90 % of the greatest speed, a frame each millisecond."""
+    """Move at 90 % of the maximum velocity, with a frame each millisecond."""
     now, at = driven.bus.now, driven.drive.counts
     step = 0.9 * SPEED_MAX * TICK_S
     while abs(at - counts) > step:
@@ -188,8 +188,8 @@ def run_to(driven, counts):
     driven.bus.now = now + TICK_S
 
 
-def test_a_position_that_jumps_to_zero_is_noticed():
-    """As after a brown-out: the drive has restarted and forgotten where it was."""
+def test_position_jump_to_zero_is_detected():
+    """As after a brown-out: the drive has restarted and lost its position."""
     driven = Driven().bring_up()
     run_to(driven, 30_000)
     assert not driven.drive.zeroed
@@ -197,7 +197,7 @@ def test_a_position_that_jumps_to_zero_is_noticed():
     assert driven.drive.zeroed
 
 
-def test_a_fast_way_back_to_zero_is_no_jump_even_where_frames_are_lost():
+def test_fast_return_to_zero_is_no_jump_even_with_lost_frames():
     driven = Driven().bring_up()
     run_to(driven, 30_000)
     run_to(driven, -30_000)
@@ -207,7 +207,7 @@ def test_a_fast_way_back_to_zero_is_no_jump_even_where_frames_are_lost():
     assert not driven.drive.zeroed
 
 
-def test_a_new_reset_forgets_what_the_drive_said_before():
+def test_new_reset_discards_earlier_feedback():
     driven = Driven().bring_up()
     run_to(driven, 30_000)
     driven.say(0, at=driven.bus.now + TICK_S)
@@ -217,8 +217,8 @@ def test_a_new_reset_forgets_what_the_drive_said_before():
     assert (drive.counts, drive.errors, drive.zeroed) == (0, 0, False)
 
 
-def test_what_stops_the_drives_reaches_both_and_every_group():
-    """Other groups hear nothing of group 0's broadcast."""
+def test_stop_frame_reaches_both_drives_and_every_group():
+    """Drives of other groups ignore the broadcast of group 0."""
     apart = BENCH.changed(motor2=BENCH.motor2.changed(drive_group=3))
     for bench, wanted in (
         (BENCH, [0x013, 0x023, 0x000]),

@@ -1,4 +1,4 @@
-"""One emulated drive, held to what the maker's manual says of a real one."""
+"""One emulated drive compared with the manufacturer's manual."""
 
 import math
 
@@ -52,7 +52,7 @@ def read(drive, velocity=0.0, torque=0.0):
     return decode(Command.FEEDBACK, drive.build_feedback(Motion(velocity, torque)).data)
 
 
-def test_the_sequence_leads_to_a_current(drive):
+def test_sequence_leads_to_a_current(drive):
     ready = bring_up(drive)
     report(drive, Current(5000, 1000), ready)
     assert drive.current_ma == 1000
@@ -60,7 +60,7 @@ def test_the_sequence_leads_to_a_current(drive):
     assert drive.errors == 0
 
 
-def test_a_mode_is_not_taken_in_the_500_ms_after_a_reset(drive):
+def test_mode_is_ignored_in_the_500_ms_after_a_reset(drive):
     report(drive, Reset(), START_US)
     report(drive, SetMode(Mode.CURRENT), START_US + SETTLE_US - 1)
     assert (drive.mode, drive.errors) == (None, 1)
@@ -68,13 +68,13 @@ def test_a_mode_is_not_taken_in_the_500_ms_after_a_reset(drive):
     assert (drive.mode, drive.errors) == (Mode.CURRENT, 1)
 
 
-def test_data_are_not_taken_in_the_500_ms_after_a_mode(drive):
+def test_data_are_ignored_in_the_500_ms_after_a_mode(drive):
     ready = bring_up(drive)
     report(drive, Current(5000, 1000), ready - 1)
     assert (drive.current_ma, drive.target_nm, drive.errors) == (0, 0.0, 1)
 
 
-def test_a_second_mode_and_data_of_another_mode_are_errors(drive):
+def test_second_mode_and_data_of_another_mode_are_errors(drive):
     ready = bring_up(drive)
     report(drive, SetMode(Mode.VELOCITY), ready)
     report(drive, OpenLoop(500), ready)
@@ -83,14 +83,14 @@ def test_a_second_mode_and_data_of_another_mode_are_errors(drive):
 
 
 @pytest.mark.parametrize("mode", [mode for mode in Mode if mode is not Mode.CURRENT])
-def test_other_modes_are_taken_but_move_nothing(drive, mode):
+def test_other_modes_are_accepted_but_move_nothing(drive, mode):
     ready = bring_up(drive, mode)
     report(drive, Current(5000, 1000), ready)
     assert (drive.mode, drive.target_nm) == (mode, 0.0)
 
 
-def test_the_last_current_is_held_for_ever(drive):
-    """No command-loss watchdog is documented: the supervisor has to be one."""
+def test_last_current_is_held_indefinitely(drive):
+    """No command-loss watchdog is documented: the supervisor replaces it."""
     ready = bring_up(drive)
     report(drive, Current(5000, -700), ready)
     before = drive.target_nm
@@ -98,7 +98,7 @@ def test_the_last_current_is_held_for_ever(drive):
     assert drive.target_nm == before != 0.0
 
 
-def test_a_reset_ends_the_current_and_zeroes_the_position(drive):
+def test_reset_ends_the_current_and_zeroes_the_position(drive):
     ready = bring_up(drive)
     report(drive, Current(5000, 1000), ready)
     drive.look(0.3)
@@ -111,7 +111,7 @@ def test_a_reset_ends_the_current_and_zeroes_the_position(drive):
     assert read(drive).position_counts == 1
 
 
-def test_a_broadcast_reaches_the_group_and_no_other(drive):
+def test_broadcast_reaches_its_group_only(drive):
     ready = bring_up(drive)
     for address in ({"number": 2}, {"number": 0, "group": 1}, {"number": 1, "group": 1}):
         report(drive, Reset(), ready, **address)
@@ -120,13 +120,13 @@ def test_a_broadcast_reaches_the_group_and_no_other(drive):
     assert drive.mode is None
 
 
-def test_the_online_check_is_echoed_as_the_same_frame(drive):
+def test_online_check_is_echoed_as_the_same_frame(drive):
     ready = bring_up(drive)
     frame = Frame(0x01F, encode(Online()))
     assert receive(drive, frame, ready) == [frame]
 
 
-def test_positions_are_whole_counts_behind_the_gearbox(drive):
+def test_positions_are_integer_counts_behind_the_gearbox(drive):
     step = 2.0 * math.pi / (50 * 2000)
     for angle, counts in ((0.49 * step, 0), (0.51 * step, 1), (-0.51 * step, -1), (1.0, 15915)):
         drive.look(angle)
@@ -139,27 +139,27 @@ def test_counts_wrap_at_32_bits(drive):
 
 
 @pytest.mark.parametrize("rpm, reported", [(14, 0), (16, 30), (-14, 0), (-16, -30), (1234, 1230)])
-def test_velocity_comes_in_steps_of_30_rpm(drive, rpm, reported):
+def test_velocity_has_a_resolution_of_30_rpm(drive, rpm, reported):
     found = read(drive, velocity=rpm * math.pi / 30.0 / 50)
     assert found.velocity_rpm == reported
 
 
-def test_the_current_reported_is_the_one_that_is_made(drive):
+def test_reported_current_is_the_actual_current(drive):
     assert read(drive, torque=-50 * 0.9 * 0.0396 * 1.5) == Feedback(-1500, 0, 0)
 
 
-def test_the_current_is_clipped_at_the_drives_peak(drive):
+def test_current_is_clipped_at_the_peak_of_the_drive(drive):
     report(drive, Current(5000, 30_000), bring_up(drive))
     assert drive.target_nm == pytest.approx(15 * 50 * 0.9 * 0.0396)
 
 
-def test_without_pwm_there_is_no_current(drive):
+def test_zero_pwm_gives_no_current(drive):
     report(drive, Current(0, 1000), bring_up(drive))
     assert drive.target_nm == 0.0
 
 
 @pytest.mark.parametrize("sign", [-1, 1])
-def test_a_motor_mounted_the_other_way_turns_and_counts_the_other_way(sign):
+def test_reversed_motor_turns_and_counts_in_reverse(sign):
     drive = EmulatedRoboModuleDrive(EmulatorParameters().motor2.changed(sign=sign))
     ready = START_US + 2 * SETTLE_US
     for message, time_us in (
@@ -184,7 +184,7 @@ def test_a_motor_mounted_the_other_way_turns_and_counts_the_other_way(sign):
         Frame(0x01E, b"\x55" * 8),
     ],
 )
-def test_a_malformed_frame_changes_nothing(drive, frame):
+def test_malformed_frame_changes_nothing(drive, frame):
     ready = bring_up(drive)
     report(drive, Current(5000, 250), ready)
     assert receive(drive, frame, ready + 1000) == []

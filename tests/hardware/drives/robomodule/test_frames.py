@@ -1,4 +1,4 @@
-"""Frames of the drives: the maker's vectors, round trips of all, refusals, and any bytes at all."""
+"""Frames of the drives: test vectors of the manufacturer, round trips, rejections, any bytes."""
 
 import math
 
@@ -76,7 +76,7 @@ def messages(draw):
 
 
 @pytest.mark.parametrize(("message", "bytes_"), MANUAL + LAID_OUT)
-def test_the_bytes_are_those_of_the_manual(message, bytes_):
+def test_bytes_match_the_manual(message, bytes_):
     assert encode(message) == bytes.fromhex(bytes_)
     read = decode(message.command, bytes.fromhex(bytes_))
     assert (type(read), read) == (type(message), message)
@@ -92,7 +92,7 @@ def test_the_bytes_are_those_of_the_manual(message, bytes_):
         (Address(0, 2), Command.FEEDBACK, 0x02B),
     ],
 )
-def test_the_identifier_is_group_number_and_command(address, command, can_id):
+def test_identifier_consists_of_group_number_and_command(address, command, can_id):
     assert build_id(address, command) == can_id
     assert split_id(can_id) == (address, command)
 
@@ -104,7 +104,7 @@ def test_every_command_has_one_layout_and_every_mode_one_data_command():
 
 
 @given(message=messages())
-def test_what_is_encoded_is_decoded_the_same(message):
+def test_encoded_message_is_decoded_unchanged(message):
     data = encode(message)
     assert len(data) == 8
     read = decode(message.command, data)
@@ -113,7 +113,7 @@ def test_what_is_encoded_is_decoded_the_same(message):
 
 
 @given(message=messages(), fill=st.binary(min_size=8, max_size=8))
-def test_bytes_that_a_message_does_not_use_may_be_anything(message, fill):
+def test_unused_bytes_are_ignored(message, fill):
     used = {
         field.start + offset
         for field in LAYOUTS[message.command].fields
@@ -127,7 +127,7 @@ def test_bytes_that_a_message_does_not_use_may_be_anything(message, fill):
 
 @pytest.mark.parametrize(("command", "position", "field"), FIELDS)
 @given(beyond=st.integers(1, 2**70), below=st.booleans())
-def test_a_value_out_of_range_is_refused_by_name_and_bound(command, position, field, beyond, below):
+def test_value_out_of_range_is_rejected_by_name_and_bound(command, position, field, beyond, below):
     values = [other.least for other in LAYOUTS[command].fields]
     values[position] = field.least - beyond if below else field.most + beyond
     with pytest.raises(FrameError) as refused:
@@ -140,7 +140,7 @@ def test_a_value_out_of_range_is_refused_by_name_and_bound(command, position, fi
 
 @pytest.mark.parametrize(("command", "position", "field"), FIELDS)
 @pytest.mark.parametrize("value", [math.nan, math.inf, 1.0, None, "1", b"\x01", []])
-def test_what_is_no_whole_number_is_refused(command, position, field, value):
+def test_non_integer_is_rejected(command, position, field, value):
     values = [other.least for other in LAYOUTS[command].fields]
     values[position] = value
     with pytest.raises(FrameError, match=field.name):
@@ -148,7 +148,7 @@ def test_what_is_no_whole_number_is_refused(command, position, field, value):
 
 
 @given(can_id=st.integers(-(2**33), 2**33))
-def test_any_identifier_is_split_or_refused(can_id):
+def test_any_identifier_is_split_or_rejected(can_id):
     if 0 <= can_id <= 0x7FF and can_id & 0xF != 14:
         address, command = split_id(can_id)
         assert build_id(address, command) == can_id
@@ -158,7 +158,7 @@ def test_any_identifier_is_split_or_refused(can_id):
 
 
 @given(group=st.integers(-3, 10), number=st.integers(-3, 20))
-def test_an_address_that_no_drive_has_is_refused(group, number):
+def test_invalid_drive_address_is_rejected(group, number):
     if 0 <= group <= 7 and 0 <= number <= 15:
         assert split_id(build_id(Address(group, number), Command.MODE))[0] == (group, number)
     else:
@@ -167,7 +167,7 @@ def test_an_address_that_no_drive_has_is_refused(group, number):
 
 
 @given(command=st.sampled_from(Command), data=st.binary(max_size=64))
-def test_any_bytes_are_a_message_or_refused(command, data):
+def test_any_bytes_are_a_message_or_rejected(command, data):
     try:
         message = decode(command, data)
     except FrameError as refused:
@@ -179,8 +179,8 @@ def test_any_bytes_are_a_message_or_refused(command, data):
 
 
 @given(command=st.sampled_from(Command), data=st.binary(min_size=8, max_size=8))
-def test_reports_of_a_drive_are_never_refused_for_their_numbers(command, data):
-    """A fault must not be missed because a number next to it is strange."""
+def test_reports_of_a_drive_are_never_rejected_for_their_values(command, data):
+    """A fault must not be lost because of an unusual value next to it."""
     if command in (Command.FEEDBACK, Command.INPUTS, Command.ERROR, Command.ONLINE):
         assert decode(command, data).command is command
 
@@ -191,7 +191,7 @@ def test_lockstep_time_fits_a_frame(time_us):
     assert decode_time(encode_time(time_us)) == time_us
 
 
-def test_the_emulation_speaks_where_no_drive_listens():
+def test_emulation_marker_uses_no_identifier_of_a_drive():
     assert min(ADVANCE_ID, EMULATED_ID) > 0x7FF
     assert max(ADVANCE_ID, EMULATED_ID) < 2**29
     assert ADVANCE_ID != EMULATED_ID
