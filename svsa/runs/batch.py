@@ -26,10 +26,16 @@ from svsa.simulation.reference.transition import Stack, build_stack
 def run_configurations(
     configurations: Sequence[Configuration], duration_s: float, begin_s: float = 0.0, steps: int = 1
 ) -> np.ndarray:
-    """Run every configuration's first lane from t = 0; return an array (runs,) of `SUMMARY`.
+    """Run every configuration's first lane from t = 0, bit-identical to separate runs.
 
-    The same bits as a separate run of each. begin_s: when measuring begins. steps: Runge–Kutta
-    steps a period.
+    Args:
+        configurations: The runs.
+        duration_s: Duration, s.
+        begin_s: Time at which measuring begins, s.
+        steps: Runge–Kutta steps per period.
+
+    Returns:
+        An array (runs,) of `SUMMARY`.
     """
     summaries = np.empty(len(configurations), dtype=SUMMARY)
     for numbers in find_alike(configurations):
@@ -50,13 +56,13 @@ def run_group(
     controller.
 
     Args:
-        configurations: Their laws do not count.
-        controller: Asked once a tick for all of them.
-        duration_s: From t = 0, s.
-        begin_s: When measuring begins, s.
+        configurations: The runs; their laws are not used.
+        controller: Called once per tick for all of them.
+        duration_s: Duration from t = 0, s.
+        begin_s: Time at which measuring begins, s.
 
     Returns:
-        An array (runs,) of `SUMMARY`, in their order.
+        An array (runs,) of `SUMMARY`, in the order of the configurations.
 
     Raises:
         BaseException: What the controller raises.
@@ -85,7 +91,7 @@ def _find_kind(actuator: MechanismParameters) -> tuple[str, str]:
 class RunSet:
     """Configurations that run together under any law and design; shared inputs are built once.
 
-    Their own laws, gains, observers and parameters do not count.
+    The laws, gains, observers and parameters of the configurations are not used.
     """
 
     def __init__(self, configurations: Sequence[Configuration], steps: int = 1) -> None:
@@ -98,10 +104,16 @@ class RunSet:
     def run(
         self, law: str, duration_s: float, begin_s: float = 0.0, design: Design | None = None
     ) -> np.ndarray:
-        """Run all from t = 0; return an array (runs,) of `SUMMARY`.
+        """Run all from t = 0.
 
-        begin_s: when measuring begins. design: of gains, observer and parameters; if left out, each
-        configuration's own.
+        Args:
+            law: Name of the law.
+            duration_s: Duration, s.
+            begin_s: Time at which measuring begins, s.
+            design: Gains, observer and parameters; if left out, those of each configuration.
+
+        Returns:
+            An array (runs,) of `SUMMARY`.
         """
         summaries = np.empty(self.count, dtype=SUMMARY)
         for numbers, part in self._parts:
@@ -143,7 +155,7 @@ class _Part(NamedTuple):
 def build_run_batch(configurations: Sequence[Configuration], steps: int = 1) -> Batch:
     """Build the first lanes of configurations of one law, each with its references and loads.
 
-    Their sampling, delay and way of the reaction torque are the same.
+    The configurations have the same sampling, delay and form of the reaction torque.
     """
     return _build_part(configurations, steps).bind(configurations[0].law)
 

@@ -24,7 +24,11 @@ Bind: TypeAlias = Callable[[Configuration, Lane, Blocks], BoundLaw]
 class Connection(NamedTuple):
     """The constants of the loop for one lane, and their sources.
 
-    parts: the settings that `build_blocks` reads. control: the law's name, parameters, `Setting`.
+    Attributes:
+        parts: Settings that `build_blocks` reads.
+        control: Name of the law, its parameters, `Setting`.
+        blocks: `Blocks` of the lane.
+        law: The bound law.
     """
 
     parts: tuple[Any, ...]
@@ -34,7 +38,17 @@ class Connection(NamedTuple):
 
 
 def build_blocks(configuration: Configuration, lane: Lane, mu0: float, steps: int = 1) -> Blocks:
-    """The blocks of one lane. mu0: lever ratio at θ2 = 0. steps: RK4 steps a period."""
+    """Build the blocks of one lane.
+
+    Args:
+        configuration: The run.
+        lane: The lane.
+        mu0: Lever ratio at θ2 = 0, 1.
+        steps: Runge–Kutta steps per period.
+
+    Returns:
+        `Blocks`.
+    """
     c = configuration
     limited = c.effects.torque_limits
     estimation = c.effects.estimation
@@ -65,26 +79,26 @@ def build_constants(configuration: Configuration, lane: Lane, blocks: Blocks) ->
 def connect_lane(
     before: Connection | None,
     configuration: Configuration,
-    lane: Lane,
     mu0: float,
+    lane: Lane,
     steps: int,
     bind: Bind,
 ) -> Connection:
     """Build the blocks of one lane and bind its law, as far as either has changed.
 
     Args:
-        before: What the lane had until now; None for a new lane.
-        configuration: The one from now on.
+        before: Previous connection of the lane; None for a new lane.
+        configuration: The new configuration of its joint.
+        mu0: Lever ratio at θ2 = 0, 1.
         lane: One of its lanes.
-        mu0: Lever ratio at θ2 = 0.
-        steps: RK4 steps a period.
+        steps: Runge–Kutta steps per period.
         bind: Binds the law.
 
     Returns:
-        Blocks and law; those of `before` where nothing that they are made of is another.
+        Blocks and law; those of `before` if their sources are unchanged.
 
     Raises:
-        LawError: If the law's own code fails.
+        LawError: If the code of the law fails.
     """
     c = configuration
     observer = lane.observer or c.observer

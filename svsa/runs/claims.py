@@ -1,8 +1,7 @@
-"""The paper's claims about its simulated figures: numbers, and which parts hold.
+"""The paper's claims about its simulated figures: numbers, and which parts are confirmed.
 
-The paper gives neither gains nor limits, so the order of the errors confirms a figure and their
-size does not. A part therefore compares errors with each other, or with a bound that is far from
-both laws.
+The paper gives neither gains nor limits. Therefore the order of the errors confirms a figure, not
+their size: a part compares errors with each other, or with a bound that is far from both laws.
 """
 
 import math
@@ -24,9 +23,12 @@ class ClaimNumbers(NamedTuple):
     """The numbers of one law in a figure, in the windows of `svsa.runs.paper`; NaN if it ended
     early.
 
-    before_deg, steady_deg: rms position error before the load and long after it, degrees. peak_deg:
-    greatest position error at the load, degrees. stiffness_before_nm_per_rad,
-    stiffness_steady_nm_per_rad: rms stiffness error, N·m/rad.
+    Attributes:
+        before_deg: rms position error before the load, degrees.
+        peak_deg: Largest position error at the load, degrees.
+        steady_deg: rms position error long after the load, degrees.
+        stiffness_before_nm_per_rad: rms stiffness error before the load, N·m/rad.
+        stiffness_steady_nm_per_rad: rms stiffness error long after the load, N·m/rad.
     """
 
     before_deg: float
@@ -40,7 +42,7 @@ def measure_claim(measured: np.ndarray, period_s: float) -> ClaimNumbers:
     """Compute the numbers of one law.
 
     Args:
-        measured: The run from t = 0 on, (ticks, channels), SI. Columns:
+        measured: Samples of the run from t = 0 on, shape (ticks, channels), SI, with the columns
             `svsa.runs.metrics.MEASURED`.
         period_s: Control period, s.
 
@@ -68,7 +70,7 @@ def _measure(measured: np.ndarray, period_s: float, window: tuple[float, float])
 
 
 def judge_claim(figure: str, fl: ClaimNumbers, ndobc: ClaimNumbers) -> dict[str, bool]:
-    """Which parts of the paper's claim hold.
+    """Report which parts of the paper's claim are confirmed.
 
     Args:
         figure: Key of the figure: "4a", "4b" or "5".
@@ -76,7 +78,7 @@ def judge_claim(figure: str, fl: ClaimNumbers, ndobc: ClaimNumbers) -> dict[str,
         ndobc: Numbers of NDOBC.
 
     Returns:
-        Of each part whether it holds. A part with a number that is NaN does not.
+        Whether each part is confirmed; a part with a NaN is not.
     """
     parts = {"alike_before": fl.before_deg < SMALL_DEG and ndobc.before_deg < SMALL_DEG}
     stiffness = (fl.stiffness_before_nm_per_rad, fl.stiffness_steady_nm_per_rad)

@@ -31,11 +31,11 @@ class ActuatorEnv(gymnasium.Env[np.ndarray, np.ndarray]):
         observation, info = env.reset(seed=1)
         observation, reward, terminated, truncated, info = env.step(env.action_space.sample())
 
-    Action, shape (2,): u1 and u2 as shares of the motors' torque limits, −1 to 1.
+    Action, shape (2,): u1 and u2 divided by the motors' torque limits, −1 to 1.
     Observation, shape (14,): x̂ (q, q̇, θ1, θ̇1, θ2, θ̇2), q_d to its fourth derivative, σ_d to its
     second, in SI units.
     Reward: 1 / (1 + (e / 1°)² + (e_σ / 1 N·m/rad)²), with e = q_d − q and e_σ = σ_d − σ after the
-    step. It is positive, so that an early end never pays.
+    step. It is positive, so that ending an episode early is never better.
 
     An episode is terminated by a fault, and truncated at `duration_s`. `info` has `time_s`,
     `position_error_rad`, `stiffness_error_nm_per_rad`, and after a fault `fault`, its message.
@@ -57,13 +57,13 @@ class ActuatorEnv(gymnasium.Env[np.ndarray, np.ndarray]):
 
         Args:
             experiment: A figure of the paper ("4a", "4b", "5") or a `Configuration`.
-            duration_s: Of an episode, s.
-            action_period_s: How long an action is held, s: whole control periods.
+            duration_s: Duration of an episode, s.
+            action_period_s: Duration of an action, s: an integer number of control periods.
             parameters: A parameter file or its `Design`, instead of the experiment's own.
-            **changes: Fields of the configuration, as of `svsa.simulate`.
+            **changes: Fields of the configuration, as for `svsa.simulate`.
 
         Raises:
-            ParameterError: A value is out of range.
+            ParameterError: If a value is out of range.
         """
         self.stepper = Stepper(build_experiment(experiment, parameters, changes, ActuatorEnv))
         period = self.stepper.period_s
@@ -81,15 +81,15 @@ class ActuatorEnv(gymnasium.Env[np.ndarray, np.ndarray]):
         """Start an episode from rest.
 
         Args:
-            seed: Of the environment's random numbers. Each episode takes the seed of its sensor
-                noise from them.
-            options: Fields of the configuration that are different from now on, such as loads.
+            seed: Seed of the environment's random numbers, from which each episode takes the seed
+                of its sensor noise.
+            options: Fields of the configuration to change from now on, such as loads.
 
         Returns:
             Observation and info.
 
         Raises:
-            ParameterError: An option is out of range.
+            ParameterError: If an option is out of range.
         """
         super().reset(seed=seed)
         noise = int(self.np_random.integers(_SEED_END))
@@ -98,17 +98,17 @@ class ActuatorEnv(gymnasium.Env[np.ndarray, np.ndarray]):
         return _flatten(seen), self._describe(seen)
 
     def step(self, action: np.ndarray) -> tuple[np.ndarray, float, bool, bool, dict[str, Any]]:
-        """Hold an action for `action_period_s`.
+        """Apply an action for `action_period_s`.
 
         Args:
-            action: Shares of the torque limits, shape (2,), −1 to 1.
+            action: Torques divided by the torque limits, shape (2,), −1 to 1.
 
         Returns:
             Observation, reward, terminated, truncated, info.
 
         Raises:
-            ParameterError: The action is not in the action space.
-            FaultError: The episode was terminated: `reset` begins another.
+            ParameterError: If the action is not in the action space.
+            FaultError: If the episode was terminated: call `reset`.
         """
         shares = np.asarray(action, np.float32)
         if not self.action_space.contains(shares):

@@ -1,4 +1,4 @@
-"""What a run begins from: a figure of the paper, an actuator or a configuration."""
+"""The start of a run: a figure of the paper, an actuator or a configuration."""
 
 import inspect
 import math
@@ -9,7 +9,8 @@ from typing import Any
 from svsa.actuators.installed import get_mechanism
 from svsa.actuators.mechanism import Mechanism
 from svsa.actuators.reach import find_only_stiffness
-from svsa.runs.configuration import Configuration, Design, read_design
+from svsa.runs.configuration import Configuration, Design
+from svsa.runs.design_file import read_design
 from svsa.runs.paper import LOAD_TIME_S, get_simulated_figure
 from svsa.runs.shorthand import change_configuration
 from svsa.simulation.plant.loads.constant import ConstantLoad
@@ -27,17 +28,17 @@ def build_experiment(
     given: Mapping[str, Any],
     caller: Callable[..., Any],
 ) -> Configuration:
-    """The configuration of an experiment.
+    """Build the configuration of an experiment.
 
     Args:
         experiment: A figure of the paper ("4a", "4b", "5") or a `Configuration`.
         parameters: A parameter file, such as `svsa identify` writes, or its `Design`, instead of
             the experiment's own.
-        given: What is changed, as `svsa.runs.shorthand.Settings`.
-        caller: What the user called: a wrong name may have meant another of its keywords.
+        given: Changes, as in `svsa.runs.shorthand.Settings`.
+        caller: The function that the user called; the error message suggests its keywords.
 
     Raises:
-        ParameterError: There is no such figure or setting, or a value is out of range.
+        ParameterError: If there is no such figure or setting, or a value is out of range.
     """
     if isinstance(experiment, Configuration):
         configuration = experiment
@@ -50,9 +51,9 @@ def build_experiment(
 
 
 def choose_stiffness(mechanism: Mechanism) -> float:
-    """Default stiffness of an actuator: the middle of its range in ln σ, N·m/rad.
+    """Return the default stiffness of an actuator: the middle of its range in ln σ, N·m/rad.
 
-    Of an actuator without a stiffness motor, the stiffness of its spring.
+    For an actuator without a stiffness motor it is the stiffness of its spring.
     """
     only = find_only_stiffness(mechanism.nominal)
     limits = mechanism.limits
@@ -61,7 +62,8 @@ def choose_stiffness(mechanism: Mechanism) -> float:
 
 
 def build_default_load(mechanism: Mechanism, start_s: float = LOAD_TIME_S) -> ConstantLoad:
-    """Default load of an actuator: a torque on the link that its default stiffness holds.
+    """Build the default load of an actuator: a torque on the link that its default stiffness can
+    hold.
 
     Args:
         mechanism: The actuator.
@@ -81,20 +83,20 @@ def build_actuator_experiment(
     actuator: Mapping[str, Any] | None = None,
     nominal: Mapping[str, Any] | None = None,
 ) -> Configuration:
-    """The default experiment of an actuator: a sine at its default stiffness, then a load.
+    """Build the default experiment of an actuator: a sine at its default stiffness, then a load.
 
     Args:
-        name: Of the actuator, such as "qbmove".
+        name: Name of the actuator, such as "qbmove".
         law: Name of the control law.
-        load: Whether the default load comes at 5 s.
+        load: Whether the default load has its onset at 5 s.
         actuator: Parameters of the plant that differ from the prototype's.
         nominal: Parameters of the nominal model that differ from the mechanism's.
 
     Returns:
-        A run within the limits of the actuator. Gains and observer are those of the lab.
+        A run within the limits of the actuator, with its default gains and observer.
 
     Raises:
-        ParameterError: There is no such actuator, or a parameter is out of range.
+        ParameterError: If there is no such actuator, or a parameter is out of range.
     """
     mechanism = get_mechanism(name)
     motion = SinePosition(

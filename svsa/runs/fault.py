@@ -19,7 +19,7 @@ from svsa.simulation.loop.lane import Blocks
 def build_fault(code: int, lane: int, tick: int, blocks: Blocks, x: State, name: str = "") -> Fault:
     """Build the fault of the domain code `code` at the state x, with the violating values.
 
-    name: of the lane, by its law, where several run.
+    `name` is the name of the lane, by its law, if there are several lanes.
     """
     values, message = _describe(code, tick * blocks.period, blocks, x)
     if name:

@@ -18,13 +18,13 @@ _changed: "weakref.WeakSet[object]" = weakref.WeakSet()
 def begin_run(law: type[object] | Controller) -> Iterator[Controller]:
     """Provide the controller of one run.
 
-    A class is called for a new object. An object with a method `reset` is reset. Any other object
-    is used as it is, and only once if a run changes its attributes. State in the closure of a
-    function or in global variables is not seen.
+    A class is called to create a new object. An object with a method `reset` is reset. Any other
+    object is used as it is, and only once if a run changes its attributes. State in the closure of
+    a function or in global variables is not detected.
 
     Args:
         law: A function (time, reference, x, disturbance) -> (u1, u2), an object that is called in
-            the same way, or a class of such objects that needs no arguments.
+            the same way, or a class of such objects without constructor arguments.
 
     Yields:
         The function or object to call in each tick.
@@ -62,5 +62,5 @@ def _read_state(law: object) -> bytes | None:
     try:
         weakref.ref(law)
         return pickle.dumps(vars(law))
-    except Exception:  # whatever an attribute of a user's object raises
+    except Exception:  # attributes of a user's object may raise anything
         return None

@@ -29,32 +29,33 @@ UNMOVED_NM_PER_RAD = 0.01
 class Metrics:
     """Metrics of a segment of samples; SI units as named, over `duration_s`.
 
-    e = q_d − q and e_σ = σ_d − σ. Ticks that a bench's loop missed have a time and no numbers:
-    nothing of them is in a sum or a peak. All is NaN if the last 0.5 s, or all of the stretch, has
-    no numbers: the lane ended. A metric that is not defined for the stretch is None.
+    e = q_d − q and e_σ = σ_d − σ. Ticks that a bench's loop missed have a time but no values, and
+    are left out of sums and peaks. All metrics are NaN if the last 0.5 s, or the whole segment, has
+    no values: the lane ended. A metric that is not defined for the segment is None.
 
-    Of either output, for stiffness with the name of that output:
-        rms_…, peak_…: Of the error; the peak after a load is the peak deviation.
+    For each output (stiffness metrics contain the name of that output):
+        rms_…, peak_…: rms and peak error; the peak after a load is the peak deviation.
         integral_…: IAE, ∫|e| dt.
-        recovery_time_s, stiffness_recovery_time_s: From the start of the stretch until the error
-            has stayed within 2 % of its peak for 0.5 s; None while it has not, and for a
-            stiffness error that never exceeded 0.01 N·m/rad. What comes later does not change
-            it. It is the recovery time of a disturbance if one began the stretch and is constant:
-            a load that grows later moves the error again. (Until the error is last beyond 0.1°,
-            as some compare laws, is another time: in Figure 4A on the rig 0.24 s instead of
-            0.15 s for NDOBC, 0.32 s instead of 0.31 s for FL with integral action.)
-        steady_state_…: rms error over the last 0.5 s; None for a stretch shorter than 1 s.
-        rise_time_s, overshoot_share, settling_time_s and the same of stiffness: Of the first step
+        recovery_time_s, stiffness_recovery_time_s: From the start of the segment until the error
+            has stayed within 2 % of its peak for 0.5 s; None before that, and for a
+            stiffness error that never exceeded 0.01 N·m/rad. Later errors do not change
+            it. It is the recovery time of a disturbance that begins with the segment and is
+            constant; a load that grows later moves the error again. (The time until the error
+            last exceeds 0.1°, which some comparisons use, is different: in Figure 4A on the rig
+            0.24 s instead of 0.15 s for NDOBC, 0.32 s instead of 0.31 s for FL with integral
+            action.)
+        steady_state_…: rms error over the last 0.5 s; None for a segment shorter than 1 s.
+        rise_time_s, overshoot_share, settling_time_s and the same of stiffness: For the first step
             of the reference, see `StepResponse`; 10 % to 90 %, share of the step, 2 %. None
             without a step of at least 1° or 1 N·m/rad.
     peak_stiffness_error_share: largest |e_σ|/σ_d.
 
-    Of the effort:
-        rms_torque…, peak_torque…: Of either motor's actual torque, u1 and u2.
-        effort_n2m2_s: ∫(u1² + u2²) dt; the heat of each motor's windings follows its term.
-        work_j: ∫(|u1 θ̇1| + |u2 θ̇2|) dt, mechanical and without recovery. The electrical work also
-            has the losses of the windings, whose resistance the lab does not know.
-        torque1_variation_nm_per_s, torque2_variation_nm_per_s: Total variation Σ|Δu| a second.
+    Control effort:
+        rms_torque…, peak_torque…: Actual torques u1 and u2.
+        effort_n2m2_s: ∫(u1² + u2²) dt; each motor's winding heat is proportional to its term.
+        work_j: ∫(|u1 θ̇1| + |u2 θ̇2|) dt, mechanical and without recuperation. The electrical work
+            also includes the losses of the windings, whose resistance is unknown.
+        torque1_variation_nm_per_s, torque2_variation_nm_per_s: Total variation Σ|Δu| per second.
         torque1_noise_nm, torque2_noise_nm: Torque noise at rest, the standard deviation over the
             last 0.5 s; None unless q_d and σ_d are constant in it and q moves by at most 0.1°.
     """
@@ -99,12 +100,15 @@ class Metrics:
 
 
 def derive_metrics(tally: Mapping[str, Any], counts: Any, periods: Any) -> dict[str, Any]:
-    """Compute the metrics that follow from sums and peaks of a `Tally`, of one run or many.
+    """Compute the metrics that follow from sums and peaks of a `Tally`, for one run or many.
 
     Args:
-        tally: The fields of a `Tally`, numbers or (runs,).
-        counts: Measured ticks, NaN for none.
+        tally: The fields of a `Tally`, numbers or arrays (runs,).
+        counts: Number of measured ticks, NaN for none.
         periods: Control period, s.
+
+    Returns:
+        The metrics by name.
     """
     measured = counts / counts
     squares1, squares2 = tally["torque1_squares"], tally["torque2_squares"]
@@ -126,7 +130,11 @@ def derive_metrics(tally: Mapping[str, Any], counts: Any, periods: Any) -> dict[
 
 
 class _LastSamples(NamedTuple):
-    """Metrics of the last 0.5 s; None where they are not defined. has_ended: none is a number."""
+    """Metrics of the last 0.5 s; None if they are not defined.
+
+    Attributes:
+        has_ended: Whether all samples are NaN.
+    """
 
     position_error_rad: float | None = None
     stiffness_error_nm_per_rad: float | None = None
@@ -154,7 +162,7 @@ class RunningMetrics:
         """Update as `update`, with the columns `MEASURED` only."""
         if not len(values):
             return
-        # One layout: for another the functions would be compiled again.
+        # One memory layout: another one would compile the functions again.
         values = np.ascontiguousarray(values)
         is_start = self._followed.passed == 0.0 and values[0, _TIME] == 0.0
         self._followed = follow_samples(self._followed, values, self._window)
@@ -225,9 +233,10 @@ class RunningMetrics:
 
 
 def compute_metrics(samples: np.ndarray, period_s: float) -> Metrics:
-    """The metrics of these rows of samples (ticks, channels).
+    """Compute the metrics of these rows of samples (ticks, channels).
 
-    Raises `StateError` where there is none.
+    Raises:
+        StateError: If there are no samples.
     """
     running = RunningMetrics(period_s)
     running.update(samples)

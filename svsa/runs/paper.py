@@ -3,7 +3,8 @@
 from typing import NamedTuple
 
 from svsa.errors import ParameterError, Violation
-from svsa.runs.configuration import Configuration, Design, load_prototype
+from svsa.runs.configuration import Configuration, Design
+from svsa.runs.design_file import load_prototype
 from svsa.simulation.plant.loads import Load
 from svsa.simulation.plant.loads.constant import ConstantLoad
 from svsa.simulation.plant.loads.paper import PAPER_TORQUE_NM, PaperLoad
@@ -30,9 +31,15 @@ class Figure(NamedTuple):
     def build_configuration(
         self, law: str = "ndobc", load: bool = True, design: Design | None = None
     ) -> Configuration:
-        """Build the run of the figure; load: with the paper's 3 kg at 5 s.
+        """Build the run of the figure.
 
-        design: parameters, gains and limits; the paper's if left out.
+        Args:
+            law: Name of the control law.
+            load: Whether the paper's 3 kg have their onset at 5 s.
+            design: Parameters, gains and limits; the paper's if left out.
+
+        Returns:
+            The configuration.
         """
         loads = (self.hung,) if load else ()
         return Configuration(
@@ -63,7 +70,7 @@ FIGURES = {
     )
 }
 
-# 3 kg on a cable over a pulley of 68 mm: a torque on the link alone, from one moment on.
+# 3 kg on a cable over a pulley of 68 mm: a step of torque on the link alone.
 CABLE_PULL = ConstantLoad(start_s=LOAD_TIME_S, torque_nm=(PAPER_TORQUE_NM, 0.0, 0.0))
 
 _CLAIM_BENCH = (
@@ -88,7 +95,17 @@ BENCH_FIGURES = {
 
 
 def get_figure(key: str) -> Figure:
-    """A figure of the paper by its key ("4a" … "7"); raises `ParameterError`."""
+    """Return a figure of the paper.
+
+    Args:
+        key: Its number and letter, "4a" to "7".
+
+    Returns:
+        The figure with its settings and claims.
+
+    Raises:
+        ParameterError: If there is no such figure.
+    """
     figures = FIGURES | BENCH_FIGURES
     figure = figures.get(str(key).lower())
     if figure is None:
@@ -97,10 +114,17 @@ def get_figure(key: str) -> Figure:
 
 
 def get_simulated_figure(key: str) -> Figure:
-    """A simulated figure by its key ("4a", "4b", "5").
+    """Return a simulated figure of the paper.
 
-    Raises `ParameterError` for any other: of figures 6A, 6B and 7, measured on a bench, it says how
-    to run them.
+    Args:
+        key: "4a", "4b" or "5".
+
+    Returns:
+        The figure with its settings and claims.
+
+    Raises:
+        ParameterError: If there is no such figure. For Figures 6A, 6B and 7, which were measured on
+            a bench, the message describes how to run them.
     """
     figure = get_figure(key)
     if figure.key not in BENCH_FIGURES:

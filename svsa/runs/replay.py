@@ -6,6 +6,7 @@ import numpy as np
 
 from svsa.actuators.signals import CHANNELS
 from svsa.errors import StateError
+from svsa.runs.arm.run import build_run
 from svsa.runs.command import ApplyLoad, Command, RemoveLoad
 from svsa.runs.configuration import Configuration
 from svsa.runs.loads import Loads, follow_loads
@@ -18,7 +19,7 @@ def replay(
     configuration: Configuration, commands: Iterable[Command], end_tick: int
 ) -> Iterator[tuple[Run, np.ndarray]]:
     """Simulate a run again from its start; see `play`."""
-    return play(Run(configuration), commands, end_tick)
+    return play(build_run(configuration), commands, end_tick)
 
 
 def play(
@@ -28,12 +29,18 @@ def play(
     room: np.ndarray | None = None,
     stretch_ticks: int = STRETCH_TICKS,
 ) -> Iterator[tuple[Run, np.ndarray]]:
-    """Continue a run, with each command at its tick.
+    """Continue a run, with each command at its tick; bit-identical for the same arguments.
 
-    Yields the run after every stretch, with the stretch's samples (lanes, ticks, channels),
-    until `end_tick` or the run's fault. Same configuration and commands: same bits. room:
-    (lanes, ticks, channels), where the samples are to stand one after the other. stretch_ticks: at
-    most, of a stretch.
+    Args:
+        run: The run.
+        commands: Commands with their ticks.
+        end_tick: Tick at which to stop.
+        room: Array (lanes, ticks, channels) for the samples.
+        stretch_ticks: Maximum length of a slice.
+
+    Yields:
+        The run after every slice, and the slice's samples (lanes, ticks, channels), until
+        `end_tick` or a fault.
     """
     later, first = list(commands), run.tick
     while True:
@@ -52,9 +59,10 @@ def play(
 def build_run_at(configuration: Configuration, commands: Iterable[Command], tick: int) -> Run:
     """Build the run at the beginning of `tick`, before the commands of that tick.
 
-    Raises `StateError` where the run ended before.
+    Raises:
+        StateError: If the run ended before.
     """
-    run = Run(configuration)
+    run = build_run(configuration)
     for reached, _ in replay(configuration, [c for c in commands if c.tick < tick], tick):
         run = reached
     if run.tick < tick:
@@ -65,9 +73,16 @@ def build_run_at(configuration: Configuration, commands: Iterable[Command], tick
 def simulate_again(
     configuration: Configuration, commands: Iterable[Command], first_tick: int, ticks: int
 ) -> Iterator[np.ndarray]:
-    """Yield the samples of a recorded run, bit-identical, in stretches (lanes, ticks, channels).
+    """Simulate a recorded run again, bit-identical.
 
-    first_tick: where the record begins. ticks: how many it holds.
+    Args:
+        configuration: Configuration at tick 0.
+        commands: Commands with their ticks.
+        first_tick: First tick of the record.
+        ticks: Number of its ticks.
+
+    Yields:
+        Samples in slices (lanes, ticks, channels).
     """
     for run, samples in replay(configuration, commands, first_tick + ticks):
         skipped = max(0, first_tick - (run.tick - samples.shape[1]))
@@ -80,4 +95,4 @@ def list_loads(configuration: Configuration, commands: Iterable[Command]) -> Loa
     changes = [
         (one.tick, one.argument) for one in commands if isinstance(one, ApplyLoad | RemoveLoad)
     ]
-    return follow_loads(configuration.loads, changes, configuration.sampling.period_s)
+    return follow_loads(configuration.planned_loads, changes, configuration.sampling.period_s)

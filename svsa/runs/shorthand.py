@@ -1,7 +1,7 @@
-"""Abbreviated settings in scripts, and their conversion to checked values.
+"""Abbreviated settings in scripts, and their conversion to validated values.
 
-What is unambiguous is accepted: a number for a constant, one load for a list, a part of some
-parameters. Files and REST take the full form only.
+Unambiguous abbreviations are accepted: a number for a constant, one load for a list, some fields of
+parameters. Files and REST accept the full form only.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -28,12 +28,12 @@ from svsa.simulation.reference.kinds import PositionReference, StiffnessReferenc
 from svsa.simulation.reference.kinds.constant import ConstantPosition, ConstantStiffness
 
 Part: TypeAlias = Mapping[str, Any]
-"""Fields that are different, by name; the others stay."""
+"""Changed fields by name; the others stay."""
 LawChoice: TypeAlias = KnownLaw | AnyLaw
 GivenPosition: TypeAlias = PositionReference | Part | float
-"""A reference, or an angle that is held, rad."""
+"""A reference, or a constant angle, rad."""
 GivenStiffness: TypeAlias = StiffnessReference | Part | float
-"""A reference, or a stiffness that is held, N·m/rad."""
+"""A reference, or a constant stiffness, N·m/rad."""
 GivenEffects: TypeAlias = Effects | Part | PresetName
 GivenActuator: TypeAlias = MechanismParameters | Part
 GivenGains: TypeAlias = Gains | Part
@@ -109,12 +109,12 @@ def change_configuration(
     """Return the configuration with these settings.
 
     Args:
-        configuration: What is changed.
+        configuration: The configuration to change.
         given: As `Settings`, and `law`.
-        keywords: Further keywords of the caller, which a wrong name may have meant.
+        keywords: Further keywords of the caller, which the error message may suggest.
 
     Raises:
-        ParameterError: There is no such setting, or a value is none for it.
+        ParameterError: If there is no such setting, or its value is invalid.
     """
     known = [*_FORMS, *_OTHERS]
     unknown = [name for name in given if name not in known]
@@ -141,20 +141,28 @@ def change_configuration(
     )
 
 
-def read_mechanism(name: str) -> dict[str, Any]:
-    """What the name of an actuator stands for, as fields of a configuration.
+def read_mechanism(name: str, field: str = "actuator") -> dict[str, Any]:
+    """Convert the name of an actuator to fields of a configuration.
 
     Args:
-        name: Of an actuator that is installed.
+        name: Name of an installed actuator.
+        field: Name of the value in the error.
 
     Returns:
-        Plant, nominal model and limits, and the stiffness if it has only one.
+        Plant, nominal model, limits, gains and observer, and the stiffness if it has only one.
 
     Raises:
         ParameterError: If no actuator of that name is installed.
     """
-    found = get_mechanism(name)
-    read = {"actuator": found.prototype, "nominal": found.nominal, "limits": found.limits}
+    found = get_mechanism(name, field)
+    (position, stiffness), beta = found.poles_rad_per_s, found.observer_rad_per_s
+    read: dict[str, Any] = {
+        "actuator": found.prototype,
+        "nominal": found.nominal,
+        "limits": found.limits,
+        "gains": Gains.from_poles([-position] * 4, [-stiffness] * 2),
+        "observer": ObserverBandwidth(bandwidth_rad_per_s=(beta, beta, beta)),
+    }
     only = find_only_stiffness(found.nominal)
     if only is not None:
         read["stiffness"] = ConstantStiffness(stiffness_nm_per_rad=only)
@@ -162,15 +170,15 @@ def read_mechanism(name: str) -> dict[str, Any]:
 
 
 def read_setting(name: str, given: Any, present: Any) -> Any:
-    """Convert an abbreviated setting to its checked value.
+    """Convert an abbreviated setting to its validated value.
 
     Args:
-        name: Of the setting, as "stiffness".
-        given: What the script wrote.
-        present: What a part is a part of.
+        name: Name of the setting, such as "stiffness".
+        given: The value in the script.
+        present: The present value, which a partial value changes.
 
     Raises:
-        ParameterError: It is no value of this setting; the error names what would be.
+        ParameterError: If the value is invalid; the message describes valid ones.
     """
     if name in ("loads", "comparisons"):
         read = read_load if name == "loads" else read_lane
@@ -225,10 +233,18 @@ _LANE = _Form(Lane, 'svsa.Lane(law="fl"), or the name of a law')
 
 
 def read_load(given: Any, name: str = "load") -> AnyLoad:
-    """A load, or that of a dict; raises `ParameterError` with `name` for another value."""
+    """Return a load, also from a dict.
+
+    Raises:
+        ParameterError: If it is neither; the message contains `name`.
+    """
     return _check(name, given, given, _LOAD)
 
 
 def read_lane(given: Any, name: str) -> Lane:
-    """A lane, or the lane of a law's name; raises `ParameterError` with `name` for another."""
+    """Return a lane, also from the name of a law.
+
+    Raises:
+        ParameterError: If it is neither; the message contains `name`.
+    """
     return _check(name, {"law": given} if isinstance(given, str) else given, given, _LANE)

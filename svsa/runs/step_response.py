@@ -13,7 +13,7 @@ SMALLEST_POSITION_STEP_RAD = math.radians(1.0)
 SMALLEST_STIFFNESS_STEP_NM_PER_RAD = 1.0
 RISE_FROM, RISE_TO = 0.1, 0.9
 REST_SHARE = 1e-4
-"""A reference whose first change is a larger share of the step was moving already."""
+"""If the first change is a larger share of the step, the reference was already moving."""
 
 _UNSETTLED, _CONSTANT, _MOVING, _FOLLOWED, _OVER = 0.0, 1.0, 2.0, 3.0, 4.0
 
@@ -21,12 +21,24 @@ _UNSETTLED, _CONSTANT, _MOVING, _FOLLOWED, _OVER = 0.0, 1.0, 2.0, 3.0, 4.0
 class _State(NamedTuple):
     """State of the search for a step, and of the response.
 
-    phase: whether the reference has yet to be constant for 0.5 s, is constant, moves, has made a
-    step, or the response is over. reference, output: the newest known. held: ticks for which the
-    reference has been constant. moved: ticks since its first change. start, target: levels before
-    and after. first: its first change. low, high: its range since. followed: ticks of the response.
-    rise_from, rise_to: the ticks of 10 % and 90 %, −1 before. highest: largest excess over the
-    target, of the step. inside, recovered: of the 2 % rule.
+    Attributes:
+        phase: Whether the reference is not yet constant for 0.5 s, is constant, moves, has made a
+            step, or the response is over.
+        reference: Last known reference.
+        output: Last known output.
+        held: Number of ticks for which the reference has been constant.
+        moved: Number of ticks since its first change.
+        start: Level before the step.
+        target: Level after the step.
+        first: First change of the reference.
+        low: Smallest reference since then.
+        high: Greatest reference since then.
+        followed: Number of ticks of the response.
+        rise_from: Tick of 10 %, −1 before.
+        rise_to: Tick of 90 %, −1 before.
+        highest: Largest excess over the target, as a share of the step.
+        inside: As in the 2 % rule.
+        recovered: As in the 2 % rule.
     """
 
     phase: float
@@ -55,7 +67,13 @@ _BEGUN = _State(
 
 
 class _Bounds(NamedTuple):
-    """settled, longest: ticks in 0.5 s, and of the longest step. smallest: step, of the output."""
+    """Limits of the search.
+
+    Attributes:
+        settled: Number of ticks in 0.5 s.
+        longest: Duration of the longest step, ticks.
+        smallest: Smallest step, in the unit of the output.
+    """
 
     settled: float
     longest: float
@@ -97,7 +115,7 @@ def _follow_reference(state: _State, reference: float, output: float, bounds: _B
         low, high = min(low, reference), max(high, reference)
         if held >= bounds.settled:
             size, ticks = abs(reference - start), moved - held + 1.0
-            # One change is a jump; a smooth rise begins with a small change.
+            # A large first change is a jump; a smooth rise begins with a small one.
             began_at_rest = ticks == 1.0 or first <= REST_SHARE * size
             stayed = high - low <= size * (1.0 + REST_SHARE)
             is_step = size >= bounds.smallest and ticks <= bounds.longest
@@ -116,7 +134,7 @@ def _follow_reference(state: _State, reference: float, output: float, bounds: _B
 def _follow(
     state: _State, outputs: np.ndarray, references: np.ndarray, errors: np.ndarray, bounds: _Bounds
 ) -> _State:
-    """Update the state with samples. outputs: those since the reference moves, written here."""
+    """Update the state with samples; `outputs`, those since the reference moves, is written."""
     for i in range(references.shape[0]):
         if state.phase == _OVER:
             break
@@ -127,7 +145,7 @@ def _follow(
             continue
         if state.phase == _FOLLOWED:
             if reference != state.target:
-                # Another step: what follows is no response to this one.
+                # Another step: later samples do not belong to this response.
                 state = _stop(state)
                 break
             state = _follow_output(state, output, bounds.settled)
@@ -152,15 +170,15 @@ def _stop(state: _State) -> _State:
 
 
 class StepResponse:
-    """The response to the first step of the reference in a stretch of samples.
+    """The response to the first step of the reference in a segment of samples.
 
-    A step: the reference is constant, goes to another level within 2 s without leaving the range
-    between both, and stays there for 0.5 s. Its size is that of the reference, and time begins
-    with the first change, so that the fade of the reference is part of the response. At the start
-    of a run the level before is the output. A sine and a ramp have no step.
+    A step is a change of a constant reference to another level within 2 s, without leaving the
+    range between both, after which the reference is constant for 0.5 s. Its size is that of the
+    reference. Time begins with the first change, so that the blend of the reference is part of the
+    response. At the start of a run the level before is the output. A sine and a ramp have no step.
 
-    What comes after the response has settled does not change the numbers. Another step before
-    that ends the response: it has no settling time.
+    Samples after the response has settled do not change the numbers. Another step before that ends
+    the response, which then has no settling time.
     """
 
     def __init__(self, period_s: float, smallest: float) -> None:
@@ -191,17 +209,17 @@ class StepResponse:
         return None if recovered < 0.0 else recovered * self._period
 
     def update(self, references: np.ndarray, errors: np.ndarray, is_start: bool) -> None:
-        """Update with more samples; a missed one (NaN) counts as the one before it.
+        """Update with more samples; a missed one (NaN) counts as the previous one.
 
         Args:
-            references: (ticks,).
-            errors: Reference − output, (ticks,).
-            is_start: Whether the first of them is that of a run, at t = 0.
+            references: Shape (ticks,).
+            errors: Reference − output, shape (ticks,).
+            is_start: Whether the first sample is that of a run at t = 0.
         """
         if self._state.phase == _OVER:
             return
         if is_start and abs(errors[0]) >= self._bounds.smallest:
-            # As if the reference had been at the output before t = 0.
+            # Initial value: the output equals the reference before t = 0.
             output = float(references[0] - errors[0])
             self._state = self._state._replace(reference=output, output=output)
         self._state = _follow(self._state, self._outputs, references, errors, self._bounds)

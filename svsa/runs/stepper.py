@@ -41,10 +41,10 @@ class Observation(NamedTuple):
     Attributes:
         time_s: Time of the run, s.
         reference: q_d to its fourth derivative, σ_d to its second.
-        x: x̂, the state as the sensors and the state estimator have it.
+        x: x̂, the state from sensors and state estimator.
         w: ŵ of the disturbance observer, N·m.
         measured: Positions from the encoders, rad.
-        applied: Mean torque that acted in the last period, N·m.
+        applied: Mean actual torque of the last period, N·m.
     """
 
     time_s: float
@@ -83,12 +83,12 @@ class Stepper:
             seen = stepper.step(law(*seen[:4]))
 
     Limits, effects, loads, plant, sensors and observers are those of `svsa.simulate`, compiled from
-    the same functions: the same torques give the same samples, bit for bit.
+    the same functions: the same torques give bit-identical samples.
 
     Attributes:
-        configuration: Of the present run.
-        fault: Why the run ended, or None.
-        sample: The channels of the tick before, as in a `Result`; None at t = 0.
+        configuration: Configuration of the present run.
+        fault: Fault that ended the run, or None.
+        sample: Channels of the previous tick, as in a `Result`; None at t = 0.
     """
 
     def __init__(
@@ -102,14 +102,14 @@ class Stepper:
         """Build the plant and begin a run.
 
         Args:
-            experiment: A figure of the paper ("4a", "4b", "5") or a `Configuration`. Its law and
-                comparisons do not count.
-            steps: Runge–Kutta steps a period.
+            experiment: A figure of the paper ("4a", "4b", "5") or a `Configuration`, whose law and
+                comparisons are not used.
+            steps: Runge–Kutta steps per period.
             parameters: A parameter file or its `Design`, instead of the experiment's own.
-            **changes: Fields of the configuration, as of `simulate`: effects, loads, position, …
+            **changes: Fields of the configuration, as for `simulate`: effects, loads, position, …
 
         Raises:
-            ParameterError: A value is out of range.
+            ParameterError: If a value is out of range.
         """
         self.configuration = build_experiment(experiment, parameters, changes, Stepper)
         self._steps = steps
@@ -130,14 +130,14 @@ class Stepper:
         """Begin a run from rest at t = 0.
 
         Args:
-            **changes: Fields of the configuration that are different from now on, such as a seed of
-                the sensor noise or loads.
+            **changes: Fields of the configuration to change from now on, such as a seed of the
+                sensor noise or loads.
 
         Returns:
             The `Observation` at t = 0.
 
         Raises:
-            ParameterError: A value is out of range; the run before stays.
+            ParameterError: If a value is out of range; the present run stays.
         """
         configuration = change_configuration(self.configuration, changes).changed(comparisons=())
         self._run = Run(configuration, self._steps, bind=_bind_held)
@@ -147,19 +147,19 @@ class Stepper:
         return self._observe()
 
     def step(self, torque: tuple[float, float], ticks: int = 1) -> Observation:
-        """Apply motor torques for a control period, or for several.
+        """Apply motor torques for one or several control periods.
 
         Args:
-            torque: (u1, u2) at the gearbox outputs, N·m, as a law commands it: before limits,
+            torque: (u1, u2) at the gearbox outputs, N·m, as commanded by a law: before limits,
                 delay and lag.
-            ticks: Number of control periods in which it is held.
+            ticks: Number of control periods with this torque.
 
         Returns:
-            The `Observation` after it; `fault` says if the run ended on the way.
+            The `Observation` after it; `fault` is set if the run ended before.
 
         Raises:
-            FaultError: The run had ended before: `reset` begins another.
-            ParameterError: The torque is not two finite numbers; nothing is simulated.
+            FaultError: If the run had already ended: call `reset`.
+            ParameterError: If the torque is not two finite numbers; nothing is simulated.
         """
         if self.fault is not None:
             raise FaultError(self.fault)
@@ -174,7 +174,11 @@ class Stepper:
         return self._observe()
 
     def compute_errors(self) -> tuple[float, float]:
-        """The true errors at this tick: q_d − q in rad, σ_d − σ in N·m/rad."""
+        """Compute the true errors at this tick.
+
+        Returns:
+            q_d − q in rad, and σ_d − σ in N·m/rad.
+        """
         x, plant = self._run.lanes[0].x, self._run.blocks[0].plant
         reference = read_reference(self._run.inputs, self._run.time_s)
         mu = compute_coordinate(plant, x.theta2)

@@ -1,7 +1,7 @@
 """The timeline of a run: controllers of its lanes, and windows between changes.
 
-A session follows its run with it; of a recorded run the same is read from its configuration and
-its commands.
+A session updates it during its run; for a recorded run it is computed from configuration and
+commands.
 """
 
 import itertools
@@ -16,19 +16,20 @@ from svsa.runs.command import ApplyLoad, Command, RemoveLoad, Stop, fold
 from svsa.runs.configuration import Configuration
 from svsa.runs.controllers import (
     Controller,
+    is_shown_together,
     list_controllers,
     name_controllers,
 )
-from svsa.runs.events import describe_change, describe_end
+from svsa.runs.events import describe_change, describe_end, list_laws
+from svsa.runs.lane_origins import find_lane_origins
 from svsa.runs.replay import list_loads
-from svsa.runs.run import find_origins
 from svsa.simulation.plant.loads import Load
 
 MAX_WINDOWS = 1000
 MAX_STRETCHES = 1000
 LONGEST_LABEL = 200
 _MORE = " …"
-# A line style's color is its remainder.
+# The color of a line style is its number modulo this.
 LINE_COLORS = 5
 
 WindowKind = Literal["start", "load", "unload", "change", "stop"]
@@ -38,9 +39,11 @@ WindowKind = Literal["start", "load", "unload", "change", "stop"]
 class Window:
     """A part of a run without changes; ticks first … end − 1, end None: until now.
 
-    kind: what began it: the run, a load that came on, one that was taken off, or a change of
-    reference, law, gains, observer, effects, plant, model or lanes, or a bench's ramp to zero
-    torque, which no law asked for. label: that in words.
+    Attributes:
+        kind: What began it: the run, the onset or removal of a load, a change of reference, law,
+            gains, observer, effects, plant, model or lanes, or the ramp of a bench to zero torque,
+            which no law commands.
+        label: The same in words.
     """
 
     kind: WindowKind
@@ -52,8 +55,11 @@ class Window:
 class Segment(NamedTuple):
     """A controller on a lane, ticks first … end − 1; end None: until now.
 
-    number: of the controller, in the order in which they came, from 1. line_style: which look its
-    curves have, from 0; no two controllers that are kept share one.
+    Attributes:
+        controller: The controller.
+        number: Number of the controller in the order of appearance, from 1.
+        line_style: Number of the style of its curves, from 0; no two stored controllers share one,
+            except those of different joints, which are not in one plot.
     """
 
     controller: Controller
@@ -66,11 +72,14 @@ class Segment(NamedTuple):
 class Timeline:
     """The segments of every lane and the windows of a run, command by command.
 
-    kept_ticks: how long a segment that has ended is kept. `load_window`: of the newest load;
-    it ends with the next change, when a load is taken off, or with another one; a load that ends
-    by time ends no window, so that a push shows after it. `load_numbers`: which controller each
-    lane had when that load came, None for a lane that began later. `lane_ids`: of every lane an
-    identity that it keeps where lanes before it go, and that no other lane of the run ever has.
+    `load_window` is that of the newest load; it ends with the next change, when a load is removed,
+    or with another load; a load that ends by time ends no window, so that the response to a push is
+    visible after it. `load_numbers` are the controllers of the lanes at the onset of that load,
+    None for a lane that began later. `lane_ids` are identities of the lanes, which they keep when
+    other lanes are removed, and which no other lane of the run has.
+
+    Args:
+        kept_ticks: Number of ticks for which an ended segment is kept.
     """
 
     def __init__(
@@ -100,7 +109,7 @@ class Timeline:
         before, origins = self._configuration, None
         self._configuration = fold(before, command, self._is_bench)
         if command.kind == "comparisons":
-            origins = find_origins(before.comparisons, self._configuration.comparisons)
+            origins = find_lane_origins(before, self._configuration)
             self.lanes = [[] if lane is None else self.lanes[lane] for lane in origins]
             self.lane_ids = [
                 next(self._new_lane_ids) if lane is None else self.lane_ids[lane]
@@ -115,7 +124,7 @@ class Timeline:
         elif not isinstance(command, ApplyLoad | RemoveLoad) and (
             origins is None or None in origins
         ):
-            self._begin("change", describe_change(command, before.law), command.tick)
+            self._begin("change", describe_change(command, list_laws(before)), command.tick)
         return origins
 
     def begin_load(self, load: Load, tick: int) -> None:
@@ -124,7 +133,7 @@ class Timeline:
         self.load_window = self.window
         self.load_numbers = [lane[-1].number for lane in self.lanes]
 
-    def take_off(self, load: Load, tick: int) -> None:
+    def remove_load(self, load: Load, tick: int) -> None:
         """Note the removal of an active load."""
         self._begin("unload", describe_end(load), tick)
 
@@ -140,7 +149,8 @@ class Timeline:
     def name_segments(self, lanes: Sequence[Sequence[Segment]]) -> dict[int, str]:
         """Name each controller, by number, that controlled these lanes in these segments.
 
-        They are named together, in the order in which they came; kept until others are asked for.
+        They are named together, in the order of appearance; the result is cached until other lanes
+        are requested.
         """
         controllers = {one.number: one.controller for lane in lanes for one in lane}
         if controllers.keys() != self._names.keys():
@@ -193,18 +203,24 @@ class Timeline:
                 )
 
     def _find_line_style(self, controller: Controller, present: Sequence[Controller]) -> int:
-        """Return a controller's line style, or the first of its law's color that is free.
+        """Return a controller's line style, or the first free one of its law's color.
 
-        While a different law has that color, and for a law that is not installed, the color is
-        another one: of no other law whose curves are kept, else of none that controls a lane now.
+        If another law uses that color, or the law is not installed, the color is one that no other
+        stored law uses, otherwise one that no present controller uses.
         """
-        used = {one.controller: one.line_style for lane in self.lanes for one in lane}
+        used = {
+            one.controller: one.line_style
+            for lane in self.lanes
+            for one in lane
+            if is_shown_together(one.controller, controller)
+        }
         if controller in used:
             return used[controller]
         customary = list_law_line_styles()
         own = customary.get(controller.law)
         of_others = {one: style for one, style in used.items() if one.law != controller.law}
-        owed = {customary.get(one.law, 0) for one in present if one.law != controller.law}
+        others = [one for one in present if is_shown_together(one, controller)]
+        owed = {customary.get(one.law, 0) for one in others if one.law != controller.law}
         kept = {style % LINE_COLORS for style in of_others.values()}
         now = {style % LINE_COLORS for one, style in of_others.items() if one in present}
         free = [
@@ -233,8 +249,11 @@ def read_timeline(
 ) -> Timeline:
     """Build the timeline of a run with these commands.
 
-    ticks: from which tick on segments are kept, and how far the run went. Raises
-    `ParameterError` or `StateError` for commands that this run cannot have had.
+    `ticks` is the first tick from which on segments are kept, and the length of the run.
+
+    Raises:
+        ParameterError: If the commands are invalid for this run.
+        StateError: If the state of the run does not permit them.
     """
     first_tick, end_tick = ticks
     timeline = Timeline(configuration, is_bench, kept_ticks=0)
@@ -256,7 +275,7 @@ def read_timeline(
             if taken is None:
                 raise StateError(f"There is no load {command.argument} in this run.")
             if taken.start_tick < command.tick == taken.end_tick:
-                timeline.take_off(taken.load, command.tick)
+                timeline.remove_load(taken.load, command.tick)
     for load in coming:
         if load.start_tick < end_tick:
             timeline.begin_load(load.load, load.start_tick)

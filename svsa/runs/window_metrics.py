@@ -22,8 +22,8 @@ class EndedWindow(NamedTuple):
 class WindowMetrics:
     """Metrics of every lane, None for one that did not exist at the start of the window.
 
-    `since_load` are those of the newest load's window and end with it; `ended` the newest windows
-    that something was changed after, of at least one tick each.
+    `since_load` are those of the newest load's window and end with it; `ended` are the last windows
+    that ended with a change, each of at least one tick.
     """
 
     def __init__(self, lanes: int, period_s: float) -> None:

@@ -1,4 +1,4 @@
-"""Many runs side by side: each has the bits of the same run alone, whatever runs next to it."""
+"""Runs in a batch: each has the bits of the single run, whatever runs next to it."""
 
 import numpy as np
 import pytest
@@ -112,14 +112,14 @@ def compare(configurations: list[Configuration]) -> np.ndarray:
 
 @settings(max_examples=8, deadline=None)
 @given(drawn=st.lists(changes, min_size=1, max_size=10))
-def test_every_run_is_as_it_is_alone_with_any_parameters_effects_and_seed(drawn: list) -> None:
-    """One with every effect among them, so that one machine code serves them all."""
+def test_every_run_equals_the_single_run_with_any_parameters_effects_and_seed(drawn: list) -> None:
+    """One with every effect among them, so that the same machine code computes all."""
     first = build("ndobc", effects=EVERY_EFFECT, seed=7, loads=LOADS)
     compare([first, *(build("ndobc", loads=LOADS, **one) for one in drawn)])
 
 
-def test_a_law_keeps_its_memory_in_each_run() -> None:
-    """And without any effect, the last group not full."""
+def test_law_keeps_its_memory_in_each_run() -> None:
+    """Also without effects, with an incomplete last group."""
     design = svsa.load_prototype()
     shares = np.linspace(0.7, 1.3, 11)
     plants = [
@@ -130,8 +130,8 @@ def test_a_law_keeps_its_memory_in_each_run() -> None:
     assert len(np.unique(summaries["q"])) == len(shares)
 
 
-def test_a_run_that_ends_stays_where_it_ended_and_stops_no_other() -> None:
-    """Each at its own tick; one that holds is no fault of those next to it."""
+def test_ended_run_keeps_its_end_and_stops_no_other() -> None:
+    """Each at its own tick; a completed run has no fault of its neighbours."""
     masses = np.linspace(0.6, 1.4, 8)
     design = svsa.load_prototype()
     plants = [
@@ -146,12 +146,12 @@ def test_a_run_that_ends_stays_where_it_ended_and_stops_no_other() -> None:
 
 @settings(max_examples=12, deadline=None)
 @given(drawn=st.lists(what_is_asked, min_size=2, max_size=11))
-def test_every_run_follows_references_and_bears_loads_of_its_own(drawn: list) -> None:
-    """Side by side in one group, of every kind, and each the run alone."""
+def test_every_run_has_its_own_references_and_loads(drawn: list) -> None:
+    """In one group, of every kind, and each equals the single run."""
     compare([build("fl_integral", **one) for one in drawn])
 
 
-def test_what_runs_have_in_common_is_kept_once() -> None:
+def test_common_values_of_runs_are_stored_once() -> None:
     points = {"time_s": (0.0, 0.1, 0.2), "torque_nm": ((0.0, 0.0, 0.0), (0.2, 0, 0), (0.1, 0, 0))}
     shared, other = (svsa.SeriesLoad(start_s=start, **points) for start in (0.05, 0.1))
     chosen = [shared, shared, other, shared]
@@ -163,7 +163,7 @@ def test_what_runs_have_in_common_is_kept_once() -> None:
     assert summaries["q"][0] == summaries["q"][1] == summaries["q"][3] != summaries["q"][2]
 
 
-def test_runs_under_other_references_come_back_in_their_order() -> None:
+def test_runs_with_other_references_are_returned_in_their_order() -> None:
     angles = (0.1, -0.2, 0.1, 0.3)
     laws = ("fl_integral", "ndobc", "fl_integral", "fl_integral")
     configurations = [
@@ -178,8 +178,8 @@ def is_at_once(batch: Batch) -> bool:
     return batch.control is not None
 
 
-def test_a_law_that_branches_on_its_state_is_called_for_one_run_after_the_other() -> None:
-    """Other parameters, whole numbers among them, in each; one ends before the others."""
+def test_law_that_branches_on_its_state_is_called_for_one_run_after_the_other() -> None:
+    """Other parameters, including integers, in each; one ends before the others."""
     configurations = [
         build(
             "ilc",
@@ -194,7 +194,7 @@ def test_a_law_that_branches_on_its_state_is_called_for_one_run_after_the_other(
     assert summaries["code"].tolist() == [INSIDE, INSIDE, INSIDE, DEFLECTION_LIMIT]
 
 
-def test_what_the_machine_code_has_for_all_lanes_is_refused_where_it_differs() -> None:
+def test_values_common_to_all_lanes_are_rejected_if_they_differ() -> None:
     rig = svsa.RIG
     mixed = [build("ndobc", effects=rig.changed(delay_samples=delay)) for delay in (1, 2)]
     with pytest.raises(svsa.ParameterError, match=r"blocks\.effects\.delay.*every run of a batch"):
@@ -202,8 +202,8 @@ def test_what_the_machine_code_has_for_all_lanes_is_refused_where_it_differs() -
 
 
 @pytest.mark.parametrize("law", exhaust(["ndobc_w", "lqi"], ["ndobc_w"]))
-def test_laws_with_tuples_and_records_within_their_memory_go_side_by_side(law: str) -> None:
-    """Each as the run alone, on the rig, where a motor reaches its limit."""
+def test_laws_with_tuples_and_records_in_their_memory_run_in_a_batch(law: str) -> None:
+    """Each equals the single run, on the rig, where a motor saturates."""
     design = svsa.load_prototype()
     plants = [
         design.actuator.changed(link_inertia_kg_m2=share * design.actuator.link_inertia_kg_m2)

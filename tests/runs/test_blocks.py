@@ -1,4 +1,4 @@
-"""What the loop is given is rebuilt where a change affects it, and only there."""
+"""The inputs of the loop are rebuilt only where a change affects them."""
 
 import numpy as np
 from hypothesis import given
@@ -6,14 +6,14 @@ from hypothesis import strategies as st
 
 import svsa
 from svsa.runs.blocks import bind_law, build_blocks
-from svsa.runs.command import COMMANDS, Set, build_command
+from svsa.runs.command import Set, build_command
 from svsa.runs.run import Run
 from tests.runs.session.scripts import ARGUMENTS, scripted
 from tests.runs.session.sessions import build_configuration
 
 FL = svsa.Lane(law="fl")
 PUSH = svsa.PushLoad(torque_nm=(1.0, 0.0, 0.0), hold_s=0.1)
-kinds = st.sampled_from(sorted({*COMMANDS} - {"load", "unload", "stop"}))
+kinds = st.sampled_from(sorted({*ARGUMENTS} - {"load", "unload", "stop"}))
 changes = st.lists(
     kinds.flatmap(lambda kind: st.tuples(st.just(kind), ARGUMENTS[kind])), min_size=1, max_size=8
 )
@@ -25,7 +25,7 @@ def build_run():
 
 @scripted
 @given(changes)
-def test_what_the_loop_is_given_is_what_would_be_built_from_the_start(drawn):
+def test_inputs_of_the_loop_equal_those_built_from_the_start(drawn):
     run = build_run()
     for kind, argument in drawn:
         try:
@@ -42,7 +42,7 @@ def test_what_the_loop_is_given_is_what_would_be_built_from_the_start(drawn):
         np.testing.assert_array_equal(law.nominal, built.nominal)
 
 
-def test_a_load_or_a_reference_leaves_blocks_and_laws_as_they_are():
+def test_load_or_reference_leaves_blocks_and_laws_unchanged():
     run = build_run()
     before = [*run.blocks, *run.laws]
     load = run.add_load(PUSH)
@@ -61,7 +61,7 @@ def test_gains_leave_the_blocks_and_bind_the_law_again():
     assert run.laws[0] is not law
 
 
-def test_the_observer_is_no_matter_of_the_law():
+def test_observer_leaves_the_law_unchanged():
     run = build_run()
     (blocks, *_), (law, *_) = run.blocks, run.laws
     run.change(Set("observer", svsa.ObserverBandwidth(bandwidth_rad_per_s=(70.0,) * 3)))

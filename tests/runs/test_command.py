@@ -1,4 +1,4 @@
-"""A command is one frozen value: written and read, applied to a run, made from a configuration."""
+"""A command is one frozen value: serialized, applied to a run, derived from a configuration."""
 
 import json
 
@@ -15,13 +15,13 @@ from tests.runs.session.scripts import ARGUMENTS, loads, scripted
 from tests.runs.session.sessions import build_configuration
 
 LANES = (svsa.Lane(law="fl"),)
-KINDS = sorted({*COMMANDS} - {"load", "unload"})
+KINDS = sorted({*ARGUMENTS} - {"load", "unload"})
 given_kinds = st.sampled_from(KINDS).flatmap(lambda kind: st.tuples(st.just(kind), ARGUMENTS[kind]))
 
 
 @scripted
 @given(given_kinds)
-def test_a_configuration_becomes_what_the_run_has_after_the_command(drawn):
+def test_command_changes_the_configuration(drawn):
     run = Run(build_configuration(comparisons=LANES))
     before = run.configuration
     try:
@@ -35,11 +35,11 @@ def test_a_configuration_becomes_what_the_run_has_after_the_command(drawn):
 
 @scripted
 @given(
-    st.sampled_from(sorted(COMMANDS)).flatmap(
+    st.sampled_from(sorted(ARGUMENTS)).flatmap(
         lambda kind: st.tuples(st.just(kind), ARGUMENTS[kind])
     )
 )
-def test_a_command_is_read_as_it_was_written(drawn):
+def test_command_is_read_as_written(drawn):
     command = build_command(7, *drawn)
     written = json.loads(json.dumps(command.to_json()))
     assert list(written) == ["tick", "kind", "argument"]
@@ -47,7 +47,7 @@ def test_a_command_is_read_as_it_was_written(drawn):
     assert read_command(written | {"of_a_later_version": 1}) == command
 
 
-def test_a_command_cannot_be_changed_and_says_how_it_reads():
+def test_command_is_immutable_and_has_a_readable_form():
     command = Set("law", "fl", tick=3)
     with pytest.raises(ValueError, match="frozen"):
         command.tick = 4
@@ -69,21 +69,21 @@ def test_a_command_cannot_be_changed_and_says_how_it_reads():
         (lambda: read_command({"tick": None, "kind": "law", "argument": "fl"}), "tick"),
     ],
 )  # fmt: skip
-def test_what_is_wrong_with_a_command_is_called_by_its_name(make, name):
+def test_error_of_a_command_names_its_field(make, name):
     with pytest.raises(svsa.ParameterError) as refused:
         make()
     assert [violation.name for violation in refused.value.violations] == [name]
 
 
-def test_every_change_known_before_is_a_command():
-    fields = set(svsa.Change.model_fields) - {"at_s"}
+def test_every_former_change_is_a_command():
+    fields = set(svsa.Change.model_fields) - {"at_s", "joint"}
     assert fields <= set(COMMANDS)
 
 
 @scripted
 @given(st.lists(loads, min_size=1, max_size=5), st.integers(1, 5), st.integers(1, 400))
-def test_the_loads_of_a_run_are_those_that_its_commands_tell(given_loads, number, taken_at):
-    """Two readers, the run itself and a reader of its commands, follow one rule."""
+def test_loads_of_a_run_are_those_of_its_commands(given_loads, number, taken_at):
+    """Two readers, the run itself and a reader of its commands, apply one rule."""
     commands = [
         build_command(40 * position, "load", load) for position, load in enumerate(given_loads)
     ]
@@ -102,6 +102,6 @@ def test_the_loads_of_a_run_are_those_that_its_commands_tell(given_loads, number
         assert reported[load.number] == load
 
 
-def test_a_load_reported_off_twice_ended_the_first_time():
+def test_load_removed_twice_ends_the_first_time():
     (load,) = follow_loads([svsa.PaperLoad()], [(5, 1), (9, 1)], 0.001)
     assert (load.start_tick, load.end_tick) == (0, 5)

@@ -1,4 +1,4 @@
-"""Parameter files: what is written is read back, and a broken file says what is wrong."""
+"""Parameter files: written values are read back, and an invalid file is reported."""
 
 import tomllib
 
@@ -29,7 +29,7 @@ def written(tmp_path):
     return path
 
 
-def test_a_written_design_is_read_back_as_it_was(written):
+def test_written_design_is_read_back_unchanged(written):
     assert svsa.read_design(written) == svsa.load_prototype()
 
 
@@ -41,7 +41,7 @@ def test_every_written_value_has_its_source(written):
 
 
 def test_every_value_of_the_prototype_has_a_source():
-    """Table 1, the paper's text, or declared as assumed: nothing stands for itself."""
+    """Table 1, the text of the paper, or declared as assumed."""
     from importlib.resources import files
 
     text = (files("svsa.actuators") / "prototype.toml").read_text(encoding="utf-8")
@@ -51,8 +51,8 @@ def test_every_value_of_the_prototype_has_a_source():
             assert entry["source"], name
 
 
-def test_the_prototype_is_table_1():
-    """The numbers of the paper: true plant and nominal model."""
+def test_prototype_is_table_1():
+    """The numbers of the paper: plant and nominal model."""
     design = svsa.load_prototype()
     true, nominal = design.actuator, design.nominal
     assert true.rotational_stiffness_nm_per_rad == pytest.approx(10.58625, rel=1e-12)
@@ -65,7 +65,7 @@ def test_the_prototype_is_table_1():
     assert true.reaction_torque == nominal.reaction_torque == "energy"
 
 
-def test_a_value_may_stand_bare_or_with_its_source(written):
+def test_value_may_have_a_source(written):
     text = written.read_text(encoding="utf-8")
     rest = text[text.index("[nominal") :]
     written.write_text(GOOD + rest, encoding="utf-8")
@@ -79,8 +79,8 @@ stiffness_pole_rad_per_s = 25
 """
 
 
-def test_a_law_has_a_table_of_its_own(written):
-    """Bare or with its source; what is written is read back, and a run is controlled with it."""
+def test_law_has_its_own_table(written):
+    """With or without sources; written values are read back, and control a run."""
     written.write_text(written.read_text(encoding="utf-8") + INTEGRAL, encoding="utf-8")
     design = svsa.read_design(written)
     (parameters,) = design.parameters.values()
@@ -94,7 +94,7 @@ def test_a_law_has_a_table_of_its_own(written):
     assert run.configuration.parameters["fl_integral"] == parameters
 
 
-def test_a_file_that_names_no_law_leaves_the_parameters_of_laws_as_they_are(written):
+def test_file_without_a_law_leaves_the_parameters_of_laws_unchanged(written):
     own = {"fl_integral": {"position_pole_rad_per_s": 40.0}}
     configuration = svsa.paper.get_figure("4a").build_configuration().changed(parameters=own)
     run = svsa.simulate(configuration, parameters=written, duration_s=0.01)
@@ -123,7 +123,7 @@ BROKEN_LAWS = {
 
 
 @pytest.mark.parametrize("kind", BROKEN_LAWS)
-def test_a_law_s_broken_table_is_refused_with_file_and_name(written, kind):
+def test_invalid_table_of_a_law_is_rejected_with_file_and_name(written, kind):
     text, words = BROKEN_LAWS[kind]
     written.write_text(written.read_text(encoding="utf-8") + text, encoding="utf-8")
     with pytest.raises(svsa.ParameterError) as refused:
@@ -149,7 +149,7 @@ BROKEN = {
 
 
 @pytest.mark.parametrize("kind", BROKEN)
-def test_a_broken_file_is_refused_in_words(tmp_path, kind):
+def test_invalid_file_is_rejected_with_reason(tmp_path, kind):
     text, words = BROKEN[kind]
     path = tmp_path / "broken.toml"
     path.write_text(text, encoding="utf-8")
@@ -158,7 +158,7 @@ def test_a_broken_file_is_refused_in_words(tmp_path, kind):
     assert words in str(refused.value)
 
 
-def test_a_file_that_is_not_there_or_not_text_is_refused(tmp_path):
+def test_missing_or_binary_file_is_rejected(tmp_path):
     binary = tmp_path / "binary.toml"
     binary.write_bytes(b"\xff\xfe\x00\x01")
     for path in (tmp_path / "absent.toml", tmp_path, binary):
@@ -166,7 +166,7 @@ def test_a_file_that_is_not_there_or_not_text_is_refused(tmp_path):
             svsa.read_design(path)
 
 
-def test_all_wrong_values_are_named_at_once(tmp_path):
+def test_all_invalid_values_are_named_at_once(tmp_path):
     """A student corrects a file once, not once for each mistake."""
     path = tmp_path / "broken.toml"
     wrong = GOOD.replace("0.0103", "-1.0").replace("0.0234", '"x"')
@@ -185,7 +185,7 @@ def test_all_wrong_values_are_named_at_once(tmp_path):
 
 @pytest.mark.parametrize("section", ["actuator", "nominal"])
 def test_fields_of_one_name_are_distinguished_by_their_section(tmp_path, section):
-    """Plant and model have the same fields: only the path says which one is wrong."""
+    """Plant and model have the same fields: only the path identifies the invalid one."""
     design = svsa.load_prototype()
     path = tmp_path / "design.toml"
     svsa.write_design(path, design, "a test")

@@ -8,7 +8,7 @@ import svsa
 
 
 def play(env, seed):
-    """Observations and rewards of an episode under an agent that acts at random."""
+    """Observations and rewards of an episode under an agent with random actions."""
     observation, _ = env.reset(seed=seed)
     env.action_space.seed(seed)
     rows, rewards, over = [observation], [], False
@@ -22,11 +22,11 @@ def play(env, seed):
 
 
 @pytest.mark.filterwarnings("ignore::UserWarning:gymnasium")
-def test_gymnasiums_own_check_passes():
+def test_check_of_gymnasium_passes():
     check_env(svsa.ActuatorEnv("5", effects=svsa.RIG, duration_s=1.0))
 
 
-def test_an_episode_ends_at_its_duration_and_its_seed_decides_all_of_it():
+def test_episode_ends_at_its_duration_and_is_determined_by_its_seed():
     noise = svsa.RIG.changed(noise={"motor_std_rad": 1e-4, "deflection_std_rad": 1e-4})
     env = svsa.ActuatorEnv("4a", effects=noise, loads=(), duration_s=0.2)
     rows, rewards = play(env, 1)
@@ -36,7 +36,7 @@ def test_an_episode_ends_at_its_duration_and_its_seed_decides_all_of_it():
     assert not np.array_equal(play(env, 2)[0], rows)
 
 
-def test_an_action_is_a_share_of_the_torque_limits_held_for_the_period():
+def test_action_is_a_share_of_the_torque_limits_held_for_the_period():
     env = svsa.ActuatorEnv("4a", loads=(), action_period_s=0.02)
     env.reset(seed=0)
     env.step(np.array([0.01, -0.005], np.float32))
@@ -46,7 +46,7 @@ def test_an_action_is_a_share_of_the_torque_limits_held_for_the_period():
     assert env.stepper.sample.torque2_nm == pytest.approx(-0.005 * limits.u2)
 
 
-def test_a_fault_terminates_the_episode_and_an_option_changes_the_next():
+def test_fault_terminates_the_episode_and_an_option_changes_the_next():
     env = svsa.ActuatorEnv("4a")
     env.reset(seed=0, options={"loads": ()})
     assert env.stepper.configuration.loads == ()

@@ -1,4 +1,4 @@
-"""The table of faults: codes and numbers that records hold, and the advice after each."""
+"""The table of faults: codes and numbers that records contain, and the advice for each."""
 
 import pytest
 
@@ -16,7 +16,7 @@ from svsa.actuators.faults import (
 VALUES = {"deflection_rad": 0.012, "motor2_position_rad": 1.09}
 
 
-def test_the_numbers_of_compiled_code_are_those_of_all_records() -> None:
+def test_numbers_of_compiled_code_are_those_of_all_records() -> None:
     assert FAULT_CODES == {
         1: "not_finite",
         2: "lever_end",
@@ -31,26 +31,26 @@ def test_the_numbers_of_compiled_code_are_those_of_all_records() -> None:
         find_number("quick_stop")
 
 
-def test_a_run_that_leaves_the_domain_of_the_model_has_advice() -> None:
+def test_run_that_leaves_the_domain_of_the_model_has_advice() -> None:
     assert all(FAULTS[code].advice for code in FAULT_CODES.values())
     assert "stiffer setting" in str(advise("lever_end", VALUES))
     assert advise("quick_stop", {}) is None
 
 
 @pytest.mark.parametrize("code", ["lever_end", "implausible"])
-def test_a_motor_that_heat_limited_is_the_reason_whatever_the_fault_is(code: str) -> None:
+def test_heat_limit_of_a_motor_is_the_reason_of_any_fault(code: str) -> None:
     warm = VALUES | {"motor2_heat": 1.0, "motor2_commanded_nm": 5.0, f"motor2{HELD_BACK}": 1.27}
     advice = str(advise(code, warm))
     assert "Let the motor cool" in advice
     assert "stiffer setting" not in advice
 
 
-def test_an_unknown_fault_of_a_newer_record_has_its_code_as_label() -> None:
+def test_unknown_fault_of_a_newer_record_has_its_code_as_label() -> None:
     assert label_fault("gear_broken") == "Gear broken"
     assert advise("gear_broken", {}) is None
 
 
-def test_the_losses_of_a_loop_are_faults_of_a_bench() -> None:
+def test_losses_of_a_loop_are_faults_of_a_bench() -> None:
     assert {FAULTS[code].where for code in LOSSES} == {"bench"}
     assert set(LOSSES) == {
         "bench_not_opened",

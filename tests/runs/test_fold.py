@@ -1,4 +1,4 @@
-"""After the same changes all readers of a run have the same configuration."""
+"""All readers of a run compute the same configuration from its changes."""
 
 import functools
 import json
@@ -29,7 +29,7 @@ class TwinnedRun(Run):
 
 
 def follow(script, is_bench):
-    """A journal of a run that was given all commands of a script that it does not refuse."""
+    """Return the journal of a run with all commands of a script that it accepts."""
     run = (TwinnedRun if is_bench else Run)(build_configuration(comparisons=(TWIN,)))
     journal = Journal(run, is_bench)
     for gap, (kind, argument) in script:
@@ -63,7 +63,7 @@ def test_session_timeline_and_record_have_one_configuration(is_bench, script):
     assert last == {name: getattr(run.configuration, name) for name in SETTINGS}
 
 
-def test_the_twin_of_a_bench_has_its_law():
+def test_twin_of_a_bench_has_its_law():
     before = build_configuration(comparisons=(TWIN, TWIN))
     for command in (Set("law", "fl"), Set("laws", ("fl", "ndobc"))):
         after = fold(before, command, is_bench=True)
@@ -71,7 +71,7 @@ def test_the_twin_of_a_bench_has_its_law():
     assert [lane.law for lane in fold(before, Set("law", "fl")).lanes] == ["fl", "ndobc", "ndobc"]
 
 
-def test_a_value_that_is_set_already_is_held_and_a_load_never():
+def test_unchanged_value_has_no_effect_and_a_load_always_has():
     configuration = build_configuration()
     assert is_held(configuration, Set("law", configuration.law))
     assert fold(configuration, Set("law", configuration.law)) is configuration
@@ -80,7 +80,7 @@ def test_a_value_that_is_set_already_is_held_and_a_load_never():
     assert not is_held(configuration, build_command(0, "stop", None))
 
 
-def test_a_law_that_cannot_be_read_is_not_known():
+def test_unreadable_law_is_unknown():
     configuration = build_configuration(comparisons=(TWIN,))
     wrong = (3, {"tick": 3, "kind": "laws", "argument": "no list"})
     acting = read_acting(build_header(configuration), [wrong], 0, 10)

@@ -1,4 +1,4 @@
-"""Lanes: controllers side by side, each on its own plant, all under the same circumstances."""
+"""Lanes: controllers in parallel, each on its own plant, all under the same conditions."""
 
 import re
 
@@ -31,7 +31,7 @@ SHARED += [CHANNEL_INDEX["stiffness_reference_nm_per_rad"]]
 NOISY = {"effects": EVERY_EFFECT, "seed": 11}
 
 
-def test_the_same_law_twice_gives_the_same_bits():
+def test_same_law_twice_gives_the_same_bits():
     """Noise, load and reference are one realisation for all lanes."""
     run = Run(build_configuration(PULSE, comparisons=(NDOBC, NDOBC, NDOBC), **NOISY))
     samples = advance(run, 300)
@@ -46,8 +46,8 @@ def test_different_laws_share_time_reference_and_load():
 
 
 @pytest.mark.parametrize("effects", [svsa.IDEAL, EVERY_EFFECT], ids=["ideal", "every effect"])
-def test_fl_next_to_ndobc_is_two_single_runs_bit_for_bit(effects):
-    """A lane next to changes nothing; Figure 4A through its load."""
+def test_fl_and_ndobc_in_lanes_equal_two_single_runs_bit_for_bit(effects):
+    """An additional lane changes nothing; Figure 4A including its load."""
     both = svsa.simulate("4a", "ndobc", comparisons=(FL,), effects=effects, duration_s=6.0)
     (fl,) = both.comparisons
     for result in (both, fl):
@@ -59,8 +59,8 @@ def test_fl_next_to_ndobc_is_two_single_runs_bit_for_bit(effects):
     assert errors[1] > 2.0 * errors[0]
 
 
-def test_a_lane_has_gains_and_an_observer_of_its_own_or_those_of_the_run():
-    """Each lane equals the run that has its settings as its own."""
+def test_lane_has_its_own_gains_and_observer_or_those_of_the_run():
+    """Each lane equals the run with its settings."""
     lanes = (SLOW, WIDE, FL)
     together = svsa.simulate(
         build_configuration(PULSE, comparisons=lanes), duration_s=0.3
@@ -71,8 +71,8 @@ def test_a_lane_has_gains_and_an_observer_of_its_own_or_those_of_the_run():
         np.testing.assert_array_equal(result.samples, alone.samples)
 
 
-def test_the_gains_of_the_run_are_those_of_lanes_without_their_own():
-    """A change while it runs reaches the lanes that left theirs out, and no other."""
+def test_gains_of_the_run_apply_to_lanes_without_their_own():
+    """A change during the run affects lanes without their own gains, and no other."""
     run = Run(build_configuration(PULSE, comparisons=(NDOBC, SLOW)))
     advance(run, 40)
     run.change(Set("gains", SLOW.gains))
@@ -84,8 +84,8 @@ def test_the_gains_of_the_run_are_those_of_lanes_without_their_own():
 
 
 @pytest.mark.parametrize("number", [0, 1, 2])
-def test_a_fault_in_one_lane_ends_all_at_its_tick_and_names_the_lane(number):
-    """Gains that the delay makes unstable, in the first lane or next to it."""
+def test_fault_in_one_lane_ends_all_at_its_tick_and_names_the_lane(number):
+    """Gains that the delay makes unstable, in the first lane or in another."""
     lanes = [NDOBC, NDOBC, NDOBC]
     lanes[number] = FRAGILE
     changes = {"law": lanes[0].law, "comparisons": tuple(lanes[1:]), "effects": svsa.RIG}
@@ -107,7 +107,7 @@ def test_a_fault_in_one_lane_ends_all_at_its_tick_and_names_the_lane(number):
     assert advance(run, 10).shape[1] == 0
 
 
-def test_a_comparison_added_in_a_run_begins_where_the_first_is():
+def test_added_comparison_starts_at_the_state_of_the_first_lane():
     run = Run(build_configuration(PULSE, **NOISY))
     advance(run, 100)
     run.change(Set("comparisons", (FL, NDOBC)))
@@ -121,8 +121,8 @@ def test_a_comparison_added_in_a_run_begins_where_the_first_is():
     np.testing.assert_array_equal(samples[1], advance(changed, 200)[0])
 
 
-def test_a_comparison_that_stays_goes_on_where_it_is():
-    """One more next to it, or one less behind it, does not set it back."""
+def test_remaining_comparison_continues_from_its_state():
+    """Adding one after it or removing one after it does not reset it."""
     whole = advance(Run(build_configuration(PULSE, comparisons=(FL,))), 300)[1]
     run = Run(build_configuration(PULSE, comparisons=(FL,)))
     advance(run, 100)
@@ -132,8 +132,8 @@ def test_a_comparison_that_stays_goes_on_where_it_is():
     np.testing.assert_array_equal(advance(run, 100)[1], whole[200:])
 
 
-def test_a_comparison_put_in_the_place_of_another_leaves_the_third_where_it_is():
-    """(FL, slow) → (wide, slow): the new one begins where the first is, slow goes on."""
+def test_replaced_comparison_leaves_the_third_lane_unchanged():
+    """(FL, slow) → (wide, slow): the new one starts at the state of the first, slow continues."""
     run = Run(build_configuration(PULSE, comparisons=(FL, SLOW)))
     advance(run, 100)
     first, _, slow = run.lanes
@@ -141,8 +141,8 @@ def test_a_comparison_put_in_the_place_of_another_leaves_the_third_where_it_is()
     assert run.lanes == [first, first, slow]
 
 
-def test_four_lanes_are_the_most():
-    """Refused at the start and in a run, which goes on as if nothing had been asked."""
+def test_four_lanes_are_the_maximum():
+    """Rejected at the start and during a run, which continues unchanged."""
     with pytest.raises(svsa.ParameterError, match="comparisons"):
         build_configuration(comparisons=(FL,) * 4)
     run = Run(build_configuration(comparisons=(FL,) * 3))
@@ -169,8 +169,8 @@ def test_every_lane_has_its_metrics_since_the_start_and_since_the_load():
     assert len(set(peaks)) == 3
 
 
-def test_a_new_lane_has_no_past_and_all_metrics_begin_together():
-    """What the first lane did before is not what the new one did."""
+def test_new_lane_has_no_past_and_all_metrics_start_together():
+    """The past of the first lane is not that of the new one."""
     session = build_session(PULSE)
     session.step(60)
     session.change(Set("comparisons", (FL,)))
@@ -185,8 +185,8 @@ def test_a_new_lane_has_no_past_and_all_metrics_begin_together():
         assert running[1] is None
 
 
-def test_laws_change_places_and_no_plant_moves():
-    """Lane 1 goes on with the law of lane 2 from where it is, and the other way round."""
+def test_exchanged_laws_move_no_plant():
+    """Lane 1 continues with the law of lane 2 from its state, and vice versa."""
     run = Run(build_configuration(PULSE, comparisons=(FL, SLOW), **NOISY))
     advance(run, 60)
     before = list(run.lanes)
@@ -203,13 +203,13 @@ def test_laws_change_places_and_no_plant_moves():
 @pytest.mark.parametrize(
     ("laws", "bound"), [((), r"a list of at least 1"), (("fl", "fl", "fl"), r"1 to 2 laws")]
 )
-def test_as_many_laws_as_lanes_at_most(laws, bound):
+def test_laws_are_limited_to_the_number_of_lanes(laws, bound):
     run = Run(build_configuration(comparisons=(FL,)))
     with pytest.raises(svsa.ParameterError, match=bound):
         run.change(Set("laws", laws))
 
 
-def test_a_session_with_comparisons_can_be_reset_and_starts_them_from_rest():
+def test_reset_with_comparisons_starts_them_from_rest():
     session = build_session(PULSE, comparisons=(FL,))
     session.step(80)
     samples = [read_samples(session, lane) for lane in (0, 1)]
@@ -223,8 +223,8 @@ def build_integral(pole: float) -> Lane:
     return Lane(law="fl_integral", parameters={"position_pole_rad_per_s": pole})
 
 
-def test_a_lane_set_otherwise_keeps_its_plant_and_what_its_law_remembers():
-    """The same samples as a run whose own law has these parameters, changed at that tick."""
+def test_reconfigured_lane_keeps_its_plant_and_the_memory_of_its_law():
+    """The same samples as a run whose law has these parameters, changed at that tick."""
     run = Run(build_configuration(PULSE, comparisons=(build_integral(40.0), FL), **NOISY))
     advance(run, 90)
     before = list(run.lanes)
@@ -247,7 +247,7 @@ def test_a_lane_set_otherwise_keeps_its_plant_and_what_its_law_remembers():
 @pytest.mark.parametrize(
     ("comparisons", "lane", "bound"), [((), 2, "none: one lane runs"), ((FL,), 3, "2 to 2")]
 )
-def test_only_a_lane_that_runs_is_set_otherwise(comparisons, lane, bound):
+def test_only_a_running_lane_is_reconfigured(comparisons, lane, bound):
     run = Run(build_configuration(comparisons=comparisons))
     with pytest.raises(svsa.ParameterError, match=f"lane is {lane}: it must be {bound}"):
         run.change(Set("lane", LaneSetting(lane=lane, setting=NDOBC)))
@@ -255,8 +255,8 @@ def test_only_a_lane_that_runs_is_set_otherwise(comparisons, lane, bound):
         LaneSetting(lane=1, setting=NDOBC)
 
 
-def test_a_lane_set_otherwise_keeps_its_past_and_gets_a_name_of_its_own():
-    """The curve before keeps the name and color of the law that drew it."""
+def test_reconfigured_lane_keeps_its_past_and_gets_its_own_name():
+    """The earlier curve keeps the name and color of its law."""
     session = build_session(PULSE, law="fl_integral", comparisons=(Lane(law="fl_integral"),))
     session.step(60)
     (second_id,) = session.journal.timeline.lane_ids[1:]

@@ -1,4 +1,4 @@
-"""Laws in Python with a state of their own start afresh in each run."""
+"""Stateful laws in Python are restarted in each run."""
 
 import numpy as np
 import pytest
@@ -40,7 +40,7 @@ def test_two_runs_of_a_law_are_equal(law):
     assert np.array_equal(run(law), run(law))
 
 
-def test_an_object_with_the_state_of_a_run_is_rejected_with_what_to_do():
+def test_object_with_the_state_of_a_run_is_rejected_with_instructions():
     law = Integrating()
     first = run(law)
     assert law.integral != 0.0, "it can be read after the run"

@@ -1,4 +1,4 @@
-"""Metrics against signals whose numbers are known by hand."""
+"""Metrics of signals with known results."""
 
 import numpy as np
 import pytest
@@ -13,7 +13,7 @@ T = 0.001
 
 
 def build_samples(ticks, **channels):
-    """Samples that are zero but for these channels."""
+    """Build samples that are zero except in these channels."""
     samples = np.zeros((ticks, len(CHANNELS)))
     samples[:, CHANNEL_INDEX["time_s"]] = np.arange(ticks) * T
     samples[:, CHANNEL_INDEX["stiffness_reference_nm_per_rad"]] = 20.0
@@ -33,7 +33,7 @@ def test_rms_and_peak_of_a_sine():
     assert metrics.rms_stiffness_error_nm_per_rad == 0.0
 
 
-def test_each_metric_reads_its_own_channel_and_the_sign_does_not_matter():
+def test_each_metric_reads_its_own_channel_and_ignores_the_sign():
     samples = build_samples(
         100,
         position_error_rad=-1.0,
@@ -54,7 +54,7 @@ def test_each_metric_reads_its_own_channel_and_the_sign_does_not_matter():
 
 
 def test_integral_and_effort_of_sines():
-    """∫|3 sin| over whole periods is 6/π a second, ∫(2 sin)² + (2 cos)² is 4 a second."""
+    """∫|3 sin| over whole periods is 6/π per second, ∫(2 sin)² + (2 cos)² is 4 per second."""
     angle = 2.0 * np.pi * 5.0 * np.arange(2000) * T
     samples = build_samples(
         2000,
@@ -67,15 +67,15 @@ def test_integral_and_effort_of_sines():
     assert metrics.effort_n2m2_s == pytest.approx(2.0 * 4.0, rel=1e-12)
 
 
-def test_recovery_of_a_decaying_error():
-    """e^(−10 t) falls to 2 % at ln(50)/10 = 0.3912 s: the first sample inside is at 0.392."""
+def test_recovery_time_of_a_decaying_error():
+    """e^(−10 t) decreases to 2 % at ln(50)/10 = 0.3912 s: the first sample inside is at 0.392."""
     error = np.exp(-10.0 * np.arange(1000) * T)
     metrics = compute_metrics(build_samples(1000, position_error_rad=error), T)
     assert metrics.recovery_time_s == pytest.approx(0.392)
 
 
-def test_recovery_counts_from_the_start_to_the_last_time_outside():
-    """A second excursion undoes the first recovery; 2 % is of the highest peak."""
+def test_recovery_time_is_from_the_start_to_the_last_time_outside():
+    """A second excursion cancels the first recovery; 2 % is of the highest peak."""
     error = np.zeros(2000)
     error[100:200] = 1.0
     error[600:650] = -0.021
@@ -84,14 +84,14 @@ def test_recovery_counts_from_the_start_to_the_last_time_outside():
     assert metrics.recovery_time_s == pytest.approx(0.65)
 
 
-def test_an_error_that_stays_has_not_recovered():
-    """FL under a load: the error never comes back, and no number pretends that it did."""
+def test_lasting_error_has_no_recovery_time():
+    """FL under a load: the error never recovers, and there is no number."""
     metrics = compute_metrics(build_samples(3000, position_error_rad=0.2), T)
     assert metrics.recovery_time_s is None
 
 
 def test_recovery_needs_half_a_second_inside():
-    """An error that has only just come in may go out again."""
+    """An error that has just entered the band may leave it again."""
     late = np.zeros(1000)
     inside = round(STEADY_STATE_S / T)
     late[: 1000 - inside + 1] = 1.0
@@ -101,17 +101,17 @@ def test_recovery_needs_half_a_second_inside():
     assert found == pytest.approx(0.5)
 
 
-def test_without_any_error_recovery_is_at_once():
+def test_zero_error_has_zero_recovery_time():
     assert compute_metrics(build_samples(1000), T).recovery_time_s == 0.0
 
 
-def test_no_samples_have_no_metrics():
+def test_empty_samples_have_no_metrics():
     running = RunningMetrics(T)
     running.update(np.zeros((0, len(CHANNELS))))
     assert running.summarize() is None
 
 
-def test_what_a_loop_missed_is_in_no_sum_and_no_peak_and_time_goes_on():
+def test_missed_ticks_are_in_no_sum_and_no_peak_but_count_as_time():
     t = np.arange(2000) * T
     wave = 3.0 * np.sin(2.0 * np.pi * 5.0 * t)
     samples = build_samples(2000, position_error_rad=wave, torque1_nm=2.0)
@@ -123,8 +123,10 @@ def test_what_a_loop_missed_is_in_no_sum_and_no_peak_and_time_goes_on():
 
 
 @pytest.mark.parametrize(("missed", "recovered_s"), [((300, 320), 0.2), ((190, 220), 0.22)])
-def test_ticks_that_are_missed_neither_end_nor_begin_a_recovery(missed, recovered_s):
-    """Inside before and after a gap: inside. Outside before it: outside until it is seen inside."""
+def test_missed_ticks_neither_end_nor_start_a_recovery(missed, recovered_s):
+    """Inside before and after a gap: inside. Outside before it: outside until a sample is
+    inside.
+    """
     error = np.where(np.arange(1500) < 200, 1.0, 0.001)
     samples = build_samples(1500, position_error_rad=error)
     samples[slice(*missed)] = np.nan
@@ -138,8 +140,8 @@ def test_ticks_that_are_missed_neither_end_nor_begin_a_recovery(missed, recovere
 
 
 @pytest.mark.parametrize("known", [0, 1000])
-def test_of_a_lane_that_has_ended_nothing_is_reported(known):
-    """A twin beyond its deflection has no numbers from there on: what it had is no whole."""
+def test_ended_lane_has_no_metrics(known):
+    """A twin beyond its deflection limit has no metrics after it: the window is incomplete."""
     samples = build_samples(2000, position_error_rad=1.0)
     samples[known:] = np.nan
     metrics = compute_metrics(samples, T)
@@ -149,8 +151,8 @@ def test_of_a_lane_that_has_ended_nothing_is_reported(known):
 
 @settings(derandomize=True, max_examples=40, deadline=None)
 @given(st.lists(st.integers(0, 400), max_size=12), st.floats(0.0, 30.0))
-def test_taken_in_pieces_the_metrics_are_those_of_the_whole(cuts, rate):
-    """A session updates at every wake: where the wakes fall must not show."""
+def test_metrics_of_segments_are_those_of_the_complete_signal(cuts, rate):
+    """A session updates at every wake-up: their times must not change the metrics."""
     t = np.arange(1500) * T
     error = np.exp(-rate * t) * np.sin(40.0 * t)
     step = 20.0 + 5.0 * np.clip(t - 0.2, 0.0, 0.1)
@@ -168,8 +170,8 @@ def test_taken_in_pieces_the_metrics_are_those_of_the_whole(cuts, rate):
     assert running.summarize() == whole
 
 
-def test_the_settled_error_is_that_of_the_end_however_the_samples_come():
-    """4 for 2 s, then 3 sin of whole periods for the last 0.5 s: 3/√2, and none under 1 s."""
+def test_steady_state_error_is_that_of_the_end_for_any_segments():
+    """4 for 2 s, then 3 sin over whole periods for the last 0.5 s: 3/√2; none below 1 s."""
     t = np.arange(500) * T
     errors = np.concatenate([np.full(2000, 4.0), 3.0 * np.sin(2.0 * np.pi * 10.0 * t)])
     samples = build_samples(2500, position_error_rad=errors)
@@ -183,8 +185,8 @@ def test_the_settled_error_is_that_of_the_end_however_the_samples_come():
     assert compute_metrics(samples[:1000], T).steady_state_position_error_rad == pytest.approx(4.0)
 
 
-def test_total_variation_work_and_rms_of_torques_known_by_hand():
-    """A triangle of 1 N·m up and down each 0.2 s varies by 10 N·m/s; its rms is 1/√3."""
+def test_total_variation_work_and_rms_of_known_torques():
+    """A triangle of 1 N·m with a period of 0.2 s varies by 10 N·m/s; its rms is 1/√3."""
     t = np.arange(2001) * T
     triangle = np.abs((t / 0.2 + 0.5) % 1.0 - 0.5) * 2.0
     samples = build_samples(
@@ -202,7 +204,7 @@ def test_total_variation_work_and_rms_of_torques_known_by_hand():
 
 
 def test_torque_noise_is_that_at_rest():
-    """A sine of 0.3 N·m about a constant torque: 0.3/√2; none while anything moves."""
+    """A sine of 0.3 N·m about a constant torque: 0.3/√2; none during motion."""
     t = np.arange(500) * T
     noise = {
         "torque1_nm": 2.0 + 0.3 * np.sin(2.0 * np.pi * 50.0 * t),
@@ -221,8 +223,8 @@ def test_torque_noise_is_that_at_rest():
     assert short.torque1_noise_nm is None
 
 
-def test_the_stiffness_has_the_metrics_of_the_position():
-    """e^(−10 t) N·m/rad: within 2 % from 0.392 s on; below 0.01 N·m/rad it has not deviated."""
+def test_stiffness_has_the_metrics_of_the_position():
+    """e^(−10 t) N·m/rad: within 2 % from 0.392 s on; below 0.01 N·m/rad there is no deviation."""
     error = np.exp(-10.0 * np.arange(1500) * T)
     found = compute_metrics(build_samples(1500, stiffness_error_nm_per_rad=error), T)
     assert found.stiffness_recovery_time_s == pytest.approx(0.392)
@@ -234,7 +236,7 @@ def test_the_stiffness_has_the_metrics_of_the_position():
     assert constant.stiffness_recovery_time_s is None
 
 
-def test_a_step_of_either_reference_has_a_step_response():
+def test_step_of_either_reference_has_a_step_response():
     tau, t = 0.1, np.arange(1500) * T
     left = np.exp(-t / tau)
     samples = build_samples(

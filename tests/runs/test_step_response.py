@@ -1,4 +1,4 @@
-"""Step responses whose rise time, overshoot and settling time are known by hand."""
+"""Step responses with known rise time, overshoot and settling time."""
 
 import math
 
@@ -11,7 +11,7 @@ T = 0.001
 
 
 def respond(reference, output, pieces=1, is_start=False, smallest=0.1):
-    """The response to a reference (ticks,)."""
+    """Return the response to a reference (ticks,)."""
     response = StepResponse(T, smallest)
     parts = (np.array_split(signal, pieces) for signal in (reference, reference - output))
     for number, (references, errors) in enumerate(zip(*parts, strict=True)):
@@ -24,7 +24,7 @@ def read(response):
 
 
 def build_step(output, before=100, level=2.0, start=1.0):
-    """`before` ticks at the start, then the step and an output of that share of it."""
+    """`before` ticks at the start, then the step and an output of this share of it."""
     reference = np.concatenate([np.full(before, start), np.full(len(output), level)])
     follows = start + (level - start) * output
     return reference, np.concatenate([np.full(before, start), follows])
@@ -32,8 +32,8 @@ def build_step(output, before=100, level=2.0, start=1.0):
 
 @pytest.mark.parametrize("pieces", [1, 7, 1600])
 @pytest.mark.parametrize(("start", "level"), [(1.0, 2.0), (0.3, -0.5)])
-def test_a_first_order_response(start, level, pieces):
-    """1 − e^(−t/τ): rises in τ ln 9 = 2.197 τ, settles at τ ln 50 = 3.912 τ, no overshoot."""
+def test_first_order_response(start, level, pieces):
+    """1 − e^(−t/τ): rise time τ ln 9 = 2.197 τ, settling time τ ln 50 = 3.912 τ, no overshoot."""
     tau, t = 0.1, np.arange(1500) * T
     response = respond(*build_step(1.0 - np.exp(-t / tau), level=level, start=start), pieces)
     assert response.rise_time_s == pytest.approx(tau * math.log(9.0), abs=T)
@@ -41,7 +41,7 @@ def test_a_first_order_response(start, level, pieces):
     assert response.overshoot_share == 0.0
 
 
-def test_a_second_order_response():
+def test_second_order_response():
     """Overshoot exp(−π ζ/√(1 − ζ²)) = 16.3 % at ζ = 0.5; rise time 1.639/ω (Ogata, 10-90 %)."""
     zeta, omega, t = 0.5, 20.0, np.arange(2000) * T
     damped = omega * math.sqrt(1.0 - zeta**2)
@@ -52,7 +52,7 @@ def test_a_second_order_response():
     assert response.rise_time_s == pytest.approx(1.639 / omega, abs=T)
 
 
-def test_a_reference_that_fades_over_is_a_step_and_its_fade_counts():
+def test_reference_that_fades_is_a_step_including_its_fade():
     """An output that follows a smooth rise of 1 s exactly: the times are those of the rise."""
     s = np.clip((np.arange(3000) * T - 0.5) / 1.0, 0.0, 1.0)
     rise = s**5 * (126.0 + s * (-420.0 + s * (540.0 + s * (-315.0 + s * 70.0))))
@@ -64,7 +64,7 @@ def test_a_reference_that_fades_over_is_a_step_and_its_fade_counts():
     assert response.overshoot_share == pytest.approx(0.0, abs=1e-9)
 
 
-def test_an_output_away_from_the_reference_at_the_start_of_a_run_is_a_step():
+def test_initial_error_at_the_start_of_a_run_is_a_step():
     tau, t = 0.1, np.arange(1500) * T
     output, reference = 1.0 - np.exp(-t / tau), np.ones(1500)
     assert read(respond(reference, output)) == (None, None, None), "an error is not a step"
@@ -86,18 +86,18 @@ def test_an_output_away_from_the_reference_at_the_start_of_a_run_is_a_step():
     ],
     ids=["constant", "sine", "ramp", "slow ramp", "small", "beyond its new level"],
 )
-def test_what_is_no_step_has_no_step_response(reference):
+def test_other_references_have_no_step_response(reference):
     assert read(respond(reference, reference)) == (None, None, None)
 
 
-def test_a_sine_that_fades_into_a_constant_is_no_step():
+def test_sine_that_fades_into_a_constant_is_no_step():
     t = np.arange(5000) * T
     weight = np.clip(t - 1.0, 0.0, 1.0)
     reference = (1.0 - weight) * np.sin(6.0 * t) + 2.0 * weight
     assert read(respond(reference, reference)) == (None, None, None)
 
 
-def test_what_comes_after_a_settled_response_does_not_change_it_and_before_ends_it():
+def test_later_changes_do_not_affect_a_settled_response_and_earlier_ones_end_it():
     tau, t = 0.1, np.arange(1500) * T
     reference, output = build_step(1.0 - np.exp(-t / tau))
     settled = read(respond(reference, output))
@@ -108,8 +108,8 @@ def test_what_comes_after_a_settled_response_does_not_change_it_and_before_ends_
     assert read(found) == (settled[0], 0.0, None)
 
 
-def test_a_response_that_stays_away_has_no_settling_time():
-    """80 % of the step are reached: less than 90 %, so that there is no rise time either."""
+def test_response_with_a_lasting_error_has_no_settling_time():
+    """80 % of the step are reached: less than 90 %, so there is no rise time either."""
     tau, t = 0.1, np.arange(3000) * T
     response = respond(*build_step(0.8 * (1.0 - np.exp(-t / tau))))
     assert read(response) == (None, None, None)

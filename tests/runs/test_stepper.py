@@ -9,7 +9,7 @@ EFFECTS = {"ideal": svsa.IDEAL, "rig": svsa.RIG}
 
 
 def law(time_s, reference, x, w, measured):
-    """A law that uses all that a controller may know."""
+    """A law that uses all inputs of a controller."""
     u1 = 40.0 * (reference.q - x.q) - 2.0 * x.dtheta1 - 0.3 * w.w2 + 0.5 * measured.theta1
     return u1, 0.2 * (reference.sigma - 15.0) - 0.5 * measured.theta2 - 0.02 * x.dtheta2
 
@@ -28,7 +28,7 @@ def test_steps_have_the_bits_of_a_run_under_the_same_law(name):
     assert seen.time_s == pytest.approx(0.2)
 
 
-def test_a_held_torque_and_the_true_errors_are_those_of_the_samples():
+def test_held_torque_and_true_errors_are_those_of_the_samples():
     stepper = svsa.Stepper("5", effects=svsa.RIG)
     stepper.step((0.3, -0.01), ticks=20)
     errors = stepper.compute_errors()
@@ -38,7 +38,7 @@ def test_a_held_torque_and_the_true_errors_are_those_of_the_samples():
     assert errors == (sample.position_error_rad, sample.stiffness_error_nm_per_rad)
 
 
-def test_the_fault_is_that_of_the_run_and_ends_it_until_a_reset():
+def test_fault_is_that_of_the_run_and_ends_it_until_reset():
     run = svsa.simulate("4a", lambda *_: (10.0, 0.0), duration_s=1.0, loads=())
     stepper = svsa.Stepper("4a", loads=())
     while stepper.fault is None:
@@ -53,7 +53,7 @@ def test_the_fault_is_that_of_the_run_and_ends_it_until_a_reset():
 
 
 @pytest.mark.parametrize("torque", [1.0, (1.0,), (np.nan, 0.0), "12x"])
-def test_a_torque_that_is_none_is_refused_with_what_it_must_be(torque):
+def test_invalid_torque_is_rejected_with_the_valid_form(torque):
     stepper = svsa.Stepper()
     with pytest.raises(svsa.ParameterError, match=r"torque is .*two finite numbers \(u1, u2\)"):
         stepper.step(torque)

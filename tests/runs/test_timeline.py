@@ -1,4 +1,4 @@
-"""Who controlled which lane from when on, and the windows between changes."""
+"""The law of each lane over time, and the windows between changes."""
 
 import itertools
 
@@ -19,13 +19,13 @@ STIFFER = svsa.Gains.from_poles([-80.0] * 4, [-60.0] * 2)
 
 
 def report(timeline: Timeline) -> list[list[tuple[str, int, int | None]]]:
-    """Of every lane: name, first tick, end."""
+    """Return name, first tick and end of every lane."""
     lanes = timeline.list_segments()
     names = name_controllers(one.controller for lane in lanes for one in lane)
     return [[(names[one.controller], one.first_tick, one.end_tick) for one in x] for x in lanes]
 
 
-def test_laws_that_change_places_leave_the_past_its_names():
+def test_exchanged_laws_keep_the_names_of_the_past():
     session = build_session(comparisons=(FL,))
     session.step(30)
     session.change(Set("laws", ("fl", "ndobc")))
@@ -41,7 +41,7 @@ def test_laws_that_change_places_leave_the_past_its_names():
     assert line_styles == [[first, other], [other, first]]
 
 
-def test_a_comparison_begins_where_it_began_and_takes_nobodys_past():
+def test_comparison_starts_at_its_tick_without_a_past():
     session = build_session()
     session.step(20)
     session.change(Set("comparisons", (FL,)))
@@ -54,7 +54,7 @@ def test_a_comparison_begins_where_it_began_and_takes_nobodys_past():
     ]
 
 
-def test_one_law_with_other_gains_is_distinguished_by_them():
+def test_same_law_with_other_gains_is_distinguished_by_them():
     session = build_session()
     session.step(10)
     session.change(Set("observer", FASTER))
@@ -65,14 +65,14 @@ def test_one_law_with_other_gains_is_distinguished_by_them():
     assert len({one.line_style for one in session.journal.timeline.list_segments()[0]}) == 3
 
 
-def test_what_a_law_does_not_use_makes_it_no_other():
+def test_unused_parameter_does_not_distinguish_a_law():
     session = build_session(law="fl")
     session.step(10)
     session.change(Set("observer", FASTER))
     assert report(session.journal.timeline) == [[("FL", 0, None)]]
 
 
-def test_a_change_and_back_within_a_tick_is_no_stretch():
+def test_change_and_reversal_within_a_tick_is_no_segment():
     session = build_session()
     session.step(10)
     session.change(Set("law", "fl"))
@@ -80,7 +80,7 @@ def test_a_change_and_back_within_a_tick_is_no_stretch():
     assert report(session.journal.timeline) == [[("NDOBC", 0, None)]]
 
 
-def test_a_law_keeps_its_color_with_other_settings_and_has_its_own_line_style_again():
+def test_law_keeps_its_color_with_other_settings_and_regains_its_line_style():
     timeline = Timeline(build_configuration(), kept_ticks=100)
     session = build_session()
     for tick, observer in ((10, FASTER), (200, session.run.configuration.observer)):
@@ -90,7 +90,7 @@ def test_a_law_keeps_its_color_with_other_settings_and_has_its_own_line_style_ag
     assert [one.line_style for one in timeline.list_segments()[0]] == [LINE_COLORS, 0]
 
 
-def test_laws_side_by_side_have_each_a_colour_of_its_own_and_the_first_two_their_own():
+def test_parallel_laws_have_unique_colors_and_the_first_two_keep_theirs():
     laws = list_law_names()
     for comparisons in itertools.combinations(laws[1:], 3):
         lanes = tuple(svsa.Lane(law=law) for law in comparisons)
@@ -103,7 +103,7 @@ def test_laws_side_by_side_have_each_a_colour_of_its_own_and_the_first_two_their
         assert line_styles[1] == 1 or comparisons[0] != laws[1]
 
 
-def test_a_law_that_follows_another_of_its_colour_takes_a_free_one():
+def test_law_that_follows_another_of_its_color_takes_a_free_one():
     laws = list_law_names()
     timeline = Timeline(build_configuration(law=laws[0]))
     timeline.take(build_command(10, "law", laws[LINE_COLORS]))
@@ -111,7 +111,7 @@ def test_a_law_that_follows_another_of_its_colour_takes_a_free_one():
     assert first % LINE_COLORS != second % LINE_COLORS
 
 
-def test_a_bench_and_its_twin_stay_in_the_names():
+def test_bench_and_twin_remain_in_the_names():
     timeline = Timeline(build_configuration(comparisons=(NDOBC, FL)), is_bench=True)
     session = build_session(comparisons=(NDOBC, FL))
     session.step(5)
@@ -140,7 +140,7 @@ CHANGES = [
 
 
 @pytest.mark.parametrize(("kind", "argument", "label"), CHANGES)
-def test_every_change_begins_a_window_for_all_lanes(kind, argument, label):
+def test_every_change_starts_a_window_for_all_lanes(kind, argument, label):
     session = build_session()
     session.step(50)
     assert session.journal.timeline.window == Window("start", "", 0)
@@ -151,8 +151,8 @@ def test_every_change_begins_a_window_for_all_lanes(kind, argument, label):
     assert durations == pytest.approx([0.02] * len(durations))
 
 
-def test_recovery_is_latched_at_its_load():
-    """Realism, motion and law change after it: the 0.2 s that were read stay 0.2 s."""
+def test_recovery_time_is_latched_at_its_load():
+    """Changes of effects, motion and law after it do not change the measured 0.2 s."""
     session = build_session(comparisons=(FL,))
     session.step(100)
     session.change(ApplyLoad(argument=svsa.PaperLoad()))
@@ -170,7 +170,7 @@ def test_recovery_is_latched_at_its_load():
     assert session.journal.timeline.window == Window("change", "NDOBC → FL", 3100)
 
 
-def test_a_window_after_a_switch_has_no_peak_of_the_law_before():
+def test_window_after_a_switch_has_no_peak_of_the_previous_law():
     session = build_session(law="fl")
     session.change(ApplyLoad(argument=svsa.PaperLoad()))
     session.step(1500)
@@ -184,7 +184,7 @@ def test_a_window_after_a_switch_has_no_peak_of_the_law_before():
     assert max(first.peak_position_error_rad, comparison.peak_position_error_rad) < 0.01
 
 
-def test_changes_of_one_moment_are_one_window():
+def test_simultaneous_changes_are_one_window():
     session = build_session()
     session.step(50)
     session.change(Set("effects", svsa.RIG))
@@ -196,7 +196,7 @@ def test_changes_of_one_moment_are_one_window():
     ]
 
 
-def test_what_is_set_before_the_first_tick_is_how_the_run_starts():
+def test_settings_before_the_first_tick_are_the_start_of_the_run():
     session = build_session()
     session.change(Set("gains", STIFFER))
     session.change(Set("comparisons", (FL,)))
@@ -206,8 +206,8 @@ def test_what_is_set_before_the_first_tick_is_how_the_run_starts():
         assert [lane.summarize().duration_s for lane in lanes] == pytest.approx([0.01, 0.01])
 
 
-def test_a_recorded_run_has_the_timeline_that_its_session_had():
-    """One function of configuration and commands; loads come on and go at the same ticks."""
+def test_recorded_run_has_the_timeline_of_its_session():
+    """One function of configuration and commands; loads start and end at the same ticks."""
     session = play_busy_session()
     again = read_timeline(session.journal.initial, session.journal.commands, (-1, session.run.tick))
     assert again.windows == session.journal.timeline.windows
@@ -216,13 +216,13 @@ def test_a_recorded_run_has_the_timeline_that_its_session_had():
     assert {window.kind for window in again.windows} == {"start", "load", "unload", "change"}
 
 
-def test_the_label_of_a_window_stays_short_whatever_happens_at_one_tick():
-    """A paused session takes thousands of changes at the same tick."""
+def test_label_of_a_window_stays_short_with_many_changes_at_one_tick():
+    """A paused session accepts thousands of changes at the same tick."""
     session = build_session()
     session.step(10)
     for mass in range(100):
         session.change(ApplyLoad(argument={"kind": "mass", "mass_kg": 0.01 + 0.01 * mass}))
-        session.journal.timeline.take_off(session.run.loads[-1].load, session.run.tick)
+        session.journal.timeline.remove_load(session.run.loads[-1].load, session.run.tick)
         session.change(RemoveLoad(argument=session.run.loads[-1].number))
     label = session.journal.timeline.window.label
     assert label.startswith("0.01 kg mass off, 0.02 kg mass off")
@@ -230,8 +230,8 @@ def test_the_label_of_a_window_stays_short_whatever_happens_at_one_tick():
     assert len(label) <= 202
 
 
-def test_names_of_many_are_worked_out_once_and_each_is_looked_at_once(monkeypatch):
-    """A slider that is drawn makes a controller of each step: telling them apart stays quick."""
+def test_names_of_many_controllers_are_computed_once(monkeypatch):
+    """A dragged slider creates a controller per step: naming them remains fast."""
     session = build_session()
     for step in range(60):
         session.step(10)

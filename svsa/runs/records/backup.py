@@ -24,21 +24,20 @@ class BackupError(SvsaError):
 
 
 def back_up(folder: Path, archive: Path) -> int:
-    """Write all files of a data folder to an archive; the lab may run and record meanwhile.
+    """Write all files of a data folder to an archive; the lab may run and record at the same time.
 
-    Databases are copied by SQLite, so that a change during the copy damages nothing. A run that is
-    being recorded is in the archive with the samples of that moment; the restored lab lists it as
-    interrupted.
+    SQLite copies the databases, so that changes during the copy are safe. A run that is being
+    recorded is in the archive with its present samples; the restored lab lists it as interrupted.
 
     Args:
         folder: The data folder.
         archive: File to write (.tar.gz). It is complete or does not exist.
 
     Returns:
-        The number of files in the archive.
+        Number of files in the archive.
 
     Raises:
-        BackupError: The folder is missing, or the archive exists, is inside the folder or cannot
+        BackupError: If the folder is missing, or the archive exists, is inside the folder or cannot
             be written.
     """
     if not folder.is_dir():
@@ -49,7 +48,7 @@ def back_up(folder: Path, archive: Path) -> int:
         raise BackupError(f"{archive} is inside the data folder: choose a file outside {folder}.")
     unfinished = archive.with_name(archive.name + ".part")
     try:
-        # Only for this account: the archive contains the secrets of class and gradebook.
+        # Readable by this account only: the archive contains the secrets of class and gradebook.
         with (
             os.fdopen(os.open(unfinished, os.O_CREAT | os.O_WRONLY, 0o600), "wb") as file,
             tarfile.open(fileobj=file, mode="w:gz") as tar,
@@ -72,7 +71,7 @@ def _add_all(folder: Path, tar: tarfile.TarFile) -> int:
         if any(path.match(pattern) for pattern in _LEFT_OUT) or path.is_symlink():
             continue
         name = str(path.relative_to(folder))
-        # A recording that ends meanwhile renames its files: they are in the archive as they were.
+        # A recording that ends during the backup renames its files; the archive already has them.
         with contextlib.suppress(FileNotFoundError):
             if path.suffix == _DATABASE and path.is_file():
                 _add_database(tar, path, name)
@@ -86,7 +85,7 @@ def _add_all(folder: Path, tar: tarfile.TarFile) -> int:
 
 
 def _add_bytes(tar: tarfile.TarFile, name: str, content: bytes, mode: int = 0o600) -> None:
-    # Read first: a file that grows while it is added would damage the archive.
+    # Read completely first: a file that grows while it is added would damage the archive.
     entry = tarfile.TarInfo(name)
     entry.size, entry.mode, entry.mtime = len(content), mode & 0o777, datetime.now(UTC).timestamp()
     tar.addfile(entry, io.BytesIO(content))
@@ -111,11 +110,11 @@ def restore(archive: Path, folder: Path) -> str:
         folder: The data folder, which must not contain files.
 
     Returns:
-        The version of the lab that wrote the archive.
+        Version of the lab that wrote the archive.
 
     Raises:
-        BackupError: The file is not an archive of a lab, is of a newer format, or is damaged.
-        StateError: The folder is not empty.
+        BackupError: If the file is not an archive of a lab, has a newer format, or is damaged.
+        StateError: If the folder is not empty.
     """
     if folder.exists() and any(folder.iterdir()):
         raise StateError(f"{folder} is not empty: set SVSA_DATA to a new folder, and try again.")

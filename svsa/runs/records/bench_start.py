@@ -1,7 +1,7 @@
 """The start state of a bench's run, in a separate file of its record.
 
-With it, and the samples as they were measured and sent, every other number of the run can be worked
-out again.
+From it, and the measured and sent values in the samples, all other numbers of the run can be
+reproduced.
 """
 
 from dataclasses import dataclass, replace
@@ -19,10 +19,13 @@ START_FILE = "bench-start.json"
 class BenchStart:
     """The start values of a bench's run that its samples do not contain.
 
-    mu0: lever ratio at the zero marks. latency_s, lag_s: from a torque that is decided to one that
-    acts. torque_step_nm: of both motors, of the least step of current that their drives know.
-    motion: what the first tick found, as `BenchLoop.read_motion` returns it. commands: how many of
-    the record's commands were given before it began.
+    Attributes:
+        mu0: Lever ratio at the zero marks, 1.
+        latency_s: Time from the decision about a torque to its effect, s.
+        lag_s: Time constant of the current loop, s.
+        torque_step_nm: Torque of the smallest current step of both drives, N·m.
+        motion: State of the loop at the first tick, as `BenchLoop.read_motion` returns it.
+        commands: Number of the record's commands that were given before the run began.
     """
 
     mu0: float
@@ -37,7 +40,11 @@ _START = TypeAdapter(BenchStart)
 
 
 def write_start(folder: Path, start: BenchStart) -> None:
-    """Write the start state; raises `OSError`."""
+    """Write the start state.
+
+    Raises:
+        OSError: If the file cannot be written.
+    """
     replace_file(folder / START_FILE, dump_start(start))
 
 
@@ -49,7 +56,8 @@ def dump_start(start: BenchStart) -> bytes:
 def read_start(folder: Path) -> BenchStart | None:
     """Read the start state; None for a simulated run, and if it was not written.
 
-    Raises `RecordError` where the file is damaged.
+    Raises:
+        RecordError: If the file is damaged.
     """
     try:
         start = _START.validate_json((folder / START_FILE).read_bytes())

@@ -6,9 +6,12 @@ import numpy as np
 
 
 class Decimated(NamedTuple):
-    """Rows for a plot. stride: ticks that two rows represent, or 1.
+    """Rows for a plot.
 
-    rows: index of the sample at whose time a row stands. values: (rows, …).
+    Attributes:
+        stride: Number of ticks that two rows represent, or 1.
+        rows: Index of the sample with the time of a row.
+        values: Shape (rows, …).
     """
 
     stride: int
@@ -17,16 +20,16 @@ class Decimated(NamedTuple):
 
 
 def decimate(values: np.ndarray, points: int) -> Decimated:
-    """Decimate values (ticks, …) to at most `points` (≥ 2) rows: minimum and maximum per stretch.
+    """Decimate values (ticks, …) to at most `points` (≥ 2) rows: minimum and maximum per bin.
 
-    Both in the order in which they come; NaN counts only where there is nothing else.
+    Both are in the order of time; NaN is used only if a bin has no other value.
     """
     count = len(values)
     if count <= points:
         return Decimated(1, np.arange(count), values)
     stride = -(-count // (points // 2))
     starts = np.arange(0, count, stride)
-    # `fmin` and `fmax` ignore NaN, where `minimum` would spread it over the stretch.
+    # `fmin` and `fmax` ignore NaN; `minimum` would propagate it to the whole bin.
     low, high = np.fmin.reduceat(values, starts), np.fmax.reduceat(values, starts)
     rising = _find_first(values, low, starts, stride) <= _find_first(values, high, starts, stride)
     thinned = np.empty((2 * len(starts), *values.shape[1:]))

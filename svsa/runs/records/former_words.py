@@ -1,7 +1,7 @@
-"""Translation of files from before a renaming: the only place with former names.
+"""Translation of files from before a renaming: the only module with former names.
 
-A record, or the progress of a student, keeps the words of its time. The reader translates them
-once, so that everything behind it knows the present words only.
+A record, or the progress of a student, keeps the names of its version. The reader translates them
+once, so that all other code uses the present names only.
 """
 
 from typing import Any
@@ -11,7 +11,7 @@ FIELDS = {"rivals": "comparisons"}
 KINDS = {"controller": "law", "rivals": "comparisons"}
 """Kinds of commands."""
 MOTION = {"made": "actual"}
-"""What a bench's loop carried when a run began."""
+"""Fields of a bench loop's state at the start of a run."""
 PROGRESS = {"handed_in": "submitted_at"}
 """Fields of a student's progress in an exercise."""
 STEPS = {"hand-in": "submit"}
@@ -25,17 +25,20 @@ SETTINGS = {"realism": "effects"}
 RESULTS = {"told": "description", "draws": "trials", "draws_held": "trials_held"}
 """Fields of grades and of entries of the leaderboard."""
 SEARCHES = {"harm": "cost"}
-"""Fields of an adversary's file, and of how a scenario was found."""
+"""Fields of an adversary's file, and of the origin of a scenario."""
 SCENARIOS = {"unloading": "load_removal", "draw_": "trial_", "unloading_": "load_removal_"}
 """Scenarios of the ranking, by the beginning of their names."""
 
 
 def translate_fields(written: Any, words: dict[str, str]) -> Any:
-    """Rename the fields of an object; return anything else unchanged.
+    """Rename the fields of an object; return any other value unchanged.
 
     Args:
         written: A value read from JSON.
-        words: The present word of each former one.
+        words: Present name by former name.
+
+    Returns:
+        The object with the present names.
     """
     if not isinstance(written, dict):
         return written

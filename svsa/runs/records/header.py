@@ -52,8 +52,11 @@ class BranchPoint:
 class RecordHeader(Checked):
     """All metadata of a record except commands and samples; JSON in `header.json`.
 
-    With `configuration` (which holds the seed) and the commands, a simulated run can be
-    simulated again. Raises `ParameterError` for a wrong value.
+    A simulated run can be simulated again from `configuration` (which includes the seed) and the
+    commands.
+
+    Raises:
+        ParameterError: If a value is invalid.
     """
 
     format: Whole = quantity("", "Version of this layout", ge=1, default=FORMAT)
@@ -100,6 +103,11 @@ class RecordHeader(Checked):
         """The names of the channels, in the order of the samples."""
         return tuple(channel.name for channel in self.channels)
 
+    @property
+    def is_arm(self) -> bool:
+        """Whether the run is one of an arm: two lanes for each."""
+        return self.configuration.get("arm") is not None
+
     def to_json(self) -> str:
         """The header as a JSON object."""
         return self.model_dump_json()
@@ -109,9 +117,12 @@ def build_header(configuration: Configuration, lane_count: int, **known: Any) ->
     """Build the header of a new record, with a new id.
 
     Args:
-        configuration: of the run at tick 0.
+        configuration: Configuration of the run at tick 0.
         lane_count: 1 to 4.
-        known: the other fields of the header, or some of these in place of their new values.
+        **known: Other fields of the header.
+
+    Returns:
+        The header.
 
     Raises:
         ParameterError: If a value is out of range.
@@ -135,7 +146,11 @@ def build_run_id() -> str:
 
 
 def read_header(folder: Path) -> RecordHeader:
-    """Read the header in a record's folder; raises `RecordError` if there is none."""
+    """Read the header in a record's folder.
+
+    Raises:
+        RecordError: If there is none.
+    """
     path = folder / HEADER_FILE
     try:
         return parse_header(path.read_text(encoding="utf-8"))
@@ -146,7 +161,11 @@ def read_header(folder: Path) -> RecordHeader:
 
 
 def parse_header(text: str) -> RecordHeader:
-    """Parse a header from its JSON; raises `RecordError` for anything else."""
+    """Parse a header from its JSON.
+
+    Raises:
+        RecordError: If it is not a header.
+    """
     try:
         written = json.loads(text)
     except ValueError as error:
@@ -168,10 +187,13 @@ def parse_header(text: str) -> RecordHeader:
 
 
 def describe_newer(version: str) -> str:
-    """A note about a record that a newer version of svsa wrote; empty for any other.
+    """Return a note if a newer version of svsa wrote a record; otherwise an empty text.
 
     Args:
-        version: The version that wrote it.
+        version: Version that wrote the record.
+
+    Returns:
+        The note.
     """
     if _read_release(version) <= _read_release(__version__):
         return ""
@@ -195,8 +217,12 @@ def write_header(folder: Path, header: RecordHeader) -> None:
 
 
 def replace_file(path: Path, content: bytes) -> None:
-    """Replace a file atomically; raises `OSError` with the old file in place."""
-    # Process and thread are in the name, so that two writers do not share a draft.
+    """Replace a file atomically.
+
+    Raises:
+        OSError: If it cannot be written; the old file is unchanged.
+    """
+    # The name contains process and thread, so that two writers do not share a draft.
     draft = path.with_name(f"{path.name}.{os.getpid()}-{threading.get_ident()}.tmp")
     try:
         with draft.open("wb") as file:

@@ -14,11 +14,15 @@ from svsa.runs.timeline import Timeline, Window, WindowKind, read_timeline
 
 @dataclass(frozen=True)
 class MeasuredWindow:
-    """Ticks first … end − 1 of a recorded run, as far as they are in the record.
+    """Ticks first … end − 1 of a recorded run, within the record.
 
-    kind, label: what began it, as of a `Window`. is_whole: nothing was changed in all of the
-    record, and no load came on. lanes: who controlled each lane. load_ended: the load that began
-    it ended, so that the error at the end is no steady-state error under the load.
+    Attributes:
+        kind: What began the window, as in `Window`.
+        label: The same in words.
+        is_whole: Whether no command and no onset of a load is in the record.
+        lanes: Controller of each lane.
+        load_ended: Whether the load that began it ended, so that the error at the end is no
+            steady-state error under load.
     """
 
     kind: WindowKind
@@ -47,16 +51,16 @@ def trace_record(record: Record) -> Timeline | None:
 def find_measured_window(record: Record) -> MeasuredWindow | None:
     """Find the window of the last load in the record; without a load, the last window.
 
-    A bench's ramp to zero torque is measured only if there is nothing else: no law commanded it.
-    Where this version cannot read what was changed, the whole record if that was nothing, else
-    None. None also for a record without samples.
+    The ramp of a bench to zero torque, which no law commands, is measured only if there is no other
+    window. If this version cannot read the commands, the window is the whole record without any
+    command, otherwise None. None also for a record without samples.
     """
     if not record.tick_count:
         return None
     timeline = trace_record(record)
     if timeline is None:
         whole = Window("start", "", 0)
-        # Without commands nothing changed, so that the whole record is one window.
+        # Without commands the whole record is one window.
         return None if record.commands else _build(record, whole, record.header.lanes)
     first, end = record.first_tick, record.first_tick + record.tick_count
     there = timeline.list_windows(first, end)
@@ -74,7 +78,7 @@ def summarize(
 ) -> tuple[Metrics, ...] | None:
     """Compute the metrics of every lane over the window; None for lanes with NaN.
 
-    A load that ended within the window has no steady-state error under load.
+    If the load ended within the window, there is no steady-state error under load.
     """
     found = tuple(metrics for lane in lanes if (metrics := lane.summarize()) is not None)
     if window.load_ended:
@@ -87,9 +91,9 @@ def summarize(
 
 
 def measure(record: Record, window: MeasuredWindow) -> tuple[Metrics, ...] | None:
-    """Update the metrics of every lane over the window, in stretches.
+    """Update the metrics of every lane over the window, slice by slice.
 
-    None without the channels for it, or with samples that are no numbers.
+    None without the necessary channels, or if samples are NaN.
     """
     names = record.header.channel_names
     if not set(MEASURED) <= set(names):

@@ -14,7 +14,11 @@ _EVENTS = TypeAdapter(tuple[Event, ...])
 
 
 def write_events(folder: Path, events: Sequence[Event]) -> None:
-    """Write the reported events in order of time; raises `OSError`."""
+    """Write the reported events in order of time.
+
+    Raises:
+        OSError: If the file cannot be written.
+    """
     replace_file(folder / EVENTS_FILE, dump_events(events))
 
 
@@ -24,9 +28,10 @@ def dump_events(events: Sequence[Event]) -> bytes:
 
 
 def read_events(folder: Path) -> tuple[Event, ...]:
-    """Read the reported events; empty if there is no file, as of an older version.
+    """Read the reported events; empty without a file, as in records of older versions.
 
-    Raises `RecordError` where the file is damaged.
+    Raises:
+        RecordError: If the file is damaged.
     """
     try:
         return _EVENTS.validate_json((folder / EVENTS_FILE).read_bytes())
@@ -41,7 +46,11 @@ _FAULT = TypeAdapter(Fault)
 
 
 def write_fault(folder: Path, fault: Fault | None) -> None:
-    """Write the fault of a run, or that it had none; raises `OSError`."""
+    """Write the fault of a run, or that it had none.
+
+    Raises:
+        OSError: If the file cannot be written.
+    """
     if fault is None:
         (folder / FAULT_FILE).unlink(missing_ok=True)
     else:
@@ -56,7 +65,8 @@ def dump_fault(fault: Fault) -> bytes:
 def read_fault(folder: Path) -> Fault | None:
     """Read the fault of a run; None if there was none or it was not written.
 
-    Raises `RecordError` where the file is damaged.
+    Raises:
+        RecordError: If the file is damaged.
     """
     try:
         return _FAULT.validate_json((folder / FAULT_FILE).read_bytes())

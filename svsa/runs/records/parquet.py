@@ -32,14 +32,14 @@ COMMANDS_KEY = b"svsa.commands"
 FAULT_KEY = b"svsa.fault"
 START_KEY = b"svsa.bench_start"
 EVENTS_KEY = b"svsa.events"
-ROWS_A_GROUP = 65_536
+ROWS_PER_GROUP = 65_536
 
 Commands = list[tuple[int, dict[str, Any]]]
 Batches = Iterable[pa.RecordBatch]
 
 
 class Finished(NamedTuple):
-    """A record whose samples are all in one Parquet file."""
+    """A record with all samples in one Parquet file."""
 
     header: RecordHeader
     ticks: int
@@ -47,10 +47,13 @@ class Finished(NamedTuple):
 
 
 def finish(folder: Path) -> Finished:
-    """Convert the stream of an ended recording to Parquet; no effect if done before.
+    """Convert the stream of an ended recording to Parquet; no effect if already done.
 
-    Samples and commands that were cut off by a crash are left out. Raises `RecordError`
-    where header, commands or samples are damaged or the disk is full: nothing is lost then.
+    Samples and commands that a crash truncated are left out.
+
+    Raises:
+        RecordError: If header, commands or samples are damaged or the disk is full; no data are
+            lost.
     """
     header, path, stream = read_header(folder), folder / PARQUET_FILE, folder / STREAM_FILE
     commands = cut_commands(folder)
@@ -70,7 +73,7 @@ def finish(folder: Path) -> Finished:
             with contextlib.suppress(OSError):
                 draft.unlink(missing_ok=True)
     with open_parquet(folder) as file:
-        # The stream is deleted only after the new file was opened: until then it is the only copy.
+        # The stream is the only copy until the new file has been opened; it is deleted after that.
         ticks = file.metadata.num_rows
     with contextlib.suppress(OSError):
         stream.unlink(missing_ok=True)
@@ -103,13 +106,16 @@ def write_parquet(
         sink, schema, compression="zstd", use_dictionary=False, write_page_checksum=True
     ) as writer:
         for group in _group(batches):
-            writer.write_table(pa.Table.from_batches(group, schema), row_group_size=ROWS_A_GROUP)
+            writer.write_table(pa.Table.from_batches(group, schema), row_group_size=ROWS_PER_GROUP)
 
 
 def unpack_parquet(content: bytes, folder: Path) -> None:
-    """Make a record's folder from a file of `write_parquet`, such as an export.
+    """Create a record's folder from a file of `write_parquet`, such as an export.
 
-    Raises `RecordError` where it is none; the folder is there only when it is whole.
+    The folder exists only if it is complete.
+
+    Raises:
+        RecordError: If the file is not such a file.
     """
     try:
         inside = pq.read_metadata(io.BytesIO(content)).metadata or {}
@@ -127,12 +133,16 @@ def unpack_parquet(content: bytes, folder: Path) -> None:
     for key, name in names.items():
         if key in inside:
             (draft / name).write_bytes(inside[key])
-    # In one step: a list of the runs has the whole folder, or none.
+    # Atomically: a list of the runs sees the whole folder or none.
     draft.rename(folder)
 
 
 def open_parquet(folder: Path) -> pq.ParquetFile:
-    """Open the finished file of a record; raises `RecordError` if it is damaged or missing."""
+    """Open the finished file of a record.
+
+    Raises:
+        RecordError: If it is damaged or missing.
+    """
     try:
         return pq.ParquetFile(folder / PARQUET_FILE, page_checksum_verification=True)
     except FileNotFoundError:
@@ -144,7 +154,10 @@ def open_parquet(folder: Path) -> pq.ParquetFile:
 def read_commands(folder: Path) -> tuple[Commands, int]:
     """Read the commands, and the number of bytes that are complete lines.
 
-    A last line without its end is what a crash leaves, and left out. Raises `RecordError`.
+    An incomplete last line, left by a crash, is ignored.
+
+    Raises:
+        RecordError: If a line is damaged.
     """
     path = folder / COMMANDS_FILE
     try:
@@ -167,7 +180,11 @@ def read_commands(folder: Path) -> tuple[Commands, int]:
 
 
 def write_command(tick: int, command: dict[str, Any]) -> bytes:
-    """Convert a command to a line; raises `TypeError` or `ValueError` if JSON cannot hold it."""
+    """Convert a command to a line of JSON.
+
+    Raises:
+        TypeError, ValueError: If JSON cannot represent it.
+    """
     return json.dumps({"tick": int(tick), "command": command}).encode() + b"\n"
 
 
@@ -185,7 +202,7 @@ def measure_bytes(folder: Path) -> int:
     """Return the disk space of a record, bytes."""
     total = 0
     for path in folder.iterdir():
-        with contextlib.suppress(FileNotFoundError):  # a draft that took its place meanwhile
+        with contextlib.suppress(FileNotFoundError):  # a draft that was renamed in the meantime
             total += path.stat().st_size
     return total
 
@@ -197,13 +214,13 @@ def _check(value: Any, kind: Callable[..., Any]) -> Any:
 
 
 def _group(batches: Batches) -> Iterator[list[pa.RecordBatch]]:
-    """Group batches to at least `ROWS_A_GROUP` rows each, except the last group."""
+    """Group batches to at least `ROWS_PER_GROUP` rows each, except the last group."""
     group: list[pa.RecordBatch] = []
     rows = 0
     for batch in batches:
         group.append(batch)
         rows += batch.num_rows
-        if rows >= ROWS_A_GROUP:
+        if rows >= ROWS_PER_GROUP:
             yield group
             group, rows = [], 0
     if group:

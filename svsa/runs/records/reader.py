@@ -22,7 +22,7 @@ from svsa.runs.records.header import (
 )
 from svsa.runs.records.outcome import read_events, read_fault
 from svsa.runs.records.parquet import (
-    ROWS_A_GROUP,
+    ROWS_PER_GROUP,
     Commands,
     Finished,
     finish,
@@ -45,11 +45,14 @@ ReadBatches = Callable[[Sequence[str] | None, int, int], Iterator[pa.RecordBatch
 class Record:
     """A recorded run. Sample k is that of tick `first_tick` + k.
 
-    commands: (tick, command) in the order they were given. fault: what the run ended in; None
-    where it ended otherwise, and where an older version recorded. start: what a bench's run began
-    from; None where it was simulated, or recorded from later on. events: those that a bench has
-    reported and no command explains, in the order of time. Samples are read on demand; reading them
-    raises `RecordError` where they are damaged.
+    Samples are read on demand, and reading raises `RecordError` if they are damaged.
+
+    Attributes:
+        commands: (tick, command) in the order they were given.
+        fault: Fault at the end of the run; None without a fault, and for records of older versions.
+        start: Start state of a bench's run; None if it was simulated, or recorded from a later
+            tick.
+        events: Events reported by a bench that no command explains, in the order of time.
     """
 
     header: RecordHeader
@@ -115,14 +118,17 @@ def build_record(
 ) -> Record:
     """Build a record in memory from samples (ticks, lanes, channels), for export."""
     batch = build_batch(header, build_schema(header), first_tick, samples)
-    parts = [batch.slice(row, ROWS_A_GROUP) for row in range(0, len(samples), ROWS_A_GROUP)]
+    parts = [batch.slice(row, ROWS_PER_GROUP) for row in range(0, len(samples), ROWS_PER_GROUP)]
     return Record(header, list(commands), first_tick, len(samples), _read_from(parts), fault)
 
 
 def open_record(folder: Path) -> Record:
-    """Open the record in a folder; samples are read on demand; raises `RecordError`.
+    """Open the record in a folder; samples are read on demand.
 
-    Of one that is being recorded, or was cut off, everything that is whole.
+    For a record that is being recorded or was interrupted, all complete parts are available.
+
+    Raises:
+        RecordError: If it cannot be read.
     """
     if not folder.is_dir():
         raise RecordError(f"There is no record {folder.name}.")
@@ -143,21 +149,22 @@ def open_record(folder: Path) -> Record:
 
 def _read_unfinished(folder: Path, header: RecordHeader) -> list[pa.RecordBatch] | None:
     """Read the complete batches of a stream; None if a Parquet file has replaced it."""
-    # The Parquet file first: for a moment both are there, and then it is the whole one.
+    # The Parquet file first: while both files exist, it is the complete one.
     if (folder / PARQUET_FILE).exists() or not (folder / STREAM_FILE).exists():
         return None
     try:
         return list(_explain(read_stream(folder / STREAM_FILE, header), folder))
     except RecordError:
         if (folder / PARQUET_FILE).exists():
-            return None  # it was finished between the look and the reading
+            return None  # finished between the check and the reading
         raise
 
 
 def recover(folder: Path) -> Finished | None:
     """Finish a record after a crash; None while a process records it.
 
-    Raises `RecordError` where it is damaged; its files are left as they are then.
+    Raises:
+        RecordError: If it is damaged; its files are unchanged.
     """
     with claim(folder) as mine:
         return finish(folder) if mine else None
@@ -167,7 +174,7 @@ def count_readable_rows(folder: Path) -> int:
     """Count the readable samples of a finished record, from the first on."""
     rows = 0
     with contextlib.suppress(RecordError), open_parquet(folder) as file:
-        for batch in _explain(file.iter_batches(ROWS_A_GROUP, columns=None), folder):
+        for batch in _explain(file.iter_batches(ROWS_PER_GROUP, columns=None), folder):
             rows += batch.num_rows
     return rows
 
@@ -195,7 +202,7 @@ def _read_from_parquet(folder: Path) -> ReadBatches:
             if not groups:
                 return
             row = begins[groups[0]]
-            for batch in _explain(file.iter_batches(ROWS_A_GROUP, groups, names), folder):
+            for batch in _explain(file.iter_batches(ROWS_PER_GROUP, groups, names), folder):
                 part = _slice(batch, row, start, stop)
                 row += batch.num_rows
                 if part.num_rows:
@@ -222,7 +229,7 @@ def claim(folder: Path) -> Iterator[bool]:
     """Lock a record's stream to finish the record; the lock ends with the process.
 
     Yields:
-        False while any process, this one included, writes the record.
+        False while any process, including this one, writes the record.
     """
     try:
         file = (folder / STREAM_FILE).open("rb")

@@ -1,8 +1,8 @@
 """Recording of a running run: the loop passes samples on, and one thread writes them.
 
-What is passed on is with the operating system 0.2 s later, so that a process killed at
-any moment loses less than 0.5 s. The loop never waits: a disk that is full, gone or too
-slow ends the recording, not the control.
+Data are passed to the operating system within 0.2 s, so that a process killed at any moment loses
+less than 0.5 s. The loop never waits: if the disk is full, gone or too slow, the recording ends,
+not the control.
 """
 
 import contextlib
@@ -19,7 +19,7 @@ from svsa.runs.events import Event
 from svsa.runs.records.bench_start import BenchStart, write_start
 from svsa.runs.records.header import RecordError, RecordHeader
 from svsa.runs.records.outcome import write_events, write_fault
-from svsa.runs.records.parquet import ROWS_A_GROUP, measure_bytes, write_command
+from svsa.runs.records.parquet import ROWS_PER_GROUP, measure_bytes, write_command
 from svsa.runs.records.writer import RecordWriter
 
 FLUSH_PERIOD_S = 0.2
@@ -30,7 +30,12 @@ _COMMAND_BYTES = 200
 
 @dataclass(frozen=True)
 class RecordStatus:
-    """The state of a recording. ticks, bytes: passed to the operating system."""
+    """The state of a recording.
+
+    Attributes:
+        ticks: Number of ticks passed to the operating system.
+        bytes: Number of bytes passed to the operating system.
+    """
 
     state: Literal["recording", "failed", "closed"]
     message: str
@@ -39,10 +44,13 @@ class RecordStatus:
 
 
 class Recorder:
-    """A recording into a new folder; raises `RecordError` if it cannot be created.
+    """A recording into a new folder.
 
-    What it is given is taken without waiting, and without raising: see `status`. It is for one
-    thread, that of the run.
+    Its methods do not wait and do not raise: see `status`. To be used by one thread, that of the
+    run.
+
+    Raises:
+        RecordError: If the folder cannot be created.
     """
 
     def __init__(self, folder: Path, header: RecordHeader) -> None:
@@ -123,7 +131,7 @@ class Recorder:
     def close(self, wait_s: float = LONGEST_CLOSE_S) -> RecordStatus:
         """End the recording and finish its file; wait at most `wait_s`.
 
-        A file that takes longer is finished in the background, or by `recover` at the next
+        If that takes longer, the file is finished in the background, or by `recover` at the next
         start.
         """
         self._close_asked.set()
@@ -152,7 +160,7 @@ class Recorder:
             self._write_queue()
         except (OSError, RecordError) as error:
             self._failure = f"Recording ended after {self._ticks} ticks: {error}"
-        # An error of the program here ends the recording, and never the control.
+        # An error in this program ends the recording, never the control loop.
         except Exception as error:
             self._failure = f"Recording ended by an error of the program: {error!r}"
         self._queue.clear()
@@ -172,9 +180,9 @@ class Recorder:
             lines: list[bytes] = []
             parts: list[np.ndarray] = []
             first, rows = 0, 0
-            # As many parts as fit into a row group: each batch costs a message with its own
+            # As many parts as fit into a row group: every batch adds a message with its own
             # metadata.
-            while self._queue and rows < ROWS_A_GROUP:
+            while self._queue and rows < ROWS_PER_GROUP:
                 tick, item, size = self._queue.popleft()
                 self._bytes_out += size
                 if isinstance(item, bytes):

@@ -15,10 +15,13 @@ from svsa.runs.replay import simulate_again
 
 @dataclass(frozen=True)
 class Comparison:
-    """Whether a record is its run, bit for bit.
+    """Result of comparing a record with its simulation, bit for bit.
 
-    identical: every sample of every lane. ticks: how many were compared. first_difference:
-    the tick and the channel ("lane.channel") of the first sample that differs, or None.
+    Attributes:
+        identical: Whether every sample of every lane is identical.
+        ticks: Number of ticks compared.
+        first_difference: Tick and channel ("lane.channel") of the first sample that differs, or
+            None.
     """
 
     identical: bool
@@ -27,9 +30,10 @@ class Comparison:
 
 
 def read_origin(record: Record) -> tuple[Configuration, list[Command]]:
-    """The configuration at tick 0 and the commands of a record.
+    """Read the configuration at tick 0 and the commands of a record.
 
-    Raises `ParameterError` where this version does not know them.
+    Raises:
+        ParameterError: If this version does not support them.
     """
     commands = [read_command(written) for _, written in record.commands]
     return Configuration(**record.header.configuration), commands
@@ -58,8 +62,9 @@ def check_simulated(record: Record) -> None:
 def compare_with_simulation(record: Record) -> Comparison:
     """Simulate a recorded run again from its record, and compare every bit.
 
-    Raises `RecordError` for a run of `check_simulated`, and where it was recorded with other
-    channels than this version has.
+    Raises:
+        RecordError: If the run was not simulated (see `check_simulated`), or has other channels
+            than this version.
     """
     check_simulated(record)
     configuration, commands = read_origin(record)
@@ -74,7 +79,7 @@ def compare_with_simulation(record: Record) -> Comparison:
                 return Comparison(False, compared, (tick + offset, "the simulation ended"))
             if simulated.shape != row.shape:
                 raise RecordError(f"Record {record.header.run_id} has other lanes or channels.")
-            # Bytes and not values: NaN equals itself, and −0.0 differs from 0.0.
+            # Compare bytes, not values: NaN then equals NaN, and −0.0 differs from 0.0.
             if simulated.tobytes() != row.tobytes():
                 return Comparison(False, compared, (tick + offset, _name(record, simulated, row)))
             compared += 1

@@ -1,8 +1,8 @@
 """Samples on disk during a run: an Arrow IPC stream that is readable if truncated anywhere.
 
 Columns of the stream and of the finished Parquet file: tick (int64), time_s, then
-"<lane>.<channel>" (float64). A message is: ffffffff, int32 length of the metadata, the
-metadata (a flatbuffer that says how long the body is), the body.
+"<lane>.<channel>" (float64). A message is: ffffffff, int32 length of the metadata, the metadata (a
+flatbuffer with the length of the body), the body.
 """
 
 import os
@@ -101,7 +101,7 @@ def write_all(descriptor: int, content: bytes | memoryview) -> None:
     start, rest = os.lseek(descriptor, 0, os.SEEK_END), memoryview(content)
     try:
         while len(rest):
-            # A disk that fills up writes a part; the next call raises the error.
+            # A full disk accepts a part of the data; the next call raises the error.
             rest = rest[os.write(descriptor, rest) :]
     except OSError:
         # A half-written message in the middle would hide every message after it.
@@ -112,7 +112,8 @@ def write_all(descriptor: int, content: bytes | memoryview) -> None:
 def read_stream(path: Path, header: RecordHeader) -> Iterator[pa.RecordBatch]:
     """Read every complete batch of a stream, even if its last message is truncated.
 
-    Raises `RecordError` where the file is not what a recorder wrote.
+    Raises:
+        RecordError: If the file is not a stream of a recorder.
     """
     schema = build_schema(header)
     expected: int | None = None
@@ -146,14 +147,14 @@ def _read_messages(file: pa.NativeFile, path: Path) -> Iterator[pa.Message]:
         if (mark, length) == (_CONTINUATION, 0):
             return
         if mark == 0 and not any(file.read()):
-            return  # blocks that the machine lost power before it filled
+            return  # unwritten blocks after a power failure
         if mark != _CONTINUATION or length > _LONGEST_METADATA:
             raise RecordError(f"{_name(path)} is damaged at byte {start}.")
-        # Cut off, not damaged: the process was killed while it wrote this message.
+        # Truncated, not damaged: the process was killed while it wrote this message.
         if start + 8 + length > size:
             return
         file.seek(start + 8)
-        # Found here without pyarrow, which raises an error for a message that is cut off.
+        # Detected here, because pyarrow raises an error for a truncated message.
         body = _read_body_length(file.read(length), path, start)
         end = start + 8 + length + body
         if end > size:

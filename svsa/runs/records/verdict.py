@@ -15,7 +15,7 @@ from svsa.runs.records.stream import TIME
 class Tolerance(Checked):
     """Tolerance of a channel: |a − b| ≤ absolute + relative · |b|.
 
-    b: any value that the other run has within `time_s` of that moment, and all between them.
+    b is any value of the other run within `time_s` of that moment, or between two such values.
     """
 
     absolute: Number = quantity(
@@ -34,11 +34,20 @@ FROM_THE_FIRST = (0, 0)
 
 @dataclass(frozen=True)
 class ChannelVerdict:
-    """How a channel of a lane was judged. worst_s: the moment at which it leaves the band furthest,
-    or comes nearest to leaving it; there `value`, and the band from `low` to `high`. excess: how
-    far it is outside then, negative inside; NaN where one of both is not known. outside: from when
-    to when it is outside, s, in order; segments nearer to each other than a `MAX_OUTSIDE`-th of
-    what is compared are one. outside_s: how long it is outside in all, every tick counted.
+    """Result of comparing a channel of a lane.
+
+    Attributes:
+        held: Whether all samples are within the band.
+        worst_s: Time of the largest deviation outside the band, or of the smallest distance to its
+            bounds inside.
+        value: Value at that time.
+        low: Lower bound of the band at that time.
+        high: Upper bound of the band at that time.
+        excess: Distance outside the band at that time, negative inside; NaN if one of both values
+            is unknown.
+        outside: Intervals outside the band, s, in order; intervals closer than a `MAX_OUTSIDE`-th
+            of the compared time are joined.
+        outside_s: Total time outside the band, s, counting every tick.
     """
 
     lane: str
@@ -56,8 +65,14 @@ class ChannelVerdict:
 
 @dataclass(frozen=True)
 class Verdict:
-    """A run judged against another. held: every channel, and both are as long. ticks: compared;
-    own_ticks, other_ticks: how long they are.
+    """Result of comparing a run with a reference run.
+
+    Attributes:
+        held: Whether every channel is within its band, and both runs have the same length.
+        ticks: Number of compared ticks.
+        own_ticks: Length of the run, ticks.
+        other_ticks: Length of the reference run, ticks.
+        channels: Results by channel.
     """
 
     held: bool
@@ -76,10 +91,20 @@ def judge(
 ) -> Verdict:
     """Compare a run with a reference run, lane by lane.
 
-    tolerances: by channel. rest: of channels that are not among them; None leaves those out.
-    begins: the samples of both that are laid over each other first, and compared from then on.
-    They are as long where as many are left. Raises `ParameterError` for a channel that is not
-    there, `RecordError` for runs of other lanes or periods, and where nothing can be compared.
+    Args:
+        run: The run.
+        other: The reference run.
+        tolerances: Tolerances by channel.
+        rest: Tolerance of all other channels; None leaves them out.
+        begins: Samples of both runs that are aligned, and from which on they are compared. The
+            lengths are those of the remaining samples.
+
+    Returns:
+        The verdict.
+
+    Raises:
+        ParameterError: If there is no such channel.
+        RecordError: If lanes or periods differ, or nothing can be compared.
     """
     own, others = run.header, other.header
     if own.period_s != others.period_s or len(own.lanes) != len(others.lanes):
@@ -161,15 +186,18 @@ def read_channel(run: Record, name: str, begin: int, ticks: int) -> np.ndarray:
 def build_band(
     values: np.ndarray, tolerance: Tolerance, reach: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Compute lower and upper bound of the band at each of these (ticks, …).
+    """Compute lower and upper bound of the band at each of these values (ticks, …).
 
-    reach: of the tolerance in time, in samples. NaN where within reach nothing is known.
+    `reach` is the tolerance in time, in samples. The band is NaN if no value within reach is known.
     """
     room = tolerance.absolute + tolerance.relative * np.abs(values)
     low, high = values - room, values + room
     if not reach:
         return low, high
-    from scipy.ndimage import maximum_filter1d, minimum_filter1d  # late: it takes a while
+    from scipy.ndimage import (
+        maximum_filter1d,
+        minimum_filter1d,
+    )  # imported here: the import is slow
 
     is_unknown, size = np.isnan(values), 2 * reach + 1
     low, high = np.where(is_unknown, np.inf, low), np.where(is_unknown, -np.inf, high)

@@ -16,17 +16,20 @@ from svsa.runs.records.header import (
     write_header,
 )
 from svsa.runs.records.outcome import write_fault
-from svsa.runs.records.parquet import ROWS_A_GROUP, Commands, Finished, finish, write_command
+from svsa.runs.records.parquet import ROWS_PER_GROUP, Commands, Finished, finish, write_command
 from svsa.runs.records.stream import END_OF_STREAM, TIME, build_batch, build_schema, write_all
 
 _FLAGS = os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_APPEND | getattr(os, "O_BINARY", 0)
 
 
 class RecordWriter:
-    """A new folder with header, commands and samples; raises `RecordError` if it cannot be created.
+    """A new folder with header, commands and samples.
 
-    Whatever a method returned from is with the operating system and outlives the process.
-    Methods raise `OSError` where the disk fails; then all that was whole before is still.
+    Data of a method that has returned are with the operating system and outlive the process.
+    Methods raise `OSError` if the disk fails; earlier data stay complete.
+
+    Raises:
+        RecordError: If the folder cannot be created.
     """
 
     def __init__(self, folder: Path, header: RecordHeader) -> None:
@@ -40,8 +43,8 @@ class RecordWriter:
             raise RecordError(f"Cannot record into {folder}: {error}.") from None
         try:
             self._stream = self._create(STREAM_FILE)
-            # Held while the record grows, so that `recover` leaves it alone. The system releases it
-            # if the process dies, also by a kill.
+            # Locked while the record grows, so that `recover` does not touch it. The system
+            # releases the lock when the process dies, even if it is killed.
             take_lock(self._stream)
             self._commands = self._create(COMMANDS_FILE)
             write_header(folder, header)
@@ -68,7 +71,11 @@ class RecordWriter:
         return len(content)
 
     def finish(self) -> Finished:
-        """Close the files and write the Parquet file; raises `RecordError` on failure."""
+        """Close the files and write the Parquet file.
+
+        Raises:
+            RecordError: If that fails.
+        """
         try:
             write_all(self._stream, END_OF_STREAM)
         except OSError as error:
@@ -97,15 +104,16 @@ def write_record(
     samples: np.ndarray,
     fault: Fault | None = None,
 ) -> Finished:
-    """Write a record of a run that was not live, (ticks, lanes, channels), in one call.
+    """Write a record of a finished run, samples (ticks, lanes, channels), in one call.
 
-    Raises `RecordError` where the folder exists or the disk fails.
+    Raises:
+        RecordError: If the folder exists or the disk fails.
     """
     writer = RecordWriter(folder, header)
     try:
         writer.write_lines(b"".join(write_command(*command) for command in commands))
-        for row in range(0, len(samples), ROWS_A_GROUP):
-            writer.write_samples(first_tick + row, samples[row : row + ROWS_A_GROUP])
+        for row in range(0, len(samples), ROWS_PER_GROUP):
+            writer.write_samples(first_tick + row, samples[row : row + ROWS_PER_GROUP])
         write_fault(folder, fault)
     except OSError as error:
         writer.release()

@@ -86,7 +86,11 @@ class Channels:
             return self.samples[:, CHANNEL_INDEX[name]]
 
     def __getitem__(self, name: ChannelName) -> np.ndarray:
-        """Return a channel; raises `ParameterError` with similar names."""
+        """Return a channel by its name.
+
+        Raises:
+            ParameterError: If there is no such channel; the message has similar names.
+        """
         if name not in CHANNEL_INDEX:
             bound = f"the name of a channel{find_near(name)}"
             raise ParameterError(Violation("channel", name, "", bound))

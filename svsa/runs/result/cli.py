@@ -65,7 +65,11 @@ def compare(
 
 
 def read_tolerances(path: Path) -> "dict[str, Tolerance]":
-    """Tolerances by channel from a TOML file; raises `ParameterError` with its name and lines."""
+    """Read tolerances by channel from a TOML file.
+
+    Raises:
+        ParameterError: If a value is invalid, with file and lines.
+    """
     from svsa.runs.records.verdict import Tolerance
 
     read: dict[str, Tolerance] = {}

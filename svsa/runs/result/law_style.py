@@ -14,8 +14,8 @@ OWN_COLOR = "#000000"
 def style_law(law: str) -> dict[str, Any]:
     """Return the style of a law's curves, in the same color as on the page.
 
-    Twenty looks of which no two share both colour and dash; neighbours share neither. What is no
-    installed law is drawn in black.
+    There are twenty styles, no two with the same color and dash, neighbours with neither in common.
+    A law that is not installed is drawn in black.
     """
     line_style = list_law_line_styles().get(law)
     look = (

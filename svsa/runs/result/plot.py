@@ -15,9 +15,15 @@ CHANNEL_COLORS = ("#0072B2", "#D55E00", "#009E73")
 def plot_run(
     run: Channels, stretches: Iterable[tuple[str, slice]], changes_s: Collection[float]
 ) -> Picture:
-    """Plot one run: position, its error, stiffness, torques, disturbance true and estimated.
+    """Plot one run: position, its error, stiffness, torques, true and estimated disturbance.
 
-    stretches: the laws that controlled, each with its rows. changes_s: when it was changed, s.
+    Args:
+        run: The channels.
+        stretches: Laws in control, each with its rows.
+        changes_s: Times of changes, s.
+
+    Returns:
+        A matplotlib figure.
     """
     picture = Picture(figsize=(8.0, 10.0), layout="constrained")
     position, error, stiffness, torque, disturbance = picture.subplots(5, 1, sharex=True)

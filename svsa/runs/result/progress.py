@@ -9,7 +9,7 @@ from contextlib import ExitStack, contextmanager
 SHOWN_AFTER_S = 1.0
 
 Follow = Callable[[float], None]
-"""Called with the share of a run that is done, 0 to 1."""
+"""Called with the finished share of a run, 0 to 1."""
 
 _silent = threading.Event()
 
@@ -24,9 +24,9 @@ def follow_progress(title: str, given: Follow | None) -> Iterator[Follow]:
     """Return the function to call with the finished share of a run.
 
     Args:
-        title: of the bar.
-        given: called in place of a bar. Without it, a bar appears after `SHOWN_AFTER_S` if standard
-            error is a terminal and the run is in the main thread.
+        title: Title of the progress bar.
+        given: Function to call instead of showing a bar. Without it, a bar appears after
+            `SHOWN_AFTER_S` if standard error is a terminal and the run is in the main thread.
     """
     is_main = threading.current_thread() is threading.main_thread()
     if given is not None or _silent.is_set() or not is_main or not sys.stderr.isatty():
@@ -47,7 +47,7 @@ def follow_progress(title: str, given: Follow | None) -> Iterator[Follow]:
 
 @contextmanager
 def _show_bar(title: str) -> Iterator[Follow]:
-    from rich.console import Console  # late: a run that is soon done needs no bar
+    from rich.console import Console  # imported here: short runs need no progress bar
     from rich.progress import Progress
 
     with Progress(console=Console(stderr=True), transient=True) as bar:

@@ -34,14 +34,20 @@ PICTURE_DPI = 80
 
 @dataclass(frozen=True, repr=False)
 class Result(Channels):
-    """A finished run, one lane of it.
+    """One lane of a finished run.
 
-    configuration: at tick 0. samples: (ticks, channels), float64, SI, columns as
-    `svsa.actuators.signals.CHANNELS`. A channel is also an attribute: `result.position_error_rad`.
-    fault: why the run ended early, or None. comparisons: the results of the controllers that ran
-    in lanes 2 to 4. law: what controlled first, "own" for a function of one's own. commands: what
-    was changed of this lane on the way. name: what a recorded run is called. plant: what the first
-    lane was. steps: Runge–Kutta steps a control period.
+    A channel is also an attribute: `result.position_error_rad`.
+
+    Attributes:
+        configuration: Configuration at tick 0.
+        samples: Shape (ticks, channels), float64, SI, columns as `svsa.actuators.signals.CHANNELS`.
+        fault: Fault that ended the run early, or None.
+        comparisons: Results of the controllers in lanes 2 to 4.
+        law: Law at the beginning, "own" for a user's function.
+        commands: Changes of this lane during the run.
+        name: Name of a recorded run.
+        plant: Plant of the first lane.
+        steps: Runge–Kutta steps per control period.
     """
 
     configuration: Configuration
@@ -61,9 +67,10 @@ class Result(Channels):
 
     @property
     def metrics(self) -> Metrics:
-        """The metrics of the whole run, whichever laws controlled; see `measure`.
+        """The metrics of the whole run, for all laws that were in control; see `measure`.
 
-        Raises `StateError` where it has no samples.
+        Raises:
+            StateError: If there are no samples.
         """
         return compute_metrics(self.samples, self.configuration.sampling.period_s)
 
@@ -75,10 +82,10 @@ class Result(Channels):
             end_s: Last time of the window, s.
 
         Returns:
-            The metrics of both outputs and of the effort.
+            The metrics of both outputs and of the control effort.
 
         Raises:
-            ParameterError: For a window without a sample.
+            ParameterError: If the window contains no sample.
         """
         period = self.configuration.sampling.period_s
         first = round(float(self.time_s[0]) / period) if len(self.samples) else 0
@@ -92,7 +99,7 @@ class Result(Channels):
         return compute_metrics(rows, period)
 
     def list_segments(self) -> list[tuple[str, slice]]:
-        """List the laws that controlled, in their order.
+        """List the laws that were in control, in the order of time.
 
         Returns:
             The name of each law, and its rows of the samples.
@@ -230,7 +237,7 @@ def build_results(
     plant: PlantKind = "simulated",
     steps: int = 1,
 ) -> Result:
-    """Build the first lane's result with those of its comparisons. samples: (lanes, ticks,
+    """Build the first lane's result with those of its comparisons; samples (lanes, ticks,
     channels).
     """
     of_all = tuple(command for command in commands if command.kind != "law")

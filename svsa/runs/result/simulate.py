@@ -26,7 +26,7 @@ from svsa.simulation.loop.stepwise import Controller
 MAX_TICKS = 5_000_000
 MAX_STEPS = 1000
 _OWN_STRETCH_TICKS = 1_000
-"""From one progress to the next with a function as controller, which takes longer."""
+"""Ticks between two progress reports with a function as controller, which is slower."""
 
 
 def simulate(
@@ -45,25 +45,25 @@ def simulate(
     Args:
         experiment: A figure of the paper ("4a", "4b", "5") or a `Configuration`.
         law: Name of an installed law ("ndobc", "fl", …); a function (time in s, `Reference`, x̂ as
-            `State`, ŵ as `Disturbance`) -> (u1, u2) in N·m, which may also name `measured` and
-            `applied`; or a class of objects that are called like that, one for each run. An object
-            with a method `reset` is reset at the start of each run.
+            `State`, ŵ as `Disturbance`) -> (u1, u2) in N·m, with optional arguments `measured` and
+            `applied`; or a class of objects that are called in this way, one object per run. An
+            object with a method `reset` is reset at the start of each run.
         duration_s: Duration of the run, s.
-        steps: Runge–Kutta steps in a control period.
+        steps: Runge–Kutta steps per control period.
         commands: Changes during the run, such as `svsa.Change(at_s=5.0, law="fl")`.
         parameters: Parameter file, such as `svsa identify` writes, or its `Design`, instead of
             those of the experiment.
-        progress: Called with the share that is done, 0 to 1. Without it, a run of more than a
-            second shows a bar if standard error is a terminal.
-        changes: Fields of the configuration to replace: position, stiffness, loads, gains,
+        progress: Called with the finished share, 0 to 1. Without it, a run of more than a second
+            shows a bar if standard error is a terminal.
+        **changes: Fields of the configuration to replace: position, stiffness, loads, gains,
             observer, limits, actuator, nominal, comparisons, effects, seed.
 
     Returns:
-        The samples of all ticks, metrics, and of each comparison the same. A run that leaves the
-        domain of the model ends early: see `Result.fault`.
+        Samples of all ticks and metrics, also of each comparison. A run that leaves the domain of
+        the model ends early: see `Result.fault`.
 
     Raises:
-        ParameterError: For a value out of range, or an unknown keyword.
+        ParameterError: If a value is out of range, or a keyword is unknown.
         StateError: If a law object without `reset` has the state of an earlier run.
         KeyboardInterrupt: At Ctrl-C.
     """

@@ -26,7 +26,7 @@ def build_dataframe(samples: np.ndarray, reported: Mapping[str, str]) -> "pandas
         The frame; its `attrs` have `reported` and the unit of each channel.
 
     Raises:
-        MissingExtraError: pandas, of the extra of that name, is not installed.
+        MissingExtraError: If pandas, of the extra of that name, is not installed.
     """
     require_extra("pandas")
     import pandas
@@ -39,7 +39,8 @@ def build_dataframe(samples: np.ndarray, reported: Mapping[str, str]) -> "pandas
 def build_dataset(samples: np.ndarray, reported: Mapping[str, str]) -> "xarray.Dataset":
     """Build a variable per channel along `time_s`, each with `units` and `long_name`.
 
-    Raises `MissingExtraError` where xarray, of the extra of that name, is not installed.
+    Raises:
+        MissingExtraError: If xarray, of the extra of that name, is not installed.
     """
     require_extra("xarray")
     import xarray

@@ -7,10 +7,12 @@ _SMOOTHING = 0.1
 
 
 class Pace(NamedTuple):
-    """Session time relative to wall time.
+    """Session time relative to wall-clock time.
 
-    speed: session seconds a wall second, as asked for; infinite for as fast as it goes.
-    real_time_factor: as it goes. accumulated_delay_s: wall time that was given up, s.
+    Attributes:
+        speed: Requested session seconds per second; infinite for the maximum.
+        real_time_factor: Actual session seconds per second.
+        accumulated_delay_s: Wall-clock time that was dropped, s.
     """
 
     speed: float = 1.0
@@ -19,10 +21,11 @@ class Pace(NamedTuple):
 
 
 class SimulationClock:
-    """Computes the number of due ticks. Wall time (s, monotonic) enters the simulation only here.
+    """Computes the number of due ticks. Wall-clock time (s, monotonic) enters the simulation only
+    here.
 
-    A session that cannot keep up stretches time: a backlog of more than 0.25 s is given
-    up, added to `accumulated_delay_s`, and no tick is skipped.
+    A session that is too slow stretches time: a backlog of more than 0.25 s is dropped and added to
+    `accumulated_delay_s`; no tick is skipped.
     """
 
     def __init__(self, period_s: float) -> None:

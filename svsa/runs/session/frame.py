@@ -29,7 +29,15 @@ _LANE_ID, _VALUE = np.dtype(LANE_ID).newbyteorder("<"), np.dtype(VALUE).newbyteo
 
 
 class Batch(NamedTuple):
-    """ticks: (count,), of the samples. lane_ids: (lanes,). values: (count, lanes, channels)."""
+    """Samples of one message.
+
+    Attributes:
+        run: Number of the run.
+        ticks: Ticks of the samples, shape (count,).
+        missed: Number of samples that were dropped before.
+        lane_ids: Ids of the lanes, shape (lanes,).
+        values: Shape (count, lanes, channels).
+    """
 
     run: int
     ticks: np.ndarray
@@ -41,15 +49,17 @@ class Batch(NamedTuple):
 def pack_batch(
     run: int, first_tick: int, stride: int, missed: int, lane_ids: Iterable[int], rows: np.ndarray
 ) -> bytes:
-    """Pack samples; stride: ticks from one to the next. rows: (count, lanes, channels)."""
+    """Pack samples, rows (count, lanes, channels), `stride` ticks apart."""
     ids = np.fromiter(lane_ids, _LANE_ID)
     header = HEADER.pack(MAGIC, run, first_tick, stride, len(rows), missed, len(ids))
     return header + ids.tobytes() + rows.astype(_VALUE).tobytes()
 
 
 def unpack_batch(message: bytes, channels: int) -> Batch:
-    """Unpack a batch of `pack_batch` with so many channels; raises `SvsaError` for anything
-    else.
+    """Unpack a batch of `pack_batch` with this number of channels.
+
+    Raises:
+        SvsaError: If it is not such a batch.
     """
     try:
         magic, run, first, stride, count, missed, lanes = HEADER.unpack_from(message)

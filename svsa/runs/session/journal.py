@@ -8,7 +8,7 @@ from svsa.actuators.faults import label_fault
 from svsa.errors import Fault, StateError
 from svsa.runs.command import ApplyLoad, Command, RemoveLoad, Stop
 from svsa.runs.configuration import MAX_LANES, Configuration
-from svsa.runs.events import Event, describe_change, describe_end, describe_onset
+from svsa.runs.events import Event, describe_change, describe_end, describe_onset, list_laws
 from svsa.runs.records.header import BranchPoint
 from svsa.runs.records.recorder import Recorder
 from svsa.runs.run import Run
@@ -23,24 +23,27 @@ KEPT_S = 60.0
 MAX_EVENTS = 200
 MAX_COMMANDS = 100_000
 
-HangLoads = Callable[[tuple[Load, ...]], None]
+ApplyLoads = Callable[[tuple[Load, ...]], None]
 """Called with the active loads whenever they change."""
 
 
-def hang_nothing(loads: tuple[Load, ...]) -> None:
+def apply_no_loads(loads: tuple[Load, ...]) -> None:
     """Do nothing: a simulation needs no operator for its loads."""
 
 
 class Journal:
     """The present run of a session, advanced and changed only here, with its history.
 
-    `initial` and `commands` say everything that decides the run's samples. `version` grows
-    with every change, not with time. `timeline` says who controlled which lane from when on, and
-    which window this is, `metrics` how well the lanes do. `on_recorded` is called per recording
-    that ends. `branch_of` is the recorded run that this one goes on from.
+    Attributes:
+        initial: Configuration at tick 0; with `commands` it determines the run's samples.
+        version: Incremented with every change, not with time.
+        timeline: Controllers of the lanes over time, and the present window.
+        metrics: Metrics of the lanes.
+        on_recorded: Called for each recording that ends.
+        branch_of: The recorded run that this one continues.
     """
 
-    def __init__(self, run: Run, is_bench: bool = False, hang: HangLoads = hang_nothing) -> None:
+    def __init__(self, run: Run, is_bench: bool = False, hang: ApplyLoads = apply_no_loads) -> None:
         self.recorder: Recorder | None = None
         self.on_recorded: Callable[[Recorder], None] = lambda _: None
         self.run_number = 0
@@ -65,7 +68,7 @@ class Journal:
 
     def build_restart(self) -> Configuration:
         """Build the run restarted with the present settings and the initially planned loads."""
-        return self.run.configuration.changed(loads=self.initial.loads)
+        return self.run.configuration.with_loads_of(self.initial)
 
     def check_recordable(self) -> None:
         """Raise `StateError` if the run is already being recorded."""
@@ -115,11 +118,11 @@ class Journal:
                 taken = loads[command.argument]
                 if taken.is_on(self.run.tick - 1):
                     self._end_load(taken.load)
-                    self.timeline.take_off(taken.load, self.run.tick)
+                    self.timeline.remove_load(taken.load, self.run.tick)
                     self.metrics.begin_window(self.run.tick)
                 self.version += 1
             case _:
-                self.log(command.kind, describe_change(command, before.law))
+                self.log(command.kind, describe_change(command, list_laws(before)))
 
     def _follow(self, command: Command) -> None:
         """Give lanes the past that they continue; in a new window metrics restart."""
@@ -151,8 +154,8 @@ class Journal:
     def log_fault(self, fault: Fault, ends_run: bool = True) -> None:
         """Log a fault; a fault that ends the run also ends its recording.
 
-        A fault of a bench at rest is at the run's last tick. Where the event of a fault is there
-        already, such as of the one that ended the run, it keeps its name.
+        A fault of a bench at rest is at the run's last tick. If an event of the fault already
+        exists, such as of the fault that ended the run, its name stays.
         """
         self.version += 1
         if ends_run and self.recorder is not None:
@@ -169,7 +172,7 @@ class Journal:
         self.version += 1
 
     def advance(self, ticks: int) -> None:
-        """Advance by `ticks` ticks, in stretches that end at the start or end of a load.
+        """Advance by `ticks` ticks, in slices that end at the start or end of a load.
 
         A bench may have fewer samples than expected: the run then stays at its last one.
         """
@@ -189,7 +192,7 @@ class Journal:
                 self.log_fault(self.run.fault)
 
     def _log_loads(self) -> None:
-        for _, load, start, end in self.run.loads:
+        for _, load, start, end, _ in self.run.loads:
             if start == self.run.tick:
                 self._begin_load(load)
             if end == self.run.tick:

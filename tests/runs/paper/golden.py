@@ -19,12 +19,12 @@ numba keeps what it compiles for one kind of processor apart from what it compil
 
 
 def compute_hash(result: svsa.Result) -> str:
-    """Of all channels at all ticks, as little-endian doubles."""
+    """Hash all channels at all ticks, as little-endian doubles."""
     return hashlib.sha256(result.samples.astype("<f8").tobytes()).hexdigest()[:16]
 
 
 def compute_figures() -> dict[str, str]:
-    """Of Figures 4A, 4B and 5 with both laws."""
+    """Simulate Figures 4A, 4B and 5 with both laws."""
     return {
         f"{figure} {law}": compute_hash(svsa.simulate(figure, law))
         for figure in ("4a", "4b", "5")
@@ -33,12 +33,12 @@ def compute_figures() -> dict[str, str]:
 
 
 def compute_law(law: str) -> str:
-    """Of Figure 4A with every effect, up to 1.5 s after its load."""
+    """Simulate Figure 4A with every effect, up to 1.5 s after its load."""
     return compute_hash(svsa.simulate("4a", law, effects=EVERY, seed=7, duration_s=6.5))
 
 
 def compute_laws() -> dict[str, str]:
-    """The same under every law that is installed."""
+    """Simulate the same under every installed law."""
     return {law: compute_law(law) for law in list_law_names()}
 
 

@@ -1,9 +1,9 @@
 """The same bits on every machine: x86-64 and aarch64, with or without wide registers or a fused
 multiply-add.
 
-A change of an equation changes these hashes: put in the new ones (`python -m
-tests.runs.paper.golden`), and say in the commit why. A change of numba, LLVM, libm or processor
-that changes them is a fault.
+A change of an equation changes these hashes: enter the new ones (`python -m
+tests.runs.paper.golden`), and state the reason in the commit. If a change of numba, LLVM, libm or
+processor changes them, it is a bug.
 """
 
 import json
@@ -47,18 +47,18 @@ LAWS = {
 }
 
 
-def test_every_sample_of_the_figures_is_what_it_was() -> None:
+def test_samples_of_the_figures_match_their_hashes() -> None:
     assert compute_figures() == FIGURES
 
 
 @pytest.mark.parametrize("law", list_law_names())
-def test_every_sample_under_each_law_is_what_it_was(law: str) -> None:
+def test_samples_under_each_law_match_their_hashes(law: str) -> None:
     assert compute_law(law) == LAWS[law]
 
 
 @pytest.mark.long
 @pytest.mark.exhaustive
-def test_a_processor_without_any_extension_computes_the_same() -> None:
+def test_processor_without_extensions_computes_the_same() -> None:
     """Compiled for the oldest of this machine's family: on x86-64 without AVX and FMA."""
     answer = subprocess.run(
         [sys.executable, "-m", "tests.runs.paper.golden", "--figures"],

@@ -42,7 +42,7 @@ def test_all_figures_run_with_both_laws_in_the_order_of_the_paper(runs):
 
 @pytest.mark.parametrize("figure", FIGURES)
 def test_ndobc_returns_to_a_small_error_after_the_load(numbers, figure):
-    """The mark of the project: ≤ 0.0015° and ≤ 0.0005 N·m/rad in 8–20 s."""
+    """The limits: ≤ 0.0015° and ≤ 0.0005 N·m/rad in 8–20 s."""
     row = numbers[figure, "ndobc"]
     assert row["rms_position_steady_deg"] <= 0.0015
     assert row["rms_position_steady_deg"] == pytest.approx(NDOBC_TABLE[figure][2], rel=0.05)
@@ -50,15 +50,15 @@ def test_ndobc_returns_to_a_small_error_after_the_load(numbers, figure):
 
 
 @pytest.mark.parametrize("figure", FIGURES)
-def test_ndobc_before_the_load_and_its_peak_are_those_of_the_table(numbers, figure):
-    """Before within 5 %, peak within 2 %, both of a number that is itself rounded."""
+def test_ndobc_before_the_load_and_its_peak_match_the_table(numbers, figure):
+    """Before within 5 %, peak within 2 %, of rounded numbers."""
     row, (before, peak, _) = numbers[figure, "ndobc"], NDOBC_TABLE[figure]
     assert row["rms_position_before_deg"] == pytest.approx(before, rel=0.05)
     assert row["peak_position_deg"] == pytest.approx(peak, rel=0.02)
 
 
 @pytest.mark.parametrize("figure", FIGURES)
-def test_fl_gives_the_numbers_of_the_table_within_two_percent(numbers, figure):
+def test_fl_matches_the_table_within_two_percent(numbers, figure):
     row, (before, peak, steady, stiffness) = numbers[figure, "fl"], FL_TABLE[figure]
     assert row["rms_position_before_deg"] == pytest.approx(before, rel=0.02)
     assert row["peak_position_deg"] == pytest.approx(peak, rel=0.02)
@@ -67,8 +67,8 @@ def test_fl_gives_the_numbers_of_the_table_within_two_percent(numbers, figure):
 
 
 @pytest.mark.parametrize("figure", FIGURES)
-def test_the_order_that_the_paper_claims_holds(numbers, figure):
-    """Both small before the load; after it NDOBC is at least 100 times better than FL."""
+def test_order_of_the_paper_is_reproduced(numbers, figure):
+    """Both are small before the load; after it NDOBC is at least 100 times better than FL."""
     fl, ndobc = numbers[figure, "fl"], numbers[figure, "ndobc"]
     assert fl["rms_position_before_deg"] < 0.1
     assert ndobc["rms_position_before_deg"] < 0.1
@@ -77,7 +77,7 @@ def test_the_order_that_the_paper_claims_holds(numbers, figure):
     assert fl["peak_position_deg"] > 2.0 * ndobc["peak_position_deg"]
 
 
-def test_the_stiffness_has_little_effect_on_the_position_error(numbers):
+def test_stiffness_has_little_effect_on_the_position_error(numbers):
     """A claim of the paper for simulation: 15, 35 and 60 N·m/rad differ by less than 10 %."""
     for law in ("fl", "ndobc"):
         errors = [numbers[figure, law]["rms_position_steady_deg"] for figure in FIGURES]
@@ -86,7 +86,7 @@ def test_the_stiffness_has_little_effect_on_the_position_error(numbers):
 
 @pytest.mark.parametrize("figure", FIGURES)
 def test_ndobc_recovers_from_the_load_and_fl_does_not(numbers, figure):
-    """Within 2 % of the peak after some 0.2 s: the time of poles at 60 and β = 60."""
+    """Within 2 % of the peak after about 0.2 s: the time constant of poles at 60 and β = 60."""
     assert 0.1 < numbers[figure, "ndobc"]["recovery_s"] < 0.4
     assert numbers[figure, "fl"]["recovery_s"] is None
 
@@ -98,8 +98,8 @@ def test_torques_stay_inside_their_limits_and_figure_4a_reaches_them(numbers):
     assert numbers["4a", "ndobc"]["peak_torque_nm"] == [15.0, 5.0]
 
 
-def test_without_the_load_fl_keeps_its_small_error_to_the_end():
-    """The load, and nothing else, makes the difference between before and after."""
+def test_fl_keeps_its_small_error_without_the_load():
+    """The load alone makes the difference between before and after."""
     figure = svsa.paper.get_figure("4a")
     result = svsa.simulate(figure.build_configuration("fl", load=False))
     assert result.measure(8.0, 20.0).rms_position_error_rad == pytest.approx(
@@ -107,8 +107,8 @@ def test_without_the_load_fl_keeps_its_small_error_to_the_end():
     )
 
 
-def test_the_hung_mass_is_harder_on_fl_than_on_ndobc():
-    """The physical load of 3 kg on 68 mm, which swings with the link: the order holds too."""
+def test_hanging_mass_affects_fl_more_than_ndobc():
+    """The physical load of 3 kg on 68 mm, which moves with the link: the order is the same."""
     errors = {}
     for law in ("fl", "ndobc"):
         result = svsa.simulate("4b", law, loads=(svsa.MassLoad(start_s=5.0),))
@@ -117,13 +117,13 @@ def test_the_hung_mass_is_harder_on_fl_than_on_ndobc():
     assert errors["fl"] > 10.0 * errors["ndobc"]
 
 
-def test_the_numbers_are_plain_json(runs):
-    """`svsa reproduce --json` prints them; NaN or numpy numbers would break a reader."""
+def test_results_are_plain_json(runs):
+    """`svsa reproduce --json` prints them; NaN or numpy numbers would be invalid."""
     rows = [run.numbers for run in runs]
     assert json.loads(json.dumps(rows, allow_nan=False)) == rows
 
 
-def test_one_picture_a_figure_laid_out_as_in_the_paper(runs, tmp_path):
+def test_each_figure_has_a_picture_with_the_panels_of_the_paper(runs, tmp_path):
     """Tracking, position error, stiffness, its error: four panels over one time axis."""
     from svsa.evaluation.reproduction_pictures import draw_figure, save_figures
 
@@ -139,6 +139,6 @@ def test_one_picture_a_figure_laid_out_as_in_the_paper(runs, tmp_path):
     assert path.stat().st_size > 20_000
 
 
-def test_an_unknown_figure_is_refused_before_anything_runs():
+def test_unknown_figure_is_rejected_before_anything_runs():
     with pytest.raises(svsa.ParameterError, match="one of 4a, 4b, 5"):
         svsa.reproduce(("4a", "9z"))

@@ -1,4 +1,4 @@
-"""A catalogue in a folder of its own."""
+"""A catalogue in its own folder."""
 
 from pathlib import Path
 

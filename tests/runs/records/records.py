@@ -1,4 +1,4 @@
-"""Records to test with, made without simulating."""
+"""Records for tests, written without a simulation."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -37,7 +37,7 @@ def build_header(
 
 
 def build_samples(ticks: int, lanes: int = 2, first_tick: int = 0) -> np.ndarray:
-    """Awkward numbers, the same for the same ticks: (ticks, lanes, channels)."""
+    """Build unusual numbers that depend on the tick alone: (ticks, lanes, channels)."""
     tick = np.arange(first_tick, first_tick + ticks)
     grid = tick[:, None, None] + 10 * np.arange(lanes)[:, None] + np.arange(len(CHANNELS)) / 3
     samples = np.sin(grid * 0.01) * 10.0 ** (np.arange(len(CHANNELS)) % 7 - 3)
@@ -64,7 +64,7 @@ def list_ids(catalogue: Catalogue, **query: object) -> list[str]:
 
 
 def read_record(folder: Path) -> Record:
-    """The record in a folder with all its samples read."""
+    """Read the record in a folder with all its samples."""
     record = open_record(folder)
     _ = record.samples
     return record

@@ -1,4 +1,4 @@
-"""An archive of the data folder, made while the lab records, and what it restores."""
+"""An archive of the data folder, created during a recording, and its restored content."""
 
 import sqlite3
 import tarfile
@@ -19,7 +19,7 @@ def list_runs(lab: httpx.Client) -> dict[str, str]:
     return {run["name"]: run["state"] for run in answer["runs"]}
 
 
-def test_a_backup_made_while_recording_loses_nothing(tmp_path: Path) -> None:
+def test_backup_during_a_recording_is_complete(tmp_path: Path) -> None:
     data, archive, again = tmp_path / "data", tmp_path / "lab.tar.gz", tmp_path / "again"
     with run_lab_in_process(data=str(data)) as running:
         lab = running.client
@@ -50,7 +50,7 @@ def test_a_backup_made_while_recording_loses_nothing(tmp_path: Path) -> None:
     assert len(files) >= number
 
 
-def test_a_database_is_copied_with_what_is_in_its_log(tmp_path: Path) -> None:
+def test_database_is_copied_with_its_write_ahead_log(tmp_path: Path) -> None:
     data = tmp_path / "data"
     data.mkdir()
     live = sqlite3.connect(data / "members.sqlite")
@@ -68,7 +68,7 @@ def test_a_database_is_copied_with_what_is_in_its_log(tmp_path: Path) -> None:
     copy.close()
 
 
-def test_nothing_is_overwritten(tmp_path: Path) -> None:
+def test_restore_overwrites_nothing(tmp_path: Path) -> None:
     data = tmp_path / "data"
     data.mkdir()
     (data / "a.json").write_text("{}")
@@ -85,13 +85,13 @@ def test_nothing_is_overwritten(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("content", [b"", b"no archive", b"\x1f\x8b\x08"])
-def test_a_file_that_is_no_archive_is_rejected(tmp_path: Path, content: bytes) -> None:
+def test_other_file_is_rejected(tmp_path: Path, content: bytes) -> None:
     (tmp_path / "a.tar.gz").write_bytes(content)
     with pytest.raises(BackupError, match=r"a\.tar\.gz"):
         restore(tmp_path / "a.tar.gz", tmp_path / "again")
 
 
-def test_an_archive_cannot_write_outside_the_folder(tmp_path: Path) -> None:
+def test_archive_cannot_write_outside_the_folder(tmp_path: Path) -> None:
     data, archive = tmp_path / "data", tmp_path / "a.tar.gz"
     data.mkdir()
     back_up(data, archive)

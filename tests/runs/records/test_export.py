@@ -1,4 +1,4 @@
-"""Exports open in other programs and hold the same numbers."""
+"""Exports open in other programs and contain the same numbers."""
 
 import io
 import json
@@ -52,7 +52,7 @@ def test_csv_has_units_in_its_header_and_every_digit(record: Record, tmp_path: P
         np.testing.assert_array_equal(read, expected)
 
 
-def test_parquet_holds_the_run_on_its_own(record: Record) -> None:
+def test_parquet_is_self_contained(record: Record) -> None:
     stream = io.BytesIO()
     export(record, "parquet", stream)
     table = pq.read_table(io.BytesIO(stream.getvalue()))
@@ -153,26 +153,26 @@ def test_mcap_has_joint_states_and_time_series_of_every_lane(record: Record) -> 
 
 
 @pytest.mark.parametrize("kind", EXPORT_KINDS)
-def test_an_empty_run_and_one_in_memory_export(kind: str) -> None:
+def test_empty_run_and_run_in_memory_are_exported(kind: str) -> None:
     for ticks in (0, 5):
         stream = io.BytesIO()
         export(build_record(build_header(), [], 0, build_samples(ticks)), kind, stream)
         assert stream.getvalue()
 
 
-def test_channels_that_are_not_those_of_this_version_export() -> None:
+def test_channels_of_another_version_are_exported() -> None:
     header = build_header(lanes=("a",), channels=({"name": "level_m", "unit": "m", "label": "h"},))
     record = build_record(header, [], 0, np.ones((3, 1, 1)))
     for kind in EXPORT_KINDS:
         export(record, kind, io.BytesIO())
 
 
-def test_an_unknown_kind_is_refused(record: Record) -> None:
+def test_unknown_kind_is_rejected(record: Record) -> None:
     with pytest.raises(ParameterError, match="csv, parquet, mat, mcap"):
         export(record, "xls", io.BytesIO())
 
 
-def test_where_nothing_can_be_written_nothing_is_left(record: Record, tmp_path: Path) -> None:
+def test_failed_export_leaves_no_file(record: Record, tmp_path: Path) -> None:
     with pytest.raises(RecordError, match="cannot be exported"):
         export(record, "csv", tmp_path / "nowhere" / "run.csv")
     content = (tmp_path / "run-1" / "samples.parquet").read_bytes()
@@ -188,7 +188,7 @@ def test_file_names_are_safe(record: Record) -> None:
     assert build_file_name(nameless, "csv") == "run-1.csv"
 
 
-def test_identifiers_are_those_of_matlab() -> None:
+def test_identifiers_are_valid_in_matlab() -> None:
     long = "a" * 70
     found = build_identifiers(["end", "1 b", "ü", "a.b", "a b", long, long + "b", "_"])
     assert found == [

@@ -1,4 +1,4 @@
-"""Records made before the fields and commands got their present names are read and replayed."""
+"""Records with former names of fields and commands are read and replayed."""
 
 from pathlib import Path
 
@@ -14,21 +14,21 @@ RECORDS = Path(__file__).parents[2] / "data" / "records"
 
 
 @pytest.mark.parametrize(("name", "file"), [("simulated", "header.json"), ("bench", "header.json")])
-def test_the_records_have_the_former_words(name: str, file: str) -> None:
-    """Otherwise the other tests would show nothing."""
+def test_records_contain_the_former_names(name: str, file: str) -> None:
+    """Otherwise the other tests would check nothing."""
     text = (RECORDS / name / file).read_text(encoding="utf-8")
     assert all(f'"{former}"' in text for former in FIELDS)
 
 
 @pytest.mark.parametrize("name", ["simulated", "comparisons"])
-def test_a_former_record_is_its_simulation_bit_for_bit(name: str) -> None:
+def test_former_record_is_replayed_bit_for_bit(name: str) -> None:
     record = open_record(RECORDS / name)
     compared = compare_with_simulation(record)
     assert compared.identical, compared.first_difference
     assert compared.ticks == record.tick_count > 0
 
 
-def test_a_former_command_has_its_present_kind() -> None:
+def test_former_command_has_its_present_kind() -> None:
     commands = (RECORDS / "comparisons" / "commands.jsonl").read_text(encoding="utf-8")
     assert '"kind": "rivals"' in commands
     _, (first, _) = read_origin(open_record(RECORDS / "comparisons"))
@@ -36,7 +36,7 @@ def test_a_former_command_has_its_present_kind() -> None:
     assert [lane.law for lane in first.argument] == ["fl"]
 
 
-def test_a_former_record_of_a_bench_follows_from_what_was_measured() -> None:
+def test_former_bench_record_follows_from_its_measurements() -> None:
     start = (RECORDS / "bench" / "bench-start.json").read_text(encoding="utf-8")
     assert all(f'"{former}"' in start for former in MOTION)
     record = open_record(RECORDS / "bench")
@@ -44,13 +44,13 @@ def test_a_former_record_of_a_bench_follows_from_what_was_measured() -> None:
     assert (verified.ticks, verified.missed) == (record.tick_count, 0)
 
 
-def test_a_former_record_is_opened_as_a_result() -> None:
+def test_former_record_is_opened_as_a_result() -> None:
     result = open_run(RECORDS / "simulated")
     lanes = (result, *result.comparisons)
     assert [one.law for one in lanes] == ["ndobc", "fl", "ndobc_s"]
 
 
-def test_a_former_entry_of_the_leaderboard_has_the_present_names() -> None:
+def test_former_leaderboard_entry_has_the_present_names() -> None:
     written = {
         "standing": {"draws": 100, "draws_held": 93, "worst": {"scenario": "unloading_12_3"}}
     }

@@ -1,4 +1,4 @@
-"""The numbers of a recorded run are of one window, which is named: no lane has two laws in it."""
+"""The metrics of a recorded run belong to one named window, in which each lane has one law."""
 
 import dataclasses
 from collections.abc import Sequence
@@ -61,7 +61,7 @@ def find(made: Record) -> MeasuredWindow:
         ),
     ],
 )
-def test_it_is_that_of_the_last_load_or_the_last_and_says_whose(
+def test_window_is_that_of_the_last_load_or_the_last_one_and_is_named(
     commands: Sequence[tuple[int, str, Any]],
     kind: str,
     label: str,
@@ -76,7 +76,7 @@ def test_it_is_that_of_the_last_load_or_the_last_and_says_whose(
     assert window.is_whole == (kind == "start")
 
 
-def test_a_ramp_to_zero_torque_is_in_no_number_where_there_is_another_window() -> None:
+def test_ramp_to_zero_torque_is_excluded_if_there_is_another_window() -> None:
     stopped = find(record([(280, "stop", None)]))
     assert (stopped.kind, stopped.first_tick, stopped.end_tick) == ("start", 200, 280)
     assert not stopped.is_whole
@@ -84,7 +84,7 @@ def test_a_ramp_to_zero_torque_is_in_no_number_where_there_is_another_window() -
     assert (ramp.kind, ramp.label, ramp.first_tick, ramp.end_tick) == ("stop", "Stop", 200, 300)
 
 
-def test_no_number_mixes_two_laws() -> None:
+def test_no_metric_mixes_two_laws() -> None:
     made = record([(250, "laws", ("fl", "ndobc"))], comparisons=(Lane(law="fl"),))
     window = find(made)
     assert window.lanes == ("FL", "NDOBC")
@@ -95,7 +95,7 @@ def test_no_number_mixes_two_laws() -> None:
         assert metrics != compute_metrics(made.samples[:, lane], PERIOD_S)
 
 
-def test_what_is_left_after_a_load_that_ended_on_its_own_is_no_error_under_load() -> None:
+def test_error_after_a_finished_load_is_not_an_error_under_load() -> None:
     pulse = PulseLoad(torque_nm=(5.0, 0.0, 0.0), duration_s=0.05).model_dump(mode="json")
     ended = record([(300, "load", pulse)], ticks=2000)
     lasting = record([(300, "load", MASS)], ticks=2000)
@@ -114,7 +114,7 @@ def test_what_is_left_after_a_load_that_ended_on_its_own_is_no_error_under_load(
     assert of_pulse == unsettled
 
 
-def test_changes_that_cannot_be_read_have_no_window_and_a_run_without_any_is_whole() -> None:
+def test_unreadable_changes_have_no_window_and_a_run_without_changes_is_one() -> None:
     header = build_header(configuration={"law": "future"})
     unknown = [(205, {"tick": 205, "kind": "future", "argument": 1})]
     samples = build_samples(10, 2, FIRST_TICK)

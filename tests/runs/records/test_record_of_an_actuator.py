@@ -1,4 +1,4 @@
-"""A record holds its actuator: name and parameters, and its replay is exact."""
+"""A record contains its actuator, name and parameters, and is replayed exactly."""
 
 import json
 
@@ -20,7 +20,7 @@ OTHERS = [name for name in list_mechanism_names() if name != "svsa"]
 
 
 @pytest.mark.parametrize("name", OTHERS)
-def test_a_record_names_its_actuator_and_its_replay_is_exact(name: str, catalogue: Catalogue):
+def test_record_names_its_actuator_and_is_replayed_exactly(name: str, catalogue: Catalogue):
     mechanism = get_mechanism(name)
     result = svsa.simulate(
         "4a",
@@ -49,7 +49,7 @@ def test_a_record_names_its_actuator_and_its_replay_is_exact(name: str, catalogu
     assert compare_with_simulation(record).identical
 
 
-def test_a_record_that_names_no_actuator_is_one_of_the_svsa():
+def test_record_without_an_actuator_is_of_the_svsa():
     written = svsa.paper.get_figure("4a").build_configuration().model_dump(mode="json")
     assert "mechanism" not in written["actuator"]
     found = Configuration(**written)

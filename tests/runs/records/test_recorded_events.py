@@ -1,4 +1,4 @@
-"""What a bench tells of heat is in the record of its run, in the words of the live page."""
+"""Heat events of a bench are in the record of its run, with the text of the live page."""
 
 from dataclasses import asdict
 from io import BytesIO
@@ -38,7 +38,7 @@ def session() -> SimulatedSession:
 
 @pytest.fixture
 def folder(tmp_path: Path, session: SimulatedSession) -> Path:
-    """A record that begins after the first was reported, and ends with the last."""
+    """A record that starts after the first event, and ends with the last."""
     heat = HeatEvents()
     written = session.journal.initial.model_dump(mode="json")
     session.step(10)
@@ -57,9 +57,7 @@ def folder(tmp_path: Path, session: SimulatedSession) -> Path:
     return recorder.folder
 
 
-def test_a_replay_tells_the_events_of_the_live_page(
-    folder: Path, session: SimulatedSession
-) -> None:
+def test_replay_shows_the_events_of_the_live_page(folder: Path, session: SimulatedSession) -> None:
     record = open_record(folder)
     assert record.events == HEAT
     live = list(session.journal.events)
@@ -69,9 +67,7 @@ def test_a_replay_tells_the_events_of_the_live_page(
     assert [event.tick for event in reported] == [10, 30, 30, 50]
 
 
-def test_a_run_that_restarts_has_reported_nothing(
-    session: SimulatedSession, tmp_path: Path
-) -> None:
+def test_restarted_run_has_no_earlier_events(session: SimulatedSession, tmp_path: Path) -> None:
     HeatEvents().log(["motor2"], True, session.journal)
     session.reset()
     recorder = svsa.Catalogue(tmp_path).record(build_header("run-1", lanes=("lane1",)))
@@ -81,7 +77,7 @@ def test_a_run_that_restarts_has_reported_nothing(
     assert open_record(recorder.folder).events == ()
 
 
-def test_the_files_for_others_have_them(folder: Path) -> None:
+def test_exports_contain_the_events(folder: Path) -> None:
     record = open_record(folder)
     parquet, mat, mcap = (write(record, kind) for kind in ("parquet", "mat", "mcap"))
     unpack_parquet(parquet.getvalue(), folder.with_name("run-2"))
@@ -99,7 +95,7 @@ def write(record: Record, kind: str) -> BytesIO:
     return stream
 
 
-def test_an_older_record_has_none_and_a_damaged_one_says_so(folder: Path) -> None:
+def test_older_record_has_no_events_and_damaged_one_is_reported(folder: Path) -> None:
     (folder / EVENTS_FILE).write_text('[{"tick": 7}]')
     with pytest.raises(RecordError, match=r"events\.json of record run-1 is damaged"):
         open_record(folder)

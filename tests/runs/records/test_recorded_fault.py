@@ -1,4 +1,4 @@
-"""A recorded run knows the fault that it ended in: in its folder, in the list, in the library."""
+"""A recorded run contains the fault that ended it: in its folder, in the list, in the library."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -21,7 +21,7 @@ CRASH = svsa.ConstantLoad(torque_nm=(40.0, 0.0, 0.0), start_s=0.1)
 
 
 def record_crash(catalogue: Catalogue, run_id: str = "run-1") -> Fault:
-    """A run that a torque far too great for the springs has ended."""
+    """Record a run that a torque far above the spring torques has ended."""
     configuration = get_figure("4a").build_configuration(load=False).changed(loads=(CRASH,))
     session = SimulatedSession("test", configuration)
     written = configuration.model_dump(mode="json")
@@ -35,7 +35,7 @@ def record_crash(catalogue: Catalogue, run_id: str = "run-1") -> Fault:
     return session.fault
 
 
-def test_it_is_the_fault_of_the_run_wherever_one_looks(
+def test_fault_is_the_same_in_folder_list_and_library(
     catalogue: Catalogue, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     fault = record_crash(catalogue)
@@ -47,10 +47,10 @@ def test_it_is_the_fault_of_the_run_wherever_one_looks(
 
 
 @pytest.mark.parametrize("ends_run", [True, False])
-def test_a_record_has_the_last_that_is_known_of_its_fault(
+def test_record_has_the_latest_information_on_its_fault(
     catalogue: Catalogue, ends_run: bool
 ) -> None:
-    """Who stopped the drives is known later than the loss; what ended no run stays out."""
+    """Which process stopped the drives is known later than the loss; other reports are excluded."""
     configuration = get_figure("4a").build_configuration(load=False)
     session = SimulatedSession("test", configuration)
     written = configuration.model_dump(mode="json")
@@ -68,7 +68,7 @@ def test_a_record_has_the_last_that_is_known_of_its_fault(
     assert (fault.message if fault else "") == (ends_run * "The supervisor has stopped them.")
 
 
-def test_the_list_has_it_again_when_it_is_built_again(catalogue: Catalogue) -> None:
+def test_rebuilt_list_contains_the_fault(catalogue: Catalogue) -> None:
     fault = record_crash(catalogue)
     for path in catalogue.folder.glob("catalogue.sqlite*"):
         path.unlink()
@@ -77,20 +77,20 @@ def test_the_list_has_it_again_when_it_is_built_again(catalogue: Catalogue) -> N
     assert again.get("run-1").fault == fault
 
 
-def test_a_record_without_it_is_read_as_before(catalogue: Catalogue) -> None:
+def test_record_without_a_fault_is_read(catalogue: Catalogue) -> None:
     record_crash(catalogue)
     (catalogue.find_folder("run-1") / FAULT_FILE).unlink()
     assert open_record(catalogue.find_folder("run-1")).fault is None
 
 
-def test_a_damaged_one_is_reported_and_not_left_out(catalogue: Catalogue) -> None:
+def test_damaged_fault_is_reported(catalogue: Catalogue) -> None:
     record_crash(catalogue)
     (catalogue.find_folder("run-1") / FAULT_FILE).write_text('{"code": 7}')
     with pytest.raises(RecordError, match=r"fault\.json of record run-1 is damaged"):
         catalogue.open("run-1")
 
 
-def test_a_fault_that_was_cleared_before_the_run_is_not_of_the_run(tmp_path: Path) -> None:
+def test_fault_cleared_before_the_run_is_not_of_the_run(tmp_path: Path) -> None:
     recorder = svsa.Catalogue(tmp_path).record(build_header("run-1"))
     recorder.write_fault(Fault("quick_stop", 0, 0, 0.0, "Stopped."))
     recorder.write_fault(None)
@@ -98,8 +98,8 @@ def test_a_fault_that_was_cleared_before_the_run_is_not_of_the_run(tmp_path: Pat
     assert open_record(recorder.folder).fault is None
 
 
-def test_a_fault_at_rest_is_no_event_of_the_run_before() -> None:
-    """It would be at the run's last tick, and its name in place of the fault that ended the run."""
+def test_fault_at_rest_is_no_event_of_the_previous_run() -> None:
+    """It would be at the run's last tick, and replace the fault that ended the run."""
     session = SimulatedSession("test", get_figure("4a").build_configuration(load=False))
     session.step(10)
     version = session.journal.version

@@ -1,4 +1,4 @@
-"""The recorder: recordings read back bit for bit, and errors are reported."""
+"""The recorder: recordings are read back bit for bit, and errors are reported."""
 
 import contextlib
 import json
@@ -26,7 +26,7 @@ from tests.waiting import wait_until
 from .records import build_header, build_samples, read_record
 
 
-def test_samples_and_commands_come_back_bit_for_bit(tmp_path: Path) -> None:
+def test_samples_and_commands_are_read_back_bit_for_bit(tmp_path: Path) -> None:
     header = build_header()
     recorder = Recorder(tmp_path / "run-1", header)
     samples = build_samples(1000, first_tick=70)
@@ -53,7 +53,7 @@ def test_samples_and_commands_come_back_bit_for_bit(tmp_path: Path) -> None:
     assert status.bytes == sum(path.stat().st_size for path in (tmp_path / "run-1").iterdir())
 
 
-def test_the_finished_file_says_on_its_own_what_it_holds(tmp_path: Path) -> None:
+def test_finished_file_is_self_describing(tmp_path: Path) -> None:
     header = build_header()
     write_record(tmp_path / "run-1", header, [(5, {"kind": "load"})], 0, build_samples(50))
     table = pq.read_table(tmp_path / "run-1" / "samples.parquet")
@@ -66,7 +66,7 @@ def test_the_finished_file_says_on_its_own_what_it_holds(tmp_path: Path) -> None
     assert commands == [{"tick": 5, "command": {"kind": "load"}}]
 
 
-def test_what_is_handed_over_is_with_the_system_within_half_a_second(tmp_path: Path) -> None:
+def test_samples_are_written_within_half_a_second(tmp_path: Path) -> None:
     recorder = Recorder(tmp_path / "run-1", build_header())
     recorder.write_command(0, {"kind": "load"})
     recorder.write_samples(0, build_samples(10))
@@ -78,12 +78,12 @@ def test_what_is_handed_over_is_with_the_system_within_half_a_second(tmp_path: P
     recorder.close()
 
 
-def test_a_recording_without_samples_is_empty(tmp_path: Path) -> None:
+def test_recording_without_samples_is_empty(tmp_path: Path) -> None:
     assert Recorder(tmp_path / "run-1", build_header()).close().state == "closed"
     assert read_record(tmp_path / "run-1").samples.shape == (0, 2, build_samples(1).shape[2])
 
 
-def test_a_folder_that_exists_or_cannot_be_made_is_refused(tmp_path: Path) -> None:
+def test_existing_or_unwritable_folder_is_rejected(tmp_path: Path) -> None:
     Recorder(tmp_path / "run-1", build_header()).close()
     with pytest.raises(RecordError, match="a record run-1 already"):
         Recorder(tmp_path / "run-1", build_header())
@@ -92,7 +92,7 @@ def test_a_folder_that_exists_or_cannot_be_made_is_refused(tmp_path: Path) -> No
         Recorder(tmp_path / "file" / "run-1", build_header())
 
 
-def test_a_disk_that_is_too_slow_ends_the_recording_not_the_run(tmp_path, monkeypatch) -> None:
+def test_slow_disk_ends_the_recording_and_not_the_run(tmp_path, monkeypatch) -> None:
     monkeypatch.setattr(recorder_module, "MAX_WAITING_BYTES", 1 << 20)
     recorder = Recorder(tmp_path / "run-1", build_header())
     for tick in range(0, 10_000, 100):
@@ -106,7 +106,7 @@ def test_a_disk_that_is_too_slow_ends_the_recording_not_the_run(tmp_path, monkey
 
 
 @pytest.mark.parametrize("wrong", ["jump", "shape", "command", "lanes"])
-def test_what_cannot_be_recorded_ends_the_recording_with_its_reason(tmp_path, wrong) -> None:
+def test_unrecordable_samples_end_the_recording_with_the_reason(tmp_path, wrong) -> None:
     recorder = Recorder(tmp_path / "run-1", build_header())
     recorder.write_samples(0, build_samples(10))
     match wrong:
@@ -142,7 +142,7 @@ def mount_small_disk(folder: Path, size: str) -> Iterator[Path]:
         subprocess.run(["umount", str(folder)], check=True)
 
 
-def test_a_full_disk_ends_the_recording_and_keeps_what_was_written(tmp_path: Path) -> None:
+def test_full_disk_ends_the_recording_and_keeps_the_written_samples(tmp_path: Path) -> None:
     with mount_small_disk(tmp_path / "disk", "1m") as disk:
         recorder = Recorder(disk / "run-1", build_header())
         for tick in range(0, 6000, 500):
@@ -163,7 +163,7 @@ def test_a_full_disk_ends_the_recording_and_keeps_what_was_written(tmp_path: Pat
         assert read_record(disk / "run-1").tick_count == kept.tick_count
 
 
-def test_a_read_only_disk_refuses_a_recording(tmp_path: Path) -> None:
+def test_read_only_disk_rejects_a_recording(tmp_path: Path) -> None:
     with mount_small_disk(tmp_path / "disk", "1m") as disk:
         subprocess.run(["mount", "-o", "remount,ro", str(disk)], check=True)
         with pytest.raises(RecordError, match="Read-only"):
@@ -193,19 +193,19 @@ def test_a_read_only_disk_refuses_a_recording(tmp_path: Path) -> None:
         {"more": 1},
     ],
 )
-def test_a_wrong_header_is_refused_with_the_name_of_the_value(changes: dict) -> None:
+def test_invalid_header_is_rejected_with_the_name_of_the_value(changes: dict) -> None:
     with pytest.raises(ParameterError) as refusal:
         build_header(**changes)
     assert refusal.value.violations[0].name == next(iter(changes))
 
 
-def test_a_header_is_the_same_after_json() -> None:
+def test_header_is_unchanged_by_json() -> None:
     header = build_header(name="Ünï 🦾 ../x \0", configuration={"a": [1.5, None, "x"]})
     assert parse_header(header.to_json()) == header
     assert isinstance(header, RecordHeader)
 
 
-def test_stretches_of_a_long_record(tmp_path: Path) -> None:
+def test_segments_of_a_long_record(tmp_path: Path) -> None:
     samples = build_samples(150_000, lanes=1)
     header = build_header(lanes=("fl",))
     write_record(tmp_path / "run-1", header, [], 0, samples)

@@ -1,4 +1,4 @@
-"""Records that were cut off or damaged: what can be read is kept, what cannot is reported."""
+"""Interrupted or damaged records: readable samples are kept, damage is reported."""
 
 import contextlib
 import multiprocessing
@@ -25,13 +25,13 @@ from tests.waiting import wait_until
 from .records import PERIOD_S, build_header, build_samples, read_record
 
 ROUNDS_OF_KILLING = [5, 20]
-"""The fewer in `make test`."""
+"""The smaller number in `make test`."""
 MAX_LOST_TICKS = round(0.5 / PERIOD_S)
 PATIENCE_S = 60.0
 
 
 def make_stream(folder: Path, ticks: int = 300, batches: int = 3) -> Path:
-    """A record as `kill -9` leaves it: a stream of some batches and no Parquet file."""
+    """Write a record as `kill -9` leaves it: a stream of some batches and no Parquet file."""
     recorder = Recorder(folder, build_header())
     recorder.write_command(0, {"kind": "load"})
     for batch in range(batches):
@@ -44,7 +44,7 @@ def make_stream(folder: Path, ticks: int = 300, batches: int = 3) -> Path:
 
 
 def record_until_killed(folder: Path, reported: Connection) -> None:
-    """Hand a recorder its samples as time goes by, and tell how many they are by now."""
+    """Pass samples to a recorder in real time, and report their number."""
     recorder = Recorder(folder, build_header())
     samples = build_samples(20_000)
     begin, tick = time.monotonic(), 0
@@ -59,7 +59,7 @@ def record_until_killed(folder: Path, reported: Connection) -> None:
 
 
 def read_reported(reported: Connection) -> list[int]:
-    """What the other end reported before it was gone."""
+    """Return the reports of the process before it was killed."""
     ticks = [0]
     with contextlib.suppress(EOFError):
         while True:
@@ -68,9 +68,9 @@ def read_reported(reported: Connection) -> list[int]:
 
 
 @pytest.mark.parametrize("rounds", exhaust(ROUNDS_OF_KILLING, ROUNDS_OF_KILLING[:1]))
-def test_kill_9_loses_less_than_half_a_second_and_recovers(tmp_path: Path, rounds: int) -> None:
-    """As many processes, each killed at a moment of its own; a time at which the machine did not
-    let one run, which is seen by what it reported, was not its to use.
+def test_kill_9_loses_less_than_half_a_second_and_is_recovered(tmp_path: Path, rounds: int) -> None:
+    """Several processes, each killed at another time. A process that the machine did not schedule,
+    which its reports show, is granted that time.
     """
     forks = multiprocessing.get_context("forkserver")
     forks.set_forkserver_preload([__name__])
@@ -109,7 +109,7 @@ def test_kill_9_loses_less_than_half_a_second_and_recovers(tmp_path: Path, round
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_a_stream_cut_anywhere_keeps_every_whole_batch(tmp_path: Path, seed: int) -> None:
+def test_truncated_stream_keeps_every_complete_batch(tmp_path: Path, seed: int) -> None:
     folder = make_stream(tmp_path / "run-1")
     stream = folder / "samples.arrows"
     size = stream.stat().st_size
@@ -127,14 +127,14 @@ def test_a_stream_cut_anywhere_keeps_every_whole_batch(tmp_path: Path, seed: int
     assert (folder / "commands.jsonl").read_bytes().endswith(b"}\n")
 
 
-def test_a_tail_of_zeros_is_cut(tmp_path: Path) -> None:
+def test_trailing_zeros_are_removed(tmp_path: Path) -> None:
     folder = make_stream(tmp_path / "run-1")
     with (folder / "samples.arrows").open("ab") as file:
         file.write(bytes(5000))
     assert read_record(folder).tick_count == 900
 
 
-def test_recovery_that_was_cut_off_itself_is_done_again(tmp_path: Path) -> None:
+def test_interrupted_recovery_is_repeated(tmp_path: Path) -> None:
     folder = make_stream(tmp_path / "run-1")
     (folder / "samples.parquet.tmp").write_bytes(b"half of a file")
     saved = (folder / "samples.arrows").read_bytes()
@@ -147,7 +147,7 @@ def test_recovery_that_was_cut_off_itself_is_done_again(tmp_path: Path) -> None:
     assert names == ["commands.jsonl", "header.json", "samples.parquet"]
 
 
-def test_a_record_that_is_finished_while_it_is_opened_is_read(
+def test_record_finished_while_it_is_opened_is_read(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     folder = make_stream(tmp_path / "run-1")
@@ -172,7 +172,7 @@ def damage(path: Path, where: float, count: int = 64) -> bytes:
 
 
 @pytest.mark.parametrize("where", [0.0, 0.35])
-def test_a_damaged_stream_is_reported_and_kept(tmp_path: Path, where: float) -> None:
+def test_damaged_stream_is_reported_and_kept(tmp_path: Path, where: float) -> None:
     folder = make_stream(tmp_path / "run-1")
     stream = folder / "samples.arrows"
     content = bytearray(stream.read_bytes())
@@ -186,7 +186,7 @@ def test_a_damaged_stream_is_reported_and_kept(tmp_path: Path, where: float) -> 
     assert not (folder / "samples.parquet").exists()
 
 
-def test_a_stream_with_a_gap_is_reported(tmp_path: Path) -> None:
+def test_stream_with_a_gap_is_reported(tmp_path: Path) -> None:
     folder = make_stream(tmp_path / "run-1", ticks=100)
     stream = folder / "samples.arrows"
     content = stream.read_bytes()
@@ -199,7 +199,7 @@ def test_a_stream_with_a_gap_is_reported(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("where", [0.0, 0.4, 0.7, 0.999])
-def test_a_damaged_parquet_file_is_reported_and_kept(tmp_path: Path, where: float) -> None:
+def test_damaged_parquet_file_is_reported_and_kept(tmp_path: Path, where: float) -> None:
     folder = tmp_path / "run-1"
     write_record(folder, build_header(), [], 0, build_samples(5000))
     content = damage(folder / "samples.parquet", where)
@@ -227,7 +227,7 @@ def test_damaged_commands_and_headers_are_reported(tmp_path: Path) -> None:
         read_record(tmp_path / "nowhere")
 
 
-def test_a_command_of_an_older_record_has_the_word_of_today(tmp_path: Path) -> None:
+def test_command_of_an_older_record_has_its_present_name(tmp_path: Path) -> None:
     folder = tmp_path / "run-1"
     old = {"tick": 3, "kind": "controller", "argument": "fl"}
     write_record(folder, build_header(), [(3, old)], 0, build_samples(5))

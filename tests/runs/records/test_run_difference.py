@@ -1,4 +1,4 @@
-"""What of the settings differs between runs: that, all of that, and nothing else."""
+"""The differences between the settings of runs are listed completely, without other entries."""
 
 from typing import Any
 
@@ -20,7 +20,7 @@ from .test_run_settings import build_header
 def record(
     *commands: tuple[int, str, Any], figure: str = "4a", ticks: int = 50, **changes: Any
 ) -> Record:
-    """A record of so many ticks from the first on, with the commands of a true session."""
+    """A record of this many ticks from the first on, with the commands of a real session."""
     configuration = get_figure(figure).build_configuration(load=False).changed(**changes)
     session = SimulatedSession("lab", configuration)
     for tick, kind, argument in commands:
@@ -35,13 +35,13 @@ def compare(*records: Record) -> dict[tuple[str, str, str], tuple]:
     return {(one.group, one.name, one.unit): one.values for one in compare_settings(records)}
 
 
-def test_runs_that_were_set_alike_differ_in_nothing() -> None:
+def test_runs_with_equal_settings_do_not_differ() -> None:
     assert compare(record(), record()) == {}
     back = ((0, "law", "fl"), (0, "law", "ndobc"))
     assert compare(record(), record(*back)) == {}
 
 
-def test_a_number_is_reported_with_its_unit_and_a_law_by_its_name() -> None:
+def test_number_is_reported_with_its_unit_and_law_by_its_name() -> None:
     assert compare(record(), record(figure="4b", law="fl")) == {
         ("Stiffness", "Stiffness reference", "N·m/rad"): (15.0, 60.0),
         ("Controller", "Law", ""): ("NDOBC", "FL"),
@@ -55,7 +55,7 @@ def test_three_runs_are_compared_at_once() -> None:
     }
 
 
-def test_a_motion_of_another_form_has_other_values() -> None:
+def test_other_kind_of_motion_has_other_values() -> None:
     still = ConstantPosition(position_rad=0.5)
     assert compare(record(), record(position=still)) == {
         ("Motion", "Form", ""): ("sine", "constant"),
@@ -67,7 +67,7 @@ def test_a_motion_of_another_form_has_other_values() -> None:
     }
 
 
-def test_an_effect_is_on_or_off_with_its_values_and_the_seed_of_its_noise() -> None:
+def test_effect_is_on_or_off_with_its_values_and_noise_seed() -> None:
     noisy = record(effects=IDEAL.changed(noise=SensorNoise()))
     assert compare(record(), noisy) == {
         ("Realism", "Sensor noise", ""): ("off", "on"),
@@ -97,7 +97,7 @@ def test_loads_and_changes_are_reported_with_their_times() -> None:
     assert compare(record(), unreached) == {}
 
 
-def test_the_same_value_of_plant_and_model_is_distinguished() -> None:
+def test_same_value_of_plant_and_model_is_distinguished() -> None:
     names = compare(record(), record((0, "effects", RIG), (0, "nominal", record_actuator())))
     groups = {group for group, _, _ in names}
     assert groups == {"Realism", "Model of the controller"}

@@ -1,12 +1,15 @@
-"""The settings of a recorded run in words: true of its samples, and of nothing else."""
+"""The description of a recorded run's settings matches its samples."""
 
 from typing import Any
 
 import pytest
 
+from svsa.actuators.installed import get_mechanism
 from svsa.actuators.signals import CHANNELS
 from svsa.runs.command import build_command
-from svsa.runs.configuration import Configuration, Lane, LaneSetting, load_prototype
+from svsa.runs.configuration import Configuration, Lane, LaneSetting
+from svsa.runs.design_file import load_prototype
+from svsa.runs.experiment import build_actuator_experiment
 from svsa.runs.paper import get_figure
 from svsa.runs.records.header import RecordHeader
 from svsa.runs.records.settings import RunSettings, describe_settings
@@ -55,7 +58,7 @@ def sigma(value: float) -> ConstantStiffness:
     return ConstantStiffness(stiffness_nm_per_rad=value)
 
 
-def test_a_figure_with_its_load_is_named_as_people_say_it() -> None:
+def test_figure_with_its_load_has_its_common_name() -> None:
     loads = (PaperLoad(start_s=5.0),)
     settings = describe(figure="4b", loads=loads, comparisons=(Lane(law="fl"),))
     assert settings.name == "Fig. 4B · NDOBC vs FL · σ 60 · 3 kg"
@@ -79,7 +82,7 @@ def test_a_figure_with_its_load_is_named_as_people_say_it() -> None:
         {"nominal": load_prototype().actuator},
     ],
 )
-def test_a_run_with_other_settings_than_the_figure_is_not_named_as_it(
+def test_run_with_other_settings_is_not_named_as_the_figure(
     changes: dict[str, Any],
 ) -> None:
     changes = {"loads": (PaperLoad(start_s=5.0),)} | changes
@@ -87,7 +90,7 @@ def test_a_run_with_other_settings_than_the_figure_is_not_named_as_it(
     assert (settings.figure, settings.figure_name) == ("4a", "Fig. 4A motion")
 
 
-def test_a_load_taken_off_or_hung_by_hand_at_the_figures_time() -> None:
+def test_manual_load_at_the_time_of_the_figure() -> None:
     """The load counts by its time in the run, whether it was planned or not."""
     by_hand = (5000, "load", PaperLoad())
     assert describe(by_hand).figure_name == "Fig. 4A"
@@ -96,14 +99,14 @@ def test_a_load_taken_off_or_hung_by_hand_at_the_figures_time() -> None:
     assert describe(mass, header={"plant": "emulated"}).figure_name == "Fig. 6A"
 
 
-def test_a_load_that_the_record_never_reached_is_not_named() -> None:
+def test_load_after_the_record_is_not_named() -> None:
     loads = (PaperLoad(start_s=5.0),)
     assert describe(loads=loads, ticks=5000).load == "no load"
     assert describe(loads=loads, ticks=5001).load == "3 kg"
     assert describe(loads=loads, ticks=5000).load_kinds == ("none",)
 
 
-def test_a_load_that_was_taken_off_before_the_record_is_not_named() -> None:
+def test_load_removed_before_the_record_is_not_named() -> None:
     hung = ((100, "load", PaperLoad()), (900, "unload", 1))
     assert describe(*hung, first_tick=900, ticks=100).load == "no load"
     assert describe(*hung, first_tick=899, ticks=100).load == "3 kg"
@@ -112,7 +115,7 @@ def test_a_load_that_was_taken_off_before_the_record_is_not_named() -> None:
     assert describe((0, "load", pulse), first_tick=199).load == "pulse 5 N·m"
 
 
-def test_loads_are_distinguished_and_those_in_turn_are_counted() -> None:
+def test_different_loads_are_named_and_repeated_ones_counted() -> None:
     again = ((0, "load", PaperLoad()), (100, "unload", 1), (200, "load", PaperLoad()))
     assert describe(*again).load == "3 kg (2×)"
     mass = MassLoad(mass_kg=1.5, arm_m=0.1)
@@ -121,8 +124,8 @@ def test_loads_are_distinguished_and_those_in_turn_are_counted() -> None:
     )
 
 
-def test_a_push_that_was_reported_again_is_one_load() -> None:
-    """Held from 1 s to 1.3 s; a second one is another."""
+def test_continued_manual_load_is_one_load() -> None:
+    """Held from 1 s to 1.3 s; a second one is another load."""
     reported = [
         (tick, "load", PushLoad(torque_nm=(tick / 1000, 0.0, 0.0), hold_s=0.2))
         for tick in (1000, 1100, 1200)
@@ -132,14 +135,14 @@ def test_a_push_that_was_reported_again_is_one_load() -> None:
     assert describe(*reported, (2000, "load", reported[0][2])).load == "push (2×)"
 
 
-def test_what_changed_while_it_was_recorded_stands_behind_an_arrow() -> None:
+def test_change_during_the_record_is_shown_with_an_arrow() -> None:
     settings = describe((3000, "law", "fl"), (4000, "stiffness", sigma(60)))
     assert settings.name == "From Fig. 4A · NDOBC → FL · σ 15 → 60 · no load"
     assert settings.law_kinds == ("ndobc", "fl")
     assert (settings.figure, settings.figure_name) == ("4a", "from Fig. 4A")
 
 
-def test_what_changed_before_the_first_sample_or_after_the_last_did_not_happen_to_it() -> None:
+def test_changes_outside_the_record_are_ignored() -> None:
     changes = (
         (1000, "law", "fl"),
         (1000, "stiffness", sigma(60)),
@@ -150,24 +153,24 @@ def test_what_changed_before_the_first_sample_or_after_the_last_did_not_happen_t
     assert settings.law_kinds == ("fl",)
 
 
-def test_of_many_steps_the_first_and_the_last_are_named() -> None:
+def test_first_and_last_of_many_steps_are_named() -> None:
     steps = [(tick, "stiffness", sigma(15 + tick / 100)) for tick in (100, 200, 300, 400)]
     assert describe(*steps).stiffness == "15 → … → 19"
     assert describe((100, "stiffness", sigma(15))).stiffness == "15"
 
 
-def test_a_motion_of_ones_own_is_no_figure() -> None:
+def test_custom_motion_is_no_figure() -> None:
     settings = describe(position=ConstantPosition(position_rad=0.5235987755982988))
     assert settings.figure == ""
     assert settings.name == "Held at 30° · NDOBC · σ 15 · no load"
 
 
-def test_how_a_figure_is_faded_in_makes_no_other_figure_of_it() -> None:
+def test_fade_in_does_not_change_the_figure() -> None:
     slowly = ConstantStiffness(stiffness_nm_per_rad=15, transition_s=3)
     assert describe(stiffness=slowly).figure == "4a"
 
 
-def test_realism_and_a_design_of_ones_own_are_reported() -> None:
+def test_effects_and_own_design_are_reported() -> None:
     assert describe(effects=RIG).name == "Fig. 4A motion · NDOBC · σ 15 · no load · rig"
     rough = RIG.changed(friction=Friction())
     assert describe(effects=rough).effects == "encoders, estimated velocities, friction, delay 1"
@@ -176,7 +179,37 @@ def test_realism_and_a_design_of_ones_own_are_reported() -> None:
     assert describe(nominal=exact).name.endswith(" · own model")
 
 
-def test_a_bench_is_named_with_its_twin_and_its_own_figures() -> None:
+def describe_actuator(name: str, **changes: Any) -> RunSettings:
+    configuration = build_actuator_experiment(name, "ndobc", load=False).changed(**changes)
+    return describe_settings(build_header(configuration), [], 0, TICKS)
+
+
+def test_run_of_another_actuator_is_named_after_it() -> None:
+    settings = describe_actuator("qbmove")
+    assert settings.own == ""
+    assert settings.name.startswith("qbmove · ")
+    assert settings.name.endswith(" · NDOBC · σ 1.73 · no load")
+    exact = get_mechanism("qbmove").prototype
+    assert describe_actuator("qbmove", nominal=exact).own == "model"
+    assert describe_actuator("awas2").name.startswith("AwAS-II · ")
+
+
+def test_another_actuator_in_the_motion_and_load_of_a_figure_is_not_the_figure() -> None:
+    figure = get_figure("4a").build_configuration()
+    changes = {"position": figure.position, "stiffness": figure.stiffness, "loads": figure.loads}
+    found = describe_actuator("awas2", **changes)
+    assert found.figure_name == "Fig. 4A motion"
+
+
+def test_actuator_that_is_not_installed_names_its_run() -> None:
+    written = build_actuator_experiment("qbmove", "ndobc").model_dump(mode="json")
+    written["actuator"]["mechanism"] = "cubic"
+    header = build_header(get_figure("4a").build_configuration())
+    header = header.changed(configuration=written)
+    assert describe_settings(header, [], 0, TICKS).name.startswith("cubic · ")
+
+
+def test_bench_is_named_with_its_twin_and_its_own_figures() -> None:
     header = {"plant": "emulated"}
     settings = describe(header=header, comparisons=(Lane(law="ndobc"),))
     assert settings.name == "Fig. 6A motion · NDOBC vs twin · σ 15 · no load · emulated bench"
@@ -186,7 +219,7 @@ def test_a_bench_is_named_with_its_twin_and_its_own_figures() -> None:
     "configuration",
     [{}, {"law": "ndobc", "loads": []}, {"law": "of tomorrow", "loads": [{"kind": "new"}]}],
 )
-def test_what_cannot_be_read_is_left_out(configuration: dict) -> None:
+def test_unreadable_settings_are_omitted(configuration: dict) -> None:
     header = build_header(get_figure("4a").build_configuration(load=False))
     odd = header.changed(configuration=configuration)
     commands = [(5, {"kind": "stiffness", "argument": {"kind": "of tomorrow"}}), (6, {})]
@@ -195,20 +228,20 @@ def test_what_cannot_be_read_is_left_out(configuration: dict) -> None:
     assert settings.stiffness == ""
 
 
-def test_a_change_that_cannot_be_read_is_a_question_mark() -> None:
+def test_unreadable_change_is_a_question_mark() -> None:
     header = build_header(get_figure("4a").build_configuration(load=False))
     unread = [(5, {"kind": "stiffness", "argument": {"kind": "of tomorrow"}})]
     settings = describe_settings(header, unread, 0, 10)
     assert (settings.stiffness, settings.figure_name) == ("15 → ?", "from Fig. 4A")
 
 
-def test_laws_that_changed_places_are_reported_of_every_lane() -> None:
+def test_exchanged_laws_are_reported_for_every_lane() -> None:
     settings = describe((3000, "laws", ("fl", "ndobc")), comparisons=(Lane(law="fl"),))
     assert settings.name.split(" · ")[1] == "NDOBC → FL vs FL → NDOBC"
     assert settings.law_kinds == ("ndobc", "fl")
 
 
-def test_a_lane_that_was_set_otherwise_is_reported_as_a_comparison() -> None:
+def test_reconfigured_lane_is_reported_as_a_comparison() -> None:
     setting = LaneSetting(lane=2, setting=Lane(law="fl_integral"))
     assert (
         describe((3000, "lane", setting), comparisons=(Lane(law="fl"),)).laws

@@ -20,7 +20,7 @@ TICKS = 200
 
 
 def build(run_id: str = "run-1", ticks: int = TICKS, lanes: int = 2, **changes: object) -> Record:
-    """A record of which some channels of the second lane are these values."""
+    """A record with these values in some channels of the second lane."""
     samples = build_samples(ticks, lanes)
     for name, values in changes.items():
         samples[:, 1, CHANNEL_INDEX[name]] = values
@@ -32,14 +32,14 @@ def find(verdict, lane, channel):
     return next(one for one in verdict.channels if (one.lane, one.channel) == (lane, channel))
 
 
-def test_a_run_is_itself_without_any_tolerance():
+def test_run_matches_itself_without_tolerance():
     verdict = judge(build(), build("run-2"), {})
     assert verdict.held
     assert (verdict.ticks, verdict.own_ticks, verdict.other_ticks) == (TICKS, TICKS, TICKS)
     assert {one.excess for one in verdict.channels} == {0.0}
 
 
-def test_one_bit_is_reported_with_its_lane_channel_and_moment():
+def test_one_different_bit_is_reported_with_lane_channel_and_time():
     values = np.linspace(1.0, 2.0, TICKS)
     nudged = values.copy()
     nudged[120] = np.nextafter(values[120], np.inf)
@@ -60,8 +60,8 @@ def test_one_bit_is_reported_with_its_lane_channel_and_moment():
         (Tolerance(absolute=0.05, relative=0.026), True),
     ],
 )
-def test_tolerances_of_the_value_add_up(tolerance, held):
-    """2.1 next to 2.0."""
+def test_absolute_and_relative_tolerance_are_added(tolerance, held):
+    """2.1 compared with 2.0."""
     verdict = judge(build(**{ERROR: 2.1}), build(**{ERROR: 2.0}), {ERROR: tolerance})
     assert find(verdict, "lane2", ERROR).held is held
     assert verdict.held is held
@@ -72,7 +72,7 @@ def test_tolerances_of_the_value_add_up(tolerance, held):
 
 
 @pytest.mark.parametrize(("late", "held"), [(3, True), (4, False)])
-def test_a_step_may_come_later_by_the_tolerance_in_time_and_no_more(late, held):
+def test_step_may_be_later_by_the_time_tolerance_only(late, held):
     ticks = np.arange(TICKS)
     step, later = (np.where(ticks >= at, 1.0, 0.0) for at in (100, 100 + late))
     tolerance = {ERROR: Tolerance(time_s=3 * PERIOD_S)}
@@ -82,7 +82,7 @@ def test_a_step_may_come_later_by_the_tolerance_in_time_and_no_more(late, held):
         assert verdict.held is held
 
 
-def test_what_is_not_known_on_one_side_is_not_held_and_on_both_it_is():
+def test_value_missing_in_one_run_is_a_mismatch_and_in_both_a_match():
     unknown = np.where(np.arange(TICKS) == 7, np.nan, 1.0)
     loose = {TORQUE: Tolerance(absolute=100.0)}
     verdict = judge(build(**{TORQUE: unknown}), build(**{TORQUE: 1.0}), loose, None)
@@ -91,7 +91,7 @@ def test_what_is_not_known_on_one_side_is_not_held_and_on_both_it_is():
     assert judge(build(**{TORQUE: unknown}), build(**{TORQUE: unknown}), loose, None).held
 
 
-def test_one_value_that_is_not_known_does_not_take_the_band_from_those_next_to_it():
+def test_missing_value_does_not_remove_the_band_of_its_neighbours():
     unknown = np.where(np.arange(TICKS) == 7, np.nan, 1.0)
     near = {TORQUE: Tolerance(time_s=3 * PERIOD_S)}
     assert judge(build(**{TORQUE: 1.0}), build(**{TORQUE: unknown}), near, None).held
@@ -102,14 +102,14 @@ def test_one_value_that_is_not_known_does_not_take_the_band_from_those_next_to_i
     assert (verdict.held, find(verdict, "lane2", TORQUE).outside_s) == (False, TICKS * PERIOD_S)
 
 
-def test_a_shorter_run_is_not_held_though_all_it_has_is():
+def test_shorter_run_does_not_match():
     verdict = judge(build(ticks=150), build(), {})
     assert all(one.held for one in verdict.channels)
     assert (verdict.held, verdict.ticks) == (False, 150)
 
 
-def test_the_stretches_outside_are_reported_and_how_long_they_are_in_all():
-    """Two of 5 ticks; those that are a tick apart are one stretch, but the tick between counts."""
+def test_segments_outside_are_reported_with_their_total_duration():
+    """Two of 5 ticks; adjacent segments one tick apart are merged, including the tick between."""
     values = np.zeros(TICKS)
     values[[20, 21, 22, 24, 25, 100, 101, 102, 103, 104]] = 2.0
     verdict = judge(build(**{ERROR: values}), build(**{ERROR: 0.0}), {ERROR: Tolerance(absolute=1)})
@@ -122,7 +122,7 @@ def test_the_stretches_outside_are_reported_and_how_long_they_are_in_all():
     assert find(verdict, "lane1", ERROR).outside == ()
 
 
-def test_of_many_stretches_near_each_other_not_more_are_reported_than_can_be_looked_at():
+def test_number_of_reported_segments_is_limited():
     ticks = 40 * MAX_OUTSIDE
     values = np.where(np.arange(ticks) % 2, 2.0, 0.0)
     long, flat = build(ticks=ticks, **{ERROR: values}), build(ticks=ticks, **{ERROR: 0.0})
@@ -131,8 +131,8 @@ def test_of_many_stretches_near_each_other_not_more_are_reported_than_can_be_loo
     assert one.outside_s == pytest.approx(ticks / 2 * PERIOD_S)
 
 
-def test_runs_are_laid_over_each_other_from_the_samples_that_are_given():
-    """A pulse that comes 50 samples later in a run that began 50 samples earlier."""
+def test_runs_are_aligned_at_the_given_samples():
+    """A pulse that comes 50 samples later in a run that started 50 samples earlier."""
     ticks = np.arange(TICKS)
     pulse = np.where(ticks == 60, 1.0, 0.0)
     later = np.where(np.arange(TICKS + 50) == 110, 1.0, 0.0)
@@ -147,7 +147,7 @@ def test_runs_are_laid_over_each_other_from_the_samples_that_are_given():
         judge(run, other, tolerance, None, (TICKS + 50, 0))
 
 
-def test_runs_that_cannot_be_compared_are_refused():
+def test_incomparable_runs_are_rejected():
     with pytest.raises(RecordError, match=r"2 lanes at .*, and 1 at"):
         judge(build(), build(lanes=1), {})
     with pytest.raises(ParameterError, match=r"channel is 'speed': it must be a channel of both"):
@@ -158,7 +158,7 @@ def run(*arguments):
     return CliRunner().invoke(app, ["compare", *map(str, arguments)], catch_exceptions=False)
 
 
-def test_the_command_says_held_or_not_by_its_exit_code(tmp_path):
+def test_exit_code_of_the_command_reports_the_match(tmp_path):
     for run_id, offset in (("a", 0.0), ("b", 0.5)):
         samples = build_samples(TICKS)
         samples[:, :, CHANNEL_INDEX[ERROR]] = 1.0 + offset
@@ -183,7 +183,7 @@ def test_the_command_says_held_or_not_by_its_exit_code(tmp_path):
     assert run(b, tmp_path / "nothing").exit_code == 2
 
 
-def test_the_command_says_first_that_a_run_is_not_as_long(tmp_path):
+def test_command_first_reports_different_durations(tmp_path):
     for run_id, ticks in (("a", TICKS), ("b", TICKS - 50)):
         write_record(tmp_path / run_id, build_header(run_id), [], 0, build_samples(ticks))
     outcome = run(tmp_path / "b", tmp_path / "a")

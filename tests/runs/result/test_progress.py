@@ -19,7 +19,7 @@ svsa.simulate("4a", duration_s=30.0)
 
 
 def read_terminal(after_s):
-    """What a script shows on a terminal whose runs have a bar after so many seconds."""
+    """Return the terminal output of a script with a progress bar after this many seconds."""
     ours, theirs = pty.openpty()
     try:
         script = SCRIPT.format(after_s=after_s)
@@ -29,7 +29,7 @@ def read_terminal(after_s):
             while True:
                 try:
                     shown += os.read(ours, 4096)
-                except OSError:  # the end of a terminal
+                except OSError:  # end of the terminal
                     break
         assert process.returncode == 0
         return shown.decode()
@@ -38,7 +38,7 @@ def read_terminal(after_s):
 
 
 @pytest.mark.parametrize("law", [None, lambda time_s, reference, x, w: (0.0, 0.0)])
-def test_a_callback_gets_the_share_that_is_done(law):
+def test_callback_receives_the_completed_share(law):
     shares = []
     svsa.simulate("4a", law, duration_s=30.0, loads=(), progress=shares.append)
     assert shares == sorted(set(shares))
@@ -46,12 +46,12 @@ def test_a_callback_gets_the_share_that_is_done(law):
     assert shares[-1] == 1.0
 
 
-def test_on_a_terminal_a_long_run_has_a_bar():
+def test_long_run_has_a_bar_on_a_terminal():
     assert "Simulating" in read_terminal(0.0)
     assert read_terminal(1000.0) == ""
 
 
-def test_elsewhere_nothing_is_written(monkeypatch, capfd):
+def test_no_progress_is_written_elsewhere(monkeypatch, capfd):
     monkeypatch.setattr(progress, "SHOWN_AFTER_S", 0.0)
     svsa.simulate("4a", duration_s=30.0)
     assert capfd.readouterr() == ("", "")

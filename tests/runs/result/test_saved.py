@@ -1,4 +1,4 @@
-"""A simulated result is saved, opened, exported and compared by what takes recorded runs."""
+"""A simulated result is saved, opened, exported and compared like a recorded run."""
 
 import dataclasses
 from pathlib import Path
@@ -49,7 +49,7 @@ def expect_same(opened: svsa.Result, result: svsa.Result) -> None:
     assert (opened.fault, opened.plant, opened.steps) == (result.fault, result.plant, result.steps)
 
 
-def test_a_saved_result_opens_as_it_was_and_is_simulated_again(
+def test_saved_result_opens_unchanged_and_is_resimulated(
     result: svsa.Result, tmp_path: Path
 ) -> None:
     folder = svsa.save_run(result, tmp_path / "mine", name="Mine", tags=("a",), notes="Why")
@@ -69,7 +69,7 @@ def test_a_saved_result_opens_as_it_was_and_is_simulated_again(
         svsa.save_run(result, folder)
 
 
-def test_without_a_folder_it_is_among_the_runs_of_this_machine(
+def test_default_folder_is_that_of_the_runs_of_this_machine(
     result: svsa.Result, data: Path
 ) -> None:
     folder = svsa.save_run(result, name="Mine")
@@ -81,12 +81,12 @@ def test_without_a_folder_it_is_among_the_runs_of_this_machine(
 
 
 @pytest.mark.parametrize("kind", ["csv", "parquet", "mat", "mcap", "html"])
-def test_it_is_exported_as_its_record_is(result: svsa.Result, tmp_path: Path, kind: str) -> None:
+def test_result_is_exported_as_its_record(result: svsa.Result, tmp_path: Path, kind: str) -> None:
     svsa.export_run(result, kind, tmp_path / "result")
     assert (tmp_path / "result").stat().st_size > 10_000
 
 
-def test_an_export_holds_the_samples(result: svsa.Result, tmp_path: Path) -> None:
+def test_export_contains_the_samples(result: svsa.Result, tmp_path: Path) -> None:
     svsa.export_run(result, "mat", tmp_path / "run.mat")
     read = scipy.io.loadmat(tmp_path / "run.mat", simplify_cells=True)
     np.testing.assert_array_equal(read["lane2"]["torque1_nm"], result.comparisons[0].torque1_nm)
@@ -94,7 +94,7 @@ def test_an_export_holds_the_samples(result: svsa.Result, tmp_path: Path) -> Non
         svsa.export_run(result, "xls", tmp_path / "run.xls")
 
 
-def test_it_is_compared_within_tolerances(result: svsa.Result, tmp_path: Path) -> None:
+def test_result_is_compared_within_tolerances(result: svsa.Result, tmp_path: Path) -> None:
     folder = svsa.save_run(result, tmp_path / "mine")
     assert svsa.compare_runs(folder, result).held
     other = simulate(observer=svsa.ObserverBandwidth(bandwidth_rad_per_s=(50.0,) * 3))
@@ -106,13 +106,13 @@ def test_it_is_compared_within_tolerances(result: svsa.Result, tmp_path: Path) -
     assert not svsa.compare_runs(other, folder, absolute=1e3, tolerances=exact).held
 
 
-def test_a_fault_is_saved(result: svsa.Result, tmp_path: Path) -> None:
+def test_fault_is_saved(result: svsa.Result, tmp_path: Path) -> None:
     fault = Fault("position", 0, TICKS, 0.4, "q is beyond its limit.")
     ended = dataclasses.replace(result, fault=fault)
     assert svsa.open_run(svsa.save_run(ended, tmp_path / "mine")).fault == fault
 
 
-def test_a_run_of_a_function_says_so_and_is_not_simulated_again(tmp_path: Path) -> None:
+def test_run_of_a_function_is_not_resimulated_and_states_it(tmp_path: Path) -> None:
     result = svsa.simulate("4a", hold, duration_s=0.05)
     opened = svsa.open_run(svsa.save_run(result, tmp_path / "mine"))
     expect_same(opened, result)
@@ -121,14 +121,14 @@ def test_a_run_of_a_function_says_so_and_is_not_simulated_again(tmp_path: Path) 
         svsa.resimulate(result)
 
 
-def test_a_run_of_finer_integration_is_not_simulated_again(tmp_path: Path) -> None:
+def test_run_with_finer_integration_is_not_resimulated(tmp_path: Path) -> None:
     result = svsa.simulate("4a", duration_s=0.05, steps=4)
     expect_same(svsa.open_run(svsa.save_run(result, tmp_path / "mine")), result)
     with pytest.raises(RecordError, match="integrated with 4 steps"):
         svsa.resimulate(result)
 
 
-def test_what_is_no_whole_run_is_not_saved(result: svsa.Result, tmp_path: Path) -> None:
+def test_incomplete_run_is_not_saved(result: svsa.Result, tmp_path: Path) -> None:
     with pytest.raises(svsa.StateError, match="one lane of a run"):
         svsa.save_run(result.comparisons[0], tmp_path / "mine")
     empty = svsa.Result(build_configuration(), np.empty((0, len(CHANNELS))))

@@ -1,4 +1,4 @@
-"""What a script may write for a setting, and the errors of what it may not."""
+"""Short forms of settings in scripts, and the errors of other values."""
 
 import json
 import os
@@ -44,11 +44,11 @@ BASE = svsa.paper.get_figure("4a").build_configuration()
         ),
     ],
 )
-def test_what_is_unambiguous_is_accepted(written, meant):
+def test_unambiguous_values_are_accepted(written, meant):
     assert change_configuration(BASE, written) == BASE.changed(**meant)
 
 
-def test_a_figure_is_found_in_capitals_and_a_constant_takes_its_value_without_a_name():
+def test_figure_names_ignore_case_and_a_constant_accepts_its_plain_value():
     assert svsa.simulate("4A", duration_s=0.01).configuration == BASE
     stiffness = svsa.ConstantStiffness(stiffness_nm_per_rad=5.0)
     assert svsa.ConstantStiffness(5) == stiffness
@@ -65,24 +65,28 @@ def test_a_figure_is_found_in_capitals_and_a_constant_takes_its_value_without_a_
         ({"effects": "rigg"}, "effects is 'rigg': it must be .*one of ideal, rig, full"),
         ({"loads": 3}, r"loads\[0\] is 3: it must be a load, such as svsa\.PaperLoad"),
         ({"nominal": 3}, "nominal is 3: it must be .*svsa.ActuatorParameters, or a dict"),
-        ({"actuator": {"link_inertia": 1}}, "actuator.link_inertia is 1.*nearest is link_inertia_"),
+        ({"actuator": {"link_inertia": 1}}, "actuator.link_inertia: .*did you mean 'link_inertia_"),
         ({"position": svsa.ConstantStiffness(20)}, "position is .*it must be a reference"),
         ({"observr": 3}, "observr: there is no such keyword; the nearest is observer"),
         ({"duration": 3}, "duration: there is no such keyword; the nearest is duration_s"),
     ],
 )
-def test_the_rest_is_named_with_what_to_write(written, reported):
+def test_other_values_are_named_with_the_accepted_form(written, reported):
     with pytest.raises(svsa.ParameterError, match=reported):
         svsa.simulate("4a", **({"duration_s": 0.01} | written))
 
 
-def test_a_value_without_a_name_is_refused_with_the_names():
+def test_value_without_a_name_is_rejected_with_the_names():
     with pytest.raises(TypeError, match=r"SinePosition\(.*amplitude_rad=…"):
         svsa.SinePosition(0.5)
 
 
-def test_type_checkers_know_every_setting_and_every_law_of_the_package():
-    assert {*Settings.__annotations__} == {*Configuration.model_fields} - {"law", "parameters"}
+def test_type_checkers_know_every_setting_and_packaged_law():
+    assert {*Settings.__annotations__} == {*Configuration.model_fields} - {
+        "law",
+        "parameters",
+        "arm",
+    }
     project = tomllib.loads(PROJECT.read_text(encoding="utf-8"))["project"]
     assert [*get_args(KnownLaw)] == sorted(project["entry-points"]["svsa.laws"])
 
@@ -112,7 +116,7 @@ with svsa.connect() as lab:
 """
 
 
-def test_a_type_checker_finds_the_errors_of_a_script_and_no_others(tmp_path):
+def test_type_checker_finds_exactly_the_errors_of_a_script(tmp_path):
     script = tmp_path / "script.py"
     script.write_text(RIGHT + "".join(f"    {line}\n" for line in WRONG_LINES), encoding="utf-8")
     settings = {"typeCheckingMode": "standard", "include": [str(script)]}

@@ -1,4 +1,4 @@
-"""`simulate` and its result: units, exports, refusals, and the same samples as tick by tick."""
+"""`simulate` and its result: units, exports, rejections, and the samples of tick-by-tick calls."""
 
 import copy
 import pickle
@@ -18,7 +18,7 @@ def result():
     return svsa.simulate("5", "ndobc", duration_s=0.5)
 
 
-def test_a_result_has_every_channel_as_an_attribute_with_its_unit(result):
+def test_result_has_every_channel_as_an_attribute_with_its_unit(result):
     assert result.samples.shape == (500, len(CHANNELS))
     assert result.units["stiffness_nm_per_rad"] == "N·m/rad"
     assert set(result.units) == set(CHANNEL_NAMES)
@@ -28,8 +28,8 @@ def test_a_result_has_every_channel_as_an_attribute_with_its_unit(result):
         _ = result.speed
 
 
-def test_channels_that_depend_on_one_another_agree(result):
-    """The columns are in the order of their names: no two of them are exchanged."""
+def test_dependent_channels_agree(result):
+    """The columns are in the order of their names: no two are exchanged."""
     r = result
     np.testing.assert_allclose(r.time_s, np.arange(500) * 0.001, atol=1e-12)
     np.testing.assert_array_equal(r.position_error_rad, r.position_reference_rad - r.position_rad)
@@ -46,21 +46,21 @@ def test_channels_that_depend_on_one_another_agree(result):
         assert np.abs(rate - velocity).max() < 0.02 * np.abs(velocity).max(), angle
 
 
-def test_a_result_can_be_copied_and_pickled(result):
-    """Its attribute look-up must not loop on a half-built object."""
+def test_result_can_be_copied_and_pickled(result):
+    """Its attribute look-up must not recurse on an uninitialized object."""
     for twin in (copy.deepcopy(result), pickle.loads(pickle.dumps(result))):  # noqa: S301
         np.testing.assert_array_equal(twin.samples, result.samples)
         assert twin.configuration == result.configuration
 
 
-def test_the_dataframe_has_a_column_a_channel(result):
+def test_dataframe_has_a_column_per_channel(result):
     frame = result.to_dataframe()
     assert list(frame.columns) == list(CHANNEL_NAMES)
     np.testing.assert_array_equal(frame.to_numpy(), result.samples)
     assert frame.attrs["units"]["torque1_nm"] == "N·m"
 
 
-def test_the_dataset_has_the_units_and_goes_through_a_file(result, tmp_path):
+def test_dataset_has_units_and_is_unchanged_by_a_file(result, tmp_path):
     data = result.to_xarray()
     assert data.torque1_nm.attrs["units"] == "N·m"
     assert data.time_s.attrs["units"] == "s"
@@ -74,7 +74,7 @@ def test_the_dataset_has_the_units_and_goes_through_a_file(result, tmp_path):
     assert late.sizes["time_s"] == len(result.samples) - 10
 
 
-def test_the_csv_names_each_column_with_its_unit_and_reads_back(result, tmp_path):
+def test_csv_names_each_column_with_its_unit_and_is_read_back(result, tmp_path):
     path = tmp_path / "run.csv"
     result.to_csv(path)
     frame = pandas.read_csv(path)
@@ -82,7 +82,7 @@ def test_the_csv_names_each_column_with_its_unit_and_reads_back(result, tmp_path
     np.testing.assert_allclose(frame.to_numpy(), result.samples, rtol=1e-8, atol=1e-30)
 
 
-def test_the_plot_is_a_figure_with_labelled_axes(result):
+def test_plot_is_a_figure_with_labelled_axes(result):
     picture = result.plot()
     labels = [axes.get_ylabel() for axes in picture.axes]
     assert len(labels) == 5
@@ -103,30 +103,30 @@ def test_metrics_are_those_of_the_samples(result):
     "stretch",
     [(0.4, 0.4), (0.4, 0.3), (-0.1, 0.3), (0.6, 0.9), (float("nan"), 0.3), (0.1, float("inf"))],
 )
-def test_an_empty_stretch_cannot_be_measured(result, stretch):
+def test_empty_interval_is_rejected(result, stretch):
     with pytest.raises(svsa.ParameterError, match=r"start_s|end_s"):
         result.measure(*stretch)
 
 
 @pytest.mark.parametrize("figure", ["4c", "", None, 8])
-def test_an_unknown_figure_is_refused_with_the_known_ones(figure):
+def test_unknown_figure_is_rejected_with_the_known_ones(figure):
     with pytest.raises(svsa.ParameterError, match=r"figure .* one of 4a, 4b, 5"):
         svsa.simulate(figure)
 
 
-def test_a_figure_of_the_bench_is_not_simulated_as_an_ideal_plant():
+def test_bench_figure_is_not_simulated_as_an_ideal_plant():
     with pytest.raises(svsa.ParameterError, match=r'"6b".*"4b", effects=svsa.RIG'):
         svsa.simulate("6B")
 
 
 @pytest.mark.parametrize("duration", [0.0, -1.0, 1e-9, 1e9, float("nan"), float("inf"), "20", None])
-def test_a_duration_out_of_range_or_of_the_wrong_type_is_refused(duration):
+def test_invalid_duration_is_rejected(duration):
     with pytest.raises(svsa.ParameterError, match="duration_s"):
         svsa.simulate("4a", duration_s=duration)
 
 
 @pytest.mark.parametrize("steps", [0, -1, 1001, 1.5, "4"])
-def test_a_wrong_number_of_steps_is_refused(steps):
+def test_invalid_number_of_steps_is_rejected(steps):
     with pytest.raises(svsa.ParameterError, match="steps"):
         svsa.simulate("4a", duration_s=0.01, steps=steps)
 
@@ -143,13 +143,13 @@ def test_a_wrong_number_of_steps_is_refused(steps):
         ({"friction": 1.0}, "friction"),
     ],
 )
-def test_a_wrong_change_is_refused_by_name(changes, name):
+def test_invalid_change_is_rejected_by_name(changes, name):
     with pytest.raises(svsa.ParameterError, match=name):
         svsa.simulate("4a", duration_s=0.01, **changes)
 
 
-def test_a_run_that_faults_at_once_is_still_a_result():
-    """The plant as a user may set it: too narrow a deflection limit for the first motion."""
+def test_run_that_faults_immediately_returns_a_result():
+    """With plant limits of a user: a deflection limit too narrow for the initial motion."""
     limits = svsa.load_prototype().limits.changed(deflection_max_rad=1e-4)
     ended = svsa.simulate("4a", duration_s=1.0, limits=limits)
     assert ended.fault is not None
@@ -157,8 +157,8 @@ def test_a_run_that_faults_at_once_is_still_a_result():
     assert ended.plot().axes
 
 
-def test_a_result_without_a_sample_says_so_in_words():
-    """A run may fault at its first tick, e.g. for a lever at its end with no margin."""
+def test_result_without_a_sample_reports_it():
+    """A run may fault at its first tick, for example at a bound of the lever ratio."""
     empty = svsa.Result(
         svsa.paper.get_figure("4a").build_configuration(), np.empty((0, len(CHANNELS)))
     )
@@ -170,7 +170,7 @@ def test_a_result_without_a_sample_says_so_in_words():
 
 @pytest.mark.parametrize("law", ["fl", "ndobc"])
 def test_one_call_equals_tick_by_tick_bit_for_bit(law):
-    """Whatever cuts a run into calls (wakes, steps, edges of loads) changes no bit of it."""
+    """No split of a run into calls (wake-ups, steps, load onsets) changes a bit."""
     loads = (svsa.PaperLoad(start_s=0.11), svsa.MassLoad(start_s=0.2))
     whole = svsa.simulate("4b", law, duration_s=0.4, loads=loads).samples
     run = Run(svsa.paper.get_figure("4b").build_configuration(law).changed(loads=loads))
@@ -180,8 +180,8 @@ def test_one_call_equals_tick_by_tick_bit_for_bit(law):
     np.testing.assert_array_equal(single[0], whole)
 
 
-def test_the_same_commands_at_the_same_ticks_give_the_same_samples():
-    """A session is a value: configuration and commands decide every bit."""
+def test_same_commands_at_the_same_ticks_give_the_same_samples():
+    """A session is a value: configuration and commands determine every bit."""
 
     def play():
         run = Run(svsa.paper.get_figure("4a").build_configuration("fl"))
@@ -199,8 +199,8 @@ def test_the_same_commands_at_the_same_ticks_give_the_same_samples():
     np.testing.assert_array_equal(play(), play())
 
 
-def test_a_change_takes_effect_at_the_next_tick_and_not_before():
-    """Up to the tick of the change both runs are one; from it on they differ."""
+def test_change_takes_effect_at_the_next_tick():
+    """Up to the tick of the change both runs are equal; after it they differ."""
     plain = svsa.simulate("4a", "fl", duration_s=0.3).samples
     run = Run(svsa.paper.get_figure("4a").build_configuration("fl"))
     changed = np.empty((1, *plain.shape))

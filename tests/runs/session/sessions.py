@@ -1,4 +1,4 @@
-"""A session of Figure 4B without the paper's load, and what it has logged."""
+"""A session of Figure 4B without the paper's load, and its log."""
 
 import numpy as np
 
@@ -11,8 +11,10 @@ PULSE = svsa.PulseLoad(torque_nm=(1.0, 0.0, 0.0), duration_s=0.02, start_s=0.03)
 ALL = list(range(len(CHANNELS)))
 EVERY_EFFECT = EVERY
 SHOWN_IN_BATCHES = ("ndobc", "fl", "ndobc_w", "ilc")
-"""The laws that `make test` runs in batches on a rig's effects and on the bench's own loop:
-without a memory, with one of numbers and of records, and one called for a run after the other."""
+"""The laws that `make test` runs in batches with the effects of the rig and on the loop of the
+bench: without a memory, with a memory of numbers and of records, and one called for one run after
+the other.
+"""
 
 
 def build_configuration(*loads, **changes):
@@ -25,12 +27,12 @@ def build_session(*loads, **changes):
 
 
 def read_samples(session, lane=0):
-    """All that the history holds of a lane: (ticks, channels)."""
+    """Read the complete history of a lane: (ticks, channels)."""
     return session.journal.history.read(session.journal.history.first_tick, 1, ALL, [lane])[:, 0]
 
 
 def advance(run, ticks):
-    """The samples (lanes, ticks, channels) of so many ticks, fewer after a fault."""
+    """Return the samples (lanes, ticks, channels) of this many ticks, fewer after a fault."""
     samples = np.empty((len(run.lanes), ticks, len(CHANNELS)))
     return samples[:, : run.advance(samples)]
 
@@ -40,5 +42,7 @@ def list_events(session):
 
 
 def list_lanes(run):
-    """The state of every lane, memory of the law and all, as values that compare."""
+    """Return the complete state of every lane, including the memory of its law, as comparable
+    values.
+    """
     return [(*lane._replace(memory=()), *lane.memory.tolist()) for lane in run.lanes]

@@ -1,4 +1,4 @@
-"""Branches: a run opened again at any tick goes on as it did, until it is changed."""
+"""Branches: a run opened at any tick continues identically until it is changed."""
 
 from dataclasses import asdict
 
@@ -18,8 +18,8 @@ from .sessions import PULSE, advance, build_configuration, build_session, list_l
 
 @scripted
 @given(scripts, wake_sizes, st.floats(0.0, 1.0))
-def test_a_run_opened_again_at_any_tick_goes_on_as_the_original_did(script, wakes, share):
-    """Its whole state: also what a record of samples does not show, like queue and lag."""
+def test_run_opened_at_any_tick_continues_as_the_original(script, wakes, share):
+    """The complete state, including queue and lag, which the samples do not show."""
     session = build_session(PULSE)
     play(session, script, wakes)
     configuration, commands = read(write(session))
@@ -38,8 +38,8 @@ def test_a_run_opened_again_at_any_tick_goes_on_as_the_original_did(script, wake
         np.testing.assert_array_equal(advance(again, 20), advance(reached, 20))
 
 
-def test_a_branch_that_is_changed_differs_only_after_its_tick():
-    """Opened at tick 90, changed and continued: the past stays that of the original."""
+def test_changed_branch_differs_only_after_its_tick():
+    """Opened at tick 90, changed and continued: the past is that of the original."""
     session = play_busy_session()
     configuration, commands = read(write(session))
     kept = [command for command in commands if command.tick < 90]
@@ -50,7 +50,7 @@ def test_a_branch_that_is_changed_differs_only_after_its_tick():
     assert np.all(np.any(found[90:] != original[90:110], axis=1))
 
 
-def test_a_run_cannot_be_opened_after_its_end():
+def test_run_cannot_be_opened_after_its_end():
     crash = build_configuration(svsa.ConstantLoad(torque_nm=(40.0, 0.0, 0.0), start_s=0.05))
     with pytest.raises(svsa.StateError, match="ended before tick 500, at tick"):
         build_run_at(crash, [], 500)
@@ -67,7 +67,7 @@ def list_state(session):
 
 
 @pytest.mark.parametrize("tick", [0, 1, 47, 90, 140])
-def test_a_session_that_goes_on_from_a_record_is_the_recorded_session(tick):
+def test_session_continued_from_a_record_equals_the_recorded_session(tick):
     """Past, state and commands; then both get the same commands and ticks."""
     original = play_busy_session()
     end, samples = original.run.tick, read_samples(original)
@@ -86,8 +86,8 @@ def test_a_session_that_goes_on_from_a_record_is_the_recorded_session(tick):
         np.testing.assert_array_equal(read_samples(session, lane), read_samples(original, lane))
 
 
-def test_a_branch_after_a_lane_was_added_has_the_past_of_the_first_in_it():
-    """As the recorded session had: not zeros, nor what the session did before."""
+def test_branch_after_an_added_lane_starts_it_with_the_past_of_the_first():
+    """As in the recorded session: neither zeros nor the previous past of the session."""
     original = play_busy_session()
     end = original.run.tick
     session = SimulatedSession.branch(
@@ -99,8 +99,10 @@ def test_a_branch_after_a_lane_was_added_has_the_past_of_the_first_in_it():
 
 @scripted
 @given(scripts, wake_sizes)
-def test_every_lane_of_a_branch_has_the_past_that_the_session_had(script, wakes):
-    """Lanes that came, went and moved in random scripts; up to the end, fault or not."""
+def test_every_lane_of_a_branch_has_its_past(script, wakes):
+    """Lanes are added, removed and moved in random scripts; up to the end, with or
+    without a fault.
+    """
     original = build_session(PULSE)
     play(original, script, wakes)
     end = original.run.tick
@@ -115,7 +117,7 @@ def test_every_lane_of_a_branch_has_the_past_that_the_session_had(script, wakes)
         np.testing.assert_array_equal(read_samples(session, lane), read_samples(original, lane))
 
 
-def test_the_metrics_and_events_of_a_branch_are_those_of_the_recorded_session():
+def test_metrics_and_events_of_a_branch_are_those_of_the_recorded_session():
     original = play_busy_session()
     end = original.run.tick
     session = SimulatedSession.branch(
@@ -134,7 +136,7 @@ def test_the_metrics_and_events_of_a_branch_are_those_of_the_recorded_session():
     assert list(session.journal.events) == list(original.journal.events)
 
 
-def test_a_branch_after_the_end_of_a_run_is_refused():
+def test_branch_after_the_end_of_a_run_is_rejected():
     crash = build_configuration(svsa.ConstantLoad(torque_nm=(40.0, 0.0, 0.0), start_s=0.05))
     with pytest.raises(svsa.StateError, match="ended at tick"):
         SimulatedSession.branch("branch", crash, [], 500)

@@ -1,4 +1,4 @@
-"""The clock that owes ticks, and the ring that keeps the newest samples."""
+"""The clock that counts due ticks, and the ring buffer of the newest samples."""
 
 import numpy as np
 
@@ -10,21 +10,21 @@ from svsa.runs.session.journal import HISTORY_TICKS
 from .sessions import ALL, build_session, read_samples
 
 
-def test_a_clock_that_goes_back_gives_no_ticks():
+def test_backward_clock_gives_no_ticks():
     clock = SimulationClock(0.001)
     assert [clock.take_due_ticks(now) for now in (5.0, 4.0, 4.0)] == [0, 0, 0]
 
 
-def test_slow_motion_still_gets_its_ticks():
-    """At a hundredth of the speed a tick is due every 0.1 s, none is rounded away."""
+def test_slow_motion_receives_its_ticks():
+    """At a hundredth of the speed a tick is due every 0.1 s; none is lost by rounding."""
     clock = SimulationClock(0.001)
     clock.speed = 0.01
     ticks = [clock.take_due_ticks(k / 30.0) for k in range(301)]
     assert abs(sum(ticks) - 100) <= 1
 
 
-def test_the_history_wraps_around_and_keeps_the_newest():
-    """Rows are written in place, in pieces that end at the end of the ring."""
+def test_history_wraps_around_and_keeps_the_newest_samples():
+    """Rows are written in place, in segments that end at the end of the buffer."""
     history, written = History(2, 10), 0
     for count in (4, 4, 7, 10, 3, 1, 9):
         while count:
@@ -52,7 +52,7 @@ def test_the_history_wraps_around_and_keeps_the_newest():
     assert history.read(0, 1, [0], [0]).shape == (0, 1, 1)
 
 
-def test_a_session_longer_than_its_history_keeps_the_newest_samples_of_the_run():
+def test_long_session_keeps_the_newest_samples_of_the_run():
     """Across the wrap the samples are those of one long call."""
     session = build_session()
     ticks = HISTORY_TICKS + 1500
@@ -66,8 +66,8 @@ def test_a_session_longer_than_its_history_keeps_the_newest_samples_of_the_run()
     )
 
 
-def test_a_copy_of_the_history_does_not_change_while_the_session_goes_on():
-    """A reader on another thread keeps what it was given."""
+def test_copy_of_the_history_does_not_change_while_the_session_runs():
+    """A reader in another thread keeps its samples."""
     session = build_session()
     session.step(20)
     read = read_samples(session)

@@ -1,4 +1,4 @@
-"""References with a beginning, in a session, a record and on the bench's packed loop."""
+"""References with a start, in a session, a record and the loop of the bench."""
 
 import json
 
@@ -49,8 +49,8 @@ CHANGES = [
 ]
 
 
-def test_a_session_with_every_kind_of_reference_is_the_same_again_bit_for_bit():
-    """From its commands alone, read back from JSON, while old ones are still fading."""
+def test_session_with_every_kind_of_reference_is_reproduced_bit_for_bit():
+    """From its commands alone, read back from JSON, while earlier references are fading."""
     session = build_session()
     for tick, kind, argument in CHANGES:
         session.step(tick - session.run.tick)
@@ -64,7 +64,7 @@ def test_a_session_with_every_kind_of_reference_is_the_same_again_bit_for_bit():
     assert np.ptp(position) > 0.03, "it has moved"
 
 
-def test_the_longest_series_that_may_be_asked_for_runs():
+def test_longest_permitted_series_runs():
     times = 0.01 * np.arange(MAX_ROWS)
     series = svsa.SeriesPosition(
         time_s=tuple(times.tolist()),
@@ -78,13 +78,13 @@ def test_the_longest_series_that_may_be_asked_for_runs():
     )
 
 
-def test_a_series_that_is_too_long_is_refused_with_its_bound():
+def test_longer_series_is_rejected_with_its_bound():
     many = tuple(0.01 * number for number in range(MAX_ROWS + 1))
     with pytest.raises(svsa.ParameterError, match=f"at most {MAX_ROWS}"):
         svsa.SeriesPosition(time_s=many, position_rad=many)
 
 
-def test_a_moving_bench_takes_no_reference_that_would_hold_up_its_loop():
+def test_moving_bench_rejects_references_that_would_delay_its_loop():
     times = tuple(0.01 * number for number in range(201))
     series = svsa.SeriesPosition(time_s=times, position_rad=(0.1,) * 201)
     with pytest.raises(svsa.StateError, match=r"201 points.*200 at most: stop it"):

@@ -1,4 +1,4 @@
-"""A session: start, pause, step, speed and reset, on a wall clock given as plain numbers."""
+"""A session: start, pause, step, speed and reset, with a given wall clock."""
 
 import numpy as np
 import pytest
@@ -14,15 +14,15 @@ from .sessions import PULSE, build_session, list_events, read_samples
 CRASH = svsa.ConstantLoad(torque_nm=(40.0, 0.0, 0.0), start_s=0.05)
 
 
-def test_a_new_session_waits_and_a_wake_moves_nothing():
+def test_new_session_is_paused_and_wake_up_runs_no_tick():
     session = build_session()
     session.wake(10.0)
     session.wake(11.0)
     assert (session.status, session.run.tick) == ("paused", 0)
 
 
-def test_a_running_session_follows_the_wall_clock():
-    """The first wake sets the origin; from it on, one tick a millisecond, none lost."""
+def test_running_session_follows_the_wall_clock():
+    """The first wake-up sets the origin; then one tick per millisecond, none lost."""
     session = build_session()
     session.start()
     for k in range(31):
@@ -33,7 +33,7 @@ def test_a_running_session_follows_the_wall_clock():
     assert session.clock.accumulated_delay_s == 0.0
 
 
-def test_pause_keeps_the_state_and_start_does_not_make_up_for_the_pause():
+def test_pause_keeps_the_state_and_start_does_not_catch_up():
     session = build_session()
     session.start()
     session.wake(0.0)
@@ -49,7 +49,7 @@ def test_pause_keeps_the_state_and_start_does_not_make_up_for_the_pause():
     assert abs(session.run.tick - tick - 100) <= 1
 
 
-def test_step_runs_exactly_so_many_ticks_and_only_while_paused():
+def test_step_runs_this_many_ticks_and_only_while_paused():
     session = build_session()
     session.step(7)
     assert session.run.tick == session.journal.history.end_tick == 7
@@ -59,7 +59,7 @@ def test_step_runs_exactly_so_many_ticks_and_only_while_paused():
     assert session.run.tick == 7
 
 
-def test_speed_scales_the_session_not_the_physics():
+def test_speed_scales_the_session_and_not_the_physics():
     """At twice the speed twice the ticks, the same samples."""
     fast, single = build_session(), build_session()
     fast.set_speed(2.0)
@@ -71,8 +71,8 @@ def test_speed_scales_the_session_not_the_physics():
     assert fast.run.lanes == single.run.lanes
 
 
-def test_a_late_session_stretches_time_and_skips_no_tick():
-    """A wake 3 s late runs a quarter of a second and says how much time it gave up."""
+def test_late_session_stretches_time_and_skips_no_tick():
+    """A wake-up 3 s late runs a quarter of a second and reports the rest as delay."""
     session = build_session()
     session.start()
     session.wake(0.0)
@@ -84,7 +84,7 @@ def test_a_late_session_stretches_time_and_skips_no_tick():
     np.testing.assert_allclose(np.diff(times), 0.001, atol=1e-12)
 
 
-def test_how_the_ticks_are_cut_into_wakes_changes_no_sample():
+def test_split_into_wake_ups_changes_no_sample():
     """Wall time never enters the physics."""
     steady, uneven = build_session(PULSE), build_session(PULSE)
     steady.step(400)
@@ -96,7 +96,7 @@ def test_how_the_ticks_are_cut_into_wakes_changes_no_sample():
     np.testing.assert_array_equal(found[:400], read_samples(steady))
 
 
-def test_a_fault_stops_the_session_until_it_is_reset():
+def test_fault_stops_the_session_until_reset():
     session = build_session(CRASH)
     session.start()
     session.wake(0.0)
@@ -125,7 +125,7 @@ def test_a_fault_stops_the_session_until_it_is_reset():
     assert session.run.tick == 0, "the time in the fault is not owed"
 
 
-def test_reset_begins_again_with_what_is_set_now_and_the_planned_loads():
+def test_reset_restarts_with_the_present_settings_and_planned_loads():
     session = build_session(PULSE)
     session.change(Set("law", "fl"))
     session.change(ApplyLoad(argument=svsa.PaperLoad()))
@@ -141,8 +141,8 @@ def test_reset_begins_again_with_what_is_set_now_and_the_planned_loads():
     assert session.journal.metrics.since_load is None
 
 
-def test_a_running_session_owes_nothing_after_a_reset():
-    """The new run begins at the first wake after it, however long that takes to come."""
+def test_running_session_has_no_due_ticks_after_a_reset():
+    """The new run starts at the first wake-up after it, at any time."""
     session = build_session()
     session.start()
     session.wake(0.0)
@@ -153,7 +153,7 @@ def test_a_running_session_owes_nothing_after_a_reset():
     assert session.clock.accumulated_delay_s == 0.0
 
 
-def test_the_same_run_after_a_reset_gives_the_same_samples():
+def test_repeated_run_after_a_reset_gives_the_same_samples():
     session = build_session(PULSE)
     session.step(120)
     first = read_samples(session)
@@ -162,7 +162,7 @@ def test_the_same_run_after_a_reset_gives_the_same_samples():
     np.testing.assert_array_equal(read_samples(session), first)
 
 
-def test_a_command_holds_from_the_tick_at_which_it_is_given() -> None:
+def test_command_takes_effect_at_its_tick() -> None:
     session = build_session()
     session.step(7)
     session.change(Set("law", "fl", tick=3))

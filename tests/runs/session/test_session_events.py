@@ -1,18 +1,18 @@
-"""What a session tells of what happened to it: commands, windows, version."""
+"""Events of a session: commands, windows, version."""
 
 import numpy as np
 import pytest
 
 import svsa
 from svsa.runs import events
-from svsa.runs.command import COMMANDS, ApplyLoad, RemoveLoad, Set, Stop, build_command
-from svsa.runs.session.session import take_loads_off
+from svsa.runs.command import COMMANDS, OF_ARM, ApplyLoad, RemoveLoad, Set, Stop, build_command
+from svsa.runs.session.session import remove_loads
 
 from .sessions import PULSE, build_session, list_events, read_samples
 
 
-def test_a_window_that_has_ended_keeps_its_numbers_of_the_lanes_that_are_left():
-    """A mark has the values that the table reported while its event was the newest."""
+def test_finished_window_keeps_the_metrics_of_remaining_lanes():
+    """A mark has the values of the table while its event was the newest."""
     session = build_session()
     session.step(10)
     session.change(Set("comparisons", (svsa.Lane(law="fl"), svsa.Lane(law="fl_integral"))))
@@ -49,7 +49,7 @@ def test_every_command_is_logged_with_its_tick():
     session.change(Set("comparisons", (svsa.Lane(law="ndobc"),)))
     session.change(Set("lane", {"lane": 2, "setting": {"law": "fl"}}))
     session.change(Stop())
-    changed = [kind for kind in COMMANDS if kind not in ("load", "unload")]
+    changed = [kind for kind in COMMANDS if kind not in ("load", "unload", *OF_ARM)]
     events = [kind for _, kind in list_events(session)]
     assert sorted(events) == sorted(changed)
     assert list_events(session) == [(5, kind) for kind in events]
@@ -59,7 +59,7 @@ def test_every_command_is_logged_with_its_tick():
     assert session.run.configuration.law == "ndobc"
 
 
-def test_a_refused_command_changes_nothing_and_is_not_logged():
+def test_rejected_command_changes_nothing_and_is_not_logged():
     session = build_session()
     before = session.run.configuration, session.version
     lanes = list(session.run.lanes)
@@ -88,8 +88,8 @@ NO_COMMANDS = [
 
 
 @pytest.mark.parametrize(("kind", "argument"), NO_COMMANDS)
-def test_what_is_no_command_is_refused_in_words_and_leaves_no_trace(kind, argument):
-    """A load that was refused must not take a number: a replay counts only those given."""
+def test_invalid_command_is_rejected_and_leaves_no_trace(kind, argument):
+    """A rejected load must not take a number: a replay counts the accepted ones only."""
     session = build_session(PULSE)
     before = session.run.configuration, session.version, session.run.loads
     with pytest.raises(svsa.SvsaError, match=kind):
@@ -105,8 +105,8 @@ def test_what_is_no_command_is_refused_in_words_and_leaves_no_trace(kind, argume
     np.testing.assert_array_equal(read_samples(plain), read_samples(spoiled))
 
 
-def test_the_version_grows_with_every_change_and_not_with_time():
-    """Clients ask for the state again when it has grown."""
+def test_version_increases_with_every_change_and_not_with_time():
+    """Clients request the state again after an increase."""
     session = build_session()
     seen = [session.version]
     for change in (
@@ -115,7 +115,7 @@ def test_the_version_grows_with_every_change_and_not_with_time():
         lambda: session.set_speed(0.5),
         lambda: session.change(Set("law", "fl")),
         lambda: session.change(ApplyLoad(argument=svsa.PaperLoad())),
-        lambda: take_loads_off(session),
+        lambda: remove_loads(session),
         session.reset,
     ):
         change()
@@ -128,8 +128,8 @@ def test_the_version_grows_with_every_change_and_not_with_time():
     assert session.version == before
 
 
-def test_a_record_tells_what_was_reported_live():
-    """Of the same commands the same events: laws by name, loads that were planned or not."""
+def test_record_contains_the_live_events():
+    """The same commands give the same events: laws by name, loads planned or not."""
     session = build_session(PULSE)
     session.step(20)
     session.change(Set("law", "fl"))

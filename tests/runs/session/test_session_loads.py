@@ -1,4 +1,4 @@
-"""Loads of a session: when they come and go, what is reported of them, and metrics since."""
+"""Loads of a session: onset and end, their events, and metrics since then."""
 
 import numpy as np
 import pytest
@@ -7,13 +7,13 @@ import svsa
 from svsa.actuators.signals import CHANNEL_INDEX
 from svsa.runs.command import ApplyLoad, RemoveLoad, Set, read_command
 from svsa.runs.replay import replay
-from svsa.runs.session.session import take_loads_off
+from svsa.runs.session.session import remove_loads
 
 from .sessions import PULSE, build_session, list_events, read_samples
 
 
 def test_loads_are_logged_when_they_act():
-    """Onset and end at their ticks, each once, however the ticks are cut."""
+    """Onset and end at their ticks, each once, for any split of the ticks."""
     session = build_session(PULSE)
     session.step(100)
     assert list_events(session) == [(30, "load_on"), (50, "load_off")]
@@ -23,7 +23,7 @@ def test_loads_are_logged_when_they_act():
     assert list_events(single) == list_events(session)
 
 
-def test_the_metrics_since_the_load_begin_at_its_onset():
+def test_metrics_since_the_load_start_at_its_onset():
     session = build_session(PULSE)
     session.step(30)
     assert session.journal.metrics.since_load is None
@@ -36,8 +36,8 @@ def test_the_metrics_since_the_load_begin_at_its_onset():
     assert since.peak_position_error_rad == np.abs(error).max()
 
 
-def test_the_metrics_of_a_load_end_when_it_is_taken_off():
-    """The error of load removal is none of the load's; the next load restarts."""
+def test_metrics_of_a_load_end_at_its_removal():
+    """The error after load removal is not attributed to the load; the next load restarts them."""
     session = build_session()
     session.step(10)
     session.change(ApplyLoad(argument=svsa.PaperLoad()))
@@ -57,7 +57,7 @@ def test_the_metrics_of_a_load_end_when_it_is_taken_off():
     assert comparison is None, "the load was on before this lane began"
 
 
-def test_taking_a_load_off_is_logged_and_ends_it():
+def test_load_removal_is_logged_and_ends_the_load():
     session = build_session()
     session.change(ApplyLoad(argument=svsa.PaperLoad()))
     session.step(10)
@@ -67,14 +67,14 @@ def test_taking_a_load_off_is_logged_and_ends_it():
     assert session.run.loads == ()
     session.change(ApplyLoad(argument=PULSE))
     assert session.run.loads[0].start_tick > session.run.tick
-    take_loads_off(session)
+    remove_loads(session)
     assert session.run.loads == ()
     assert list_events(session)[2:] == [], "a load that was only planned has not acted"
     kinds = [(command.tick, command.kind) for command in session.journal.commands]
     assert kinds == [(0, "load"), (10, "unload"), (20, "load"), (20, "unload")]
 
 
-def test_a_push_is_one_mark_however_often_it_is_reported():
+def test_repeated_manual_load_is_one_mark():
     session = build_session()
     for torque in np.linspace(0.1, 1.5, 15):
         session.change(ApplyLoad(argument=svsa.PushLoad(torque_nm=(torque, 0.0, 0.0), hold_s=0.05)))
@@ -89,7 +89,7 @@ def test_a_push_is_one_mark_however_often_it_is_reported():
     assert since.duration_s == pytest.approx(0.3)
 
 
-def test_a_push_that_no_user_holds_any_more_ends_on_its_own():
+def test_manual_load_without_updates_ends_automatically():
     session = build_session()
     session.change(ApplyLoad(argument=svsa.PushLoad(torque_nm=(1.0, 0.0, 0.0), hold_s=0.05)))
     session.step(30)
@@ -98,7 +98,7 @@ def test_a_push_that_no_user_holds_any_more_ends_on_its_own():
     assert list_events(session) == [(0, "load_on"), (80, "load_off")]
 
 
-def test_a_push_replays_bit_for_bit():
+def test_manual_load_is_replayed_bit_for_bit():
     session = build_session()
     for torque in (0.4, 0.9, -0.7):
         session.change(ApplyLoad(argument=svsa.PushLoad(torque_nm=(torque, 0.0, 0.0), hold_s=0.1)))
@@ -110,8 +110,8 @@ def test_a_push_replays_bit_for_bit():
     np.testing.assert_array_equal(np.concatenate(again, axis=1)[0], read_samples(session))
 
 
-def test_a_load_that_ends_is_logged_even_when_another_is_added_at_that_tick():
-    """The tick of the end is reached, then the next load is put on, then time goes on."""
+def test_end_of_a_load_is_logged_if_another_starts_at_its_tick():
+    """The tick of the end is reached, then the next load is added, then time continues."""
     session = build_session(PULSE)
     session.step(50)
     session.change(ApplyLoad(argument=svsa.PaperLoad()))
@@ -119,8 +119,8 @@ def test_a_load_that_ends_is_logged_even_when_another_is_added_at_that_tick():
     assert list_events(session) == [(30, "load_on"), (50, "load_off"), (50, "load_on")]
 
 
-def test_a_load_taken_off_before_its_first_tick_is_not_logged_as_off():
-    """It never acted: an event off without an event on would be reported to the page."""
+def test_load_removed_before_its_first_tick_is_not_logged_as_removed():
+    """It never acted: the page would receive an end without a start."""
     session = build_session()
     session.change(ApplyLoad(argument=svsa.PaperLoad()))
     session.change(RemoveLoad(argument=1))

@@ -48,32 +48,44 @@ class Database:
                     put_branches(connection, entry.id)
 
     def change(self, run_id: str, changes: dict[str, Any]) -> RunEntry:
-        """Replace these fields of a run only; raises `UnknownRunError`."""
+        """Replace some fields of a run.
+
+        Raises:
+            UnknownRunError: If there is no such run.
+        """
         return self.revise(run_id, lambda _: changes)
 
     def revise(self, run_id: str, decide: Callable[[RunEntry], dict[str, Any]]) -> RunEntry:
         """Replace the fields that `decide` returns for the present entry.
 
-        No thread and no process changes the table meanwhile: what `decide` does to the run's
-        folder agrees with the table. Raises `UnknownRunError`, and what `decide`
-        raises, with the run unchanged.
+        No other thread or process changes the table during this call, so that changes of the run's
+        folder by `decide` are consistent with the table. An exception of `decide` leaves the run
+        unchanged.
+
+        Raises:
+            UnknownRunError: If there is no such run.
         """
         with self._connect() as connection:
             # IMMEDIATE takes the write lock before the entry is read. A deferred transaction takes
-            # it at its first write, when another process may have changed the run already.
+            # it at its first write; by then another process may have changed the run.
             connection.execute("BEGIN IMMEDIATE")
             entry = get(connection, run_id)
-            # `decide` may move folders: the lock makes that one change with the entry.
+            # `decide` may move folders: the lock makes this move and the change of the entry
+            # atomic.
             changed = dataclasses.replace(entry, **decide(entry))
             put(connection, changed)
-            # The list shows and searches the title of a branch's origin: its branches change with
-            # it.
+            # The list shows and searches the title of a branch's origin: a new title changes the
+            # entries of the branches, too.
             if changed.title != entry.title:
                 put_branches(connection, run_id)
         return changed
 
     def get(self, run_id: str) -> RunEntry:
-        """Return the run of this id; raises `UnknownRunError`."""
+        """Return the run of this id.
+
+        Raises:
+            UnknownRunError: If there is no such run.
+        """
         with self._connect() as connection:
             return get(connection, run_id)
 
@@ -143,7 +155,11 @@ class Database:
 
     @contextlib.contextmanager
     def _connect(self) -> Iterator[sqlite3.Connection]:
-        """Open a transaction; raises `CatalogueError` if the database is unusable."""
+        """Open a transaction.
+
+        Raises:
+            CatalogueError: If the database is unusable.
+        """
         try:
             connection = sqlite3.connect(self._path, timeout=BUSY_TIMEOUT_S)
             try:
@@ -156,7 +172,7 @@ class Database:
             raise CatalogueError(f"The catalogue {self._path} cannot be used: {error}.") from None
 
     def _prepare(self) -> None:
-        # Names and owners of runs are not for other accounts; SQLite gives its other files the
+        # Other accounts must not read names and owners of runs; SQLite gives its other files the
         # same mode.
         close_to_others(self._path)
         connection = sqlite3.connect(self._path, timeout=BUSY_TIMEOUT_S)
@@ -171,7 +187,7 @@ class Database:
     def _keep_open(self) -> None:
         """Keep one idle connection: closing the last one deletes the files of the write-ahead log.
 
-        On a disk that has become full they could not be made again, and not even a list be read.
+        On a full disk they could not be created again, so that the list could not even be read.
         """
         with contextlib.suppress(sqlite3.Error):
             idle = sqlite3.connect(self._path, check_same_thread=False)

@@ -52,15 +52,20 @@ class ChangedRunError(SvsaError):
 
 @dataclass(frozen=True)
 class RunEntry:
-    """A run in the list. created, deleted: UTC, ISO 8601; deleted is None outside the trash.
+    """A run in the list.
 
-    state: complete, or still recording, or failed (it ended early, `message` says why; what
-    was recorded is there), damaged (it cannot be read) or missing (its folder is gone).
-    metrics: per lane, of `window`; None where there are none, or no finite ones. fault: what the
-    run ended in.
-    settings: None while it is recorded, and where they cannot be read. branch_of: where it
-    went on from. owner: id of who recorded it, in a class. files: which files of its folder all
-    this describes; empty where an older version described it.
+    Attributes:
+        created: UTC, ISO 8601.
+        deleted: UTC, ISO 8601; None outside the trash.
+        state: complete, recording, failed (it ended early, `message` contains the reason; its
+            samples up to then exist), damaged (it cannot be read) or missing (its folder does not
+            exist).
+        metrics: For each lane in `window`; None if there are none, or none that are finite.
+        fault: Fault at the end of the run.
+        settings: None while it is recorded, and if they cannot be read.
+        branch_of: Run and tick that it continues.
+        owner: Id of the user who recorded it, in a class.
+        files: Files of its folder that the entry describes; empty if an older version described it.
     """
 
     id: str
@@ -125,7 +130,14 @@ class RunEntry:
 
 @dataclass(frozen=True)
 class RunPage:
-    """A page of the list; total: runs of all pages."""
+    """A page of the list.
+
+    Attributes:
+        runs: Runs of the page.
+        total: Number of runs on all pages.
+        page: Number of the page.
+        page_size: Maximum number of runs on a page.
+    """
 
     runs: tuple[RunEntry, ...]
     total: int
@@ -142,14 +154,24 @@ class Reader(NamedTuple):
 
 @dataclass(frozen=True)
 class Query:
-    """A query of the list; raises `ParameterError` if it is invalid.
+    """A query of the list.
 
-    search: every word in it must stand, as it is written but for its case, in what a row of the
-    list shows of a run besides numbers and times: name, settings, tags, notes, the run it
-    branched from; or be its id. tag, law, load, figure, plant: only runs with this one; a law
-    that controlled any lane, a kind of load that was on or "none", a key of a figure. sort: a
-    column of `SORTS`, with - before it from the greatest down; what is not known comes last.
-    trash: what was deleted instead. reader: for whom it is; None for a reader who sees all.
+    Attributes:
+        search: Words that must all occur, except for case, in the id or in the texts of a run's
+            row: name, settings, tags, notes, the run it branched from.
+        tag: Only runs with this tag.
+        law: Only runs in which this law controlled a lane.
+        load: Only runs with this kind of load, or "none".
+        figure: Only runs of the figure with this key.
+        plant: Only runs of this plant.
+        sort: A column of `SORTS`, with - before it for descending order; unknown values come last.
+        page: Number of the page, from 1.
+        page_size: Runs per page.
+        trash: Whether to list deleted runs instead.
+        reader: Only runs that this reader may see; None for all runs.
+
+    Raises:
+        ParameterError: If a field is invalid.
     """
 
     search: str = ""
@@ -197,8 +219,8 @@ def write_entry(entry: RunEntry) -> str:
 def read_entry(text: str) -> RunEntry:
     """Read an entry from `write_entry`.
 
-    Without metrics of a window that was not written. Without window, metrics and files if an older
-    version computed fewer metrics: `index_runs` then computes them again from the samples.
+    Metrics of a window that was not written are left out. Window, metrics and files are left out if
+    an older version computed fewer metrics: `index_runs` then computes them again from the samples.
     """
     written = json.loads(text)
     for name in ("tags", "lanes"):

@@ -27,10 +27,10 @@ GONE = "Its folder is gone."
 def index_runs(database: Database, runs: Path, trash: Path) -> Iterator[tuple[int, int]]:
     """Finish unfinished records, register unknown folders, mark damaged and missing runs.
 
-    A record whose files have not changed since it was described is not read again.
+    A record is not read again if its files have not changed since it was described.
 
     Yields:
-        How many records are done, and of how many; first (0, total), then after each record.
+        Numbers of finished and of all records; first (0, total), then after each record.
     """
     known = database.list_known()
     found: set[str] = set()
@@ -43,10 +43,10 @@ def index_runs(database: Database, runs: Path, trash: Path) -> Iterator[tuple[in
             continue
         waiting.append((folder, deleted, state))
     yield 0, len(waiting)
-    # The ids begin with the time: the newest runs, which are looked for most, are listed first.
+    # Ids begin with the time: the newest runs, which users need most, are listed first.
     waiting.sort(key=lambda one: one[0].name, reverse=True)
     for done, (folder, deleted, state) in enumerate(waiting, 1):
-        # Another process may take it away meanwhile.
+        # Another process may remove it at the same time.
         with contextlib.suppress(FileNotFoundError, UnknownRunError):
             _recover_run(database, folder, deleted, state)
         yield done, len(waiting)
@@ -57,13 +57,16 @@ def index_runs(database: Database, runs: Path, trash: Path) -> Iterator[tuple[in
 
 
 def settle(database: Database, folder: Path, entry: RunEntry, failure: str) -> RunEntry:
-    """Return the entry of a recording in its present state: ended if no process writes it.
+    """Return the present entry of a recording: ended if no process writes it.
 
     Args:
-        database: Takes the entry of an ended recording, if its disk has room.
-        folder: The record's folder.
-        entry: An entry that says "recording".
-        failure: Why the recording ended, if that is known.
+        database: Stores the entry of an ended recording, if the disk has space.
+        folder: Folder of the record.
+        entry: An entry with the state "recording".
+        failure: Reason for the end of the recording, if known.
+
+    Returns:
+        The entry.
     """
     if not folder.is_dir():
         return entry
@@ -75,15 +78,15 @@ def settle(database: Database, folder: Path, entry: RunEntry, failure: str) -> R
     changes = describe(folder, failure)
     try:
         return database.change(entry.id, changes)
-    except CatalogueError:  # as on a full disk: the list is right nevertheless
+    except CatalogueError:  # for example a full disk: the list is correct nevertheless
         return dataclasses.replace(entry, **changes)
 
 
 def _recover_run(database: Database, folder: Path, deleted: bool, state: str) -> None:
     """Finish and register one run, but not a folder whose recording never started."""
     if not state:
-        # The process died before its first byte: there is nothing to recover, or it records just
-        # now.
+        # The process died before its first byte, and there is nothing to recover, or it is about to
+        # record.
         if not any(path.stat().st_size for path in folder.iterdir()):
             return
         database.add(build_entry(folder))
@@ -91,34 +94,34 @@ def _recover_run(database: Database, folder: Path, deleted: bool, state: str) ->
     changes = {"deleted": _choose_time(entry, deleted)} | _finish(folder, entry)
 
     def apply(now: RunEntry) -> dict[str, Any]:
-        # Finishing a record takes long, and the lock of the database is not held meanwhile: what
-        # was found is entered only if nothing else has changed.
+        # Finishing a record takes long and does not hold the lock of the database: its result is
+        # stored only if the entry is otherwise unchanged.
         is_as_seen = (now.state, now.deleted) == (entry.state, entry.deleted)
         if is_as_seen and folder.is_dir():
             return changes
-        return {}  # another thread or process changed it meanwhile, and knows better
+        return {}  # another thread or process changed it in the meantime
 
     database.revise(folder.name, apply)
 
 
 def _miss(places: tuple[Path, ...], _: RunEntry) -> dict[str, Any]:
     """Return the changes of an entry without a folder; none if it has moved."""
-    # Looked for again under the lock: the run may have moved to the trash, or out of it.
+    # Checked again under the lock: the run may have moved to or from the trash.
     if any(place.exists() for place in places):
         return {}
     return {"state": "missing", "message": GONE}
 
 
 def describe(folder: Path, failure: str = "") -> dict[str, Any]:
-    """Build the entry of an ended record from every sample of it.
+    """Build the entry of an ended record from all of its samples.
 
     Args:
-        folder: The record's folder.
-        failure: Why the recording ended early; empty if it did not.
+        folder: Folder of the record.
+        failure: Reason why the recording ended early; empty if it did not.
 
     Returns:
-        Fields of `RunEntry`. A record that cannot be read whole is "damaged": the message has the
-        reason, and what can still be read.
+        Fields of `RunEntry`. A record that cannot be read completely is "damaged": the message has
+        the reason, and what can still be read.
     """
     files = {"files": read_files(folder)} if folder.is_dir() else {}
     try:
@@ -144,7 +147,7 @@ def read_files(folder: Path) -> str:
     """Compute a text that changes with the files, and with the version of svsa."""
     size = newest = 0
     for path in folder.iterdir():
-        with contextlib.suppress(FileNotFoundError):  # a draft that took its place meanwhile
+        with contextlib.suppress(FileNotFoundError):  # a draft that was renamed in the meantime
             state = path.stat()
             size, newest = size + state.st_size, max(newest, state.st_mtime_ns)
     return f"{__version__} {size} {newest}"
@@ -155,7 +158,7 @@ def _describe(record: Record) -> dict[str, Any]:
     window = find_measured_window(record)
     metrics = None if window is None else measure(record, window)
     if metrics is None:
-        # Nothing has read the samples: damage is found by reading.
+        # Damage is detected only by reading, and the samples have not been read yet.
         for _ in record.iterate_batches():
             pass
     return {
@@ -188,7 +191,7 @@ def _finish(folder: Path, entry: RunEntry) -> dict[str, Any]:
         try:
             if recover(folder) is None:
                 return {}
-        except RecordError as error:  # a full disk, or a damaged stream: `describe` finds out
+        except RecordError as error:  # full disk, or damaged stream: see `describe`
             failure = f"{CUT_OFF} {error}"
     changes = describe(folder, failure)
     if entry.state == "failed" and changes["state"] != "damaged":

@@ -1,11 +1,10 @@
 """Runs on this machine: find, name, tag, delete and restore.
 
-SVSA_DATA holds runs/<id> (see `recorder`), trash/<id>, and catalogue.sqlite, which is only
-an index: its content is in the folders too, and `recover` builds it again from them.
+SVSA_DATA contains runs/<id> (see `recorder`), trash/<id>, and catalogue.sqlite. The latter is only
+an index: `recover` rebuilds it from the folders.
 """
 
 import dataclasses
-import os
 import shutil
 from collections.abc import Iterable, Iterator
 from datetime import UTC, datetime
@@ -13,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from svsa.errors import StateError
+from svsa.inputs.data_folder import find_data_folder
 from svsa.runs.records.catalogue.database import Database
 from svsa.runs.records.catalogue.entry import (
     CatalogueError,
@@ -42,14 +42,17 @@ from svsa.runs.records.parquet import measure_bytes
 from svsa.runs.records.reader import Record, open_record
 from svsa.runs.records.recorder import Recorder, RecordStatus
 
-DATA_VARIABLE = "SVSA_DATA"
-
 
 class Catalogue:
     """The runs in a folder; safe to use from many threads and processes.
 
-    folder: where runs are kept; left out, `find_data_folder`. Raises `CatalogueError` where
-    it cannot be used. Methods that take a run's id raise `UnknownRunError`.
+    Methods with the id of a run raise `UnknownRunError` if it does not exist.
+
+    Args:
+        folder: Folder of the runs; by default `find_data_folder`.
+
+    Raises:
+        CatalogueError: If the folder cannot be used.
     """
 
     def __init__(self, folder: Path | str | None = None) -> None:
@@ -69,8 +72,18 @@ class Catalogue:
         self._database.close()
 
     def record(self, header: RecordHeader) -> Recorder:
-        """Start to record a run and add it to the list; raises `RecordError`."""
-        # The folder before the entry: after a crash in between, `recover` enters the folder.
+        """Start to record a run and add it to the list.
+
+        Args:
+            header: Id, settings and origin of the run.
+
+        Returns:
+            The recorder, which receives samples and commands.
+
+        Raises:
+            RecordError: If the record cannot be written.
+        """
+        # Create the folder before the entry: after a crash in between, `recover` adds the entry.
         recorder = Recorder(self._runs / header.run_id, header)
         try:
             self.register(header)
@@ -81,15 +94,29 @@ class Catalogue:
         return recorder
 
     def register(self, header: RecordHeader) -> RunEntry:
-        """Add an existing run's folder to the list."""
+        """Add an existing run's folder to the list.
+
+        Args:
+            header: Header of the run.
+
+        Returns:
+            The new entry.
+        """
         self._database.add(build_entry(self._runs / header.run_id))
         return self._database.get(header.run_id)
 
     def finish(self, run_id: str, status: RecordStatus | None = None) -> RunEntry:
-        """Measure a run whose recording has ended. status: the recorder's last status.
+        """Measure a run whose recording has ended, and complete its entry.
 
-        Reads the whole record: not for the thread of the loop. A record whose file is not
-        finished yet stays "recording" until it is, or until the next `recover`.
+        Reads the whole record: not to be called in the thread of the loop.
+
+        Args:
+            run_id: Id of the run.
+            status: The recorder's last status.
+
+        Returns:
+            The entry. A record whose file is not finished stays "recording" until it is, or until
+            the next `recover`.
         """
         if status is not None and status.state == "recording":
             return self.get(run_id)
@@ -99,13 +126,34 @@ class Catalogue:
         return entry
 
     def get(self, run_id: str) -> RunEntry:
-        """Return the entry of a run, in the trash or not."""
+        """Return the entry of a run, in the trash or not.
+
+        Args:
+            run_id: Id of the run.
+
+        Returns:
+            The entry.
+
+        Raises:
+            UnknownRunError: If there is no such run.
+        """
         if not is_run_id(run_id):
             raise UnknownRunError(f"There is no run {run_id!r:.80}.")
         return self._settle(self._database.get(run_id))
 
     def open(self, run_id: str) -> Record:
-        """Open the record of a run; raises `RecordError` if it is unreadable."""
+        """Open the record of a run.
+
+        Args:
+            run_id: Id of the run.
+
+        Returns:
+            The record, read on demand.
+
+        Raises:
+            RecordError: If the record is unreadable.
+            UnknownRunError: If there is no such run.
+        """
         return open_record(self.find_folder(run_id))
 
     def update(
@@ -117,10 +165,21 @@ class Catalogue:
         notes: str | None = None,
         expected: str | None = None,
     ) -> RunEntry:
-        """Change the given fields; raises `ParameterError` for an invalid value.
+        """Change name, tags or notes of a run.
 
-        expected: the revision that is to be changed; raises `ChangedRunError` where it has
-        changed meanwhile.
+        Args:
+            run_id: Id of the run.
+            name: New name; None keeps the present one.
+            tags: New tags; None keeps the present ones.
+            notes: New notes; None keeps the present ones.
+            expected: Revision of the entry that the change is based on.
+
+        Returns:
+            The changed entry.
+
+        Raises:
+            ParameterError: If a value is invalid.
+            ChangedRunError: If the revision is no longer `expected`.
         """
         self.get(run_id)
         given = {"name": name, "tags": tags, "notes": notes}
@@ -147,27 +206,66 @@ class Catalogue:
         return self._database.revise(run_id, write)
 
     def query(self, query: Query) -> RunPage:
-        """Return the page of the list that `query` selects."""
+        """Return one page of the list of runs.
+
+        Args:
+            query: Search, filters, order and page.
+
+        Returns:
+            The page.
+        """
         page = self._database.query(query)
         return dataclasses.replace(page, runs=tuple(map(self._settle, page.runs)))
 
     def list_facets(self, reader: Reader | None = None) -> dict[str, dict[str, int]]:
-        """List the filters of the list: facet, value, number of runs (see `Query`)."""
+        """List the values that the list can be filtered by.
+
+        Args:
+            reader: Reader whose runs are counted; None for all runs.
+
+        Returns:
+            Number of runs by value, by facet (see `Query`).
+        """
         return self._database.list_facets(reader)
 
     def measure_bytes(self, owner: str) -> int:
-        """Return the disk space of one owner's runs, bytes, including the trash."""
+        """Return the disk space of one owner's runs, including the trash.
+
+        Args:
+            owner: Id of the owner.
+
+        Returns:
+            Size, bytes.
+        """
         return self._database.measure_bytes(owner)
 
     def find(self, run_ids: Iterable[str]) -> dict[str, RunEntry]:
-        """Return those of these runs that exist, in the trash or not, by id."""
+        """Return those of some runs that exist, in the trash or not.
+
+        Args:
+            run_ids: Ids of runs.
+
+        Returns:
+            The entries by id.
+        """
         return self._database.find(run_ids)
 
     def delete(self, run_id: str) -> RunEntry:
-        """Move a run to the trash; raises `StateError` while it is recorded."""
+        """Move a run to the trash.
+
+        Args:
+            run_id: Id of the run.
+
+        Returns:
+            The changed entry.
+
+        Raises:
+            StateError: If the run is being recorded.
+            UnknownRunError: If there is no such run.
+        """
         self.get(run_id)
 
-        def throw_away(entry: RunEntry) -> dict[str, Any]:
+        def move_to_trash(entry: RunEntry) -> dict[str, Any]:
             if entry.state == "recording":
                 raise StateError(f"Run {run_id} is being recorded: stop the recording first.")
             if entry.deleted is not None:
@@ -175,26 +273,40 @@ class Catalogue:
             _move(self._runs / run_id, self._trash / run_id)
             return {"deleted": _format_time()}
 
-        return self._database.revise(run_id, throw_away)
+        return self._database.revise(run_id, move_to_trash)
 
     def restore(self, run_id: str) -> RunEntry:
-        """Restore a run from the trash."""
+        """Restore a run from the trash.
+
+        Args:
+            run_id: Id of the run.
+
+        Returns:
+            The changed entry.
+        """
         self.get(run_id)
 
-        def take_back(entry: RunEntry) -> dict[str, Any]:
+        def move_from_trash(entry: RunEntry) -> dict[str, Any]:
             if entry.deleted is not None:
                 _move(self._trash / run_id, self._runs / run_id)
             return {"deleted": None}
 
-        return self._database.revise(run_id, take_back)
+        return self._database.revise(run_id, move_from_trash)
 
     def purge(self, run_id: str) -> None:
-        """Delete a run in the trash permanently; raises `StateError` for one that is not there."""
+        """Delete a run in the trash permanently.
+
+        Args:
+            run_id: Id of the run.
+
+        Raises:
+            StateError: If the run is not in the trash.
+            RecordError: If its folder cannot be deleted.
+        """
         if self.get(run_id).deleted is None:
             raise StateError(f"Run {run_id} is not in the trash: delete it first.")
         try:
-            # The folder before the entry: a folder that is left would be entered again by
-            # `recover`.
+            # Remove the folder before the entry: `recover` would list a remaining folder again.
             shutil.rmtree(self._trash / run_id)
         except FileNotFoundError:
             pass
@@ -203,7 +315,11 @@ class Catalogue:
         self._database.forget(run_id)
 
     def check(self, run_id: str) -> None:
-        """Read a run completely, and mark it as damaged if it is."""
+        """Read a run completely, and mark it as damaged if it is.
+
+        Args:
+            run_id: Id of the run.
+        """
         entry = self.get(run_id)
         if entry.state in ("complete", "failed"):
             changes = describe(self._locate(entry))
@@ -211,12 +327,12 @@ class Catalogue:
                 self._database.change(run_id, changes)
 
     def index(self) -> Iterator[tuple[int, int]]:
-        """Finish interrupted records, and add missing entries; yields progress; for every start.
+        """Finish interrupted records, and add missing entries; to be called at every start.
 
         The catalogue may be used at the same time.
 
         Yields:
-            How many runs are done, and of how many.
+            Numbers of finished and of all runs.
         """
         self._is_indexing = True
         try:
@@ -230,13 +346,34 @@ class Catalogue:
             pass
 
     def find_folder(self, run_id: str) -> Path:
-        """Return the folder of a run, in the trash or not."""
+        """Return the folder of a run, in the trash or not.
+
+        Args:
+            run_id: Id of the run.
+
+        Returns:
+            The path of the folder.
+
+        Raises:
+            UnknownRunError: If there is no such run.
+        """
         if not is_run_id(run_id):
             raise UnknownRunError(f"There is no run {run_id!r:.80}.")
         return self._locate(self._database.get(run_id))
 
     def list(self, search: str = "", **wanted: Any) -> RunPage:
-        """Return a page of the list, by the fields of `Query`; raises `ParameterError`."""
+        """Return one page of the list of runs.
+
+        Args:
+            search: Words that a run must contain, see `Query`.
+            **wanted: Other fields of `Query`.
+
+        Returns:
+            The page.
+
+        Raises:
+            ParameterError: If a field is invalid.
+        """
         return self.query(Query(search, **wanted))
 
     def _settle(self, entry: RunEntry) -> RunEntry:
@@ -245,7 +382,7 @@ class Catalogue:
             return entry
         recorder = self._recorders.get(entry.id)
         if recorder is None and self._is_indexing:
-            return entry  # `index` finishes it just now, or soon
+            return entry  # `index` is finishing it, or will soon
         failure = recorder.status.message if recorder and recorder.status.state == "failed" else ""
         return settle(self._database, self._locate(entry), entry, failure)
 
@@ -253,15 +390,9 @@ class Catalogue:
         return (self._runs if entry.deleted is None else self._trash) / entry.id
 
 
-def find_data_folder() -> Path:
-    """Return the folder of runs: SVSA_DATA, or .local/share/svsa in the user's home."""
-    given = os.environ.get(DATA_VARIABLE)
-    return Path(given).expanduser() if given else Path.home() / ".local" / "share" / "svsa"
-
-
 def _move(source: Path, target: Path) -> None:
     try:
-        # Within one file system a rename is atomic: the run is never in both places.
+        # Within one file system a rename is atomic: the run is never in both folders.
         source.replace(target)
     except FileNotFoundError:
         return

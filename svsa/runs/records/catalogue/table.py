@@ -1,9 +1,8 @@
 """The tables of the catalogue: columns to sort and filter by, and the entries.
 
-Format 7. A catalogue of format 1 has no settings, one of 2 has metrics of whole records, one of 3
-has no owners, one of 4 has a former word for the steady-state error, one of 5 has fewer metrics,
-and one of 6 does not say which files it describes. It is written again from its entries;
-`index_runs` then reads the rest from the folders.
+Format 7. Format 1 has no settings, 2 has metrics of whole records, 3 has no owners, 4 has a former
+word for the steady-state error, 5 has fewer metrics, and 6 does not contain the described files. An
+older catalogue is rebuilt from its entries; `index_runs` then reads the rest from the folders.
 """
 
 import re
@@ -68,13 +67,17 @@ _DIGITS = 20
 
 
 def prepare(connection: sqlite3.Connection) -> None:
-    """Create the tables, or rebuild older ones; raises `CatalogueError` for a newer format."""
+    """Create the tables, or rebuild older ones.
+
+    Raises:
+        CatalogueError: If the format is newer.
+    """
     connection.execute("PRAGMA journal_mode = WAL")
     if _read_version(connection) == VERSION:
         return
     with connection:
         connection.execute("BEGIN IMMEDIATE")
-        # Read again under the lock: another process may have built the tables since.
+        # Read again under the lock: another process may have created the tables.
         version = _read_version(connection)
         if version in _REBUILT:
             _build(connection)
@@ -119,7 +122,11 @@ def put_branches(connection: sqlite3.Connection, run_id: str) -> None:
 
 
 def get(connection: sqlite3.Connection, run_id: str) -> RunEntry:
-    """Return the run of this id; raises `UnknownRunError`."""
+    """Return the run of this id.
+
+    Raises:
+        UnknownRunError: If there is no such run.
+    """
     found = _find(connection, run_id)
     if found is None:
         raise UnknownRunError(f"There is no run {run_id!r:.80}.")

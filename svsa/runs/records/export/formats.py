@@ -1,7 +1,6 @@
 """Export formats: CSV, Parquet, MAT (MATLAB, Octave), MCAP.
 
-A package above the library adds formats by the entry point group `svsa.exports` (the server adds
-"html").
+Other packages add formats by the entry point group `svsa.exports` (the server adds "html").
 """
 
 from collections.abc import Callable
@@ -24,7 +23,7 @@ from svsa.runs.records.stream import build_schema
 def write_csv(record: Record, stream: IO[bytes]) -> None:
     """Write a record as CSV in UTF-8: tick, time, then "<lane>.<channel> [unit]".
 
-    One row a tick, every digit kept.
+    One row per tick, with all digits.
     """
     fields = []
     for field in build_schema(record.header):
@@ -63,10 +62,17 @@ EXPORT_KINDS: dict[str, ExportKind] = {
 
 
 def export(record: Record, kind: str, target: Path | str | IO[bytes]) -> None:
-    """Write a record as `kind` of `get_kind` to a path or a binary stream.
+    """Write a record to a path or a binary stream.
 
-    Raises `ParameterError` for an unknown kind, and `RecordError` where the record cannot
-    be read, is too long for the format, or the disk is full; no half file is left at a path.
+    Args:
+        record: The record.
+        kind: Name of a format, see `get_kind`.
+        target: Path or stream. No incomplete file is left at a path.
+
+    Raises:
+        ParameterError: If the format is unknown.
+        RecordError: If the record cannot be read or is too long for the format, or the disk is
+            full.
     """
     write = get_kind(kind).write
     try:
@@ -79,7 +85,11 @@ def export(record: Record, kind: str, target: Path | str | IO[bytes]) -> None:
 
 
 def get_kind(kind: str) -> ExportKind:
-    """Return the format of this name; raises `ParameterError` with the existing ones."""
+    """Return the format of this name.
+
+    Raises:
+        ParameterError: If it does not exist; the message lists the existing ones.
+    """
     if kind in EXPORT_KINDS:
         return EXPORT_KINDS[kind]
     added = entry_points(group=GROUP)

@@ -1,7 +1,7 @@
 """MAT, version 5: one struct per lane, one column per channel; for MATLAB and GNU Octave.
 
-Texts are ASCII, since Octave cuts others short: a unit reads N*m/rad, a letter it lacks ?.
-`jsondecode(run.header_json)` gives every text as it is, and `jsondecode(run.metrics_json)` the
+Texts are ASCII, because Octave truncates others: a unit is written N*m/rad, other characters become
+?. `jsondecode(run.header_json)` returns the original texts, and `jsondecode(run.metrics_json)` the
 metrics of every lane.
 """
 
@@ -23,7 +23,8 @@ LONGEST_WORD = 63
 def write_mat(record: Record, stream: IO[bytes]) -> None:
     """Write a record as MAT: tick, time_s, units, run, and a struct for every lane.
 
-    Raises `RecordError` for one whose lanes are greater than the format allows, 2 GB.
+    Raises:
+        RecordError: If a lane exceeds the format's limit of 2 GB.
     """
     header, names = record.header, build_identifiers(record.header.channel_names)
     if 8 * record.tick_count * len(names) > MAX_BYTES_A_LANE:
@@ -46,7 +47,7 @@ def write_mat(record: Record, stream: IO[bytes]) -> None:
         columns = {name: samples[:, number, [i]] for i, name in enumerate(names)}
         content[lane] = columns
         content["time_s"] = columns.get("time_s", content["time_s"])
-    from scipy.io import savemat  # takes a server 0.15 s to read, for the few who want this format
+    from scipy.io import savemat  # the import takes 0.15 s, and few users need this format
 
     savemat(stream, content, long_field_names=True, do_compression=True, oned_as="column")
 

@@ -1,4 +1,4 @@
-"""The catalogue: what was recorded is listed, found, named, deleted and taken back."""
+"""The catalogue: recorded runs are listed, found, named, deleted and restored."""
 
 import os
 from pathlib import Path
@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 
 from svsa.errors import ParameterError, StateError
+from svsa.inputs.data_folder import find_data_folder
 from svsa.runs.metrics import compute_metrics
 from svsa.runs.records.catalogue.entry import UnknownRunError
-from svsa.runs.records.catalogue.runs import Catalogue, find_data_folder
+from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.runs.records.header import HEADER_FILE, build_run_id, is_run_id
 from tests.runs.records.records import (
     PERIOD_S,
@@ -34,7 +35,7 @@ HOSTILE_NAMES = [
 HOSTILE_IDS = ["../x", "..", "", ".", "a/b", "a\\b", "a\0b", "x" * 100_000, "🦾", "\ud800", "-a"]
 
 
-def test_a_run_from_its_first_sample_into_the_list(catalogue: Catalogue) -> None:
+def test_run_is_listed_from_its_first_sample(catalogue: Catalogue) -> None:
     recorder = catalogue.record(build_header("run-1"))
     assert catalogue.get("run-1").state == "recording"
     samples = build_samples(700)
@@ -51,7 +52,7 @@ def test_a_run_from_its_first_sample_into_the_list(catalogue: Catalogue) -> None
     np.testing.assert_array_equal(catalogue.open("run-1").samples, samples)
 
 
-def test_a_recording_that_failed_says_so_in_the_list(catalogue: Catalogue) -> None:
+def test_failed_recording_is_listed_as_failed(catalogue: Catalogue) -> None:
     recorder = catalogue.record(build_header("run-1"))
     recorder.write_samples(0, build_samples(10))
     recorder.write_samples(500, build_samples(10))
@@ -61,7 +62,7 @@ def test_a_recording_that_failed_says_so_in_the_list(catalogue: Catalogue) -> No
     assert "What was written opens: 0.01 s." in entry.message
 
 
-def test_a_recording_that_failed_is_not_listed_as_one_that_goes_on(catalogue: Catalogue) -> None:
+def test_failed_recording_is_not_listed_as_recording(catalogue: Catalogue) -> None:
     recorder = catalogue.record(build_header("run-1"))
     assert catalogue.list().runs[0].state == "recording"
     recorder.write_samples(0, build_samples(10))
@@ -72,7 +73,7 @@ def test_a_recording_that_failed_is_not_listed_as_one_that_goes_on(catalogue: Ca
     catalogue.delete("run-1")
 
 
-def test_a_record_of_a_newer_version_is_read_and_says_so(catalogue: Catalogue) -> None:
+def test_record_of_a_newer_version_is_read_with_a_note(catalogue: Catalogue) -> None:
     add(catalogue, "run-1", version="99.1")
     add(catalogue, "run-2")
     path = catalogue.find_folder("run-1") / HEADER_FILE
@@ -125,14 +126,14 @@ def test_search_tags_sort_and_pages(catalogue: Catalogue) -> None:
         ({"search": "x" * 100_000}, "search"),
     ],
 )
-def test_wrong_questions_are_refused(catalogue: Catalogue, query: dict, name: str) -> None:
+def test_invalid_queries_are_rejected(catalogue: Catalogue, query: dict, name: str) -> None:
     with pytest.raises(ParameterError) as refusal:
         catalogue.list(**query)
     assert refusal.value.violations[0].name == name
 
 
 @pytest.mark.parametrize("name", HOSTILE_NAMES)
-def test_any_name_is_only_a_name(catalogue: Catalogue, name: str) -> None:
+def test_name_may_contain_any_text(catalogue: Catalogue, name: str) -> None:
     add(catalogue, "run-1")
     before = sorted(path.relative_to(catalogue.folder) for path in catalogue.folder.rglob("*"))
     entry = catalogue.update("run-1", name=name, tags=("a b", "ü"), notes=name)
@@ -144,7 +145,7 @@ def test_any_name_is_only_a_name(catalogue: Catalogue, name: str) -> None:
     assert after == before
 
 
-def test_wrong_names_change_nothing(catalogue: Catalogue) -> None:
+def test_invalid_names_change_nothing(catalogue: Catalogue) -> None:
     add(catalogue, "run-1")
     before = catalogue.get("run-1")
     for changes in (
@@ -162,7 +163,7 @@ def test_wrong_names_change_nothing(catalogue: Catalogue) -> None:
 
 
 @pytest.mark.parametrize("run_id", HOSTILE_IDS, ids=range(len(HOSTILE_IDS)))
-def test_hostile_ids_are_unknown_everywhere(catalogue: Catalogue, run_id: str) -> None:
+def test_malicious_ids_are_unknown(catalogue: Catalogue, run_id: str) -> None:
     for call in (
         catalogue.get,
         catalogue.open,
@@ -178,7 +179,7 @@ def test_hostile_ids_are_unknown_everywhere(catalogue: Catalogue, run_id: str) -
         assert len(str(refusal.value)) < 200
 
 
-def test_delete_takes_a_run_away_and_restore_brings_it_back(catalogue: Catalogue) -> None:
+def test_deleted_run_is_restored(catalogue: Catalogue) -> None:
     add(catalogue, "run-1")
     before = catalogue.get("run-1")
     assert catalogue.delete("run-1").deleted is not None
@@ -197,7 +198,7 @@ def test_delete_takes_a_run_away_and_restore_brings_it_back(catalogue: Catalogue
     assert list((catalogue.folder / "trash").iterdir()) == []
 
 
-def test_a_run_that_is_being_recorded_is_not_deleted(catalogue: Catalogue) -> None:
+def test_run_is_not_deleted_while_it_is_recorded(catalogue: Catalogue) -> None:
     recorder = catalogue.record(build_header("run-1"))
     with pytest.raises(StateError, match="stop the recording"):
         catalogue.delete("run-1")
@@ -206,7 +207,7 @@ def test_a_run_that_is_being_recorded_is_not_deleted(catalogue: Catalogue) -> No
     recorder.close()
 
 
-def test_where_runs_are_kept(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_folder_of_runs(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setenv("SVSA_DATA", str(tmp_path))
     assert find_data_folder() == tmp_path
     monkeypatch.delenv("SVSA_DATA")
@@ -214,7 +215,7 @@ def test_where_runs_are_kept(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) ->
     assert find_data_folder() == tmp_path / ".local" / "share" / "svsa"
 
 
-def test_ids_of_new_runs_are_valid_and_differ() -> None:
+def test_ids_of_new_runs_are_valid_and_unique() -> None:
     ids = {build_run_id() for _ in range(1000)}
     assert len(ids) == 1000
     assert all(map(is_run_id, ids))

@@ -1,4 +1,4 @@
-"""The list of runs: named, searched, filtered and sorted by what is seen of them."""
+"""The list of runs: named, searched, filtered and sorted by its visible fields."""
 
 import sqlite3
 from collections.abc import Sequence
@@ -62,7 +62,7 @@ def add_figure(
     tags: tuple[str, ...] = (),
     **changes: Any,
 ) -> None:
-    """A run of 0.02 s with the settings of a figure of the paper."""
+    """Add a run of 0.02 s with the settings of a figure of the paper."""
     loads = (PaperLoad(),) if load else ()
     configuration = get_figure(figure).build_configuration().changed(loads=loads, **changes)
     add(
@@ -80,7 +80,7 @@ def add_figure(
 
 @pytest.fixture
 def varied(catalogue: Catalogue) -> Catalogue:
-    """run-1 … run-4, of which people named only the last."""
+    """run-1 … run-4, of which only the last was named by a user."""
     add_figure(catalogue, "run-1", "4b", comparisons=(Lane(law="fl"),), load=True)
     add_figure(catalogue, "run-2", "4a", law="fl")
     changed = [(10, {"tick": 10, "kind": "law", "argument": "fl"})]
@@ -89,7 +89,7 @@ def varied(catalogue: Catalogue) -> Catalogue:
     return catalogue
 
 
-def test_a_run_is_called_by_its_settings_until_a_user_names_it(varied: Catalogue) -> None:
+def test_run_is_named_by_its_settings_until_a_user_names_it(varied: Catalogue) -> None:
     titles = {run.id: run.title for run in varied.list().runs}
     assert titles == {
         "run-1": "Fig. 4B motion · NDOBC vs FL · σ 60 · 3 kg",
@@ -101,7 +101,7 @@ def test_a_run_is_called_by_its_settings_until_a_user_names_it(varied: Catalogue
     assert varied.update("run-2", name="").title == titles["run-2"]
 
 
-def test_a_word_finds_what_is_seen_and_nothing_else(catalogue: Catalogue) -> None:
+def test_search_finds_visible_text_only(catalogue: Catalogue) -> None:
     for number in (5, 7, 17, 21):
         run_id = f"20260107-0{number:02}707-07{number:04}"
         add_figure(catalogue, run_id, "5", name=f"Student {number:02}")
@@ -113,7 +113,7 @@ def test_a_word_finds_what_is_seen_and_nothing_else(catalogue: Catalogue) -> Non
 
 
 @pytest.mark.parametrize("word", ["%", "_", "*", "Stud%", "Student_07", '"', "'", "NEAR", "\\"])
-def test_signs_of_a_query_language_are_letters_like_others(catalogue: Catalogue, word: str) -> None:
+def test_operators_of_the_query_language_are_literal(catalogue: Catalogue, word: str) -> None:
     add_figure(catalogue, "run-1", name="Student 07")
     add_figure(catalogue, "run-2", name=f"a{word}b")
     assert list_ids(catalogue, search=word) == ["run-2"]
@@ -146,7 +146,7 @@ def test_filters(varied: Catalogue, filters: dict, expected: list[str]) -> None:
     assert varied.list(**filters).total == len(expected)
 
 
-def test_facets_say_what_there_is_to_filter_by(varied: Catalogue) -> None:
+def test_facets_list_the_available_filters(varied: Catalogue) -> None:
     varied.delete("run-2")
     assert varied.list_facets() == {
         "tag": {"class": 1},
@@ -157,7 +157,7 @@ def test_facets_say_what_there_is_to_filter_by(varied: Catalogue) -> None:
     }
 
 
-def test_every_column_sorts_and_what_is_not_known_comes_last(varied: Catalogue) -> None:
+def test_every_column_sorts_with_unknown_values_last(varied: Catalogue) -> None:
     recorder = varied.record(read_header(varied.find_folder("run-4")).changed(run_id="run-9"))
     order = {
         "stiffness_nm_per_rad": ["run-2", "run-4", "run-3", "run-1"],
@@ -171,7 +171,7 @@ def test_every_column_sorts_and_what_is_not_known_comes_last(varied: Catalogue) 
     recorder.close()
 
 
-def test_names_sort_as_people_count(catalogue: Catalogue) -> None:
+def test_names_sort_naturally(catalogue: Catalogue) -> None:
     for number in (10, 9, 100):
         add_figure(catalogue, f"run-{number}", name=f"group {number}")
     assert list_ids(catalogue, sort="name") == ["run-9", "run-10", "run-100"]
@@ -188,7 +188,7 @@ def test_sorting_and_paging_use_an_index(varied: Catalogue) -> None:
     connection.close()
 
 
-def test_a_branch_names_its_origin_whatever_that_is_called_now(catalogue: Catalogue) -> None:
+def test_branch_shows_the_current_name_of_its_origin(catalogue: Catalogue) -> None:
     add_figure(catalogue, "run-1", name="First")
     add_figure(catalogue, "run-2", name="Second", branch_of=BranchPoint("run-1", 12))
     assert catalogue.get("run-2").branch_of == BranchPoint("run-1", 12)
@@ -202,13 +202,13 @@ def test_a_branch_names_its_origin_whatever_that_is_called_now(catalogue: Catalo
 
 
 def make_older(folder: Path) -> None:
-    """The catalogue as the version before wrote it, which knew no settings."""
+    """The catalogue in the format of the previous version, without settings."""
     connection = sqlite3.connect(folder / "catalogue.sqlite")
     connection.executescript(OLDER)
     connection.close()
 
 
-def test_a_catalogue_of_the_older_format_is_opened_and_filled_in(varied: Catalogue) -> None:
+def test_catalogue_of_an_older_format_is_opened_and_completed(varied: Catalogue) -> None:
     varied.delete("run-3")
     before = [varied.list(sort="name").runs, varied.list(trash=True).runs]
     make_older(varied.folder)
@@ -245,7 +245,7 @@ def test_former_names_are_read(varied: Catalogue) -> None:
     assert Catalogue(varied.folder).get("run-3") == before
 
 
-def test_a_run_that_cannot_be_read_stays_while_the_others_are_filled_in(varied: Catalogue) -> None:
+def test_unreadable_run_is_kept_while_others_are_completed(varied: Catalogue) -> None:
     make_older(varied.folder)
     (varied.folder / "runs" / "run-1" / "header.json").write_text("{")
     again = Catalogue(varied.folder)
@@ -254,7 +254,7 @@ def test_a_run_that_cannot_be_read_stays_while_the_others_are_filled_in(varied: 
     assert described == {"run-1": False, "run-2": True, "run-3": True, "run-4": True}
 
 
-def test_a_header_of_the_older_format_is_read(varied: Catalogue) -> None:
+def test_header_of_the_older_format_is_read(varied: Catalogue) -> None:
     folder = varied.find_folder("run-1")
     header = read_header(folder)
     written = header.to_json().replace('"branch_of":null,', "")
@@ -264,7 +264,7 @@ def test_a_header_of_the_older_format_is_read(varied: Catalogue) -> None:
     write_header(folder, header)
 
 
-def test_a_server_fills_in_what_an_older_one_has_entered(
+def test_server_completes_the_entries_of_an_older_one(
     varied: Catalogue, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     make_older(varied.folder)

@@ -1,4 +1,4 @@
-"""The catalogue after a crash: what was recorded is found again, whatever happened to it."""
+"""The catalogue after a crash: recorded runs are found again in any condition."""
 
 import shutil
 import signal
@@ -13,7 +13,7 @@ from svsa.runs.records.catalogue.entry import CatalogueError
 from svsa.runs.records.catalogue.recovery import GONE
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.runs.records.header import PARQUET_FILE, STREAM_FILE, RecordError
-from svsa.runs.records.parquet import ROWS_A_GROUP
+from svsa.runs.records.parquet import ROWS_PER_GROUP
 from svsa.runs.records.writer import write_record
 from tests.runs.records.records import add, build_header, build_samples, list_ids
 
@@ -29,7 +29,7 @@ os.kill(os.getpid(), signal.SIGKILL)
 """
 
 
-def test_the_next_start_finishes_what_a_killed_server_recorded(catalogue: Catalogue) -> None:
+def test_next_start_completes_the_recording_of_a_killed_server(catalogue: Catalogue) -> None:
     add(catalogue, "run-1")
     killed = subprocess.run([sys.executable, "-c", CHILD, str(catalogue.folder)])
     assert killed.returncode == -signal.SIGKILL
@@ -45,7 +45,7 @@ def test_the_next_start_finishes_what_a_killed_server_recorded(catalogue: Catalo
 
 
 @pytest.mark.parametrize("loss", ["gone", "damaged"])
-def test_the_list_is_built_again_from_the_folders(catalogue: Catalogue, loss: str) -> None:
+def test_list_is_rebuilt_from_the_folders(catalogue: Catalogue, loss: str) -> None:
     add(catalogue, "run-1", name="First")
     add(catalogue, "run-2")
     catalogue.update("run-2", name="Renamed", tags=("kept",), notes="and notes")
@@ -66,7 +66,7 @@ def test_the_list_is_built_again_from_the_folders(catalogue: Catalogue, loss: st
         assert (catalogue.folder / "catalogue.sqlite.damaged-1").exists()
 
 
-def test_damaged_and_missing_runs_stay_in_the_list_and_say_so(catalogue: Catalogue) -> None:
+def test_damaged_and_missing_runs_are_listed_as_such(catalogue: Catalogue) -> None:
     for number in range(4):
         add(catalogue, f"run-{number}")
     runs = catalogue.folder / "runs"
@@ -95,10 +95,10 @@ def test_damaged_and_missing_runs_stay_in_the_list_and_say_so(catalogue: Catalog
     again.purge("run-3")
 
 
-def test_damage_is_listed_with_its_reason_and_what_still_opens(catalogue: Catalogue) -> None:
+def test_damage_is_listed_with_its_reason_and_readable_parts(catalogue: Catalogue) -> None:
     header = build_header("run-1", lanes=("pd",), channels=CHANNELS[:2])
     folder = catalogue.folder / "runs" / "run-1"
-    samples = build_samples(2 * ROWS_A_GROUP, 1)[:, :, :2]
+    samples = build_samples(2 * ROWS_PER_GROUP, 1)[:, :, :2]
     write_record(folder, header, [(3, {"kind": "stop"})], 0, samples)
     catalogue.recover()
     assert catalogue.get("run-1").state == "complete"
@@ -111,14 +111,14 @@ def test_damage_is_listed_with_its_reason_and_what_still_opens(catalogue: Catalo
     assert entry.state == "damaged"
     assert "The samples of record run-1 are damaged" in entry.message
     assert entry.message.endswith("Still readable: settings, 1 command, the first 65.536 s.")
-    readable = catalogue.open("run-1").read_channels([CHANNELS[1].name], 0, ROWS_A_GROUP)
-    assert (readable[:, :, 0] == samples[:ROWS_A_GROUP, :, 1]).all()
+    readable = catalogue.open("run-1").read_channels([CHANNELS[1].name], 0, ROWS_PER_GROUP)
+    assert (readable[:, :, 0] == samples[:ROWS_PER_GROUP, :, 1]).all()
     path.write_bytes(content)
     catalogue.recover()
     assert (catalogue.get("run-1").state, catalogue.get("run-1").message) == ("complete", "")
 
 
-def test_a_folder_that_cannot_be_used_is_reported(tmp_path: Path) -> None:
+def test_unusable_folder_is_reported(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     with pytest.raises(CatalogueError, match="cannot be kept"):
         Catalogue(tmp_path / "file" / "data")

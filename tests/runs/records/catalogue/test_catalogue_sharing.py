@@ -1,4 +1,4 @@
-"""One folder of runs in many hands: threads and processes that record, rename, delete, recover."""
+"""One folder of runs shared by threads and processes that record, rename, delete and recover."""
 
 import multiprocessing
 import threading
@@ -34,7 +34,7 @@ def work(folder: str, first: int, failures: "multiprocessing.Queue[str]") -> Non
 @pytest.mark.long
 @pytest.mark.parametrize("hands", exhaust([1, 2], [1]))
 def test_processes_and_threads_share_a_folder(catalogue: Catalogue, hands: int) -> None:
-    """So many processes next to this one, and so many threads of its own."""
+    """Several processes next to this one, and several threads in each."""
     context = multiprocessing.get_context("spawn")
     failures = context.Queue()
     folder = str(catalogue.folder)
@@ -55,7 +55,7 @@ def test_processes_and_threads_share_a_folder(catalogue: Catalogue, hands: int) 
     assert all(run.name == "Name " + run.id.removeprefix("run-") for run in page.runs)
 
 
-def test_a_run_is_measured_while_a_user_renames_it(catalogue: Catalogue) -> None:
+def test_run_is_measured_while_a_user_renames_it(catalogue: Catalogue) -> None:
     add(catalogue, "run-1")
     folder = catalogue.folder / "runs" / "run-1"
 
@@ -69,7 +69,7 @@ def test_a_run_is_measured_while_a_user_renames_it(catalogue: Catalogue) -> None
         assert measure_bytes(folder) > 0
 
 
-def test_a_name_given_while_a_user_recovers_stays(
+def test_name_given_during_a_recovery_is_kept(
     catalogue: Catalogue, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     header = build_header("run-1", name="Early")
@@ -88,7 +88,7 @@ def test_a_name_given_while_a_user_recovers_stays(
     assert catalogue.open("run-1").header.name == "Late"
 
 
-def test_a_run_deleted_while_a_user_recovers_stays_deleted(
+def test_run_deleted_during_a_recovery_stays_deleted(
     catalogue: Catalogue, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     header = build_header("run-1")
@@ -108,7 +108,7 @@ def test_a_run_deleted_while_a_user_recovers_stays_deleted(
     assert catalogue.open("run-1").tick_count == 20
 
 
-def test_list_and_header_agree_after_changes_from_two_sides(
+def test_list_and_header_agree_after_concurrent_changes(
     catalogue: Catalogue, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     add(catalogue, "run-1")

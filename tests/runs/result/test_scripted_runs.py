@@ -1,4 +1,4 @@
-"""Runs in a script: changed on the way, recorded and opened again, shown in a notebook."""
+"""Runs in a script: changed during the run, recorded and opened again, shown in a notebook."""
 
 import re
 import subprocess
@@ -36,7 +36,7 @@ CHANGES = (
 
 
 def play_session() -> Session:
-    """A session that is given the same as `CHANGES`, at the same ticks, by hand."""
+    """A session with the changes of `CHANGES` at the same ticks, applied directly."""
     session = SimulatedSession("test", build_configuration(comparisons=(svsa.Lane(law="fl"),)))
     for change in sorted(CHANGES, key=lambda change: change.at_s):
         session.step(round(change.at_s / 0.001) - session.run.tick)
@@ -53,7 +53,7 @@ def result() -> svsa.Result:
     )
 
 
-def test_changes_on_the_way_are_those_of_a_session_bit_for_bit(result: svsa.Result) -> None:
+def test_changes_during_a_run_equal_those_of_a_session_bit_for_bit(result: svsa.Result) -> None:
     session = play_session()
     session.step(600 - session.run.tick)
     np.testing.assert_array_equal(result.samples, read_samples(session))
@@ -68,12 +68,12 @@ def test_changes_on_the_way_are_those_of_a_session_bit_for_bit(result: svsa.Resu
         ([{"at_s": 0.1, "law": "fl"}], "a list of svsa.Change"),
     ],
 )
-def test_a_change_that_cannot_be_is_refused(commands: list, words: str) -> None:
+def test_impossible_change_is_rejected(commands: list, words: str) -> None:
     with pytest.raises(svsa.ParameterError, match=re.escape(words)):
         svsa.simulate("4b", duration_s=0.6, commands=commands)
 
 
-def test_a_change_of_nothing_and_an_unknown_word_are_refused() -> None:
+def test_empty_change_and_unknown_name_are_rejected() -> None:
     with pytest.raises(svsa.ParameterError, match="of law, gains, parameters, observer, position"):
         svsa.Change(at_s=1.0)
     with pytest.raises(svsa.ParameterError, match="controller"):
@@ -98,7 +98,7 @@ def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def test_a_recorded_run_opens_as_what_simulate_returns(recorded: Path) -> None:
+def test_recorded_run_opens_as_a_result(recorded: Path) -> None:
     opened = svsa.open_run(recorded)
     np.testing.assert_array_equal(opened.samples, open_record(recorded).samples[:, 0])
     assert (opened.law, opened.name, opened.fault) == ("fl", "Mine", None)
@@ -115,13 +115,13 @@ def test_a_recorded_run_opens_as_what_simulate_returns(recorded: Path) -> None:
         opened.measure(0.0, 0.3)
 
 
-def test_it_is_simulated_again_and_exported(recorded: Path, tmp_path: Path) -> None:
+def test_recorded_run_is_resimulated_and_exported(recorded: Path, tmp_path: Path) -> None:
     assert svsa.resimulate(recorded).identical
     svsa.export_run(recorded, "csv", tmp_path / "run.csv")
     assert (tmp_path / "run.csv").read_text().count("\n") == 1 + 350
 
 
-def test_a_run_opens_by_its_id_in_the_catalogue(
+def test_run_opens_by_its_id_in_the_catalogue(
     recorded: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("SVSA_DATA", str(tmp_path))
@@ -134,7 +134,7 @@ def test_a_run_opens_by_its_id_in_the_catalogue(
         svsa.open_run("run-2")
 
 
-def test_every_channel_is_known_to_type_checkers_and_to_tab(result: svsa.Result) -> None:
+def test_every_channel_is_known_to_type_checkers_and_completion(result: svsa.Result) -> None:
     assert get_args(ChannelName) == CHANNEL_NAMES
     assert tuple(get_type_hints(Channels))[1:] == CHANNEL_NAMES
     assert set(CHANNEL_NAMES) <= set(dir(result))
@@ -142,7 +142,7 @@ def test_every_channel_is_known_to_type_checkers_and_to_tab(result: svsa.Result)
         np.testing.assert_array_equal(result[name], getattr(result, name))
 
 
-def test_a_typo_names_what_may_have_been_meant(result: svsa.Result) -> None:
+def test_misspelled_name_gets_a_suggestion(result: svsa.Result) -> None:
     with pytest.raises(AttributeError, match="perhaps position_rad"):
         _ = result.positon_rad  # pyright: ignore[reportAttributeAccessIssue]
     with pytest.raises(svsa.ParameterError, match="perhaps torque1_nm or torque2_nm"):
@@ -158,7 +158,7 @@ wrong = result["torque_nm"]
 
 
 @pytest.mark.exhaustive
-def test_a_typo_is_a_type_error(tmp_path: Path) -> None:
+def test_misspelled_name_is_a_type_error(tmp_path: Path) -> None:
     (tmp_path / "script.py").write_text(TYPO)
     checker = Path(sys.executable).parent / "basedpyright"
     arguments = [checker, "--level", "error", "--pythonpath", sys.executable, "script.py"]
@@ -169,7 +169,7 @@ def test_a_typo_is_a_type_error(tmp_path: Path) -> None:
     assert rules == ["reportAttributeAccessIssue", "reportArgumentType"], found.stdout
 
 
-def test_a_result_is_two_lines_and_a_picture(result: svsa.Result) -> None:
+def test_result_is_shown_as_two_lines_and_a_picture(result: svsa.Result) -> None:
     lines = repr(result).splitlines()
     assert len(lines) == 2
     assert lines[0].startswith(
@@ -186,7 +186,7 @@ def test_a_result_is_two_lines_and_a_picture(result: svsa.Result) -> None:
     assert "data:image/png;base64," in shown
 
 
-def test_a_run_without_samples_says_so(result: svsa.Result) -> None:
+def test_run_without_samples_reports_it(result: svsa.Result) -> None:
     fault = svsa.errors.Fault("position", 0, 0, 0.0, "q is beyond <its limit>.")
     empty = svsa.Result(result.configuration, np.empty((0, len(CHANNELS))), fault)
     assert repr(empty).splitlines()[1] == "no samples; ended early: q is beyond <its limit>."
@@ -195,8 +195,8 @@ def test_a_run_without_samples_says_so(result: svsa.Result) -> None:
     assert "<img" not in empty._repr_html_()
 
 
-def test_a_law_names_only_what_it_controlled(result: svsa.Result) -> None:
-    """History is not renamed by the law of the beginning, nor comparisons by the first lane's."""
+def test_law_names_only_the_samples_that_it_controlled(result: svsa.Result) -> None:
+    """Samples keep the name of their law after a change, also in comparisons."""
     stretches = [(law, rows.start, rows.stop) for law, rows in result.list_segments()]
     assert stretches == [("ndobc", 0, 100), ("fl", 100, 400), ("ndobc", 400, 600)]
     comparison = result.comparisons[0]
