@@ -20,9 +20,14 @@ T = TypeVar("T", bound=Checked)
 class ClassFolder(Generic[T]):
     """A folder with a file `secret`, a folder of results, and a folder of further files.
 
-    kind: type of a result. names: of the folder in an error, of the results' folder, and of that
-    of their other files. The secret is drawn when the folder is begun. Raises `ParameterError`
-    where the folder cannot be used.
+    The secret is generated when the folder is created.
+
+    Args:
+        kind: Type of a result.
+        names: Name of the folder in an error, of the results' folder, and of that of further files.
+
+    Raises:
+        ParameterError: If the folder cannot be used.
     """
 
     def __init__(self, folder: Path, kind: type[T], names: tuple[str, str, str]) -> None:
@@ -47,13 +52,17 @@ class ClassFolder(Generic[T]):
         """Read the result of a key; return None if there is none.
 
         Raises:
-            ParameterError: The file of the result cannot be read.
+            ParameterError: If the file of the result cannot be read.
         """
         path = self._results / f"{key}.json"
         return self._read(path) if path.exists() else None
 
     def write(self, key: str, result: T) -> None:
-        """Save a result atomically; raises `OSError`."""
+        """Save a result atomically.
+
+        Raises:
+            OSError: If the file cannot be written.
+        """
         text = result.model_dump_json(indent=1) + "\n"
         replace_file(self._results / f"{key}.json", text.encode())
 
@@ -70,13 +79,14 @@ class ClassFolder(Generic[T]):
 
 
 def keep_secret(path: Path) -> bytes:
-    """Return the secret in this file; draw one if there is none yet. Other accounts cannot read it.
+    """Return the secret in this file; generate one if there is none. Other accounts cannot read it.
 
-    A file without content is what an earlier version left on a full disk: it is drawn again.
+    An earlier version may have left an empty file on a full disk: then the secret is generated
+    again.
 
     Raises:
-        ParameterError: The file holds something else.
-        OSError: The file cannot be written or read.
+        ParameterError: If the file contains something else.
+        OSError: If the file cannot be written or read.
     """
     if not path.exists() or not path.stat().st_size:
         _write_new(path, secrets.token_bytes(SECRET_BYTES))
@@ -97,12 +107,12 @@ def _write_new(path: Path, content: bytes) -> None:
             os.fsync(file.fileno())
         if path.exists() and not path.stat().st_size:
             path.unlink()
-        # A link, and not a replacement, fails if the other process was first.
+        # Linking fails if the other process was first; replacing would not.
         try:
             path.hardlink_to(draft)
         except FileExistsError:
             return
         except OSError:
-            draft.replace(path)  # some network folders have no links
+            draft.replace(path)  # some network file systems have no links
     finally:
         draft.unlink(missing_ok=True)

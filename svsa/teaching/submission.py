@@ -33,9 +33,11 @@ LawText = Annotated[str, Field(min_length=1, max_length=MAX_LAW_BYTES), AfterVal
 class Submission(Checked):
     """The submission of one exercise, by its steps.
 
-    answers: numbers that were predicted, in the unit that the step asks for, and names of options
-    that were chosen. runs: the recorded run of each experiment. law_file: path of a Python file,
-    in the folder of the submission. law: the text of that file.
+    Attributes:
+        answers: Predicted numbers, in the unit of the step, and names of chosen options.
+        runs: Recorded run of each experiment.
+        law_file: Path of a Python file, in the folder of the submission.
+        law: Text of that file.
     """
 
     student: str = quantity("", "Who submits it", min_length=1, max_length=LONGEST_NAME)
@@ -72,7 +74,11 @@ def digest_law(law: bytes | None) -> str:
 
 
 def read_submission(path: Path | str) -> Submission:
-    """Read a submission from JSON, with its law; raises `ParameterError` with the file's name."""
+    """Read a submission from JSON, with its law.
+
+    Raises:
+        ParameterError: If a file is invalid, with its name.
+    """
     path = Path(path)
     try:
         text = path.read_text(encoding="utf-8")
@@ -101,7 +107,11 @@ def _parse(text: str) -> Submission:
 
 
 def _read_law_in(folder: Path, name: str) -> bytes:
-    """Read a law's file within a folder; raises `ParameterError`, also for other paths."""
+    """Read a law's file within a folder.
+
+    Raises:
+        ParameterError: If it cannot be read or is outside the folder.
+    """
     path = (folder / name).resolve()
     if not path.is_relative_to(folder.resolve()):
         raise ParameterError(Violation("law_file", name, "", "a file next to the submission"))
@@ -109,7 +119,11 @@ def _read_law_in(folder: Path, name: str) -> bytes:
 
 
 def read_law(path: Path) -> bytes:
-    """Read a law's file; raises `ParameterError`."""
+    """Read a law's file.
+
+    Raises:
+        ParameterError: If it cannot be read.
+    """
     try:
         with path.open("rb") as file:
             text = file.read(MAX_LAW_BYTES + 1)
@@ -123,12 +137,13 @@ def read_law(path: Path) -> bytes:
 
 
 TrialVerdict = Literal["held", "ran", "ended", "failed", "untried"]
-"""At most 1° rms at the end; to the end, but further off; the run ended; the law failed at its own
-part; this machine could not try it."""
+"""At most 1° rms at the end; completed, but with a larger error; the run ended early; the law
+itself failed; this machine could not run it.
+"""
 
 
 class SavedLaw(Checked):
-    """A law's file and the result of its trial. output: the end of what it printed."""
+    """A law's file and the result of its trial; `output` is the end of its output."""
 
     text: str = quantity("", "Text of a law's Python file")
     verdict: TrialVerdict = quantity("", "Outcome of the trial run")

@@ -1,4 +1,6 @@
-"""The secret of a class or a season: drawn once, and drawn again where a full disk left none."""
+"""The secret of a class or a season: generated once, and again if a full disk left an
+empty file.
+"""
 
 import stat
 from pathlib import Path
@@ -9,7 +11,7 @@ from svsa.errors import ParameterError
 from svsa.teaching.class_folder import SECRET_BYTES, keep_secret
 
 
-def test_a_secret_is_drawn_once_and_read_by_its_account_only(tmp_path: Path) -> None:
+def test_secret_is_generated_once_and_readable_by_its_account_only(tmp_path: Path) -> None:
     path = tmp_path / "secret"
     secret = keep_secret(path)
     assert len(secret) == SECRET_BYTES
@@ -18,7 +20,7 @@ def test_a_secret_is_drawn_once_and_read_by_its_account_only(tmp_path: Path) -> 
     assert [one.name for one in tmp_path.iterdir()] == ["secret"]
 
 
-def test_an_empty_secret_is_drawn_again_and_another_file_is_rejected(tmp_path: Path) -> None:
+def test_empty_secret_is_generated_again_and_another_file_is_rejected(tmp_path: Path) -> None:
     path = tmp_path / "secret"
     path.touch()
     assert len(keep_secret(path)) == SECRET_BYTES

@@ -37,8 +37,9 @@ class Criterion(Checked):
 class CriterionResult(Checked):
     """The result of one criterion of a step.
 
-    channel, time_s: where in the step's run to look, in the run's time; None where it is about no
-    sample.
+    Attributes:
+        channel: Channel of the step's run that shows the result; None if there is none.
+        time_s: Time in the run, s; None if there is none.
     """
 
     step: str = quantity("", "Step of the criterion")

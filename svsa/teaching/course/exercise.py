@@ -14,9 +14,17 @@ from svsa.teaching.submission import MAX_STEPS, StepName
 class Exercise(Checked):
     """The steps of one exercise: predict, experiment, explain, submit.
 
-    Raises `ParameterError` if the steps are inconsistent.
+    Attributes:
+        name: Name of its file.
+        number: Number in the course.
+        title: Title.
+        goal: Learning goal.
+        minutes: Expected duration, minutes.
+        text: Introduction.
+        steps: The steps.
 
-    name: that of its file. number: its place in the course. goal: what one can do after it.
+    Raises:
+        ParameterError: If the steps are inconsistent.
     """
 
     name: StepName
@@ -52,7 +60,11 @@ class Exercise(Checked):
             raise ParameterError(Violation(f"steps[{number}].unit", step.unit, "", bound))
 
     def find_step(self, name: str) -> Step:
-        """Return the step of this name; raises `ParameterError` if there is none."""
+        """Return the step of this name.
+
+        Raises:
+            ParameterError: If there is none.
+        """
         for step in self.steps:
             if step.name == name:
                 return step

@@ -35,7 +35,8 @@ def find_course_folder() -> Path | None:
 def list_exercise_files(folder: Path | None = None) -> list[Path]:
     """List the files of the course; a file in `folder` replaces the package's of the same name.
 
-    Raises `ParameterError` for a folder that is not there.
+    Raises:
+        ParameterError: If the folder does not exist.
     """
     found = {path.stem: path for path in _BUILT_IN.glob("*.md")}
     if folder is not None:
@@ -46,7 +47,11 @@ def list_exercise_files(folder: Path | None = None) -> list[Path]:
 
 
 def read_course(folder: Path | None = None) -> list[Exercise]:
-    """Read every exercise of the course, by number; raises `ParameterError` for an invalid file."""
+    """Read every exercise of the course, by number.
+
+    Raises:
+        ParameterError: If a file is invalid.
+    """
     exercises = [read_exercise(path) for path in list_exercise_files(folder)]
     return sorted(exercises, key=lambda one: (one.number, one.name))
 
@@ -54,7 +59,8 @@ def read_course(folder: Path | None = None) -> list[Exercise]:
 def read_exercise(path: Path | str) -> Exercise:
     """Read the exercise in a file; the exercise has the name of the file.
 
-    Raises `ParameterError` with the file, and the lines of what is wrong.
+    Raises:
+        ParameterError: If it is invalid, with file and lines.
     """
     try:
         text = Path(path).read_text(encoding="utf-8")
@@ -66,10 +72,13 @@ def read_exercise(path: Path | str) -> Exercise:
 
 @lru_cache(MAX_KEPT)
 def parse_exercise(text: str, name: str, place: str = "") -> Exercise:
-    """Parse an exercise; raises `ParameterError` as `read_exercise`, with `place` as the file.
+    """Parse an exercise; `place` is the file in error messages.
 
-    The front matter stands between two lines `+++`; then come the text of the exercise, and under
-    a heading `## NAME` that of each step.
+    The front matter is between two lines `+++`, followed by the text of the exercise, and that of
+    each step under a heading `## NAME`.
+
+    Raises:
+        ParameterError: As `read_exercise`.
     """
     lines = text.splitlines()
     fences = [number for number, line in enumerate(lines) if line.strip() == FENCE][:2]

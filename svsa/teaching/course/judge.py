@@ -25,12 +25,18 @@ def judge_submission(
     open_run: OpenRun,
     judge_law: JudgeLaw | None = None,
 ) -> Judgement:
-    """Judge all criteria of an exercise, as shown to the student; a law's grade comes later.
+    """Evaluate all criteria of an exercise, as shown to the student; a law is graded later.
 
-    open_run: gives the run of an id; where it raises `SvsaError`, the criteria of that step have no
-    points and say why. judge_law: gives the criteria of a law's text, None where a law is judged
-    later. Raises `ParameterError` for a submission of another exercise, with steps that this one
-    has not, or with a law that it does not ask for.
+    Args:
+        exercise: The exercise.
+        submission: The submission.
+        open_run: Opens the run of an id; if it raises `SvsaError`, the criteria of that step have
+            no points and contain the reason.
+        judge_law: Evaluates the criteria of a law's text; None if laws are graded later.
+
+    Raises:
+        ParameterError: If the submission belongs to another exercise, has unknown steps, or
+            contains a law that the exercise does not request.
     """
     if submission.exercise != exercise.name:
         bound = f"{exercise.name!r}, the exercise that is judged"

@@ -1,4 +1,4 @@
-"""The form of an experiment on a bench: what changes, and what a bench cannot do."""
+"""The form of an experiment on a bench: differences, and unsupported settings."""
 
 from collections.abc import Iterable, Sequence
 from typing import Any
@@ -14,7 +14,9 @@ from svsa.teaching.course.criterion import Criterion
 from svsa.teaching.course.measure import Measure
 
 SET_ON_BENCH = ("law", "position", "stiffness", "loads", "gains", "parameters", "observer")
-"""What of a configuration an experiment sets on a bench, which has all else itself."""
+"""Fields of a configuration that an experiment sets on a bench; the bench has its own values of all
+others.
+"""
 UNMEASURED = tuple(name for name in CHANNEL_NAMES if name.startswith("disturbance_"))
 _OWN = ("actuator", "nominal", "limits", "sampling", "seed")
 _NOT_FREE = ("comparisons", "effects")
@@ -23,7 +25,7 @@ _NOT_FREE = ("comparisons", "effects")
 class OnBench(Checked):
     """The fields of an experiment that differ on a bench; fields left out are as simulated.
 
-    by_hand: what the user at the bench does at the times of its loads.
+    `by_hand` describes the actions of the operator at the times of the loads.
     """
 
     loads: tuple[Load, ...] | None = quantity("", "Loads, on the link alone", default=None)
@@ -38,9 +40,10 @@ def check_for_bench(
     loads: Sequence[Load],
     measures: Sequence[Measure],
 ) -> None:
-    """Raise `ParameterError` if an experiment needs what a bench cannot set or measure.
+    """Raise `ParameterError` if an experiment needs settings or measurements that a bench does not
+    support.
 
-    base: the paths that it sets. loads: those on the bench.
+    `base` are the paths that it sets, `loads` the loads on the bench.
     """
     for path in base:
         if path.partition(".")[0] in _OWN:

@@ -1,8 +1,7 @@
 """Progress of students: saved answers and runs, and the changes that are still allowed.
 
-A prediction is asked for before the run that judges it, and is kept as it was once that run was
-set up; an answer to a question is kept as it was first given, since its feedback tells which is
-right.
+A prediction must be given before the run with which it is compared, and is final once that run was
+set up. The first answer to a question is final, because its feedback contains the right answer.
 """
 
 import json
@@ -32,7 +31,15 @@ SUBMISSIONS = "submissions"
 
 
 class StepProgress(Checked):
-    """Progress in one step. begun: its run was set up. results: the latest judgement."""
+    """Progress in one step.
+
+    Attributes:
+        answer: The answer.
+        run: Id of the run.
+        begun: Whether its run was set up.
+        done: Whether it is complete.
+        results: The latest assessment.
+    """
 
     answer: Answer | None = None
     run: str | None = None
@@ -42,10 +49,15 @@ class StepProgress(Checked):
 
 
 class ExerciseProgress(Checked):
-    """Progress in one exercise. at: the step shown last. submitted_at: ISO 8601.
+    """Progress in one exercise.
 
-    law: the one that was tried last, which is what is submitted. changes: how often it was changed,
-    by which the newer of two answers is known.
+    Attributes:
+        at: Name of the step shown last.
+        steps: Progress by step.
+        law: The law that was tried last, which will be submitted.
+        submitted_at: ISO 8601.
+        points: Points.
+        changes: Number of changes, which orders two answers of the server.
     """
 
     at: StepName | None = None
@@ -105,8 +117,8 @@ def keep_answer(
     """Save an answer.
 
     Raises:
-        ParameterError: The answer is invalid.
-        StateError: The run that judges it has begun, or the exercise is submitted.
+        ParameterError: If the answer is invalid.
+        StateError: If the run that it is compared with has begun, or the exercise is submitted.
     """
     found = exercise.find_step(step)
     check_answer(found, answer)
@@ -121,7 +133,11 @@ def keep_answer(
 
 
 def begin_step(exercise: Exercise, progress: ExerciseProgress, step: str) -> ExerciseProgress:
-    """Record that the run of a step is set up; raises `StateError` if a prediction is missing."""
+    """Record that the run of a step is set up.
+
+    Raises:
+        StateError: If a prediction is missing.
+    """
     found = exercise.find_step(step)
     if not isinstance(found, Experiment):
         raise StateError(f"Step {step!r} is no experiment: there is nothing to set up.")
@@ -140,9 +156,9 @@ def keep_run(
     run: str,
     results: Sequence[CriterionResult],
 ) -> ExerciseProgress:
-    """Save a judged run, unless the saved run has more points.
+    """Save an assessed run, unless the saved run has more points.
 
-    results: of the step and of the predictions that it judges, each under its step.
+    `results` are those of the step and of the predictions that are compared with it, by step.
     """
     _check_open(progress)
     before = progress.get(step)
@@ -157,7 +173,11 @@ def keep_run(
 
 
 def keep_law(exercise: Exercise, progress: ExerciseProgress, law: SavedLaw) -> ExerciseProgress:
-    """Save a law, replacing the previous one; raises `StateError` if the exercise takes none."""
+    """Save a law, replacing the previous one.
+
+    Raises:
+        StateError: If the exercise requests no law.
+    """
     check_takes_law(exercise, progress)
     return progress.changed(law=law)
 
@@ -204,7 +224,7 @@ def _translate(written: Any) -> Any:
     if isinstance(present, dict) and present.get("at") in former_words.STEPS:
         present["at"] = former_words.STEPS[present["at"]]
     for step in present.get("steps", {}).values():
-        # Written as a list of values before criteria had names in files.
+        # Earlier versions stored a list of values, without names of criteria.
         step["results"] = [
             dict(zip(CriterionResult.model_fields, one, strict=True))
             if isinstance(one, list)
@@ -215,7 +235,7 @@ def _translate(written: Any) -> Any:
 
 
 class ProgressStore:
-    """A folder with one progress file per person, written atomically. Thread-safe.
+    """A folder with one progress file per user, written atomically. Thread-safe.
 
     The caller that changes progress holds `lock` from reading to writing.
     """
@@ -228,12 +248,12 @@ class ProgressStore:
             former.rename(self.folder / SUBMISSIONS)
 
     def read(self, person: str) -> PersonProgress:
-        """Read the progress of a person; empty if there is none.
+        """Read the progress of a user; empty if there is none.
 
-        A damaged file is set aside and reported in the log, and the version before it is used.
+        A damaged file is renamed and reported in the log, and the previous version is used.
 
         Raises:
-            OSError: The file exists and cannot be read.
+            OSError: If the file exists and cannot be read.
         """
         path = self._find(person)
         for one in (path, _find_previous(path)):
@@ -249,7 +269,11 @@ class ProgressStore:
         return PersonProgress()
 
     def write(self, person: str, progress: PersonProgress) -> None:
-        """Save progress and its previous version; raises `OSError` with both unchanged."""
+        """Save progress and its previous version.
+
+        Raises:
+            OSError: If that fails; both are unchanged.
+        """
         path = self._find(person)
         path.parent.mkdir(parents=True, exist_ok=True)
         if path.exists():

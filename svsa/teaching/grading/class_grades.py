@@ -17,9 +17,12 @@ BOOK_FOLDER = "book"
 
 
 class GradedSubmission(NamedTuple):
-    """What a person submitted of an exercise. person: id, as its file is called.
+    """A user's submission of an exercise, with its grade.
 
-    grade: None where it has none yet; problem: why it was given none, or empty.
+    Attributes:
+        person: Id of the user, and name of the file.
+        grade: None before grading.
+        problem: Why it could not be graded, or empty.
     """
 
     person: str
@@ -30,7 +33,11 @@ class GradedSubmission(NamedTuple):
 
 
 def open_book(store: ProgressStore) -> Book:
-    """Open the gradebook that belongs to the progress of a class; raises `ParameterError`."""
+    """Open the gradebook that belongs to the progress of a class.
+
+    Raises:
+        ParameterError: If it cannot be used.
+    """
     return Book(store.folder / BOOK_FOLDER)
 
 
@@ -54,10 +61,11 @@ def grade_class(
 ) -> bool:
     """Grade these submissions; return whether all were graded.
 
-    report: receives (graded, total). workers: processes.
+    A submission that cannot be graded keeps its previous grade, and the gradebook contains the
+    reason. `report` receives (graded, total); `workers` is the number of processes.
 
-    One that is refused keeps the grade that it has, and the book says why. Raises
-    `GraderLostError`.
+    Raises:
+        GraderLostError: If a worker process was lost.
     """
     report(0, len(files))
     if is_cancelled():

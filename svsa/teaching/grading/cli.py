@@ -86,7 +86,7 @@ def _grade_all(
 
 
 def _describe_failure(one: CriterionResult) -> str:
-    """Why a law failed, with what it printed; empty for any other criterion."""
+    """Reason why a law failed, with its output; empty for any other criterion."""
     return f"{one.name}: {one.feedback}" if PRINTED in one.feedback else ""
 
 

@@ -10,11 +10,11 @@ from svsa.inputs.extras import __version__
 from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.runs.records.header import RecordError
 from svsa.runs.records.resimulation import compare_with_simulation
-from svsa.runs.result.recorded import open_run
 from svsa.runs.result.result import Result
 from svsa.teaching.course.criterion import CriterionResult, Judgement
 from svsa.teaching.course.exercise import Exercise
 from svsa.teaching.course.judge import judge_submission
+from svsa.teaching.course.run import open_course_run
 from svsa.teaching.grading.law_points import judge_law, run_trials
 from svsa.teaching.isolation.confinement import confine, leave_open
 from svsa.teaching.submission import Submission, digest_law
@@ -28,11 +28,13 @@ class VerifiedRun(Checked):
 
 
 class Grade(Judgement):
-    """The points of a submission, and the versions and trials that it was graded with.
+    """The points of a submission, and the versions and trials of the grading.
 
-    submission: digest of everything that was submitted. seed: of the trials that its law went
-    through, in hexadecimal, None without a law. is_isolated: false for a law that ran without
-    walls, which is no grade for a class.
+    Attributes:
+        submission: Digest of everything that was submitted.
+        seed: Seed of the trials of its law, in hexadecimal, None without a law.
+        is_isolated: False for a law that ran without isolation, which is not valid as a grade of a
+            class.
     """
 
     student: str = quantity("", "Student")
@@ -47,8 +49,8 @@ class Grade(Judgement):
 def verify_run(catalogue: Catalogue, run_id: str) -> VerifiedRun:
     """Verify that a recorded run follows bit for bit from its own configuration and commands.
 
-    A simulated one is simulated again. Of a bench's all is worked out again but what it measured
-    and sent, and what it sent is compared with its law.
+    A simulated run is simulated again. For a bench's run everything but the measured and sent
+    values is computed again, and the sent values are compared with its law.
     """
     record = catalogue.open(run_id)
     if record.header.plant != "simulated":
@@ -70,20 +72,30 @@ def grade(
     secret: bytes | None,
     report: Callable[[float], None] = lambda share: None,
 ) -> Grade:
-    """Grade a submission. runs: folder of the runs, None for the data folder of this machine.
+    """Grade a submission.
 
-    secret: the class's, from which and from the law's text come its trials, so that one law is
-    worth the same for every author; None for practice: public trials, and the law runs without
-    walls, as one's own. report: is given the share of the law's trials that is done. Raises
-    `ParameterError` for a submission that does not fit the exercise, `NotIsolatedError` for a law
-    where the machine cannot hold one.
+    Args:
+        submission: The submission.
+        exercise: The exercise.
+        runs: Folder of the runs; None for the data folder of this machine.
+        secret: Secret of the class, which together with the law's text determines its trials, so
+            that the same law gets the same points for every author. None for practice: public
+            trials, and the law runs without isolation.
+        report: Called with the finished share of the law's trials.
+
+    Returns:
+        The grade.
+
+    Raises:
+        ParameterError: If the submission does not fit the exercise.
+        NotIsolatedError: If the machine cannot isolate a law.
     """
     catalogue, verified, law = Catalogue(runs), list[VerifiedRun](), submission.law
     seed = derive_seed(secret or b"practice", f"{PROTOCOL} {digest_law(law)}")
 
     def open_verified(run_id: str) -> Result:
         verified.append(verify_run(catalogue, run_id))
-        return open_run(catalogue.find_folder(run_id))
+        return open_course_run(catalogue.find_folder(run_id))
 
     def judge_text(text: bytes | None) -> list[CriterionResult]:
         place = confine if secret else leave_open

@@ -10,15 +10,21 @@ from svsa.teaching.grading.grade import Grade
 class Book(ClassFolder[Grade]):
     """A class folder with `secret`, and `grades/` with one file per submission digest.
 
-    `refused/` has why a submission was given none. Raises `ParameterError` where the folder cannot
-    be used.
+    `refused/` contains the reasons of submissions that could not be graded.
+
+    Raises:
+        ParameterError: If the folder cannot be used.
     """
 
     def __init__(self, folder: Path) -> None:
         super().__init__(folder, Grade, ("class", "grades", "refused"))
 
     def keep(self, grade: Grade) -> None:
-        """Save a grade; raises `StateError` for a law that was not isolated."""
+        """Save a grade.
+
+        Raises:
+            StateError: If its law was not isolated.
+        """
         if not grade.is_isolated:
             raise StateError("A law that was not isolated gets no grade in a class.")
         self.write(grade.submission, grade)

@@ -32,7 +32,7 @@ POINTS_RANGE = 0.3
 """Trials are added until the 95 % interval of the points is no wider. Twenty trials give 2.3 points
 for a law that succeeds in half of them."""
 LONGEST_S = 1800.0
-"""A law for which this is over first is graded on the trials done by then; its grade says so."""
+"""Time after which a law is graded on the trials completed by then, s; its grade contains this."""
 LAW_STEP = "law"
 POINTS = {
     "No run ends early": 2.0,
@@ -44,9 +44,11 @@ POINTS = {
 class Trials(NamedTuple):
     """The results of a law on trials.
 
-    held: of each, (trials,). rms_deg: position error from the load on, (trials,), °; NaN where the
-    run ended early. problem: why the first of those did, or why the law failed at its own part;
-    output: the end of what it printed then.
+    Attributes:
+        held: Whether each trial succeeded, shape (trials,).
+        rms_deg: Position error from the load on, °, shape (trials,); NaN if the run ended early.
+        problem: Why the first of those ended, or why the law itself failed.
+        output: End of the law's output at that time.
     """
 
     held: np.ndarray
@@ -74,14 +76,14 @@ def run_trials(
 ) -> Trials:
     """Run a law on the trials of a seed until the interval of its points is `POINTS_RANGE` wide.
 
-    How many trials that takes follows from their outcome: the same law has the same grade. A law
-    that fails at its own part is not asked again, and has no points for the rest of the block.
+    The number of trials depends only on their outcomes: the same law gets the same grade. A law
+    that fails itself is not called again, and gets no points for the rest of the block.
 
     Args:
-        source: The text of the law.
-        seed: Of the trials.
-        place: `confine`, or `leave_open` for a law that is trusted.
-        report: Is given the share that is done.
+        source: Text of the law.
+        seed: Seed of the trials.
+        place: `confine`, or `leave_open` for a trusted law.
+        report: Called with the finished share.
 
     Returns:
         The outcome of all trials.
@@ -114,7 +116,7 @@ def _run_block(
 ) -> tuple[Trials, bool]:
     """Run a block of trials; return its result and whether to stop: failure, or out of time.
 
-    Trials for which there was no time are left out.
+    Trials that did not fit into the time are left out.
     """
     configurations = [one.build_configuration(PAPERS_LAW) for one in scenarios]
     held, rms_deg = np.zeros(len(scenarios), dtype=bool), np.full(len(scenarios), np.nan)
@@ -150,9 +152,9 @@ def _list_groups(configurations: Sequence[Configuration]) -> Iterator[list[int]]
 def _run_group(
     source: bytes, group: Sequence[Configuration], scenario: Scenario, place: Place
 ) -> tuple[np.ndarray, str]:
-    """Return the `SUMMARY` of each run; with it, for a run that ended early, its output.
+    """Return the `SUMMARY` of each run, and for a run that ended early its output.
 
-    scenario: any of the group, which have the same duration.
+    `scenario` is any of the group, which have the same duration.
     """
     count = len(group)
     bounds = BOUNDS._replace(cpu_s=count * BOUNDS.cpu_s, whole_s=count * BOUNDS.whole_s)
@@ -176,10 +178,10 @@ def _describe_end(configuration: Configuration, summary: np.void) -> str:
 
 
 def judge_law(trials: Trials | None) -> list[CriterionResult]:
-    """Judge three criteria: no run ends early, small final error, small error throughout.
+    """Evaluate three criteria: no run ends early, small final error, small error throughout.
 
-    accuracy: the mean of 1 − tanh(rms / 1°); 0 for a run that ended. trials: None where no law was
-    submitted.
+    accuracy is the mean of 1 − tanh(rms / 1°); 0 for a run that ended early. `trials` is None if no
+    law was submitted.
     """
     if trials is None or not len(trials.held):
         none = "No law was submitted."

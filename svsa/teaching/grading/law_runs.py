@@ -23,11 +23,13 @@ from svsa.teaching.isolation.refusal import LawFaultError
 class LawRun(NamedTuple):
     """The result of a law in one scenario.
 
-    rms_deg: position error from the load on, None where the run ended early, and `problem` says
-    why; `output` is the end of what the law printed then. cost_us: median time of an answer, µs,
-    the way to the law and back included. tick_us: what a tick of the whole run took by the clock,
-    µs, plant and sensors included. torques: what a law in a process of its own answered, float64
-    (ticks, 2), N·m, as bytes.
+    Attributes:
+        rms_deg: Position error from the load on, °; None if the run ended early.
+        problem: Reason for an early end.
+        output: End of the law's output at that time.
+        cost_us: Median time of an answer including communication, µs.
+        tick_us: Mean time of a tick including plant and sensors, µs.
+        torques: Torques of an isolated law, float64 (ticks, 2), N·m, as bytes.
     """
 
     scenario: str
@@ -45,8 +47,10 @@ def run_law(
 ) -> LawRun:
     """Run a submitted law in its own process, in one scenario.
 
-    place: `confine`, or `leave_open` for a law that is trusted. Raises `NotIsolatedError` where
-    this machine cannot confine a law.
+    `place` is `confine`, or `leave_open` for a trusted law.
+
+    Raises:
+        NotIsolatedError: If this machine cannot confine a law.
     """
     if place is confine:
         check_isolation()
@@ -81,7 +85,7 @@ def run_installed(law: str, scenario: Scenario) -> LawRun:
 
 
 def describe_run(scenario: Scenario, result: Result, took_s: float) -> LawRun:
-    """Compute the `LawRun` of a finished run. took_s: wall time, s."""
+    """Compute the `LawRun` of a finished run; `took_s` is wall-clock time, s."""
     ticks = len(result.samples)
     begin_s, end_s = scenario.measured_s, scenario.duration_s
     rms_deg = None

@@ -16,7 +16,7 @@ OPEN_TRIAL = 0
 def try_law(text: str, place: Place = confine) -> SavedLaw:
     """Save a law and run it once on the first public trial, within 20 s.
 
-    A machine that cannot hold a law leaves it untried, and says why.
+    If the machine cannot isolate a law, it is not run, and the result contains the reason.
     """
     scenario = build_test_trial("A", PUBLIC_SEED, OPEN_TRIAL)
     try:

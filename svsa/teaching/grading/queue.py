@@ -35,9 +35,8 @@ def grade_file(
 ) -> Grade:
     """Grade a submission's file and save the grade; return the saved grade if there is one.
 
-    again: run it again, though it has one. Same submission, same trials, same grade. Where it is
-    refused, the book says why, and keeps the grade that it has. report: is given the share that is
-    done.
+    A regraded submission (`again`) has the same trials and the same grade. If it cannot be graded,
+    the gradebook contains the reason and the previous grade. `report` receives the finished share.
     """
     submission = read_submission(path)
     digest, name = submission.digest, submission.exercise
@@ -70,9 +69,18 @@ def grade_files(
 ) -> Generator[tuple[Path, Grade | SvsaError], None, None]:
     """Yield each file with its grade or its error, in the order of completion.
 
-    files: taken one by one, as there is room. workers: processes of low priority; one works in
-    this one. Closed early, it waits for those in progress. report: is given the share of a
-    file that is done, where one works. Raises `GraderLostError`.
+    Args:
+        files: Files, read one by one when a worker is free.
+        exercises: Exercises of the course.
+        runs: Folder of the runs.
+        book: The gradebook.
+        workers: Number of processes of low priority; 1 works in this process. If the iterator is
+            closed early, it waits for those in progress.
+        again: Whether to grade files that already have a grade.
+        report: Called with the finished share of a file, if there is one worker.
+
+    Raises:
+        GraderLostError: If a worker process was lost.
     """
     workers = workers or os.cpu_count() or 1
     waiting = iter(files)

@@ -3,8 +3,8 @@
     python -I -S -B -u child.py LAW FILTER ANSWERS MEMORY_BYTES CPU_S OUTPUT_BYTES
 
 LAW: the law's file. FILTER: the compiled filter of system calls, or "-" for none. ANSWERS: number
-of the pipe that answers go to; requests come on standard input. The law is read only when every
-limit is set. Imports nothing of the lab but `frames`, `plain_law` and what a law may use.
+of the pipe for answers; requests come on standard input. The law is read only when every limit is
+set. Imports nothing of the lab except for `frames`, `plain_law` and the modules that a law may use.
 """
 
 import ctypes
@@ -18,7 +18,7 @@ from types import ModuleType
 from typing import Any
 
 NICENESS = 10
-"""The same as its grader's in a job: with a lower priority a busy machine would make it late."""
+"""The same as its grader's in a job: with a lower priority a busy machine would delay it."""
 _PR_SET_NO_NEW_PRIVS, _PR_SET_SECCOMP, _SECCOMP_MODE_FILTER = 38, 22, 2
 _INSTRUCTION_BYTES = 8
 
@@ -49,7 +49,7 @@ def filter_calls(program: bytes) -> None:
     length = len(program) // _INSTRUCTION_BYTES
     packed = _Program(length, ctypes.cast(code, ctypes.c_void_p))
     for call in (
-        # Without this flag the kernel takes a filter from privileged processes only.
+        # Without this flag the kernel accepts a filter from privileged processes only.
         (_PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0),
         (_PR_SET_SECCOMP, _SECCOMP_MODE_FILTER, ctypes.byref(packed), 0, 0),
     ):
@@ -59,8 +59,8 @@ def filter_calls(program: bytes) -> None:
 
 def offer_equations() -> None:
     """Make `svsa.actuators` importable as plain Python, without compiled functions."""
-    # Neither numba nor numpy is imported for them: with numpy a process of a law takes five times
-    # as long to start.
+    # Neither numba nor numpy is imported in the child: with numpy the process of a law takes five
+    # times as long to start.
     words: dict[str, dict[str, Any]] = {
         "numerics.compilation": {"compiled": lambda function: function},
         "numerics.fused": {"fma": lambda a, b, c: a * b + c},
@@ -84,7 +84,7 @@ def offer_equations() -> None:
             "MechanismParameters": object,
             "get_mechanism_name": None,
         },
-        # A law in a process of its own gets the SVSA, whose equations need no compiler.
+        # A law in a process of its own uses the SVSA, whose equations need no compiler.
         "actuators.kinds": {
             "choose_kind": lambda of_svsa, of_energy: of_svsa,
             "find_margin": None,
@@ -116,7 +116,11 @@ def load_law(text: str, constants: tuple[float, ...]) -> Any:
 
 
 def read_torque(answer: Any) -> tuple[float, float]:
-    """Read (u1, u2), N·m, from a law's return value; raises `TypeError` unless two numbers."""
+    """Read (u1, u2), N·m, from a law's return value.
+
+    Raises:
+        TypeError: Unless it is two numbers.
+    """
     try:
         u1, u2 = answer
         return float(u1), float(u2)
@@ -145,7 +149,7 @@ def print_in_law(error: BaseException) -> None:
 def serve(path: Path, answers: int) -> None:
     """Load the law for each run, then answer requests with torques until the stream ends.
 
-    Each run has a law of its own: the file is executed once for each.
+    The file is executed once for each run, so that each has a separate law.
     """
     from frames import ANSWER, ASK, FAILED, PAIR, READY, ROW, TICK, TORQUE
     from plain_law import find_named  # pyright: ignore[reportMissingImports]
@@ -177,7 +181,7 @@ def serve(path: Path, answers: int) -> None:
     except BaseException as error:
         print_in_law(error)
         os.write(answers, ANSWER.pack(FAILED, number) + bytes(runs * PAIR.size))
-        # Neither `atexit` functions nor destructors of the law run after it has failed.
+        # After a failure neither `atexit` functions nor destructors of the law run.
         os._exit(1)
 
 
@@ -191,7 +195,7 @@ def main(law: str, program: str, answers: str, *bounds: str) -> None:
 
     import svsa.actuators.dynamics  # noqa: F401
 
-    # Read before the limits and the filter; the law's file is read after them.
+    # Read before the limits and the filter apply; the file of the law is read afterwards.
     compiled = b"" if program == "-" else Path(program).read_bytes()
     limit(*map(int, bounds))
     if compiled:

@@ -1,9 +1,9 @@
 """Confinement of a law by bubblewrap: namespaces that contain an interpreter only.
 
-Users, processes, mounts, network, IPC, host name and control groups are its own. Mounted
-read-only are the interpreter with its library, the system's shared libraries, numpy, the model's
-equations and the law. It can write in one empty folder of a megabyte. No /proc, no /dev, no
-environment.
+The law has its own user, process, mount, network, IPC, host name and control group namespaces.
+Mounted read-only are the interpreter with its library, the system's shared libraries, numpy, the
+model's equations and the law. It can write to one empty folder of a megabyte. There is no /proc, no
+/dev, and no environment.
 """
 
 import shutil
@@ -30,10 +30,15 @@ _OTHERS_PACKAGES = ("site-packages", "dist-packages")
 
 
 class Bounds(NamedTuple):
-    """Resource limits of a law. answer_s, whole_s: wall time of one answer and of a whole run.
+    """Resource limits of a law.
 
-    start_s: until it is loaded. cpu_s: of the processor, whole seconds. output_bytes: of what it
-    prints, and of any file.
+    Attributes:
+        memory_bytes: Memory, bytes.
+        cpu_s: Processor time, whole seconds.
+        output_bytes: Size of the output, and of any file, bytes.
+        start_s: Time for loading, s.
+        answer_s: Wall-clock time of one answer, s.
+        whole_s: Wall-clock time of a whole run, s.
     """
 
     memory_bytes: int = 1 << 30
@@ -55,7 +60,11 @@ class Command(NamedTuple):
 
 
 def check_tools() -> str:
-    """Return the path of bwrap; raises `NotIsolatedError` if a tool is missing."""
+    """Return the path of bwrap.
+
+    Raises:
+        NotIsolatedError: If a tool is missing.
+    """
     if sys.platform != "linux":
         raise NotIsolatedError(f"it runs {sys.platform}")
     found = shutil.which("bwrap")
@@ -67,9 +76,10 @@ def check_tools() -> str:
 
 @contextmanager
 def confine(source: bytes, answers: int, bounds: Bounds) -> Iterator[Command]:
-    """Build the command of a fully isolated law; a context that owns the law's files.
+    """Build the command of a fully isolated law; a context manager that owns the law's files.
 
-    Raises `NotIsolatedError`.
+    Raises:
+        NotIsolatedError: If this machine cannot isolate a law.
     """
     bwrap = check_tools()
     with ExitStack() as opened:
@@ -92,7 +102,7 @@ def confine(source: bytes, answers: int, bounds: Bounds) -> Iterator[Command]:
             *_mount_interpreter(), *mounts,
             "--size", str(FOLDER_BYTES), "--tmpfs", "/work", "--chdir", "/work",
             "--remount-ro", "/",
-            # Threads are refused by the filter, and OpenBLAS starts some when numpy is imported.
+            # The filter forbids threads, and OpenBLAS starts some when numpy is imported.
             "--setenv", "OPENBLAS_NUM_THREADS", "1", "--setenv", "PYTHONHASHSEED", "0",
             *_start_child("/lab", "/lab/filter", answers, bounds),
         )  # fmt: skip
@@ -119,7 +129,7 @@ def leave_open(source: bytes, answers: int, bounds: Bounds) -> Iterator[Command]
 
 def _start_child(folder: str, program: str, answers: int, bounds: Bounds) -> list[str]:
     numbers = (answers, bounds.memory_bytes, bounds.cpu_s, bounds.output_bytes)
-    # -u: what a law has printed is kept also if it is killed.
+    # -u: the output of a law is kept even if it is killed.
     interpreter = [str(_find_interpreter()), "-I", "-S", "-B", "-u", f"{folder}/child.py"]
     return [*interpreter, f"{folder}/law.py", program, *map(str, numbers)]
 

@@ -1,6 +1,6 @@
 """The lab's side of an isolated law: one request per tick, with a time limit.
 
-One process answers for one run, or for several side by side.
+One process computes one run, or several in parallel.
 """
 
 import os
@@ -44,10 +44,15 @@ Place = Callable[[bytes, int, Bounds], AbstractContextManager[Command]]
 class RunningLaw:
     """The process of a law; it computes as many runs as there are models.
 
-    models: nominal, one `Actuator` a run, which `build` of the law is given. place: `confine`, or
-    `leave_open` for a law that is trusted. Raises `LawFaultError` where the law fails at its part,
-    `NotIsolatedError` where it cannot be confined. `cost_s` is the time that each answer took, s,
-    the way there and back included.
+    `cost_s` is the time of each answer including communication, s.
+
+    Args:
+        models: Nominal model of each run (`Actuator`), which `build` of the law receives.
+        place: `confine`, or `leave_open` for a trusted law.
+
+    Raises:
+        LawFaultError: If the law fails.
+        NotIsolatedError: If it cannot be confined.
     """
 
     def __init__(
@@ -60,8 +65,8 @@ class RunningLaw:
         self._length = ANSWER.size + self._runs * PAIR.size
         self.cost_s: list[float] = []
         with ExitStack() as opened:
-            # A file, bounded by `output_bytes`: a pipe without a reader would block a law that
-            # prints.
+            # A file, bounded by `output_bytes`: if no process reads it, a full pipe would block a
+            # law that prints.
             self._output = opened.enter_context(tempfile.TemporaryFile())
             asked, self._asking = os.pipe()
             opened.callback(os.close, self._asking)
@@ -77,7 +82,7 @@ class RunningLaw:
             finally:
                 os.close(asked)
                 os.close(answering)
-            # A law that does not read must not block the lab, which answers with "late" instead.
+            # A law that does not read must not block the lab, which then reports "late".
             os.set_blocking(self._asking, False)
             os.set_blocking(self._answers, False)
             self._poll = select.poll()
@@ -110,8 +115,8 @@ class RunningLaw:
         self._opened.close()
 
     def read_output(self) -> str:
-        """Return the end of what the law has printed to stdout and stderr so far."""
-        # `pread`: the position of the file is also that at which the law prints next.
+        """Return the end of the law's output to stdout and stderr."""
+        # `pread`, because the position of the file is where the law's next output goes.
         descriptor = self._output.fileno()
         begin = max(0, os.fstat(descriptor).st_size - SHOWN_BYTES)
         return os.pread(descriptor, SHOWN_BYTES, begin).decode("utf-8", "replace")
@@ -138,7 +143,7 @@ class RunningLaw:
         return answer[ANSWER.size :]
 
     def _read_answer(self, wait_s: float) -> bytes:
-        # Both bounds are needed: many answers, each just in time, could take hours.
+        # Both bounds are needed: many answers, each just within its time limit, could take hours.
         end_s = min(monotonic() + wait_s, self._end_s)
         got = b""
         while len(got) < self._length:
@@ -168,7 +173,7 @@ class RunningLaw:
             code = self._process.wait(_NO_MORE_S)
         except subprocess.TimeoutExpired:
             return self._fail("ended", "The law closed its end of the pipe.")
-        # bwrap reports a signal of its child as an exit code of 128 and its number.
+        # bwrap reports a signal of its child as exit code 128 + signal number.
         number = -code if code < 0 else code - _SIGNAL_BASE
         if number in (signal.SIGKILL, signal.SIGXCPU):
             bound = self._bounds.cpu_s
@@ -189,7 +194,7 @@ class RunningLaw:
 class LawProcess(RunningLaw):
     """An isolated law as a `Controller` of `svsa.simulate`; one process per run.
 
-    `torques` are its answers, (u1, u2), N·m. Else see `RunningLaw`.
+    `torques` are its answers, (u1, u2), N·m. See `RunningLaw`.
     """
 
     def __init__(
@@ -217,8 +222,8 @@ class LawProcess(RunningLaw):
 class GroupProcess(RunningLaw):
     """An isolated law as a `GroupController` of `svsa.runs.batch.run_group`.
 
-    One process for at most eight runs, each with a law of its own in it. models: one a run. Else
-    see `RunningLaw`.
+    One process for at most eight runs, with a separate law for each; `models` has one per run. See
+    `RunningLaw`.
     """
 
     def __init__(

@@ -5,8 +5,9 @@ from typing import Literal, Self
 from svsa.errors import SvsaError
 
 LawFaultCode = Literal["error", "late", "early", "ended", "garbled"]
-"""It raised; it did not answer in time; it answered what was not asked; it ended; it wrote what is
-no answer."""
+"""It raised an exception; it did not answer in time; it answered another request; it ended; its
+output is no answer.
+"""
 
 
 PRINTED = "The law printed:"
@@ -24,7 +25,7 @@ class NotIsolatedError(SvsaError):
 
 
 class LawFaultError(SvsaError):
-    """A law that failed. code: the kind of failure. output: the end of what it printed."""
+    """A law that failed; `code` is the kind of failure, `output` the end of its output."""
 
     def __init__(self, code: LawFaultCode, message: str, output: str = "") -> None:
         self.code: LawFaultCode = code
@@ -37,10 +38,10 @@ class LawFaultError(SvsaError):
 
 
 def describe_output(output: str) -> str:
-    """Format the last output of a failed law on lines of its own; empty if it printed nothing.
+    """Format the last output of a failed law on separate lines; empty if there was none.
 
     Args:
-        output: The end of what it printed, with the traceback of an error.
+        output: End of the output, with the traceback of an error.
     """
     shown = output.strip()
     return f"\n{PRINTED}\n{shown}" if shown else ""

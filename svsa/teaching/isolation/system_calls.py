@@ -1,7 +1,7 @@
 """The system calls that an isolated law may use: those that an interpreter needs to compute.
 
-Everything else fails with EPERM: sockets, new processes and threads, exec, signals, mounts,
-ptrace, keyrings, shared memory, other identities, and whatever kernels learn later.
+All others fail with EPERM: sockets, new processes and threads, exec, signals, mounts, ptrace,
+keyrings, shared memory, other identities, and system calls of future kernels.
 """
 
 import tempfile
@@ -12,12 +12,12 @@ from svsa.teaching.isolation.refusal import NotIsolatedError
 ALLOWED = (
     # memory
     "brk", "mmap", "munmap", "mremap", "mprotect", "madvise",
-    # files: of what is mounted, which is read-only, and of its own small folder
+    # files: those that are mounted read-only, and those of the law's own small folder
     "read", "readv", "pread64", "write", "writev", "pwrite64", "close", "lseek", "dup",
     "open", "openat", "stat", "lstat", "fstat", "newfstatat", "statx", "access", "faccessat",
     "faccessat2", "readlink", "readlinkat", "getcwd", "getdents64", "ftruncate", "unlink",
     "unlinkat", "mkdir", "mkdirat", "rmdir", "rename", "renameat", "umask",
-    # its own thread, and time
+    # the law's own thread, and time
     "futex", "set_robust_list", "rseq", "rt_sigaction", "rt_sigprocmask", "rt_sigreturn",
     "sigaltstack", "restart_syscall", "exit", "exit_group", "gettid", "getpid", "getppid",
     "getuid", "geteuid", "getgid", "getegid", "getrusage", "getrlimit", "sched_yield",
@@ -30,14 +30,15 @@ _COMMANDS = {
     "ioctl": (_TCGETS, _FIOCLEX),
     "fcntl": (_F_GETFD, _F_SETFD, _F_GETFL, _F_DUPFD_CLOEXEC),
 }
-"""Calls that do much else: only with these as their second argument."""
+"""Calls with many functions: permitted only with these as second argument."""
 
 
 @cache
 def compile_filter() -> bytes:
     """Compile the filter as a BPF program for this machine's processor.
 
-    Raises `NotIsolatedError` where libseccomp is missing.
+    Raises:
+        NotIsolatedError: If libseccomp is missing.
     """
     try:
         import pyseccomp
@@ -52,7 +53,7 @@ def compile_filter() -> bytes:
         for command in commands:
             second = pyseccomp.Arg(1, pyseccomp.EQ, command)
             refused.add_rule(pyseccomp.ALLOW, name, second)
-    # The C library asks for limits by `prlimit64` too, with NULL in place of new ones.
+    # The C library also reads limits by `prlimit64`, with NULL in place of new ones.
     reading = pyseccomp.Arg(2, pyseccomp.EQ, 0)
     refused.add_rule(pyseccomp.ALLOW, "prlimit64", reading)
     with tempfile.TemporaryFile() as file:

@@ -14,8 +14,8 @@ from svsa.control.installed import list_law_names
 from svsa.errors import ParameterError, StateError, Violation
 from svsa.evaluation.trials import PROTOCOL, derive_seed
 from svsa.inputs.checked import Checked, Flag, quantity
+from svsa.inputs.data_folder import find_data_folder
 from svsa.inputs.extras import __version__
-from svsa.runs.records.catalogue.runs import find_data_folder
 from svsa.runs.records.header import replace_file
 from svsa.teaching.class_folder import ClassFolder
 from svsa.teaching.grading.law_runs import run_installed, run_law
@@ -52,7 +52,9 @@ Author = Annotated[str, AfterValidator(_check_author)]
 
 
 class Entry(Checked):
-    """An entry: a law with its results. key: name of an installed law, else SHA-256 of its file."""
+    """An entry: a law with its results; `key` is the name of an installed law, otherwise the
+    SHA-256 of its file.
+    """
 
     key: str = quantity("", "Name of an installed law, or SHA-256 of a submitted file")
     name: EntryName = quantity("", "Name of the entry on the leaderboard", max_length=MAX_NAME)
@@ -69,9 +71,14 @@ class Entry(Checked):
 class Board(ClassFolder[Entry]):
     """The folder of a season: `secret`, readable by the server only, and one file per entry.
 
-    `torques/` has the torques of submitted laws in their worst runs. folder: None for the one in
-    the data folder. The secret is drawn when the folder is created. To end a season, move its
-    folder away. Raises `ParameterError` if the folder cannot be used.
+    `torques/` has the torques of submitted laws in their worst runs. The secret is generated when
+    the folder is created. To end a season, move its folder.
+
+    Args:
+        folder: The folder; None for that in the data folder.
+
+    Raises:
+        ParameterError: If the folder cannot be used.
     """
 
     def __init__(self, folder: Path | None = None) -> None:
@@ -90,7 +97,11 @@ class Board(ClassFolder[Entry]):
         return entry if entry is not None and _is_present(entry) else None
 
     def get(self, key: str) -> Entry:
-        """Return the entry of a key; raises `ParameterError` if there is none."""
+        """Return the entry of a key.
+
+        Raises:
+            ParameterError: If there is none.
+        """
         entry = self.find(key)
         if entry is None:
             raise ParameterError(Violation("entry", key, "", "the key of an entry of this season"))
@@ -101,7 +112,9 @@ class Board(ClassFolder[Entry]):
         return [name for name in list_law_names() if self.find(name) is None]
 
     def keep(self, entry: Entry, torques: bytes = b"") -> Entry:
-        """Save an entry. torques: of a submitted law's worst run, float64 (ticks, 2), as bytes."""
+        """Save an entry; `torques` are those of a submitted law's worst run, float64 (ticks, 2), as
+        bytes.
+        """
         if torques:
             replace_file(self.others / entry.key, torques)
         self.write(entry.key, entry)
@@ -110,8 +123,9 @@ class Board(ClassFolder[Entry]):
     def read_torques(self, entry: Entry) -> np.ndarray:
         """Read (u1, u2) of a submitted law at every tick of its worst run, N·m, (ticks, 2).
 
-        Raises `StateError` if none are saved: the law failed before its first answer, or the entry
-        is from an earlier version of the lab.
+        Raises:
+            StateError: If none are saved: the law failed before its first answer, or the entry is
+                from an earlier version of the lab.
         """
         path = self.others / entry.key
         kept = path.read_bytes() if path.exists() else b""
@@ -138,7 +152,7 @@ def measure_missing(
 ) -> bool:
     """Measure the installed laws without an entry; return whether all were measured.
 
-    report: receives (finished runs, all runs).
+    `report` receives (finished runs, all runs).
     """
     names, count = board.list_missing(), board.season.run_count
     for number, name in enumerate(names):
@@ -163,8 +177,10 @@ def submit(
 ) -> Entry | None:
     """Measure a submitted law in isolation and save its entry; return None if cancelled.
 
-    A file that was submitted before keeps its entry. Raises `NotIsolatedError` if this machine
-    cannot isolate a law, and the errors of `measure_standing`.
+    A file that was submitted before keeps its entry. Also raises the errors of `measure_standing`.
+
+    Raises:
+        NotIsolatedError: If this machine cannot isolate a law.
     """
     key = digest_law(source)
     before = board.find(key)

@@ -1,6 +1,6 @@
 """A season of trials, and a law's result in it: the success rate on hidden trials.
 
-The trials of a season are drawn from a secret.
+The trials of a season are generated from a secret.
 """
 
 import math
@@ -25,7 +25,9 @@ TRIALS = 200
 class Season(NamedTuple):
     """The runs of every entry in a season.
 
-    singles: the first variant of each fixed scenario, public. trials: hidden.
+    Attributes:
+        singles: The first variant of each fixed scenario, public.
+        trials: Hidden trials.
     """
 
     singles: tuple[Scenario, ...]
@@ -44,11 +46,11 @@ def build_season(seed: int) -> Season:
 
 
 MAX_S = 3600.0
-"""Wall time of all runs of a law; a typical law in plain Python takes some minutes."""
+"""Wall-clock time of all runs of a law, s; a typical law in plain Python takes some minutes."""
 
 RunScenario = Callable[[Scenario], LawRun]
 ReportProgress = Callable[[int, int], None]
-"""Receives (finished runs, all runs)."""
+"""Called with (finished runs, all runs)."""
 
 
 class WorstRun(Checked):
@@ -61,7 +63,9 @@ class WorstRun(Checked):
 
 
 class Standing(Checked):
-    """The result of a law in a season. low, high: 95 % interval of the success rate (Wilson)."""
+    """The result of a law in a season; `low` and `high` are the 95 % interval of the success rate
+    (Wilson).
+    """
 
     success: Number = quantity("1", "Success rate on the hidden trials", ge=0, le=1)
     low: Number = quantity("1", "Lower end of its 95 % interval", ge=0, le=1)
@@ -97,11 +101,11 @@ def measure_standing(
     Args:
         season: The scenarios.
         run_scenario: Runs the law in one scenario.
-        report: Receives (finished runs, all runs).
-        is_cancelled: Asked before each run.
+        report: Called with (finished runs, all runs).
+        is_cancelled: Called before each run.
 
     Raises:
-        StateError: The law fails in the season's first run, or takes more than `MAX_S`.
+        StateError: If the law fails in the season's first run, or takes more than `MAX_S`.
     """
     found: dict[str, LawRun] = {}
     reported = {scenario.name for scenario in season.singles}

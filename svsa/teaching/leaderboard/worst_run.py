@@ -1,8 +1,8 @@
 """Replay of an entry's worst run next to NDOBC, without executing submitted code.
 
 An installed law is simulated again. A submitted law is replaced by its saved torques: the simulated
-plant returns the same samples for the same torques, bit for bit. The scenario is a public one, so
-that nothing of the hidden trials is revealed.
+plant returns bit-identical samples for the same torques. The scenario is public, so that nothing
+about the hidden trials is disclosed.
 """
 
 from typing import NamedTuple
@@ -22,9 +22,13 @@ from svsa.teaching.leaderboard.board import Board, Entry
 
 
 class WorstReplay(NamedTuple):
-    """The worst run of an entry. lanes: controller of each lane; the first is the entry's law.
+    """The worst run of an entry.
 
-    alone: why there is only one lane; "" if there are two.
+    Attributes:
+        scenario: The scenario.
+        lanes: Controller of each lane; the first is the entry's law.
+        result: The run.
+        alone: Reason for a single lane; "" if there are two.
     """
 
     scenario: Scenario
@@ -33,7 +37,7 @@ class WorstReplay(NamedTuple):
     alone: str
 
 
-class KeptTorques:
+class SavedTorques:
     """A `Controller` that returns recorded torques, one per tick; torque: N·m, (ticks, 2)."""
 
     def __init__(self, torque: np.ndarray) -> None:
@@ -50,7 +54,8 @@ class KeptTorques:
 def replay_worst(board: Board, entry: Entry) -> WorstReplay:
     """Simulate an entry's worst run next to NDOBC (NDOBC next to FL), or alone if that ends first.
 
-    Raises `StateError` if the torques of a submitted law are not saved.
+    Raises:
+        StateError: If the torques of a submitted law are not saved.
     """
     scenario = find_scenario(entry.standing.worst.scenario)
     if entry.is_installed:
@@ -64,5 +69,5 @@ def replay_worst(board: Board, entry: Entry) -> WorstReplay:
         configuration = configuration.changed(comparisons=(Lane(law=PAPERS_LAW),))
         lanes += (get_entry_title(DECLARED),)
     duration_s = len(torque) * configuration.sampling.period_s
-    result = simulate(configuration, KeptTorques(torque), duration_s=duration_s)
+    result = simulate(configuration, SavedTorques(torque), duration_s=duration_s)
     return WorstReplay(scenario, lanes, result, alone)

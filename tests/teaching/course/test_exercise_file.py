@@ -1,4 +1,4 @@
-"""Exercise files: what is written is read, and a wrong one says where and why."""
+"""Exercise files: valid ones are read, and an invalid one is reported with place and reason."""
 
 from pathlib import Path
 
@@ -119,7 +119,7 @@ WRONG = {
 
 
 @pytest.mark.parametrize("case", WRONG)
-def test_a_wrong_file_is_refused_with_file_line_and_reason(case):
+def test_invalid_file_is_rejected_with_file_line_and_reason(case):
     old, new, line, reason = WRONG[case]
     assert old in EXERCISE
 
@@ -131,14 +131,14 @@ def test_a_wrong_file_is_refused_with_file_line_and_reason(case):
     assert reason in str(refused.value)
 
 
-def test_an_exercise_without_front_matter_or_end_is_refused():
+def test_exercise_without_front_matter_or_end_is_rejected():
     with pytest.raises(ParameterError, match="TOML between two lines"):
         read("# Only text")
     with pytest.raises(ParameterError, match="submit, at the end"):
         read(EXERCISE.replace('kind = "submit"', 'kind = "read"'))
 
 
-def test_an_experiment_is_refused_before_the_prediction_that_it_judges():
+def test_experiment_before_its_prediction_is_rejected():
     first, last = EXERCISE.index('[[steps]]\nname = "guess"'), EXERCISE.index("+++\n\nBefore")
     steps = EXERCISE[first:last].split("[[steps]]\n")[1:]
     turned = "".join(f"[[steps]]\n{step}" for step in (steps[1], steps[0], steps[2]))
@@ -147,7 +147,7 @@ def test_an_experiment_is_refused_before_the_prediction_that_it_judges():
         read(EXERCISE[:first] + turned + EXERCISE[last:])
 
 
-def test_one_s_own_file_takes_the_place_of_the_package_s(tmp_path):
+def test_own_file_replaces_that_of_the_package(tmp_path):
     built_in = list_exercise_files()[0].stem
     own = tmp_path / f"{built_in}.md"
     own.write_text(EXERCISE, encoding="utf-8")
@@ -160,7 +160,7 @@ def test_one_s_own_file_takes_the_place_of_the_package_s(tmp_path):
         read_course(tmp_path / "nowhere")
 
 
-def test_a_text_brings_no_html_of_its_own():
+def test_html_in_a_text_is_escaped():
     shown = render_text("<script>x</script> [a](javascript:x) $x_1$")
 
     assert "<script>" not in shown
@@ -168,7 +168,7 @@ def test_a_text_brings_no_html_of_its_own():
     assert '<span class="math inline">x_1</span>' in shown
 
 
-def test_the_lecturer_s_example_in_the_docs_can_be_read():
+def test_example_for_lecturers_in_the_docs_is_valid():
     text = (Path(__file__).parents[3] / "docs" / "course.md").read_text(encoding="utf-8")
     example = text.split("```markdown\n")[1].split("```\n<!-- /example -->")[0]
 

@@ -1,4 +1,4 @@
-"""Judging: right and wrong predictions, wrong runs, what differs and where it shows."""
+"""Assessment: right and wrong predictions, wrong runs, and the reported differences."""
 
 import math
 
@@ -32,14 +32,14 @@ def find(judgement, step):
     return next(one for one in judgement.criteria if one.step == step)
 
 
-def test_all_right_has_all_points():
+def test_correct_submission_has_all_points():
     judgement = judge()
 
     assert judgement.points == judgement.max_points
     assert find(judgement, "load").channel == "position_error_rad"
 
 
-def test_a_prediction_a_little_off_has_half_of_the_points_a_wrong_one_none():
+def test_prediction_slightly_off_has_half_of_the_points_and_wrong_one_none():
     assert find(judge(RIGHT | {"predict-error": 6.0}), "predict-error").points == 1.5
     wrong = find(judge(RIGHT | {"predict-error": 1.0}), "predict-error")
 
@@ -49,14 +49,14 @@ def test_a_prediction_a_little_off_has_half_of_the_points_a_wrong_one_none():
     assert 8.0 <= wrong.time_s <= 12.0
 
 
-def test_a_wrong_choice_tells_why():
+def test_wrong_choice_gets_an_explanation():
     wrong = find(judge(RIGHT | {"why": "stiffness"}), "why")
 
     assert wrong.points == 0.0
     assert "At σ = 60" in wrong.feedback
 
 
-def test_nothing_submitted_has_no_points():
+def test_empty_submission_has_no_points():
     judgement = judge({}, {})
 
     assert judgement.points == 0.0
@@ -81,7 +81,7 @@ def open_other(**changes):
         ),
     ],
 )
-def test_a_run_of_another_setup_has_no_points_and_says_what_differs(changes, said, time_s):
+def test_run_of_another_setup_has_no_points_and_reports_the_difference(changes, said, time_s):
     judgement = judge(runs={"load": "x"}, open_run=open_other(**changes))
     result = find(judgement, "load")
 
@@ -90,7 +90,7 @@ def test_a_run_of_another_setup_has_no_points_and_says_what_differs(changes, sai
     assert result.time_s == pytest.approx(time_s)
 
 
-def test_a_run_that_ended_too_early_says_so():
+def test_run_that_ended_early_is_reported():
     judgement = judge(runs={"load": "x"}, open_run=open_other())
     late = [one for one in judgement.criteria if one.step == "load"][1]
 
@@ -99,14 +99,14 @@ def test_a_run_that_ended_too_early_says_so():
     assert late.time_s == pytest.approx(8.999)
 
 
-def test_a_run_that_cannot_be_opened_has_no_points():
+def test_unreadable_run_has_no_points():
     def refuse(_):
         raise StateError("It is gone.")
 
     assert "It is gone." in find(judge(open_run=refuse), "load").feedback
 
 
-def test_a_submission_of_another_exercise_or_step_is_refused():
+def test_submission_of_another_exercise_or_step_is_rejected():
     exercise = find_exercise(NAME)
     with pytest.raises(ParameterError, match="exercise"):
         judge_submission(exercise, Submission(student="Ada", exercise="other"), lambda _: None)
@@ -119,12 +119,12 @@ def test_a_submission_of_another_exercise_or_step_is_refused():
     ("step", "answer"),
     [("predict-error", 91.0), ("predict-error", "much"), ("why", "x"), ("load", 1.0)],
 )
-def test_what_is_no_answer_is_refused(step, answer):
+def test_invalid_answer_is_rejected(step, answer):
     with pytest.raises(ParameterError):
         check_answer(find_exercise(NAME).find_step(step), answer)
 
 
-def test_a_submission_is_read_as_it_was_written(tmp_path):
+def test_submission_is_read_as_written(tmp_path):
     submission = Submission(student="Ada", exercise=NAME, answers=RIGHT, runs=RUNS, law=b"pass\n")
     path = tmp_path / "ada.json"
     submission.write(path)
@@ -132,7 +132,7 @@ def test_a_submission_is_read_as_it_was_written(tmp_path):
     assert read_submission(path) == submission.changed(law_file="ada.py")
 
 
-def test_a_submission_keeps_the_digest_under_which_grades_are_stored():
+def test_submission_keeps_the_digest_under_which_grades_are_stored():
     """Another digest would give every submission of an existing class a second grade."""
     submission = Submission(
         student="Ada", exercise="own-law", answers={"a": 1.0, "b": "x"}, runs={"r": "id"},
@@ -151,7 +151,7 @@ def test_a_submission_keeps_the_digest_under_which_grades_are_stored():
         ('{"student": "Ada", "exercise": "a", "law": "pass"}', "law_file names its file"),
     ],
 )
-def test_a_wrong_submission_names_its_file(tmp_path, text, said):
+def test_invalid_submission_is_reported_with_its_file(tmp_path, text, said):
     path = tmp_path / "ada.json"
     path.write_text(text)
 
@@ -160,7 +160,7 @@ def test_a_wrong_submission_names_its_file(tmp_path, text, said):
     assert said in str(refused.value)
 
 
-def test_the_error_that_is_predicted_is_that_of_the_formula_in_the_text():
+def test_predicted_error_is_that_of_the_formula_in_the_text():
     c0, c2, c3 = 60.0**4, 6 * 60.0**2, 240.0
     M, D, sigma = 0.0153, 0.007, 30.0
     gain = (c2 / M - c3 * D / M**2 - sigma / M**2) * 1.334
@@ -170,7 +170,7 @@ def test_the_error_that_is_predicted_is_that_of_the_formula_in_the_text():
     )
 
 
-def test_an_order_of_magnitude_is_as_good_above_as_below():
+def test_order_of_magnitude_tolerance_is_symmetric():
     points = [
         find(judge(RIGHT | {"predict-stiffness": guess}), "predict-stiffness").points
         for guess in (0.0, 0.0402 / 30, 0.0402 / 6, 0.0402 / 4, 0.0402 * 4, 0.0402 * 6, 0.0402 * 30)

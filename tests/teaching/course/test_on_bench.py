@@ -1,4 +1,4 @@
-"""A step that is run on a bench asks for nothing that a bench has not, nor measures."""
+"""A step for a bench uses only settings and measurements that a bench has."""
 
 from pathlib import Path
 
@@ -42,7 +42,7 @@ def find_step(exercise: Exercise) -> Experiment:
     return step
 
 
-def test_a_bench_has_loads_and_criteria_in_place_of_the_simulation_s() -> None:
+def test_bench_step_has_loads_and_criteria_of_the_bench() -> None:
     step = find_step(read())
     assert step.configuration.loads[0].kind == "paper"
     assert step.bench_configuration.loads[0].kind == "constant"
@@ -51,7 +51,7 @@ def test_a_bench_has_loads_and_criteria_in_place_of_the_simulation_s() -> None:
     assert find_step(read(EXERCISE)).bench is None
 
 
-def test_the_lecturer_s_bench_in_the_docs_can_be_read() -> None:
+def test_bench_example_for_lecturers_in_the_docs_is_valid() -> None:
     text = (Path(__file__).parents[3] / "docs" / "course.md").read_text(encoding="utf-8")
     example = text.split("```markdown\n")[1].split("```\n<!-- /example -->")[0]
     bench = text.split("<!-- bench -->\n```toml\n")[1].split("```")[0]
@@ -101,7 +101,7 @@ WRONG = {
 
 
 @pytest.mark.parametrize("case", WRONG)
-def test_what_no_bench_can_do_is_refused_with_its_reason(case: str) -> None:
+def test_settings_that_no_bench_has_are_rejected_with_reason(case: str) -> None:
     old, new, reason = WRONG[case]
     assert old in ON_BENCH
     text = ON_BENCH.replace(old, new, 1)
@@ -117,7 +117,7 @@ def test_what_no_bench_can_do_is_refused_with_its_reason(case: str) -> None:
     assert reason in str(refused.value)
 
 
-def test_the_same_step_may_do_all_that_where_it_is_simulated_only() -> None:
+def test_simulated_step_may_use_these_settings() -> None:
     simulated = EXERCISE.replace(
         'law = "fl"', 'law = "fl"\ncomparisons = ["ndobc"]\nfree = ["effects"]'
     )
@@ -127,7 +127,7 @@ def test_the_same_step_may_do_all_that_where_it_is_simulated_only() -> None:
 def judge(
     configuration: Configuration, plant: PlantKind = "emulated", commands: tuple[Command, ...] = ()
 ) -> CriterionResult:
-    """The one criterion of the step, of a run with an error of 0.5°."""
+    """Assess the only criterion of the step, of a run with an error of 0.5°."""
     samples = np.zeros((8000, len(CHANNELS)))
     samples[:, CHANNEL_INDEX["time_s"]] = 0.001 * np.arange(8000)
     samples[:, CHANNEL_INDEX["position_error_rad"]] = np.radians(0.5)
@@ -137,14 +137,14 @@ def judge(
 
 
 def as_set_up() -> Configuration:
-    """A bench of another plant and other limits, set to the step."""
+    """A bench with another plant and other limits, with the settings of the step."""
     asked = find_step(read()).bench_configuration
     plant = asked.actuator.changed(link_inertia_kg_m2=0.02)
     limits = asked.limits.changed(torque1_nm=10.0)
     return asked.changed(actuator=plant, nominal=plant, limits=limits)
 
 
-def test_a_run_of_a_bench_is_judged_by_what_is_asked_there() -> None:
+def test_bench_run_is_assessed_by_the_criteria_of_the_bench() -> None:
     found = judge(as_set_up())
     assert (found.name, found.points) == ("It stays there, too", 1.0)
     assert judge(as_set_up(), commands=(Stop(tick=8000),)).points == 1.0
@@ -158,19 +158,19 @@ def test_a_run_of_a_bench_is_judged_by_what_is_asked_there() -> None:
         ((ApplyLoad(tick=3000, argument={"kind": "mass"}),), "loads was changed at 3 s"),
     ],
 )
-def test_a_run_of_a_bench_that_is_another_says_so(commands: tuple[Command, ...], said: str) -> None:
+def test_run_of_another_bench_is_reported(commands: tuple[Command, ...], said: str) -> None:
     found = judge(as_set_up(), commands=commands)
     assert found.points == 0.0
     assert said in found.feedback
 
 
-def test_the_simulation_s_load_is_not_the_bench_s() -> None:
+def test_load_of_the_simulation_does_not_apply_to_the_bench() -> None:
     simulated = find_step(read()).configuration
     assert "loads was not as the step sets it" in judge(simulated).feedback
     assert judge(simulated, plant="simulated").name == "It stays"
 
 
-def test_a_run_of_a_bench_is_none_of_a_step_that_is_simulated_only() -> None:
+def test_bench_run_is_rejected_in_a_simulated_step() -> None:
     exercise = read(EXERCISE)
     samples = np.zeros((8000, len(CHANNELS)))
     configuration = get_figure("4a").build_configuration("fl")

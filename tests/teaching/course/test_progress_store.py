@@ -1,4 +1,4 @@
-"""Progress of the course on disk: a damaged file is set aside, and loses only what was last."""
+"""Progress of the course on disk: a damaged file is set aside and only the last change is lost."""
 
 import logging
 from pathlib import Path
@@ -9,7 +9,7 @@ from svsa.teaching.course.progress import ExerciseProgress, PersonProgress, Prog
 
 
 def write_two(folder: Path) -> tuple[ProgressStore, Path]:
-    """A store in which a person has gone to a first step, then to a second one."""
+    """A store in which a user has reached a first step, then a second one."""
     store = ProgressStore(folder)
     for step in ("first", "second"):
         store.write("ada", PersonProgress(exercises={"one": ExerciseProgress(at=step)}))
@@ -17,7 +17,7 @@ def write_two(folder: Path) -> tuple[ProgressStore, Path]:
 
 
 @pytest.mark.parametrize("content", [b"", b"{", b"[]", b'{"exercises": {"one": {"at": 7}}}'])
-def test_a_damaged_file_is_kept_aside_and_the_version_before_it_is_used(
+def test_damaged_file_is_set_aside_and_the_previous_version_is_used(
     tmp_path: Path, content: bytes, caplog: pytest.LogCaptureFixture
 ) -> None:
     store, path = write_two(tmp_path)
@@ -31,14 +31,14 @@ def test_a_damaged_file_is_kept_aside_and_the_version_before_it_is_used(
     assert aside.read_bytes() == content, "it is not written over"
 
 
-def test_a_file_that_was_not_written_to_its_end_leaves_the_version_before(tmp_path: Path) -> None:
+def test_interrupted_write_leaves_the_previous_version(tmp_path: Path) -> None:
     store, path = write_two(tmp_path)
     path.unlink()
     assert store.read("ada").get("one").at == "first"
     assert store.read("bob") == PersonProgress()
 
 
-def test_a_file_that_cannot_be_read_is_no_empty_progress(tmp_path: Path) -> None:
+def test_unreadable_file_is_not_empty_progress(tmp_path: Path) -> None:
     store, path = write_two(tmp_path)
     path.unlink()
     path.mkdir()

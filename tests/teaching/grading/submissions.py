@@ -1,4 +1,4 @@
-"""Submissions with their runs and laws, as students would give them."""
+"""Submissions with their runs and laws, as students would submit them."""
 
 import json
 from pathlib import Path
@@ -65,7 +65,7 @@ def submit_law(folder: Path, law: bytes, student: str = "Ada", **changes: object
 
 
 def record_step(catalogue: Catalogue, step: str, flip: bool = False) -> str:
-    """The run that a step asks for, recorded; with flip, one bit of one sample is another."""
+    """Record the run of a step; with flip, one bit of one sample is changed."""
     setup = find_exercise(EXERCISE).find_step(step)
     assert isinstance(setup, Experiment)
     result = simulate_step(EXERCISE, step)

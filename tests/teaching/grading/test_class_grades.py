@@ -1,4 +1,4 @@
-"""A class is graded from the lab's folder; rejections are reported, and grades are repeatable."""
+"""A class is graded from the folder of the lab; rejections are reported, grades are repeatable."""
 
 import json
 import os
@@ -34,7 +34,7 @@ def end_process(*_):
     os._exit(1)
 
 
-def give(store, again=False, **more):
+def add_submissions(store, again=False, **more):
     return grade_class(
         store.list_submissions(),
         {name: find_exercise(name) for name in (FL, OWN)},
@@ -53,10 +53,10 @@ def store(tmp_path):
     return store
 
 
-def test_each_is_graded_once_and_again_the_same(store):
+def test_each_submission_is_graded_once_with_the_same_result(store):
     reported = []
     assert [one.grade for one in list_graded(store)] == [None, None]
-    assert give(store, report=lambda done, total: reported.append((done, total)))
+    assert add_submissions(store, report=lambda done, total: reported.append((done, total)))
     assert reported == [(0, 2), (1, 2), (2, 2)]
     first = list_graded(store)
     assert [(one.person, one.student) for one in first] == [("p-1", "Ada"), ("p-2", "Bob")]
@@ -64,42 +64,44 @@ def test_each_is_graded_once_and_again_the_same(store):
     kept = next((open_book(store).folder / "grades").glob("*.json"))
     changed = json.loads(kept.read_text()) | {"points": 0.5}
     kept.write_text(json.dumps(changed))
-    assert give(store)
+    assert add_submissions(store)
     assert 0.5 in [one.grade.points for one in list_graded(store) if one.grade]
-    assert give(store, again=True)
+    assert add_submissions(store, again=True)
     assert list_graded(store) == first
 
 
-def test_side_by_side_each_gets_the_grade_that_it_gets_alone(store):
+def test_parallel_grading_gives_the_same_grades(store):
     submit(store, "p-3", "Cem", "gone")
     reported = []
-    assert give(store, report=lambda done, total: reported.append((done, total)), workers=2)
+    assert add_submissions(
+        store, report=lambda done, total: reported.append((done, total)), workers=2
+    )
     assert reported == [(0, 3), (1, 3), (2, 3), (3, 3)]
     graded = list_graded(store)
     shutil.rmtree(open_book(store).folder)
-    assert give(store)
+    assert add_submissions(store)
     assert list_graded(store) == graded
     assert "one of feedback-linearization" in graded[-1].problem
 
 
 @pytest.mark.exhaustive
-def test_a_grader_that_is_lost_refuses_no_user_s_work(store, monkeypatch):
+def test_lost_grading_process_rejects_no_submission(store, monkeypatch):
     monkeypatch.setattr(grader_queue, "grade_file", end_process)
     with pytest.raises(GraderLostError, match="from outside"):
-        give(store, workers=2)
+        add_submissions(store, workers=2)
     assert [(one.grade, one.problem) for one in list_graded(store)] == [(None, "")] * 2
 
 
-def test_one_of_one_person_alone(store):
+def test_single_submission_of_one_student_is_graded(store):
     submit(store, "p-[12]", "Eve")
     assert [one.student for one in list_graded(store, "p-[12]")] == ["Eve"]
     assert [one.student for one in list_graded(store, "p-1")] == ["Ada"]
     assert list_graded(store, "*") == []
 
 
-def test_grading_that_is_broken_off_keeps_what_is_done(store):
+def test_interrupted_grading_keeps_its_results(store):
     reported = []
-    assert not give(
+    assert not add_submissions(
         store,
         report=lambda done, total: reported.append(done),
         is_cancelled=lambda: 1 in reported,
@@ -107,11 +109,11 @@ def test_grading_that_is_broken_off_keeps_what_is_done(store):
     assert sum(one.grade is not None for one in list_graded(store)) == 1
 
 
-def test_what_cannot_be_graded_says_why_and_the_others_are(store):
+def test_rejected_submissions_have_reasons_and_others_are_graded(store):
     submit(store, "p-3", "Cem", "gone")
     path = submit(store, "p-4", "Dan")
     path.write_text("not a submission")
-    assert give(store)
+    assert add_submissions(store)
     found = {one.person: one for one in list_graded(store)}
     assert "one of feedback-linearization" in found["p-3"].problem
     assert found["p-4"].problem != ""
@@ -119,27 +121,27 @@ def test_what_cannot_be_graded_says_why_and_the_others_are(store):
     assert found["p-1"].grade is not None
 
 
-def test_where_nothing_isolates_a_law_gets_no_grade_until_something_does(store, monkeypatch):
+def test_law_gets_no_grade_without_isolation(store, monkeypatch):
     submit(store, "p-1", "Ada", OWN, BROKEN)
 
-    def refuse():
+    def reject():
         raise NotIsolatedError("bwrap is not installed")
 
     with monkeypatch.context() as patched:
-        patched.setattr(law_points, "check_isolation", refuse)
-        assert give(store)
+        patched.setattr(law_points, "check_isolation", reject)
+        assert add_submissions(store)
     found = {(one.person, one.exercise): one for one in list_graded(store)}
     assert "bwrap is not installed" in found["p-1", OWN].problem
     assert found["p-1", OWN].grade is None
     assert found["p-1", FL].grade is not None
 
 
-def test_a_law_that_fails_is_graded_with_the_line_and_its_problem_goes(store):
+def test_failed_law_is_graded_with_its_line_and_its_problem_is_cleared(store):
     submit(store, "p-1", "Ada", OWN, BROKEN)
     (own,) = [one for one in list_graded(store, "p-1") if one.exercise == OWN]
     book = open_book(store)
     assert own.problem == ""
-    assert give(store)
+    assert add_submissions(store)
     (own,) = [one for one in list_graded(store, "p-1") if one.exercise == OWN]
     assert own.grade is not None
     assert own.grade.is_isolated
@@ -147,6 +149,6 @@ def test_a_law_that_fails_is_graded_with_the_line_and_its_problem_goes(store):
     assert "line 2, in law" in law[0].feedback
     assert "NameError" in law[0].feedback
     book.refuse(own.grade.submission, "It was refused.")
-    assert give(store, again=True)
+    assert add_submissions(store, again=True)
     assert list_graded(store, "p-1")[-1].problem == ""
     assert "Ada,own-law," in write_csv([own.grade])

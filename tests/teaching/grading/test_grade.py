@@ -1,4 +1,4 @@
-"""A grade comes from exact replay and from draws that no user knew; it is given once."""
+"""A grade follows from exact replay and from hidden trials; it is given once."""
 
 import csv
 import io
@@ -53,7 +53,7 @@ def submit(law=LAZY, student="Ada"):
     return Submission(student=student, exercise="own-law", law=law)
 
 
-def test_a_run_that_replays_has_its_points(tmp_path):
+def test_run_that_replays_has_its_points(tmp_path):
     catalogue = Catalogue(tmp_path)
     runs = {step: record_step(catalogue, step) for step in ("load", "exact-model")}
     given = Submission(student="Ada", exercise=EXERCISE, runs=runs)
@@ -63,8 +63,8 @@ def test_a_run_that_replays_has_its_points(tmp_path):
     assert {one.step for one in found.criteria if one.points} >= {"load"}
 
 
-def test_a_run_of_which_one_bit_was_changed_is_refused(tmp_path):
-    """Not the run's text but its simulation decides."""
+def test_run_with_one_changed_bit_is_rejected(tmp_path):
+    """The simulation is compared, not the text of the run."""
     catalogue = Catalogue(tmp_path)
     runs = {"load": record_step(catalogue, "load", flip=True)}
     given = Submission(student="Ada", exercise=EXERCISE, runs=runs)
@@ -75,8 +75,10 @@ def test_a_run_of_which_one_bit_was_changed_is_refused(tmp_path):
     assert all("does not replay" in one and "at tick 7000" in one for one in reported)
 
 
-def test_a_law_is_graded_on_draws_of_the_secret_and_of_its_text(monkeypatch):
-    """Who has the submission alone cannot tell them; the same law has the same, whose it is."""
+def test_law_trials_depend_on_the_secret_and_the_text_of_the_law(monkeypatch):
+    """The submission alone does not reveal them; the same law has the same trials for any
+    student.
+    """
     drawn = []
 
     def run_trials(law, seed, place, report):
@@ -96,7 +98,7 @@ def test_a_law_is_graded_on_draws_of_the_secret_and_of_its_text(monkeypatch):
     assert build_test_trial("A", drawn[0], 0) != build_test_trial("A", PUBLIC_SEED, 0)
 
 
-def test_a_good_law_has_more_points_than_a_lazy_one(tmp_path):
+def test_good_law_has_more_points_than_a_passive_one(tmp_path):
     good, lazy = (grade(submit(law), OWN_LAW, tmp_path, SECRET) for law in (GOOD, LAZY))
     assert good.is_isolated
     assert good.max_points == lazy.max_points == 10
@@ -104,13 +106,13 @@ def test_a_good_law_has_more_points_than_a_lazy_one(tmp_path):
     assert "of 8 did" in good.criteria[0].feedback
 
 
-def test_a_law_that_fails_gets_the_reason_and_not_asked_again(tmp_path):
+def test_failed_law_gets_the_reason_and_is_not_run_again(tmp_path):
     found = grade(submit(b"def law(*given): return 1 / 0"), OWN_LAW, tmp_path, SECRET)
     assert found.points == 0
     assert "ZeroDivisionError" in found.criteria[0].feedback
 
 
-def test_no_law_has_no_points_and_a_law_that_no_user_asked_for_is_refused(tmp_path):
+def test_missing_law_has_no_points_and_unrequested_law_is_rejected(tmp_path):
     given = Submission(student="Ada", exercise="own-law")
     assert grade(given, OWN_LAW, tmp_path, SECRET).points == 0
     given = Submission(student="Ada", exercise=EXERCISE, law=LAZY)
@@ -118,7 +120,7 @@ def test_no_law_has_no_points_and_a_law_that_no_user_asked_for_is_refused(tmp_pa
         grade(given, find_exercise(EXERCISE), tmp_path, SECRET)
 
 
-def test_where_nothing_isolates_a_class_gets_no_grade_and_practice_says_so(tmp_path, monkeypatch):
+def test_class_gets_no_grade_without_isolation_and_practice_reports_it(tmp_path, monkeypatch):
     check_isolation.cache_clear()
     with monkeypatch.context() as patched:
         patched.setattr(confinement.shutil, "which", lambda name: None)
@@ -132,7 +134,7 @@ def test_where_nothing_isolates_a_class_gets_no_grade_and_practice_says_so(tmp_p
         Book(tmp_path / "class").keep(practice)
 
 
-def test_a_law_stays_in_its_folder(tmp_path):
+def test_path_of_a_law_stays_in_its_folder(tmp_path):
     (tmp_path / "other.py").write_bytes(GOOD)
     path = submit_law(tmp_path / "ada", LAZY, law_file="../other.py")
     with pytest.raises(svsa.ParameterError, match="a file next to the submission"):
@@ -146,8 +148,8 @@ def test_a_law_stays_in_its_folder(tmp_path):
         read_submission(path)
 
 
-def test_a_class_is_graded_once_and_reported_as_page_and_csv(tmp_path):
-    """What does not fit is refused by name, and the others have their grades."""
+def test_class_is_graded_once_with_a_page_and_csv(tmp_path):
+    """Invalid submissions are rejected by name, and the others have their grades."""
     course, book = write_course(tmp_path / "course"), tmp_path / "class"
     ada = submit_law(tmp_path / "ada", LAZY, "<b>Ada</b>")
     eve = submit_law(tmp_path / "eve", LAZY, "=Eve", exercise="none-such")
@@ -175,7 +177,7 @@ def test_a_class_is_graded_once_and_reported_as_page_and_csv(tmp_path):
     assert write_csv([grade_again.changed(student="=Eve")]).splitlines()[1].startswith("'=Eve,")
 
 
-def test_a_class_or_practice_is_said(tmp_path):
+def test_class_or_practice_must_be_chosen(tmp_path):
     path = submit_law(tmp_path / "ada", LAZY)
     with pytest.raises(svsa.ParameterError, match="or else --practice"):
         run(path)

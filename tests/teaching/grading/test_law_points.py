@@ -1,4 +1,4 @@
-"""Points of a law: added trials until chance decides little, each run with a law of its own."""
+"""Points of a law: trials are added until the interval is narrow, each with its own law process."""
 
 import numpy as np
 import pytest
@@ -22,7 +22,7 @@ def law(time_s, *others):
 """
 
 
-def test_the_interval_of_the_points_is_that_of_their_mean():
+def test_interval_of_the_points_is_that_of_their_mean():
     """Three of four trials have all points, one none: s = 10 √(3/16 · 4/3) = 5."""
     trials = Trials(np.array([True, True, True, False]), np.array([0.0, 0.0, 0.0, np.nan]))
     assert trials.estimate_range() == pytest.approx(2 * 1.959964 * 5.0 / 2.0)
@@ -30,7 +30,7 @@ def test_the_interval_of_the_points_is_that_of_their_mean():
     assert points == pytest.approx([1.5, 3.75, 2.25])
 
 
-def test_trials_of_a_group_are_the_runs_alone(monkeypatch):
+def test_trials_of_a_group_equal_single_runs(monkeypatch):
     monkeypatch.setattr(law_points, "BLOCK", 8)
     monkeypatch.setattr(law_points, "MOST_TRIALS", 8)
     found = run_trials(GOOD, SEED, leave_open)
@@ -41,8 +41,8 @@ def test_trials_of_a_group_are_the_runs_alone(monkeypatch):
 
 
 @pytest.mark.parametrize(("width", "blocks"), [(0.2, 1), (0.14, 2), (0.0, 3)])
-def test_blocks_are_added_until_chance_decides_little(monkeypatch, width, blocks):
-    """The more trials, the narrower: 0.16 after one block of these, 0.11 after two."""
+def test_blocks_are_added_until_the_interval_is_narrow(monkeypatch, width, blocks):
+    """The width decreases with the trials: 0.16 after one block of these, 0.11 after two."""
     monkeypatch.setattr(law_points, "MOST_TRIALS", 3 * law_points.BLOCK)
     monkeypatch.setattr(law_points, "POINTS_RANGE", width)
     rms = np.full(law_points.BLOCK, 0.5)
@@ -55,14 +55,14 @@ def test_blocks_are_added_until_chance_decides_little(monkeypatch, width, blocks
     assert len(shares) == (blocks if width == 0.0 else blocks - 1)
 
 
-def test_each_run_has_a_law_of_its_own(monkeypatch):
+def test_each_run_has_its_own_law_process(monkeypatch):
     monkeypatch.setattr(law_points, "BLOCK", 8)
     monkeypatch.setattr(law_points, "MOST_TRIALS", 8)
     assert run_trials(COUNTS, SEED, leave_open).output == ""
 
 
-def test_what_a_law_printed_is_shown_where_a_run_ended_early(monkeypatch):
-    """The largest torques end every run; a law whose runs all reach their end shows nothing."""
+def test_output_of_a_law_is_shown_if_a_run_ended_early(monkeypatch):
+    """The largest torques end every run; a law that completes all runs shows no output."""
     monkeypatch.setattr(law_points, "BLOCK", 8)
     monkeypatch.setattr(law_points, "MOST_TRIALS", 8)
     wild = b"print('built')\ndef law(*given):\n    return 1e3, 1e3\n"
@@ -72,7 +72,7 @@ def test_what_a_law_printed_is_shown_where_a_run_ended_early(monkeypatch):
     assert "μ" in found.problem or "φ" in found.problem
 
 
-def test_a_law_that_fails_in_one_run_has_no_points_for_the_block(monkeypatch):
+def test_law_that_fails_in_one_run_has_no_points_for_the_block(monkeypatch):
     monkeypatch.setattr(law_points, "BLOCK", 8)
     late = (
         b"def law(time_s, reference, x, w):\n    return (0.0, 0.0) if abs(x.q) < 0.5 else spring\n"

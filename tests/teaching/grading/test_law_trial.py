@@ -1,4 +1,4 @@
-"""A law is tried before it is submitted, in isolation, and its result is reported."""
+"""A law is tested before its submission, in isolation, and its result is reported."""
 
 import pytest
 
@@ -15,7 +15,7 @@ from tests.teaching.isolation.test_attacks import isolation  # noqa: F401
 WHOLE = LawRun("trial_0", True, 0.2, cost_us=24.0)
 
 
-def test_the_law_that_the_exercise_begins_with_holds():
+def test_initial_law_of_the_exercise_succeeds():
     found = try_law(find_law(find_exercise("own-law")))
     assert found.verdict == "held"
     assert "The run held" in found.feedback
@@ -29,20 +29,20 @@ def test_the_law_that_the_exercise_begins_with_holds():
         ("import socket; socket.socket()", "failed", "PermissionError"),
     ],
 )
-def test_a_law_that_fails_gets_what_it_printed(text, verdict, reported):
+def test_failed_law_gets_its_output(text, verdict, reported):
     found = try_law(text)
     assert found.verdict == verdict
     assert found.text == text
     assert reported in found.output
 
 
-def test_a_run_that_ends_in_a_fault_keeps_what_its_law_printed():
+def test_run_that_ends_in_a_fault_keeps_the_output_of_its_law():
     found = try_law("def law(*given):\n    print('far')\n    return 9.0, 9.0\n")
     assert found.verdict == "ended"
     assert found.output.endswith("far\n")
 
 
-def test_a_run_is_judged_by_how_far_it_goes():
+def test_run_is_assessed_by_its_duration():
     assert try_law(LAZY.decode()).verdict in ("ran", "ended")
     assert judge_trial("", WHOLE).verdict == "held"
     assert judge_trial("", WHOLE._replace(held=False)).verdict == "ran"
@@ -51,7 +51,7 @@ def test_a_run_is_judged_by_how_far_it_goes():
     assert "Too far." in ended.feedback
 
 
-def test_where_nothing_isolates_a_law_is_kept_untried(monkeypatch):
+def test_law_without_isolation_is_stored_untested(monkeypatch):
     def fail(*given, **named):
         raise AssertionError("it ran")
 

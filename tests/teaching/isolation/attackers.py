@@ -1,4 +1,4 @@
-"""A law that attacks: what it gets it sends in its torques, the only thing that leaves it."""
+"""A law that attacks: it sends its findings in its torques, its only output."""
 
 from pathlib import Path
 from typing import NamedTuple
@@ -43,9 +43,9 @@ BOUNDS = Bounds(
 
 
 class Outcome(NamedTuple):
-    """ended: "refused", "got", or the code of the fault. reported: the fault in words.
+    """ended: "refused", "got", or the code of the fault. reported: the text of the fault.
 
-    got: bytes that left; of an attack that was refused, the name of the error that it met.
+    got: the bytes that the attack sent out; for a rejected attack, the name of the error.
     """
 
     ended: str
@@ -54,7 +54,7 @@ class Outcome(NamedTuple):
 
 
 def list_attacks() -> list[tuple[str, str]]:
-    """(theme, name) of every attack."""
+    """Return (theme, name) of every attack."""
     found = []
     for path in sorted(ATTACKS.glob("[a-z]*.py")):
         lines = path.read_text().splitlines()
@@ -67,7 +67,7 @@ def list_attacks() -> list[tuple[str, str]]:
 
 
 def attack(theme: str, name: str, clue: dict, place: Place, bounds: Bounds = BOUNDS) -> Outcome:
-    """Let an attack run as a law for as long as it has something to send."""
+    """Run an attack as a law until it has no more bytes to send."""
     text = (ATTACKS / f"{theme}.py").read_text() + _SENDING.format(clue=clue, name=name)
     got = b""
     try:

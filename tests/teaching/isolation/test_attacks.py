@@ -1,8 +1,9 @@
 """Laws that attack: nothing gets out, and the lab does not notice.
 
-Every attacker knows all but the secret: where it lies, in a file, a variable of the environment,
-memory, shared memory and behind three sockets. Those that get it, or their way, from a process
-that is not confined show that the attack is real and that this test would see it.
+Every attacker knows everything except the secret itself. It knows its places: a file, an
+environment variable, memory, shared memory, and the other side of three sockets. Some attacks
+succeed in a process without isolation. They show that the attack is real and that this test would
+detect it.
 """
 
 import ctypes
@@ -27,7 +28,7 @@ from tests.teaching.isolation.attackers import BOUNDS, attack, list_attacks
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="namespaces are Linux's")
 SHORT = BOUNDS._replace(answer_s=1.5)
 PATIENT = BOUNDS._replace(answer_s=BOUNDS.whole_s, cpu_s=30)
-"""Of what is not about time: memory fills slowly on a busy machine."""
+"""For attacks that are not about time: memory fills slowly on a busy machine."""
 ENDS = {
     "overflow_its_stack": {"refused", "ended", "late"},
     "crash": {"ended"},
@@ -44,7 +45,7 @@ ENDS = {
     "answer_of_another_kind": {"garbled"},
     "guess_from_the_clock": {"got"},
 }
-"""How an attack ends that is not simply refused."""
+"""The outcome of attacks that are not simply refused."""
 REAL = (
     "read_environment_through_proc", "read_descriptors_through_proc", "read_what_is_mounted",
     "read_the_secret", "read_the_machines_users", "list_homes", "leave_by_a_link",
@@ -54,19 +55,19 @@ REAL = (
     "call_the_lab_by_its_hidden_name", "listen", "send_a_datagram", "ask_the_kernel",
     "make_a_pair", "call_without_python",
 )  # fmt: skip
-"""Attacks that succeed from a process that is not confined, under any account."""
+"""Attacks that succeed from an unconfined process, under any account."""
 GETTING = ("read_the_secret", "leave_by", "read_shared", "call_the", "start_a_program")
-"""How those begin that get the secret itself."""
+"""The prefixes of attacks that read the secret."""
 WALLS = {
     "PermissionError", "FileNotFoundError", "ModuleNotFoundError", "ImportError", "OSError",
     "KeyError", "MemoryError", "RecursionError", "RuntimeError", "BlockingIOError", "",
 }  # fmt: skip
-"""What a refused attack meets; another error would be a mistake in the attack."""
+"""The errors of a refused attack; another error would be a mistake in the attack."""
 
 
 @pytest.fixture(scope="module", autouse=True)
 def isolation():
-    """A machine may do without it, unless it is declared that it has all it takes (`.ci/run`)."""
+    """Skip on a machine without isolation, unless it is declared to support it (`.ci/run`)."""
     try:
         check_isolation()
     except NotIsolatedError as error:
@@ -92,7 +93,7 @@ def secret():
 
 @pytest.fixture(scope="module")
 def clue(secret, tmp_path_factory):
-    """All that an attacker could wish to know, but the secret. See the module."""
+    """What an attacker may know, except the secret. See the module."""
     folder = tmp_path_factory.mktemp("grader")
     file, shared = folder / "secret", Path("/dev/shm") / f"svsa-{os.getpid()}"  # noqa: S108
     for path in (file, shared):
@@ -138,7 +139,7 @@ def clue(secret, tmp_path_factory):
 
 @pytest.fixture(autouse=True)
 def calm(clue, secret, tmp_path, monkeypatch):
-    """What the lab has is as it was: its secret, folders, processes, priority and time."""
+    """The lab is unchanged: its secret, folders, processes, priority and time."""
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     monkeypatch.setenv("SVSA_CANARY", secret.decode())
     folder, priority = Path(clue["folder"]), os.getpriority(os.PRIO_PROCESS, 0)
@@ -153,13 +154,13 @@ def calm(clue, secret, tmp_path, monkeypatch):
 
 
 def list_children() -> set[str]:
-    """The processes that this one has begun."""
+    """Return the child processes of this process."""
     tasks = Path("/proc/self/task").iterdir()
     return {child for task in tasks for child in (task / "children").read_text().split()}
 
 
 @pytest.mark.parametrize(("theme", "name"), list_attacks(), ids=lambda part: part)
-def test_an_attack_gets_nothing_and_disturbs_no_user(theme, name, clue, secret):
+def test_attack_reveals_nothing_and_disturbs_no_user(theme, name, clue, secret):
     ends = ENDS.get(name, {"refused"})
     outcome = attack(theme, name, clue, confine, SHORT if "late" in ends else PATIENT)
     assert outcome.ended in ends, outcome
@@ -174,26 +175,26 @@ def test_an_attack_gets_nothing_and_disturbs_no_user(theme, name, clue, secret):
 @pytest.mark.parametrize(
     ("theme", "name"), [one for one in list_attacks() if one[1] in REAL], ids=lambda part: part
 )
-def test_the_attack_is_real_where_nothing_confines_it(theme, name, clue, secret):
+def test_attack_succeeds_without_confinement(theme, name, clue, secret):
     outcome = attack(theme, name, clue, leave_open)
     (Path(clue["folder"]) / "written").unlink(missing_ok=True)
     assert outcome.ended == "got", outcome
     assert secret in outcome.got or not name.startswith(GETTING)
 
 
-def test_every_attack_that_is_said_to_be_real_is_there():
+def test_every_attack_listed_as_successful_exists():
     names = [name for _, name in list_attacks()]
     assert len(names) == len(set(names)) >= 30
     assert {*REAL, *ENDS} <= set(names)
 
 
-def test_a_law_that_spins_is_ended_by_its_share_of_the_processor(clue):
+def test_law_in_an_endless_loop_is_ended_by_its_cpu_limit(clue):
     bounds = BOUNDS._replace(cpu_s=1, answer_s=50)
     outcome = attack("resources", "spin", clue, confine, bounds)
     assert outcome.ended == "ended"
     assert "1 s of the processor" in outcome.reported
 
 
-def test_a_law_that_prints_is_shown_the_end_of_it_only(clue):
+def test_only_the_end_of_the_output_of_a_law_is_shown(clue):
     outcome = attack("resources", "crash", clue, confine)
     assert len(outcome.reported) < 3000

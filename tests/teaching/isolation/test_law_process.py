@@ -1,4 +1,4 @@
-"""A law in a process of its own does what it does in this one, and its faults have names."""
+"""A law in a separate process computes the same as in this one, and its faults have names."""
 
 import shutil
 from pathlib import Path
@@ -44,8 +44,8 @@ def run(source, duration_s=0.5, place=confine, **changes):
 
 
 @pytest.mark.parametrize("place", [confine, leave_open])
-def test_the_papers_law_written_as_a_file_is_the_labs_own(place):
-    """With the lab's equations as plain Python, which round otherwise in the last digits."""
+def test_law_file_of_the_paper_equals_the_law_of_the_lab(place):
+    """With the equations as plain Python, which differ in the last digits."""
     result, cost_s = run(FEEDBACK_LINEARIZATION, place=place)
     fl = svsa.simulate(FIGURE, "fl", duration_s=0.5)
     assert result.fault is None
@@ -55,7 +55,7 @@ def test_the_papers_law_written_as_a_file_is_the_labs_own(place):
     np.testing.assert_allclose(result.torque1_nm, fl.torque1_nm, atol=1e-6)
 
 
-def test_a_law_may_use_numpy_remember_and_write_into_its_folder():
+def test_law_may_use_numpy_keep_state_and_write_into_its_folder():
     source = b"""
 import numpy as np
 seen = []
@@ -69,14 +69,14 @@ def law(time_s, reference, x, w):
         assert [law(0.0, *REPORTED) for _ in range(3)] == [(1, 1), (2, 2), (3, 3)]
 
 
-def test_a_law_that_asks_for_no_numpy_is_started_without_it():
-    """Most of a start was numpy's; a law is restarted for each of its draws."""
+def test_law_without_numpy_starts_without_it():
+    """numpy took most of the start, and a law is started for each of its trials."""
     source = b"import sys\ndef law(*given): return float('numpy' in sys.modules), 1.0"
     with LawProcess(source, MODEL) as law:
         assert law(0.0, *REPORTED) == (0.0, 1.0)
 
 
-def test_every_run_begins_in_an_empty_folder():
+def test_every_run_starts_in_an_empty_folder():
     source = b"import os\nopen('left', 'w').close()\ndef law(*given): return len(os.listdir()), 0"
     for _ in range(2):
         with LawProcess(source, MODEL) as law:
@@ -97,14 +97,14 @@ def test_every_run_begins_in_an_empty_folder():
         (b"def law(*given):\n    return 1 / 0", 'File "law.py", line 2'),
     ],
 )
-def test_a_law_that_is_none_is_an_error_with_what_python_says(source, reported):
+def test_invalid_law_is_reported_with_the_error_of_python(source, reported):
     with pytest.raises(LawFaultError) as raised:
         run(source)
     assert raised.value.code == "error"
     assert reported in raised.value.output
 
 
-def test_huge_torques_are_limited_and_no_number_ends_the_run():
+def test_large_torques_are_limited_and_nan_ends_the_run():
     result, _ = run(b"def law(*given): return 1e308, -1e308", 0.003, effects=svsa.RIG)
     assert 0.0 < abs(result.torque1_nm).max() < 1e3
     assert np.isfinite(result.samples).all()
@@ -120,7 +120,7 @@ def test_huge_torques_are_limited_and_no_number_ends_the_run():
         (Bounds(answer_s=9.0, whole_s=0.5), "took more than 0.5 s"),
     ],
 )
-def test_a_law_that_hangs_gets_its_time_limit(bounds, reported):
+def test_law_that_hangs_reaches_its_time_limit(bounds, reported):
     with (
         pytest.raises(LawFaultError, match=reported),
         LawProcess(b"def law(*given):\n    while True: pass\n", MODEL, bounds, leave_open) as law,
@@ -128,8 +128,8 @@ def test_a_law_that_hangs_gets_its_time_limit(bounds, reported):
         svsa.simulate(FIGURE, law, duration_s=0.5)
 
 
-def test_without_its_tools_a_machine_says_that_it_is_not_isolated(monkeypatch):
-    """And a law is not run at all."""
+def test_machine_without_the_tools_reports_missing_isolation(monkeypatch):
+    """And the law does not run at all."""
     check_isolation.cache_clear()
     with monkeypatch.context() as patched:
         patched.setattr(shutil, "which", lambda name: None)
@@ -142,8 +142,8 @@ def test_without_its_tools_a_machine_says_that_it_is_not_isolated(monkeypatch):
     check_isolation()
 
 
-def test_a_sandbox_with_a_hole_is_none(monkeypatch):
-    """The probe tries the ways out: here the filter lets sockets through."""
+def test_sandbox_with_a_gap_is_rejected(monkeypatch):
+    """The probe tests the restrictions: here the filter permits sockets."""
     check_isolation.cache_clear()
     system_calls.compile_filter.cache_clear()
     with monkeypatch.context() as patched:
@@ -155,8 +155,8 @@ def test_a_sandbox_with_a_hole_is_none(monkeypatch):
     check_isolation()
 
 
-def test_a_sandbox_that_does_not_start_is_none(monkeypatch, tmp_path):
-    """As bwrap ends where a container forbids namespaces."""
+def test_sandbox_that_does_not_start_is_rejected(monkeypatch, tmp_path):
+    """As bwrap ends in a container that forbids namespaces."""
     fake = tmp_path / "bwrap"
     fake.write_text("#!/bin/sh\necho 'bwrap: No permissions to create new namespace' >&2\nexit 1\n")
     fake.chmod(0o755)
@@ -168,7 +168,7 @@ def test_a_sandbox_that_does_not_start_is_none(monkeypatch, tmp_path):
     check_isolation.cache_clear()
 
 
-def test_what_a_failed_law_printed_is_described():
+def test_output_of_a_failed_law_is_described():
     with pytest.raises(LawFaultError) as raised:
         run(b"def inner(): return spring\n\ndef law(*given):\n    print('x')\n    return inner()")
     assert "child.py" not in raised.value.output
@@ -180,7 +180,7 @@ def test_what_a_failed_law_printed_is_described():
     assert describe_output(" \n") == ""
 
 
-def test_what_a_law_printed_before_it_was_killed_is_kept():
+def test_output_of_a_killed_law_is_kept():
     endless = b"def law(*given):\n    print('here')\n    while True: pass\n"
     with (
         LawProcess(endless, MODEL, Bounds(answer_s=0.5)) as law,
@@ -190,13 +190,13 @@ def test_what_a_law_printed_before_it_was_killed_is_kept():
     assert raised.value.output == "here\n"
 
 
-def test_a_law_process_keeps_what_was_answered():
+def test_law_process_counts_its_answers():
     with LawProcess(b"def law(time_s, *others): return time_s, 2.0", MODEL) as law:
         given = [law(number, *REPORTED) for number in (1.0, 3.0)]
         assert law.torques == given == [(1.0, 2.0), (3.0, 2.0)]
 
 
-def test_the_leaderboards_example_is_a_law_that_follows_the_reference():
+def test_example_of_the_leaderboard_follows_the_reference():
     source = (ROOT / "frontend/web/src/teaching/leaderboard/example.py").read_bytes()
     result, _ = run(source)
     assert result.fault is None

@@ -1,4 +1,4 @@
-"""A law's rank comes from hidden trials, is computed once, and is listed with the lab's laws."""
+"""A law's rank follows from hidden trials, is computed once, and is listed with the lab's laws."""
 
 import json
 
@@ -40,15 +40,15 @@ def run(*arguments):
     return CliRunner().invoke(app, words, catch_exceptions=False, env={"COLUMNS": "200"})
 
 
-def stand(season, go):
-    """The standing of a law that is not cancelled."""
+def get_standing(season, go):
+    """Return the standing of a law that is not cancelled."""
     found = measure_standing(season, go)
     assert found is not None
     return found.standing
 
 
-def go_with(results):
-    """Every run holds with an error of 0.5°, but those that are given by name."""
+def complete_except(results):
+    """Every run is completed with an error of 0.5° except the named ones."""
 
     def go(scenario):
         return results.get(scenario.name, LawRun(scenario.name, True, 0.5, tick_us=3.0))
@@ -56,7 +56,7 @@ def go_with(results):
     return go
 
 
-def test_a_season_has_the_public_scenarios_and_trials_of_its_own():
+def test_season_has_the_public_scenarios_and_its_own_trials():
     season, other = build_season(5), build_season(6)
     assert season.singles == other.singles
     assert not {one.seed for one in season.trials} & {one.seed for one in other.trials}
@@ -64,18 +64,18 @@ def test_a_season_has_the_public_scenarios_and_trials_of_its_own():
     assert len(set(names)) == len(names) == season.run_count
 
 
-def test_on_the_public_seed_a_law_holds_what_it_holds_in_the_ranking():
+def test_public_seed_gives_the_success_of_the_ranking():
     season = build_season(PUBLIC_SEED)
     season = season._replace(singles=season.singles[:1], trials=season.trials[:16])
-    standing = stand(season, lambda one: run_installed("fl", one))
+    standing = get_standing(season, lambda one: run_installed("fl", one))
     trials = TrialSet(PUBLIC_SEED, 8).run(build_entry("fl"), lambda done: None)
     assert (standing.trials, standing.trials_held) == (16, int(find_held(trials).sum()))
     assert standing.tick_us is not None
     assert standing.tick_us > 0
 
 
-def test_equal_rates_share_a_place_and_the_next_one_is_skipped():
-    shown = stand(build_short_season(5), go_with({}))
+def test_equal_rates_share_a_place_and_the_next_place_is_skipped():
+    shown = get_standing(build_short_season(5), complete_except({}))
     entries = [
         boards.build_entry("fl", "fl", True, shown.changed(success=rate))
         for rate in (0.9, 0.7, 0.7, 0.2)
@@ -83,44 +83,44 @@ def test_equal_rates_share_a_place_and_the_next_one_is_skipped():
     assert rank_entries(entries) == [1, 2, 2, 4]
 
 
-def test_the_interval_is_wilsons():
+def test_interval_is_wilsons():
     """Wilson for 100 of 200: 0.431 to 0.569."""
     season = build_season(5)
     failed = {one.name: LawRun(one.name, False, 2.0, tick_us=3.0) for one in season.trials[:100]}
-    standing = stand(season, go_with(failed))
+    standing = get_standing(season, complete_except(failed))
     assert standing.success == 0.5
     assert (standing.low, standing.high) == pytest.approx((0.4313, 0.5687), abs=1e-4)
     assert standing.median_rms_deg == 1.25
     assert standing.trials_ended == 0
 
 
-def test_the_worst_run_is_one_that_ended_early_before_a_large_error():
+def test_worst_run_ended_early_or_has_the_largest_error():
     season = build_season(5)
     large, ended = (season.singles[number].name for number in (2, 4))
     found = {large: LawRun(large, False, 9.0, tick_us=3.0)}
-    assert stand(season, go_with(found)).worst.rms_deg == 9.0
+    assert get_standing(season, complete_except(found)).worst.rms_deg == 9.0
     found[ended] = LawRun(ended, False, None, "Too far", tick_us=3.0)
-    worst = stand(season, go_with(found)).worst
+    worst = get_standing(season, complete_except(found)).worst
     assert (worst.scenario, worst.rms_deg, worst.problem) == (ended, None, "Too far")
 
 
-def test_a_law_that_fails_in_its_first_run_is_refused_with_what_it_said():
+def test_law_that_fails_in_its_first_run_is_rejected_with_its_output():
     season = build_season(5)
     name = season.singles[0].name
     failed = LawRun(name, False, None, "error: it raised", "Traceback\nNameError: spring\n")
     with pytest.raises(
         StateError, match="it raised\nThe law printed:\nTraceback\nNameError: spring"
     ):
-        measure_standing(season, go_with({name: failed}))
+        measure_standing(season, complete_except({name: failed}))
 
 
-def test_one_that_is_broken_off_has_no_standing_and_says_how_far_it_was():
+def test_cancelled_measurement_has_no_standing_and_reports_its_progress():
     reported = []
     season = build_season(5)
     assert (
         measure_standing(
             season,
-            go_with({}),
+            complete_except({}),
             lambda done, total: reported.append((done, total)),
             lambda: len(reported) == 3,
         )
@@ -130,7 +130,7 @@ def test_one_that_is_broken_off_has_no_standing_and_says_how_far_it_was():
 
 
 @pytest.mark.usefixtures("short_season")
-def test_a_law_is_put_through_once_and_stands_next_to_the_labs(tmp_path):
+def test_law_is_measured_once_and_listed_with_those_of_the_lab(tmp_path):
     file, folder = tmp_path / "mine.py", tmp_path / "board"
     file.write_bytes(GOOD)
     (first,) = [
@@ -153,7 +153,7 @@ def test_a_law_is_put_through_once_and_stands_next_to_the_labs(tmp_path):
 
 
 @pytest.mark.usefixtures("short_season")
-def test_an_installed_law_is_measured_again_in_another_version_of_the_lab(tmp_path, monkeypatch):
+def test_installed_law_is_measured_again_in_another_version_of_the_lab(tmp_path, monkeypatch):
     board = Board(tmp_path)
     assert measure_missing(board)
     assert board.list_missing() == []
@@ -164,7 +164,7 @@ def test_an_installed_law_is_measured_again_in_another_version_of_the_lab(tmp_pa
 
 
 @pytest.mark.usefixtures("short_season")
-def test_a_board_of_an_earlier_suite_shows_none_of_it(tmp_path, monkeypatch):
+def test_board_of_an_earlier_suite_is_empty(tmp_path, monkeypatch):
     board = Board(tmp_path)
     measure_missing(board)
     monkeypatch.setattr(boards, "PROTOCOL", "another")
@@ -173,7 +173,7 @@ def test_a_board_of_an_earlier_suite_shows_none_of_it(tmp_path, monkeypatch):
 
 @pytest.mark.exhaustive
 @pytest.mark.usefixtures("short_season")
-def test_where_nothing_isolates_nothing_is_entered_and_practice_says_so(tmp_path, monkeypatch):
+def test_submission_needs_isolation_and_practice_reports_its_absence(tmp_path, monkeypatch):
     file = tmp_path / "law.py"
     file.write_bytes(LAZY)
     monkeypatch.setattr("svsa.teaching.leaderboard.cli.build_season", build_short_season)
@@ -189,6 +189,6 @@ def test_where_nothing_isolates_nothing_is_entered_and_practice_says_so(tmp_path
 
 
 @pytest.mark.parametrize("name", ["", " ", "two\nlines", "n" * 61])
-def test_a_name_is_one_line_of_letters(name):
+def test_name_is_one_line_of_letters(name):
     with pytest.raises(svsa.ParameterError, match="name"):
-        boards.build_entry("key", name, False, stand(build_season(5), go_with({})))
+        boards.build_entry("key", name, False, get_standing(build_season(5), complete_except({})))

@@ -1,4 +1,4 @@
-"""An entry's worst run is seen again bit for bit, and nothing that was submitted runs for it."""
+"""An entry's worst run is replayed bit for bit without running submitted code."""
 
 import numpy as np
 import pytest
@@ -41,7 +41,7 @@ STOPS = GOOD.replace(
 
 @pytest.mark.exhaustive
 @pytest.mark.usefixtures("short_season")
-def test_a_submitted_laws_worst_run_is_the_one_that_was_measured(tmp_path, monkeypatch):
+def test_worst_run_of_a_submitted_law_is_the_measured_one(tmp_path, monkeypatch):
     board = Board(tmp_path)
     entry = submit(board, "Ada's", GOOD, author="Ada")
     assert entry is not None
@@ -65,7 +65,7 @@ def test_a_submitted_laws_worst_run_is_the_one_that_was_measured(tmp_path, monke
 
 
 @pytest.mark.usefixtures("short_season")
-def test_a_law_of_the_lab_is_simulated_next_to_ndobc_with_the_declared_gains(tmp_path):
+def test_law_of_the_lab_is_simulated_next_to_ndobc_with_the_declared_gains(tmp_path):
     board = Board(tmp_path)
     measure_missing(board)
     lanes = {one.key: replay_worst(board, one).lanes for one in board.list()}
@@ -76,7 +76,7 @@ def test_a_law_of_the_lab_is_simulated_next_to_ndobc_with_the_declared_gains(tmp
 
 
 @pytest.mark.usefixtures("short_season")
-def test_a_law_that_stops_on_the_way_is_seen_until_then(tmp_path):
+def test_run_of_a_law_that_stops_early_is_shown_until_then(tmp_path):
     board, run = Board(tmp_path), run_law(STOPS, SINGLE)
     assert "error" in run.problem
     measure_missing(board)
@@ -89,7 +89,7 @@ def test_a_law_that_stops_on_the_way_is_seen_until_then(tmp_path):
 
 
 @pytest.mark.usefixtures("short_season")
-def test_a_run_that_ndobc_would_end_is_seen_alone_to_its_end(tmp_path):
+def test_run_in_which_ndobc_faults_is_shown_alone_to_its_end(tmp_path):
     board, scenario = Board(tmp_path), find_scenario(REMOVAL)
     measure_missing(board)
     fl, worst = (
@@ -114,8 +114,8 @@ def test_a_run_that_ndobc_would_end_is_seen_alone_to_its_end(tmp_path):
 
 
 @pytest.mark.usefixtures("short_season")
-def test_what_is_seen_has_nothing_of_the_seasons_chance(tmp_path):
-    """Two seasons with other secrets, and the same run: a public one."""
+def test_worst_run_reveals_no_hidden_trial(tmp_path):
+    """Two seasons with different secrets show the same run: a public one."""
     one, other = Board(tmp_path / "one"), Board(tmp_path / "other")
     assert (one.folder / "secret").read_bytes() != (other.folder / "secret").read_bytes()
     shown = []
@@ -129,7 +129,7 @@ def test_what_is_seen_has_nothing_of_the_seasons_chance(tmp_path):
     assert shown[0].configuration == shown[1].configuration
 
 
-def test_of_what_is_not_kept_it_says_so(tmp_path):
+def test_deleted_run_is_reported(tmp_path):
     board = Board(tmp_path)
     entry = Entry.model_construct(key=digest_law(b"old"), name="Old")
     with pytest.raises(StateError, match="are not saved"):
@@ -140,6 +140,6 @@ def test_of_what_is_not_kept_it_says_so(tmp_path):
 
 
 @pytest.mark.parametrize("key", ["../secret", "secret/", "", "a" * 65, "FL", "none_such"])
-def test_an_entry_is_found_by_its_key_alone(tmp_path, key):
+def test_entry_is_found_by_its_key_alone(tmp_path, key):
     with pytest.raises(ParameterError, match="key of an entry"):
         Board(tmp_path).get(key)

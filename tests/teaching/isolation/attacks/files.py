@@ -1,4 +1,4 @@
-"""Attacks on files and on what behaves like one. See `memory` for the form."""
+"""Attacks on files and file-like objects. See `memory` for the form."""
 
 import ctypes
 import os
@@ -93,7 +93,7 @@ def make_a_file_without_a_name(clue):
 
 
 def fill_the_disk(clue):
-    """To 64 MiB, which is many times what it has."""
+    """Write up to 64 MiB, many times its limit."""
     written = 0
     try:
         for number in range(1024):

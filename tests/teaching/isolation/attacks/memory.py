@@ -1,7 +1,7 @@
 """Attacks on what is in memory: its own, and that of the process that asks.
 
-`clue` tells an attacker all that could help: where the secret lies, and everything but the secret.
-Each returns what it got, or raises.
+`clue` gives an attacker all useful information except the secret, including the place of the
+secret. Each attack returns the data that it got, or raises an error.
 """
 
 import ctypes

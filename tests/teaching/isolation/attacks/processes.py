@@ -1,4 +1,4 @@
-"""Attacks by other processes, threads, signals, identities and priorities. See `memory`."""
+"""Attacks by processes, threads, signals, identities and priorities. See `memory`."""
 
 import os
 import resource

@@ -56,7 +56,7 @@ def close_everything(clue):
 
 
 def answer_before_it_is_asked(clue):
-    """Two answers to one question, so that the second is there before the measurement is."""
+    """Two answers to one request, so that the second one precedes the measurement."""
     number = next(frame for frame in find_frames() if "number" in frame)["number"]
     for _ in range(2):
         os.write(clue_of_pipe(), struct.pack("<IQ2d", 4, number, 0.0, 0.0))
@@ -86,7 +86,7 @@ def answer_of_another_kind(clue):
 
 
 def guess_from_the_clock(clue):
-    """Every number that a careless lab would start its chance with."""
+    """Return every number that a careless lab would use as its seed."""
     now = time.time_ns()
     numbers = {os.getpid(), os.getppid(), id(clue), hash("canary-"), *clue.values()}
     numbers |= {now // 10**power - back for power in range(10) for back in range(100)}
