@@ -10,7 +10,7 @@
                 print(block.time_s[-1], block["position_rad"][-1])
         run.result.metrics.rms_position_error_rad
 
-It needs the extra `client`. What the lab refuses raises what `svsa.simulate` would raise for it.
+It needs the extra `client`. A rejection by the lab raises the same exception as `svsa.simulate`.
 """
 
 # ruff: noqa: E402
@@ -19,6 +19,7 @@ from svsa.inputs.extras import require_extra
 require_extra("client")
 
 from svsa.client.asynchronous import AsyncLab, AsyncRecording, AsyncSession, connect_async
+from svsa.client.bench import RemoteBench
 from svsa.client.connection import (
     AccessError,
     AppliedAt,
@@ -30,7 +31,7 @@ from svsa.client.connection import (
 from svsa.client.lab import Lab, connect
 from svsa.client.loads import AppliedLoad, Loads
 from svsa.client.runs import Recording, RemoteRuns
-from svsa.client.session import RemoteBench, RemoteSession
+from svsa.client.session import RemoteSession
 from svsa.client.stream import Block, BlockStream
 
 __all__ = [

@@ -9,10 +9,10 @@
                 print(block.time_s[-1], block["position_rad"][-1])
         result = await recording.read_result()
 
-Every method has the name and the arguments of the blocking one; where that is a context, this is
-one for `async with`. A property that is asked of the lab is read by `await session.get("law")` and
-set by `await session.set(law="fl")`. If a task is cancelled while it awaits a call, the lab may
-still carry the call out.
+Every method has the name and the arguments of the blocking one; a context manager there is one for
+`async with` here. Read a property of the lab by `await session.get("law")` and set it by `await
+session.set(law="fl")`. If a task is cancelled while it awaits a call, the lab may still execute the
+call.
 """
 
 import asyncio
@@ -21,15 +21,16 @@ from contextlib import ExitStack
 from functools import partial
 from typing import Any, Generic, TypeVar
 
+from svsa.client.bench import RemoteBench
 from svsa.client.connection import is_settable
 from svsa.client.lab import Lab, connect
 from svsa.client.loads import Loads
 from svsa.client.runs import Recording, RemoteRuns, RemoteStudies
-from svsa.client.session import RemoteBench, RemoteSession
+from svsa.client.session import RemoteSession
 
 T = TypeVar("T")
 IMMEDIATE = frozenset({"open_session", "stream"})
-"""Methods that ask the lab for nothing: they are not awaited."""
+"""Methods that send no request: they are not awaited."""
 
 
 def connect_async(
@@ -43,7 +44,7 @@ def connect_async(
         **options: The other arguments of `svsa.connect`.
 
     Returns:
-        What to await for the lab.
+        An awaitable for the lab.
 
     Raises:
         LabError: When it is awaited, if no lab answers at this address.

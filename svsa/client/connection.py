@@ -1,7 +1,7 @@
 """Requests to a lab, with the library's errors, and repeated if an answer is lost.
 
-A changing call has an `Idempotency-Key`: the lab carries it out once, and answers a repeat as it
-answered the first.
+A changing call has an `Idempotency-Key`: the lab executes it once, and answers a repeat like the
+first request.
 """
 
 import ssl
@@ -43,9 +43,9 @@ _BY_STATUS = {401: AccessError, 403: AccessError}
 
 
 def build_refusal(status: int, reported: Any) -> SvsaError:
-    """Build the error of a status. reported: its body, a problem (RFC 9457) or anything.
+    """Build the error of a status; `reported` is its body, a problem (RFC 9457) or any other value.
 
-    A refused value is a `ParameterError` with name, value, unit and bound, as of `simulate`.
+    A rejected value is a `ParameterError` with name, value, unit and bound, as in `simulate`.
     """
     if not isinstance(reported, dict):
         return _BY_STATUS.get(status, LabError)(f"The lab answered {status}.")
@@ -77,9 +77,11 @@ _NOT_SENT = (httpx.ConnectError, httpx.ConnectTimeout, httpx.PoolTimeout)
 class Connection:
     """The address of a lab and the script's credentials.
 
-    token: of its class, or the lab's secret, or None where it has neither. client: what the
-    script is known by; the lab gives control to it. timeout_s: for how long a lab that does not
-    answer, is busy or starts again is asked again, s.
+    Args:
+        token: Token of a class, or the lab's secret, or None if it has neither.
+        client: Id of the script, to which the lab gives control.
+        timeout_s: Time for which requests to a lab that does not answer, is busy or restarts are
+            repeated, s.
     """
 
     def __init__(
@@ -97,7 +99,7 @@ class Connection:
             headers=self.headers,
             timeout=timeout,
             trust_env=False,
-            verify=ssl.create_default_context(),  # what the machine trusts, as its streams do
+            verify=ssl.create_default_context(),  # the trust store of the system
         )
 
     def __enter__(self) -> Self:
@@ -121,7 +123,8 @@ class Connection:
     def call(self, method: str, path: str, body: Any = None) -> Any:
         """Send a state-changing request; return its answer as JSON, or None without a body.
 
-        Raises `LostAnswerError` where it is not known whether the lab has carried it out.
+        Raises:
+            LostAnswerError: If it is unknown whether the lab has executed it.
         """
         answer = self._send(method, path, body, {})
         return answer.json() if answer.content else None
@@ -156,8 +159,8 @@ class Connection:
     def _check_repeatable(self, key: str, what: str, begun: float, until: float) -> None:
         """Return when the lab answers again and a repeat cannot be executed twice.
 
-        The lab knows the key, or knows that no call with it came. A lab that was restarted
-        meanwhile knows neither.
+        The lab must know the key, or know that it received no call with it. A lab that was
+        restarted in between knows neither.
         """
         while time.monotonic() < until:
             match self._read_outcome(key):
@@ -177,10 +180,10 @@ class Connection:
         )
 
     def _read_outcome(self, name: str) -> Any:
-        """Ask the lab for the outcome of a request; None if it does not know it.
+        """Query the outcome of a request; None if the lab does not know it.
 
-        A lab that is too busy for it, starts again or has a proxy before it may answer otherwise;
-        one that refuses who asks is not asked again.
+        A busy or restarting lab, or a proxy in front of it, may give other answers, and the query
+        is repeated; if the lab rejects the caller, it is not.
         """
         try:
             answer = self._http.get(f"/requests/{name}")
@@ -205,7 +208,11 @@ class Remote:
     __slots__ = ()
 
     def __setattr__(self, name: str, value: Any) -> None:
-        """Set an attribute; raises `AttributeError` if there is none of this name."""
+        """Set an attribute.
+
+        Raises:
+            AttributeError: If there is none of this name.
+        """
         try:
             super().__setattr__(name, value)
         except AttributeError as error:
@@ -236,7 +243,7 @@ class AppliedAt:
 class SessionConnection(Remote):
     """A session, by its name.
 
-    applied_at: when the last command was applied; None before the first.
+    `applied_at` is the time at which the last command was applied; None before the first.
     """
 
     __slots__ = ("applied_at", "connection", "name")
@@ -251,13 +258,23 @@ class SessionConnection(Remote):
         return f"/sessions/{self.name}"
 
     def read_state(self) -> dict[str, Any]:
-        """Read the state, `GET /sessions/{session}`."""
+        """Read the state, `GET /sessions/{session}`.
+
+        Returns:
+            The state as the API reports it, SI units.
+        """
         return self.connection.read(self.path)
 
     def call(self, method: str, path: str, body: Any = None) -> dict[str, Any]:
         """Send a request below the session's path; note when it was applied.
 
-        Returns the session's state, or a load with the tick at which it was added.
+        Args:
+            method: HTTP method, such as "PUT".
+            path: Path below `/sessions/{session}`, such as "/position".
+            body: Body of the request, as JSON.
+
+        Returns:
+            The session's state, or a load with the tick at which it was added.
         """
         state = self.connection.call(method, self.path + path, body)
         past = [one for one in state.get("events", ()) if one["tick"] <= state["tick"]]

@@ -18,9 +18,14 @@ class ControlledConnection(SessionConnection):
     ) -> None:
         """Take control: only this script may command; every client may pause and stop.
 
-        by: Name that other users see; in a class it is the person whose token the script has.
-        Raises `ControlError` where another client is in control, unless `take_over`; in a class,
-        where it is not this script's turn within `wait_s`, and then it waits no longer.
+        Args:
+            by: Name that other users see; in a class it is replaced by the user of the token.
+            take_over: Take control even if another client has it.
+            wait_s: Maximum time in the queue of a class, s.
+
+        Raises:
+            ControlError: If another client is in control and `take_over` is false, or if the wait
+                in the queue exceeds `wait_s`; the script then leaves the queue.
         """
         state = self.call("PUT", "/control", {"by": by, "take_over": take_over})
         until = time.monotonic() + wait_s
@@ -36,7 +41,14 @@ class ControlledConnection(SessionConnection):
             state = self.read_state()
 
     def hand_control_over(self, to: str) -> None:
-        """Pass control to a name in `waiting`; raises `ParameterError` for another."""
+        """Pass control to a user in the queue.
+
+        Args:
+            to: A name in `waiting`.
+
+        Raises:
+            ParameterError: If no user of this name is in the queue.
+        """
         ids = {one["name"]: one["id"] for one in self._read_waiting()}
         if to not in ids:
             raise ParameterError(

@@ -8,7 +8,7 @@ from svsa.client.lease import ControlledConnection
 from svsa.errors import Fault, FaultError, StateError
 
 MAX_STEP_TICKS = 10_000
-LOOK_S = 0.05
+POLL_S = 0.05
 
 
 class RunningConnection(ControlledConnection):
@@ -33,7 +33,7 @@ class RunningConnection(ControlledConnection):
         """Pause, and on a bench wait until the ramp has ended."""
         self.pause()
         while self.read_state()["status"] == "running":
-            time.sleep(LOOK_S)
+            time.sleep(POLL_S)
 
     def quick_stop(self) -> None:
         """Set zero current at once on a bench, latched until cleared; a simulation pauses."""
@@ -44,14 +44,24 @@ class RunningConnection(ControlledConnection):
         self.call("POST", "/reset")
 
     def set_speed(self, speed: float | Literal["max"]) -> None:
-        """Set session seconds per wall second, or the maximum speed."""
+        """Set the speed of the session.
+
+        Args:
+            speed: Session seconds per wall-clock second, or "max".
+        """
         self.call("PUT", "/speed", {"speed": speed})
 
     def run_until(self, time_s: float) -> None:
-        """Run to this session time: a paused simulation at full speed, a bench in real time.
+        """Run to a session time: a paused simulation at full speed, a bench in real time.
 
-        A bench at t = 0 is started, and runs on afterwards. Raises `FaultError` where the run ends
-        before, and `StateError` where a bench is stopped before.
+        A bench at t = 0 is started, and continues to run afterwards.
+
+        Args:
+            time_s: Session time, s.
+
+        Raises:
+            FaultError: If the run ends in a fault before.
+            StateError: If a bench is stopped before.
         """
         state = self.read_state()
         end = round(time_s * state["rate_hz"])
@@ -72,7 +82,7 @@ class RunningConnection(ControlledConnection):
                 raise StateError(
                     f"The bench of session {self.name} was stopped at {state['time_s']:.3f} s."
                 )
-            time.sleep(LOOK_S)
+            time.sleep(POLL_S)
             state = self.read_state()
         return state
 

@@ -42,8 +42,12 @@ class RemoteRuns(Remote):
     def list(self, search: str = "", **filters: str) -> Iterator[dict[str, Any]]:
         """List the runs with their metadata, the newest first.
 
-        search: words that must stand in it. filters: as those of `GET /runs`: tag, law, load,
-        figure, plant, sort.
+        Args:
+            search: Words that a run must contain.
+            **filters: Filters of `GET /runs`: tag, law, load, figure, plant, sort.
+
+        Returns:
+            The runs.
         """
         page, reported = 1, {"total": 1}
         while (page - 1) * PAGE_SIZE < reported["total"]:
@@ -101,8 +105,8 @@ POLL_S = 0.05
 class Recording(Remote):
     """A recording of every sample and command of a session, in the lab's list of runs.
 
-    run_id: its id there. As a context it ends with the block; what went wrong inside is not
-    hidden by it.
+    `run_id` is its id there. As a context manager it ends with the block and does not hide
+    exceptions of the block.
     """
 
     __slots__ = ("_runs", "_session", "run_id")

@@ -26,9 +26,14 @@ _BROKEN = (OSError, ConnectionClosedError, InvalidHandshake)
 class Block:
     """A block of consecutive samples.
 
-    run: number of the session's run, which counts up when it restarts at t = 0. ticks:
-    (count,), those of the samples. missed: samples left out before it, for a reader that was too
-    slow. lanes: numbers of the lanes, from 1. values: (count, lanes, channels), float32, SI.
+    Attributes:
+        run: Number of the session's run, incremented when it restarts at t = 0.
+        ticks: Ticks of the samples, shape (count,).
+        period_s: Control period, s.
+        missed: Number of samples dropped before it, because the reader was too slow.
+        lanes: Numbers of the lanes, from 1.
+        channels: Names of the channels.
+        values: Shape (count, lanes, channels), float32, SI.
     """
 
     run: int
@@ -45,8 +50,10 @@ class Block:
         return self.ticks * self.period_s
 
     def __getitem__(self, channel: str) -> np.ndarray:
-        """A channel of the first lane, (count,); raises `ParameterError` if it was not
-        requested.
+        """Return a channel of the first lane, (count,).
+
+        Raises:
+            ParameterError: If it was not requested.
         """
         return self.get(channel, self.lanes[0])
 
@@ -64,9 +71,12 @@ class Block:
 class BlockStream:
     """The blocks of a session, until this session time is received or the session ends.
 
-    Iterate over it with `for` or `async for`. A connection that breaks is made again for as long
-    as the patience of `connection`; what came meanwhile is missing, which the ticks show. Raises
-    `LabError` where it cannot be made, `AccessError` where the lab lets this script in no more.
+    Iterate over it with `for` or `async for`. A lost connection is reconnected within the timeout
+    of `connection`; samples in between are missing, which the ticks show.
+
+    Raises:
+        LabError: If the connection fails.
+        AccessError: If the lab no longer admits this script.
     """
 
     def __init__(

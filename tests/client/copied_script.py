@@ -1,4 +1,4 @@
-"""The file that *Copy this experiment as a script* copies, made as the page makes it."""
+"""The script that *Copy this experiment as a script* produces, written by the page's code."""
 
 import json
 import os
@@ -21,7 +21,7 @@ LONGEST_S = 300.0
 
 
 def do_experiment(lab: httpx.Client) -> dict:
-    """Change a private session here and there, and return what it came from."""
+    """Change several settings of a private session, and return its origin."""
     with_law = {"figure": "4a", "law": "ndobc", "load": False}
     name = lab.post("/api/v1/sessions", json=with_law).raise_for_status().json()["session"]
     path = f"/api/v1/sessions/{name}"
@@ -43,14 +43,14 @@ def do_experiment(lab: httpx.Client) -> dict:
 
 
 def bundle_writer(folder: Path) -> None:
-    """What of the page writes a script, as a module for Node."""
+    """Bundle the part of the page that writes scripts, as a module for Node."""
     bundler = PAGE / "node_modules" / "rolldown" / "bin" / "cli.mjs"
     source = PAGE / "src" / "lab" / "script" / "experiment.ts"
     _run_node(folder, str(bundler), str(source), "--format", "esm", "--dir", str(folder))
 
 
 def write_script(origin: dict, lab: str, folder: Path) -> Path:
-    """The script of an experiment, with this address of a lab in it. folder: with a writer."""
+    """Write the script of an experiment with this address of a lab. folder: with the writer."""
     (folder / "origin.json").write_text(json.dumps(origin), encoding="utf-8")
     (folder / "write.mjs").write_text(WRITE.format(lab=lab), encoding="utf-8")
     path = folder / "experiment.py"
@@ -59,7 +59,7 @@ def write_script(origin: dict, lab: str, folder: Path) -> Path:
 
 
 def write_copied_script(origin: dict, lab: str, folder: Path) -> Path:
-    """As `write_script`, in a folder without a writer."""
+    """`write_script`, in a folder without the writer."""
     bundle_writer(folder)
     return write_script(origin, lab, folder)
 
@@ -74,7 +74,7 @@ def _run_node(folder: Path, *arguments: str) -> bytes:
 
 
 def start_script(path: Path, token: str, *arguments: str) -> subprocess.Popen[str]:
-    """The script as a process of its own, as the owner of this token."""
+    """Start the script in a separate process, with this token."""
     return subprocess.Popen(
         [sys.executable, str(path), *arguments],
         env={**os.environ, "SVSA_SECRET": token},
@@ -84,8 +84,8 @@ def start_script(path: Path, token: str, *arguments: str) -> subprocess.Popen[st
     )
 
 
-def expect_done(script: subprocess.Popen[str], laws: tuple[str, ...]) -> float:
-    """Where it came to, s; of each lane it has reported its error."""
+def finish_script(script: subprocess.Popen[str], laws: tuple[str, ...]) -> float:
+    """Return its session time, s; it must have printed the error of each lane."""
     reported, _ = script.communicate(timeout=LONGEST_S)
     assert script.returncode == 0, reported
     *lanes, last = reported.splitlines()

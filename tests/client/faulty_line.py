@@ -1,4 +1,4 @@
-"""A line between a script and a lab that breaks on command: TCP, on loopback."""
+"""A TCP connection between a script and a lab on loopback that breaks on command."""
 
 import contextlib
 import socket
@@ -10,7 +10,7 @@ from urllib.parse import urlsplit
 class FaultyLine:
     """Carries bytes both ways. break_requests: of how many calls nothing more reaches the lab.
 
-    break_answers: of how many calls that change something the answer is lost on its way back.
+    break_answers: the number of changing calls whose answer is lost on its way back.
     """
 
     def __init__(self, lab_url: str) -> None:
@@ -23,7 +23,7 @@ class FaultyLine:
         threading.Thread(target=self._accept, daemon=True).start()
 
     def cut(self) -> None:
-        """Every connection that is open ends now; new ones are carried."""
+        """Close every open connection; new ones are accepted."""
         _shut(*self._open)
         self._open.clear()
 

@@ -1,4 +1,4 @@
-"""The client of a program that awaits: the methods of the blocking one, by the same names."""
+"""The asynchronous client: the methods of the blocking client, by the same names."""
 
 import asyncio
 
@@ -15,7 +15,7 @@ def server(lab: Server) -> Server:
     return lab
 
 
-def test_a_run_is_set_loaded_watched_and_recorded(server: Server) -> None:
+def test_run_is_configured_loaded_watched_and_recorded(server: Server) -> None:
     async def work() -> None:
         async with svsa.connect_async(server.url) as lab, lab.new_session(load=False) as session:
             await session.pause()
@@ -41,7 +41,7 @@ def test_a_run_is_set_loaded_watched_and_recorded(server: Server) -> None:
     asyncio.run(work())
 
 
-def test_several_go_on_side_by_side_and_give_the_library_s_runs(server: Server) -> None:
+def test_parallel_sessions_give_the_runs_of_the_library(server: Server) -> None:
     async def work() -> list[svsa.Result]:
         async with svsa.connect_async(server.url) as lab:
             laws = [lab.run("4a", law, duration_s=0.3) for law in ("fl", "ndobc", "pd")]
@@ -52,13 +52,13 @@ def test_several_go_on_side_by_side_and_give_the_library_s_runs(server: Server) 
         assert np.array_equal(there.samples, here.samples)
 
 
-def test_a_refusal_and_a_missing_lab_are_reported_as_by_the_other(server: Server) -> None:
-    async def refuse() -> None:
+def test_rejection_and_missing_lab_raise_the_errors_of_the_blocking_client(server: Server) -> None:
+    async def reject() -> None:
         async with svsa.connect_async(server.url) as lab, lab.new_session(load=False) as session:
             await session.set(law="missing")
 
     with pytest.raises(svsa.ParameterError, match="missing"):
-        asyncio.run(refuse())
+        asyncio.run(reject())
 
     async def miss() -> None:
         await svsa.connect_async("http://127.0.0.1:9", timeout_s=0.0)
@@ -67,7 +67,7 @@ def test_a_refusal_and_a_missing_lab_are_reported_as_by_the_other(server: Server
         asyncio.run(miss())
 
 
-def test_every_method_of_the_blocking_client_is_awaited_by_its_name(server: Server) -> None:
+def test_every_method_of_the_blocking_client_is_awaitable_by_its_name(server: Server) -> None:
     async def work() -> None:
         lab = await svsa.connect_async(server.url)
         async with lab, lab.new_session(load=False) as session:
@@ -85,7 +85,7 @@ def test_every_method_of_the_blocking_client_is_awaited_by_its_name(server: Serv
     asyncio.run(work())
 
 
-def test_a_typing_error_is_reported_by_both_clients_and_nothing_is_set(server: Server) -> None:
+def test_unknown_name_is_rejected_by_both_clients_and_sets_nothing(server: Server) -> None:
     async def work() -> None:
         async with svsa.connect_async(server.url) as lab, lab.new_session(load=False) as session:
             with pytest.raises(AttributeError, match=r"await session\.set\(law=…\)"):

@@ -1,4 +1,4 @@
-"""Scripts in a class: they come in by a token, and ask for control like a person."""
+"""Scripts in a class: they log in by a token, and request the control lease like a user."""
 
 import threading
 from collections.abc import Iterator
@@ -15,21 +15,21 @@ from svsa_server.access.roles import INSTRUCTOR, Person, Role
 from tests.client.copied_script import (
     END_S,
     do_experiment,
-    expect_done,
+    finish_script,
     start_script,
     write_copied_script,
 )
 from tests.lab import run_lab
 
 pytestmark = pytest.mark.exhaustive
-"""What a token lets its bearer do is shown over REST, in `tests/server/access`."""
+"""`tests/server/access` checks over REST what each token permits."""
 
 ADA, BOB = Person("p-1", "Ada", Role.OPERATOR), Person("p-2", "Bob", Role.OPERATOR)
 
 
 @pytest.fixture(scope="module")
 def tokens(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, str, str, str]]:
-    """The address of a class, and tokens of two students and of the instructor."""
+    """The address of a class, and the tokens of two students and of the instructor."""
     folder: Path = tmp_path_factory.mktemp("class")
     keys, _ = ClassKeys.open(folder)
     for person in (ADA, BOB):
@@ -38,14 +38,14 @@ def tokens(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, str,
         yield lab.url, keys.sign(ADA), keys.sign(BOB), keys.sign(INSTRUCTOR)
 
 
-def test_a_script_without_a_token_learns_how_to_log_in(
+def test_script_without_token_gets_login_instructions(
     tokens: tuple[str, str, str, str],
 ) -> None:
     with pytest.raises(AccessError, match="join it with your name and the class code"):
         svsa.connect(tokens[0])
 
 
-def test_a_script_waits_for_its_turn_and_gives_up_in_time(
+def test_script_waits_for_the_control_lease_until_its_timeout(
     tokens: tuple[str, str, str, str],
 ) -> None:
     url, ada_s, bob_s, _ = tokens
@@ -71,7 +71,7 @@ def test_a_script_waits_for_its_turn_and_gives_up_in_time(
         bob.session.give_control_back()
 
 
-def test_a_script_has_sessions_streams_and_runs_of_its_own(
+def test_script_has_its_own_sessions_streams_and_runs(
     tokens: tuple[str, str, str, str],
 ) -> None:
     url, ada_s, bob_s, _ = tokens
@@ -81,18 +81,18 @@ def test_a_script_has_sessions_streams_and_runs_of_its_own(
         assert len(list(ada.runs)) == 1
         assert list(bob.runs) == []
         ada.session.take_control()
-        ada.session.start()  # whatever was done to it before: one at rest has nothing to stream
+        ada.session.start()  # In any earlier state: a session at rest has no samples to stream.
         assert len(next(iter(ada.session.stream(duration_s=0.1))).ticks)
         ada.session.give_control_back()
 
 
-def test_a_token_stands_in_no_address(tokens: tuple[str, str, str, str]) -> None:
+def test_token_is_in_no_address(tokens: tuple[str, str, str, str]) -> None:
     url, ada_s, *_ = tokens
     refused = httpx.get(f"{url}/api/v1/sessions?token={ada_s}", trust_env=False)
     assert refused.status_code == 401
 
 
-def test_a_script_whose_owner_is_removed_is_notified(
+def test_script_of_a_removed_student_is_notified(
     tokens: tuple[str, str, str, str],
 ) -> None:
     url, ada_s, _, instructor_s = tokens
@@ -115,7 +115,7 @@ def test_a_script_whose_owner_is_removed_is_notified(
         assert ada.session.law
 
 
-def test_a_copied_script_asks_for_control_like_a_person(
+def test_copied_script_requests_the_control_lease(
     tokens: tuple[str, str, str, str], tmp_path: Path
 ) -> None:
     url, ada_s, bob_s, _ = tokens
@@ -129,10 +129,10 @@ def test_a_copied_script_asks_for_control_like_a_person(
             assert script.poll() is None, script.communicate()
         bob.session.law = "fl"
         bob.session.give_control_back()
-        assert expect_done(script, ("FL",)) == END_S
+        assert finish_script(script, ("FL",)) == END_S
         state = bob.session.read_state()
         assert (state["control"]["holder"], state["status"]) == (None, "paused")
         assert (state["tick"], state["configuration"]["law"]) == (1500, "fl")
         private = start_script(path, ada_s)
-        assert expect_done(private, ("FL",)) == END_S
+        assert finish_script(private, ("FL",)) == END_S
         assert bob.session.read_state() == state, "it disturbs no user"

@@ -1,4 +1,4 @@
-"""A call whose answer is lost: it is repeated where it cannot be carried out twice."""
+"""A call whose response is lost is repeated only if it cannot be carried out twice."""
 
 import httpx
 import pytest
@@ -12,9 +12,10 @@ ANSWERED = (200, STATE)
 
 
 def call(outcomes: list[tuple[int, object]], *repeats: tuple[int, object]) -> object:
-    """The result of a call the first answer to which is lost.
+    """Return the result of a call whose first response is lost.
 
-    outcomes: what the lab reports of it, one after another. repeats: what repeats are answered.
+    outcomes: the reports of the lab about the call, in their order. repeats: the answers to
+    repeated calls.
     """
     keys, reports, answers = [], iter(outcomes), iter(repeats)
 
@@ -46,7 +47,7 @@ def call(outcomes: list[tuple[int, object]], *repeats: tuple[int, object]) -> ob
         (200, {"outcome": "unknown"}),
     ],
 )
-def test_its_outcome_is_read_again_where_that_says_nothing_of_it(
+def test_outcome_is_read_from_the_lab_if_the_response_is_lost(
     reported: tuple[int, object],
 ) -> None:
     assert call([reported, KNOWN], ANSWERED) == STATE
@@ -59,29 +60,29 @@ def test_its_outcome_is_read_again_where_that_says_nothing_of_it(
         {"outcome": "pending", "status": None, "age_s": 0.1, "known_for_s": 1e6},
     ],
 )
-def test_it_is_repeated_with_its_key(reported: dict[str, object]) -> None:
+def test_call_is_repeated_with_its_idempotency_key(reported: dict[str, object]) -> None:
     pending = (409, {"type": "urn:svsa:problem:key_pending", "detail": "Repeat it later."})
     assert call([(200, reported)], pending, ANSWERED) == STATE
 
 
-def test_a_refusal_is_raised_with_its_reason() -> None:
+def test_rejection_is_raised_with_its_reason() -> None:
     refused = {"outcome": "refused", "status": 409, "age_s": 0.1, "known_for_s": 1e6}
     reason = {"type": "urn:svsa:problem:not_now", "detail": "The session is at rest."}
     with pytest.raises(Exception, match="at rest"):
         call([(200, refused)], (409, reason))
 
 
-def test_what_the_lab_refuses_to_tell_is_not_asked_again() -> None:
+def test_call_is_not_repeated_if_its_outcome_may_not_be_read() -> None:
     with pytest.raises(AccessError, match="not in this class"):
         call([(401, {"detail": "You are not in this class."})])
 
 
-def test_a_lab_that_was_restarted_meanwhile_is_not_asked_to_repeat_it() -> None:
+def test_call_is_not_repeated_after_a_restart_of_the_lab() -> None:
     with pytest.raises(LabError, match="was restarted during POST /start"):
         call([(200, {"outcome": "unknown", "age_s": None, "known_for_s": 0.0})])
 
 
-def test_an_answer_that_the_lab_has_not_stored_is_lost() -> None:
+def test_response_that_is_not_stored_is_lost() -> None:
     unstored = {"type": "urn:svsa:problem:key_used", "detail": "It is not stored."}
     with pytest.raises(LostAnswerError, match="not stored"):
         call([KNOWN], (409, unstored))
