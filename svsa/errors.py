@@ -1,7 +1,7 @@
 """The project's errors, each with name, value, unit and bound.
 
-One root, `SvsaError`. Bad input is a `ParameterError`; a run that leaves the domain of
-the model ends in a `Fault`, which is data, and a `FaultError` where the caller does not read it.
+The base class is `SvsaError`. Invalid input raises a `ParameterError`. A run that leaves the domain
+of the model ends in a `Fault`, which is data, or in a `FaultError` if the caller does not read it.
 """
 
 from collections.abc import Callable
@@ -22,11 +22,15 @@ class SvsaError(Exception):
 
 @dataclass(frozen=True)
 class Violation:
-    """One rejected value: its name, the value as given, its unit and the violated bound.
+    """One rejected value with the violated bound.
 
-    `name` is the path of the field from what was given down, as `motor1.gear_ratio`.
-    `limits` are the numbers of the bound in `unit`, by ge, gt, le or lt; empty where it is no
-    range. `finding` says what is wrong where "name is value: it must be bound" would not.
+    Attributes:
+        name: Path of the field, such as `motor1.gear_ratio`.
+        value: The value as given.
+        unit: Unit of the value.
+        bound: The violated bound, as text.
+        limits: Numbers of the bound in `unit`, by ge, gt, le or lt; empty if it is not a range.
+        finding: Complete message, if "name is value: it must be bound" does not fit.
     """
 
     name: str
@@ -40,7 +44,7 @@ class Violation:
     def message(self) -> str:
         """The violation as a sentence; a value of None reads as missing."""
         if self.finding:
-            return f"{self.name}: {self.finding}."
+            return f"{self.name}: {self.finding}{'' if self.finding.endswith('?') else '.'}"
         if self.value is None:
             return f"{self.name} is missing: it must be {self.bound}."
         unit = f" {self.unit}" if self.unit not in ("", "1") and _is_number(self.value) else ""
@@ -65,7 +69,14 @@ class ParameterError(SvsaError, ValueError):
         return partial(type(self), file=self.file), self.violations
 
     def within(self, path: str) -> "ParameterError":
-        """Return the error with its fields' names prefixed by `path`."""
+        """Return the error with its fields' names prefixed by a path.
+
+        Args:
+            path: Path of the object that contains the fields, such as "loads[0]".
+
+        Returns:
+            A new error with the same violations.
+        """
         return ParameterError(*(violation.within(path) for violation in self.violations))
 
 
@@ -81,7 +92,13 @@ class SecurityError(SvsaError):
 class Fault:
     """The end of a run: when, why, and the values.
 
-    `lane` counts from 0. `values` maps channel names (with their unit in the name) to SI values.
+    Attributes:
+        code: Code of the fault.
+        lane: Number of the lane, from 0.
+        tick: Tick of the fault.
+        time_s: Session time, s.
+        message: Text with values.
+        values: SI values by channel name, which contains the unit.
     """
 
     code: str

@@ -1,4 +1,4 @@
-"""Fixtures that more than one folder of tests uses."""
+"""Fixtures that several test folders share."""
 
 import gc
 from collections.abc import Iterator
@@ -11,7 +11,7 @@ from svsa.numerics.compilation import watch_compilation
 from tests.lab import Lab, run_lab
 
 SEARCHED = settings(deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow])
-"""Of what hypothesis draws: the same cases each time, however slow the machine."""
+"""Settings of hypothesis: the same cases in each run, and no deadline on a slow machine."""
 settings.register_profile("every", SEARCHED)
 settings.register_profile("shown", SEARCHED, max_examples=25)
 
@@ -36,10 +36,10 @@ leaves an event loop running in its process, in which `asyncio.run` raises an er
 modules in this order, so no process receives another module after its first browser module.
 """
 RERUNS = 2
-"""A shared machine may stop a process for longer than a test against the clock tolerates."""
+"""A shared machine may suspend a process for longer than a test against the clock tolerates."""
 
 gc.disable()
-"""Until all tests are read: what is read stays, and is looked through again and again otherwise."""
+"""Off during collection: the collected objects stay alive, so scanning them only costs time."""
 
 
 @pytest.hookimpl(hookwrapper=True)
@@ -77,7 +77,7 @@ def note_compilation(item: pytest.Item) -> Iterator[None]:
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
-    """Tell what `tests.compile_all` has not compiled before."""
+    """Report functions that were compiled during a test because `tests.compile_all` omits them."""
     reported = [
         f"{report.nodeid}: {dict(report.user_properties)[COMPILED]}"
         for reports in terminalreporter.stats.values()

@@ -1,4 +1,4 @@
-"""What `make test` shows of some cases, and `make test-all` of every one."""
+"""Parameters of which `make test` runs some cases and `make test-all` runs all."""
 
 from collections.abc import Collection, Iterable
 
@@ -7,7 +7,7 @@ from _pytest.mark.structures import ParameterSet
 
 
 def exhaust(cases: Iterable[object], shown: Collection[object]) -> list[ParameterSet]:
-    """Every case as a parameter; those that are not `shown` in `make test-all` alone."""
+    """Return every case as a parameter; cases that are not `shown` are marked `exhaustive`."""
     cases = list(cases)
     assert all(case in cases for case in shown), shown
     return [

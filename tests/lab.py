@@ -1,4 +1,4 @@
-"""A real lab for the tests: `svsa serve` as a process of its own, on a free loopback port."""
+"""A real lab for the tests: `svsa serve` in a separate process, on a free loopback port."""
 
 import contextlib
 import os
@@ -18,11 +18,13 @@ PROGRAM = "from svsa.cli import main; main()"
 START_TIMEOUT_S = 300.0
 END_TIMEOUT_S = 60.0
 PATIENCE_S = 120.0
-"""Of a client: an answer that takes a busy machine longer is none."""
+"""Timeout of the client. A busy machine may answer late, but not later than this."""
 
 
 class Lab(NamedTuple):
-    """A running lab: its address, a client for it and its folder; inside this process, no other."""
+    """A running lab: address, client, process and folder. `process` is None for a lab in this
+    process.
+    """
 
     url: str
     client: httpx.Client
@@ -40,7 +42,7 @@ class Lab(NamedTuple):
         return self.url.replace("http", "ws", 1) + self.session + "/stream"
 
     def read(self) -> dict:
-        """The session's state."""
+        """Return the state of the session."""
         return self.client.get(self.session).raise_for_status().json()
 
     def load_figure(self, figure: str = "4a", law: str = "ndobc", load: bool = False) -> dict:
@@ -57,7 +59,7 @@ class Lab(NamedTuple):
         self.load_figure()
 
     def jump(self, seconds: float) -> dict:
-        """Pause and run so many seconds of session time at once, or until a fault."""
+        """Pause, and run this session time as fast as possible, or until a fault."""
         state = self.client.post(self.session + "/pause").raise_for_status().json()
         for _ in range(round(seconds)):
             if state["status"] == "fault":
@@ -78,8 +80,8 @@ def run_lab(
 ) -> Iterator[Lab]:
     """Start a lab, wait until it says where it is, and stop it at the end.
 
-    program: Python code that runs `svsa`. within: a command that runs the given one. settings:
-    SVSA_… variables, in small letters; runs go to a folder of their own unless `data` names one.
+    program: Python code that runs `svsa`. within: a command that runs the given command. settings:
+    SVSA_… variables, in lower case; runs are stored in a new folder unless `data` names one.
     """
     if "data" not in settings:
         with (
@@ -126,7 +128,7 @@ def run_lab(
 
 
 def end(process: subprocess.Popen[str]) -> None:
-    """As Ctrl-C does, where it has not ended yet: it has to end on its own, and soon."""
+    """Interrupt the process as Ctrl-C does, unless it has ended; it must end by then."""
     if process.poll() is not None:
         return
     process.send_signal(signal.SIGINT)

@@ -1,6 +1,6 @@
 """A lab inside this process, for what is asked over REST, by httpx's ASGI transport.
 
-What is about streams, signals or the end of a process needs a real one: `tests.lab.run_lab`.
+Tests of streams, of signals or of the end of a process need a real process: `tests.lab.run_lab`.
 """
 
 import asyncio
@@ -14,7 +14,7 @@ from unittest.mock import patch
 
 import httpx
 
-from svsa.runs.records.catalogue.runs import DATA_VARIABLE
+from svsa.inputs.data_folder import DATA_VARIABLE
 from svsa.teaching.course.file import FOLDER_VARIABLE
 from svsa_server.app import build_app
 from tests.lab import Lab
@@ -22,21 +22,21 @@ from tests.lab import Lab
 ADDRESS = "http://127.0.0.1"
 LONGEST_S = 300.0
 FOLDERS = {DATA_VARIABLE, FOLDER_VARIABLE}
-"""Looked up whenever a file is; the rest is read once."""
+"""Variables that are read at each file access; all others are read once."""
 
 
 class LoopTransport(httpx.BaseTransport):
-    """Requests of this thread, answered by an application in the event loop of another."""
+    """Passes requests of this thread to an application in the event loop of another thread."""
 
     def __init__(self, transport: httpx.ASGITransport, loop: asyncio.AbstractEventLoop) -> None:
         self._transport, self._loop = transport, loop
 
     def handle_request(self, request: httpx.Request) -> httpx.Response:
         request.read()
-        asked = asyncio.run_coroutine_threadsafe(self._ask(request), self._loop)
-        return asked.result(LONGEST_S)
+        future = asyncio.run_coroutine_threadsafe(self._send(request), self._loop)
+        return future.result(LONGEST_S)
 
-    async def _ask(self, request: httpx.Request) -> httpx.Response:
+    async def _send(self, request: httpx.Request) -> httpx.Response:
         answer = await self._transport.handle_async_request(request)
         content = await answer.aread()
         return httpx.Response(answer.status_code, headers=answer.headers, content=content)
@@ -44,7 +44,7 @@ class LoopTransport(httpx.BaseTransport):
 
 @contextlib.contextmanager
 def run_loop() -> Iterator[asyncio.AbstractEventLoop]:
-    """An event loop in a thread of its own."""
+    """Run an event loop in a thread of its own."""
     loop = asyncio.new_event_loop()
     thread = threading.Thread(target=loop.run_forever, daemon=True)
     thread.start()
@@ -60,7 +60,8 @@ def run_loop() -> Iterator[asyncio.AbstractEventLoop]:
 def run_lab_in_process(**settings: str) -> Iterator[Lab]:
     """Start a lab, and end it. settings: as those of `tests.lab.run_lab`.
 
-    It alone has them: a lab that another test starts meanwhile, as a process, reads only its own.
+    Only this lab has the settings: a lab that another test starts as a process at the same time
+    reads only its own.
     """
     if "data" not in settings:
         with (

@@ -5,7 +5,7 @@ from pathlib import Path
 
 
 def find_child(parent: int, module: str) -> int:
-    """The process whose parent is this one and that runs a module."""
+    """Return the child of this process that runs a module."""
     for folder in Path("/proc").iterdir():
         if not folder.name.isdigit():
             continue

@@ -1,4 +1,4 @@
-"""Waiting for what another thread or process does."""
+"""Waiting for another thread or process."""
 
 import time
 from collections.abc import Callable
@@ -13,7 +13,7 @@ PATIENCE_S = 240.0
 def wait_until(
     read: Callable[[], T], describe: Callable[[], object] = str, longest_s: float = PATIENCE_S
 ) -> T:
-    """The first true value of `read`; fails with what `describe` returns after so long."""
+    """Return the first true value of `read`; fail with the text of `describe` after the timeout."""
     end = time.monotonic() + longest_s
     while not (found := read()):
         assert time.monotonic() < end, describe()
@@ -22,14 +22,14 @@ def wait_until(
 
 
 def has_ended(job: dict[str, Any]) -> bool:
-    """Whether a job, a tuning or a search is neither waiting nor running."""
+    """Whether a job, a tuning or a search has ended."""
     return job["status"] not in ("waiting", "running")
 
 
 def follow(
     client: httpx.Client, path: str, is_there: Callable[[dict[str, Any]], Any] = has_ended
 ) -> dict[str, Any]:
-    """What a route answers once it `is_there`."""
+    """Return the answer of a route once `is_there` accepts it."""
     last: list[dict[str, Any]] = [{}]
 
     def read() -> bool:
@@ -41,5 +41,5 @@ def follow(
 
 
 def follow_recording(client: httpx.Client, path: str) -> dict[str, Any]:
-    """A recorded run's entry once its file is finished."""
+    """Return the entry of a recorded run once its file is complete."""
     return follow(client, path, lambda run: run["state"] != "recording")

@@ -1,4 +1,4 @@
-"""PD on the motors: the link follows through its spring, and no model of it is used."""
+"""PD on the motors: the link follows through its spring, without a model of it."""
 
 from typing import NamedTuple
 
@@ -11,7 +11,7 @@ from svsa.numerics.compilation import compiled
 
 
 class MotorPdParameters(LawParameters):
-    """How fast and how well damped both motors are."""
+    """Bandwidth and damping of both motors."""
 
     frequency_rad_per_s: Number = quantity(
         "rad/s", "Natural frequency ω of both motors", symbol="ω", ge=1, le=150, default=60.0
