@@ -11,9 +11,10 @@ from fastapi import FastAPI
 
 import svsa
 from svsa.errors import ParameterError, Violation
+from svsa.inputs.data_folder import find_data_folder
 from svsa.inputs.extras import require_extra
-from svsa.runs.configuration import load_prototype, read_design
-from svsa.runs.records.catalogue.runs import Catalogue, find_data_folder
+from svsa.runs.design_file import load_prototype, read_design
+from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.runs.session.session import Session
 from svsa.teaching.course.file import read_course
 from svsa.teaching.course.progress import ProgressStore
@@ -44,10 +45,10 @@ from svsa_server.routes import build_routes
 from svsa_server.scene.scenes import Scenes
 from svsa_server.scene.viser_proxy import ViserProxy
 from svsa_server.sessions.bench_start import open_bench
-from svsa_server.sessions.hosted import note_settled
+from svsa_server.sessions.hosted import log_ended_lease
 from svsa_server.sessions.indexing import Indexing
 from svsa_server.sessions.laboratory import SHARED_SESSION, Laboratory, build_shared_session
-from svsa_server.sessions.lock import take_turn
+from svsa_server.sessions.lock import run_waiting
 from svsa_server.sessions.ownership import find_owner
 from svsa_server.sessions.quota import DiskQuota
 from svsa_server.sessions.recording import Recordings, open_catalogue
@@ -71,11 +72,17 @@ def build_app(
     host: str = "127.0.0.1",
     report: Callable[[str], None] = _log.info,
 ) -> FastAPI:
-    """The lab as an ASGI application; sessions live as long as it runs.
+    """Build the lab as an ASGI application; sessions live as long as it runs.
 
-    shared: the shared session; a simulated one if left out. keys: of a class, if
-    they are open already. host: the address that is listened on. report: prints a line on
-    the console.
+    Args:
+        config: Deployment settings.
+        shared: The shared session; a simulated one by default.
+        keys: Keys of a class, if they are already open.
+        host: Address on which the server listens.
+        report: Prints a line on the console.
+
+    Returns:
+        The application.
     """
     config = config or Settings()
     authentication = build_authentication(config, keys)
@@ -103,8 +110,8 @@ def build_app(
     app.router.routes.append(build_metrics_route(app))
     app.state.rates = build_rates(config) if config.classroom else None
     app.state.permissions = PermissionTable(app.router.routes)
-    # The last one that is added is the first to see a request: the audit log also sees what the
-    # guard rejects, and outcomes are kept for the person whom the guard has found.
+    # The middleware added last sees a request first: the audit log also sees requests that the
+    # guard rejects, and outcomes are stored for the user that the guard has identified.
     app.add_middleware(
         OutcomeKeeper,
         outcomes=app.state.outcomes,
@@ -135,9 +142,10 @@ def build_authentication(config: Settings, keys: ClassKeys | None = None) -> Aut
 
 
 def open_lti(config: Settings) -> "LtiTool | None":
-    """The LTI tool for launches of learning platforms, if it is configured.
+    """Open the LTI tool for launches of learning platforms, if it is configured.
 
-    Raises `ParameterError` for a wrong file, or without a class that one could be launched into.
+    Raises:
+        ParameterError: If the file is invalid, or the lab has no class.
     """
     if config.lti is None:
         return None
@@ -182,7 +190,7 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
         config.control_s,
         build_queue(config) if config.classroom else None,
         config.max_sessions_each if config.classroom else None,
-        *([partial(note_settled, app.state.audit)] if config.classroom else []),
+        *([partial(log_ended_lease, app.state.audit)] if config.classroom else []),
     )
     app.state.laboratory = laboratory
     app.state.catalogue = await asyncio.to_thread(open_catalogue)
@@ -222,7 +230,7 @@ async def _live(app: FastAPI) -> AsyncIterator[None]:
             task.cancel()
         await asyncio.gather(*tasks, return_exceptions=True)
         # Sessions before recordings: closing them ends the recordings, which are then finished.
-        await take_turn(laboratory.close)
+        await run_waiting(laboratory.close)
         app.state.heavy_work.close()
         app.state.jobs.close()
         await app.state.recordings.close()

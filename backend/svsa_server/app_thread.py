@@ -1,8 +1,8 @@
-"""An ASGI application in a thread and an event loop of its own.
+"""An ASGI application in a separate thread and event loop.
 
-Sessions compute in the event loop that serves them, so that nothing changes them while a route
-reads them. A session that blocks this event loop blocks no other one: the event loop that owns
-the connections runs in the main thread, and can still answer and end the server.
+Sessions compute in the event loop that serves them, so that they do not change while a route reads
+them. A session that blocks this event loop does not block the other one: the event loop of the
+connections runs in the main thread, and can still answer and end the server.
 """
 
 import asyncio
@@ -19,17 +19,18 @@ T = TypeVar("T")
 
 BEAT_S = 0.1
 STOP_S = 2.0
-"""The thread has this time to cancel the tasks that are left, and to end."""
+"""Time in which the thread cancels the remaining tasks and ends, s."""
 
 
-class Crossing:
+class CallBridge:
     """The messages of one call of the application, passed from one event loop to the other.
 
-    Made in the event loop of the connection. `has_answered`: a message was sent to the client.
+    Created in the event loop of the connection. `has_answered`: whether a message was sent to the
+    client.
 
     Args:
-        receive: of the connection.
-        send: of the connection.
+        receive: Receives from the connection.
+        send: Sends to the connection.
     """
 
     def __init__(self, receive: Receive, send: Send) -> None:
@@ -48,9 +49,11 @@ class Crossing:
         return await asyncio.wrap_future(self._cross(self._receive_outside()))
 
     async def send(self, message: Message) -> None:
-        """Send a message to the client, once the one before was taken; called by the application.
+        """Send a message to the client after the previous one was accepted; called by the
+        application.
 
-        To wait for this one, too, would wake the event loop of the application for every message.
+        Waiting for this message, too, would wake the event loop of the application for every
+        message.
         """
         await self.finish()
         self._sending = self._cross(self._send_outside(message))
@@ -59,8 +62,8 @@ class Crossing:
         """Wait until the last message was taken; raises what its `send` raises."""
         if self._sending is not None:
             sending, self._sending = self._sending, None
-            # Most often it is done: then no event loop has to wake. With 20 streams at 30 messages
-            # a second the server uses 0.11 of a core instead of 0.14.
+            # Usually already done; then no event loop has to wake up. With 20 streams at 30
+            # messages per second the server uses 0.11 of a core instead of 0.14.
             if sending.done():
                 sending.result()
             else:
@@ -76,8 +79,8 @@ class Crossing:
         if self._is_over:
             return
         if message["type"] == "http.response.start":
-            # Kept until the body comes: sessions that block in between would leave an answer that
-            # has begun and that no other one can replace.
+            # Delayed until the body arrives: if sessions blocked in between, an answer that has
+            # started could not be replaced by an error.
             self._start = message
             return
         self.has_answered = True
@@ -105,14 +108,14 @@ class AppThread:
         """Start the thread."""
         self._thread.start()
 
-    def call(self, scope: Scope, crossing: Crossing) -> asyncio.Future[None]:
+    def call(self, scope: Scope, bridge: CallBridge) -> asyncio.Future[None]:
         """Call the application in its event loop; to cancel the future cancels the call."""
-        call = self._call(scope, crossing)
+        call = self._call(scope, bridge)
         return asyncio.wrap_future(asyncio.run_coroutine_threadsafe(call, self._loop))
 
-    async def _call(self, scope: Scope, crossing: Crossing) -> None:
-        await self._app(scope, crossing.receive, crossing.send)
-        await crossing.finish()
+    async def _call(self, scope: Scope, bridge: CallBridge) -> None:
+        await self._app(scope, bridge.receive, bridge.send)
+        await bridge.finish()
 
     def _run(self) -> None:
         asyncio.set_event_loop(self._loop)
@@ -120,7 +123,7 @@ class AppThread:
         self._loop.run_forever()
 
     def _beat(self) -> None:
-        # The other event loop only reads this number: it needs no answer of a loop that may be
+        # The other event loop only reads this number, so it needs no answer of a loop that may be
         # blocked.
         self._beat_s = time.monotonic()
         self._loop.call_later(BEAT_S, self._beat)

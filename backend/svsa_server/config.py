@@ -27,7 +27,7 @@ Rate = Annotated[str, AfterValidator(_check_rate)]
 class Settings(BaseSettings):
     """Deployment settings, each read from the environment variable `SVSA_` + its name.
 
-    `docs/reference` has the table that is generated from the descriptions.
+    `docs/reference` contains the table that is generated from the descriptions.
     """
 
     model_config = SettingsConfigDict(env_prefix="SVSA_", extra="ignore", frozen=True)

@@ -13,7 +13,7 @@ from starlette.exceptions import HTTPException
 from starlette.routing import compile_path
 
 from svsa.errors import ParameterError, SecurityError, StateError, SvsaError
-from svsa.evaluation.studies.store import StudyError
+from svsa.evaluation.studies.stored import StudyError
 from svsa.inputs.explanation import explain_problems
 from svsa.runs.records.catalogue.entry import CatalogueError, ChangedRunError, UnknownRunError
 from svsa.runs.records.header import RecordError
@@ -31,7 +31,7 @@ from svsa_server.problems import (
 )
 
 _STORAGE_ERRORS = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EACCES, errno.EIO})
-"""Of a disk that is full, read-only or broken: not a fault of the program, which answers 500."""
+"""Errors of a disk that is full, read-only or broken, which are no program errors (500)."""
 
 
 def install_error_handlers(app: FastAPI) -> None:
@@ -64,7 +64,7 @@ def install_error_handlers(app: FastAPI) -> None:
     @app.exception_handler(RecordError)
     def refuse_record(request: Request, error: RecordError) -> JSONResponse:
         if "run_id" in request.path_params:
-            # The list says from now on what is wrong with it.
+            # Mark the run as damaged in the list of runs.
             with contextlib.suppress(SvsaError):
                 request.app.state.catalogue.check(request.path_params["run_id"])
         return answer_problem(409, "record", str(error))

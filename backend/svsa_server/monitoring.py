@@ -18,20 +18,20 @@ from starlette.responses import Response
 from starlette.routing import BaseRoute, Route
 
 from svsa.hardware.session.session import BenchSession
-from svsa.runs.records.catalogue.runs import find_data_folder
+from svsa.inputs.data_folder import find_data_folder
 from svsa_server.access.permissions import OBSERVER, allow
 from svsa_server.sessions.bench_state import build_loop
 from svsa_server.sessions.recording import NoCatalogue
 
-LOOK_S = 30.0
+POLL_S = 30.0
 _GB = 1e9
 _log = logging.getLogger("svsa")
 
 
 class DiskWatch:
-    """Free space of the data folder, which is reported before it is used up.
+    """Free space of the data folder, which is reported before the disk is full.
 
-    `problem`: a sentence while less than `low_bytes` are free, empty otherwise.
+    `problem` is a sentence while less than `low_bytes` are free, otherwise empty.
     """
 
     def __init__(self, folder: Path, low_bytes: float) -> None:
@@ -41,10 +41,10 @@ class DiskWatch:
     async def run(self) -> None:
         """Measure every 30 s until cancelled."""
         while True:
-            await asyncio.to_thread(self.look)
-            await asyncio.sleep(LOOK_S)
+            await asyncio.to_thread(self.check)
+            await asyncio.sleep(POLL_S)
 
-    def look(self) -> None:
+    def check(self) -> None:
         """Measure the free space; log a warning when it becomes low."""
         usage = self.measure()
         was_low, self.problem = bool(self.problem), ""
@@ -66,9 +66,9 @@ class DiskWatch:
 
 
 def list_problems(app: FastAPI) -> list[str]:
-    """Why this lab is not ready for its users; empty if it is.
+    """List why this lab is not ready for its users; empty if it is.
 
-    A lab that is not ready answers and controls: only a part of its functions is missing.
+    A lab that is not ready still answers and controls: only some of its functions are unavailable.
     """
     state, problems = app.state, []
     if isinstance(state.catalogue, NoCatalogue) or not os.access(find_data_folder(), os.W_OK):

@@ -18,9 +18,9 @@ BuildRoutes = Callable[[], list[BaseRoute]]
 
 SCHEME = "bearer"
 UPGRADED = "default"
-"""What a route writes for the answer 101, whose messages FastAPI takes for no body at all."""
+"""Key of a route for the answer 101, whose messages FastAPI does not treat as a body."""
 PERMISSION = "x-permission"
-"""Of an operation: the least role that may call it in a class."""
+"""Key of an operation: the lowest role that may call it in a class."""
 
 _METHODS = ("get", "put", "post", "patch", "delete")
 _PROBLEM = {"schema": {"$ref": "#/components/schemas/Problem"}}
@@ -34,10 +34,11 @@ _LINKS = {
     "SubmissionState": {"read_job": ("job", "/job/id")},
     "RowReplay": {"read_run": ("run_id", "/run_id")},
 }
-"""By the answer of an operation that creates something: which operations read it, and their
-parameter with its place in the answer."""
+"""For the answer of an operation that creates an object: operations that read it, and their
+parameter with its location in the answer.
+"""
 _MORE_LINKS = {"start_recording": {"read_run": ("run_id", "/recording/run_id")}}
-"""Likewise by the operation itself."""
+"""The same by operation."""
 
 _TAGS = [
     {"name": name}
@@ -53,7 +54,7 @@ _TAGS = [
 def install_openapi(app: FastAPI, build_routes: BuildRoutes, needs_secret: bool) -> None:
     """Have the application answer with the schema of these routes.
 
-    build_routes: gives the same ones each time. needs_secret: whether a secret is set.
+    `build_routes` returns the same routes each time; `needs_secret` is whether a secret is set.
     """
 
     def build() -> dict[str, Any]:
@@ -64,7 +65,7 @@ def install_openapi(app: FastAPI, build_routes: BuildRoutes, needs_secret: bool)
     app.openapi = build
     for route in app.router.routes:
         if isinstance(route, Route) and route.path == app.openapi_url:
-            allow(OBSERVER)(route.endpoint)  # a function of FastAPI's own
+            allow(OBSERVER)(route.endpoint)  # a function of FastAPI
 
 
 @cache

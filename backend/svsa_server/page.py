@@ -14,7 +14,7 @@ from svsa_server.access.permissions import OBSERVER, PUBLIC, allow
 PAGE = Path(__file__).parent / "page"
 GUIDE = Path(__file__).parent / "guide"
 PLACES = ("ranking", "falsifier", "grades", "leaderboard", "learn", "runs", "studies")
-"""What of the page has an address that people type; the page itself keeps it in its query."""
+"""Parts of the page with a readable address; the page itself uses its query."""
 
 _HEADERS = {
     "Cache-Control": "no-cache",
@@ -26,7 +26,7 @@ _HEADERS = {
     "Referrer-Policy": "no-referrer",
 }
 _GUIDE_HEADERS = _HEADERS | {
-    # The theme of the guide has scripts and styles in its pages; nothing in them comes from users.
+    # The theme of the guide has inline scripts and styles; none of them contain user input.
     "Content-Security-Policy": (
         "default-src 'self'; script-src 'self' 'unsafe-inline'; style-src 'self' 'unsafe-inline';"
         " img-src 'self' data:; object-src 'none'; base-uri 'none'; frame-ancestors 'self'"
@@ -55,7 +55,7 @@ def build_page_routes() -> list[BaseRoute]:
         Route("/icon.svg", _serve_icon),
         Route("/docs", _serve_docs),
         Mount("/docs/guide", allow(PUBLIC)(_Guide(directory=GUIDE, html=True, check_dir=False))),
-        *(Route(f"/{place}", _lead_to_place) for place in PLACES),
+        *(Route(f"/{place}", _redirect_to_page) for place in PLACES),
         Route("/learn/{exercise}", _lead_to_exercise),
         Route("/learn/{exercise}/{step}", _lead_to_exercise),
         Mount("/assets", allow(PUBLIC)(StaticFiles(directory=PAGE / "assets", check_dir=False))),
@@ -68,7 +68,7 @@ async def _serve_index(_: Request) -> Response:
 
 
 @allow(PUBLIC)
-async def _lead_to_place(request: Request) -> Response:
+async def _redirect_to_page(request: Request) -> Response:
     here = request.url.path
     return RedirectResponse(f"{here.rpartition('/')[0]}/?{here.rpartition('/')[2]}=all")
 

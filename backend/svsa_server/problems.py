@@ -46,7 +46,7 @@ TITLES = {
     "too_large": "The body is too large",
     "refused": "Refused",
 }
-"""What every kind of problem is called, in a few words that never change."""
+"""Constant title of every kind of problem."""
 
 
 class UnknownError(SvsaError):
@@ -128,7 +128,7 @@ def answer_problem(
 
 
 def answer_violations(violations: Sequence[Violation], place: str = "") -> JSONResponse:
-    """Build the answer that names every rejected value. place: file and lines, or ""."""
+    """Build the answer that contains every rejected value; `place` is file and lines, or ""."""
     detail = " ".join(violation.message for violation in violations)
     detail = f"{place}: {detail}" if place else detail
     return answer_problem(422, "out_of_range", detail, violations=violations)

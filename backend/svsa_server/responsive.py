@@ -1,6 +1,6 @@
 """The server around the application: it answers and ends even if a session blocks.
 
-While the sessions respond, every call is passed to them. If they are silent, this event loop
+While the sessions respond, every call is passed to them. If they do not respond, this event loop
 answers: health and the quick stop almost at once, everything else with 503.
 """
 
@@ -18,20 +18,20 @@ from svsa.hardware.session.session import BenchSession
 from svsa.runs.session.session import Session
 from svsa_server.access.guard import AccessGuard, find_path
 from svsa_server.access.owned import Kind, Owner
-from svsa_server.app_thread import AppThread, Crossing
+from svsa_server.app_thread import AppThread, CallBridge
 from svsa_server.problems import answer_problem
 from svsa_server.routing import API
 from svsa_server.schemas.lab.lab import Health
 from svsa_server.sessions.laboratory import SHARED_SESSION
 
-LOOK_S = 0.1
+POLL_S = 0.1
 STOP_SILENT_S = 0.5
-"""Health and the quick stop wait no longer than this for sessions that are silent."""
+"""Time for which health and the quick stop wait for sessions that do not respond, s."""
 SILENT_S = 10.0
-"""Every other request: to compile a control law takes seconds in which no session runs."""
+"""The same for every other request, s: compiling a law blocks the sessions for seconds."""
 END_SILENT_S = 5.0
 LONGEST_END_S = 60.0
-"""The server ends after this time even if its sessions are not closed by then."""
+"""Time after which the server ends even if its sessions are not closed, s."""
 
 HEALTH = f"{API}/health"
 _LAB_STOP = f"{API}/quick-stop"
@@ -40,13 +40,14 @@ _log = logging.getLogger("svsa")
 
 
 class ResponsiveApp:
-    """The application of a lab, in a thread of its own, and what is answered in its place.
+    """The application of a lab in a separate thread, with fallback answers.
 
-    `is_stuck`: the server has ended without closing its sessions, because they were silent.
+    `is_stuck`: whether the server has ended without closing its sessions, because they did not
+    respond.
 
     Args:
-        app: the lab, as `build_app` makes it.
-        shared: its shared session; the quick stop reaches a bench through shared memory.
+        app: The lab, from `build_app`.
+        shared: Its shared session; the quick stop reaches a bench through shared memory.
     """
 
     def __init__(self, app: FastAPI, shared: Session) -> None:
@@ -66,17 +67,17 @@ class ResponsiveApp:
         await serve(scope, receive, send)
 
     async def _serve(self, scope: Scope, receive: Receive, send: Send) -> None:
-        crossing = Crossing(receive, send)
-        asked = self._thread.call(scope, crossing)
+        bridge = CallBridge(receive, send)
+        asked = self._thread.call(scope, bridge)
         longest_s = STOP_SILENT_S if _is_urgent(scope) else SILENT_S
         try:
             while not asked.done():
-                await asyncio.wait({asked}, timeout=LOOK_S)
-                # An answer that has begun cannot be replaced by another one; a stream can be closed
-                # at any time.
+                await asyncio.wait({asked}, timeout=POLL_S)
+                # An answer that has started cannot be replaced by another one; a stream can be
+                # closed at any time.
                 is_stream = scope["type"] == "websocket"
                 is_silent = self._thread.silence_s > longest_s
-                if is_silent and not asked.done() and (is_stream or not crossing.has_answered):
+                if is_silent and not asked.done() and (is_stream or not bridge.has_answered):
                     break
         except asyncio.CancelledError:
             asked.cancel()
@@ -84,12 +85,12 @@ class ResponsiveApp:
         if asked.done():
             asked.result()
             return
-        crossing.end()
-        if crossing.has_answered:
+        bridge.end()
+        if bridge.has_answered:
             asked.cancel()
             await send({"type": "websocket.close", "code": 1013, "reason": "not responding"})
         elif _is_urgent(scope):
-            # Answered here and not in the application, so the same guard has to be passed here.
+            # Answered here and not in the application, so the guard must be applied here, too.
             await self._guard(scope, receive, send)
         else:
             await self._answer(scope, receive, send)
@@ -108,7 +109,7 @@ class ResponsiveApp:
             " if this persists."
         )
         if path in _STOPS and isinstance(self._shared, BenchSession):
-            # Through shared memory: the sessions' thread is not needed for it.
+            # Through shared memory, which works without the thread of the sessions.
             self._shared.stop_from_keyboard()
             _log.warning("A quick stop was passed to the loop of the bench. %s", detail)
             if path == _LAB_STOP:
@@ -129,9 +130,9 @@ class ResponsiveApp:
             return message
 
         self._thread.start()
-        lived = self._thread.call(scope, Crossing(receive_ending, send))
+        lived = self._thread.call(scope, CallBridge(receive_ending, send))
         while not lived.done():
-            await asyncio.wait({lived}, timeout=LOOK_S)
+            await asyncio.wait({lived}, timeout=POLL_S)
             ends_for_s = time.monotonic() - ending_s
             is_silent = ends_for_s > 0.0 and self._thread.silence_s > END_SILENT_S
             if not lived.done() and (is_silent or ends_for_s > LONGEST_END_S):

@@ -37,8 +37,8 @@ def build_router(
 ) -> APIRouter:
     """Build a router below /api/v1; each operation's id is the name of its function.
 
-    It stands as it is and is included nowhere: FastAPI builds a route that is included a second
-    time, which for all of them takes 0.4 s of every start.
+    The router is used directly and never included: FastAPI builds an included route a second time,
+    which for all routes takes 0.4 s of every start.
     """
     return APIRouter(
         prefix=API + prefix, generate_unique_id_function=get_name, route_class=route_class, **given

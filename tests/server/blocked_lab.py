@@ -1,4 +1,4 @@
-"""A lab whose sessions block indefinitely at one command, which no session should do."""
+"""A lab whose sessions block indefinitely at a certain command, to test the server's isolation."""
 
 import threading
 from typing import Any
@@ -8,9 +8,10 @@ from svsa.hardware.session.session import BenchSession
 from svsa.runs.session.simulated import SimulatedSession
 
 BLOCKING, BLOCKING_WAKE = 0.123, 0.124
-"""A session that gets the first speed waits without end; one that gets the second computes without
-end from its next wake on. A thread that computes in Python takes the lock of the interpreter from
-the threads that answer, which delays them on a busy machine: one test computes, the others wait."""
+"""A session with the first speed waits indefinitely; one with the second computes indefinitely from
+its next wake-up on. Python code that computes holds the interpreter lock, which delays the threads
+that answer: one test computes, the others wait.
+"""
 PROGRAM = "from tests.server.blocked_lab import main; main()"
 
 
@@ -26,6 +27,6 @@ def compute(session: Any, now_s: float) -> None:
 
 
 def main() -> None:
-    """Run `svsa` with sessions that are blocked by a speed."""
+    """Run `svsa` with sessions that a certain speed blocks."""
     SimulatedSession.set_speed = BenchSession.set_speed = block
     svsa.cli.main()

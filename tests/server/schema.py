@@ -1,6 +1,6 @@
 """The schema as it is kept, which `test_docs` holds the server to.
 
-To build it takes 2 s in each process that reads the tests.
+Building it would take 2 s in each process that imports the tests.
 """
 
 import json

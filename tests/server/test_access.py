@@ -1,4 +1,4 @@
-"""Who may come in: loopback without a secret, every client that knows it with one."""
+"""Access: loopback without a secret, and every client that has the secret with one."""
 
 import signal
 import socket
@@ -24,32 +24,32 @@ def guarded_lab() -> Iterator[Lab]:
 
 
 def refuse(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture, *arguments: str) -> str:
-    """What `svsa serve` says that does not begin."""
+    """Return the message of an `svsa serve` that does not start."""
     monkeypatch.setattr(sys, "argv", ["svsa", "serve", *arguments])
     with pytest.raises(SystemExit, match="1"):
         main()
     return " ".join(capsys.readouterr().err.split())
 
 
-def test_listening_beyond_loopback_without_a_secret_is_refused(monkeypatch, capsys) -> None:
+def test_listening_beyond_loopback_without_a_secret_is_rejected(monkeypatch, capsys) -> None:
     monkeypatch.delenv("SVSA_SECRET", raising=False)
     reported = refuse(monkeypatch, capsys, "--host", "0.0.0.0", "--port", "0")
     assert "SVSA_SECRET" in reported
 
 
-def test_a_short_secret_is_refused(monkeypatch, capsys) -> None:
+def test_short_secret_is_rejected(monkeypatch, capsys) -> None:
     monkeypatch.setenv("SVSA_SECRET", "short")
     assert "at least 8" in refuse(monkeypatch, capsys, "--port", "0")
 
 
-def test_a_port_in_use_is_reported(monkeypatch, capsys, tmp_path: Path) -> None:
+def test_port_in_use_is_reported(monkeypatch, capsys, tmp_path: Path) -> None:
     monkeypatch.setenv("SVSA_DATA", str(tmp_path))
     with socket.create_server(("127.0.0.1", 0)) as taken:
         reported = refuse(monkeypatch, capsys, "--port", str(taken.getsockname()[1]))
     assert "Cannot listen on 127.0.0.1" in reported
 
 
-def test_requests_from_other_sites_are_refused(lab: Lab) -> None:
+def test_requests_from_other_sites_are_rejected(lab: Lab) -> None:
     headers = {"Origin": "http://evil.example"}
     assert lab.client.post(lab.session + "/pause", headers=headers).status_code == 403
     assert lab.read()["status"] == "running"
@@ -58,12 +58,12 @@ def test_requests_from_other_sites_are_refused(lab: Lab) -> None:
     assert refusal.value.response.status_code == 403
 
 
-def test_a_name_that_was_pointed_at_this_machine_is_refused(lab: Lab) -> None:
+def test_foreign_name_of_this_machine_is_rejected(lab: Lab) -> None:
     assert lab.client.get(lab.session, headers={"Host": "evil.example"}).status_code == 403
 
 
 @pytest.mark.parametrize("path", ["/api/v1/sessions", "/docs", "/openapi.json", "/viser/lab/"])
-def test_nothing_but_the_empty_page_is_seen_without_the_secret(guarded_lab: Lab, path: str) -> None:
+def test_only_the_empty_page_is_visible_without_the_secret(guarded_lab: Lab, path: str) -> None:
     answer = httpx.get(guarded_lab.url + path, trust_env=False)
     assert answer.status_code == 401
     assert "secret" in answer.json()["detail"]
@@ -77,7 +77,7 @@ def test_websockets_need_the_secret(guarded_lab: Lab, path: str) -> None:
     assert refusal.value.response.status_code == 401
 
 
-def test_scripts_come_in_with_a_bearer_token(guarded_lab: Lab) -> None:
+def test_scripts_use_a_bearer_token(guarded_lab: Lab) -> None:
     assert guarded_lab.read()["status"] == "running"
     headers = {"Authorization": f"Bearer {SECRET}"}
     with connect(guarded_lab.stream_url, additional_headers=headers, proxy=None) as stream:
@@ -90,7 +90,7 @@ def test_scripts_come_in_with_a_bearer_token(guarded_lab: Lab) -> None:
     assert wrong.status_code == 401
 
 
-def test_a_simulation_is_stopped_only_for_callers_with_the_secret(guarded_lab: Lab) -> None:
+def test_simulation_is_stopped_only_by_callers_with_the_secret(guarded_lab: Lab) -> None:
     """`test_all_users_may_stop_a_bench` shows the bench."""
     stranger = httpx.Client(base_url=guarded_lab.url, trust_env=False)
     elsewhere = {"Origin": "http://elsewhere.example"}
@@ -104,7 +104,7 @@ def test_a_simulation_is_stopped_only_for_callers_with_the_secret(guarded_lab: L
     assert stranger.post("/api/v1/sessions/lab/start").status_code == 401
 
 
-def test_a_browser_logs_in_once_and_keeps_a_cookie(guarded_lab: Lab) -> None:
+def test_browser_logs_in_once_and_keeps_a_cookie(guarded_lab: Lab) -> None:
     with httpx.Client(base_url=guarded_lab.url, trust_env=False) as browser:
         wrong = browser.post("/api/v1/login", json={"secret": "guess"})
         assert wrong.status_code == 401
@@ -123,15 +123,15 @@ def test_a_browser_logs_in_once_and_keeps_a_cookie(guarded_lab: Lab) -> None:
             assert "hello" in str(stream.recv(timeout=10))
 
 
-@pytest.mark.exhaustive  # every lab of the tests ends by Ctrl-C, so that it does is shown there
-def test_a_service_manager_ends_the_lab_quickly_though_a_user_looks_on() -> None:
+@pytest.mark.exhaustive  # Every lab of the tests is ended by Ctrl-C, which tests that signal.
+def test_service_manager_ends_the_lab_quickly_with_a_connected_client() -> None:
     with run_lab() as lab, connect(lab.stream_url, proxy=None) as stream:
         assert "hello" in str(stream.recv(timeout=10))
         lab.process.terminate()
         assert lab.process.wait(15) in (0, -signal.SIGTERM)
 
 
-def test_an_open_lab_has_neither_class_nor_persons(lab) -> None:
+def test_open_lab_has_neither_class_nor_users(lab) -> None:
     reported = lab.client.get("/api/v1/access").json()
     assert (reported["authentication"], reported["inside"], reported["role"]) == (
         "open",

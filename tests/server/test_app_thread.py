@@ -1,11 +1,11 @@
-"""What passes between the application's event loop and that of the connections."""
+"""Answers between the event loop of the application and that of the connections."""
 
 import asyncio
 
 import pytest
 from starlette.types import Message
 
-from svsa_server.app_thread import Crossing
+from svsa_server.app_thread import CallBridge
 
 START: Message = {"type": "http.response.start", "status": 200, "headers": []}
 BODY: Message = {"type": "http.response.body", "body": b"{}"}
@@ -25,20 +25,20 @@ async def send_both(is_replaced: bool) -> tuple[list[Message], list[bool]]:
     async def send(message: Message) -> None:
         sent.append(message)
 
-    crossing = Crossing(receive, send)
+    bridge = CallBridge(receive, send)
     for message in (START, BODY):
-        await crossing.send(message)
-        await crossing.finish()
-        has_answered.append(crossing.has_answered)
+        await bridge.send(message)
+        await bridge.finish()
+        has_answered.append(bridge.has_answered)
         if is_replaced:
-            crossing.end()
+            bridge.end()
     return sent, has_answered
 
 
 @pytest.mark.parametrize(
     ("is_replaced", "got", "begun"), [(False, [START, BODY], True), (True, [], False)]
 )
-def test_an_answer_begins_with_its_body_so_that_it_can_be_replaced_until_then(
+def test_answer_starts_with_its_body_and_is_replaceable_until_then(
     is_replaced: bool, got: list[Message], begun: bool
 ) -> None:
     sent, has_answered = asyncio.run(send_both(is_replaced))

@@ -1,4 +1,4 @@
-"""Clients that mean harm, or only their machine does: no one else notices, and nothing is lost."""
+"""Malicious or broken clients: no other client is affected, and no sample is lost."""
 
 import contextlib
 import time
@@ -13,12 +13,12 @@ from tests.benchmarks.attacks import (
     FRAMES,
     LONGEST_S,
     SILENCE_S,
-    ask_for_replays,
     count_sockets,
     guess_codes,
     open_stream,
     read_memory_mb,
     recorded,
+    request_replays,
     run_attacked_class,
     send_body,
     send_frames,
@@ -29,13 +29,13 @@ from tests.benchmarks.attacks import (
 from tests.lab import Lab
 
 GROWTH_MB = 100.0
-"""What the allocator may keep of what a wave took for a moment."""
+"""Memory that the allocator may keep after a peak."""
 
 
 @pytest.fixture(scope="module")
 def attacked() -> Iterator[Lab]:
     with run_attacked_class(joins="20/minute", max_exports="2") as lab:
-        with recorded(lab, "first"):  # what the first of each takes is no growth
+        with recorded(lab, "first"):  # the first use of each code path is not growth
             lab.jump(5)
         stop_reading(lab, 8)
         guess_codes(lab, 2)
@@ -44,7 +44,7 @@ def attacked() -> Iterator[Lab]:
 
 @contextlib.contextmanager
 def unharmed(lab: Lab) -> Iterator[str]:
-    """What is recorded meanwhile has every sample; memory is as before, and so are sockets soon:
+    """A recording meanwhile has every sample; memory is as before, and soon so are the sockets:
     those of a silent client are kept for a while.
     """
     lab.load_figure()
@@ -67,7 +67,7 @@ def unharmed(lab: Lab) -> Iterator[str]:
 
 
 @pytest.mark.exhaustive
-def test_who_stops_reading_is_dropped_and_nothing_is_kept_for_them(attacked: Lab) -> None:
+def test_client_that_stops_reading_is_dropped_with_its_buffers(attacked: Lab) -> None:
     with unharmed(attacked):
         dropped, grown = stop_reading(attacked, 8)
     assert dropped == 8
@@ -75,7 +75,7 @@ def test_who_stops_reading_is_dropped_and_nothing_is_kept_for_them(attacked: Lab
 
 
 @pytest.mark.exhaustive
-def test_who_reads_on_is_kept(attacked: Lab) -> None:
+def test_reading_client_is_kept(attacked: Lab) -> None:
     headers = {"Authorization": attacked.client.headers["Authorization"]}
     address = attacked.stream_url + "?rate_hz=1"
     with connect(address, proxy=None, additional_headers=headers) as stream:
@@ -84,7 +84,7 @@ def test_who_reads_on_is_kept(attacked: Lab) -> None:
             stream.recv(timeout=LONGEST_S)
 
 
-def test_half_a_request_is_not_waited_for(attacked: Lab) -> None:
+def test_incomplete_request_times_out(attacked: Lab) -> None:
     with unharmed(attacked):
         ended, answered_s = send_halves(attacked, 100)
     assert ended == 100
@@ -92,7 +92,7 @@ def test_half_a_request_is_not_waited_for(attacked: Lab) -> None:
 
 
 @pytest.mark.parametrize("chunked", [False, True])
-def test_10_mb_are_refused_with_the_bound(attacked: Lab, chunked: bool) -> None:
+def test_body_of_10_mb_is_rejected_with_the_bound(attacked: Lab, chunked: bool) -> None:
     with unharmed(attacked):
         answer, took = send_body(attacked, chunked)
     assert answer.startswith(b"HTTP/1.1 413 ")
@@ -101,31 +101,31 @@ def test_10_mb_are_refused_with_the_bound(attacked: Lab, chunked: bool) -> None:
     assert took < 10.0
 
 
-def test_wrong_codes_are_counted_and_guessing_is_hopeless(attacked: Lab) -> None:
+def test_wrong_codes_are_counted_and_limited(attacked: Lab) -> None:
     with unharmed(attacked):
         statuses = guess_codes(attacked, 300)
     assert statuses == {401: 18, 429: 282}
 
 
-def test_a_malformed_frame_ends_its_own_stream_alone(attacked: Lab) -> None:
+def test_malformed_frame_ends_only_its_own_stream(attacked: Lab) -> None:
     with unharmed(attacked):
         assert send_frames(attacked) == dict.fromkeys(FRAMES, True)
 
 
 @pytest.mark.exhaustive
-def test_thirty_replays_at_once_are_bounded_and_reported_when_to_come_again(attacked: Lab) -> None:
+def test_thirty_simultaneous_replays_are_limited_with_a_retry_time(attacked: Lab) -> None:
     with unharmed(attacked) as shown:
         attacked.jump(2)
     with unharmed(attacked):
-        answers = ask_for_replays(attacked, shown, 30)
+        answers = request_replays(attacked, shown, 30)
     statuses = [one.status_code for one in answers]
     assert set(statuses) == {200, 503}
     assert statuses.count(200) >= 2
     assert all(int(one.headers["Retry-After"]) > 0 for one in answers if one.status_code == 503)
 
 
-def test_who_vanishes_while_in_control_loses_it(attacked: Lab) -> None:
-    """Cut off with a stream open: freed SVSA_CONTROL_S later, 1 s here."""
+def test_holder_that_disconnects_loses_control(attacked: Lab) -> None:
+    """Cut off with a stream open: released SVSA_CONTROL_S later, 1 s here."""
     token = attacked.client.post("/api/v1/tokens", json={}).raise_for_status().json()
     name = {"Authorization": f"Bearer {token['token']}"}
     with httpx.Client(base_url=attacked.url, headers=name, trust_env=False) as ada:

@@ -1,4 +1,4 @@
-"""Behind a proxy with TLS and a path of its own: Caddy, as docs/proxy.md sets it up."""
+"""A lab behind a proxy with TLS and a path: Caddy, as in docs/proxy.md."""
 
 import contextlib
 import json
@@ -22,7 +22,7 @@ from svsa_server.access.class_keys import ClassKeys, ShownOnce
 from tests.lab import run_lab
 
 pytestmark = pytest.mark.exhaustive
-"""What the path of a lab is in its answers, `access/test_below_a_path` shows."""
+"""`access/test_below_a_path` tests the path in the answers of the lab."""
 
 ROOT = "/svsa"
 CERTIFICATE = "caddy/pki/authorities/local/root.crt"
@@ -38,7 +38,7 @@ class Proxied(NamedTuple):
     root: Path
 
     def open_browser(self) -> httpx.Client:
-        """Of a user who has not joined yet."""
+        """Return the browser of a user who has not joined yet."""
         return httpx.Client(base_url=self.url + ROOT, verify=self.trust, trust_env=False)
 
 
@@ -48,13 +48,15 @@ def find_free_port() -> int:
 
 
 def find_caddy() -> str | None:
-    """The path of Caddy on this machine, or None."""
+    """Return the path of Caddy on this machine, or None."""
     return shutil.which("caddy")
 
 
 @contextlib.contextmanager
 def run_caddy(folder: Path, port: int, lab_port: str) -> Iterator[ssl.SSLContext]:
-    """Caddy with the file of the documentation, and what trusts the certificate that it makes."""
+    """Run Caddy with the file of the documentation; return a context that trusts its
+    certificate.
+    """
     caddy = find_caddy()
     assert caddy, "caddy is not installed: .ci/run installs it"
     (found,) = re.findall(r"```caddy\n(.*?)```", DOCUMENTED.read_text(encoding="utf-8"), re.DOTALL)
@@ -91,7 +93,7 @@ def wait_for_trust(root: Path, port: int) -> ssl.SSLContext:
 
 @contextlib.contextmanager
 def run_proxied(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Proxied]:
-    """A class behind Caddy, which ends with the block."""
+    """Run a class behind Caddy."""
     data, folder = tmp_path_factory.mktemp("class"), tmp_path_factory.mktemp("caddy")
     _, reported = ClassKeys.open(data)
     assert reported is not None
@@ -110,7 +112,7 @@ def proxied(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Proxied]:
         yield proxied
 
 
-def test_the_page_and_all_that_it_loads_are_below_the_path(proxied: Proxied) -> None:
+def test_page_and_all_its_resources_are_below_the_path(proxied: Proxied) -> None:
     with proxied.open_browser() as browser:
         page = browser.get("/").raise_for_status()
         loaded = re.findall(r'(?:src|href)="([^"]+)"', page.text)
@@ -122,7 +124,7 @@ def test_the_page_and_all_that_it_loads_are_below_the_path(proxied: Proxied) -> 
         assert led.headers["location"].endswith(ROOT + "/?runs=all")
 
 
-def test_who_joins_has_a_cookie_of_that_path_for_tls_alone(proxied: Proxied) -> None:
+def test_cookie_of_a_user_is_for_that_path_and_tls_only(proxied: Proxied) -> None:
     with proxied.open_browser() as browser:
         assert browser.get("/api/v1/sessions").status_code == 401
         body = {"name": "Ada", "code": proxied.reported.code}
@@ -137,7 +139,7 @@ def test_who_joins_has_a_cookie_of_that_path_for_tls_alone(proxied: Proxied) -> 
         assert browser.post("/api/v1/sessions", json={}, headers=other).status_code == 403
 
 
-def test_the_schema_and_the_link_to_join_name_the_path(proxied: Proxied) -> None:
+def test_schema_and_join_link_contain_the_path(proxied: Proxied) -> None:
     with proxied.open_browser() as browser:
         token = {"secret": proxied.reported.instructor_token}
         browser.post("/api/v1/login", json=token).raise_for_status()
@@ -147,7 +149,7 @@ def test_the_schema_and_the_link_to_join_name_the_path(proxied: Proxied) -> None
         assert f"{ROOT}/#join=" in renewed["address"]
 
 
-def test_streams_and_the_3d_view_come_through(proxied: Proxied) -> None:
+def test_streams_and_3d_view_pass_the_proxy(proxied: Proxied) -> None:
     instructor = proxied.open_browser()
     token = {"secret": proxied.reported.instructor_token}
     instructor.post("/api/v1/login", json=token).raise_for_status()
@@ -167,7 +169,7 @@ def test_streams_and_the_3d_view_come_through(proxied: Proxied) -> None:
     instructor.close()
 
 
-def test_the_client_of_a_script_comes_through(
+def test_client_of_a_script_passes_the_proxy(
     proxied: Proxied, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("SSL_CERT_FILE", str(proxied.root))

@@ -24,7 +24,7 @@ STOP = "/api/v1/quick-stop"
 
 @contextlib.contextmanager
 def blocked(lab: Lab, factor: float = BLOCKING) -> Iterator[list[httpx.Response]]:
-    """The shared session blocks without end; yields what its request is answered."""
+    """Block the shared session; yield the answers to its request."""
     answers: list[httpx.Response] = []
 
     def ask() -> None:
@@ -39,7 +39,7 @@ def blocked(lab: Lab, factor: float = BLOCKING) -> Iterator[list[httpx.Response]
 
 
 def end_blocked(lab: Lab, number: signal.Signals) -> int:
-    """The exit code of the server after this signal."""
+    """Return the exit code of the server after this signal."""
     assert lab.process is not None
     lab.process.send_signal(number)
     return lab.process.wait(END_TIMEOUT_S)
@@ -71,7 +71,7 @@ def test_every_request_is_answered_while_a_session_blocks() -> None:
         assert end_blocked(lab, signal.SIGINT) == 1
 
 
-def test_sigterm_ends_a_server_whose_session_computes_without_end() -> None:
+def test_sigterm_ends_a_server_whose_session_computes_indefinitely() -> None:
     with run_lab(program=PROGRAM) as lab:
         with blocked(lab, BLOCKING_WAKE):
             assert lab.client.post(STOP).status_code == 503
@@ -79,7 +79,7 @@ def test_sigterm_ends_a_server_whose_session_computes_without_end() -> None:
 
 
 @pytest.mark.wall_clock
-def test_the_quick_stop_reaches_a_bench_whose_session_blocks(tmp_path: Path) -> None:
+def test_quick_stop_reaches_a_bench_whose_session_blocks(tmp_path: Path) -> None:
     with (
         start_live_emulator() as emulator,
         run_lab("--bench", str(write_bench(tmp_path, emulator)), program=PROGRAM) as lab,

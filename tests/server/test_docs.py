@@ -1,4 +1,4 @@
-"""The documentation: everything that it loads comes from this server, and says what is sent."""
+"""The API documentation: all resources come from this server, and it matches the server."""
 
 import json
 import re
@@ -17,7 +17,7 @@ STREAM = "/api/v1/sessions/{session}/stream"
 
 
 class Loaded(HTMLParser):
-    """What a page loads: every src and href."""
+    """The resources of a page: every src and href."""
 
     def __init__(self, page: str) -> None:
         super().__init__()
@@ -31,7 +31,7 @@ class Loaded(HTMLParser):
 
 
 @pytest.mark.parametrize("address", ["/docs", "/"])
-def test_a_page_loads_nothing_from_elsewhere(shared_lab: Lab, address: str) -> None:
+def test_page_loads_nothing_from_elsewhere(shared_lab: Lab, address: str) -> None:
     answer = shared_lab.client.get(address).raise_for_status()
     loaded = Loaded(answer.text)
     assert loaded.addresses
@@ -53,19 +53,17 @@ def test_a_page_loads_nothing_from_elsewhere(shared_lab: Lab, address: str) -> N
         ("/studies", "/?studies=all"),
     ],
 )
-def test_an_address_that_people_type_leads_to_its_place(
-    shared_lab: Lab, address: str, place: str
-) -> None:
+def test_typed_address_leads_to_its_place(shared_lab: Lab, address: str, place: str) -> None:
     answer = shared_lab.client.get(address, follow_redirects=True)
     assert str(answer.url) == shared_lab.url + place
     assert "<title>SVSA Lab" in answer.text
 
 
-def test_there_is_no_second_documentation_from_a_network(shared_lab: Lab) -> None:
+def test_no_second_documentation_from_a_network(shared_lab: Lab) -> None:
     assert shared_lab.client.get("/redoc").status_code == 404
 
 
-def test_the_secret_is_asked_for_where_one_is_set_but_for_stop_and_login() -> None:
+def test_secret_is_required_except_for_stop_and_login() -> None:
     closed_lab = build_app(Settings(secret="correct horse")).openapi()
     for schema in (SCHEMA, closed_lab):
         assert schema["components"]["securitySchemes"]["bearer"]["scheme"] == "bearer"
@@ -87,8 +85,8 @@ def test_the_secret_is_asked_for_where_one_is_set_but_for_stop_and_login() -> No
     assert not [o for item in SCHEMA["paths"].values() for o in item.values() if "security" in o]
 
 
-def test_the_schema_in_the_docs_is_the_server_s_and_names_every_operation_once() -> None:
-    """A change of the API is seen as one; `make schema` writes it."""
+def test_schema_in_the_docs_is_that_of_the_server_with_unique_operations() -> None:
+    """A change of the API appears in its diff; `make schema` writes it."""
     schema = build_app(Settings(secret=None)).openapi()
     assert json.loads(json.dumps(schema)) == SCHEMA
     ids = [
@@ -98,7 +96,7 @@ def test_the_schema_in_the_docs_is_the_server_s_and_names_every_operation_once()
     assert all(re.fullmatch(r"[a-z][a-z_]{2,24}", one) for one in ids)
 
 
-def test_the_stream_stands_next_to_rest_as_it_is_packed() -> None:
+def test_stream_is_documented_next_to_rest_as_packed() -> None:
     operation = SCHEMA["paths"][STREAM]["get"]
     text = operation["description"]
     assert f"a header of {HEADER.size} bytes" in text
@@ -116,7 +114,7 @@ def test_the_stream_stands_next_to_rest_as_it_is_packed() -> None:
     }
 
 
-def test_a_plain_get_of_the_stream_says_that_it_is_a_websocket(lab: Lab) -> None:
+def test_plain_get_of_the_stream_reports_that_it_is_a_websocket(lab: Lab) -> None:
     answer = lab.client.get(lab.session + "/stream")
     assert answer.status_code == 426
     assert answer.headers["upgrade"] == "websocket"
@@ -128,9 +126,7 @@ def test_a_plain_get_of_the_stream_says_that_it_is_a_websocket(lab: Lab) -> None
 @pytest.mark.parametrize(
     "place", ["ranking", "falsifier", "grades", "leaderboard", "runs", "studies"]
 )
-def test_an_address_that_people_type_leads_to_its_place_in_the_page(
-    shared_lab: Lab, place: str
-) -> None:
+def test_typed_address_leads_to_its_place_in_the_page(shared_lab: Lab, place: str) -> None:
     answer = shared_lab.client.get(f"/{place}", follow_redirects=True)
     assert answer.headers["content-type"].startswith("text/html")
     assert answer.url.path == "/"
@@ -138,10 +134,10 @@ def test_an_address_that_people_type_leads_to_its_place_in_the_page(
 
 
 NOTHING_TO_READ = {"renew_rejoin_code", "create_token", "renew_code", "submit_exercise"}
-"""Operations that create something whose only reading is their answer."""
+"""Operations that create something that only their answer returns."""
 
 
-def test_what_creates_something_links_to_what_reads_it() -> None:
+def test_creating_operation_links_to_the_reading_one() -> None:
     read = {
         operation["operationId"]: [one["name"] for one in operation.get("parameters", [])]
         for item in SCHEMA["paths"].values()
@@ -168,7 +164,7 @@ def test_what_creates_something_links_to_what_reads_it() -> None:
     assert creating - linked.keys() == NOTHING_TO_READ
 
 
-def test_a_link_leads_from_a_new_session_to_its_state(lab: Lab) -> None:
+def test_link_leads_from_a_new_session_to_its_state(lab: Lab) -> None:
     answer = SCHEMA["paths"]["/api/v1/sessions"]["post"]["responses"]["201"]
     place = answer["links"]["read_session"]["parameters"]["session"].rpartition("/")[2]
     created = lab.client.post("/api/v1/sessions", json={}).raise_for_status().json()

@@ -1,4 +1,4 @@
-"""A data folder on a disk that is full or read-only: rejected, and nothing is lost."""
+"""A data folder on a full or read-only disk: requests are rejected, and nothing is lost."""
 
 import contextlib
 import subprocess
@@ -31,7 +31,7 @@ def disk(tmp_path: Path) -> Iterator[Path]:
 
 @contextlib.contextmanager
 def filled(disk: Path) -> Iterator[None]:
-    """The disk is full."""
+    """Fill the disk."""
     filler = disk / "filler"
     with filler.open("wb", buffering=0) as file, contextlib.suppress(OSError):
         while file.write(b" " * 65536):
@@ -40,7 +40,7 @@ def filled(disk: Path) -> Iterator[None]:
     filler.unlink()
 
 
-def test_what_a_full_disk_cannot_take_is_rejected_and_done_once_there_is_room(disk: Path) -> None:
+def test_request_on_a_full_disk_is_rejected_and_succeeds_with_free_space(disk: Path) -> None:
     with run_lab_in_process(data=str(disk)) as running:
         lab = running.client
         name = lab.get("/api/v1/course").raise_for_status().json()["exercises"][0]["name"]
@@ -59,7 +59,9 @@ def test_what_a_full_disk_cannot_take_is_rejected_and_done_once_there_is_room(di
         assert [*disk.rglob("*.tmp"), *disk.rglob("*.part")] == []
 
 
-def test_a_recording_that_a_full_disk_ended_is_listed_as_failed_with_what_opens(disk: Path) -> None:
+def test_recording_ended_by_a_full_disk_is_listed_as_failed_with_its_readable_part(
+    disk: Path,
+) -> None:
     def read_run(client: httpx.Client) -> dict:
         (run,) = client.get("/api/v1/runs").raise_for_status().json()["runs"]
         return run
@@ -88,14 +90,14 @@ def test_a_recording_that_a_full_disk_ended_is_listed_as_failed_with_what_opens(
         assert not [*disk.rglob("samples.arrows")]
 
 
-def test_a_full_disk_leaves_no_empty_secret(disk: Path) -> None:
+def test_full_disk_leaves_no_empty_secret(disk: Path) -> None:
     with filled(disk), pytest.raises(OSError, match="No space left"):
         keep_secret(disk / "secret")
     assert not (disk / "secret").exists()
     assert len(keep_secret(disk / "secret")) == SECRET_BYTES
 
 
-def test_a_leaderboard_on_a_read_only_disk_says_so(disk: Path) -> None:
+def test_leaderboard_on_a_read_only_disk_reports_it(disk: Path) -> None:
     with run_lab_in_process(data=str(disk)) as running:
         # The catalogue's file stays open for writing: a second, read-only mount of the same disk.
         for options in (["--bind", str(disk)], ["-o", "remount,bind,ro"]):

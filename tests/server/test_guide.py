@@ -14,7 +14,7 @@ def guide(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path / "guide"
 
 
-def test_the_built_guide_is_served_with_a_policy_that_loads_nothing_from_elsewhere(guide: Path):
+def test_built_guide_is_served_with_a_policy_that_loads_nothing_from_elsewhere(guide: Path):
     (guide / "howto").mkdir(parents=True)
     (guide / "index.html").write_text("<h1>SVSA Lab</h1>")
     (guide / "howto/add_friction.html").write_text("<h1>Add friction</h1>")
@@ -30,7 +30,7 @@ def test_the_built_guide_is_served_with_a_policy_that_loads_nothing_from_elsewhe
     assert (missing.status_code, outside.status_code) == (404, 404)
 
 
-def test_a_guide_that_was_not_built_names_the_command(guide: Path):
+def test_missing_guide_names_the_command(guide: Path):
     with run_lab_in_process() as lab:
         answer = lab.client.get("/docs/guide/")
     assert answer.status_code == 503

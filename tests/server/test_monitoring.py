@@ -38,7 +38,7 @@ def test_metrics_count_sessions_recordings_and_disk(tmp_path) -> None:
         assert ("svsa_session_delay_seconds", session) in after
 
 
-def test_a_lab_is_ready_until_the_disk_is_nearly_full(tmp_path, monkeypatch) -> None:
+def test_lab_is_ready_until_the_disk_is_nearly_full(tmp_path, monkeypatch) -> None:
     with run_lab_in_process(data=str(tmp_path)) as running:
         answer = running.client.get("/api/v1/ready")
         assert (answer.status_code, answer.json()) == (200, {"ready": True, "problems": []})
@@ -52,7 +52,7 @@ def test_a_lab_is_ready_until_the_disk_is_nearly_full(tmp_path, monkeypatch) -> 
         assert running.client.get("/api/v1/health").status_code == 200, "it is alive"
 
 
-def test_a_lab_that_cannot_record_is_not_ready(tmp_path) -> None:
+def test_lab_that_cannot_record_is_not_ready(tmp_path) -> None:
     (tmp_path / "catalogue.sqlite").mkdir()
     with run_lab_in_process(data=str(tmp_path)) as running:
         answer = running.client.get("/api/v1/ready")
@@ -61,7 +61,7 @@ def test_a_lab_that_cannot_record_is_not_ready(tmp_path) -> None:
 
 
 @pytest.mark.parametrize("message", ["plain", 'with "quotes"\nand a line'])
-def test_the_json_log_has_one_object_a_line(message: str) -> None:
+def test_json_log_has_one_object_per_line(message: str) -> None:
     code = (
         f"import logging; from {write_json_logs.__module__} import write_json_logs;"
         f"write_json_logs(); logging.getLogger('svsa').warning({message!r})"

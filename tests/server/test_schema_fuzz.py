@@ -1,4 +1,4 @@
-"""Whatever the schema allows or forbids: the server answers, and as the schema says."""
+"""For any request, valid or not, the server answers as in its schema."""
 
 from typing import Any
 
@@ -36,7 +36,7 @@ SETTINGS = settings(
 
 
 def answers(context: CheckContext, response: Response, case: schemathesis.Case) -> bool | None:
-    """As `not_a_server_error`, but that a lab which is full may say so, and when to come again."""
+    """`not_a_server_error`, but a full lab may reject with a retry time."""
     if response.status_code == 503 and "retry-after" in response.headers:
         return None
     return not_a_server_error(context, response, case)
@@ -55,13 +55,13 @@ CHECKS = [
 ]
 
 LONGEST_ANSWER_S = 120.0
-"""A law is measured in some seconds, on a machine that is busy in ten times as many."""
+"""A law is measured in some seconds, on a busy machine in ten times as many."""
 
 CLIENT = {"SVSA-Client": "fuzz"}
-"""Known to the server, which asks of the text what percent-encoding hides from a schema."""
+"""Known to the server, which checks texts that percent-encoding hides from a schema."""
 
 ABSENT_ELSE = {"If-Match": "*"}
-"""Whatever the state: what another is answered, `test_two_writers` says."""
+"""In any state: `test_two_writers` tests the answers to concurrent writers."""
 
 HURWITZ = "gains must be Hurwitz: every root of their polynomial left of the imaginary axis"
 STUDY = "a source must be a built-in or a kept study, a text the TOML of one, one of both given"
@@ -109,11 +109,11 @@ The schema has the answer 422 of each, with a violation that names the rule.
 """
 
 WEBSOCKET = "GET /api/v1/sessions/{session}/stream"
-"""Answers 426 to every request of REST, right or wrong; `test_stream` has its refusals."""
+"""Answers 426 to every REST request, valid or not; `test_stream` tests its rejections."""
 
 
 def give_control_back(lab: Lab) -> None:
-    """Its holder; where taking over is the instructor's, what this client has."""
+    """As its holder; if taking over needs the instructor, as this client."""
     taken = lab.client.put(
         lab.session + "/control", json={"by": "fuzz", "take_over": True}, headers=CLIENT
     )
@@ -122,12 +122,12 @@ def give_control_back(lab: Lab) -> None:
 
 
 def end_jobs(lab: Lab) -> None:
-    """End the jobs that the requests started: the pages of later tests would show them."""
+    """End the jobs of these requests, which later tests would display."""
     for job in lab.client.get("/api/v1/jobs").raise_for_status().json()["jobs"]:
         lab.client.delete(f"/api/v1/jobs/{job['id']}")
 
 
-def test_what_may_be_refused_exists_and_says_so() -> None:
+def test_listed_exceptions_exist_and_are_documented() -> None:
     paths = SCHEMA["paths"]
     for label in MAY_BE_REFUSED:
         method, path = label.split()
@@ -140,8 +140,8 @@ NARROWING = {"pattern", "minLength", "maxLength", "enum", "const", "format"}
 def can_be_wrong(operation: schemathesis.APIOperation) -> bool:
     """Whether a request can be one that the schema forbids.
 
-    Where no more is asked for than any text in the path none can, and hypothesis takes a second of
-    each such operation to find that out.
+    If an operation has only path parameters that accept any text, no request can be invalid.
+    hypothesis would need a second for each such operation to find this out.
     """
 
     def is_any_text(schema: dict[str, Any]) -> bool:
@@ -160,8 +160,8 @@ def probe(
 ) -> int:
     """Send the operation what its schema allows, or forbids; returns how many requests.
 
-    As who the lab's client is. is_let_in: whether that is a user who may call it; of a request by
-    any other caller nothing is read but the identity.
+    The caller is the user of the lab's client. is_let_in: whether this user may call the operation;
+    from a request of any other caller the server reads only the identity.
     """
     checks = [*CHECKS]
     known = {k: v for k, v in lab.client.headers.items() if k == "authorization"}
@@ -196,11 +196,11 @@ def probe(
 
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("mode", GenerationMode, ids=lambda mode: mode.name.lower())
-def test_the_server_keeps_to_its_schema(lab: Lab, mode: GenerationMode) -> None:
+def test_server_conforms_to_its_schema(lab: Lab, mode: GenerationMode) -> None:
     described = lab.client.get("/openapi.json").json()
     for item in described["paths"].values():
         for operation in item.values():
-            # A key that comes twice is answered otherwise: see `test_outcomes`.
+            # A repeated key is answered differently: see `test_outcomes`.
             operation["parameters"] = [
                 one for one in operation.get("parameters", ()) if one["name"] != KEY_HEADER
             ]

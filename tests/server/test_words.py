@@ -1,4 +1,4 @@
-"""One word for one thing: in paths, requests and answers, with one default."""
+"""Consistent names in paths, requests and answers, with one default."""
 
 from pathlib import Path
 
@@ -9,7 +9,7 @@ ROOT = Path(__file__).parents[2]
 
 
 def list_names() -> set[str]:
-    """Every name that the API gives to a field or a parameter."""
+    """Return every name of a field or a parameter in the API."""
     schemas = SCHEMA["components"]["schemas"].values()
     names = {name for schema in schemas for name in schema.get("properties", {})}
     for path in SCHEMA["paths"].values():
@@ -18,14 +18,14 @@ def list_names() -> set[str]:
     return names
 
 
-def test_a_law_is_no_controller_and_a_run_is_named_by_its_id() -> None:
+def test_law_is_no_controller_and_a_run_is_named_by_its_id() -> None:
     names = list_names()
     assert names >= {"law", "run_id", "run_number"}
     assert not names & FORMER_WORDS
     assert not [path for path in SCHEMA["paths"] if path.endswith("/controller")]
 
 
-def test_the_ends_of_a_range_are_low_and_high_and_have_no_second_name() -> None:
+def test_ends_of_a_range_are_low_and_high_with_one_name() -> None:
     ends = {"least", "most", "greatest", "lowest", "highest", "min", "max", "minimum", "maximum"}
     fields = {
         f"{model}.{name}": field
@@ -36,7 +36,7 @@ def test_the_ends_of_a_range_are_low_and_high_and_have_no_second_name() -> None:
     assert not [path for path, field in fields.items() if field.get("deprecated")]
 
 
-def test_a_figure_has_its_load_whatever_starts_it() -> None:
+def test_figure_has_its_load_with_any_start() -> None:
     schemas = SCHEMA["components"]["schemas"]
     session, experiment = schemas["FromFigure"], schemas["FigureExperiment"]
     for name in ("law", "load", "comparisons", "effects"):

@@ -1,6 +1,7 @@
-"""The audit log of a class: who did what, where, at which tick, as lines of JSON.
+"""The audit log of a class: user, action, session and tick, as lines of JSON.
 
-What was sent is not in it, so that no secret is; the commands of a run stand in its record.
+It does not contain the content of requests, and therefore no secrets; the commands of a run are in
+its record.
 """
 
 import json
@@ -23,7 +24,7 @@ FILE = "audit.jsonl"
 _MAX_BYTES, _FILES = 10 * 1024 * 1024, 5
 _PLAIN = "%(message)s"
 NOWHERE = {"run": None, "tick": None, "in_control": None}
-"""Of what is not about a session; `HostedSession.read_instant` has it of one."""
+"""Fields of a request that is not about a session; otherwise see `HostedSession.read_instant`."""
 
 
 class AuditLog:
@@ -59,7 +60,7 @@ class AuditLog:
             self._listener.start()
 
     def close(self) -> None:
-        """Write what is left."""
+        """Write the remaining lines."""
         with self._turn:
             self._listener.stop()
         self._file.close()
@@ -82,7 +83,7 @@ class Auditor:
 
         async def send_noted(message: Message) -> None:
             nonlocal is_noted
-            # Before the answer leaves: the log is complete for the client that opens it next.
+            # Before the answer is sent: the log is complete for a client that opens it next.
             if not is_noted:
                 self._note(scope, message["status"])
                 is_noted = True

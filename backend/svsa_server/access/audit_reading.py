@@ -27,8 +27,14 @@ class Operation(NamedTuple):
 class Question(NamedTuple):
     """Which entries to read; empty or None selects any.
 
-    person: an id. kind: of an `Operation`. refused: whether it was. until: a time of the log, the
-    newest one to return, so that pages stay the same while lines are added.
+    Attributes:
+        person: Id of a user.
+        kind: Kind of an `Operation`.
+        refused: Whether it was rejected.
+        until: Time of the newest entry to return, so that pages stay the same while lines are
+            added.
+        page: Number of the page.
+        page_size: Entries per page.
     """
 
     person: str
@@ -96,7 +102,7 @@ def report(
     operations: list[Operation],
     known: dict[tuple[str, str], Operation | None],
 ) -> dict[str, Any]:
-    """Format an entry for display. known: cache of resolved requests."""
+    """Format an entry for display; `known` caches resolved requests."""
     status, problem = line.get("status"), line.get("problem")
     if "method" in line:
         call = line["method"], line["path"]

@@ -25,9 +25,11 @@ AuthenticationKind = Literal["open", "secret", "class"]
 
 
 class Authentication(Protocol):
-    """Identifies the caller of a request. kind: the way of authentication.
+    """Identifies the caller of a request.
 
-    patience: delays the answer to a wrong secret.
+    Attributes:
+        kind: Method of authentication.
+        patience: Delays the answer to a wrong secret.
     """
 
     kind: AuthenticationKind
@@ -49,11 +51,11 @@ class Authentication(Protocol):
 class Patience:
     """Delays answers to wrong secrets: half a second each, one at a time per address.
 
-    Each address has a lock of its own, so that guesses from one do not delay answers to another.
+    Each address has its own lock, so that guesses from one do not delay answers to another.
     """
 
     def __init__(self) -> None:
-        # A lock without waiting answers is collected, so that addresses do not accumulate.
+        # Unused locks are garbage-collected, so that addresses do not accumulate.
         self._failures: WeakValueDictionary[str, asyncio.Lock] = WeakValueDictionary()
 
     async def wait(self, address: str) -> None:
@@ -116,7 +118,7 @@ class SecretAuthentication:
 class ClassAuthentication:
     """A class: students join with a name and the code, the instructor has a token.
 
-    What they carry is good as long as the instructor has not removed them.
+    Cookies and tokens are valid until the instructor removes the user.
     """
 
     kind: AuthenticationKind = "class"
@@ -124,7 +126,7 @@ class ClassAuthentication:
     def __init__(self, keys: ClassKeys, people: People, members: Memberships) -> None:
         self.keys, self.people, self.members = keys, people, members
         self.patience = Patience()
-        # One thread: scrypt's 16 MB are kept by every thread that has used them.
+        # One thread: every thread that hashes keeps the 16 MB of scrypt.
         self._hashing = ThreadPoolExecutor(1, "class code")
 
     def admit(self, headers: Headers) -> Person | None:
@@ -138,8 +140,8 @@ class ClassAuthentication:
             return None
         else:
             member = membership.person
-            # A cookie from before keeps its role at most: a membership that has risen does not
-            # raise it, and one that has fallen does lower it.
+            # The role of an earlier cookie is an upper bound: a promotion does not raise it, and a
+            # demotion lowers it.
             person = member._replace(role=min(carried.role, member.role))
         self.people.hear(person)
         return person
@@ -170,21 +172,21 @@ class ClassAuthentication:
         return person
 
     async def rejoin(self, rejoin_code: str) -> Membership | None:
-        """Return the person of a rejoin code; the name may have got a number meanwhile."""
+        """Return the user of a rejoin code; the name may now have a number."""
         hashed = await self._hash(self.keys.hash_rejoin_code, rejoin_code)
         found = self.members.find_returning(hashed)
         if found is None or found.is_ended:
             return found
-        person = self.people.come(found.person)
+        person = self.people.enter(found.person)
         if person != found.person:
             found = found._replace(person=person)
             await asyncio.to_thread(self.members.keep, found)
         return found
 
     async def renew_rejoin_code(self, person: Person) -> str | None:
-        """Create a rejoin code for this person; the previous one becomes invalid.
+        """Create a rejoin code for this user; the previous one becomes invalid.
 
-        None for who has no membership, or carries less than its role.
+        None for a user without a membership, or with a lower role than its own.
         """
         found = self.members.find(person.id)
         if found is None or found.person != person:
@@ -195,7 +197,11 @@ class ClassAuthentication:
         return code
 
     async def set_removed(self, person_id: str, is_removed: bool) -> Person:
-        """Remove a person at once, or restore one; raises `UnknownError`."""
+        """Remove a user at once, or restore one.
+
+        Raises:
+            UnknownError: If there is no such user.
+        """
         person = await asyncio.to_thread(self.members.set_ended, person_id, is_removed)
         if is_removed:
             self.people.dismiss(person)
@@ -209,7 +215,7 @@ class ClassAuthentication:
     async def _hash(self, work: Callable[[str], T], code: str) -> T:
         """Hash one code at a time, outside the event loop.
 
-        Always in the same thread, since each one that hashes keeps the 16 MB that it takes.
+        Always in the same thread, because each thread that hashes keeps 16 MB.
         """
         return await asyncio.get_running_loop().run_in_executor(self._hashing, work, code)
 

@@ -1,8 +1,8 @@
-"""The class code and the instructor token: drawn once, shown once, kept as hashes.
+"""The class code and the instructor token: generated once, shown once, stored as hashes.
 
-The code is short enough to be read from a wall, so its hash is a slow one (scrypt); the token is
-256 random bits, for which a quick one is as good. What people carry, cookie or bearer token, is
-their name and role with a signature, and is worth nothing elsewhere or after its time.
+The code is short enough to be read from a projection, so its hash is slow (scrypt); the token is
+256 random bits, for which a fast hash is sufficient. A cookie or bearer token contains name and
+role with a signature, and is invalid in other labs and after its expiry.
 """
 
 import base64
@@ -22,7 +22,7 @@ from svsa_server.access.roles import Person, Role
 FILE = "class.json"
 LONGEST_SIGNED = 2000
 SIGNED_AGE_S = 120 * 24 * 3600
-_LETTERS = "ABCDEFGHJKMNPQRSTUVWXYZ23456789"  # none that is read as another
+_LETTERS = "ABCDEFGHJKMNPQRSTUVWXYZ23456789"  # no letters that can be confused
 _CODE_LENGTH, _RETURN_CODE_LENGTH, _GROUP = 8, 12, 4
 _TOKEN_PREFIX = "svsa-instructor-"  # noqa: S105
 _SCRYPT = {"n": 2**14, "r": 8, "p": 1}
@@ -36,7 +36,11 @@ class ShownOnce(NamedTuple):
 
 
 class ClassKeys:
-    """The secrets of a class, in a file that only this account reads. Raises `SecurityError`."""
+    """The secrets of a class, in a file that only this account can read.
+
+    Raises:
+        SecurityError: If the file cannot be used.
+    """
 
     def __init__(self, path: Path) -> None:
         self._path = path
@@ -89,9 +93,10 @@ class ClassKeys:
         return code
 
     def hash_rejoin_code(self, code: str) -> bytes:
-        """The hash of a rejoin code; takes some 50 ms.
+        """Hash a rejoin code; takes about 50 ms.
 
-        The salt is the class's own and not the person's, since the code alone says who comes.
+        The salt is that of the class and not of the user, because the code alone identifies the
+        user.
         """
         return _stretch(code, self._key.encode())
 
@@ -145,8 +150,8 @@ def _write(path: Path, kept: dict[str, str]) -> None:
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         partly.unlink(missing_ok=True)
-        # With its mode from the first moment: a later `chmod` would leave a time in which others
-        # read.
+        # The mode is set at creation: with a later `chmod` other accounts could read the file in
+        # between.
         descriptor = os.open(partly, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
         with os.fdopen(descriptor, "w", encoding="utf-8") as file:
             json.dump(kept, file)

@@ -1,7 +1,7 @@
 """Time limits for clients that stop in the middle of a request or stop reading.
 
-They block no other client, but each is a socket and what was to be sent, kept for as long as the
-other machine says that it lives. uvicorn closes such a WebSocket only once all was sent.
+Such clients block no other client, but each keeps a socket and unsent data as long as its machine
+keeps the connection open. uvicorn closes such a WebSocket only once all data were sent.
 """
 
 import asyncio
@@ -47,9 +47,9 @@ class BoundHttp(H11Protocol):
 
 
 class BoundWebSocket(WebSocketsSansIOProtocol):
-    """A WebSocket that ends where a ping is not answered within `ws_ping_timeout` s.
+    """A WebSocket that ends if a ping is not answered within `ws_ping_timeout` s.
 
-    What was still to be sent is thrown away: a client that reads nothing would never have it.
+    Unsent data are discarded, because a client that does not read would never receive them.
     """
 
     def keepalive_timeout(self) -> None:

@@ -1,7 +1,7 @@
 """ASGI middleware in front of the application: origin, host name, size, identity, permission.
 
-Without a secret and without a class the lab listens on loopback only, and a request must name a
-loopback host (a web site that points its own name at 127.0.0.1 does not get in).
+Without a secret and without a class the lab listens on loopback only, and requests must have a
+loopback host (this rejects a web site whose name resolves to 127.0.0.1).
 """
 
 import asyncio
@@ -47,9 +47,11 @@ class Refusal(Exception):  # noqa: N818
 class AccessGuard:
     """Rejects requests without permission, and stores the caller in `scope[PERSON]`.
 
-    permissions: of the routes behind it. hosts: names that it answers to besides its own.
-    find_owner: looks up the owner of an id that a request gives (see `owned`). rates: how often
-    people may, in a class.
+    Args:
+        permissions: Permissions of the routes behind it.
+        hosts: Additional host names of the lab.
+        find_owner: Looks up the owner of an id in a request (see `owned`).
+        rates: Rate limits per user, in a class.
     """
 
     def __init__(
@@ -127,8 +129,8 @@ class AccessGuard:
             message = f"This lab does not answer to {host[:80]!r}: name it in SVSA_HOSTS."
             raise Refusal(403, "unknown_host", message)
         length = Headers(scope=scope).get("content-length", "0")
-        # The length that is stated costs nothing to check; a body without one is counted as it
-        # comes, in `_bound_body`.
+        # A stated length is checked at once; a body without one is counted while it arrives, in
+        # `_bound_body`.
         if not length.isdecimal() or int(length) > LONGEST_BODY_BYTES:
             raise Refusal(413, "too_large", _TOO_LARGE)
 
@@ -138,13 +140,13 @@ class AccessGuard:
         permission = self._permissions.find(method, find_path(scope)).permission
         headers = Headers(scope=scope)
         person = self._authentication.admit(headers)
-        # Before the role is checked: wrong guesses must count, too.
+        # Before the role is checked, so that wrong guesses count, too.
         self._count(scope, person)
         if permission.role is None or person is ANY_USER:
             return person
         if person is None:
             if read_bearer(headers):
-                # A wrong token is a guess: those of an address are answered one after another,
+                # A wrong token is a guess: guesses from one address are answered one after another,
                 # half a second each.
                 await self._authentication.patience.wait(read_address(scope))
             raise Refusal(401, *self._authentication.describe_needed(headers))
@@ -170,7 +172,7 @@ def read_person(scope: Scope) -> Person:
 
 
 def read_address(scope: Scope) -> str:
-    """The network address that a request comes from; empty if the transport has none."""
+    """Return the client's network address; empty if the transport has none."""
     return scope["client"][0] if scope.get("client") else ""
 
 

@@ -1,7 +1,7 @@
-"""The memberships of a class: members, removed people, and rejoin codes.
+"""The memberships of a class: members, removed users, and rejoin codes.
 
-What people carry names a membership, and is worth what that is at each request: one that was ended
-is worth nothing from then on, also after a restart. Read from memory, written to a file at once.
+Cookies and tokens refer to a membership, which is checked at each request: after its end they are
+invalid, also after a restart. Memberships are read from memory, and written to a file at once.
 """
 
 import os
@@ -25,7 +25,7 @@ _TABLE = (
 
 
 class Membership(NamedTuple):
-    """A person of the class. return_hash: hash of the person's rejoin code, if there is one."""
+    """A user of the class; `return_hash` is the hash of the user's rejoin code, if there is one."""
 
     person: Person
     return_hash: bytes | None = None
@@ -33,9 +33,10 @@ class Membership(NamedTuple):
 
 
 class Memberships:
-    """The memberships, in a file that only this account reads; thread-safe.
+    """The memberships, in a file that only this account can read; thread-safe.
 
-    Raises `SecurityError` where the file cannot be read or written.
+    Raises:
+        SecurityError: If the file cannot be read or written.
     """
 
     def __init__(self, path: Path) -> None:
@@ -64,9 +65,12 @@ class Memberships:
         return sorted(ended, key=lambda person: (person.name.casefold(), person.id))
 
     def keep(self, membership: Membership) -> None:
-        """Save a new or changed membership. Raises `StateError` if the class is full.
+        """Save a new or changed membership.
 
-        On the disk before it holds, so that no restart takes it back.
+        It is written to the disk before it becomes effective, so that no restart reverts it.
+
+        Raises:
+            StateError: If the class is full.
         """
         person = membership.person
         with self._lock:
@@ -83,7 +87,11 @@ class Memberships:
             self._members[person.id] = membership
 
     def set_ended(self, person_id: str, is_ended: bool) -> Person:
-        """Remove a person or restore one; raises `UnknownError` if there is none."""
+        """Remove a user or restore one.
+
+        Raises:
+            UnknownError: If there is no such user.
+        """
         found = self._members.get(person_id)
         if found is None:
             raise UnknownError(f"No member of this class has the id {person_id[:80]!r}.")

@@ -1,8 +1,8 @@
 """Origin and host name of a request: pages of other sites are rejected.
 
-A site may point its own name at this machine, and its pages then have the same origin as the lab.
-So the lab answers to names that no other site can have: addresses, names of this machine, and
-those of its configuration.
+The name of another site can resolve to this machine, and its pages then have the same origin as the
+lab. Therefore the lab only accepts host names that no other site can have: addresses, names of this
+machine, and configured names.
 """
 
 import ipaddress
@@ -16,11 +16,11 @@ from svsa_server.config import is_loopback
 
 EVERYWHERE = ("0.0.0.0", "::")  # noqa: S104
 _ELSEWHERE = ("192.0.2.1", 9)
-"""An address that no machine has (RFC 5737): the way there begins at this machine's own."""
+"""An address that no machine has (RFC 5737), used to find this machine's own address."""
 
 
 def is_same_origin(scope: Scope) -> bool:
-    """Whether a request comes from the lab's own page, or not from a page at all."""
+    """Return whether a request comes from the lab's own page, or from no page."""
     headers = Headers(scope=scope)
     origin = headers.get("origin")
     if origin is None:
@@ -28,7 +28,7 @@ def is_same_origin(scope: Scope) -> bool:
     try:
         return urlsplit(origin).netloc.lower() == headers.get("host", "").lower()
     except ValueError:
-        # urlsplit rejects an unclosed bracket, as in http://[::1: no browser sends that.
+        # urlsplit rejects an unclosed bracket, as in http://[::1, which no browser sends.
         return False
 
 
@@ -41,7 +41,9 @@ def read_host(scope: Scope) -> str:
 
 
 def is_own_name(host: str, reported: frozenset[str]) -> bool:
-    """Whether a lab that other machines reach serves this name. reported: its configured names."""
+    """Return whether a lab that other machines can reach has this host name; `reported` are its
+    configured names.
+    """
     if is_loopback(host) or host.lower() in reported | _find_own_names():
         return True
     try:

@@ -1,7 +1,7 @@
-"""Ids of things with an owner: marked by type, checked in one place.
+"""Ids of objects with an owner: marked by type, checked in one place.
 
-Every id that a request gives, in its path, query or body, has a type that is marked as `Owned`.
-Reading such an id notes a claim. `settle_claims` checks all claims before any route uses an id.
+Every id in the path, query or body of a request has a type that is marked as `Owned`. Validating
+such an id records a claim. `settle_claims` checks all claims before any route uses an id.
 """
 
 from collections.abc import Awaitable, Callable
@@ -17,12 +17,15 @@ from svsa_server.problems import NotYoursError, UnknownError
 
 Kind = Literal["session", "run", "job", "study", "study source", "person"]
 EXTENSION = "x-owned"
-"""Of an id's JSON schema: the kind of thing that it names."""
+"""Key in the JSON schema of an id: the kind of the object."""
 
 
 class Owner(NamedTuple):
-    """The owner of a thing. id: of the person; empty: all users. is_shown: all users may read
-    it.
+    """The owner of an object.
+
+    Attributes:
+        id: Id of the user; empty: all users.
+        is_shown: Whether all users may read it.
     """
 
     id: str
@@ -30,15 +33,15 @@ class Owner(NamedTuple):
 
 
 FindOwner = Callable[[Kind, str], Awaitable[Owner | None]]
-"""Return the owner of a thing by kind and id; None if there is no such thing."""
+"""Return the owner of an object by kind and id; None if there is no such object."""
 
 
 @dataclass(frozen=True)
 class Owned:
-    """Mark a text type as the id of a thing that has an owner.
+    """Marks a text type as the id of an object that has an owner.
 
     Args:
-        kind: What the id names.
+        kind: Kind of the object.
         changes: True if the caller must be allowed to change it, not only to read it.
     """
 
@@ -65,7 +68,7 @@ class Owned:
 
 
 class Claims:
-    """The ids that one request names, until they are checked.
+    """The ids in one request until they are checked.
 
     Args:
         person: The caller; None for an anonymous one.
@@ -80,9 +83,9 @@ class Claims:
         """Check the pending claims.
 
         Raises:
-            UnknownError: There is no such thing, or the caller may not read it. Both have the
+            UnknownError: If there is no such object, or the caller may not read it. Both have the
                 same message, so that an answer does not disclose which ids exist.
-            NotYoursError: The caller may read it, but not change it.
+            NotYoursError: If the caller may read it, but not change it.
         """
         while self.pending:
             owned, name = self.pending.pop(0)

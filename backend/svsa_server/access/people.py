@@ -1,4 +1,4 @@
-"""The users of a class who were active lately. Times are monotonic, s."""
+"""The recently active users of a class. Times are monotonic, s."""
 
 import asyncio
 import contextlib
@@ -24,9 +24,9 @@ class People:
 
     def join(self, name: str, role: Role) -> Person:
         """Add a new person; a name that is in use gets a number."""
-        return self.come(Person(f"p-{secrets.token_hex(6)}", name, role))
+        return self.enter(Person(f"p-{secrets.token_hex(6)}", name, role))
 
-    def come(self, person: Person) -> Person:
+    def enter(self, person: Person) -> Person:
         """Register a person, new or returning, under a name that is not in use."""
         name = person.name
         taken = {one.name for one in self.list_here() if one.id != person.id}
@@ -71,7 +71,7 @@ class People:
         return known and known[0]
 
     def list_here(self) -> list[Person]:
-        """List who was active within the last minute, sorted by name."""
+        """List the users who were active within the last minute, sorted by name."""
         since = self._clock() - HERE_S
         here = [person for person, heard in self._heard.values() if heard >= since]
         return sorted(here, key=lambda person: (person.name.casefold(), person.id))

@@ -2,8 +2,8 @@
 
 `allow` declares a permission at the function of a route. `PermissionTable` is built from the routes
 of the application and rejects a route without a permission, so the server does not start with one.
-A request that fits no route needs the instructor. Whether the caller may use what a request names
-by id is checked where the id is read (see `owned`).
+A request without a matching route needs the instructor. Ids in a request are checked where they are
+validated (see `owned`).
 """
 
 from collections import Counter
@@ -36,14 +36,17 @@ OBSERVER = Permission(Role.OBSERVER)
 OPERATOR = Permission(Role.OPERATOR)
 INSTRUCTOR_ONLY = Permission(Role.INSTRUCTOR)
 FROM_ELSEWHERE = frozenset({"/lti/login", "/lti/launch"})
-"""What pages of other sites may ask for: a platform that launches proves itself by its token."""
+"""Routes that pages of other sites may call: a platform that launches is authenticated by its
+token.
+"""
 
 
 def allow(permission: Permission) -> Callable[[T], T]:
-    """Declare who may call a route, directly above its function and below the router's decorator.
+    """Declare the permission of a route, directly above its function and below the router's
+    decorator.
 
     Args:
-        permission: The least role.
+        permission: The lowest role.
 
     Returns:
         A decorator that returns the same function, or mounted application, with its permission.
@@ -57,7 +60,13 @@ def allow(permission: Permission) -> Callable[[T], T]:
 
 
 class Entry(NamedTuple):
-    """One line of the table. method: of HTTP, or WEBSOCKET. path: with its parameters in braces."""
+    """One line of the table.
+
+    Attributes:
+        method: HTTP method, or WEBSOCKET.
+        path: Path with parameters in braces.
+        permission: The lowest role.
+    """
 
     method: str
     path: str
@@ -72,13 +81,13 @@ class Found(NamedTuple):
 
 
 class PermissionTable:
-    """The permission of every route of an application, in the order in which routes are tried.
+    """The permission of every route of an application, in the order in which routes are matched.
 
     Args:
         routes: All routes of the application.
 
     Raises:
-        RuntimeError: A route states no permission, or two routes have one method and path.
+        RuntimeError: If a route has no permission, or two routes have the same method and path.
     """
 
     def __init__(self, routes: Iterable[BaseRoute]) -> None:
@@ -91,7 +100,9 @@ class PermissionTable:
         self.find = lru_cache(maxsize=1024)(self._find)
 
     def _find(self, method: str, path: str) -> Found:
-        """Return what a method (or WEBSOCKET) at a path needs: the instructor if it is no route."""
+        """Return the role required for a method (or WEBSOCKET) at a path; the instructor without a
+        route.
+        """
         method = "GET" if method == "HEAD" else method
         for entry, pattern in self._compiled:
             if entry.method == method and (match := pattern.match(path)):

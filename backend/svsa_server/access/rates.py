@@ -28,7 +28,7 @@ _WORDS: dict[Kind, str] = {"codes": "wrong class codes of a name", "logins": "wr
 
 
 def find_kind(method: str, path: str) -> Kind | None:
-    """Return what a request counts as; reading and stopping are not limited."""
+    """Return the kind of request for the rate limit; reading and stopping are not limited."""
     whole, last = f"{method} {path}", f"{method} /{path.rpartition('/')[2]}"
     if method not in CHANGING or last in _STOPS or whole in _COUNTED_WHEN_WRONG:
         return None

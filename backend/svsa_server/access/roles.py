@@ -1,4 +1,4 @@
-"""Roles, and the people who have them."""
+"""Roles and users."""
 
 from enum import IntEnum
 from typing import Literal, NamedTuple
@@ -7,10 +7,10 @@ RoleName = Literal["observer", "operator", "instructor"]
 
 
 class Role(IntEnum):
-    """The role of a user; each role includes the permissions of those before it.
+    """The role of a user; each role includes the permissions of the previous ones.
 
-    An observer watches, measures and stops. An operator also requests control of the shared
-    session, and has private sessions and runs. An instructor takes and locks control, and sees
+    An observer can watch, measure and stop. An operator can also request control of the shared
+    session, and has private sessions and runs. An instructor can take and lock control, and sees
     the data of all users.
     """
 
@@ -34,8 +34,10 @@ _WORDS: dict[Role, RoleName] = {
 class Person(NamedTuple):
     """The authenticated caller.
 
-    id: what sessions and runs know their maker by; empty where the lab knows no persons. name: as
-    all users see.
+    Attributes:
+        id: Owner id of sessions and runs; empty in a lab without users.
+        name: Name that other users see.
+        role: Role of the user.
     """
 
     id: str

@@ -45,7 +45,7 @@ def serve(
     Listening beyond this machine needs --class, or a shared secret in SVSA_SECRET.
     """
     require_extra("server")
-    gc.disable()  # until the lab answers: what is read on the way stays
+    gc.disable()  # until the server listens: the objects of the imports stay
     try:
         from svsa_server.commands.serve import run_server
 

@@ -16,7 +16,8 @@ _POLL_S = 0.2
 def watch_keyboard(stop: Callable[[], None]) -> Iterator[bool]:
     """Call `stop` at a key of `KEYS`, in a thread that needs neither server nor page.
 
-    Yields whether there is a keyboard: standard input is a terminal of a POSIX system.
+    Yields:
+        Whether there is a keyboard: standard input is a terminal of a POSIX system.
     """
     if sys.platform == "win32" or sys.stdin is None or not sys.stdin.isatty():
         yield False

@@ -14,7 +14,10 @@ _POLL_S = 0.2
 def play_excitation(url: str, session: str, name: str) -> str:
     """Play the excitation, wait for its record, print the run's id and return it.
 
-    Raises what the lab's refusal is in the library, and `LabError` if it is interrupted.
+    A rejection raises the exception of the library.
+
+    Raises:
+        LabError: If it is interrupted.
     """
     with connect(url, Settings().secret_text) as lab:
         excited = lab.open_session(session)

@@ -14,13 +14,16 @@ from pythonjsonlogger.json import JsonFormatter
 from rich.console import Console
 from uvicorn.config import LOGGING_CONFIG
 
+from svsa.actuators.parameters import get_mechanism_name
 from svsa.cli import prepare
 from svsa.control.installed import BASELINE, PAPERS_LAW
 from svsa.errors import ParameterError, StateError, SvsaError, Violation
+from svsa.hardware.file import read_bench
+from svsa.hardware.realtime.configuration import read_bench_design
 from svsa.hardware.safety.heartbeat import check_shared_memory
+from svsa.inputs.data_folder import DATA_VARIABLE, find_data_folder
 from svsa.inputs.file_lock import try_lock
-from svsa.runs.configuration import read_design
-from svsa.runs.records.catalogue.runs import DATA_VARIABLE, find_data_folder
+from svsa.runs.design_file import read_design
 from svsa.teaching.course.file import read_course
 from svsa_server.access.class_keys import FILE, ClassKeys, ShownOnce
 from svsa_server.access.connections import BoundHttp, BoundWebSocket
@@ -31,13 +34,14 @@ from svsa_server.config import Settings
 
 SEND_BUFFER_BYTES = 64 * 1024
 KEPT_S = 15
-"""A connection is kept silent for so long: httpx uses one again within 5 s, and what it asks on one
-that is closed just then is lost."""
+"""Time for which an idle connection is kept, s: httpx reuses connections within 5 s, and a request
+on a connection that is closed at that moment is lost.
+"""
 
 
 LOCK_FILE = "server.lock"
 LONGEST_EXIT_S = 10.0
-"""After the sessions are closed: a thread that computes may still be waited for."""
+"""Maximum time from closing the sessions to the exit, s, while a computing thread is waited for."""
 
 
 class ListenError(SvsaError):
@@ -47,7 +51,8 @@ class ListenError(SvsaError):
 def bind(host: str, port: int) -> socket.socket:
     """Bind a socket with a small send buffer, so that slow clients are detected early.
 
-    Raises `ListenError` with the reason and what to do.
+    Raises:
+        ListenError: If that fails, with the reason and what to do.
     """
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
     listener = socket.socket(family, socket.SOCK_STREAM)
@@ -66,9 +71,8 @@ def bind(host: str, port: int) -> socket.socket:
 class AnnouncedServer(uvicorn.Server):
     """A server that prints its address once it accepts requests.
 
-    What is there by then stays to the end: Python, which would look through it for circles again
-    and again, 0.2 s a time in which nothing else goes on, does so from then on only, and leaves
-    it alone.
+    Objects that exist by then are excluded from garbage collection, which would take 0.2 s each
+    time and block the server; the collector is enabled at that time.
     """
 
     announcement = ""
@@ -93,9 +97,13 @@ def run_server(
 ) -> None:
     """Serve the lab until a signal ends it, with a bench if its file is given.
 
-    Raises `SecurityError`, `ListenError`, `ParameterError` for a wrong bench file or exercise, and
-    `StateError` without shared memory. A bench is opened while the lab is served already, see
-    `open_bench`.
+    A bench is opened while the lab is already served, see `open_bench`.
+
+    Raises:
+        SecurityError: If the lab would be reachable without authentication.
+        ListenError: If the server cannot listen.
+        ParameterError: If a bench file or exercise is invalid.
+        StateError: Without shared memory.
     """
     config = Settings()
     bench = bench or config.bench
@@ -119,27 +127,30 @@ def run_server(
     chosen = config.choose_host(host)
     config.check_exposure(chosen)
     if config.classroom and sys.platform != "win32":
-        # Names, addresses and runs of a class are for the account of the server only.
+        # Only the account of the server may read names, addresses and runs of a class.
         os.umask(0o077)
-    # Before laws are compiled: a port or folder that is in use is reported at once.
+    # Before laws are compiled, so that a port or folder in use is reported at once.
     listener = bind(chosen, port)
     claim = claim_data_folder(find_data_folder())
-    # A bench's loop cannot wait for a compiler: it has every law before it begins.
-    prepare((PAPERS_LAW, BASELINE) if bench is None else None)
+    # The loop of a bench cannot wait for the compiler: all laws are compiled before it starts.
+    if bench is None:
+        prepare((PAPERS_LAW, BASELINE))
+    else:
+        prepare(actuator=get_mechanism_name(read_bench_design(read_bench(bench)).actuator))
     keys, reported = ClassKeys.open(find_data_folder()) if config.classroom else (None, None)
-    from svsa_server.app import build_app  # late: a refusal above should not wait for it
+    from svsa_server.app import build_app  # imported here: rejections come first
     from svsa_server.responsive import ResponsiveApp
     from svsa_server.sessions.laboratory import build_shared_session
 
     shared = build_shared_session(bench, design)
-    # Sessions run in a thread of their own: one that blocks leaves health, the quick stop and the
-    # end of the server to this thread.
+    # Sessions run in a separate thread: if one blocks, health checks, the quick stop and the
+    # shutdown still work in this thread.
     lab = ResponsiveApp(build_app(config, shared, keys, chosen, print_line), shared)
     server = AnnouncedServer(
         uvicorn.Config(
             lab,
             log_level="warning",
-            # In JSON all loggers write through the same handler.
+            # In JSON format all loggers write through one handler.
             log_config=None if config.log == "json" else LOGGING_CONFIG,
             http=BoundHttp,
             ws=BoundWebSocket,
@@ -168,7 +179,7 @@ def run_server(
 
 
 def claim_data_folder(folder: Path) -> IO[str] | None:
-    """Keep other servers out of a data folder for as long as the returned file is open.
+    """Lock a data folder against other servers as long as the returned file is open.
 
     Two servers would finish, rename and delete each other's recordings.
 
@@ -176,10 +187,10 @@ def claim_data_folder(folder: Path) -> IO[str] | None:
         folder: The data folder; it is created if it does not exist.
 
     Returns:
-        The locked file; None if the folder cannot be written, because then nothing is recorded.
+        The locked file; None if the folder cannot be written, because then no run is recorded.
 
     Raises:
-        StateError: Another server uses this folder.
+        StateError: If another server uses this folder.
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -234,12 +245,12 @@ def describe_class(reported: ShownOnce | None) -> str:
     return (
         f"A class. Students join with their name and the code [bold]{reported.code}[/].\n"
         f"The instructor's token: [bold]{reported.instructor_token}[/]\n"
-        "Neither is shown again, nor kept but as a hash."
+        "Write down both now: the lab stores only their hashes and does not show them again."
     )
 
 
 def describe_address(asked: str, host: str, port: int) -> str:
-    """Describe the lab's address, and who can reach it."""
+    """Describe the lab's address, and from where it can be reached."""
     everywhere = host in EVERYWHERE
     name = "localhost" if everywhere else host
     reach = " and on every address of this machine" if everywhere else ""

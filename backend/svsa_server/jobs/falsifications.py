@@ -22,7 +22,7 @@ _WORST, _OUTCOMES, _SCENARIO = "worst.toml", "outcomes.json", "scenario.toml"
 _STEPS = "steps.json"
 
 
-class Asked(NamedTuple):
+class Task(NamedTuple):
     """What is to be searched."""
 
     adversary: Adversary
@@ -30,7 +30,7 @@ class Asked(NamedTuple):
     seed: int
 
 
-def search(folder: JobFolder, asked: Asked) -> bool:
+def search(folder: JobFolder, task: Task) -> bool:
     """Search in a worker, then run laws in the scenario found; return whether the search was
     complete.
     """
@@ -39,18 +39,18 @@ def search(folder: JobFolder, asked: Asked) -> bool:
         replace_file(folder.path / _WORST, format_scenario(scenario).encode())
 
     found = falsify(
-        asked.adversary,
-        runs=asked.runs,
-        seed=asked.seed,
-        on_generation=lambda done, worst: folder.report(done, asked.runs),
+        task.adversary,
+        runs=task.runs,
+        seed=task.seed,
+        on_generation=lambda done, worst: folder.report(done, task.runs),
         on_worse=keep_worst,
         is_cancelled=folder.is_cancelled,
     )
-    folder.report(len(found.severities), asked.runs)
+    folder.report(len(found.severities), task.runs)
     keep_worst(found.as_found)
     steps = [] if found.shrunk is None else [*found.shrunk.steps]
     (folder.path / _STEPS).write_text(json.dumps(steps), encoding="utf-8")
-    compared = run_scenario(found.scenario, list_baselines(asked.adversary.law))
+    compared = run_scenario(found.scenario, list_baselines(task.adversary.law))
     outcomes = make_plain([one._asdict() for one in compared])
     (folder.path / _OUTCOMES).write_text(json.dumps(outcomes), encoding="utf-8")
     (folder.path / _SCENARIO).write_text(format_scenario(found.scenario), encoding="utf-8")
@@ -90,7 +90,7 @@ def read_found(folder: Path) -> Found | None:
 
 POINTS = 1200
 DIGITS = 8
-"""After the point, of rad and N·m/rad: what a picture shows of them."""
+"""Decimals of rad and N·m/rad that a picture needs."""
 _TORQUES, _ERRORS = 3, 2
 
 

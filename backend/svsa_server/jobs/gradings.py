@@ -13,10 +13,15 @@ WORKERS = min(4, os.cpu_count() or 1)
 """All cores of a small machine: live sessions have priority."""
 
 
-class Asked(NamedTuple):
-    """What is to be graded. runs: folder of the runs. book: the class's folder.
+class Task(NamedTuple):
+    """A request for grading.
 
-    again: also what has its grade.
+    Attributes:
+        files: Files of the submissions.
+        exercises: Exercises of the course.
+        runs: Folder of the runs.
+        book: Folder of the class's gradebook.
+        again: Whether to grade submissions that already have a grade.
     """
 
     files: tuple[Path, ...]
@@ -26,14 +31,14 @@ class Asked(NamedTuple):
     again: bool
 
 
-def grade_all(folder: JobFolder, asked: Asked) -> bool:
+def grade_all(folder: JobFolder, task: Task) -> bool:
     """Grade in a worker; return whether all were graded. Finished grades are saved."""
     return grade_class(
-        asked.files,
-        asked.exercises,
-        asked.runs,
-        Book(asked.book),
-        asked.again,
+        task.files,
+        task.exercises,
+        task.runs,
+        Book(task.book),
+        task.again,
         folder.report,
         folder.is_cancelled,
         WORKERS,

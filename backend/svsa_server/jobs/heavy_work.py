@@ -1,7 +1,7 @@
 """Work of a few seconds in worker processes: exports, replays, comparisons, maps, laws in ranking.
 
-They take seconds of computing, which would make every live session late, so that a worker has a
-low priority. If the queue is full, the request is rejected with a time after which to retry.
+In the server it would delay every live session, therefore it runs in workers with low priority. If
+the queue is full, the request is rejected with a time after which to retry.
 """
 
 import asyncio
@@ -31,7 +31,7 @@ class BusyError(SvsaError):
 class HeavyWork:
     """The worker processes of one server, started when first needed.
 
-    most: number of jobs that run or wait. workers: processes.
+    `most` is the maximum number of running and waiting jobs, `workers` the number of processes.
     """
 
     def __init__(self, most: int, workers: int = MAX_WORKERS) -> None:
@@ -50,13 +50,13 @@ class HeavyWork:
             )
         self._taken += 1
         try:
-            # In a thread: the first worker of a server takes 2.4 s of processor time to begin, and
-            # the event loop stood still for as long.
+            # In a thread: the first worker process takes 2.4 s of processor time to start, which
+            # would block the event loop.
             return await asyncio.wrap_future(
                 await asyncio.to_thread(self._hand_over, job, *arguments)
             )
         except BrokenProcessPool:
-            # A pool that has lost a process takes no more work; the next job begins another one.
+            # A pool that has lost a process accepts no more work; the next job starts a new pool.
             self._pool = None
             raise BusyError("The process of this job has ended: try again.") from None
         finally:
@@ -91,7 +91,7 @@ class HeavyWork:
         with self._handing_over:
             pool, self._pool = self._pool, None
             if pool is not None:
-                workers = [*(pool._processes or {}).values()]  # Python 3.14 has a name for it
+                workers = [*(pool._processes or {}).values()]  # public in Python 3.14
                 pool.shutdown(wait=False, cancel_futures=True)
                 for worker in workers:
                     worker.terminate()

@@ -14,8 +14,12 @@ RATED_S = 15.0
 
 
 class Progress(NamedTuple):
-    """Progress of a job. done, total: candidates or runs. rate_per_s: recent rate, None if
-    unknown.
+    """Progress of a job.
+
+    Attributes:
+        done: Number of finished candidates or runs.
+        total: Number of all candidates or runs.
+        rate_per_s: Recent rate, None if unknown.
     """
 
     done: int = 0

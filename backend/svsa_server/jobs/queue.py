@@ -1,9 +1,9 @@
 """Long-running jobs, each in its own process, which users follow and cancel.
 
-A job's worker writes its progress into a folder, and reads there whether it has to stop. The
-server only reads, so that a job does not depend on who follows it. It has a low priority, and ends
-with the server. In a class each person has a fair share: a few jobs at once, a limited time, and
-turns by person; the instructor has a place of their own.
+The worker of a job writes its progress into a folder, and reads there whether to stop. The server
+only reads, so that a job does not depend on its followers. It has a low priority, and ends with the
+server. In a class each user has a fair share: a few jobs at once, a limited time, and turns by
+user; the instructor has a separate place.
 """
 
 import asyncio
@@ -27,7 +27,7 @@ from svsa_server.problems import TooManyError, UnknownError
 
 MAX_KEPT = 50
 GRACE_S = 10.0
-"""How long a job beyond its time may take to stop and keep what is done, before it is ended."""
+"""Time for a job to stop and keep partial results after its limit, before it is killed, s."""
 
 Kind = Literal["tuning", "study", "falsification", "submission", "grading"]
 Status = Literal["waiting", "running", "done", "cancelled", "failed"]
@@ -42,15 +42,15 @@ PLURALS: dict[Kind, str] = {
 _log = logging.getLogger("svsa")
 
 Work = Callable[..., bool]
-"""Called in the worker with the `JobFolder` and what is asked; whether it was completed."""
+"""Called in the worker with the `JobFolder` and the task; returns whether it was completed."""
 
 
 class Share(NamedTuple):
-    """The limits of each person of a class for jobs of one kind; the instructor is exempt.
+    """The limits of each user of a class for jobs of one kind; the instructor is exempt.
 
     Args:
-        most: Jobs that run or wait at once.
-        longest_s: Time that one job may run, s.
+        most: Maximum number of running and waiting jobs.
+        longest_s: Maximum time of one job, s.
     """
 
     most: int
@@ -60,7 +60,8 @@ class Share(NamedTuple):
 class _Queue:
     """The jobs of one kind, of which one runs at a time.
 
-    most: how many run or wait. share: of each person; None where the lab knows no persons.
+    `most` is the maximum number of running and waiting jobs; `share` that of each user, None in a
+    lab without users.
     """
 
     def __init__(self, most: int, share: Share | None) -> None:
@@ -78,9 +79,9 @@ class _Queue:
 
     @contextlib.asynccontextmanager
     async def turn(self, job: "Job") -> AsyncIterator[None]:
-        """Wait for this job's turn: the instructor first, then the person served longest ago.
+        """Wait for this job's turn: the instructor first, then the user served longest ago.
 
-        Jobs of one person run in the order in which they were started.
+        Jobs of one user run in the order in which they were started.
         """
         self._waiting.append(job)
         try:
@@ -105,15 +106,18 @@ class _Queue:
 
 
 class Job:
-    """One piece of long work. asked: what its worker is given. folder: where that writes.
+    """One long-running job.
 
-    owner: the id of the person who started it; empty if it belongs to all users.
+    Attributes:
+        task: Request that the worker receives.
+        folder: Folder to which the worker writes.
+        owner: Id of the user who started it; empty if it belongs to all users.
     """
 
-    def __init__(self, kind: Kind, title: str, asked: Any, folder: Path, owner: str) -> None:
+    def __init__(self, kind: Kind, title: str, task: Any, folder: Path, owner: str) -> None:
         self.id, self.title = folder.name, title
         self.kind: Kind = kind
-        self.asked, self.folder, self.owner = asked, folder, owner
+        self.task, self.folder, self.owner = task, folder, owner
         self.created = datetime.now(UTC).isoformat(timespec="seconds")
         self.status: Status = "waiting"
         self.problem: str | None = None
@@ -139,7 +143,7 @@ class Job:
             async with queue.turn(self):
                 self.status = "running"
                 worked = asyncio.ensure_future(
-                    queue.worker.run(_work, work, self.folder, self.asked)
+                    queue.worker.run(_work, work, self.folder, self.task)
                 )
                 try:
                     is_late = share is not None and await self._stop_late(queue, worked, share)
@@ -155,9 +159,9 @@ class Job:
             self.status, self.problem = "failed", str(error) or type(error).__name__
 
     async def _stop_late(self, queue: _Queue, worked: "asyncio.Future[bool]", share: Share) -> bool:
-        """Stop a job that takes longer than its person's share; return whether it did.
+        """Stop a job that exceeds its user's share of time; return whether it did.
 
-        It may stop itself and keep what is done; a worker that does not is ended.
+        It may stop itself and keep partial results; otherwise the worker is ended.
         """
         if (await asyncio.wait({worked}, timeout=share.longest_s))[0]:
             return False
@@ -169,10 +173,11 @@ class Job:
         return True
 
     def cancel(self) -> None:
-        """End the job at once if it waits, otherwise as soon as it can; results so far are kept."""
+        """Cancel a waiting job at once, a running one as soon as possible; partial results are
+        kept.
+        """
         ask_to_stop(self.folder)
-        # A running job ends itself, with what is done kept; one that waits has nothing to
-        # keep.
+        # A running job ends itself and keeps its partial result; a waiting one has none.
         if self.status == "waiting":
             self.drop()
 
@@ -192,8 +197,8 @@ class Job:
 class Jobs:
     """The jobs of one server; the latest are stored. One job of each kind runs at a time.
 
-    most: of each kind how many run or wait; one more is rejected, but for the instructor, who has
-    a place of their own. share: of each person of a class; None where the lab knows no persons.
+    `most` is the maximum number of running and waiting jobs of each kind; the instructor has one
+    additional place. `share` is that of each user of a class; None in a lab without users.
     """
 
     def __init__(self, most: Mapping[Kind, int], share: Share | None = None) -> None:
@@ -201,12 +206,17 @@ class Jobs:
         self._kept: OrderedDict[str, Job] = OrderedDict()
         self._place = tempfile.TemporaryDirectory(prefix="svsa-", ignore_cleanup_errors=True)
 
-    def start(self, kind: Kind, title: str, work: Work, asked: Any, owner: str = "") -> Job:
-        """Begin a job, or queue it; raises `BusyError` and `TooManyError`."""
+    def start(self, kind: Kind, title: str, work: Work, task: Any, owner: str = "") -> Job:
+        """Start a job, or queue it.
+
+        Raises:
+            BusyError: If the queue is full.
+            TooManyError: If the user has too many jobs.
+        """
         self.check_room(kind, owner)
         folder = Path(self._place.name) / uuid4().hex[:12]
         folder.mkdir()
-        job = self._kept[folder.name] = Job(kind, title, asked, folder, owner)
+        job = self._kept[folder.name] = Job(kind, title, task, folder, owner)
         job.begin(self._queues[kind], work)
         ended = [one for one in self._kept.values() if not one.is_under_way]
         for old in ended[: max(0, len(self._kept) - MAX_KEPT)]:
@@ -214,11 +224,12 @@ class Jobs:
         return job
 
     def check_room(self, kind: Kind, owner: str = "") -> None:
-        """Check that one more job of this kind and person is allowed.
+        """Check that one more job of this kind and user is allowed.
 
         Raises:
-            TooManyError: This person has as many under way as each person may have.
-            BusyError: As many are under way as this lab takes; the instructor has one place more.
+            TooManyError: If this user has the maximum number of jobs per user.
+            BusyError: If the lab has the maximum number of jobs; the instructor has one additional
+                place.
         """
         queue = self._queues[kind]
         under_way = [job for job in self.list_all(kind) if job.is_under_way]
@@ -239,7 +250,11 @@ class Jobs:
             )
 
     def get(self, name: str, kind: Kind | None = None) -> Job:
-        """Return the job of this id (and kind, if given); raises `UnknownError`."""
+        """Return the job of this id (and kind, if given).
+
+        Raises:
+            UnknownError: If there is no such job.
+        """
         job = self._kept.get(name)
         if job is None or kind not in (None, job.kind):
             raise UnknownError(
@@ -267,10 +282,10 @@ def _describe_late(share: Share) -> str:
     )
 
 
-def _work(work: Work, folder: Path, asked: Any) -> bool:
+def _work(work: Work, folder: Path, task: Any) -> bool:
     """Run a job in its worker."""
     place = JobFolder(folder)
     try:
-        return work(place, asked)
+        return work(place, task)
     finally:
         place.write()

@@ -4,7 +4,8 @@ from typing import Any
 
 from svsa.evaluation.studies.execution import run_study
 from svsa.evaluation.studies.replay import record_replay, replay_row
-from svsa.evaluation.studies.store import StoredStudy, read_rows
+from svsa.evaluation.studies.rows import read_rows
+from svsa.evaluation.studies.stored import StoredStudy
 from svsa.evaluation.studies.summary import (
     compare_laws,
     estimate_sensitivity,
@@ -16,7 +17,7 @@ from svsa.runs.records.catalogue.runs import Catalogue
 from svsa_server.jobs.heavy_work import MAX_WORKERS
 from svsa_server.jobs.progress import JobFolder
 
-ROWS_A_PART = 256
+ROWS_PER_PART = 256
 MAX_ROWS = 10**7
 
 
@@ -25,7 +26,7 @@ def run(folder: JobFolder, stored: StoredStudy) -> bool:
     return run_study(
         stored,
         workers=MAX_WORKERS if MAX_WORKERS > 1 else 0,
-        rows_a_part=ROWS_A_PART,
+        rows_per_part=ROWS_PER_PART,
         progress=folder.report,
         is_cancelled=folder.is_cancelled,
     )

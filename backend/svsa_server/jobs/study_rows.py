@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 import pyarrow as pa
-import pyarrow.compute as pc
 
-from svsa.evaluation.studies.store import StoredStudy, StudyError, list_parts, read_rows
+from svsa.evaluation.studies.rows import list_parts, read_rows
+from svsa.evaluation.studies.stored import StoredStudy, StudyError
 from svsa.evaluation.studies.tables import make_plain
 from svsa.evaluation.studies.work import DRAW, ROW, build_schema
 from svsa.inputs.checked import check_number
@@ -20,9 +20,9 @@ _TRIES = 3
 
 
 def read_columns(stored: StoredStudy, columns: Sequence[str]) -> pa.Table:
-    """Read some columns of all finished rows; of a study without rows an empty table.
+    """Read some columns of all finished rows; an empty table for a study without rows.
 
-    A study that ends meanwhile joins its parts into one table: then they are read again.
+    A study that ends at the same time joins its parts into one table: then they are read again.
     """
     for left in reversed(range(_TRIES)):
         if not list_parts(stored):
@@ -36,7 +36,12 @@ def read_columns(stored: StoredStudy, columns: Sequence[str]) -> pa.Table:
 
 
 def read_row(stored: StoredStudy, row: int) -> dict[str, Any]:
-    """Read all columns of one row; raises `ParameterError`, and `StudyError` if it is not done."""
+    """Read all columns of one row.
+
+    Raises:
+        ParameterError: If there is no such row.
+        StudyError: If it is not finished.
+    """
     check_number("row", row, "", 0, stored.study.row_count - 1)
     table = read_columns(stored, build_schema(stored.study).names)
     found = table.filter(pa.array(table[ROW].to_numpy() == row)).to_pylist()
@@ -62,9 +67,9 @@ def thin_out(rows: pa.Table, laws: int, most: int) -> pa.Table:
 def pack_rows(stored: StoredStudy, columns: Sequence[str], most: int) -> bytes:
     """Pack a table: uint32 length of the header; JSON header, padded to 8 bytes; columns.
 
-    header: `rows`, how many there are here; `total`, how many are done; `columns`, of each `name`
-    and, of one of texts, its `labels`. A column is float64, little-endian: a number, the index of
-    a label, 1 or 0 for yes or no, NaN where there is none. `row` comes first.
+    The header has `rows` (number of rows), `total` (number of finished rows), and `columns`, each
+    with `name` and for texts `labels`. A column is float64, little-endian: a number, the index of a
+    label, 1 or 0 for true or false, NaN for a missing value. `row` comes first.
     """
     names = [ROW, *(name for name in columns if name != ROW)]
     whole = read_columns(stored, [*dict.fromkeys([*names, DRAW])])
@@ -83,6 +88,6 @@ def pack_rows(stored: StoredStudy, columns: Sequence[str], most: int) -> bytes:
 def _pack_column(values: pa.Array) -> tuple[np.ndarray, list[str] | None]:
     if pa.types.is_string(values.type):
         coded = values.dictionary_encode()
-        numbers = pc.fill_null(pc.cast(coded.indices, pa.float64()), np.nan)
+        numbers = coded.indices.cast(pa.float64()).fill_null(np.nan)
         return numbers.to_numpy(zero_copy_only=False), coded.dictionary.to_pylist()
-    return pc.fill_null(pc.cast(values, pa.float64()), np.nan).to_numpy(zero_copy_only=False), None
+    return values.cast(pa.float64()).fill_null(np.nan).to_numpy(zero_copy_only=False), None

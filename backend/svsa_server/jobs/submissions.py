@@ -7,10 +7,14 @@ from svsa.teaching.leaderboard.board import Board, measure_missing, submit
 from svsa_server.jobs.progress import JobFolder
 
 
-class Asked(NamedTuple):
-    """What is to be measured. board: the season's folder. law: its text, None for the lab's.
+class Task(NamedTuple):
+    """A request for measuring a law.
 
-    author: who submits it.
+    Attributes:
+        board: Folder of the season.
+        name: Name of the law.
+        law: Text of the law, None for the laws of the lab.
+        author: Author of the law.
     """
 
     board: Path
@@ -19,21 +23,19 @@ class Asked(NamedTuple):
     author: str = ""
 
 
-def enter(folder: JobFolder, asked: Asked) -> bool:
+def measure_laws(folder: JobFolder, task: Task) -> bool:
     """Measure laws in a worker; return whether all were measured. Existing entries stay.
 
-    While a law is measured it tells of the law's runs alone: then the law has its entry.
+    While a submitted law is measured, progress counts its runs only; after that it has its entry.
     """
-    board = Board(asked.board)
-    first = 0 if asked.law is None else board.season.run_count
+    board = Board(task.board)
+    first = 0 if task.law is None else board.season.run_count
 
     def report_missing(done: int, total: int) -> None:
         folder.report(first + done, first + total)
 
-    if asked.law is not None:
-        entry = submit(
-            board, asked.name, asked.law, folder.report, folder.is_cancelled, asked.author
-        )
+    if task.law is not None:
+        entry = submit(board, task.name, task.law, folder.report, folder.is_cancelled, task.author)
         if entry is None:
             return False
     return measure_missing(board, report_missing, folder.is_cancelled)

@@ -13,7 +13,7 @@ from svsa_server.jobs.progress import JobFolder
 _CANDIDATES, _FILE = "candidates.jsonl", "parameters.toml"
 
 
-class Asked(NamedTuple):
+class Task(NamedTuple):
     """What is to be searched."""
 
     law: str
@@ -23,20 +23,20 @@ class Asked(NamedTuple):
     present: Design
 
 
-def search(folder: JobFolder, asked: Asked) -> bool:
+def search(folder: JobFolder, task: Task) -> bool:
     """Tune a law in a worker; whether the budget was used up."""
     with (folder.path / _CANDIDATES).open("w", encoding="utf-8", buffering=1) as lines:
 
         def note(candidate: Candidate) -> None:
             lines.write(json.dumps(describe_candidate(candidate)) + "\n")
-            folder.report(candidate.number + 1, asked.budget + 1)
+            folder.report(candidate.number + 1, task.budget + 1)
 
         tuned = tune(
-            asked.law,
-            budget=asked.budget,
-            seed=asked.seed,
-            held=asked.held,
-            present=asked.present,
+            task.law,
+            budget=task.budget,
+            seed=task.seed,
+            held=task.held,
+            present=task.present,
             on_candidate=note,
             is_cancelled=folder.is_cancelled,
         )

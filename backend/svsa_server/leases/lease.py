@@ -1,8 +1,8 @@
 """The control lease of a session: free, or held by one client.
 
-A client is known by a text of its own choice that others do not guess: the header
-`SVSA-Client` of its calls, `client` in the query of its streams. Others see the holder's name
-only. A lease whose holder neither calls nor has a stream open is free again after a while.
+A client is identified by a text of its own choice that others cannot guess: the header
+`SVSA-Client` of its calls, `client` in the query of its streams. Other users see the holder's name
+only. A lease expires some time after its holder's last call and stream.
 """
 
 import contextlib
@@ -18,7 +18,11 @@ READABLE = rf"^[^{_CONTROLS}]*[^\s{_CONTROLS}][^{_CONTROLS}]*$"
 
 
 def check_printable(name: str) -> str:
-    """Return the name without surrounding spaces; raises `ValueError` if it is not printable."""
+    """Return the name without surrounding spaces.
+
+    Raises:
+        ValueError: If it is not printable.
+    """
     if not name.strip() or not name.isprintable():
         raise ValueError("a text that can be read")
     return name.strip()
@@ -45,17 +49,22 @@ class HeldError(SvsaError):
 
 
 class Holder(NamedTuple):
-    """The holder of the lease. client: its id in `SVSA-Client`. name: shown to all users."""
+    """The holder of the lease.
+
+    Attributes:
+        client: Its id in `SVSA-Client`.
+        name: Name shown to all users.
+    """
 
     client: str
     name: str
 
 
-class Settled(NamedTuple):
+class EndedLease(NamedTuple):
     """A holder whose lease ended without a request.
 
-    why: gone, a holder of whom nothing was heard; idle, one who gave no command while others wait;
-    gone_from_queue, one who waits, of whom nothing was heard.
+    `why` is gone: a holder without calls and streams; idle: a holder without commands while others
+    wait; gone_from_queue: a waiting client without calls and streams.
     """
 
     who: Holder
@@ -65,7 +74,8 @@ class Settled(NamedTuple):
 class ControlLease:
     """The lease of the session of this name. Times are monotonic, s.
 
-    rests_when_free: whether no client may command it then, so that a bench comes to rest.
+    `rests_when_free` is whether no client may command it while it is free, so that a bench comes to
+    rest.
     """
 
     rests_when_free = False
@@ -92,13 +102,21 @@ class ControlLease:
             )
 
     def take(self, holder: Holder, take_over: bool, now: float) -> None:
-        """Take the lease; raises `HeldError` if another client holds it, unless `take_over`."""
+        """Take the lease.
+
+        Raises:
+            HeldError: If another client holds it, unless `take_over`.
+        """
         if not take_over:
             self.check(holder.client)
         self.holder, self._heard = holder, now
 
     def give_back(self, client: str | None, now: float) -> None:
-        """Release control; raises `HeldError` where another client is in control."""
+        """Release control.
+
+        Raises:
+            HeldError: If another client is in control.
+        """
         self.check(client)
         self.holder = None
 
@@ -110,18 +128,21 @@ class ControlLease:
     def note_command(self, client: str | None, now: float) -> None:
         """Note a command of the holder, equal to a request here."""
 
-    def settle(self, now: float, patience_s: float) -> list[Settled]:
+    def settle(self, now: float, patience_s: float) -> list[EndedLease]:
         """Release the lease if its holder is silent for `patience_s`; return the former holder."""
         if self.holder is None or now - self._heard <= patience_s:
             return []
         gone, self.holder = self.holder, None
-        return [Settled(gone, "gone")]
+        return [EndedLease(gone, "gone")]
 
 
 def read_client(written: str | None, name: str) -> str | None:
-    """Read a client's id; None if it sends none. Raises `ParameterError`.
+    """Read a client's id; None if it sends none.
 
-    written: percent-encoded UTF-8 where it is more than ASCII. name: where it was written.
+    `written` is percent-encoded UTF-8 if it is not ASCII; `name` is where it was written.
+
+    Raises:
+        ParameterError: If it is invalid.
     """
     if written is None:
         return None

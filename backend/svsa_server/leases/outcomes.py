@@ -1,8 +1,8 @@
-"""Idempotency keys: a changing request that is sent twice is carried out once.
+"""Idempotency keys: a changing request that is sent twice is executed once.
 
-A client gives a changing request a key of its own, drawn at random, in the header
-`Idempotency-Key` (draft-ietf-httpapi-idempotency-key-header). A repeat with this key receives the
-first answer. A client whose answer was lost can also read the outcome by the key.
+A client sends a random key with a changing request, in the header `Idempotency-Key`
+(draft-ietf-httpapi-idempotency-key-header). A repeat with this key receives the first answer. A
+client whose answer was lost can also read the outcome by the key.
 """
 
 import asyncio
@@ -29,14 +29,14 @@ LONGEST_AGE_S = 3600.0
 MAX_ANSWER_BYTES = 256 * 1024
 MAX_STORED_BYTES = 16 * 1024 * 1024
 LONGEST_WAIT_S = 30.0
-"""For this time a repeat waits for the first request, before it is answered 409."""
+"""Time for which a repeat waits for the first request before it is answered 409, s."""
 
 Outcome = Literal["unknown", "pending", "carried_out", "refused"]
 
 
 @dataclass(slots=True)
 class NamedRequest:
-    """A request with a key. status: None while it is carried out. answer: None if not stored."""
+    """A request with a key; `status` is None until it is executed, `answer` if not stored."""
 
     fingerprint: str
     came_at: float
@@ -58,7 +58,7 @@ class NamedRequest:
 class Outcomes:
     """The newest requests with a key, by caller and key; bounded in number, age and bytes.
 
-    A key belongs to the person who gave it: another person's request with it is another one.
+    The same key of another user is a different key.
     """
 
     def __init__(self, now: Callable[[], float] = time.monotonic) -> None:
@@ -107,7 +107,7 @@ class Outcomes:
             is_full = len(self._requests) > MAX_STORED or self._bytes > MAX_STORED_BYTES
             if not is_full and request.came_at > oldest:
                 return
-            # Those that are carried out are as few as there are connections, and stay.
+            # Requests in progress are as few as connections, and are kept.
             if request.status is not None:
                 del self._requests[name]
                 self._bytes -= request.size
@@ -115,9 +115,9 @@ class Outcomes:
 
 
 class OutcomeKeeper:
-    """ASGI middleware that carries out each request with a key once, and stores its outcome.
+    """ASGI middleware that executes each request with a key once, and stores its outcome.
 
-    read_person_id: returns the id of the caller, empty where the lab knows no persons.
+    `read_person_id` returns the id of the caller, empty in a lab without users.
     """
 
     def __init__(
@@ -132,7 +132,7 @@ class OutcomeKeeper:
         if given is None or scope["method"] not in CHANGING:
             await self._app(scope, receive, send)
             return
-        # A structured field has quotation marks; many clients leave them out.
+        # A structured field has quotation marks; many clients omit them.
         key = given.strip('"')
         if not re.fullmatch(KEY_PATTERN, key):
             detail = f"{KEY_HEADER} is {given[:80]!r}: 1 to 64 letters, digits and . _ : - only."

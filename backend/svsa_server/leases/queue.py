@@ -1,22 +1,25 @@
 """Control of a class's shared session: one operator at a time, and a queue.
 
-A request while it is free succeeds; later ones wait in their order. Control passes to the first of
-them when its holder gives it back, hands it over, is gone, or has given no command for a while; an
-idle holder keeps it while the queue is empty. The instructor can take it from any holder, who is
-then first in the queue, and can lock it. Pure: all times are given to it, monotonic, s.
+A request while the lease is free succeeds; later ones wait in their order. Control passes to the
+first of them when its holder releases it, passes it, is gone, or has given no command for a while;
+an idle holder keeps it while the queue is empty. The instructor can take it from any holder, who is
+then first in the queue, and can lock it. Pure functions: all times are arguments, monotonic, s.
 """
 
 from collections.abc import Callable
 
 from svsa.errors import StateError
-from svsa_server.leases.lease import ControlLease, HeldError, Holder, Settled
+from svsa_server.leases.lease import ControlLease, EndedLease, HeldError, Holder
 
 
 class ControlQueue(ControlLease):
-    """The lease of a class's session. waiting: the queue, the next user first.
+    """The lease of a class's session.
 
-    is_instructor: whether a client is one, who commands also while control is free. idle_s: for how
-    long a holder may give no command while others wait, s.
+    Attributes:
+        waiting: The queue, the next user first.
+        is_instructor: Whether a client is an instructor, who may command also while control is
+            free.
+        idle_s: Time without a command after which a holder loses control while others wait, s.
     """
 
     rests_when_free = True
@@ -59,18 +62,21 @@ class ControlQueue(ControlLease):
         elif not self.is_held_by(holder.client) and self.find_place(holder.client) is None:
             self.waiting.append(holder)
             self._waiting_heard[holder.client] = now
-            self._go_on(now)
+            self._pass_control(now)
 
     def give_back(self, client: str | None, now: float) -> None:
         """Pass the lease to the next user, or leave the queue; no effect for other clients."""
         self._leave_queue(client)
         if self.is_held_by(client):
             self.holder = None
-            self._go_on(now)
+            self._pass_control(now)
 
     def hand_over(self, client: str | None, to: str, now: float) -> None:
-        """Pass the lease to a user in the queue. Raises `HeldError`, or `StateError` for another
-        user.
+        """Pass the lease to a user in the queue.
+
+        Raises:
+            HeldError: If another client is in control.
+            StateError: If the user is not in the queue.
         """
         if not self.is_held_by(client) and not (client and self._is_instructor(client)):
             self.check(client)
@@ -88,7 +94,7 @@ class ControlQueue(ControlLease):
         self.is_locked = is_locked
         if is_locked and self.holder is not None and not self._is_instructor(self.holder.client):
             self._set_aside()
-        self._go_on(now)
+        self._pass_control(now)
 
     def find_place(self, client: str | None) -> int | None:
         """Return the place in the queue, 1 is next; None if the user is not in it."""
@@ -106,18 +112,18 @@ class ControlQueue(ControlLease):
         if self.is_held_by(client):
             self._acted = now
 
-    def settle(self, now: float, patience_s: float) -> list[Settled]:
+    def settle(self, now: float, patience_s: float) -> list[EndedLease]:
         """End the lease of a holder who is gone, or idle while others wait; return the holder."""
         gone = [one for one in self.waiting if now - self._waiting_heard[one.client] > patience_s]
         for one in gone:
             self._leave_queue(one.client)
-        settled = [Settled(one, "gone_from_queue") for one in gone]
+        settled = [EndedLease(one, "gone_from_queue") for one in gone]
         settled += super().settle(now, patience_s)
         is_idle = now - self._acted > self.idle_s
         if self.holder is not None and is_idle and self.waiting and not self.is_locked:
-            settled.append(Settled(self.holder, "idle"))
+            settled.append(EndedLease(self.holder, "idle"))
             self.holder = None
-        self._go_on(now)
+        self._pass_control(now)
         return settled
 
     def _set_aside(self) -> None:
@@ -132,7 +138,7 @@ class ControlQueue(ControlLease):
         if client is not None:
             self._waiting_heard.pop(client, None)
 
-    def _go_on(self, now: float) -> None:
+    def _pass_control(self, now: float) -> None:
         if self.holder is None and self.waiting and not self.is_locked:
             first = self.waiting[0]
             self._leave_queue(first.client)

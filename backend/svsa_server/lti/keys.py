@@ -18,9 +18,10 @@ _MIN_S = 30.0
 
 
 def open_key(path: Path) -> RSAKey:
-    """Read the lab's private key; created, readable by this account only, if there is none.
+    """Read the lab's private key; it is created, readable by this account only, if there is none.
 
-    Raises `ParameterError` where the file holds no such key, or cannot be read or written.
+    Raises:
+        ParameterError: If the file contains no such key, or cannot be read or written.
     """
     try:
         if not path.exists():
@@ -44,13 +45,17 @@ class PlatformKeys:
         self._known: dict[str, tuple[float, KeySet]] = {}
 
     async def get(self, address: str, kid: str | None) -> KeySet:
-        """Return the keys at an address; raises `LaunchError` if they are unavailable."""
+        """Return the keys at an address.
+
+        Raises:
+            LaunchError: If they are unavailable.
+        """
         now = time.monotonic()
         asked, keys = self._known.get(address, (-_KEPT_S, None))
         has_key = keys is not None and any(key.kid == kid for key in keys.keys)
         age = now - asked
-        # An unknown key id may be a new key of the platform, or an attack: it makes the
-        # lab ask again every 30 s at most.
+        # An unknown key id may be a new key of the platform, or an attack: the lab requests the
+        # keys again at most every 30 s.
         if keys is not None and age < (_KEPT_S if has_key else _MIN_S):
             return keys
         try:

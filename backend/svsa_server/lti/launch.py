@@ -20,8 +20,13 @@ _LONGEST_NAME = 60
 class Launch(NamedTuple):
     """A launch.
 
-    user: id at the platform. target: requested address. exercise: from its custom parameter.
-    line_item: where its grades are sent, if anywhere.
+    Attributes:
+        user: Id at the platform.
+        name: Name of the user.
+        role: Role of the user.
+        target: Requested address.
+        exercise: Exercise from its custom parameter.
+        line_item: Address for its grades, if any.
     """
 
     user: str
@@ -33,7 +38,11 @@ class Launch(NamedTuple):
 
 
 def read_launch(platform: Platform, keys: KeySet, token: str, nonce: str) -> Launch:
-    """Verify the token of a launch; raises `LaunchError` with the reason."""
+    """Verify the token of a launch.
+
+    Raises:
+        LaunchError: If it is invalid, with the reason.
+    """
     try:
         # The algorithm is fixed: the header of a token must not choose how it is verified.
         claims = jwt.decode(token, keys, algorithms=["RS256"]).claims

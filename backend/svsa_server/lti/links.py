@@ -16,10 +16,12 @@ _TABLE = (
 
 
 class Link(NamedTuple):
-    """A person's points in an exercise, and the line item of a platform that receives them.
+    """A user's points in an exercise, and the line item of a platform that receives them.
 
-    sent: the submission whose points have arrived there, or were given up. tries: how often the
-    present ones were tried in vain; due: not before this time, s since 1970.
+    Attributes:
+        sent: The submission whose points were delivered, or given up.
+        tries: Number of failed attempts for the present points.
+        due: Time of the next attempt, s since 1970.
     """
 
     person: str
@@ -34,7 +36,11 @@ class Link(NamedTuple):
 
 
 class Links:
-    """The links, in a file that only this account reads; raises `OSError` or `sqlite3.Error`."""
+    """The links, in a file that only this account can read.
+
+    Raises:
+        OSError, sqlite3.Error: If the file cannot be used.
+    """
 
     def __init__(self, folder: Path) -> None:
         self._path = folder / FILE

@@ -19,7 +19,11 @@ LTI_FILE = "LTI file"
 
 
 def check_address(address: str) -> str:
-    """Check an address: https, or on this machine; raises `ValueError`."""
+    """Check an address: https, or on this machine.
+
+    Raises:
+        ValueError: Otherwise.
+    """
     parts = urlsplit(address)
     is_safe = parts.scheme == "https" and bool(parts.hostname)
     if not is_safe and not (parts.scheme == "http" and is_loopback(parts.hostname or "")):
@@ -34,8 +38,10 @@ _Name = Annotated[str, Field(min_length=1, max_length=500)]
 class Platform(Checked):
     """A platform: its identity and addresses.
 
-    deployments: ids of those that may launch. takes_instructors: whether an instructor there is the
-    instructor here; otherwise all users from there are students.
+    Attributes:
+        deployments: Ids of deployments that may launch.
+        takes_instructors: Whether an instructor of the platform is the instructor of the lab;
+            otherwise all its users are students.
     """
 
     issuer: _Name = quantity("", "Who signs (Platform ID)")
@@ -48,7 +54,7 @@ class Platform(Checked):
 
 
 class LtiSettings(Checked):
-    """All platforms; key_file: the lab's private key (PEM), next to the file, created if
+    """All platforms; `key_file` is the lab's private key (PEM), relative to the file, created if
     missing.
     """
 
@@ -56,7 +62,7 @@ class LtiSettings(Checked):
     platforms: tuple[Platform, ...] = quantity("", "Who may launch", min_length=1, max_length=100)
 
     def find(self, issuer: str, client_id: str | None) -> Platform | None:
-        """Find the platform of an issuer; client_id: if the issuer has several."""
+        """Find the platform of an issuer; `client_id` is needed if the issuer has several."""
         found = [one for one in self.platforms if one.issuer == issuer]
         if client_id is not None:
             found = [one for one in found if one.client_id == client_id]
@@ -64,7 +70,11 @@ class LtiSettings(Checked):
 
 
 def read_lti_file(path: Path) -> LtiSettings:
-    """Read the settings of a file; raises `ParameterError` with its name."""
+    """Read the settings of a file.
+
+    Raises:
+        ParameterError: If it is invalid, with its name.
+    """
     values = read_toml(path, LTI_FILE)
     try:
         found = LtiSettings(**values)
@@ -81,7 +91,7 @@ MAX_PENDING = 10_000
 
 
 class Login(NamedTuple):
-    """A started login. begun: monotonic time, s."""
+    """A started login; `begun` is monotonic time, s."""
 
     platform: Platform
     nonce: str

@@ -1,7 +1,7 @@
 """Grades to the platform: a client of LTI Assignment and Grade Services 2.0, 3.4.
 
-What has been graded of those who were launched is looked for every ten seconds, sent once, tried
-again where it does not arrive, and noted in the audit log each time.
+Every ten seconds new grades of users from a platform are sent, once each; failed deliveries are
+repeated. Each delivery is logged in the audit log.
 """
 
 import asyncio
@@ -26,10 +26,12 @@ from svsa_server.lti.links import Link
 from svsa_server.lti.platforms import Platform
 from svsa_server.lti.tool import LtiTool
 
-LOOK_S = 10.0
+POLL_S = 10.0
 FIRST_WAIT_S, LONGEST_WAIT_S = 30.0, 3600.0
 MAX_TRIES = 40
-"""A day and a half; then a person has to check, and a new launch starts again."""
+"""Attempts for a day and a half; after that the instructor has to check, and a new launch restarts
+them.
+"""
 _ASSERTION_S = 60
 _ASSERTION = "urn:ietf:params:oauth:client-assertion-type:jwt-bearer"
 _SCORE_TYPE = "application/vnd.ims.lis.v1.score+json"
@@ -51,7 +53,7 @@ class ScoreSender:
     async def run(self) -> None:
         """Send grades until cancelled."""
         while True:
-            await asyncio.sleep(LOOK_S)
+            await asyncio.sleep(POLL_S)
             try:
                 await self.send_due()
             except Exception:

@@ -40,7 +40,11 @@ class LtiTool:
 
     @classmethod
     def open(cls, path: Path, data: Path) -> "LtiTool":
-        """The tool of an LTI file. data: the lab's folder. Raises `ParameterError`."""
+        """Open the tool of an LTI file; `data` is the lab's folder.
+
+        Raises:
+            ParameterError: If the file is invalid.
+        """
         return cls(read_lti_file(path), data)
 
     def list_keys(self) -> dict[str, Any]:
@@ -48,7 +52,11 @@ class LtiTool:
         return dict(KeySet([self.key]).as_dict(private=False))
 
     def find_platform(self, asked: Mapping[str, str]) -> Platform:
-        """Find the platform of a login; raises `LaunchError` for an unknown one."""
+        """Find the platform of a login.
+
+        Raises:
+            LaunchError: If it is unknown.
+        """
         platform = self.settings.find(asked.get("iss", ""), asked.get("client_id"))
         if platform is None:
             raise LaunchError(f"This lab knows no platform {asked.get('iss', '')!r:.200}.")
@@ -57,10 +65,11 @@ class LtiTool:
         return platform
 
     def begin(self, asked: Mapping[str, str], redirect: str) -> tuple[str, str]:
-        """Start a login: return the address to redirect to, and its state. redirect: the answer's
-        address.
+        """Start a login: return the address to redirect to, and its state; `redirect` is the
+        address for the answer.
 
-        Raises `LaunchError` for a platform that is not known.
+        Raises:
+            LaunchError: If the platform is unknown.
         """
         platform = self.find_platform(asked)
         state, nonce = self._logins.begin(platform)
@@ -75,9 +84,10 @@ class LtiTool:
         return f"{platform.login_url}{mark}{urlencode(wanted)}", state
 
     async def take(self, given: Mapping[str, str], cookie: str) -> tuple[Platform, Launch]:
-        """Verify a launch. cookie: the state with which this browser started the login.
+        """Verify a launch; `cookie` is the state with which this browser started the login.
 
-        Raises `LaunchError`.
+        Raises:
+            LaunchError: If the launch is invalid.
         """
         state, token = given.get("state", ""), given.get("id_token", "")
         if error := given.get("error"):
@@ -87,7 +97,7 @@ class LtiTool:
                 "It was not begun in this browser, or its cookies are blocked: launch it again, in"
                 " a window of its own."
             )
-        # Ended by its first use, so that a launch cannot be sent twice.
+        # The first use ends the login, so that a launch cannot be replayed.
         login = self._logins.end(state)
         if login is None:
             raise LaunchError("It was used already, or is too old: launch it again.")
@@ -103,7 +113,8 @@ class LtiTool:
     ) -> Person:
         """Return the member for the platform's user, the same at each launch.
 
-        Raises `LaunchError` for who was removed from the class.
+        Raises:
+            LaunchError: If the user was removed from the class.
         """
         reported = "\n".join((platform.issuer, platform.client_id, launch.user))
         id_ = f"p-{hashlib.sha256(reported.encode()).hexdigest()[:24]}"
@@ -111,7 +122,7 @@ class LtiTool:
         if known is not None and known.is_ended:
             raise LaunchError(REMOVED)
         before = known or Membership(Person(id_, launch.name, role))
-        person = authentication.people.come(before.person._replace(role=role))
+        person = authentication.people.enter(before.person._replace(role=role))
         if known is None or person != known.person:
             await asyncio.to_thread(authentication.members.keep, before._replace(person=person))
         return person
@@ -119,7 +130,8 @@ class LtiTool:
     def find_landing(self, launch: Launch, base: str, course: Collection[str]) -> str:
         """Return the requested page address within the lab; by default the course.
 
-        Raises `LaunchError` for an exercise that is not there.
+        Raises:
+            LaunchError: If there is no such exercise.
         """
         place = launch.target.removeprefix(base) if launch.target.startswith(base) else ""
         if launch.exercise:

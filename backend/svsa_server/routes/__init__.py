@@ -10,7 +10,7 @@ from starlette.routing import BaseRoute
 def build_routes() -> list[BaseRoute]:
     """Return the routes below /api/v1 and /lti, the same ones for every application.
 
-    A module adds routes by a `router` at its top level, and is listed nowhere.
+    Each module with a `router` at its top level is found automatically.
     """
     modules = pkgutil.walk_packages(__path__, f"{__name__}.")
     routers = (

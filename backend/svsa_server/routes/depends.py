@@ -27,7 +27,7 @@ from svsa_server.sessions.hosted import HostedSession
 from svsa_server.sessions.laboratory import SHARED_SESSION
 
 
-def find_asked(scope: Scope) -> tuple[str | None, str]:
+def find_operation(scope: Scope) -> tuple[str | None, str]:
     """Return the method and the path below the session."""
     return scope.get("method"), scope["route"].path.partition("{session}")[2]
 
@@ -59,14 +59,17 @@ async def find_client(
 ) -> str | None:
     """Return the calling client; None if it does not send `SVSA-Client`.
 
-    In a class it is the person, whatever the header says. Raises `ParameterError` for a wrong
-    name, but a stop is not refused for want of one.
+    In a class it is the user, whatever the header contains. A stop is never rejected because of an
+    invalid name.
+
+    Raises:
+        ParameterError: If the name is invalid.
     """
     name = person.id or None
     try:
         name = name or read_client(client, CLIENT_HEADER)
     except ParameterError:
-        if find_asked(connection.scope) not in STOPS:
+        if find_operation(connection.scope) not in STOPS:
             raise
     asking.set(name)
     return name
@@ -82,16 +85,17 @@ async def find_session(
     ],
     client: NamedClient,
 ) -> HostedSession:
-    """Return the session of the path; raises `UnknownError`.
+    """Return the session of the path; used by every route of a session.
 
-    Every route gets its session here. Raises `HeldError` for a call that changes something
-    while another client is in control.
+    Raises:
+        UnknownError: If there is no such session.
+        HeldError: If the call changes the session while another client is in control.
     """
     await settle_claims()
     found: HostedSession = connection.app.state.laboratory.get(session)
     now = time.monotonic()
     found.lease.hear(client, now)
-    asked = find_asked(connection.scope)
+    asked = find_operation(connection.scope)
     if asked[0] in CHANGING and asked not in OPEN_TO_ALL:
         found.lease.check(client)
         found.lease.note_command(client, now)

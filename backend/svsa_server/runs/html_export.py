@@ -10,8 +10,9 @@ from svsa.runs.records.reader import Record
 def write_html(record: Record, stream: IO[bytes]) -> None:
     """Write a record as one page with 3D replay and plots.
 
-    Raises `MissingExtraError` without the extra `server`, `ReplayError` where the page was not
-    built.
+    Raises:
+        MissingExtraError: Without the extra `server`.
+        ReplayError: If the page was not built.
     """
     require_extra("server")
     from svsa_server.runs.replay_export import build_replay

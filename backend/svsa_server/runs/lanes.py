@@ -68,7 +68,7 @@ def _describe_window(window: Window, period_s: float) -> dict[str, Any]:
 def list_ended_windows(session: Session, since_tick: int = 0) -> list[EndedWindowState]:
     """List the ended windows of the last `KEPT_S`, each with its metrics.
 
-    since_tick: only those that ended at this tick or later.
+    Only those that ended at `since_tick` or later.
     """
     journal, period_s = session.journal, session.run.period_s
     ended = {one.first_tick: one.lanes for one in journal.metrics.ended}

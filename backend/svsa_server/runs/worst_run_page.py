@@ -14,7 +14,8 @@ from svsa_server.runs.replay_export import trace_hung_mass
 def build_worst_run_page(board: Board, entry: Entry) -> str:
     """Build the page's HTML, in seconds. The measured window is that of the leaderboard's error.
 
-    Raises `StateError` where nothing is kept of the run, or it ended at its first tick.
+    Raises:
+        StateError: If the run was not saved, or ended at its first tick.
     """
     scenario, lanes, result, alone = replay_worst(board, entry)
     notes = ("Its worst run on the leaderboard.", entry.standing.worst.problem, alone)

@@ -1,8 +1,8 @@
 """viser under the server's own address, at /viser/{session}/.
 
-The page is passed through with two changes: its reconnect does not wait for the focus that a
-frame rarely has, and viser's panels are hidden. Of what a browser sends, only its camera gets
-through: viser has no roles, and any browser could otherwise write the scene for all.
+The page is forwarded with two changes: its reconnect does not wait for the focus that a frame
+rarely has, and viser's panels are hidden. Of a browser's messages only its camera is forwarded:
+viser has no roles, and any browser could otherwise change the scene for all.
 """
 
 import asyncio
@@ -36,13 +36,13 @@ MAX_SCENE_MESSAGE_BYTES = 16 * 1024 * 1024
 _CONNECT_TIMEOUT_S = 5.0
 _SEND_TIMEOUT_S = 20.0
 _NO_PEER = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
-"""Whom a connection to a port of this machine, which is not encrypted, has to trust."""
+"""No peer verification: the connection to a port of this machine is not encrypted."""
 _SUBPROTOCOL_PREFIX = "viser-v"
 _KEPT_HEADERS = ("content-type",)
 _FILE = re.compile(r"[\w./ -]{1,200}", re.ASCII)
-"""Paths of viser's files. Others are no file of viser's, and its server fails on some of them."""
+"""Paths of viser's files. viser's server fails on some other paths."""
 _INJECTED = (
-    # viser reconnects only with the focus, which a frame rarely has.
+    # viser reconnects only if the document has the focus, which a frame rarely has.
     b"<script>document.hasFocus=()=>true</script>"
     b"<style>[data-dock-root]>:not(:first-child),.mantine-Paper-root,"
     b".mantine-Notifications-root{display:none!important}</style>"
@@ -91,7 +91,7 @@ def filter_browser_message(message: bytes) -> bytes | None:
     )
     if not all(map(math.isfinite, numbers)):
         return None
-    # Encoded again from its checked fields, so that nothing else in the message gets through.
+    # Encoded again from its validated fields, so that no other part of the message is forwarded.
     return _camera_encoder.encode(camera)
 
 
@@ -113,7 +113,8 @@ class _Ending(NamedTuple):
 class ViserProxy:
     """Routes under /viser/ to the viser servers on loopback ports.
 
-    find_port: the port for a session's name, or `SvsaError` where there is no such session.
+    `find_port` returns the port for a session's name, or raises `SvsaError` if there is no such
+    session.
     """
 
     def __init__(self, find_port: Callable[[str], Awaitable[int]]) -> None:
@@ -206,7 +207,7 @@ class ViserProxy:
                 f"ws://127.0.0.1:{port}/",
                 subprotocols=[Subprotocol(protocol)],
                 compression=None,
-                # A proxy that the environment names is not for the loopback.
+                # A proxy from the environment must not be used for the loopback.
                 proxy=None,
                 max_size=MAX_SCENE_MESSAGE_BYTES,
                 max_queue=4,
@@ -224,10 +225,11 @@ class ViserProxy:
 
 
 async def _relay_both_ways(websocket: WebSocket, viser: ClientConnection) -> _Ending | None:
-    """Pass messages until either side ends; says how to close the browser, if it is still there.
+    """Forward messages until either side ends; return how to close the browser's connection, if it
+    is still open.
 
-    Each direction holds one message at a time: a slow browser stops the reading from viser,
-    which keeps only the newest pose of each part for it.
+    Each direction buffers one message: a slow browser stops the reading from viser, which keeps
+    only the newest pose of each part for it.
     """
     directions = [
         asyncio.create_task(_pass_scene(websocket, viser)),
@@ -275,7 +277,9 @@ async def _pass_camera(websocket: WebSocket, viser: ClientConnection) -> _Ending
 
 
 def _describe_ending(closed: websockets.ConnectionClosed) -> _Ending:
-    """A refused client version as viser says it (1002); any other ending as going away."""
+    """Return the close code: 1002 for a rejected client version, as viser does, otherwise "going
+    away".
+    """
     if closed.rcvd is not None and closed.rcvd.code == 1002:
         return _Ending(1002, closed.rcvd.reason)
     return _Ending(1001, "")

@@ -10,10 +10,10 @@ from svsa.runs.command import Set, is_held
 from svsa.runs.configuration import Configuration
 from svsa.runs.session.session import Session
 from svsa.teaching.course.steps import Experiment
-from svsa_server.sessions.lock import take_turn
+from svsa_server.sessions.lock import run_waiting
 
 REPEAT_S = 10.0
-_WAY_BACK = (
+_RECOVERY_HINT = (
     "The lab is served without its bench. Fix the cause, then press Restart loop on the"
     " page, or POST /api/v1/sessions/{}/bench/restart."
 )
@@ -26,12 +26,12 @@ async def open_bench(session: Session, console: Console | None = None) -> None:
     console = console or Console(stderr=True, soft_wrap=True)
     report = show_steps(console)
     try:
-        await take_turn(session.open, report)
+        await run_waiting(session.open, report)
     except SvsaError as error:
         console.print(str(error), style="bold red", markup=False, highlight=False)
-        console.print(_WAY_BACK.format(session.name), markup=False, highlight=False)
+        console.print(_RECOVERY_HINT.format(session.name), markup=False, highlight=False)
     else:
-        console.print("The bench is there: it may be armed.", highlight=False)
+        console.print("The bench is ready: you can arm it.", highlight=False)
 
 
 def show_steps(console: Console) -> Callable[[str, float], None]:
@@ -52,7 +52,7 @@ def check_for_step(session: BenchSession, step: Experiment) -> None:
     """Raise `StateError` if this bench cannot be set to the step, now or at all."""
     if step.bench is None:
         raise StateError(
-            f"Step {step.name!r} is simulated and nothing else, and a bench has its own plant and"
+            f"Step {step.name!r} can only be simulated, because a bench has its own plant and"
             " effects: set up a simulated session."
         )
     check_at_rest(session)
@@ -62,7 +62,7 @@ def check_at_rest(session: BenchSession) -> None:
     """Raise `StateError` if the loop is not started, or the bench moves."""
     session.loop.check_started()
     if session.status == "running":
-        raise StateError("The bench is moving: stop it, and wait until it stands.")
+        raise StateError("The bench is moving: stop it, and wait until its speed is zero.")
 
 
 def set_up_bench(session: BenchSession, asked: Configuration) -> None:

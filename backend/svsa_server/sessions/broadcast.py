@@ -1,7 +1,7 @@
 """Messages of a session to its streams; equal messages are built once.
 
 The past is sent once: a message contains it only from the tick up to which its stream knows it, so
-that it does not grow with the changes of a minute.
+that its size does not depend on the number of earlier changes.
 """
 
 from collections.abc import Callable, Hashable, Mapping

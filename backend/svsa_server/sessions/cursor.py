@@ -1,6 +1,6 @@
 """The position of one client in a session's history, and its next batch of samples.
 
-Batches that are the same for many clients are made once.
+Batches that are the same for several clients are packed once.
 """
 
 import math
@@ -33,8 +33,8 @@ class Versioned(Generic[T]):
 
 
 BATCH_PERIOD_S = 1.0 / 30.0
-# Faster than so many times, samples do not lie further apart: of each batch only the newest are
-# sent, and between them is a gap. A line from sample to sample over seconds would be a guess.
+# Above this speed factor samples are not thinned further: of each batch only the newest are sent,
+# with a gap before them. A line between samples that are seconds apart would be a guess.
 MAX_THINNING = 5
 MAX_FAST_ROWS = 32
 
@@ -85,7 +85,7 @@ class SampleCursor:
         first, count = self._next, len(range(self._next, history.end_tick, stride))
         if not count:
             return None
-        # Moved on also where the batch was packed for another client.
+        # Advanced also if the batch was packed for another client.
         self._next = first + stride * count
         lanes = tuple(self.read_lanes())
         return self._packed.get(

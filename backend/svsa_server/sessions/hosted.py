@@ -13,7 +13,7 @@ from svsa.errors import StateError
 from svsa.runs.configuration import Configuration
 from svsa.runs.session.session import Session
 from svsa_server.access.audit import AuditLog
-from svsa_server.leases.lease import ControlLease, Holder, Settled
+from svsa_server.leases.lease import ControlLease, EndedLease, Holder
 from svsa_server.leases.queue import ControlQueue
 from svsa_server.sessions.cursor import Versioned
 from svsa_server.sessions.excitation import Excitation, check_excitable
@@ -27,7 +27,7 @@ class Round:
 
     def begin(self) -> None:
         """Wake every waiting stream."""
-        # `set` wakes all who wait now, `clear` makes the next ones wait for the next round.
+        # `set` wakes all waiting tasks; after `clear` the next ones wait for the next round.
         self._begun.set()
         self._begun.clear()
 
@@ -47,14 +47,19 @@ class BeforeExercise(NamedTuple):
 class HostedSession:
     """A session with the server's own data. Times are monotonic, s.
 
-    session: what people start, pause and change. `lease`: who is in control of it. `excitation`:
-    what is being played on it, or None. `broadcast`, `progress`, `reported`, `batches`: what its
-    streams are sent in each `round`, made once for all. `last_use`: time of the last request;
-    infinite for one that does not end when idle. `owner`: the id of its person; empty for
-    all users. `note`: message for the user it was opened for. `instance`: no other
-    session has it, also none of this name before or after. `before_exercise`: the settings that an
-    exercise replaced, or None.
-    note_settled: is called when the lease ends without a request of its holder.
+    Attributes:
+        session: The session.
+        lease: Its control lease.
+        excitation: The excitation in progress, or None.
+        last_use: Time of the last request; infinite for a session that does not end when idle.
+        owner: Id of its user; empty for all users.
+        note: Message for the user for whom it was opened.
+        instance: Unique among all sessions, also of the same name.
+        before_exercise: Settings that an exercise replaced, or None.
+
+    `broadcast`, `progress`, `reported` and `batches` are messages to its streams in each `round`,
+    built once for all. `log_ended_lease` is called when the lease ends without a request of its
+    holder.
     """
 
     def __init__(
@@ -63,11 +68,11 @@ class HostedSession:
         last_use: float = math.inf,
         owner: str = "",
         lease: ControlLease | None = None,
-        note_settled: "NoteSettled" = lambda hosted, settled: None,
+        log_ended_lease: "LogEndedLease" = lambda hosted, settled: None,
     ) -> None:
         self.session, self.owner, self.note = session, owner, ""
         self.instance = secrets.token_hex(4)
-        self._note_settled = note_settled
+        self._note_settled = log_ended_lease
         self.lease = lease or ControlLease(session.name)
         self.excitation: Excitation | None = None
         self.before_exercise: BeforeExercise | None = None
@@ -92,7 +97,7 @@ class HostedSession:
     def revision(self) -> str:
         """A tag that changes with settings or loads, for `If-Match`.
 
-        No other session has it, also none of this name after a restart of the server.
+        It is unique among all sessions, also of the same name after a restart of the server.
         """
         journal = self.session.journal
         return f"{self.instance}.{journal.run_number}.{len(journal.commands)}"
@@ -156,17 +161,29 @@ class HostedSession:
             self.lease.give_back(client, time.monotonic())
 
     def hand_control_over(self, client: str | None, to: str) -> None:
-        """As `ControlQueue.hand_over`; raises `StateError` if there is no queue."""
+        """As `ControlQueue.hand_over`.
+
+        Raises:
+            StateError: If there is no queue.
+        """
         with self._changing_lease():
             self.find_queue().hand_over(client, to, time.monotonic())
 
     def lock_control(self, is_locked: bool) -> None:
-        """As `ControlQueue.lock`; raises `StateError` where there is no queue."""
+        """As `ControlQueue.lock`.
+
+        Raises:
+            StateError: If there is no queue.
+        """
         with self._changing_lease():
             self.find_queue().lock(is_locked, time.monotonic())
 
     def find_queue(self) -> ControlQueue:
-        """Return the queue of a class's session; raises `StateError` for any other."""
+        """Return the queue of a class's session.
+
+        Raises:
+            StateError: If it has none.
+        """
         if not isinstance(self.lease, ControlQueue):
             raise StateError(f"The queue for control of session {self.session.name} is empty.")
         return self.lease
@@ -183,7 +200,7 @@ class HostedSession:
         for one in settled:
             self._note_settled(self, one)
 
-    def let_go(self, client: str) -> None:
+    def release_lease_of(self, client: str) -> None:
         """Remove a client that has left the class from lease and queue."""
         if self.lease.is_held_by(client) or isinstance(self.lease, ControlQueue):
             self.give_control_back(client)
@@ -235,11 +252,11 @@ class HostedSession:
             self._changes += 1
 
 
-NoteSettled = Callable[[HostedSession, Settled], None]
+LogEndedLease = Callable[[HostedSession, EndedLease], None]
 
 
-def note_settled(log: AuditLog, hosted: HostedSession, settled: Settled) -> None:
-    """Log whose lease ended and why, at which tick, and the present holder."""
+def log_ended_lease(log: AuditLog, hosted: HostedSession, settled: EndedLease) -> None:
+    """Log the holder and the reason of an ended lease, its tick, and the present holder."""
     log.write(
         event="control",
         why=settled.why,

@@ -28,7 +28,7 @@ class Indexing:
 
     Args:
         catalogue: The runs.
-        report: Is called with a line of text every few seconds, if it takes that long.
+        report: Called with a line of text every few seconds, if it takes that long.
     """
 
     def __init__(

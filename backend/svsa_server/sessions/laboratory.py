@@ -13,22 +13,23 @@ from pathlib import Path
 from svsa.errors import StateError
 from svsa.hardware.emulator.control import EmulatorControl, EmulatorError
 from svsa.hardware.file import read_bench
+from svsa.hardware.realtime.configuration import build_first_experiment
 from svsa.hardware.session.session import BenchSession
 from svsa.runs.command import Command
 from svsa.runs.configuration import Configuration, Design
 from svsa.runs.paper import get_figure
-from svsa.runs.session.session import Hands, Session
+from svsa.runs.session.session import Operator, Session
 from svsa.runs.session.simulated import SimulatedSession
 from svsa.simulation.plant.loads import Load
 from svsa_server.access.roles import INSTRUCTOR
 from svsa_server.leases.lease import ControlLease
 from svsa_server.problems import TooManyError, UnknownError
-from svsa_server.sessions.hosted import HostedSession, NoteSettled
-from svsa_server.sessions.lock import let_pass
+from svsa_server.sessions.hosted import HostedSession, LogEndedLease
+from svsa_server.sessions.lock import pause
 
 WAKE_PERIOD_S = 1.0 / 60.0
-HANDS_S = 0.005
-LONGEST_HANDS_S = 5.0
+OPERATOR_POLL_S = 0.005
+OPERATOR_TIMEOUT_S = 5.0
 BURST_S = 0.5 * WAKE_PERIOD_S
 SHARED_SESSION = "lab"
 
@@ -38,10 +39,13 @@ _log = logging.getLogger("svsa")
 class Laboratory:
     """The sessions by name: the shared one, and private ones that end when they are idle.
 
-    max_sessions: private ones at once; max_each: of one owner, but the instructor. idle_s: how
-    long a private session lives without a request or a stream, s. control_s: how long control of
-    a session outlives what its holder does, s. shared_lease: that of the shared session, of a
-    class. note_settled: is called when a control lease passes to the next user in the queue.
+    Args:
+        max_sessions: Maximum number of private sessions.
+        max_each: Maximum number per owner, except for the instructor.
+        idle_s: Time after which a private session without requests or streams ends, s.
+        control_s: Time after which a control lease without calls and streams expires, s.
+        shared_lease: Lease of the shared session of a class.
+        log_ended_lease: Called when a control lease passes to the next user in the queue.
     """
 
     def __init__(
@@ -52,11 +56,11 @@ class Laboratory:
         control_s: float,
         shared_lease: ControlLease | None = None,
         max_each: int | None = None,
-        note_settled: NoteSettled = lambda hosted, settled: None,
+        log_ended_lease: LogEndedLease = lambda hosted, settled: None,
     ) -> None:
-        self._note_settled = note_settled
+        self._note_settled = log_ended_lease
         self.sessions = {
-            shared.name: HostedSession(shared, lease=shared_lease, note_settled=note_settled)
+            shared.name: HostedSession(shared, lease=shared_lease, log_ended_lease=log_ended_lease)
         }
         self._max_sessions = max_sessions
         self._idle_s = idle_s
@@ -64,7 +68,11 @@ class Laboratory:
         self._most_each = max_each
 
     def get(self, name: str) -> HostedSession:
-        """Return the session of this name, which counts as use; raises `UnknownError`."""
+        """Return the session of this name, which counts as use.
+
+        Raises:
+            UnknownError: If there is none.
+        """
         if name not in self.sessions:
             open_to_all = [one for one, hosted in self.sessions.items() if not hosted.owner]
             known = ", ".join(open_to_all[:10])
@@ -112,8 +120,8 @@ class Laboratory:
                 f"{own} private sessions of yours are open, and each person may have {most}: end"
                 " one first."
             )
-        # One code lets any number of people join, who could fill the lab: the instructor has a
-        # place of their own.
+        # Any number of people can join with one code and could use all sessions: one is reserved
+        # for the instructor.
         reserved = 1 if owner == INSTRUCTOR.id and not own else 0
         if len(self.sessions) > self._max_sessions + reserved:
             raise StateError(
@@ -123,12 +131,16 @@ class Laboratory:
 
     def _add(self, session: Session, owner: str) -> HostedSession:
         hosted = self.sessions[session.name] = HostedSession(
-            session, time.monotonic(), owner, note_settled=self._note_settled
+            session, time.monotonic(), owner, log_ended_lease=self._note_settled
         )
         return hosted
 
     def end(self, name: str) -> None:
-        """End a private session; raises `StateError` for the shared one."""
+        """End a private session.
+
+        Raises:
+            StateError: If it is the shared one.
+        """
         self.get(name)
         if name == SHARED_SESSION:
             raise StateError("The shared session is not ended; reset it instead.")
@@ -190,26 +202,26 @@ class Laboratory:
 def build_shared_session(bench: Path | None, design: Design | None = None) -> Session:
     """Build the shared session: Figure 4A running with an interactive load, or a bench.
 
-    design: of the simulation, the paper's if left out; a bench has its own, and has still to be
-    opened.
+    `design` is that of the simulation, by default the paper's; a bench has its own, and must still
+    be opened.
     """
-    configuration = get_figure("4a").build_configuration(load=False, design=design)
     if bench is not None:
-        hands = find_hands(bench)
-        return BenchSession(SHARED_SESSION, bench, configuration, hands, let_pass)
+        first, operator = build_first_experiment(read_bench(bench)), find_operator(bench)
+        return BenchSession(SHARED_SESSION, bench, first, operator, pause)
+    configuration = get_figure("4a").build_configuration(load=False, design=design)
     session = SimulatedSession(SHARED_SESSION, configuration)
     session.start()
     return session
 
 
-class EmulatorOperator(Hands):
+class EmulatorOperator(Operator):
     """Operates an emulator as a person operates a bench, one action at a time, in a thread."""
 
     def __init__(self, control_port: int) -> None:
         self._port = control_port
-        # One thread keeps the order of what is done to the emulator, and the event loop does not
-        # wait for its port.
-        self._thread = ThreadPoolExecutor(1, "hands")
+        # One thread keeps the commands of the emulator in order, and the event loop does not wait
+        # for its port.
+        self._thread = ThreadPoolExecutor(1, "operator")
 
     def hang(self, loads: tuple[Load, ...]) -> None:
         """Request that exactly these loads are on."""
@@ -218,14 +230,14 @@ class EmulatorOperator(Hands):
     def set_to_marks(self) -> None:
         """Set the mechanism to its zero marks, and wait until it is there."""
         done = self._thread.submit(self._tell, EmulatorControl.home)
-        end = time.monotonic() + LONGEST_HANDS_S
+        end = time.monotonic() + OPERATOR_TIMEOUT_S
         while not done.done():
             if time.monotonic() > end:
                 raise StateError(
                     "The emulator was not set to its marks: it has not answered within"
-                    f" {LONGEST_HANDS_S:g} s. Restart the emulator, then arm again."
+                    f" {OPERATOR_TIMEOUT_S:g} s. Restart the emulator, then arm again."
                 )
-            let_pass(HANDS_S)
+            pause(OPERATOR_POLL_S)
 
     def _tell(self, say: Callable[[EmulatorControl], object]) -> None:
         try:
@@ -235,10 +247,10 @@ class EmulatorOperator(Hands):
             _log.warning("The emulator was not notified. %s", error)
 
 
-def find_hands(bench: Path) -> Hands:
+def find_operator(bench: Path) -> Operator:
     """Return the operator of the bench: a person, or the emulator's stand-in."""
     emulator = read_bench(bench).emulator
-    return EmulatorOperator(emulator.control_port) if emulator else Hands()
+    return EmulatorOperator(emulator.control_port) if emulator else Operator()
 
 
 def build_name() -> str:

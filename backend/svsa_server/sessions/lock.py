@@ -1,8 +1,8 @@
 """Commands that wait for a bench while the server serves other requests.
 
-A session is plain functions: a command of a bench asks its loop and lets time pass until it
-answers. Taken as a turn, such a function runs as a greenlet on the event loop's own thread, and
-where it lets time pass the event loop goes on, as at an `await`. It runs in no other thread.
+Sessions consist of plain functions: a command of a bench sends a request to its loop and lets time
+pass until the answer. Such a function runs as a greenlet in the thread of the event loop, which
+continues while the function lets time pass, as at an `await`. It runs in no other thread.
 """
 
 import asyncio
@@ -21,48 +21,49 @@ P = ParamSpec("P")
 T = TypeVar("T")
 
 
-class Turn(greenlet):
+class WaitingCall(greenlet):
     """A running function that yields to other tasks whenever it lets time pass."""
 
 
-async def take_turn(do: Callable[P, T], *args: P.args, **kwargs: P.kwargs) -> T:
+async def run_waiting(do: Callable[P, T], *args: P.args, **kwargs: P.kwargs) -> T:
     """Run `do` and return its result; other tasks run while it lets time pass."""
-    turn = Turn(do)
-    # A greenlet begins with an empty context, in which the caller of the request is missing.
-    turn.gr_context = contextvars.copy_context()
-    seconds = turn.switch(*args, **kwargs)
-    while not turn.dead:
+    call = WaitingCall(do)
+    # A greenlet starts with an empty context, which lacks the identity of the caller.
+    call.gr_context = contextvars.copy_context()
+    seconds = call.switch(*args, **kwargs)
+    while not call.dead:
         try:
             await asyncio.sleep(seconds)
         except BaseException as error:
-            # A cancelled request ends the function where it waits, with its `finally` blocks.
-            seconds = turn.throw(type(error), error, error.__traceback__)
+            # A cancelled request ends the function at its waiting point and runs its `finally`
+            # blocks.
+            seconds = call.throw(type(error), error, error.__traceback__)
         else:
-            seconds = turn.switch()
+            seconds = call.switch()
     return seconds
 
 
-def let_pass(seconds: float) -> None:
-    """Let time pass: within a turn other tasks run; elsewhere the thread sleeps."""
-    turn = getcurrent()
-    if isinstance(turn, Turn) and turn.parent is not None:
-        turn.parent.switch(seconds)
+def pause(seconds: float) -> None:
+    """Let time pass: within a `WaitingCall` other tasks run; elsewhere the thread sleeps."""
+    call = getcurrent()
+    if isinstance(call, WaitingCall) and call.parent is not None:
+        call.parent.switch(seconds)
     else:
         time.sleep(seconds)
 
 
-class TurnRoute(OwnedRoute):
-    """A route whose synchronous function runs as a turn: it may wait for a bench."""
+class WaitingRoute(OwnedRoute):
+    """A route whose synchronous function runs as a `WaitingCall`: it may wait for a bench."""
 
     def __init__(self, path: str, endpoint: Callable[..., Any], **settings: Any) -> None:
         if not inspect.iscoroutinefunction(endpoint):
-            endpoint = _build_turn(endpoint)
+            endpoint = _build_waiting_call(endpoint)
         super().__init__(path, endpoint, **settings)
 
 
-def _build_turn(do: Callable[..., Any]) -> Callable[..., Any]:
+def _build_waiting_call(do: Callable[..., Any]) -> Callable[..., Any]:
     @functools.wraps(do)
-    async def turn(**arguments: Any) -> Any:
-        return await take_turn(do, **arguments)
+    async def call(**arguments: Any) -> Any:
+        return await run_waiting(do, **arguments)
 
-    return turn
+    return call

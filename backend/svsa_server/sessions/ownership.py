@@ -14,11 +14,11 @@ from svsa_server.sessions.laboratory import SHARED_SESSION
 
 
 async def find_owner(scope: Scope, kind: Kind, name: str) -> Owner | None:
-    """Return the owner of a thing in this lab; None if there is no such thing.
+    """Return the owner of an object in this lab; None if there is no such object.
 
     Args:
-        scope: The request that names it.
-        kind: What is named.
+        scope: The request that contains its id.
+        kind: Kind of the object.
         name: Its id.
     """
     state = scope["app"].state

@@ -1,6 +1,6 @@
-"""Disk quota of each person of a class for runs and studies.
+"""Disk quota of each user of a class for runs and studies.
 
-A recording that goes beyond is ended.
+A recording that exceeds it is stopped.
 """
 
 import asyncio
@@ -41,9 +41,9 @@ class DiskQuota:
         """Check every two seconds until cancelled."""
         while True:
             await asyncio.sleep(CHECK_S)
-            await self.end_what_is_too_much()
+            await self.stop_recordings_over_quota()
 
-    async def end_what_is_too_much(self) -> None:
+    async def stop_recordings_over_quota(self) -> None:
         """End the recordings of users over their quota; the samples so far are kept."""
         for owner, live in self._measure_live().items():
             taken = live + await asyncio.to_thread(self._catalogue.measure_bytes, owner)

@@ -50,9 +50,12 @@ class Recordings:
     async def start(
         self, session: Session, name: str, tags: tuple[str, ...], notes: str, owner: str = ""
     ) -> None:
-        """Start to record a session; raises `StateError`, `RecordError`, `ParameterError`.
+        """Start to record a session; `owner` is the id of the user, in a class.
 
-        owner: id of the person whose run it is, in a class.
+        Raises:
+            StateError: If the session cannot be recorded.
+            RecordError: If the record cannot be written.
+            ParameterError: If name, tags or notes are invalid.
         """
         session.prepare_recording()
         header = build_session_header(session, name, tags, notes, owner)
@@ -77,7 +80,7 @@ class Recordings:
 
     async def _finish(self, recorder: Recorder) -> None:
         status = await asyncio.to_thread(recorder.close)
-        # `close` returns after 5 s at most: a long file is waited for again.
+        # `close` returns after 5 s at most; for a long file it is called again.
         while status.state == "recording":
             status = await asyncio.to_thread(recorder.close)
         try:
@@ -89,10 +92,13 @@ class Recordings:
 def build_session_header(
     session: Session, name: str, tags: tuple[str, ...], notes: str, owner: str = ""
 ) -> RecordHeader:
-    """Build the header of a session's record; raises `ParameterError`.
+    """Build the header of a session's record.
 
-    Unstable gains, which may be tried in a private session, are refused as everywhere: their
-    record could not be opened again.
+    Unstable gains, which a private session permits, are rejected: their record could not be opened
+    again.
+
+    Raises:
+        ParameterError: If a value is invalid.
     """
     Gains(**dict(session.journal.initial.gains))
     return build_header(

@@ -1,10 +1,10 @@
-"""Samples to a client: a hello message, then binary batches; a slow client gets the newest.
+"""Samples to a client: a greeting, then binary batches; a slow client gets the newest.
 
-Messages and the batch's header are described in `stream_schemas`, and from there in `/docs`.
-A change is sent before the samples that it affects, so that their lanes are known.
+Messages and the batch's header are described in `stream_schemas`, which is also the source of
+`/docs`. A change is sent before the samples that it affects, so that their lanes are known.
 
-Every message of the client holds the dead-man's switch of a bench for `operator_s` (0.1 s), as
-long as the client may command: it holds the control lease, or the lease is free.
+Every message of the client holds the dead-man's switch of a bench for `operator_s` (0.1 s), as long
+as the client may command: it holds the control lease, or the lease is free.
 """
 
 import asyncio
@@ -32,14 +32,19 @@ from svsa_server.sessions.state import build_state
 
 PROGRESS_PERIOD_S = 1.0
 FRESH_PROGRESS_PERIOD_S = 0.2
-"""As long as a window is fresh: what a load does to the error is done in tenths of a second."""
+"""Period of progress messages in a fresh window, s: a load changes the error within tenths of a
+second.
+"""
 SLOW_AFTER_S = 0.5
 
 
 def read_stream_request(query: dict[str, str]) -> tuple[StreamRequest, tuple[str, ...]]:
-    """Read rate_hz, history_s, lanes and channels of an address; raises `ParameterError`.
+    """Read rate_hz, history_s, lanes and channels of an address.
 
-    lanes: "all", or numbers from 1 with commas; lane 1 if left out.
+    `lanes` is "all", or numbers from 1 with commas; lane 1 by default.
+
+    Raises:
+        ParameterError: If a value is invalid.
     """
     numbers: dict[str, Any] = {}
     channels = PLOTTED
@@ -91,14 +96,15 @@ async def _listen(websocket: WebSocket, hosted: HostedSession, client: str | Non
     while (await websocket.receive())["type"] != "websocket.disconnect":
         if hosted.lease.admits(client):
             hosted.lease.note_command(client, time.monotonic())
-            hosted.session.hear_operator()
+            hosted.session.note_operator_beat()
 
 
 async def _send(
     websocket: WebSocket, hosted: HostedSession, cursor: SampleCursor, channels: tuple[str, ...]
 ) -> None:
     with contextlib.suppress(WebSocketDisconnect, RuntimeError):
-        # Read before the greeting is sent: a change during that wait is sent next instead of lost.
+        # Read before the greeting is sent, so that a change during that wait is sent next and not
+        # lost.
         version, sent_in = hosted.version, _count_periods(hosted, time.monotonic())
         reported = Reported.all_of(hosted)
         await websocket.send_text(_greet(hosted, cursor, channels))
@@ -114,15 +120,15 @@ async def _send(
                 )
             elif period != sent_in:
                 sent_in, broadcast = period, write_progress(hosted, reported, period)
-            # Taken before the first `await`: state and samples are of one moment.
+            # Read before the first `await`, so that state and samples are of the same moment.
             batch = cursor.take_batch(slow)
             if broadcast is not None:
                 reported = broadcast.reported
                 await websocket.send_text(broadcast.text)
             if batch is not None:
                 await websocket.send_bytes(batch)
-            # Sending waits only while the buffers of socket and server are full: the client does
-            # not keep up, and gets the newest samples with a gap before them.
+            # Sending waits only while the buffers of socket and server are full: the client is too
+            # slow, and gets the newest samples with a gap before them.
             slow = time.monotonic() - now > SLOW_AFTER_S
             await hosted.round.wait()
         await websocket.close(1000, "The session has ended.")

@@ -1,4 +1,4 @@
-"""A class in this process, with its code and token, and people who have joined."""
+"""A class in this process, with its code and token, and users who have joined."""
 
 import contextlib
 from collections.abc import Iterator
@@ -17,27 +17,27 @@ SHARED = "/api/v1/sessions/lab"
 
 
 class Classroom(NamedTuple):
-    """lab: its client is a stranger. reported: code and token."""
+    """lab: its client is not logged in. reported: code and token."""
 
     lab: Lab
     reported: ShownOnce
 
     def join(self, name: str, role: str = "operator") -> httpx.Client:
-        """A browser of a user who has joined."""
+        """Return the browser of a user who has joined."""
         browser = self.open_browser()
         body = {"name": name, "code": self.reported.code, "role": role}
         browser.post("/api/v1/join", json=body).raise_for_status()
         return browser
 
     def log_in(self) -> httpx.Client:
-        """The instructor's browser."""
+        """Return the instructor's browser."""
         browser = self.open_browser()
         body = {"secret": self.reported.instructor_token}
         browser.post("/api/v1/login", json=body).raise_for_status()
         return browser
 
     def open_browser(self, token: str | None = None) -> httpx.Client:
-        """A stranger's, or a script's that has a token."""
+        """Return a browser without login, or a script with a token."""
         headers = {"Authorization": f"Bearer {token}"} if token else None
         stranger = self.lab.client
         return httpx.Client(
@@ -52,7 +52,7 @@ class Classroom(NamedTuple):
 def run_class(folder: Path, **settings: str) -> Iterator[Classroom]:
     """A class whose runs and keys are in this folder.
 
-    Its codes have a thousandth of their cost, which each who joins would pay.
+    The hash of its codes has a thousandth of its usual cost, which would slow down every join.
     """
     with patch.dict(class_keys._SCRYPT, n=2**4):
         _, reported = ClassKeys.open(folder)
@@ -62,10 +62,10 @@ def run_class(folder: Path, **settings: str) -> Iterator[Classroom]:
 
 
 def read_kind(answer: httpx.Response) -> str:
-    """Why a request was refused."""
+    """Return why a request was rejected."""
     return answer.json()["type"].rpartition(":")[2]
 
 
 def read_person(browser: httpx.Client) -> dict:
-    """As whom the lab knows this browser."""
+    """Return the user that the lab recognizes in this browser."""
     return browser.get("/api/v1/access").raise_for_status().json()

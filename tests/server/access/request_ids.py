@@ -15,9 +15,9 @@ Variant = tuple[tuple[str, str], ...]
 class Place(NamedTuple):
     """A text in a request.
 
-    place: path, query, header or body. keys: names on the way to it, `[]` for an item of a list
-    and `{}` for the key of a mapping. owned: the kind of thing that it names, if it is marked.
-    variant: the constants of the kind of body that has it, as `from`: `run`.
+    place: path, query, header or body. keys: names on the path to the text, `[]` for an item of a
+    list and `{}` for the key of a mapping. owned: the kind of object that it names, if it is
+    marked. variant: the constants of the kind of body that contains it, such as `from`: `run`.
     """
 
     method: str
@@ -29,23 +29,23 @@ class Place(NamedTuple):
 
     @property
     def operation(self) -> str:
-        """METHOD path."""
+        """Return METHOD and path."""
         return f"{self.method} {self.route}"
 
     @property
     def label(self) -> str:
-        """As a table of exceptions names it."""
+        """Return the name in the tables of exceptions."""
         return f"{self.operation} {self.place}:{'.'.join(self.keys)}"
 
     @property
     def name(self) -> str:
-        """The name that says what the text is."""
+        """Return the name that describes the text."""
         named = (key for key in reversed(self.keys) if key not in (ANY_ITEM, ANY_KEY))
         return next(named, self.place)
 
 
 def list_places(schema: dict[str, Any]) -> Iterator[Place]:
-    """Every place in every request that takes a free text, or a number that may be an id."""
+    """Return every place in every request for a free text, or a number that may be an id."""
     for route, item in schema["paths"].items():
         for method, operation in item.items():
             for one in operation.get("parameters", ()):
@@ -67,7 +67,7 @@ def _walk(
 
 
 def _list_variants(schema: dict[str, Any], part: Any) -> Iterator[tuple[Variant, Any]]:
-    """Each kind of a body of several kinds, with the constants that it is known by."""
+    """Return each variant of a body with several, with the constants that identify it."""
     while "$ref" in part:
         part = schema["components"]["schemas"][part["$ref"].rpartition("/")[2]]
     if "discriminator" in part:
@@ -81,7 +81,7 @@ def _list_variants(schema: dict[str, Any], part: Any) -> Iterator[tuple[Variant,
 def _list_texts(
     schema: dict[str, Any], part: Any, keys: Path, seen: frozenset[str], takes_numbers: bool
 ) -> Iterator[tuple[Path, str | None]]:
-    """Keys and mark of each text in this part of the schema."""
+    """Yield keys and mark of each text in this part of the schema."""
     if "$ref" in part:
         name = part["$ref"].rpartition("/")[2]
         if name not in seen:
@@ -106,7 +106,7 @@ def _list_texts(
 
 
 class Asked(NamedTuple):
-    """A request as httpx takes it."""
+    """The arguments of a request for httpx."""
 
     method: str
     path: str
@@ -117,7 +117,8 @@ class Asked(NamedTuple):
 def build_request(schema: dict[str, Any], place: Place, value: str, known: dict[str, str]) -> Asked:
     """A valid request with this value at that place.
 
-    known: ids for the other places, by kind; what has no mark is as in the schema's examples.
+    known: ids for the other places, by kind; texts without a mark are those of the schema's
+    examples.
     """
     operation = schema["paths"][place.route][place.method.lower()]
     path, query = place.route, {}
@@ -137,7 +138,7 @@ def build_request(schema: dict[str, Any], place: Place, value: str, known: dict[
 
 
 def _choose_example(operation: dict[str, Any], variant: Variant) -> Any:
-    """The first example of this kind of body."""
+    """Return the first example of this variant of the body."""
     examples = list_examples(operation)
     fitting = [
         one
@@ -154,7 +155,7 @@ def _find_example(parameter: dict[str, Any]) -> Any:
 
 
 def _set(body: Any, keys: Path, value: str) -> Any:
-    """The body with this value at its keys; lists there have one item."""
+    """Set this value in the body at its keys; lists there have one item."""
     if not keys:
         return value
     if keys[0] == ANY_ITEM:

@@ -1,4 +1,4 @@
-"""Who did what at which tick: written down, without a secret; and how much disk each may fill."""
+"""The audit log records user, action and tick without secrets; disk use per user is limited."""
 
 import asyncio
 import json
@@ -18,14 +18,14 @@ from svsa_server.access import audit
 from svsa_server.access.audit import AuditLog
 from svsa_server.leases.lease import Holder
 from svsa_server.leases.queue import ControlQueue
-from svsa_server.sessions.hosted import HostedSession, note_settled
+from svsa_server.sessions.hosted import HostedSession, log_ended_lease
 from svsa_server.sessions.quota import DiskQuota
 from tests.server.access.classroom import SHARED, read_kind, read_person, run_class
 
 ADA, BOB, EVE = Holder("p-1", "Ada"), Holder("p-2", "Bob"), Holder("p-3", "Eve")
 
 
-def test_what_changed_something_is_written_down_without_a_secret(tmp_path: Path) -> None:
+def test_changes_are_logged_without_secrets(tmp_path: Path) -> None:
     with run_class(tmp_path) as room:
         ada, instructor = room.join("Ada"), room.log_in()
         person = read_person(ada)["id"]
@@ -57,11 +57,11 @@ def test_what_changed_something_is_written_down_without_a_secret(tmp_path: Path)
         assert secret not in text
 
 
-def test_control_that_goes_on_on_its_own_is_written_down_with_why_and_tick(tmp_path: Path) -> None:
+def test_automatic_transfer_of_control_is_logged_with_reason_and_tick(tmp_path: Path) -> None:
     session = SimulatedSession("lab", get_figure("4a").build_configuration())
     log = audit.AuditLog(tmp_path)
     lease = ControlQueue("lab", lambda client: client == "instructor", 90.0)
-    hosted = HostedSession(session, lease=lease, note_settled=partial(note_settled, log))
+    hosted = HostedSession(session, lease=lease, log_ended_lease=partial(log_ended_lease, log))
     begin = time.monotonic()
     for person in (ADA, BOB, EVE):
         hosted.take_control(person, False)
@@ -81,7 +81,7 @@ def test_control_that_goes_on_on_its_own_is_written_down_with_why_and_tick(tmp_p
     assert {(one["event"], one["session"], one["tick"]) for one in lines} == {("control", "lab", 7)}
 
 
-def test_a_class_writes_down_who_was_idle(tmp_path: Path) -> None:
+def test_class_logs_idle_users(tmp_path: Path) -> None:
     with run_class(tmp_path, idle_operator_s="1", control_s="1000") as room:
         ada, bob = room.join("Ada"), room.join("Bob")
         for one in (ada, bob):
@@ -94,7 +94,7 @@ def test_a_class_writes_down_who_was_idle(tmp_path: Path) -> None:
     assert last["tick"] >= 0
 
 
-def test_who_has_no_room_left_records_nothing(tmp_path: Path) -> None:
+def test_user_above_the_disk_limit_cannot_record(tmp_path: Path) -> None:
     with run_class(tmp_path, quota_mb="0") as room:
         ada = room.join("Ada")
         session = ada.post("/api/v1/sessions", json={"load": False}).json()["session"]
@@ -105,7 +105,7 @@ def test_who_has_no_room_left_records_nothing(tmp_path: Path) -> None:
         assert ada.get("/api/v1/runs").json()["total"] == 0
 
 
-def test_a_recording_that_grows_too_long_is_ended_and_no_other() -> None:
+def test_recording_above_the_disk_limit_is_ended_and_no_other() -> None:
     stopped: list[str] = []
 
     def build(owner: str, live: int) -> SimpleNamespace:
@@ -124,12 +124,12 @@ def test_a_recording_that_grows_too_long_is_ended_and_no_other() -> None:
     laboratory = SimpleNamespace(sessions=dict(enumerate(sessions)))
     catalogue = SimpleNamespace(measure_bytes=lambda owner: kept[owner])
     quota = DiskQuota(catalogue, laboratory, 1000)  # type: ignore[arg-type]
-    asyncio.run(quota.end_what_is_too_much())
+    asyncio.run(quota.stop_recordings_over_quota())
     assert stopped == ["p-1", "p-1"]
 
 
 @pytest.mark.skipif(os.name == "nt", reason="other rights")
-def test_log_and_catalogue_are_closed_to_other_accounts_without_a_class_too(tmp_path: Path) -> None:
+def test_log_and_catalogue_are_private_without_a_class_too(tmp_path: Path) -> None:
     older = tmp_path / "older"
     older.mkdir()
     (older / "audit.jsonl").write_text("")

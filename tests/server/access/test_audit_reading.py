@@ -1,4 +1,6 @@
-"""The audit log on the instructor's page: filtered, paged, the newest first; for no one else."""
+"""The audit log on the instructor's page: filtered, in pages, newest first, for
+instructors only.
+"""
 
 import json
 import time
@@ -20,7 +22,7 @@ OPERATIONS = list_operations(SCHEMA)
 
 @pytest.fixture
 def classroom(tmp_path: Path) -> Iterator[Classroom]:
-    with run_class(tmp_path, control_s="1000") as room:  # no user is gone, however slow it is
+    with run_class(tmp_path, control_s="1000") as room:  # no user leaves on a slow machine
         yield room
 
 
@@ -28,7 +30,7 @@ def read(browser: httpx.Client, **asked: object) -> dict:
     return browser.get(AUDIT, params=asked).raise_for_status().json()  # type: ignore[arg-type]
 
 
-def test_the_instructor_reads_who_did_what_at_which_tick(classroom: Classroom) -> None:
+def test_instructor_reads_user_action_and_tick(classroom: Classroom) -> None:
     ada, bob, instructor = classroom.join("Ada"), classroom.join("Bob"), classroom.log_in()
     ada.put(SHARED + "/control", json={"by": "Ada"}).raise_for_status()
     ada.post(SHARED + "/pause").raise_for_status()
@@ -54,7 +56,7 @@ def test_the_instructor_reads_who_did_what_at_which_tick(classroom: Classroom) -
     assert [one["name"] for one in refused["lines"]] == ["Bob"]
 
 
-def test_what_was_done_is_read_at_once_however_slow_the_disk_is(
+def test_action_is_readable_immediately_on_a_slow_disk(
     classroom: Classroom, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     emit = audit.RotatingFileHandler.emit
@@ -86,7 +88,7 @@ def ask(**asked: object) -> Question:
     return Question(**(known | asked))  # type: ignore[arg-type]
 
 
-def test_pages_go_back_into_files_that_were_set_aside_and_stay_while_more_is_done(
+def test_pages_continue_into_rotated_files_and_are_stable(
     tmp_path: Path,
 ) -> None:
     write(tmp_path, audit.FILE + ".2", [build_line(1)])
@@ -100,7 +102,7 @@ def test_pages_go_back_into_files_that_were_set_aside_and_stay_while_more_is_don
     assert read_audit(tmp_path, OPERATIONS, ask())["total"] == 6
 
 
-def test_a_line_that_is_none_and_a_folder_without_a_log_are_no_obstacle(tmp_path: Path) -> None:
+def test_invalid_line_and_missing_log_are_tolerated(tmp_path: Path) -> None:
     assert read_audit(tmp_path, OPERATIONS, ask())["lines"] == []
     write(tmp_path, audit.FILE, [build_line(1)])
     with (tmp_path / audit.FILE).open("a", encoding="utf-8") as file:
@@ -108,7 +110,7 @@ def test_a_line_that_is_none_and_a_folder_without_a_log_are_no_obstacle(tmp_path
     assert read_audit(tmp_path, OPERATIONS, ask())["total"] == 1
 
 
-def test_what_no_user_called_for_and_what_a_platform_did_are_reported_in_words(
+def test_automatic_and_platform_actions_have_descriptions(
     tmp_path: Path,
 ) -> None:
     time = "2026-01-02T03:04:05.000+00:00"
@@ -124,6 +126,6 @@ def test_what_no_user_called_for_and_what_a_platform_did_are_reported_in_words(
     ]
 
 
-def test_every_operation_that_changes_something_has_a_kind_and_words() -> None:
+def test_every_changing_operation_has_a_kind_and_a_description() -> None:
     assert len(OPERATIONS) > 60
     assert all(one.kind != "other" and one.name[0].isupper() for one in OPERATIONS)

@@ -1,4 +1,4 @@
-"""A class over REST: joined, logged in, refused; what belongs to whom."""
+"""A class over REST: joining, login, rejections and ownership."""
 
 import json
 import os
@@ -32,7 +32,7 @@ def classroom(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Classroom]:
         yield room
 
 
-def test_keys_are_reported_once_and_kept_as_hashes_that_others_cannot_read(tmp_path: Path) -> None:
+def test_keys_are_shown_once_and_stored_as_private_hashes(tmp_path: Path) -> None:
     keys, reported = ClassKeys.open(tmp_path)
     assert reported is not None
     path = tmp_path / class_keys.FILE
@@ -51,7 +51,7 @@ def test_keys_are_reported_once_and_kept_as_hashes_that_others_cannot_read(tmp_p
     assert again.read_person(keys.sign(ADA)) == ADA
 
 
-def test_a_new_code_lets_no_user_in_by_the_old_one(tmp_path: Path) -> None:
+def test_old_code_is_invalid_after_a_new_one(tmp_path: Path) -> None:
     keys, reported = ClassKeys.open(tmp_path)
     assert reported is not None
     carried = keys.sign(ADA)
@@ -63,7 +63,7 @@ def test_a_new_code_lets_no_user_in_by_the_old_one(tmp_path: Path) -> None:
         assert opened.read_person(carried) == ADA
 
 
-def test_what_no_user_signed_or_long_ago_is_no_user(
+def test_unsigned_and_expired_cookies_are_rejected(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     keys, _ = ClassKeys.open(tmp_path / "one")
@@ -78,13 +78,13 @@ def test_what_no_user_signed_or_long_ago_is_no_user(
     assert keys.read_person(signed) is None
 
 
-def test_damaged_keys_say_what_to_do(tmp_path: Path) -> None:
+def test_damaged_keys_are_reported_with_instructions(tmp_path: Path) -> None:
     (tmp_path / class_keys.FILE).write_text(json.dumps({"salt": "x"}))
     with pytest.raises(SecurityError, match="delete the file"):
         ClassKeys.open(tmp_path)
 
 
-def test_who_is_here_was_heard_within_a_minute_and_names_are_distinguished() -> None:
+def test_active_users_are_listed_with_distinct_names() -> None:
     now = [0.0]
     people = People(lambda: now[0])
     ada = people.join("Ada", Role.OPERATOR)
@@ -100,7 +100,7 @@ def test_who_is_here_was_heard_within_a_minute_and_names_are_distinguished() -> 
     assert people.find(other.id) is None
 
 
-def test_a_stranger_is_asked_to_join_and_cannot_stop_a_simulation(classroom: Classroom) -> None:
+def test_visitor_is_asked_to_join_and_cannot_stop_a_simulation(classroom: Classroom) -> None:
     stranger = classroom.lab.client
     assert read_person(stranger) == {
         "authentication": "class",
@@ -118,7 +118,7 @@ def test_a_stranger_is_asked_to_join_and_cannot_stop_a_simulation(classroom: Cla
     assert observer.post("/api/v1/quick-stop").status_code == 204
 
 
-def test_a_student_joins_with_a_name_and_the_code_and_is_known_by_a_cookie(
+def test_student_joins_with_name_and_code_and_gets_a_cookie(
     classroom: Classroom,
 ) -> None:
     wrong = {"name": "Ada", "code": "XXXX-XXXX"}
@@ -139,14 +139,14 @@ def test_a_student_joins_with_a_name_and_the_code_and_is_known_by_a_cookie(
 
 
 @pytest.mark.parametrize("body", [{"name": "\t"}, {"name": "x" * 41}, {"role": "instructor"}])
-def test_a_wrong_join_is_refused_with_its_bound(classroom: Classroom, body: dict) -> None:
+def test_invalid_join_is_rejected_with_its_bound(classroom: Classroom, body: dict) -> None:
     wanted = {"name": "Ada", "code": classroom.reported.code} | body
     answer = classroom.lab.client.post("/api/v1/join", json=wanted)
     assert answer.status_code == 422
     assert [each["name"] for each in answer.json()["violations"]] == list(body)
 
 
-def test_the_instructor_comes_in_by_the_token_as_cookie_or_bearer(classroom: Classroom) -> None:
+def test_instructor_logs_in_by_token_as_cookie_or_bearer(classroom: Classroom) -> None:
     assert read_person(classroom.log_in())["role"] == "instructor"
     script = classroom.open_browser(classroom.reported.instructor_token)
     assert read_person(script)["role"] == "instructor"
@@ -155,7 +155,7 @@ def test_the_instructor_comes_in_by_the_token_as_cookie_or_bearer(classroom: Cla
     assert "instructor token" in wrong.json()["detail"]
 
 
-def test_a_script_comes_in_by_a_token_and_is_not_more_than_who_made_it(
+def test_script_token_has_the_permissions_of_its_user(
     classroom: Classroom,
 ) -> None:
     ada = classroom.join("Ada")
@@ -171,7 +171,7 @@ def test_a_script_comes_in_by_a_token_and_is_not_more_than_who_made_it(
     assert classroom.open_browser(token + "x").get(SHARED).status_code == 401
 
 
-def test_a_private_session_and_its_runs_are_their_makers_and_the_instructors(
+def test_private_session_and_its_runs_belong_to_user_and_instructor(
     classroom: Classroom,
 ) -> None:
     ada, bob, instructor = classroom.join("Ada"), classroom.join("Bob"), classroom.log_in()
@@ -205,7 +205,7 @@ def test_a_private_session_and_its_runs_are_their_makers_and_the_instructors(
     assert instructor.delete(path).status_code == 204
 
 
-def test_a_run_of_the_shared_session_is_read_by_all_and_changed_by_who_recorded_it(
+def test_run_of_the_shared_session_is_readable_by_all_and_writable_by_its_recorder(
     classroom: Classroom,
 ) -> None:
     ada, bob, instructor = classroom.join("Ada"), classroom.join("Bob"), classroom.log_in()
@@ -218,7 +218,7 @@ def test_a_run_of_the_shared_session_is_read_by_all_and_changed_by_who_recorded_
     assert instructor.delete(run).status_code == 200
 
 
-def test_a_name_of_another_site_is_not_answered(classroom: Classroom, tmp_path: Path) -> None:
+def test_foreign_host_name_is_rejected(classroom: Classroom, tmp_path: Path) -> None:
     rebound = {"Host": "evil.example"}
     refused = classroom.lab.client.get("/api/v1/health", headers=rebound)
     assert (refused.status_code, read_kind(refused)) == (403, "unknown_host")

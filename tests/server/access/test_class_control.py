@@ -1,4 +1,4 @@
-"""The shared session of a class over REST: asked for, waited for, handed on, stopped, locked."""
+"""The shared session of a class over REST: requested, queued, handed over, stopped, locked."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -20,7 +20,7 @@ def classroom(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Classroom]:
 
 @pytest.fixture
 def people(classroom: Classroom) -> Iterator[tuple[httpx.Client, httpx.Client, httpx.Client]]:
-    """Ada, Bob and the instructor; no user in control before or after."""
+    """Ada, Bob and the instructor; the session has no holder before and after."""
     ada, bob, instructor = classroom.join("Ada"), classroom.join("Bob"), classroom.log_in()
     yield ada, bob, instructor
     for one in (ada, bob, instructor):
@@ -40,7 +40,7 @@ def list_waiting(browser: httpx.Client) -> list[str]:
 People = tuple[httpx.Client, httpx.Client, httpx.Client]
 
 
-def test_who_is_in_control_is_who_joined_whatever_a_header_says(people: People) -> None:
+def test_holder_is_the_logged_in_user_whatever_a_header_states(people: People) -> None:
     ada, bob, _ = people
     refused = ada.put(SHARED + "/speed", json=SPEED)
     assert refused.json()["detail"].startswith("No user is in control of session lab: ask")
@@ -56,7 +56,7 @@ def test_who_is_in_control_is_who_joined_whatever_a_header_says(people: People) 
     assert ada.get(SHARED).json()["control"]["mine"] is True
 
 
-def test_the_others_wait_and_see_their_place(people: People) -> None:
+def test_others_are_queued_and_see_their_place(people: People) -> None:
     ada, bob, instructor = people
     ask(ada)
     state = ask(bob)
@@ -71,7 +71,7 @@ def test_the_others_wait_and_see_their_place(people: People) -> None:
     assert ada.post(CONTROL + "/handover", json={"to": bob_id}).status_code == 409
 
 
-def test_all_users_stops_and_only_who_is_in_control_starts_again(people: People) -> None:
+def test_all_users_may_stop_and_only_the_holder_starts_again(people: People) -> None:
     ada, bob, instructor = people
     ask(ada)
     ada.post(SHARED + "/start").raise_for_status()
@@ -98,7 +98,7 @@ def test_only_the_instructor_locks(people: People) -> None:
     assert state["control"]["holder"] == read_person(ada)["name"]
 
 
-def test_a_script_of_a_person_is_that_person(people: People, classroom: Classroom) -> None:
+def test_script_of_a_user_is_that_user(people: People, classroom: Classroom) -> None:
     ada, bob, _ = people
     token = ada.post("/api/v1/tokens", json={}).json()["token"]
     script = classroom.open_browser(token)
@@ -109,7 +109,7 @@ def test_a_script_of_a_person_is_that_person(people: People, classroom: Classroo
     assert script.put(SHARED + "/speed", json=SPEED).status_code == 200
 
 
-def test_ones_own_session_has_no_queue(people: People) -> None:
+def test_private_session_has_no_queue(people: People) -> None:
     ada, _, instructor = people
     state = ada.post("/api/v1/sessions", json={}).json()
     path = f"/api/v1/sessions/{state['session']}"
@@ -120,6 +120,6 @@ def test_ones_own_session_has_no_queue(people: People) -> None:
     ada.delete(path).raise_for_status()
 
 
-def test_after_the_settings_idle_time_control_goes_on(tmp_path: Path) -> None:
+def test_control_passes_on_after_the_idle_time_of_the_settings(tmp_path: Path) -> None:
     with run_class(tmp_path, idle_operator_s="30") as room:
         assert room.log_in().get(SHARED).json()["queue"]["idle_s"] == 30.0

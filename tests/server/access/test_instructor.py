@@ -1,4 +1,4 @@
-"""The instructor's page over REST: who is here and sees what, a new code, a broadcast, an end."""
+"""The instructor's page over REST: users and their sessions, a new code, a broadcast, an end."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -17,7 +17,7 @@ def classroom(tmp_path: Path) -> Iterator[Classroom]:
         yield room
 
 
-def test_who_is_here_and_which_sessions_are_for_the_instructor_to_see(
+def test_instructor_sees_users_and_their_sessions(
     classroom: Classroom,
 ) -> None:
     ada, bob, instructor = (
@@ -42,7 +42,7 @@ def test_who_is_here_and_which_sessions_are_for_the_instructor_to_see(
     assert [one["name"] for one in ada.get(CLASS).json()["people"]] == ["Ada", "Instructor"]
 
 
-def test_a_new_code_is_reported_once_with_a_qr_code_of_where_one_joins(
+def test_new_code_is_shown_once_with_a_qr_code_of_the_join_address(
     classroom: Classroom, tmp_path: Path
 ) -> None:
     ada, instructor = classroom.join("Ada"), classroom.log_in()
@@ -61,7 +61,7 @@ def test_a_new_code_is_reported_once_with_a_qr_code_of_where_one_joins(
     assert read_person(ada)["inside"], "who has joined stays"
 
 
-def test_a_broadcast_gives_all_users_the_settings_of_the_shared_session(
+def test_broadcast_gives_all_users_the_settings_of_the_shared_session(
     classroom: Classroom,
 ) -> None:
     ada, instructor = classroom.join("Ada"), classroom.log_in()

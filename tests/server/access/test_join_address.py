@@ -1,4 +1,4 @@
-"""The address that a class joins at is one that others reach."""
+"""The join address of a class is reachable from other machines."""
 
 import pytest
 from starlette.datastructures import URL
@@ -16,6 +16,6 @@ from svsa_server.routes.access import classroom
         ("http://127.0.0.1:8000/", "127.0.0.1", "10.0.0.7", "http://127.0.0.1:8000/"),
     ],
 )
-def test_a_name_of_this_machine_only_gives_way(monkeypatch, seen, host, outward, reported):
+def test_loopback_name_is_replaced(monkeypatch, seen, host, outward, reported):
     monkeypatch.setattr(classroom, "find_outward_address", lambda: outward)
     assert classroom.choose_join_address(URL(seen), host) == reported

@@ -1,4 +1,4 @@
-"""Every id in a request is marked with whose it is, or is known to be no id of a person's thing."""
+"""Every id in a request is marked with its owner check, or is listed as no owned id."""
 
 from typing import Annotated
 
@@ -16,6 +16,7 @@ NO_IDS = {
     "client": "the same, of a stream",
     "actuator": "installed",
     "adversary": "of the package",
+    "arm": "of the package",
     "answer": "to a question of the course",
     "author": "a name that is shown",
     "base": "a setting",
@@ -62,7 +63,7 @@ NO_IDS = {
     "until": "a line of the audit log, which is the instructor's",
     "version": "of the lab",
 }
-"""What no text of this name is an id of a person's thing, and what it is instead."""
+"""Names that are never ids of owned objects, with their meaning."""
 NO_IDS_THERE = {
     "POST /api/v1/join body:name": "of a person who is new",
     "POST /api/v1/sessions/{session}/excitation body:name": "of a run that is new",
@@ -81,7 +82,7 @@ NO_IDS_THERE = {
     "GET /api/v1/actuators/{name}/datasheet path:name": "installed",
     "POST /api/v1/sessions body:nominal.{}": "a parameter of an actuator",
 }
-"""The same, where the name alone does not say it."""
+"""The same, if the name alone does not determine it."""
 NOT_IN_THE_SCHEMA = {
     "/assets/{path:path}": "files of the page",
     "/docs/guide/{path:path}": "pages of the guide",
@@ -96,7 +97,7 @@ NOT_IN_THE_SCHEMA = {
 
 
 def find_unclear(schema: dict) -> list[str]:
-    """The places that say neither whose they are nor that they are no ids."""
+    """Return the places that are neither marked nor listed."""
     return [
         one.label
         for one in list_places(schema)
@@ -104,14 +105,14 @@ def find_unclear(schema: dict) -> list[str]:
     ]
 
 
-def test_every_text_in_a_request_says_whose_it_is_or_is_no_id() -> None:
+def test_every_text_in_a_request_is_marked_or_is_no_id() -> None:
     assert find_unclear(SCHEMA) == []
     labels = {one.label for one in list_places(SCHEMA) if not one.owned}
     assert NO_IDS_THERE.keys() <= labels
     assert NO_IDS.keys() <= {one.name for one in list_places(SCHEMA) if not one.owned}
 
 
-def test_a_new_route_that_takes_an_unmarked_id_is_found_wherever_it_is() -> None:
+def test_unmarked_id_of_a_new_route_is_found_at_any_place() -> None:
     class Source(BaseModel):
         against: list[str]
         mine: Annotated[str, Owned("run")]
@@ -140,14 +141,14 @@ def test_a_new_route_that_takes_an_unmarked_id_is_found_wherever_it_is() -> None
     ]
 
 
-def test_a_path_outside_the_schema_takes_no_id_that_is_not_checked() -> None:
+def test_path_outside_the_schema_takes_no_unchecked_id() -> None:
     routes = build_app().router.routes
     found = {path for one in routes if "{" in (path := read_path(one))}
     assert found == NOT_IN_THE_SCHEMA.keys()
 
 
 def read_path(route: BaseRoute) -> str:
-    """The path of a route that the schema does not have, else an empty text."""
+    """The path of a route that the schema lacks, or an empty text."""
     if isinstance(route, Mount):
         return f"{route.path}/{{path:path}}"
     assert isinstance(route, Route | WebSocketRoute)

@@ -1,4 +1,4 @@
-"""The instructor removes a person and lets them in again; a person comes back by a code."""
+"""The instructor removes and readmits a user; a user returns with a rejoin code."""
 
 import asyncio
 import json
@@ -37,14 +37,14 @@ def rejoin(browser: httpx.Client, code: str) -> httpx.Response:
 
 
 def join(classroom: Classroom, name: str) -> tuple[httpx.Client, str]:
-    """A browser of a user who has joined, and their rejoin code."""
+    """Return the browser of a user who has joined, and their rejoin code."""
     browser = classroom.open_browser()
     body = {"name": name, "code": classroom.reported.code}
     reported = browser.post("/api/v1/join", json=body).raise_for_status().json()
     return browser, reported["rejoin_code"]
 
 
-def test_who_is_removed_is_out_at_once_and_has_neither_control_nor_a_place(
+def test_removed_user_is_logged_out_and_loses_control_and_place(
     classroom: Classroom,
 ) -> None:
     ada, bob, instructor = classroom.join("Ada"), classroom.join("Bob"), classroom.log_in()
@@ -78,7 +78,7 @@ def test_who_is_removed_is_out_at_once_and_has_neither_control_nor_a_place(
     assert instructor.patch(f"{PEOPLE}/instructor", json=OUT).status_code == 404
 
 
-def test_a_place_in_the_queue_is_left_and_who_else_is_removed_is_for_no_student_to_know(
+def test_queue_place_is_left_and_removals_are_hidden_from_students(
     classroom: Classroom,
 ) -> None:
     ada, bob, instructor = classroom.join("Ada"), classroom.join("Bob"), classroom.log_in()
@@ -93,7 +93,7 @@ def test_a_place_in_the_queue_is_left_and_who_else_is_removed_is_for_no_student_
     ada.delete(CONTROL).raise_for_status()
 
 
-def test_removed_is_removed_after_a_restart_too_and_the_audit_log_has_it(tmp_path: Path) -> None:
+def test_removal_survives_a_restart_and_is_in_the_audit_log(tmp_path: Path) -> None:
     with run_class(tmp_path) as room:
         ada, bob = room.join("Ada"), room.join("Bob")
         cookies = [dict(one.cookies) for one in (ada, bob)]
@@ -113,7 +113,7 @@ def test_removed_is_removed_after_a_restart_too_and_the_audit_log_has_it(tmp_pat
     assert last["status"] == 200
 
 
-def test_a_websocket_of_who_is_removed_is_closed_with_the_reason(tmp_path: Path) -> None:
+def test_websocket_of_a_removed_user_is_closed_with_the_reason(tmp_path: Path) -> None:
     keys, _ = ClassKeys.open(tmp_path)
     members = Memberships(tmp_path / FILE)
     members.keep(Membership(ADA))
@@ -157,7 +157,7 @@ def test_a_websocket_of_who_is_removed_is_closed_with_the_reason(tmp_path: Path)
     assert left == ["/viser/lab"]
 
 
-def test_a_person_comes_back_by_their_code_from_another_browser_as_who_they_were(
+def test_user_returns_by_code_from_another_browser(
     classroom: Classroom,
 ) -> None:
     ada, code = join(classroom, "Gauss")
@@ -175,7 +175,7 @@ def test_a_person_comes_back_by_their_code_from_another_browser_as_who_they_were
     assert rejoin(classroom.open_browser(), new).status_code == 200
 
 
-def test_a_rejoin_code_gives_no_user_more_than_they_have(classroom: Classroom) -> None:
+def test_rejoin_code_grants_no_additional_permission(classroom: Classroom) -> None:
     ada, code = join(classroom, "Noether")
     instructor = classroom.log_in()
     token = ada.post("/api/v1/tokens", json={"role": "observer"}).json()["token"]
@@ -186,7 +186,7 @@ def test_a_rejoin_code_gives_no_user_more_than_they_have(classroom: Classroom) -
     assert (refused.status_code, read_kind(refused)) == (401, "removed")
 
 
-def test_who_comes_back_while_another_has_the_name_gets_a_number(classroom: Classroom) -> None:
+def test_returning_user_whose_name_is_taken_gets_a_number(classroom: Classroom) -> None:
     ada, code = join(classroom, "Euler")
     ada.post("/api/v1/leave").raise_for_status()
     classroom.join("Euler")
@@ -195,13 +195,13 @@ def test_who_comes_back_while_another_has_the_name_gets_a_number(classroom: Clas
     assert read_person(back)["name"] == "Euler (2)"
 
 
-def test_guesses_of_rejoin_codes_are_as_few_as_joins(tmp_path: Path) -> None:
+def test_guesses_of_rejoin_codes_are_limited_like_joins(tmp_path: Path) -> None:
     with run_class(tmp_path, joins="3/minute") as room:
         guesses = [rejoin(room.lab.client, "AAAA-AAAA-AAAA").status_code for _ in range(4)]
         assert guesses == [401, 401, 401, 429]
 
 
-def test_the_members_are_kept_as_hashes_that_others_cannot_read(tmp_path: Path) -> None:
+def test_members_are_stored_as_private_hashes(tmp_path: Path) -> None:
     with run_class(tmp_path) as room:
         _, code = join(room, "Ada")
     path = tmp_path / FILE
@@ -214,9 +214,7 @@ def test_the_members_are_kept_as_hashes_that_others_cannot_read(tmp_path: Path) 
         Memberships(path)
 
 
-def test_a_class_that_is_full_takes_no_user_more(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_full_class_accepts_no_more_users(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(memberships, "MAX_MEMBERS", 1)
     members = Memberships(tmp_path / FILE)
     members.keep(Membership(ADA))

@@ -1,4 +1,4 @@
-"""What a person of a class may have at once, and whose the long work is."""
+"""Limits per user of a class, and the ownership of long work."""
 
 import time
 from collections.abc import Iterator
@@ -9,6 +9,7 @@ import pytest
 
 from svsa.evaluation.studies.file import read_study
 from svsa.evaluation.studies.store import (
+    EXAMPLE,
     STUDY_FILE,
     keep_study,
     measure_bytes,
@@ -28,7 +29,7 @@ def classroom(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Classroom]:
         yield room
 
 
-def test_each_person_has_so_many_private_sessions_and_no_more(classroom: Classroom) -> None:
+def test_private_sessions_per_user_are_limited(classroom: Classroom) -> None:
     ada, bob, instructor = classroom.join("Ada"), classroom.join("Bob"), classroom.log_in()
     first, second = (ada.post(SESSIONS, json={}).raise_for_status().json() for _ in range(2))
     for body in ({}, RANKED, DESIGN):
@@ -45,8 +46,8 @@ def test_each_person_has_so_many_private_sessions_and_no_more(classroom: Classro
     assert second["session"] in {one["session"] for one in ada.get(SESSIONS).json()}
 
 
-def test_a_full_lab_has_a_place_for_the_instructor(tmp_path: Path) -> None:
-    """One class code lets any number of people join, and each of them opens sessions."""
+def test_full_lab_has_a_place_for_the_instructor(tmp_path: Path) -> None:
+    """One class code lets any number of users join, and each of them opens sessions."""
     with run_class(tmp_path, max_sessions="2", max_sessions_each="1") as room:
         names = ("Ada", "Bob", "Eve")
         opened = [room.join(name).post(SESSIONS, json={}).status_code for name in names]
@@ -55,12 +56,12 @@ def test_a_full_lab_has_a_place_for_the_instructor(tmp_path: Path) -> None:
         assert [instructor.post(SESSIONS, json={}).status_code for _ in range(2)] == [201, 409]
 
 
-def test_an_observer_makes_no_session(classroom: Classroom) -> None:
+def test_observer_creates_no_session(classroom: Classroom) -> None:
     watching = classroom.join("Ola", role="observer")
     assert watching.post(SESSIONS, json=DESIGN).status_code == 403
 
 
-def test_long_work_is_its_makers_and_the_instructors(classroom: Classroom) -> None:
+def test_job_is_visible_to_its_creator_and_the_instructor(classroom: Classroom) -> None:
     ada, bob, instructor = classroom.join("Ada"), classroom.join("Bob"), classroom.log_in()
     asked = {"kind": "tuning", "law": "fl_integral", "budget": 200}
     job = ada.post(JOBS, json=asked).raise_for_status().json()["id"]
@@ -76,26 +77,27 @@ def test_long_work_is_its_makers_and_the_instructors(classroom: Classroom) -> No
 
 
 def list_jobs(browser: httpx.Client, kind: str = "tuning") -> list[str]:
-    """Ids of the jobs of a kind that this person sees."""
+    """Return the ids of the jobs of a kind that this user sees."""
     listed = browser.get(JOBS, params={"kind": kind}).raise_for_status().json()
     return [job["id"] for job in listed["jobs"]]
 
 
-def test_a_kept_study_is_seen_by_its_maker_and_the_instructor(tmp_path: Path) -> None:
+def test_stored_study_is_listed_for_its_creator_and_the_instructor(tmp_path: Path) -> None:
     with run_class(tmp_path) as room:
         ada, bob, instructor = room.join("Ada"), room.join("Bob"), room.log_in()
         study = read_study("load")[1].changed(runs=4)
         keep_study("load", study, tmp_path / "studies", read_person(ada)["id"])
-        for one, sees in ((ada, ["load"]), (bob, []), (instructor, ["load"])):
+        for one, sees in ((ada, ["load"]), (bob, [EXAMPLE]), (instructor, ["load"])):
             assert [kept["name"] for kept in one.get(STUDIES).json()["saved"]] == sees
         for below in ("", "/summary", "/rows?column=succeeded", "/rows?format=parquet", "/rows/0"):
+            assert bob.get(f"{STUDIES}/{EXAMPLE}{below}").is_success, below
             assert read_kind(bob.get(f"{STUDIES}/load{below}")) == "not_found", below
         assert read_kind(bob.delete(f"{STUDIES}/load")) == "not_found"
         assert ada.delete(f"{STUDIES}/load").status_code == 204
 
 
 @pytest.mark.exhaustive
-def test_a_kept_study_is_its_makers_and_the_instructors(classroom: Classroom) -> None:
+def test_stored_study_is_changed_by_its_creator_and_the_instructor(classroom: Classroom) -> None:
     ada, bob, instructor = classroom.join("Ada"), classroom.join("Bob"), classroom.log_in()
     watching = classroom.join("Ola", role="observer")
     asked = {"source": "load", "runs": 4, "laws": ["fl"]}
@@ -105,7 +107,7 @@ def test_a_kept_study_is_its_makers_and_the_instructors(classroom: Classroom) ->
     assert (again.status_code, read_kind(again)) == (409, "study")
     copied = bob.post(STUDIES + "/check", json={"source": "load-3", "runs": 4})
     assert copied.status_code == 404
-    for one, sees in ((ada, ["load"]), (bob, ["load-2"]), (watching, [])):
+    for one, sees in ((ada, ["load"]), (bob, ["load-2"]), (watching, [EXAMPLE])):
         assert [kept["name"] for kept in one.get(STUDIES).json()["saved"]] == sees
     kept = instructor.get(STUDIES).json()["saved"]
     assert {one["name"] for one in kept} == {"load", "load-2"}
@@ -124,17 +126,17 @@ def test_a_kept_study_is_its_makers_and_the_instructors(classroom: Classroom) ->
         assert other.delete(f"{STUDIES}/load").status_code == status
     for one, name in ((ada, "load"), (instructor, "load-2")):
         assert one.delete(f"{STUDIES}/{name}").status_code == 204
-    assert instructor.get(STUDIES).json()["saved"] == []
+    assert [kept["name"] for kept in instructor.get(STUDIES).json()["saved"]] == [EXAMPLE]
     assert ada.get(f"/api/v1/runs/{run}").is_success, "what was recorded of it stays"
 
 
 def wait_for_study(browser: httpx.Client, name: str) -> None:
-    """Until nothing works at it any more."""
+    """Wait until no process runs it."""
     while browser.get(f"{STUDIES}/{name}").json()["job"]["status"] in ("waiting", "running"):
         time.sleep(0.05)
 
 
-def test_what_a_user_else_keeps_is_no_source(classroom: Classroom) -> None:
+def test_saved_object_of_another_user_is_no_source(classroom: Classroom) -> None:
     ada, bob = classroom.join("Ada"), classroom.join("Bob")
     begun = ada.post(STUDIES, json={"source": "load", "runs": 4, "name": "mine"})
     ada.delete(f"{JOBS}/{begun.json()['job']['id']}").raise_for_status()
@@ -142,7 +144,7 @@ def test_what_a_user_else_keeps_is_no_source(classroom: Classroom) -> None:
     assert read_kind(bob.post(STUDIES + "/check", json={"source": "mine"})) == "not_found"
 
 
-def test_what_was_kept_outside_a_class_is_all_users_to_read_and_the_instructors(
+def test_objects_saved_outside_a_class_are_readable_by_all_and_owned_by_the_instructor(
     tmp_path: Path,
 ) -> None:
     folder = tmp_path / "studies"
@@ -159,7 +161,7 @@ def test_what_was_kept_outside_a_class_is_all_users_to_read_and_the_instructors(
             instructor.delete(f"{JOBS}/{one['job']['id']}").raise_for_status()
 
 
-def test_studies_count_towards_a_persons_room(tmp_path: Path) -> None:
+def test_studies_count_towards_the_disk_limit_of_a_user(tmp_path: Path) -> None:
     stored = keep_study("mine", read_study("load")[1].changed(runs=4), tmp_path, "p-1")
     (stored.folder / "rows.parquet").write_bytes(b"x" * 1000)
     assert measure_bytes("p-1", tmp_path) > 1000
@@ -172,14 +174,14 @@ def test_studies_count_towards_a_persons_room(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("content", ["", "[]", '{"owner": 3}', '{"owner": null}'])
-def test_a_study_that_cannot_be_read_has_no_owner(tmp_path: Path, content: str) -> None:
+def test_unreadable_study_has_no_owner(tmp_path: Path, content: str) -> None:
     stored = keep_study("mine", read_study("load")[1], tmp_path, "p-1")
     (stored.folder / STUDY_FILE).write_text(content)
     assert read_owner("mine", tmp_path) is None
     assert read_owner("../mine", tmp_path) is None
 
 
-def test_a_search_and_what_it_found_is_its_makers_and_the_instructors(classroom: Classroom) -> None:
+def test_search_and_its_result_belong_to_creator_and_instructor(classroom: Classroom) -> None:
     ada, bob, instructor = classroom.join("Ada"), classroom.join("Bob"), classroom.log_in()
     asked = {"kind": "falsification", "adversary": "impulse", "runs": 2000}
     search = ada.post(JOBS, json=asked).raise_for_status().json()["id"]
@@ -193,7 +195,7 @@ def test_a_search_and_what_it_found_is_its_makers_and_the_instructors(classroom:
     instructor.delete(path).raise_for_status()
 
 
-def test_a_session_of_the_ranking_is_its_makers_and_the_instructors(classroom: Classroom) -> None:
+def test_ranking_session_belongs_to_creator_and_instructor(classroom: Classroom) -> None:
     ada, bob, instructor = classroom.join("Ada"), classroom.join("Bob"), classroom.log_in()
     state = ada.post(SESSIONS, json=RANKED).raise_for_status().json()
     path = f"{SESSIONS}/{state['session']}"

@@ -1,7 +1,7 @@
 """No request reaches what belongs to another person, wherever it names its id.
 
 The cases come from the schema: every marked id of every route, with another person's id and with
-one that does not exist, as each role. Both are answered alike, so that nothing is disclosed.
+one that does not exist, as each role. Both get the same answer, so that nothing is disclosed.
 """
 
 import asyncio
@@ -37,7 +37,7 @@ MISSING = {
     "study source": "no-such-study",
     "person": "p-0123456789ab",
 }
-"""Ids of nothing, of the form of those there are."""
+"""Ids of nonexistent objects, in the form of existing ones."""
 SECRET = "adas-own"
 PLACES = [one for one in list_places(SCHEMA) if one.owned]
 ENDLESS = dict.fromkeys(
@@ -47,7 +47,7 @@ ROLES = [None, Role.OBSERVER, Role.OPERATOR]
 
 
 class Things(NamedTuple):
-    """What Ada has in a class, by kind, and a run that all may read; who asks for it, by role."""
+    """The objects of Ada in a class, by kind, and a run readable by all; clients by role."""
 
     room: Classroom
     adas: dict[str, str]
@@ -87,7 +87,7 @@ def things(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Things]:
 
 
 def record(browser: httpx.Client, session: str, name: str = SECRET) -> str:
-    """A recorded run of a session."""
+    """Record a run of a session."""
     browser.post(session + "/pause").raise_for_status()
     started = browser.post(session + "/recording", json={"name": name}).raise_for_status().json()
     browser.post(session + "/step", json={"ticks": 50}).raise_for_status()
@@ -98,7 +98,7 @@ def record(browser: httpx.Client, session: str, name: str = SECRET) -> str:
 
 
 def add_job(room: Classroom, owner: str) -> str:
-    """A job that waits indefinitely."""
+    """Add a job that waits indefinitely."""
     jobs = find_app(room).state.jobs
     folder = Path(jobs._place.name) / "fedcba987654"
     folder.mkdir()
@@ -107,7 +107,7 @@ def add_job(room: Classroom, owner: str) -> str:
 
 
 def find_app(room: Classroom) -> FastAPI:
-    """The application of a class in this process."""
+    """Return the application of a class in this process."""
     return room.lab.client._transport._transport.app  # type: ignore[attr-defined]
 
 
@@ -116,15 +116,13 @@ def send(browser: httpx.Client, asked: Asked) -> httpx.Response:
 
 
 def describe(answer: httpx.Response, name: str) -> tuple[int, str, list[tuple[str, str]]]:
-    """All that the answer discloses, but for the id that was asked for."""
+    """Return the content of the answer without the requested id."""
     headers = [(key, value) for key, value in answer.headers.items() if key != "content-length"]
     return answer.status_code, answer.text.replace(name, "ID"), headers
 
 
 @pytest.mark.parametrize("who", ["anonymous", "observer", "operator", "script", "removed"])
-def test_the_id_of_anothers_thing_is_answered_as_one_that_does_not_exist(
-    things: Things, who: str
-) -> None:
+def test_foreign_id_is_answered_like_a_nonexistent_one(things: Things, who: str) -> None:
     callers: dict[str, tuple[httpx.Client, Role | None]] = {
         role.word if role else "anonymous": (browser, role)
         for role, browser in things.others.items()
@@ -149,7 +147,7 @@ def test_the_id_of_anothers_thing_is_answered_as_one_that_does_not_exist(
     assert leaks == []
 
 
-def test_the_owner_and_the_instructor_reach_what_the_others_do_not(things: Things) -> None:
+def test_owner_and_instructor_access_what_others_cannot(things: Things) -> None:
     own = {**things.shared, **things.adas}
     ends = ("{session}", "{run_id}", "{study}", "{job}", "/difference", "/verdict", "/origin")
     reached = set()
@@ -166,7 +164,7 @@ def test_the_owner_and_the_instructor_reach_what_the_others_do_not(things: Thing
     assert len(reached) >= 10
 
 
-def test_no_list_shows_what_belongs_to_another_person(things: Things) -> None:
+def test_no_list_contains_objects_of_another_user(things: Things) -> None:
     hidden = {one for kind, one in things.adas.items() if kind != "person"}
     routes = [path for path, item in SCHEMA["paths"].items() if "get" in item and "{" not in path]
     assert len(routes) > 15
@@ -178,7 +176,7 @@ def test_no_list_shows_what_belongs_to_another_person(things: Things) -> None:
 
 
 @pytest.mark.parametrize("role", ROLES, ids=lambda role: role.word if role else "anonymous")
-def test_streams_and_3d_views_disclose_no_session_of_another_person(
+def test_streams_and_3d_views_disclose_no_session_of_another_user(
     things: Things, role: Role | None
 ) -> None:
     browser = things.others[role]
@@ -230,7 +228,7 @@ def connect(room: Classroom, browser: httpx.Client, path: str, name: str = "") -
     return f"{first['status']} {sent[1]['body'].decode()}".replace(name or path, "ID")
 
 
-def test_the_outcome_of_a_request_is_for_its_sender_only(things: Things) -> None:
+def test_outcome_of_a_request_is_for_its_sender_only(things: Things) -> None:
     outcomes = "/api/v1/requests/"
     things.ada.post(SHARED + "/pause", headers={"Idempotency-Key": SECRET}).raise_for_status()
     assert things.ada.get(outcomes + SECRET).json()["outcome"] == "carried_out"
@@ -239,7 +237,7 @@ def test_the_outcome_of_a_request_is_for_its_sender_only(things: Things) -> None
         assert [(one["outcome"], one["status"]) for one in found] == [("unknown", None)] * 2
 
 
-def test_control_is_handed_to_another_person_as_to_no_user(things: Things) -> None:
+def test_handing_control_to_another_user_is_answered_like_to_an_unknown_one(things: Things) -> None:
     found = [
         describe(
             things.others[Role.OPERATOR].post(SHARED + "/control/handover", json={"to": one}), one
@@ -249,7 +247,7 @@ def test_control_is_handed_to_another_person_as_to_no_user(things: Things) -> No
     assert found[0] == found[1]
 
 
-def test_what_all_may_read_is_refused_as_such_where_it_is_changed(things: Things) -> None:
+def test_change_of_a_readable_object_is_rejected_as_such(things: Things) -> None:
     bob, path = things.others[Role.OPERATOR], f"/api/v1/runs/{things.shared['run']}"
     assert bob.get(path).is_success
     refused = bob.patch(path, json={"name": "his"})

@@ -1,4 +1,4 @@
-"""Every route and WebSocket of the server, and which role may call it."""
+"""Every route and WebSocket of the server, and the roles that may call it."""
 
 import asyncio
 import re
@@ -29,12 +29,12 @@ from svsa_server.app import build_app
 from svsa_server.openapi import PERMISSION
 from svsa_server.routes import build_routes
 from svsa_server.routing import OwnedRoute, build_router
-from svsa_server.sessions.lock import TurnRoute
+from svsa_server.sessions.lock import WaitingRoute
 from tests.server.schema import SCHEMA
 
 
 def list_routes(routes: Iterable[BaseRoute]) -> Iterator[str]:
-    """METHOD path of all there is."""
+    """Return METHOD and path of all routes."""
     for route in routes:
         if isinstance(route, Mount):
             yield f"GET {route.path}/{{path:path}}"
@@ -57,34 +57,34 @@ def table() -> PermissionTable:
 
 
 def fill(path: str) -> str:
-    """A path that this template fits."""
+    """Return a path that matches this template."""
     return re.sub(r"\{(\w+)(:\w+)?\}", lambda found: f"some-{found[1]}", path)
 
 
-def test_the_table_has_every_route_once_and_nothing_else(
+def test_table_has_every_route_once_and_nothing_else(
     table: PermissionTable, served: list[str]
 ) -> None:
     assert len(served) > 85
     assert sorted(f"{one.method} {one.path}" for one in table.entries) == served
 
 
-def test_the_first_entry_that_fits_a_path_is_the_one_meant(table: PermissionTable) -> None:
+def test_first_matching_entry_of_a_path_is_the_intended_one(table: PermissionTable) -> None:
     for method, path, permission in table.entries:
         assert table.find(method, fill(path)).permission == permission, (method, path)
 
 
-def test_what_is_no_route_is_the_instructors(table: PermissionTable) -> None:
+def test_unknown_route_needs_the_instructor(table: PermissionTable) -> None:
     for method, path in (("GET", "/api/v1/new"), ("PUT", "/"), (WEBSOCKET, "/x")):
         assert table.find(method, path).permission == INSTRUCTOR_ONLY
 
 
-def test_the_table_in_docs_is_the_one_that_the_server_uses(table: PermissionTable) -> None:
+def test_table_in_docs_is_that_of_the_server(table: PermissionTable) -> None:
     """A change of a permission appears in the diff of this file."""
     kept = Path(__file__).parents[3] / "docs" / "permissions.txt"
     assert kept.read_text(encoding="utf-8") == table.write(), "run: make schema"
 
 
-def test_a_server_does_not_start_with_a_route_that_states_no_permission() -> None:
+def test_server_does_not_start_with_a_route_without_permission() -> None:
     router = build_router("/new")
 
     @router.post("/thing")
@@ -98,8 +98,8 @@ def test_a_server_does_not_start_with_a_route_that_states_no_permission() -> Non
         build_app()
 
 
-def test_a_permission_above_the_routers_decorator_is_not_taken_for_one() -> None:
-    """It is declared after the route was made, so that the order is always the same."""
+def test_permission_above_the_router_decorator_is_rejected() -> None:
+    """It would be declared after the route was made; the order must always be the same."""
     router = build_router("/new")
 
     @allow(PUBLIC)
@@ -111,8 +111,8 @@ def test_a_permission_above_the_routers_decorator_is_not_taken_for_one() -> None
         PermissionTable(router.routes)
 
 
-@pytest.mark.parametrize("route_class", [OwnedRoute, TurnRoute])
-def test_a_route_keeps_the_permission_of_its_function(route_class: type[OwnedRoute]) -> None:
+@pytest.mark.parametrize("route_class", [OwnedRoute, WaitingRoute])
+def test_route_keeps_the_permission_of_its_function(route_class: type[OwnedRoute]) -> None:
     router = build_router("/new", route_class)
 
     @router.get("/thing")
@@ -125,8 +125,8 @@ def test_a_route_keeps_the_permission_of_its_function(route_class: type[OwnedRou
     assert words == [("PUT", "operator"), ("GET", "operator")]
 
 
-def test_two_routes_of_one_method_and_path_are_refused() -> None:
-    """The second would never be called, and its permission would stand in the table."""
+def test_two_routes_of_one_method_and_path_are_rejected() -> None:
+    """The second would never be called, but its permission would be in the table."""
 
     @allow(PUBLIC)
     async def serve(_: object) -> None:
@@ -148,7 +148,7 @@ Headers = list[tuple[bytes, bytes]]
 
 
 class Identity(NamedTuple):
-    """A caller. headers: what it sends. role: what that is worth; None: no more than nothing."""
+    """A caller. headers: its credentials. role: the resulting role; None: no role."""
 
     headers: Headers
     role: Role | None
@@ -157,7 +157,7 @@ class Identity(NamedTuple):
 def build_identities(
     keys: ClassKeys, token: str, members: Memberships, folder: Path
 ) -> dict[str, Identity]:
-    """Everything that a caller of a class may have, by name."""
+    """Return every kind of credentials in a class, by name."""
     people = {
         "observer": Person("p-1", "Ola", Role.OBSERVER),
         "student": STUDENT,
@@ -189,17 +189,17 @@ def build_identities(
 
 
 def keep(cookie: str) -> Headers:
-    """The headers of a browser with this cookie."""
+    """Return the headers of a browser with this cookie."""
     return [(b"cookie", f"svsa_access={cookie}".encode())]
 
 
 def carry(token: str) -> Headers:
-    """The headers of a script with this token."""
+    """Return the headers of a script with this token."""
     return [(b"authorization", f"Bearer {token}".encode())]
 
 
 async def call(guard: AccessGuard, method: str, path: str, given: Headers) -> int:
-    """The status of a request; 204 or an accepted WebSocket of who got through is 204."""
+    """Return the status of a request; 204 for an admitted request or an accepted WebSocket."""
     kind = "websocket" if method == WEBSOCKET else "http"
     headers = [(b"host", b"127.0.0.1:8000"), *given]
     scope = {"type": kind, "path": path, "headers": headers, "extensions": {}}
@@ -220,7 +220,7 @@ async def call(guard: AccessGuard, method: str, path: str, given: Headers) -> in
 
 
 async def answer(scope: dict, receive: object, send: object) -> None:
-    """Stands for the lab behind the guard."""
+    """Replaces the lab behind the guard."""
     await send({"type": "http.response.start", "status": 204, "headers": []})  # type: ignore[operator]
 
 
@@ -231,10 +231,10 @@ async def see_all(*_: object) -> bool:
 METHODS = ("GET", "POST", "PUT", "PATCH", "DELETE", "OPTIONS", WEBSOCKET)
 
 
-def test_each_identity_reaches_what_the_printed_table_allows_and_nothing_else(
+def test_each_identity_has_exactly_the_access_of_the_table(
     tmp_path: Path, table: PermissionTable, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Each path with each method: one that the table does not have is the instructor's."""
+    """Each path with each method: one that is not in the table needs the instructor."""
     monkeypatch.setattr(authentication, "REFUSAL_DELAY_S", 0.0)
     keys, reported = ClassKeys.open(tmp_path)
     assert reported is not None
@@ -263,7 +263,7 @@ def test_each_identity_reaches_what_the_printed_table_allows_and_nothing_else(
                 needed = roles[words.get((method, path), Role.INSTRUCTOR.word)]
                 is_shadowed = table.find(method, fill(path)).permission.role is not needed
                 if is_shadowed and (method, path) not in words:
-                    continue  # a wider path, such as /learn/{exercise}, has this method
+                    continue  # A wider path, such as /learn/{exercise}, has this method.
                 for name, (headers, role) in identities.items():
                     status = await call(guard, method, fill(path), headers)
                     assert status == expect(needed, role), (name, method, path)

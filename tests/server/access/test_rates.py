@@ -1,4 +1,4 @@
-"""How often one may: counted by address or person, reported when again, and never a stop."""
+"""Rate limits: counted by address or user, with the time of the next attempt; stop is exempt."""
 
 import asyncio
 import time
@@ -15,7 +15,9 @@ from tests.server.access.classroom import SHARED, read_kind, run_class
 SESSION = "/api/v1/sessions/private-1"
 
 
-def test_one_too_many_is_reported_when_it_is_not(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_request_above_the_limit_is_reported_with_the_next_time(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     now = [1000.0]
     monkeypatch.setattr(time, "time", lambda: now[0])
     others = dict.fromkeys(("codes", "logins", "sessions", "runs"), "1/day")
@@ -45,16 +47,16 @@ def test_one_too_many_is_reported_when_it_is_not(monkeypatch: pytest.MonkeyPatch
         ("GET", SESSION, None),
     ],
 )
-def test_what_a_request_counts_as(method: str, path: str, kind: str | None) -> None:
+def test_kind_of_a_request_for_the_limits(method: str, path: str, kind: str | None) -> None:
     assert find_kind(method, path) == kind
 
 
-def test_a_rate_that_is_none_is_refused() -> None:
+def test_invalid_rate_is_rejected() -> None:
     with pytest.raises(ValidationError):
         Settings(commands="often")
 
 
-def test_over_rest_it_is_429_with_retry_after_and_all_users_still_stops(tmp_path: Path) -> None:
+def test_rejection_over_rest_is_429_with_retry_after_and_stop_still_works(tmp_path: Path) -> None:
     with run_class(tmp_path, commands="3/hour", sessions="1/hour", joins="5/hour") as room:
         ada, bob = room.join("Ada"), room.join("Bob")
         ada.put(SHARED + "/control", json={"by": "Ada"}).raise_for_status()
@@ -72,7 +74,7 @@ def test_over_rest_it_is_429_with_retry_after_and_all_users_still_stops(tmp_path
         assert tried == [401, 401, 401, 429, 429]
 
 
-def test_wrong_codes_and_tokens_of_an_address_lock_out_neither_instructor_nor_class(
+def test_wrong_codes_of_an_address_lock_out_neither_instructor_nor_class(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A class behind one router shares an address with clients that mistype or guess."""
@@ -90,7 +92,7 @@ def test_wrong_codes_and_tokens_of_an_address_lock_out_neither_instructor_nor_cl
         assert room.join("Ada").get("/api/v1/class").status_code == 200
 
 
-def test_wrong_answers_of_one_address_do_not_delay_those_of_another(
+def test_wrong_codes_of_one_address_do_not_delay_another(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(authentication, "REFUSAL_DELAY_S", 0.01)

@@ -1,4 +1,4 @@
-"""A connection on which nothing has been asked for a while."""
+"""An idle connection."""
 
 import time
 from http.client import HTTPConnection
@@ -6,10 +6,10 @@ from http.client import HTTPConnection
 from tests.lab import Lab
 
 HTTPX_S = 5.0
-"""So long httpx uses one again: a server that closes it just then answers nothing."""
+"""For this time httpx reuses one: a server that closes it at that moment gives no answer."""
 
 
-def test_it_is_kept_longer_than_a_client_uses_it_again(lab: Lab) -> None:
+def test_idle_connection_is_kept_longer_than_clients_reuse_it(lab: Lab) -> None:
     connection = HTTPConnection(lab.url.removeprefix("http://"), timeout=60)
     connection.request("GET", "/api/v1/sessions")
     first = connection.getresponse()

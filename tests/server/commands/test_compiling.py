@@ -1,4 +1,4 @@
-"""Laws that no user has used yet are compiled next to the server."""
+"""Unused laws and the loop of other actuators are compiled in parallel with the server."""
 
 import signal
 import subprocess
@@ -8,6 +8,7 @@ import pytest
 
 from svsa_server.commands import compiling
 from svsa_server.commands.compiling import compile_laws
+from svsa_server.compiled_loops import is_compiled_for
 from tests.waiting import wait_until
 
 WAIT = "import time; time.sleep(600)"
@@ -15,7 +16,7 @@ WAIT = "import time; time.sleep(600)"
 
 @pytest.fixture
 def started(monkeypatch):
-    """The processes that were started for compiling."""
+    """The started compiling processes."""
     processes: list[subprocess.Popen[bytes]] = []
 
     class Noted(subprocess.Popen[bytes]):
@@ -27,14 +28,21 @@ def started(monkeypatch):
     return processes
 
 
-def test_nothing_is_started_where_every_law_is_compiled(started):
+def test_nothing_is_started_if_every_law_is_compiled(started):
     with compile_laws():
         assert started == []
 
 
-def test_what_compiles_ends_with_the_server(started, monkeypatch):
+def test_loop_of_other_actuators_is_compiled_if_every_law_is_compiled(started, monkeypatch):
+    monkeypatch.setattr(compiling, "is_compiled_for", lambda actuator, law: actuator == "svsa")
+    monkeypatch.setattr(compiling, "PREPARE", WAIT)
+    with compile_laws():
+        assert len(started) == 1
+
+
+def test_compiling_process_ends_with_the_server(started, monkeypatch):
     monkeypatch.setattr(compiling, "is_compiled_before", lambda control: False)
-    monkeypatch.setattr(compiling, "_COMPILE", (WAIT,))
+    monkeypatch.setattr(compiling, "PREPARE", WAIT)
     with compile_laws():
         (process,) = started
         assert process.args == [sys.executable, "-c", WAIT]
@@ -45,11 +53,11 @@ def test_what_compiles_ends_with_the_server(started, monkeypatch):
 IGNORE = "import pathlib, signal; signal.signal(signal.SIGTERM, signal.SIG_IGN); "
 
 
-def test_what_compiles_and_does_not_end_is_killed(started, monkeypatch, tmp_path):
+def test_compiling_process_that_does_not_end_is_killed(started, monkeypatch, tmp_path):
     ready = tmp_path / "ready"
     program = f"{IGNORE}pathlib.Path({str(ready)!r}).touch(); {WAIT}"
     monkeypatch.setattr(compiling, "is_compiled_before", lambda control: False)
-    monkeypatch.setattr(compiling, "_COMPILE", (program,))
+    monkeypatch.setattr(compiling, "PREPARE", program)
     monkeypatch.setattr(compiling, "END_S", 0.1)
     with compile_laws():
         (process,) = started
@@ -58,8 +66,9 @@ def test_what_compiles_and_does_not_end_is_killed(started, monkeypatch, tmp_path
 
 
 @pytest.mark.exhaustive
-def test_the_laws_are_compiled_by_the_command_that_compiles_all():
+def test_program_compiles_all_laws_and_the_loop_of_other_actuators():
     done = subprocess.run(
-        [sys.executable, "-c", *compiling._COMPILE], check=False, capture_output=True
+        [sys.executable, "-c", compiling.PREPARE], check=False, capture_output=True
     )
     assert done.returncode == 0, done.stderr
+    assert is_compiled_for(compiling.OTHER, "ndobc")

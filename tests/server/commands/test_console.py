@@ -13,7 +13,7 @@ WAIT_S = 10.0
 
 @pytest.fixture
 def keyboard(monkeypatch: pytest.MonkeyPatch):
-    """A terminal as standard input; what is written to it are keys."""
+    """A terminal as standard input; text written to it is typed."""
     keys, terminal = os.openpty()
     with os.fdopen(terminal) as stream:
         monkeypatch.setattr(sys, "stdin", stream)
@@ -22,7 +22,7 @@ def keyboard(monkeypatch: pytest.MonkeyPatch):
 
 
 @pytest.mark.parametrize("key", [bytes([key]) for key in KEYS] + [b"E"])
-def test_a_key_stops(keyboard: int, key: bytes) -> None:
+def test_key_stops_the_session(keyboard: int, key: bytes) -> None:
     pressed = threading.Event()
     with watch_keyboard(pressed.set) as watched:
         assert watched
@@ -32,7 +32,7 @@ def test_a_key_stops(keyboard: int, key: bytes) -> None:
         assert pressed.wait(WAIT_S)
 
 
-def test_the_terminal_is_left_as_it_was(keyboard: int) -> None:
+def test_terminal_settings_are_restored(keyboard: int) -> None:
     import termios
 
     before = termios.tcgetattr(sys.stdin.fileno())
@@ -41,7 +41,7 @@ def test_the_terminal_is_left_as_it_was(keyboard: int) -> None:
     assert termios.tcgetattr(sys.stdin.fileno()) == before
 
 
-def test_without_a_terminal_nothing_is_watched(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_no_keys_are_read_without_a_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
     with open(os.devnull) as nothing:  # noqa: PTH123
         monkeypatch.setattr(sys, "stdin", nothing)
         with watch_keyboard(lambda: None) as watched:

@@ -1,4 +1,4 @@
-"""A server that is up."""
+"""A running server."""
 
 import asyncio
 import gc
@@ -18,12 +18,12 @@ from tests.lab import run_lab
 
 
 @pytest.mark.parametrize("path", ["svsa", "/svsa/", "/a b", "//", "/ä"])
-def test_what_is_no_path_below_a_proxy_is_refused_with_its_bound(path):
+def test_invalid_path_below_a_proxy_is_rejected_with_its_bound(path):
     with pytest.raises(ParameterError, match="begins with / and does not end with one"):
         Settings(root_path=path).check_root_path()
 
 
-def test_a_lab_may_have_a_path_or_none():
+def test_path_below_a_proxy_is_optional():
     for path in ("", "/svsa", "/labs/svsa-1"):
         Settings(root_path=path).check_root_path()
 
@@ -41,9 +41,9 @@ async def start_and_stop(server: AnnouncedServer) -> int:
     return frozen
 
 
-def test_what_is_there_at_the_start_is_not_looked_through_again_and_again():
-    """Python looks through half a million objects in 0.2 s, in which no session goes on; until the
-    lab answers, it looks through none.
+def test_objects_of_the_start_are_excluded_from_garbage_collection():
+    """Python scans half a million objects in 0.2 s, during which no session runs; until the lab
+    answers, it scans none.
     """
     there = [[one] for one in range(1000)]
     config = uvicorn.Config(answer_nothing, log_level="warning", lifespan="off")
@@ -60,7 +60,7 @@ def test_what_is_there_at_the_start_is_not_looked_through_again_and_again():
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no such locks and modes")
-def test_a_second_server_on_a_data_folder_is_rejected(tmp_path: Path) -> None:
+def test_second_server_on_a_data_folder_is_rejected(tmp_path: Path) -> None:
     first = claim_data_folder(tmp_path / "lab")
     assert first is not None
     with pytest.raises(StateError, match=rf"process {os.getpid()}\) uses .* SVSA_DATA"):
@@ -71,13 +71,13 @@ def test_a_second_server_on_a_data_folder_is_rejected(tmp_path: Path) -> None:
     second.close()
 
 
-def test_a_data_folder_that_cannot_be_written_is_not_claimed(tmp_path: Path) -> None:
+def test_unwritable_data_folder_is_not_locked(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     assert claim_data_folder(tmp_path / "file" / "lab") is None
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no such locks and modes")
-def test_no_other_user_reads_the_files_of_a_class(tmp_path: Path) -> None:
+def test_files_of_a_class_are_private(tmp_path: Path) -> None:
     with run_lab("--class", data=str(tmp_path)):
         written = [path for path in tmp_path.rglob("*") if path.is_file()]
         assert {"catalogue.sqlite", "class.json", "members.sqlite"} <= {one.name for one in written}
@@ -85,7 +85,7 @@ def test_no_other_user_reads_the_files_of_a_class(tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(shutil.which("bwrap") is None, reason="bwrap is not installed")
-def test_a_server_without_shared_memory_says_so_at_its_start() -> None:
+def test_missing_shared_memory_is_reported_at_the_start() -> None:
     """As in a container whose /dev/shm is read-only."""
     shared = str(Path("/dev") / "shm")
     before = ["bwrap", "--dev-bind", "/", "/", "--ro-bind", shared, shared]

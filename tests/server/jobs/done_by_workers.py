@@ -1,4 +1,4 @@
-"""Jobs for a worker, which imports this file and nothing of the tests."""
+"""Jobs for a worker, which imports this file and no other test file."""
 
 import os
 import time
@@ -22,3 +22,9 @@ def refuse(name: str) -> None:
 
 def end() -> None:
     os._exit(1)
+
+
+def note_and_sleep(note: Path) -> None:
+    """Create a file, then sleep: its existence shows that the job runs."""
+    note.touch()
+    time.sleep(300.0)

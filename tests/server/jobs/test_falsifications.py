@@ -1,4 +1,4 @@
-"""The falsifier over REST: followed to what it found, cancelled, seen in a session, refused."""
+"""The falsifier over REST: followed to its result, cancelled, shown in a session, rejected."""
 
 import tomllib
 
@@ -36,7 +36,7 @@ def lab():
         yield lab.client
 
 
-def test_a_search_is_followed_to_what_it_found_and_seen_in_a_session(lab, tmp_path):
+def test_search_is_followed_to_its_result_and_shown_in_a_session(lab, tmp_path):
     asked = KIND | {"text": PULL, "law": "fl", "runs": 96, "seed": 3}
     begun = lab.post(JOBS, json=asked)
     assert begun.status_code == 201
@@ -66,7 +66,7 @@ def test_a_search_is_followed_to_what_it_found_and_seen_in_a_session(lab, tmp_pa
     lab.delete(f"/api/v1/sessions/{seen.json()['session']}").raise_for_status()
 
 
-def test_a_search_is_broken_off_and_keeps_its_worst(lab):
+def test_cancelled_search_keeps_its_worst_run(lab):
     name = lab.post(JOBS, json=KIND | {"text": PULL, "runs": 100_000}).json()["id"]
     refused = lab.get(f"{JOBS}/{name}/file")
     assert refused.status_code == 409
@@ -83,7 +83,7 @@ def test_a_search_is_broken_off_and_keeps_its_worst(lab):
     assert name in [job["id"] for job in lab.get(JOBS).json()["jobs"]]
 
 
-def test_a_wrong_adversary_is_refused_with_line_and_bound(lab):
+def test_invalid_adversary_is_rejected_with_line_and_bound(lab):
     for asked, reported in (
         ({"adversary": "missing"}, "impulse"),
         ({"text": PULL.replace("2.0", "-2.0")}, "line 11"),
@@ -98,7 +98,7 @@ def test_a_wrong_adversary_is_refused_with_line_and_bound(lab):
         assert reported in refused.json()["detail"]
 
 
-def test_one_of_one_s_own_is_searched_as_its_text_is(lab):
+def test_adversary_text_of_a_user_is_searched_unchanged(lab):
     states = []
     for asked in ({"definition": OWN}, {"text": PULL}):
         name = lab.post(JOBS, json=KIND | asked | {"runs": 64}).raise_for_status().json()["id"]
@@ -107,7 +107,7 @@ def test_one_of_one_s_own_is_searched_as_its_text_is(lab):
     assert states[0]["scenario"] == states[1]["scenario"] is not None
 
 
-def test_those_of_the_lab_can_be_read_and_sent_back(lab):
+def test_packaged_adversaries_can_be_read_and_sent_back(lab):
     for one in lab.get("/api/v1/adversaries").json():
         assert tomllib.loads(one["text"])["title"] == one["title"]
         assert Adversary(**one["definition"]) == read_adversary(one["name"])

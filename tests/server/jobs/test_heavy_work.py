@@ -1,4 +1,4 @@
-"""Exports, replays and comparisons in processes of their own: bounded, and errors come back."""
+"""Exports, replays and comparisons in separate processes: limited, and errors are returned."""
 
 import asyncio
 import os
@@ -15,7 +15,8 @@ from svsa_server.jobs.heavy_work import RETRY_AFTER_S, BusyError, HeavyWork
 from svsa_server.problems import TYPE_PREFIX
 from tests.lab import Lab
 from tests.lab_in_process import run_lab_in_process
-from tests.server.jobs.done_by_workers import end, get_process, refuse, wait_for
+from tests.server.jobs.done_by_workers import end, get_process, note_and_sleep, refuse, wait_for
+from tests.waiting import wait_until
 
 
 @pytest.fixture
@@ -25,13 +26,13 @@ def work():
     work.close()
 
 
-def test_a_job_is_done_by_another_process_of_the_lowest_priority(work):
+def test_job_runs_in_another_process_of_the_lowest_priority(work):
     process, niceness = asyncio.run(work.run(get_process))
     assert process != os.getpid()
     assert niceness == 10
 
 
-def test_who_finds_the_queue_full_is_reported_and_the_others_are_done(work, tmp_path):
+def test_full_queue_is_reported_and_queued_jobs_are_completed(work, tmp_path):
     async def crowd():
         first = [asyncio.create_task(work.run(wait_for, tmp_path / "go")) for _ in range(2)]
         await asyncio.sleep(0)
@@ -44,8 +45,10 @@ def test_who_finds_the_queue_full_is_reported_and_the_others_are_done(work, tmp_
     asyncio.run(crowd())
 
 
-def test_the_server_answers_while_its_first_worker_begins(work, monkeypatch):
-    """A worker is a copy of a process that first reads for seconds, longer on a busy machine."""
+def test_server_answers_while_its_first_worker_starts(work, monkeypatch):
+    """A worker is forked from a process that first imports for seconds, longer on a busy
+    machine.
+    """
     has_answered = threading.Event()
 
     def begin_slowly(*asked):
@@ -63,13 +66,13 @@ def test_the_server_answers_while_its_first_worker_begins(work, monkeypatch):
     asyncio.run(answer_meanwhile())
 
 
-def test_a_lab_that_has_ended_begins_nothing(work):
+def test_ended_lab_starts_no_job(work):
     work.close()
     with pytest.raises(BusyError, match="is ending"):
         asyncio.run(work.run(get_process))
 
 
-def test_a_refusal_comes_back_with_its_values(work):
+def test_rejection_is_returned_with_its_values(work):
     with pytest.raises(ParameterError) as refused:
         asyncio.run(work.run(refuse, "frequency_hz"))
     assert refused.value.violations == (Violation("frequency_hz", 9.0, "Hz", "at most 5 Hz"),)
@@ -77,19 +80,21 @@ def test_a_refusal_comes_back_with_its_values(work):
     assert str(again) == str(refused.value)
 
 
-def test_a_worker_that_dies_is_replaced(work):
+def test_worker_that_dies_is_replaced(work):
     with pytest.raises(BusyError, match="has ended"):
         asyncio.run(work.run(end))
     assert asyncio.run(work.run(get_process))[0] != os.getpid()
 
 
-def test_one_lab_that_ends_takes_no_worker_from_another(work):
-    """Two in one process, as in these tests; its own worker ends in the middle of a job."""
+def test_end_of_one_lab_ends_no_worker_of_another(work, tmp_path):
+    """Two in one process, as in these tests; its own worker ends during a job."""
+    note = tmp_path / "begun"
     process, _ = asyncio.run(work.run(get_process))
 
     async def close_in_the_middle() -> None:
         ending = HeavyWork(most=1, workers=1)
-        job = asyncio.create_task(ending.run(time.sleep, 300.0))
+        job = asyncio.create_task(ending.run(note_and_sleep, note))
+        await asyncio.to_thread(wait_until, note.exists)
         other = await work.run(get_process)
         ending.close()
         with pytest.raises(BusyError, match="has ended"):
@@ -120,7 +125,7 @@ def record(lab: Lab, seconds: int) -> str:
     return run_id
 
 
-def test_a_full_queue_is_a_503_that_says_when_to_come_again(busy_lab: Lab) -> None:
+def test_full_queue_is_a_503_with_a_retry_time(busy_lab: Lab) -> None:
     run_id = record(busy_lab, 1)
     for method, path in (
         ("GET", "export?kind=csv"),
@@ -143,7 +148,9 @@ def test_live_sessions_are_not_late_while_a_replay_is_built(shared_lab: Lab) -> 
     path = f"/api/v1/runs/{run_id}/export?kind=html"
     page = shared_lab.client.get(path, timeout=300)
     while page.status_code == 503 and time.monotonic() - began < 120:
-        time.sleep(float(page.headers["Retry-After"]))  # what tests before asked for goes first
+        time.sleep(
+            float(page.headers["Retry-After"])
+        )  # requests of earlier tests are answered first
         page = shared_lab.client.get(path, timeout=300)
     page.raise_for_status()
     waited, after = time.monotonic() - began, shared_lab.read()

@@ -1,4 +1,4 @@
-"""Long work: followed, cancelled, bounded, in no user's way, and ended with the server."""
+"""Long work: followed, cancelled, limited, at low priority, ended with the server."""
 
 import asyncio
 import contextlib
@@ -39,7 +39,7 @@ if __name__ == "__main__":
 
 
 def count(folder: JobFolder, total: int) -> bool:
-    """A piece a fiftieth of a second until it is done or cancelled."""
+    """Run a step of a fiftieth of a second until the end or cancellation."""
     (folder.path / "process").write_text(f"{os.getpid()} {os.nice(0)}")
     for done in range(1, total + 1):
         time.sleep(0.02)
@@ -77,7 +77,7 @@ def open_jobs(studies: int, tunings: int = 0):
         jobs.close()
 
 
-def test_a_job_is_followed_to_its_end_at_a_low_priority():
+def test_job_is_followed_to_its_end_at_a_low_priority():
     async def follow(jobs):
         job = jobs.start("study", "Forty", count, 40)
         assert (job.status, describe_job(job).total) == ("waiting", 0)
@@ -97,7 +97,7 @@ def test_a_job_is_followed_to_its_end_at_a_low_priority():
         asyncio.run(follow(jobs))
 
 
-def test_one_at_a_time_of_a_kind_and_a_full_queue_is_refused():
+def test_jobs_of_a_kind_run_one_at_a_time_and_a_full_queue_is_rejected():
     async def crowd(jobs):
         first, second = (jobs.start("study", "long", count, 10**6) for _ in range(2))
         with pytest.raises(BusyError, match="2 studies run or wait"):
@@ -124,13 +124,13 @@ def test_one_at_a_time_of_a_kind_and_a_full_queue_is_refused():
 
 
 def crawl(folder: JobFolder, seconds: float) -> bool:
-    """Take this long without asking whether to stop."""
+    """Run for this time without checking for cancellation."""
     folder.report(1, 2)
     time.sleep(seconds)
     return True
 
 
-def test_the_jobs_of_a_class_take_turns_by_person_and_the_instructor_is_next():
+def test_jobs_of_a_class_alternate_by_user_with_priority_of_the_instructor():
     async def share(jobs):
         first = jobs.start("study", "a1", count, 10**6, "a")
         second = jobs.start("study", "a2", count, 3, "a")
@@ -156,7 +156,7 @@ def test_the_jobs_of_a_class_take_turns_by_person_and_the_instructor_is_next():
 
 
 @pytest.mark.parametrize(("work", "kept"), [(count, "many"), (crawl, "one")])
-def test_a_job_of_a_person_ends_after_its_time_and_the_next_one_runs(
+def test_job_of_a_user_ends_at_its_time_limit_and_the_next_one_runs(
     monkeypatch: pytest.MonkeyPatch, work, kept: str
 ):
     monkeypatch.setattr(queue, "GRACE_S", 0.5)
@@ -177,7 +177,7 @@ def test_a_job_of_a_person_ends_after_its_time_and_the_next_one_runs(
         jobs.close()
 
 
-def test_a_job_that_fails_says_why_and_the_next_one_runs():
+def test_failed_job_reports_why_and_the_next_one_runs():
     async def fail(jobs):
         reported = []
         for work, asked in ((refuse, "frequency_hz"), (die, 1), (err, "nothing to share by")):
@@ -197,7 +197,7 @@ def test_a_job_that_fails_says_why_and_the_next_one_runs():
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no SIGKILL")
-def test_a_job_ends_with_its_server_however_that_ends():
+def test_job_ends_with_its_server_after_any_end():
     server = subprocess.Popen(
         [sys.executable, "-c", ORPHAN], stdout=subprocess.PIPE, text=True, env=os.environ
     )
@@ -213,7 +213,7 @@ def test_a_job_ends_with_its_server_however_that_ends():
             time.sleep(0.05)
 
 
-def test_progress_is_written_now_and_then_and_at_last(tmp_path, monkeypatch):
+def test_progress_is_written_at_intervals_and_at_the_end(tmp_path, monkeypatch):
     now = 100.0
     monkeypatch.setattr(time, "monotonic", lambda: now)
     folder = JobFolder(tmp_path)

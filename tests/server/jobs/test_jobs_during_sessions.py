@@ -1,4 +1,4 @@
-"""A class keeps time while a study runs."""
+"""The sessions of a class run in real time during a study."""
 
 import os
 import time
@@ -11,12 +11,12 @@ from tests.lab import run_lab
 
 pytestmark = pytest.mark.wall_clock
 CLASSES = [(8, 5.0), (40, 10.0)]
-"""Sessions, and how long they are watched, s."""
+"""Number of sessions, and duration of the measurement, s."""
 STUDIES = "/api/v1/studies"
 
 
 def list_workers(process: int) -> list[int]:
-    """What the workers of this process are copies of, then these, and theirs."""
+    """Return the parent of this process's workers, the workers, and their workers."""
     threads = Path(f"/proc/{process}/task").iterdir()
     children = [int(one) for thread in threads for one in (thread / "children").read_text().split()]
     family = [one for child in children for one in (child, *list_workers(child))]
@@ -31,8 +31,8 @@ def read_delays(client) -> dict[str, float]:
 
 @pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="processes are found in /proc")
 @pytest.mark.parametrize("size", exhaust(CLASSES, CLASSES[:1]))
-def test_its_sessions_keep_time_while_a_study_runs(size: tuple[int, float]) -> None:
-    """The scheduler's own measure: time that a session gave up for being late."""
+def test_sessions_run_in_real_time_during_a_study(size: tuple[int, float]) -> None:
+    """The scheduler's own measure: the accumulated delay of a session."""
     sessions, watched_s = size
     with run_lab() as lab:
         for _ in range(sessions):

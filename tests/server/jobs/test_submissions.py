@@ -1,4 +1,4 @@
-"""A law for the leaderboard over REST: refused, followed, cancelled, and kept once."""
+"""A law for the leaderboard over REST: rejected, followed, cancelled, and stored once."""
 
 import pytest
 
@@ -6,7 +6,7 @@ from svsa.teaching.isolation.refusal import NotIsolatedError
 from svsa.teaching.leaderboard.board import FOLDER, Board
 from svsa.teaching.submission import digest_law
 from svsa_server.jobs.progress import JobFolder, ask_to_stop, read_progress
-from svsa_server.jobs.submissions import Asked, enter
+from svsa_server.jobs.submissions import Task, measure_laws
 from tests.lab_in_process import run_lab_in_process
 from tests.teaching.grading.submissions import GOOD, LAZY
 from tests.teaching.isolation.test_attacks import isolation  # noqa: F401
@@ -27,7 +27,7 @@ def lab(data):
         yield lab.client
 
 
-def test_a_visit_does_not_start_a_season(lab, data):
+def test_visit_does_not_start_a_season(lab, data):
     state = lab.get(BOARD).json()
     assert state["began"] is None
     assert state["entries"] == []
@@ -37,7 +37,7 @@ def test_a_visit_does_not_start_a_season(lab, data):
     assert not (data / FOLDER).exists()
 
 
-def test_a_law_that_fails_at_once_is_refused_by_its_job_and_has_no_entry(lab, data):
+def test_failing_law_is_rejected_by_its_job_without_an_entry(lab, data):
     law = "def law(*given):\n    return spring\n"
     begun = lab.post(f"{BOARD}/submissions", json={"name": "Mine", "law": law})
     assert begun.status_code == 201
@@ -50,7 +50,7 @@ def test_a_law_that_fails_at_once_is_refused_by_its_job_and_has_no_entry(lab, da
     assert lab.get(BOARD).json()["entries"] == []
 
 
-def test_a_submission_is_followed_and_broken_off_and_enters_nothing(lab):
+def test_cancelled_submission_has_no_entry(lab):
     begun = lab.post(f"{BOARD}/submissions", json={"name": "Mine", "law": LAZY.decode()}).json()
     name = begun["job"]["id"]
     state = follow(lab, f"/api/v1/jobs/{name}", lambda state: state["done"] >= 2)
@@ -70,19 +70,19 @@ def test_a_submission_is_followed_and_broken_off_and_enters_nothing(lab):
         ({"name": "Mine", "law": "ä" * 40_000}, "65536 bytes"),
     ],
 )
-def test_what_is_no_submission_is_refused(lab, wanted, reported):
+def test_invalid_submission_is_rejected(lab, wanted, reported):
     refused = lab.post(f"{BOARD}/submissions", json=wanted)
     assert refused.status_code == 422
     assert reported in refused.text
 
 
 @pytest.mark.usefixtures("short_season")
-def test_a_worker_enters_the_law_and_the_labs_and_the_same_text_has_no_second_job(
+def test_worker_enters_the_submitted_and_installed_laws_and_repeated_text_has_no_second_job(
     lab, data, tmp_path
 ):
     folder = JobFolder(tmp_path)
     board = data / FOLDER
-    assert enter(folder, Asked(board, "Mine", GOOD, "Ada"))
+    assert measure_laws(folder, Task(board, "Mine", GOOD, "Ada"))
     folder.write()
     progress = read_progress(tmp_path)
     assert progress.done == progress.total == 3 * Board(board).season.run_count
@@ -97,13 +97,13 @@ def test_a_worker_enters_the_law_and_the_labs_and_the_same_text_has_no_second_jo
 
 
 @pytest.mark.usefixtures("short_season")
-def test_a_worker_that_is_to_stop_enters_nothing(tmp_path):
+def test_cancelled_worker_enters_nothing(tmp_path):
     ask_to_stop(tmp_path)
-    assert not enter(JobFolder(tmp_path), Asked(tmp_path / "board", "Mine", GOOD))
+    assert not measure_laws(JobFolder(tmp_path), Task(tmp_path / "board", "Mine", GOOD))
     assert Board(tmp_path / "board").list() == []
 
 
-def test_where_nothing_isolates_a_law_is_refused_and_says_why(lab, monkeypatch):
+def test_law_without_isolation_is_rejected_with_reason(lab, monkeypatch):
     def refuse():
         raise NotIsolatedError("bwrap is not installed")
 
@@ -114,7 +114,7 @@ def test_where_nothing_isolates_a_law_is_refused_and_says_why(lab, monkeypatch):
     assert "bwrap is not installed" in refused.json()["detail"]
 
 
-def test_where_nothing_isolates_the_board_says_so_before_anything_is_submitted(lab, monkeypatch):
+def test_board_without_isolation_reports_it_before_a_submission(lab, monkeypatch):
     def refuse():
         raise NotIsolatedError("bwrap is not installed")
 
@@ -122,7 +122,7 @@ def test_where_nothing_isolates_the_board_says_so_before_anything_is_submitted(l
     assert "bwrap is not installed" in lab.get(BOARD).json()["not_isolated"]
 
 
-def test_an_unknown_entry_has_no_replay(lab):
+def test_unknown_entry_has_no_replay(lab):
     refused = lab.get(f"{BOARD}/entries/none_such/replay")
     assert refused.status_code == 404
     assert "no entry none_such" in refused.json()["detail"]

@@ -1,9 +1,9 @@
-"""A tuning over REST: followed while it goes on, cancelled, and put to use."""
+"""A tuning over REST: followed during the search, cancelled, and applied."""
 
 import pytest
 
 import svsa
-from svsa.runs.configuration import parse_design
+from svsa.runs.design_file import parse_design
 from svsa_server.jobs.heavy_work import RETRY_AFTER_S
 from tests.lab_in_process import run_lab_in_process
 from tests.waiting import follow
@@ -17,7 +17,7 @@ def lab():
         yield lab.client
 
 
-def test_a_tuning_is_followed_to_its_end_and_put_into_a_session(lab):
+def test_tuning_is_followed_to_its_end_and_applied_to_a_session(lab):
     asked = {"kind": "tuning", "law": "fl_integral", "budget": 2, "seed": 1}
     begun = lab.post(JOBS, json=asked)
     assert begun.status_code == 201
@@ -52,8 +52,8 @@ def test_a_tuning_is_followed_to_its_end_and_put_into_a_session(lab):
 
 
 @pytest.mark.exhaustive
-def test_a_tuning_is_broken_off_and_keeps_its_best(lab):
-    """It begins from the session's own design where that is asked for."""
+def test_cancelled_tuning_keeps_its_best_candidate(lab):
+    """It starts from the session's own design if requested."""
     beta = {"bandwidth_rad_per_s": [44.0, 44.0, 44.0]}
     lab.put("/api/v1/sessions/lab/observer", json=beta)
     asked = {"kind": "tuning", "law": "ndobc", "budget": 2000, "session": "lab"}
@@ -71,7 +71,7 @@ def test_a_tuning_is_broken_off_and_keeps_its_best(lab):
     assert f"{state['tried'] - 1} of 2000 candidates" in text
 
 
-def test_what_cannot_be_tuned_and_one_too_many_are_refused(lab):
+def test_untunable_law_and_excess_tuning_are_rejected(lab):
     for asked, reported in (
         ({"law": "no_law"}, "installed here"),
         ({"law": "esp", "held": {"no_name": 1.0}}, "no_name"),

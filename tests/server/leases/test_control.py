@@ -1,4 +1,4 @@
-"""Who is in control of a session: taken, refused to others, taken over, given back, left."""
+"""The control lease of a session: acquired, denied to others, taken over, released, expired."""
 
 import asyncio
 import contextlib
@@ -36,13 +36,13 @@ HELD = "Ada is in control of session lab: ask Ada, or take control."
 
 
 def list_session_routes() -> list[APIRoute]:
-    """The REST routes below a session."""
+    """Return the REST routes below a session."""
     routes = build_app().router.routes
     return [one for one in routes if isinstance(one, APIRoute) and "{session}" in one.path]
 
 
 def list_changing() -> list[tuple[str, str]]:
-    """Method and path, below a session, of all that changes something."""
+    """Return method and path, below a session, of all changing operations."""
     return [
         (method, route.path.partition("{session}")[2])
         for route in list_session_routes()
@@ -58,7 +58,9 @@ def needs_session(dependant: Dependant) -> bool:
 
 @contextlib.asynccontextmanager
 async def open_app() -> AsyncIterator[httpx.AsyncClient]:
-    """The app in this process, without its 3D view's background tasks but with its sessions."""
+    """Run the app in this process, without background tasks of the 3D view but with its
+    sessions.
+    """
     app = build_app()
     async with app.router.lifespan_context(app):
         transport = httpx.ASGITransport(app)
@@ -74,7 +76,7 @@ def test_every_route_below_a_session_is_guarded() -> None:
     assert set(list_changing()) >= OPEN_TO_ALL, "the list of what is open names what is not there"
 
 
-def test_others_are_refused_whatever_they_change_and_may_stop_and_read() -> None:
+def test_others_are_rejected_for_any_change_and_may_stop_and_read() -> None:
     async def try_all() -> None:
         async with open_app() as client:
             taken = await client.put(CONTROL, json={"by": "Ada"}, headers=ADA)
@@ -107,7 +109,7 @@ def test_others_are_refused_whatever_they_change_and_may_stop_and_read() -> None
     asyncio.run(try_all())
 
 
-def test_it_is_taken_over_only_when_that_is_said_and_given_back_by_its_holder() -> None:
+def test_control_is_taken_over_explicitly_and_released_by_its_holder() -> None:
     async def try_all() -> None:
         async with open_app() as client:
             await client.put(CONTROL, json={"by": "Ada"}, headers=ADA)
@@ -129,7 +131,7 @@ def test_it_is_taken_over_only_when_that_is_said_and_given_back_by_its_holder() 
     asyncio.run(try_all())
 
 
-def test_the_server_frees_it_when_its_holder_is_gone() -> None:
+def test_server_releases_control_of_an_absent_holder() -> None:
     async def try_all() -> None:
         async with open_app() as client:
             laboratory = client.app.state.laboratory  # type: ignore[attr-defined]
@@ -155,7 +157,7 @@ def test_the_server_frees_it_when_its_holder_is_gone() -> None:
         (ADA, {"by": "Ada", "take_over": 1}, "take_over"),
     ],
 )
-def test_a_wrong_name_is_refused_with_its_bound(
+def test_invalid_name_is_rejected_with_its_bound(
     lab: Lab, headers: dict[str, str], body: dict[str, object], name: str
 ) -> None:
     answer = lab.client.put(CONTROL, json=body, headers=headers)
@@ -164,7 +166,7 @@ def test_a_wrong_name_is_refused_with_its_bound(
     assert lab.read()["control"]["holder"] is None
 
 
-def test_the_stream_tells_at_once_who_is_in_control_and_how_many_watch(lab: Lab) -> None:
+def test_stream_reports_holder_and_number_of_viewers_immediately(lab: Lab) -> None:
     address = lab.stream_url + "?client=0123-ada&rate_hz=1"
     with connect(address, proxy=None) as ada, connect(lab.stream_url, proxy=None) as other:
         assert json.loads(other.recv(timeout=10))["state"]["control"]["watching"] >= 2
@@ -185,7 +187,7 @@ def wait_for_holder(stream: object, name: str | None) -> dict:
     raise AssertionError(f"the stream does not tell that {name} is in control")
 
 
-def test_a_hand_is_free_15_s_after_the_last_call_and_stream() -> None:
+def test_lease_is_free_15_s_after_the_last_call_and_stream() -> None:
     hosted = HostedSession(SimulatedSession("lab", get_figure("4b").build_configuration()))
     lease = hosted.lease
     lease.take(Holder("1", "Ada"), take_over=False, now=100.0)
@@ -214,7 +216,7 @@ def test_only_the_holder_commands_and_holds_the_switch() -> None:
         lease.check(None)
 
 
-def test_a_client_is_percent_encoded_utf_8() -> None:
+def test_client_name_is_percent_encoded_utf_8() -> None:
     assert read_client("J%C3%BCrgen", "client") == "Jürgen"
     assert read_client(None, "client") is None
     for wrong in ("", " ", "a%0Ab", "x" * 41, "%ff"):

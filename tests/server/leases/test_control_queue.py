@@ -31,13 +31,13 @@ def settle(queue: ControlQueue, now: float, here: tuple[Holder, ...] = (ADA, BOB
     return queue.settle(now, GONE_S)
 
 
-def test_no_user_commands_a_free_session_but_the_instructor(queue: ControlQueue) -> None:
+def test_free_session_is_commanded_by_the_instructor_only(queue: ControlQueue) -> None:
     assert [queue.admits(one) for one in (None, "p-1", TEACHER.client)] == [False, False, True]
     with pytest.raises(HeldError, match="No user is in control of session lab: ask for control"):
         queue.check("p-1")
 
 
-def test_who_asks_first_has_it_and_the_others_wait_in_their_order(queue: ControlQueue) -> None:
+def test_first_request_gets_control_and_others_wait_in_order(queue: ControlQueue) -> None:
     ask(queue, ADA, BOB, EVE, BOB, ADA)
     assert (queue.holder, queue.waiting) == (ADA, [BOB, EVE])
     assert [queue.find_place(one.client) for one in (ADA, BOB, EVE)] == [None, 1, 2]
@@ -46,7 +46,7 @@ def test_who_asks_first_has_it_and_the_others_wait_in_their_order(queue: Control
         queue.check("p-2")
 
 
-def test_it_goes_on_when_it_is_given_back_and_who_leaves_the_queue_is_out(
+def test_released_control_passes_to_the_queue_without_those_who_left(
     queue: ControlQueue,
 ) -> None:
     ask(queue, ADA, BOB, EVE)
@@ -60,7 +60,7 @@ def test_it_goes_on_when_it_is_given_back_and_who_leaves_the_queue_is_out(
     assert queue.holder is None
 
 
-def test_its_holder_hands_it_to_one_who_waits_and_no_other_user_does(queue: ControlQueue) -> None:
+def test_holder_hands_over_to_a_waiting_user_only(queue: ControlQueue) -> None:
     ask(queue, ADA, BOB, EVE)
     for other in ("p-2", None):
         with pytest.raises(HeldError):
@@ -73,7 +73,7 @@ def test_its_holder_hands_it_to_one_who_waits_and_no_other_user_does(queue: Cont
     assert (queue.holder, queue.waiting) == (BOB, [])
 
 
-def test_an_idle_holder_loses_it_to_who_waits_and_to_no_other_user(queue: ControlQueue) -> None:
+def test_idle_holder_loses_control_to_a_waiting_user_only(queue: ControlQueue) -> None:
     ask(queue, ADA)
     assert not settle(queue, 1000.0)
     assert queue.holder == ADA, "the queue is empty"
@@ -91,7 +91,7 @@ def test_an_idle_holder_loses_it_to_who_waits_and_to_no_other_user(queue: Contro
     assert queue.holder == BOB, "a command counts"
 
 
-def test_who_is_gone_loses_it_and_their_place(queue: ControlQueue) -> None:
+def test_absent_user_loses_control_and_place(queue: ControlQueue) -> None:
     ask(queue, ADA, BOB, EVE)
     assert not settle(queue, 14.0, (BOB,))
     assert settle(queue, 16.0, (EVE,)) == [(ADA, "gone")]
@@ -106,7 +106,7 @@ def test_who_is_gone_loses_it_and_their_place(queue: ControlQueue) -> None:
     assert queue.holder is None
 
 
-def test_the_instructor_takes_it_and_the_former_holder_is_first_to_get_it_back(
+def test_former_holder_is_first_after_the_instructor(
     queue: ControlQueue,
 ) -> None:
     ask(queue, ADA, BOB)
@@ -118,7 +118,7 @@ def test_the_instructor_takes_it_and_the_former_holder_is_first_to_get_it_back(
     assert (queue.holder, queue.waiting) == (ADA, [BOB])
 
 
-def test_while_it_is_locked_only_the_instructor_commands(queue: ControlQueue) -> None:
+def test_only_the_instructor_commands_while_locked(queue: ControlQueue) -> None:
     ask(queue, ADA, BOB)
     queue.lock(True, 1.0)
     assert (queue.holder, queue.waiting) == (None, [ADA, BOB])
@@ -133,7 +133,7 @@ def test_while_it_is_locked_only_the_instructor_commands(queue: ControlQueue) ->
 
 
 class Bench(SimpleNamespace):
-    """A session that moves, and notes why it was brought to rest."""
+    """A moving session, which stores why it was stopped."""
 
     def __init__(self, plant: str = "bench", status: str = "running") -> None:
         super().__init__(name="lab", plant=plant, status=status, version=0, halts=[])
@@ -147,7 +147,7 @@ def host(lease: ControlLease, bench: Bench) -> HostedSession:
     return HostedSession(bench, lease=lease)  # type: ignore[arg-type]
 
 
-def test_a_bench_comes_to_rest_whenever_it_is_handed_on(queue: ControlQueue) -> None:
+def test_bench_is_stopped_whenever_control_changes(queue: ControlQueue) -> None:
     changes = (
         lambda hosted: hosted.give_control_back("p-1"),
         lambda hosted: hosted.hand_control_over("p-1", "p-2"),
@@ -166,7 +166,7 @@ def test_a_bench_comes_to_rest_whenever_it_is_handed_on(queue: ControlQueue) -> 
         assert bench.halts == ["control was handed over"]
 
 
-def test_a_simulation_goes_on_and_so_does_a_bench_that_all_users_may_command() -> None:
+def test_simulation_and_open_bench_continue_when_control_changes() -> None:
     simulated, bench = Bench(plant="simulated"), Bench()
     hosted = host(ControlQueue("lab", lambda _: False, 90.0), simulated)
     hosted.take_control(ADA, False)

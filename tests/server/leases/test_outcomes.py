@@ -24,7 +24,7 @@ from tests.lab import Lab
 
 
 def read_outcome(lab: Lab, name: str) -> dict:
-    """Once it is no longer being worked on."""
+    """Read the outcome after the request has ended."""
     for _ in range(100):
         found = lab.client.get(f"/api/v1/requests/{name}").raise_for_status().json()
         if found["outcome"] != "pending":
@@ -33,7 +33,7 @@ def read_outcome(lab: Lab, name: str) -> dict:
     return found
 
 
-def test_a_request_whose_client_left_is_reported_as_carried_out(lab: Lab) -> None:
+def test_request_of_a_disconnected_client_is_reported_as_carried_out(lab: Lab) -> None:
     """As when the connection breaks after Run: the session runs, and the page must know."""
     lab.client.post(lab.session + "/pause").raise_for_status()
     address = urlsplit(lab.url)
@@ -54,7 +54,7 @@ def test_a_request_whose_client_left_is_reported_as_carried_out(lab: Lab) -> Non
     ("method", "path", "body", "status"),
     [("PUT", "law", {"law": "no_law"}, 422), ("DELETE", "loads/999", None, 404)],
 )
-def test_a_refused_request_is_reported_as_refused(
+def test_rejected_request_is_reported_as_rejected(
     lab: Lab, method: str, path: str, body: dict | None, status: int
 ) -> None:
     name = f"refused-{status}"
@@ -65,7 +65,7 @@ def test_a_refused_request_is_reported_as_refused(
     assert (found["outcome"], found["status"]) == ("refused", status)
 
 
-def test_what_never_came_and_what_only_reads_are_unknown(lab: Lab) -> None:
+def test_unknown_key_and_reading_request_have_no_outcome(lab: Lab) -> None:
     lab.client.get(lab.session, headers={"Idempotency-Key": "reads"})
     for name in ("never-sent", "reads"):
         found = read_outcome(lab, name)
@@ -85,7 +85,7 @@ def add_load(lab: Lab, session: str, key: str, mass_kg: float = 1.0) -> httpx.Re
     return lab.client.post(f"{session}/loads", json=load, headers={"Idempotency-Key": key})
 
 
-def test_a_repeat_receives_the_first_answer_and_changes_nothing(lab: Lab, session: str) -> None:
+def test_repeat_receives_the_first_answer_and_changes_nothing(lab: Lab, session: str) -> None:
     first, second = add_load(lab, session, "one-load"), add_load(lab, session, '"one-load"')
     assert first.status_code == second.status_code
     assert first.content == second.content
@@ -94,7 +94,7 @@ def test_a_repeat_receives_the_first_answer_and_changes_nothing(lab: Lab, sessio
     assert len(lab.client.get(session).json()["loads"]) == 1
 
 
-def test_repeats_at_the_same_time_are_carried_out_once(lab: Lab, session: str) -> None:
+def test_simultaneous_repeats_are_carried_out_once(lab: Lab, session: str) -> None:
     with ThreadPoolExecutor(4) as pool:
         answers = list(pool.map(lambda _: add_load(lab, session, "at-once"), range(4)))
     assert len({answer.content for answer in answers}) == 1
@@ -102,7 +102,7 @@ def test_repeats_at_the_same_time_are_carried_out_once(lab: Lab, session: str) -
     assert len(lab.client.get(session).json()["loads"]) == 1
 
 
-def test_a_key_with_another_body_is_rejected(lab: Lab, session: str) -> None:
+def test_key_with_another_body_is_rejected(lab: Lab, session: str) -> None:
     add_load(lab, session, "reused").raise_for_status()
     refused = add_load(lab, session, "reused", 2.0)
     assert refused.status_code == 422
@@ -110,14 +110,14 @@ def test_a_key_with_another_body_is_rejected(lab: Lab, session: str) -> None:
     assert len(lab.client.get(session).json()["loads"]) == 1
 
 
-def test_a_refusal_is_repeated_too(lab: Lab, session: str) -> None:
+def test_repeated_rejection_is_the_same(lab: Lab, session: str) -> None:
     first, second = add_load(lab, session, "heavy", 1e9), add_load(lab, session, "heavy", 1e9)
     assert first.status_code == second.status_code == 422
     assert first.content == second.content
 
 
 @pytest.mark.parametrize("key", ["", "k" * 65, "with space"])
-def test_a_key_of_a_wrong_form_is_rejected(lab: Lab, session: str, key: str) -> None:
+def test_malformed_key_is_rejected(lab: Lab, session: str, key: str) -> None:
     assert add_load(lab, session, key).status_code == 400
     assert lab.client.get(session).json()["loads"] == []
 
@@ -147,7 +147,7 @@ async def _answer_long(scope: Scope, receive: Receive, send: Send) -> None:
         (_answer_long, [200, 409], "carried_out"),
     ],
 )
-def test_what_is_not_stored(app: ASGIApp, statuses: list[int], outcome: str) -> None:
+def test_answers_that_are_not_stored(app: ASGIApp, statuses: list[int], outcome: str) -> None:
     async def send_twice() -> list[int]:
         async with run_keeper(app, outcomes) as client:
             return [
@@ -160,7 +160,7 @@ def test_what_is_not_stored(app: ASGIApp, statuses: list[int], outcome: str) -> 
     assert outcomes.find("", "k")[0] == outcome
 
 
-def test_a_repeat_of_what_takes_long_gets_a_time_to_retry(
+def test_repeat_of_a_long_request_gets_a_time_to_retry(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr("svsa_server.leases.outcomes.LONGEST_WAIT_S", 0.0)
@@ -187,7 +187,7 @@ def test_a_repeat_of_what_takes_long_gets_a_time_to_retry(
     assert asyncio.run(send_thrice()) == [200, 409, 200]
 
 
-def test_requests_are_bounded_in_number_age_and_bytes() -> None:
+def test_stored_requests_are_limited_in_number_age_and_bytes() -> None:
     time_s = 0.0
     outcomes = Outcomes(lambda: time_s)
     for number in range(MAX_STORED + 1):

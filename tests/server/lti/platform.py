@@ -31,7 +31,8 @@ def make_key(kid: str) -> RSAKey:
 class LearningPlatform:
     """Its own state: `scores` that arrived, `failures` that are answered 503 first.
 
-    read_keys: the tool's JWKS, asked for as the platform needs it. tool_url: as browsers know it.
+    read_keys: reads the tool's JWKS when the platform needs it. tool_url: the URL of the tool for
+    browsers.
     """
 
     def __init__(self, url: str) -> None:
@@ -86,7 +87,7 @@ class LearningPlatform:
         )
 
     def build_answer(self, asked: dict[str, str]) -> str:
-        """The user's own browser posts the launch to the lab (OpenID Connect form_post)."""
+        """The user's browser posts the launch to the lab (OpenID Connect form_post)."""
         assert asked["redirect_uri"] == f"{self.tool_url}/lti/launch"
         assert asked["lti_message_hint"] == "r&1"
         target = {f"{CLAIM}target_link_uri": f"{self.tool_url}/learn/mechanism"}
@@ -101,7 +102,7 @@ class LearningPlatform:
         )
 
     def give_token(self, form: dict[str, str]) -> tuple[int, dict]:
-        """RFC 7523: an access token for who signs its client id."""
+        """RFC 7523: an access token for the signer of its client id."""
         assertion = jwt.decode(
             form["client_assertion"], KeySet.import_key_set(self.read_keys()), algorithms=["RS256"]
         )
@@ -167,14 +168,14 @@ def _build_handler(find: Callable[[], LearningPlatform]) -> type[BaseHTTPRequest
             self.wfile.write(body)
 
         def log_message(self, *_: object) -> None:
-            """Nothing on the console."""
+            """Log nothing on the console."""
 
     return Handler
 
 
 @contextlib.contextmanager
 def run_platform(host: str = "127.0.0.1") -> Iterator[LearningPlatform]:
-    """A platform on a free port of loopback; host: as others name this machine."""
+    """Run a platform on a free loopback port; host: its name on other machines."""
     held: list[LearningPlatform] = []
     server = ThreadingHTTPServer(("127.0.0.1", 0), _build_handler(lambda: held[0]))
     held.append(LearningPlatform(f"http://{host}:{server.server_port}"))
@@ -193,7 +194,7 @@ def read_query(address: str) -> dict[str, str]:
 
 
 def read_audit(folder: Path, action: str) -> list[dict]:
-    """The lines of a lab's audit log about this, as far as they are whole."""
+    """Return the complete lines of a lab's audit log about this."""
     path = folder / "audit.jsonl"
     text = path.read_text() if path.exists() else ""
     lines = [json.loads(one) for one in text.splitlines(keepends=True) if one.endswith("\n")]

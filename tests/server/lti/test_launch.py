@@ -1,4 +1,4 @@
-"""Launches from a learning platform: who comes in as whom, and what is refused."""
+"""Launches from a learning platform: the resulting users and roles, and rejections."""
 
 import re
 import time
@@ -48,7 +48,7 @@ class Launcher:
     def begin(self, **changes):
         asked = {"iss": ISSUER, "client_id": CLIENT, "login_hint": "7", "lti_message_hint": "r"}
         answer = self.client.get("/lti/login", params=asked | changes, follow_redirects=False)
-        # httpx sends a Secure cookie over https alone; a browser also to this machine.
+        # httpx sends a Secure cookie over https only; a browser sends it also to this machine.
         self.cookie = answer.headers.get("set-cookie", "").partition(";")[0]
         return answer
 
@@ -75,7 +75,7 @@ def launcher(lab, platform):
     return Launcher(lab, platform)
 
 
-def test_a_login_goes_to_the_platform_with_a_state_that_this_browser_keeps(launcher, platform):
+def test_login_redirects_to_the_platform_with_a_state_of_this_browser(launcher, platform):
     answer = launcher.begin()
     asked = read_query(answer.headers["location"])
     assert answer.status_code == 302
@@ -89,7 +89,7 @@ def test_a_login_goes_to_the_platform_with_a_state_that_this_browser_keeps(launc
     assert all(word in cookie for word in ("secure", "httponly", "samesite=none", "path=/lti"))
 
 
-def test_in_a_frame_no_login_begins_but_a_link_opens_one_in_a_window(launcher):
+def test_frame_gets_a_link_to_a_window_instead_of_a_login(launcher):
     asked = {"iss": ISSUER, "client_id": CLIENT, "login_hint": '7"><script>'}
     framed = {"Sec-Fetch-Dest": "iframe"}
     answer = launcher.client.get("/lti/login", params=asked, headers=framed)
@@ -105,7 +105,7 @@ def test_in_a_frame_no_login_begins_but_a_link_opens_one_in_a_window(launcher):
     assert "who comes" in absent.text
 
 
-def test_a_learner_is_a_student_at_the_exercise_and_the_same_one_again(launcher, data):
+def test_learner_is_the_same_student_at_the_exercise_each_time(launcher, data):
     answer = launcher.launch()
     assert answer.status_code == 303
     assert answer.headers["location"] == "http://127.0.0.1/learn/own-law"
@@ -127,12 +127,12 @@ def test_a_learner_is_a_student_at_the_exercise_and_the_same_one_again(launcher,
     assert {one["person"] for one in noted} == {first["id"]}
 
 
-def test_an_instructor_is_a_student_unless_the_file_says_otherwise(launcher):
+def test_instructor_is_a_student_by_default(launcher):
     launcher.launch(sub="prof", name="Prof", **{f"{CLAIM}roles": [INSTRUCTOR]})
     assert launcher.read_access()["role"] == "operator"
 
 
-def test_an_instructor_is_one_where_the_file_says_so(platform, tmp_path):
+def test_instructor_role_is_enabled_by_the_file(platform, tmp_path):
     path = platform.write_settings(tmp_path, takes_instructors=True)
     with run_lab_in_process(data=str(tmp_path), classroom="true", lti=str(path)) as lab:
         launcher = Launcher(lab, platform)
@@ -159,14 +159,14 @@ def test_an_instructor_is_one_where_the_file_says_so(platform, tmp_path):
         ({f"{CLAIM}target_link_uri": "http://127.0.0.1/learn/no-such-one"}, "no exercise"),
     ],
 )
-def test_a_launch_that_is_not_as_it_must_be_is_refused(launcher, changes, reported):
+def test_invalid_launch_is_rejected(launcher, changes, reported):
     answer = launcher.launch(**changes)
     assert answer.status_code == 401
     assert reported in answer.text
     assert launcher.read_access()["inside"] is False
 
 
-def test_another_signature_is_refused(launcher, platform):
+def test_other_signature_is_rejected(launcher, platform):
     forged = make_key("platform-1")
     assert launcher.launch(key=forged).status_code == 401
     unknown = make_key("missing's")
@@ -177,7 +177,7 @@ def test_another_signature_is_refused(launcher, platform):
     assert launcher.read_access()["inside"] is False
 
 
-def test_a_launch_is_good_once_and_in_the_browser_that_began_it(launcher, platform):
+def test_launch_is_valid_once_and_in_its_browser(launcher, platform):
     asked = read_query(launcher.begin().headers["location"])
     token = platform.sign(platform.build_claims(asked["nonce"]))
     cookie, launcher.cookie = launcher.cookie, "svsa_lti=another"
@@ -193,7 +193,7 @@ def test_a_launch_is_good_once_and_in_the_browser_that_began_it(launcher, platfo
     assert "nonce" in replayed.text
 
 
-def test_who_was_removed_is_not_launched_in_again(launcher, lab, data):
+def test_removed_user_is_not_launched_again(launcher, lab, data):
     launcher.launch(sub="user-66", name="Eve")
     eve = launcher.read_access()["id"]
     from svsa_server.access.memberships import FILE, Memberships
@@ -207,7 +207,7 @@ def test_who_was_removed_is_not_launched_in_again(launcher, lab, data):
     assert "removed" in refused.text
 
 
-def test_a_platform_that_is_not_known_and_a_page_elsewhere_get_no_further(launcher):
+def test_unknown_platform_and_foreign_target_are_rejected(launcher):
     assert launcher.begin(iss="https://evil.example.org").status_code == 401
     assert launcher.begin(client_id="other").status_code == 401
     elsewhere = {"Origin": "https://evil.example.org"}
@@ -215,7 +215,7 @@ def test_a_platform_that_is_not_known_and_a_page_elsewhere_get_no_further(launch
     assert refused.status_code == 403
 
 
-def test_the_public_keys_hold_nothing_private(launcher, data):
+def test_public_keys_contain_no_private_part(launcher, data):
     (key,) = launcher.client.get("/lti/keys").json()["keys"]
     assert {"kid", "n", "e", "kty"} <= set(key)
     assert not {"d", "p", "q", "dp", "dq", "qi"} & set(key)

@@ -1,4 +1,4 @@
-"""The file of platforms: off without it, and refused with its reason where it is wrong."""
+"""The file of platforms: disabled without it, and rejected with the reason if it is invalid."""
 
 import pytest
 
@@ -8,14 +8,14 @@ from tests.lab_in_process import run_lab_in_process
 from tests.server.lti.platform import DEPLOYMENT, run_platform
 
 
-def test_without_a_file_no_user_launches():
+def test_launches_are_disabled_without_a_file():
     with run_lab_in_process(classroom="true") as lab:
         assert lab.client.get("/lti/keys").status_code == 404
         assert lab.client.get("/lti/login").status_code == 404
         assert lab.client.post("/lti/launch", data={"state": "x"}).status_code == 404
 
 
-def test_a_file_that_is_wrong_or_no_class_is_refused_with_its_reason(tmp_path):
+def test_invalid_file_or_missing_class_is_rejected_with_reason(tmp_path):
     with run_platform() as platform:
         path, url = platform.write_settings(tmp_path), platform.url
     right = path.read_text()

@@ -1,4 +1,4 @@
-"""Points go back to the platform, once, also after it did not answer for a while."""
+"""Points are sent to the platform once, also after it was unavailable."""
 
 import asyncio
 import time
@@ -29,7 +29,7 @@ def platform():
 
 
 class Log:
-    """What the audit log would be reported."""
+    """The entries of the audit log."""
 
     def __init__(self) -> None:
         self.lines: list[dict] = []
@@ -39,7 +39,7 @@ class Log:
 
 
 class Clock:
-    """A time that continues when it is reported."""
+    """A clock that a test advances."""
 
     def __init__(self) -> None:
         self.now = time.time()
@@ -49,7 +49,7 @@ class Clock:
 
 
 class Class:
-    """A class of one person, who was launched and has submitted and been graded."""
+    """A class of one launched user with a submission and a grade."""
 
     def __init__(self, folder, platform) -> None:
         self.folder, self.log, self.clock = folder, Log(), Clock()
@@ -76,7 +76,7 @@ class Class:
         )  # fmt: skip
 
     def send(self, times: int = 1) -> None:
-        """A lab that begins, looks so often, and ends."""
+        """A lab that starts, checks this many times, and ends."""
 
         async def look() -> None:
             tool = LtiTool(self.settings, self.folder)
@@ -95,7 +95,7 @@ def class_(tmp_path, platform):
     return Class(tmp_path, platform)
 
 
-def test_points_arrive_once_and_are_noted(class_, platform):
+def test_points_are_sent_once_and_logged(class_, platform):
     class_.send()
     assert platform.scores == []
 
@@ -113,7 +113,7 @@ def test_points_arrive_once_and_are_noted(class_, platform):
     assert platform.problems == []
 
 
-def test_a_platform_that_does_not_answer_is_asked_again_later_and_after_a_restart(class_, platform):
+def test_unavailable_platform_is_retried_later_and_after_a_restart(class_, platform):
     class_.grade(11.5)
     platform.failures = 2
     class_.send(3)
@@ -128,7 +128,7 @@ def test_a_platform_that_does_not_answer_is_asked_again_later_and_after_a_restar
     assert class_.log.lines[-1]["problem"] is None
 
 
-def test_it_is_given_up_at_last_and_what_is_graded_again_goes_again(class_, platform, monkeypatch):
+def test_retries_end_and_a_new_grade_is_sent_again(class_, platform, monkeypatch):
     monkeypatch.setattr(scores, "MAX_TRIES", 3)
     class_.grade(3.0)
     platform.failures = 3
@@ -142,7 +142,7 @@ def test_it_is_given_up_at_last_and_what_is_graded_again_goes_again(class_, plat
     assert [score["scoreGiven"] for _, score in platform.scores] == [12.0]
 
 
-def test_a_token_that_is_worth_nothing_any_more_is_asked_for_again(class_, platform):
+def test_expired_token_is_requested_again(class_, platform):
     async def look():
         tool = LtiTool(class_.settings, class_.folder)
         platform.read_keys = tool.list_keys
@@ -161,9 +161,7 @@ def test_a_token_that_is_worth_nothing_any_more_is_asked_for_again(class_, platf
     assert [score["scoreGiven"] for _, score in platform.scores] == [3.0, 4.0]
 
 
-def test_a_new_launch_with_another_line_item_sends_there_and_the_same_one_does_not(
-    class_, platform
-):
+def test_launch_with_another_line_item_sends_the_score_there(class_, platform):
     class_.grade(3.0)
     class_.send(2)
     class_.link = class_.link._replace(line_item=f"{platform.url}/items/4/lineitem")
@@ -175,13 +173,13 @@ def test_a_new_launch_with_another_line_item_sends_there_and_the_same_one_does_n
     assert [one.line_item for one in Links(class_.folder).list()] == [class_.link.line_item]
 
 
-def test_the_address_of_scores_keeps_the_query():
+def test_score_address_keeps_the_query():
     assert build_scores_address("https://m.org/i/3?a=1") == "https://m.org/i/3/scores?a=1"
     assert build_scores_address("https://m.org/i/3/") == "https://m.org/i/3/scores"
 
 
-def test_what_the_instructor_grades_in_the_lab_goes_back(tmp_path, platform, monkeypatch):
-    monkeypatch.setattr(scores, "LOOK_S", 0.05)
+def test_grades_of_the_instructor_are_sent(tmp_path, platform, monkeypatch):
+    monkeypatch.setattr(scores, "POLL_S", 0.05)
     class_, platform.clock = Class(tmp_path, platform), time.time
     class_.submit()
     Links(tmp_path).learn(class_.link)

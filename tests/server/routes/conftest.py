@@ -1,4 +1,4 @@
-"""The lab of these tests is in their process: they only ask it over REST."""
+"""The lab of these tests runs in their process, since they use REST only."""
 
 from collections.abc import Iterator
 

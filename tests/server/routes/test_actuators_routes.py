@@ -16,7 +16,7 @@ def open_session(lab: Lab, **wanted: object) -> dict:
     return answer.json()
 
 
-def test_every_actuator_is_listed_with_its_file_s_values(lab: Lab) -> None:
+def test_every_actuator_is_listed_with_the_values_of_its_file(lab: Lab) -> None:
     listed = lab.client.get("/api/v1/actuators").json()
     assert [one["name"] for one in listed] == list(NAMES)
     for one in listed:
@@ -35,7 +35,7 @@ def test_every_actuator_is_listed_with_its_file_s_values(lab: Lab) -> None:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_a_session_of_each_actuator_holds_a_stiffness_and_its_load(lab: Lab, name: str) -> None:
+def test_session_of_each_actuator_holds_a_stiffness_and_its_load(lab: Lab, name: str) -> None:
     state = open_session(lab, actuator=name, load=False)
     path = f"{SESSIONS}/{state['session']}"
     assert lab.client.post(f"{path}/pause").status_code == 200
@@ -60,7 +60,7 @@ def test_a_session_of_each_actuator_holds_a_stiffness_and_its_load(lab: Lab, nam
     assert lab.client.delete(path).status_code == 204
 
 
-def test_a_parameter_of_the_actuator_is_set_at_the_start_and_while_it_runs(lab: Lab) -> None:
+def test_actuator_parameter_is_set_at_the_start_and_during_a_run(lab: Lab) -> None:
     state = open_session(
         lab, actuator="maccepa", parameters={"arm_m": 0.031}, nominal={"arm_m": 0.031}
     )
@@ -75,7 +75,7 @@ def test_a_parameter_of_the_actuator_is_set_at_the_start_and_while_it_runs(lab: 
     lab.client.delete(path)
 
 
-def test_a_wrong_name_names_the_nearest_actuator(lab: Lab) -> None:
+def test_unknown_name_gets_the_nearest_actuator(lab: Lab) -> None:
     refused = lab.client.post(SESSIONS, json={"from": "actuator", "actuator": "qbmov"})
     assert refused.status_code == 422
     assert "the nearest is qbmove" in refused.json()["detail"]
@@ -85,18 +85,38 @@ def test_a_wrong_name_names_the_nearest_actuator(lab: Lab) -> None:
     assert "the nearest is maccepa" in missing.json()["detail"]
 
 
-def test_a_figure_of_the_paper_is_of_the_svsa(lab: Lab) -> None:
+def test_figure_of_the_paper_is_of_the_svsa(lab: Lab) -> None:
     state = open_session(lab, actuator="leaf_spring")
     path = f"{SESSIONS}/{state['session']}"
-    for wanted in ({"figure": "4a"}, {"from": "exercise", "exercise": "observer", "step": "load"}):
+    for wanted in ({"figure": "4a"}, {"from": "exercise", "exercise": "observer", "step": "rig"}):
         refused = lab.client.post(f"{path}/experiment", json=wanted)
         assert refused.status_code == 409
-        assert "this session simulates Leaf spring" in refused.json()["detail"]
+        assert "this session is of Leaf spring" in refused.json()["detail"]
     assert lab.client.post(f"{path}/excitation", json={"name": ""}).status_code == 409
     lab.client.delete(path)
 
 
-def test_a_branch_of_a_record_keeps_its_actuator(lab: Lab) -> None:
+def test_record_of_another_actuator_is_named_verified_and_exported_as_a_page(lab: Lab) -> None:
+    state = open_session(lab, actuator="qbmove")
+    path = f"{SESSIONS}/{state['session']}"
+    lab.client.post(f"{path}/pause")
+    recorded = lab.client.post(f"{path}/recording", json={}).json()["recording"]["run_id"]
+    lab.client.post(f"{path}/step", json={"ticks": 6000})
+    lab.client.delete(f"{path}/recording").raise_for_status()
+    run = follow_recording(lab.client, f"/api/v1/runs/{recorded}")
+    name = run["settings"]["name"]
+    assert name.startswith("qbmove · ")
+    assert "own" not in name
+    compared = lab.client.post(f"/api/v1/runs/{recorded}/verify").raise_for_status().json()
+    assert compared["identical"]
+    page = lab.client.get(f"/api/v1/runs/{recorded}/export?kind=html")
+    assert page.status_code == 200
+    assert f"<title>{name}" in page.text
+    assert '"mechanism":"qbmove"' in page.text.replace(" ", "")
+    lab.client.delete(path)
+
+
+def test_branch_of_a_record_keeps_its_actuator(lab: Lab) -> None:
     state = open_session(lab, actuator="awas2", load=False)
     path = f"{SESSIONS}/{state['session']}"
     lab.client.post(f"{path}/pause")

@@ -1,4 +1,4 @@
-"""A method that a path does not take: every method that it takes is named."""
+"""A method that a path does not support: the error names every supported method."""
 
 import pytest
 

@@ -5,7 +5,7 @@ from tests.lab import Lab
 FIGURE = {"figure": "4a", "law": "fl", "comparisons": [{"law": "ndobc"}], "load": True}
 
 
-def test_the_claim_of_a_figure_holds_of_its_run(lab: Lab) -> None:
+def test_claim_of_a_figure_holds_for_its_run(lab: Lab) -> None:
     lab.client.post(lab.session + "/experiment", json=FIGURE).raise_for_status()
     lab.jump(20.0)
     claim = lab.client.get(lab.session + "/claim", params={"figure": "4a"}).raise_for_status()
@@ -15,7 +15,7 @@ def test_the_claim_of_a_figure_holds_of_its_run(lab: Lab) -> None:
     assert [one["holds"] for one in found["parts"]] == [True, True, True, True]
 
 
-def test_another_pair_of_laws_has_no_claim(lab: Lab) -> None:
+def test_other_pair_of_laws_has_no_claim(lab: Lab) -> None:
     lab.load_figure()
     answer = lab.client.get(lab.session + "/claim", params={"figure": "4a"})
     assert answer.status_code == 409

@@ -1,4 +1,4 @@
-"""A law for an exercise over REST: tried at once, kept, submitted, and graded as it was."""
+"""A law for an exercise over REST: tested immediately, stored, submitted, graded unchanged."""
 
 import shutil
 
@@ -37,7 +37,7 @@ def student(lab, data, own_law):
     return Student(lab, own_law)
 
 
-def test_a_law_is_tried_and_kept_for_another_browser(student, lab, own_law):
+def test_law_is_tested_and_stored_for_another_browser(student, lab, own_law):
     law = student.try_law(LAZY.decode()).raise_for_status().json()["law"]
     again = Student(lab, own_law).read()
 
@@ -47,7 +47,7 @@ def test_a_law_is_tried_and_kept_for_another_browser(student, lab, own_law):
     assert again["law_points"] == 10
 
 
-def test_a_law_that_fails_gets_the_reason_and_the_next_one_takes_its_place(student):
+def test_failed_law_gets_the_reason_and_is_replaced_by_the_next_one(student):
     law = student.try_law("def law(*given): return 1 / 0").json()["law"]
     assert law["verdict"] == "failed"
     assert "ZeroDivisionError" in law["output"]
@@ -55,7 +55,7 @@ def test_a_law_that_fails_gets_the_reason_and_the_next_one_takes_its_place(stude
     assert student.try_law(LAZY.decode()).json()["law"]["verdict"] != "failed"
 
 
-def test_what_is_no_law_s_text_and_where_none_is_asked_for_is_refused(student, lab):
+def test_invalid_or_unrequested_law_is_rejected(student, lab):
     assert student.try_law("#" * (MAX_LAW_BYTES + 1)).status_code == 422
     long = student.try_law("#" + "é" * (MAX_LAW_BYTES // 2))
     assert long.status_code == 422
@@ -68,9 +68,7 @@ def test_what_is_no_law_s_text_and_where_none_is_asked_for_is_refused(student, l
     assert "asks for no law" in other.json()["detail"]
 
 
-def test_a_law_is_submitted_and_the_same_submission_has_the_same_grade(
-    student, data, own_law, tmp_path, monkeypatch
-):
+def test_submitted_law_has_a_reproducible_grade(student, data, own_law, tmp_path, monkeypatch):
     monkeypatch.setattr(law_points, "BLOCK", 8)
     monkeypatch.setattr(law_points, "MOST_TRIALS", 8)
     text = find_law(own_law)

@@ -1,4 +1,4 @@
-"""What gains and observer would do, asked over REST before they are applied."""
+"""Predicted effects of gains and observer over REST, before they are applied."""
 
 import pytest
 
@@ -13,7 +13,7 @@ def predict(lab: Lab, **request: dict) -> dict:
     )
 
 
-def test_the_present_design_is_judged_without_changing_anything(lab: Lab) -> None:
+def test_present_design_is_predicted_without_a_change(lab: Lab) -> None:
     lab.load_figure(law="fl")
     before = lab.read()["configuration"]
     found = predict(lab)
@@ -36,7 +36,7 @@ def test_the_present_design_is_judged_without_changing_anything(lab: Lab) -> Non
         ({"observer": {"bandwidth_rad_per_s": [900, 900, 900]}}, "warn", "unstable_loop"),
     ],
 )
-def test_a_bad_choice_is_reported_with_its_reason(
+def test_poor_choice_is_reported_with_its_reason(
     lab: Lab, request_: dict, verdict: str, code: str
 ) -> None:
     lab.load_figure(law="ndobc")
@@ -47,7 +47,7 @@ def test_a_bad_choice_is_reported_with_its_reason(
     assert found["verdict"] in {verdict, "refuse"}
 
 
-def test_unstable_gains_come_with_their_roots_and_the_page_can_show_them(lab: Lab) -> None:
+def test_unstable_gains_are_returned_with_their_roots(lab: Lab) -> None:
     poles = [-60, -60, [5, 30], [5, -30]]
     found = predict(lab, gains={"position_poles_rad_per_s": poles})
     assert max(root["re"] for root in found["position_roots_rad_per_s"]) == pytest.approx(5)
@@ -56,14 +56,14 @@ def test_unstable_gains_come_with_their_roots_and_the_page_can_show_them(lab: La
     assert found["fl"] is found["noise"] is found["demand"] is None
 
 
-def test_poles_that_make_no_real_polynomial_are_refused_by_name(lab: Lab) -> None:
+def test_poles_without_a_real_polynomial_are_rejected_by_name(lab: Lab) -> None:
     request = {"gains": {"position_poles_rad_per_s": [-60, -60, -60, [-30, 5]]}}
     answer = lab.client.post(lab.session + "/design", json=request | {"kind": "prediction"})
     assert answer.status_code == 422
     assert answer.json()["violations"][0]["name"] == "position_poles_rad_per_s"
 
 
-def test_the_encoders_of_the_session_are_used_where_it_has_them(lab: Lab) -> None:
+def test_encoders_of_the_session_are_used_if_present(lab: Lab) -> None:
     lab.load_figure()
     effects = {"encoders": {}, "estimation": {}, "delay_samples": 1}
     lab.client.put(lab.session + "/effects", json=effects).raise_for_status()

@@ -1,10 +1,10 @@
-"""Faults over REST: the table of all kinds, and the fault that a session holds with its advice."""
+"""Faults over REST: the table of all kinds, and the fault of a session with its advice."""
 
 from svsa.actuators.faults import FAULTS, advise
 from tests.lab import Lab
 
 
-def test_the_table_is_the_library_s(lab: Lab) -> None:
+def test_table_is_that_of_the_library(lab: Lab) -> None:
     rows = lab.client.get("/api/v1/kinds").raise_for_status().json()["faults"]
     assert [row["code"] for row in rows] == list(FAULTS)
     assert rows[0] == {
@@ -18,7 +18,7 @@ def test_the_table_is_the_library_s(lab: Lab) -> None:
     }
 
 
-def test_a_session_s_fault_has_its_label_and_what_to_try(lab: Lab) -> None:
+def test_fault_of_a_session_has_label_and_advice(lab: Lab) -> None:
     assert lab.read()["fault"] is None
     load = {"kind": "constant", "torque_nm": [40.0, 0.0, 0.0]}
     lab.client.post(lab.session + "/loads", json=load).raise_for_status()

@@ -1,10 +1,10 @@
-"""Grades over REST: a class's for its instructor, each user's own for that user."""
+"""Grades over REST: all of a class for its instructor, their own for students."""
 
 import pytest
 
 from svsa.teaching.course.progress import ProgressStore
 from svsa.teaching.isolation.refusal import NotIsolatedError
-from svsa_server.jobs.gradings import Asked, grade_all
+from svsa_server.jobs.gradings import Task, grade_all
 from svsa_server.jobs.progress import JobFolder, ask_to_stop
 from tests.server.access.classroom import run_class
 from tests.teaching.course.runs import find_exercise
@@ -26,13 +26,13 @@ def find_id(browser):
 
 
 def list_own(browser):
-    """The submissions of the student that this browser belongs to; no others are listed."""
+    """Return the listed submissions, which must all be those of this browser's student."""
     students = browser.get(GRADES).raise_for_status().json()["students"]
     assert {one["person"] for one in students} <= {find_id(browser)}
     return [submission for one in students for submission in one["submissions"]]
 
 
-def test_the_instructor_grades_and_each_student_sees_the_own_grade_alone(classroom):
+def test_instructor_grades_and_each_student_sees_their_own_grade_only(classroom):
     room, store = classroom
     ada, bob, instructor = room.join("Ada"), room.join("Bob"), room.log_in()
     assert instructor.post(GRADES, json={}).status_code == 409
@@ -68,7 +68,7 @@ def test_the_instructor_grades_and_each_student_sees_the_own_grade_alone(classro
     assert "Bob" not in own_page.text
 
 
-def test_a_students_browser_gets_nothing_of_the_class(classroom):
+def test_browser_of_a_student_gets_no_grades_of_the_class(classroom):
     room, store = classroom
     other, eve = room.join("Ann"), room.join("Eve")
     submit(store, find_id(other), "Ann")
@@ -81,19 +81,19 @@ def test_a_students_browser_gets_nothing_of_the_class(classroom):
         assert room.open_browser().request(method, GRADES).status_code == 401
 
 
-def test_where_nothing_isolates_the_table_says_so(classroom, monkeypatch):
-    def refuse():
+def test_missing_isolation_is_reported_in_the_table(classroom, monkeypatch):
+    def reject():
         raise NotIsolatedError("bwrap is not installed")
 
-    monkeypatch.setattr("svsa.teaching.isolation.probe.check_isolation", refuse)
+    monkeypatch.setattr("svsa.teaching.isolation.probe.check_isolation", reject)
     reported = classroom[0].log_in().get(GRADES).json()["not_isolated"]
     assert "bwrap is not installed" in reported
 
 
-def test_a_worker_that_is_to_stop_keeps_what_is_done(tmp_path):
+def test_cancelled_worker_keeps_completed_grades(tmp_path):
     store = ProgressStore(tmp_path / "data")
     files = (submit(store, "p-1", "Ada"),)
     ask_to_stop(tmp_path)
-    asked = Asked(files, {FL: find_exercise(FL)}, tmp_path, tmp_path / "book", False)
+    asked = Task(files, {FL: find_exercise(FL)}, tmp_path, tmp_path / "book", False)
     assert not grade_all(JobFolder(tmp_path), asked)
     assert not list((tmp_path / "book" / "grades").iterdir())

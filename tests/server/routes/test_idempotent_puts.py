@@ -1,4 +1,4 @@
-"""A PUT that comes twice is as one: no other sample, nothing more in the record, no event."""
+"""A repeated PUT has no effect: the same samples, record and events."""
 
 from collections.abc import Iterator
 
@@ -26,7 +26,7 @@ def lab() -> Iterator[httpx.Client]:
 
 
 def open_session(lab: httpx.Client) -> str:
-    """The path of a private session, paused, with a lane next to its first."""
+    """The path of a private session, paused, with two lanes."""
     asked = {"comparisons": [{"law": "pd"}], "load": False}
     name = lab.post("/api/v1/sessions", json=asked).raise_for_status().json()["session"]
     path = f"/api/v1/sessions/{name}"
@@ -44,7 +44,7 @@ def read_commands(lab: httpx.Client, path: str) -> list[dict]:
 
 
 def read_kept(state: dict) -> dict:
-    """What is kept of a session, but not how fast it was worked out."""
+    """Return the stored data of a session, without its computing time."""
     kept = ("configuration", "loads", "events", "window", "ended_windows", "revision", "control")
     return {name: state[name] for name in (*kept, "tick", "run_number", "status", "sample")}
 
@@ -54,7 +54,7 @@ def label(request: pytest.FixtureRequest) -> str:
     return request.param
 
 
-def test_the_same_again_changes_neither_samples_nor_record_nor_events(
+def test_repeated_put_changes_neither_samples_nor_record_nor_events(
     lab: httpx.Client, label: str
 ) -> None:
     once, twice = open_session(lab), open_session(lab)
@@ -78,13 +78,13 @@ def test_the_same_again_changes_neither_samples_nor_record_nor_events(
         lab.delete(path).raise_for_status()
 
 
-def test_every_put_of_a_session_has_an_example_to_be_sent_twice() -> None:
+def test_every_put_of_a_session_has_an_example_to_repeat() -> None:
     assert len(PUTS) >= 12
     assert all(list_examples(WRITING[label]) for label in PUTS)
 
 
 @pytest.mark.parametrize("name", REPEATED)
-def test_a_motion_begins_again_where_that_is_asked_for(lab: httpx.Client, name: str) -> None:
+def test_reference_restarts_on_request(lab: httpx.Client, name: str) -> None:
     path = open_session(lab)
     unit = "rad" if name == "position" else "nm_per_rad"
     reference = f"{name}_reference_{unit}"

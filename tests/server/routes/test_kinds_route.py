@@ -1,4 +1,4 @@
-"""What varies, as the page reads it: every kind that is found, with the numbers of its form."""
+"""Kinds of effects, loads and references for the page, with the fields of their forms."""
 
 import pytest
 
@@ -11,7 +11,7 @@ from tests.lab import Lab
 CLASSES = {"loads": LOADS, "position": POSITIONS, "stiffness": STIFFNESSES}
 
 
-def test_every_kind_that_is_found_is_described(lab: Lab) -> None:
+def test_every_installed_kind_is_described(lab: Lab) -> None:
     kinds = lab.client.get("/api/v1/kinds").raise_for_status().json()
     assert [one["name"] for one in kinds["effects"]] == [one.name for one in EFFECTS]
     for one in kinds["effects"]:
@@ -31,6 +31,6 @@ def test_every_kind_that_is_found_is_described(lab: Lab) -> None:
     ("name", "phrase"),
     [("rig", "Angles in counts, velocities"), ("full", "Also friction, the lag")],
 )
-def test_a_preset_says_what_its_effects_say(lab: Lab, name: str, phrase: str) -> None:
+def test_preset_has_the_values_of_its_effects(lab: Lab, name: str, phrase: str) -> None:
     presets = lab.client.get("/api/v1/kinds").json()["presets"]
     assert next(one for one in presets if one["name"] == name)["summary"].startswith(phrase)

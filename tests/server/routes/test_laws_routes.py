@@ -1,4 +1,4 @@
-"""Laws over REST: what each says of itself, its own parameters, and lanes that hold any law."""
+"""Laws over REST: their descriptions and parameters, and lanes with any law."""
 
 import pytest
 
@@ -8,7 +8,7 @@ from tests.lab import Lab
 FASTER = {"fl_integral": {"position_pole_rad_per_s": 70.0}}
 
 
-def test_every_installed_law_says_what_it_is(lab: Lab) -> None:
+def test_every_installed_law_describes_itself(lab: Lab) -> None:
     laws = {law["name"]: law for law in lab.client.get("/api/v1/laws").raise_for_status().json()}
     assert list(laws) == list(list_law_names())
     assert [law["line_style"] for law in laws.values()] == list(range(len(laws)))
@@ -28,7 +28,7 @@ def test_every_installed_law_says_what_it_is(lab: Lab) -> None:
     }
 
 
-def test_parameters_are_set_by_law_and_what_is_left_out_stays(lab: Lab) -> None:
+def test_parameters_are_set_by_law_and_omitted_ones_are_kept(lab: Lab) -> None:
     lab.client.put(lab.session + "/law", json={"law": "fl_integral"}).raise_for_status()
     held = lab.read()["configuration"]["parameters"]["fl_integral"]
     assert held == {"position_pole_rad_per_s": 54.6, "stiffness_pole_rad_per_s": 32.9}
@@ -62,7 +62,7 @@ def test_parameters_are_set_by_law_and_what_is_left_out_stays(lab: Lab) -> None:
         ("parameters", {"fl_integral": {"color": 1.0}}, "fl_integral.color"),
     ],
 )
-def test_what_is_wrong_is_refused_by_name_and_changes_nothing(
+def test_invalid_value_is_rejected_by_name_and_changes_nothing(
     lab: Lab, path: str, body: dict, words: str
 ) -> None:
     before = lab.read()["configuration"]
@@ -72,7 +72,7 @@ def test_what_is_wrong_is_refused_by_name_and_changes_nothing(
     assert lab.read()["configuration"] == before
 
 
-def test_the_same_law_twice_with_other_parameters_side_by_side(lab: Lab) -> None:
+def test_same_law_with_other_parameters_runs_in_a_second_lane(lab: Lab) -> None:
     lab.client.put(lab.session + "/law", json={"law": "fl_integral"}).raise_for_status()
     comparisons = [{"law": "fl_integral", "parameters": FASTER["fl_integral"]}, {"law": "fl"}]
     body = {"comparisons": comparisons}
@@ -85,7 +85,7 @@ def test_the_same_law_twice_with_other_parameters_side_by_side(lab: Lab) -> None
     )
 
 
-def test_one_lane_is_set_by_its_number_and_the_others_stay(lab: Lab) -> None:
+def test_one_lane_is_set_by_its_number_and_others_are_unchanged(lab: Lab) -> None:
     comparisons = [{"law": "fl"}, {"law": "fl_integral"}]
     lab.client.put(lab.session + "/lanes", json={"comparisons": comparisons}).raise_for_status()
     ids = [lane["id"] for lane in lab.read()["lanes"]]

@@ -5,7 +5,7 @@ from tests.lab import Lab
 PUSH = {"kind": "push", "torque_nm": [1.0, 0.0, 0.0], "hold_s": 60.0}
 
 
-def test_a_load_that_is_added_has_an_id_and_an_address(lab: Lab) -> None:
+def test_added_load_has_an_id_and_an_address(lab: Lab) -> None:
     lab.load_figure(load=False)
     loads = f"{lab.session}/loads"
     lab.client.post(loads, json={"kind": "paper", "start_s": 100.0}).raise_for_status()
@@ -21,7 +21,7 @@ def test_a_load_that_is_added_has_an_id_and_an_address(lab: Lab) -> None:
     assert lab.client.get(answer.headers["Location"]).status_code == 404
 
 
-def test_a_push_that_is_sent_again_stays_one_load(lab: Lab) -> None:
+def test_repeated_manual_load_is_one_load(lab: Lab) -> None:
     lab.load_figure(load=False)
     first, again = (
         lab.client.post(f"{lab.session}/loads", json=PUSH).raise_for_status() for _ in range(2)
@@ -48,7 +48,7 @@ def test_no_load_and_no_recording_is_started_during_a_fault(lab: Lab) -> None:
     assert lab.read()["recording"] is None
 
 
-def test_the_settings_of_a_session_are_read(lab: Lab) -> None:
+def test_settings_of_a_session_are_read(lab: Lab) -> None:
     lab.load_figure(law="fl")
     settings = lab.client.get(f"{lab.session}/settings").raise_for_status().json()
     assert settings == lab.read()["configuration"]

@@ -20,7 +20,7 @@ from tests.lab import Lab
         ("\x00", 400),
     ],
 )
-def test_a_body_that_is_no_reference_is_refused_clearly(lab: Lab, text: str, status: int) -> None:
+def test_invalid_reference_is_rejected_clearly(lab: Lab, text: str, status: int) -> None:
     answer = lab.client.put(
         lab.session + "/position", content=text, headers={"Content-Type": "application/json"}
     )
@@ -36,7 +36,7 @@ def test_a_body_that_is_no_reference_is_refused_clearly(lab: Lab, text: str, sta
         (b'{"law": "\xff"}', "malformed_json", "UTF-8"),
     ],
 )
-def test_malformed_json_is_named_as_such_with_its_place(
+def test_malformed_json_is_reported_with_its_position(
     lab: Lab, text: str | bytes, kind: str, words: str
 ) -> None:
     answer = lab.client.put(
@@ -57,9 +57,7 @@ def test_malformed_json_is_named_as_such_with_its_place(
 @pytest.mark.parametrize(
     ("header", "words"), [(None, "it has no Content-Type"), ("text/plain", "'text/plain'")]
 )
-def test_a_body_that_was_not_sent_as_json_is_named_as_such(
-    lab: Lab, header: str | None, words: str
-) -> None:
+def test_other_content_type_is_reported(lab: Lab, header: str | None, words: str) -> None:
     headers = {"Content-Type": header} if header else {}
     answer = lab.client.put(lab.session + "/law", content=b'{"law":"fl"}', headers=headers)
     assert answer.status_code == 422
@@ -68,8 +66,8 @@ def test_a_body_that_was_not_sent_as_json_is_named_as_such(
     assert "application/json" in answer.json()["detail"]
 
 
-def test_a_body_that_is_no_json_by_right_is_not_asked_for_as_json(lab: Lab) -> None:
-    """A CSV that is no text is a wrong value; one sent as another type is reported as such."""
+def test_body_that_is_not_json_by_definition_is_not_requested_as_json(lab: Lab) -> None:
+    """A binary CSV is an invalid value; another content type is reported as such."""
     for header, kind in (("text/csv", "out_of_range"), ("image/png", "content_type")):
         answer = lab.client.post(
             "/api/v1/references/csv", content=b"\xff\xfe", headers={"Content-Type": header}
@@ -87,7 +85,7 @@ def test_a_body_that_is_no_json_by_right_is_not_asked_for_as_json(lab: Lab) -> N
         ("PATCH", "/api/v1/sessions/lab/start", 405, "method_not_allowed"),
     ],
 )
-def test_a_route_that_is_none_is_refused_in_the_labs_own_form(
+def test_unknown_route_is_rejected_with_the_error_format_of_the_lab(
     lab: Lab, method: str, path: str, status: int, kind: str
 ) -> None:
     answer = lab.client.request(method, path)
@@ -98,26 +96,26 @@ def test_a_route_that_is_none_is_refused_in_the_labs_own_form(
     assert ("Allow" in answer.headers) == (status == 405)
 
 
-def test_a_huge_body_is_refused(lab: Lab) -> None:
+def test_oversized_body_is_rejected(lab: Lab) -> None:
     answer = lab.client.put(lab.session + "/position", content=b" " * (5 * 1024 * 1024))
     assert answer.status_code == 413
 
 
 @pytest.mark.parametrize("path", ["%00", "a" * 5000, "%ff%fe"])
-def test_a_path_that_the_3d_view_cannot_have_is_not_found(lab: Lab, path: str) -> None:
+def test_unknown_path_of_the_3d_view_is_not_found(lab: Lab, path: str) -> None:
     answer = lab.client.get(f"/viser/lab/{path}")
     assert answer.status_code == 404
     assert answer.json()["type"] == TYPE_PREFIX + "not_found"
 
 
-def test_an_origin_that_is_no_address_is_another_site(lab: Lab) -> None:
+def test_invalid_origin_is_another_site(lab: Lab) -> None:
     answer = lab.client.get(lab.session, headers={"Origin": "http://[::1"})
     assert answer.status_code == 403
     assert answer.json()["type"] == TYPE_PREFIX + "other_origin"
 
 
 @pytest.mark.parametrize("opening", ["[", "{a="])
-def test_a_parameter_file_that_is_nested_too_deeply_is_rejected(lab: Lab, opening: str) -> None:
+def test_deeply_nested_parameter_file_is_rejected(lab: Lab, opening: str) -> None:
     answer = lab.client.put(lab.session + "/nominal", json={"toml": "a=" + opening * 5000})
     assert answer.status_code == 422
     assert "nested too deeply" in answer.json()["detail"]

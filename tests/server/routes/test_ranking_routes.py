@@ -8,7 +8,7 @@ from tests.lab import Lab
 RANKING, SESSIONS = "/api/v1/ranking", "/api/v1/sessions"
 
 
-def test_the_table_is_the_published_one_with_its_provenance(shared_lab: Lab) -> None:
+def test_table_is_the_published_one_with_its_provenance(shared_lab: Lab) -> None:
     answer = shared_lab.client.get(RANKING).raise_for_status().json()
     published = load_published()
     assert answer == published.model_dump(mode="json")
@@ -16,9 +16,7 @@ def test_the_table_is_the_published_one_with_its_provenance(shared_lab: Lab) -> 
 
 
 @pytest.mark.parametrize(("row", "baselines"), [("ndobc_w", ["ndobc"]), ("ndobc_declared", ["fl"])])
-def test_a_run_of_the_suite_is_seen_next_to_the_papers_law(
-    lab: Lab, row: str, baselines: list[str]
-) -> None:
+def test_run_of_the_suite_is_shown_next_to_ndobc(lab: Lab, row: str, baselines: list[str]) -> None:
     wanted = {"from": "ranking", "row": row, "scenario": "mass.negative.4"}
     state = lab.client.post(SESSIONS, json=wanted).raise_for_status().json()
     configuration = state["configuration"]
@@ -32,7 +30,7 @@ def test_a_run_of_the_suite_is_seen_next_to_the_papers_law(
     lab.client.delete(f"/api/v1/sessions/{state['session']}").raise_for_status()
 
 
-def test_a_run_that_ndobc_would_end_is_seen_alone_and_says_why(lab: Lab) -> None:
+def test_run_in_which_ndobc_faults_is_shown_alone_with_the_reason(lab: Lab) -> None:
     wanted = {"from": "ranking", "row": "fl", "scenario": "load_removal.positive.0"}
     state = lab.client.post(SESSIONS, json=wanted).raise_for_status().json()
     assert state["configuration"]["comparisons"] == []
@@ -42,7 +40,7 @@ def test_a_run_that_ndobc_would_end_is_seen_alone_and_says_why(lab: Lab) -> None
     lab.client.delete(f"/api/v1/sessions/{state['session']}").raise_for_status()
 
 
-def test_a_run_that_there_is_not_is_refused_by_name(shared_lab: Lab) -> None:
+def test_missing_run_is_rejected_by_name(shared_lab: Lab) -> None:
     wanted = {"from": "ranking", "row": "ndobc", "scenario": "moon"}
     answer = shared_lab.client.post(SESSIONS, json=wanted)
     assert answer.status_code == 422

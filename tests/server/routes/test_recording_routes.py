@@ -16,7 +16,7 @@ from tests.waiting import follow, follow_recording
 
 
 def record(lab: Lab, seconds: float = 3.0, **wanted: object) -> str:
-    """Record the shared session for some session time with a load in it; the run's path."""
+    """Record the shared session for some session time with a load in it; return the run's path."""
     answer = lab.client.post(lab.session + "/recording", json=wanted)
     assert answer.status_code == 201, answer.text
     state = answer.json()
@@ -29,7 +29,7 @@ def record(lab: Lab, seconds: float = 3.0, **wanted: object) -> str:
     return f"/api/v1/runs/{state['recording']['run_id']}"
 
 
-def test_a_recorded_run_is_its_own_simulation_bit_for_bit(lab: Lab) -> None:
+def test_recorded_run_is_reproduced_by_simulation_bit_for_bit(lab: Lab) -> None:
     effects = {"encoders": {}, "estimation": {}, "noise": {}, "delay_samples": 1}
     lab.client.put(lab.session + "/effects", json=effects).raise_for_status()
     lab.client.put(
@@ -44,7 +44,7 @@ def test_a_recorded_run_is_its_own_simulation_bit_for_bit(lab: Lab) -> None:
     assert compared == {"identical": True, "ticks": 3000, "first_difference": None}
 
 
-def test_a_run_is_opened_again_at_a_tick_and_goes_on_as_a_branch(lab: Lab) -> None:
+def test_run_is_opened_at_a_tick_and_continues_as_a_branch(lab: Lab) -> None:
     run = follow_recording(lab.client, record(lab))
     tick = run["first_tick"] + 1000
     opening = {"from": "run", "id": run["id"]}
@@ -62,7 +62,7 @@ def test_a_run_is_opened_again_at_a_tick_and_goes_on_as_a_branch(lab: Lab) -> No
     assert refused.status_code == 422
 
 
-def test_the_replay_page_needs_nothing_else(lab: Lab) -> None:
+def test_replay_page_is_self_contained(lab: Lab) -> None:
     run = follow_recording(lab.client, record(lab, name="<script>alert(1)</script>"))
     answer = lab.client.get(f"/api/v1/runs/{run['id']}/export?kind=html")
     assert answer.status_code == 200
@@ -71,7 +71,7 @@ def test_the_replay_page_needs_nothing_else(lab: Lab) -> None:
     assert re.search(r'(?:src|href)="https?://', answer.text) is None
 
 
-def test_what_cannot_be_done_while_recording_is_reported(lab: Lab) -> None:
+def test_impossible_operations_during_a_recording_are_rejected(lab: Lab) -> None:
     lab.client.post(lab.session + "/recording", json={}).raise_for_status()
     before = lab.client.get("/api/v1/runs").json()["total"]
     again = lab.client.post(lab.session + "/recording", json={})
@@ -92,7 +92,7 @@ def test_unknown_runs_are_reported(lab: Lab, run_id: str) -> None:
 
 
 @pytest.mark.exhaustive
-def test_a_killed_lab_finishes_the_run_at_its_next_start(tmp_path: Path) -> None:
+def test_killed_lab_completes_the_run_at_its_next_start(tmp_path: Path) -> None:
     with run_lab(data=str(tmp_path)) as lab:
         lab.client.post(lab.session + "/recording", json={"name": "cut off"}).raise_for_status()
         time.sleep(2.0)
@@ -108,7 +108,7 @@ def test_a_killed_lab_finishes_the_run_at_its_next_start(tmp_path: Path) -> None
         assert compared["identical"], json.dumps(compared)
 
 
-def test_a_full_disk_is_reported_in_the_state_while_control_goes_on(tmp_path: Path) -> None:
+def test_full_disk_is_reported_in_the_state_while_control_continues(tmp_path: Path) -> None:
     with (
         mount_small_disk(tmp_path / "disk", "600k") as disk,
         run_lab_in_process(data=str(disk)) as lab,
@@ -127,7 +127,7 @@ def test_a_full_disk_is_reported_in_the_state_while_control_goes_on(tmp_path: Pa
         assert lab.read()["tick"] > state["tick"]
 
 
-def test_a_folder_that_cannot_be_written_stops_no_control(tmp_path: Path) -> None:
+def test_unwritable_folder_does_not_stop_control(tmp_path: Path) -> None:
     blocked = tmp_path / "file"
     blocked.write_text("not a folder")
     with run_lab_in_process(data=str(blocked)) as lab:

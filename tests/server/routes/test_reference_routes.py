@@ -1,4 +1,4 @@
-"""References over REST: a CSV read, a reference looked at, and nothing changed by it."""
+"""References over REST: a CSV is read and a reference previewed without a change."""
 
 import math
 
@@ -21,7 +21,7 @@ def read(client: TestClient, text: str) -> dict:
     return {"status": answer.status_code, **answer.json()}
 
 
-def test_a_csv_becomes_what_a_session_is_given_and_is_looked_at(client: TestClient) -> None:
+def test_csv_becomes_a_reference_and_is_previewed(client: TestClient) -> None:
     series = read(client, CSV)
     assert series["follows"] == "position"
     assert series["reference"]["position_rad"] == pytest.approx([0.0, math.radians(10.0), 0.0])
@@ -34,7 +34,7 @@ def test_a_csv_becomes_what_a_session_is_given_and_is_looked_at(client: TestClie
     assert preview["peak_rate"] > math.radians(20.0), "faster than the straight lines between"
 
 
-def test_a_bad_csv_is_refused_with_its_row(client: TestClient) -> None:
+def test_invalid_csv_is_rejected_with_its_row(client: TestClient) -> None:
     refused = read(client, CSV + "0.9,1\n")
     assert refused["status"] == 422
     assert "time_s in row 5 is 0.9 s" in refused["detail"]
@@ -61,7 +61,7 @@ def test_a_bad_csv_is_refused_with_its_row(client: TestClient) -> None:
         ),
     ],
 )
-def test_every_kind_is_looked_at(
+def test_every_kind_is_previewed(
     client: TestClient, reference: dict, duration: float, low: float, high: float
 ) -> None:
     numbers = {key: _floats(value) for key, value in reference.items()}

@@ -1,4 +1,4 @@
-"""What decides a run, and how good a segment of it is, over REST: what the page's scripts need."""
+"""The origin of a run and the metrics of a segment over REST, for the scripts of the page."""
 
 import time
 from pathlib import Path
@@ -15,7 +15,7 @@ ONSET_S = 2.0
 
 
 def record(lab: Lab) -> tuple[str, dict]:
-    """A run of 4 s from t = 0, FL next to NDOBC, a load at 2 s; its id and the live origin."""
+    """Record 4 s from t = 0, FL and NDOBC, a load at 2 s; return its id and the live origin."""
     lab.load_figure()
     lab.client.post(lab.session + "/pause").raise_for_status()
     lab.client.post(lab.session + "/reset").raise_for_status()
@@ -35,7 +35,7 @@ def record(lab: Lab) -> tuple[str, dict]:
     raise AssertionError(f"run {run} was not finished")
 
 
-def test_the_origin_of_a_recorded_run_is_that_of_its_session(lab: Lab) -> None:
+def test_origin_of_a_recorded_run_is_that_of_its_session(lab: Lab) -> None:
     run, live = record(lab)
     recorded = lab.client.get(f"/api/v1/runs/{run}/origin").raise_for_status().json()
     assert recorded == live
@@ -48,8 +48,8 @@ def test_the_origin_of_a_recorded_run_is_that_of_its_session(lab: Lab) -> None:
     assert live["configuration"] == live["defaults"]
 
 
-def test_the_origin_of_a_run_reports_where_its_record_begins(lab: Lab) -> None:
-    """The script of a short recording of a long session simulates what came before it, too."""
+def test_origin_of_a_run_reports_the_start_of_its_record(lab: Lab) -> None:
+    """The script of a short recording of a long session also simulates the time before it."""
     lab.load_figure()
     lab.jump(3)
     first = lab.read()["tick"]
@@ -64,7 +64,7 @@ def test_the_origin_of_a_run_reports_where_its_record_begins(lab: Lab) -> None:
     assert (origin["first_tick"], origin["tick"]) == (first, first + 1000)
 
 
-def test_the_metrics_of_a_stretch_are_those_of_its_samples(tmp_path: Path) -> None:
+def test_metrics_of_a_segment_are_those_of_its_samples(tmp_path: Path) -> None:
     with run_lab_in_process(data=str(tmp_path)) as lab:
         run, _ = record(lab)
         query = {"start_s": ONSET_S, "end_s": 3.5}
@@ -88,7 +88,7 @@ def test_the_metrics_of_a_stretch_are_those_of_its_samples(tmp_path: Path) -> No
     assert refused.status_code == 422
 
 
-def test_the_replay_is_a_page_to_look_at_in_place(lab: Lab) -> None:
+def test_replay_is_a_page_for_inline_display(lab: Lab) -> None:
     run, _ = record(lab)
     answer = lab.client.get(f"/api/v1/runs/{run}/replay?t=1.5").raise_for_status()
     assert "frame-ancestors 'self'" in answer.headers["Content-Security-Policy"]

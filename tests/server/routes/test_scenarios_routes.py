@@ -1,4 +1,4 @@
-"""Scenarios over REST: laws run in one, it is saved under a name, and opened in a session."""
+"""Scenarios over REST: run with several laws, saved under a name, and opened in a session."""
 
 import tomllib
 
@@ -32,7 +32,7 @@ def lab():
         yield lab.client
 
 
-def test_laws_are_put_through_and_their_peaks_are_in_the_picture(lab):
+def test_laws_run_in_a_scenario_with_their_peaks_in_the_picture(lab):
     answer = lab.post(f"{SCENARIOS}/runs", json={"scenario": IMPULSE, "laws": LAWS})
     reported = answer.raise_for_status().json()
     scenario = LoadScenario(**IMPULSE)
@@ -54,10 +54,14 @@ def test_laws_are_put_through_and_their_peaks_are_in_the_picture(lab):
     assert ended["position_error_rad"][-1] is None, "nothing is drawn after the fault"
 
 
-def test_one_is_kept_read_and_forgotten_and_no_other_takes_its_name(lab):
-    assert lab.get(SCENARIOS).json() == []
+def test_scenario_is_saved_read_and_deleted_under_a_unique_name(lab):
+    (example,) = lab.get(SCENARIOS).json()
+    assert example["is_example"]
+    assert lab.get(f"{SCENARIOS}/{example['name']}").json() == example
+    assert lab.delete(f"{SCENARIOS}/{example['name']}").status_code == 404
     kept = lab.put(f"{SCENARIOS}/impulse", json=IMPULSE).raise_for_status().json()
     assert kept == lab.get(f"{SCENARIOS}/impulse").json() == lab.get(SCENARIOS).json()[0]
+    assert [one["is_example"] for one in lab.get(SCENARIOS).json()] == [False]
     assert LoadScenario(**kept["scenario"]) == LoadScenario(**IMPULSE)
     file = lab.get(f"{SCENARIOS}/impulse?format=toml").raise_for_status()
     assert tomllib.loads(file.text) == kept["scenario"]
@@ -72,7 +76,7 @@ def test_one_is_kept_read_and_forgotten_and_no_other_takes_its_name(lab):
 OPENING = {"from": "scenario", "scenario": IMPULSE, "laws": LAWS}
 
 
-def test_it_is_seen_in_a_session_with_laws_next_to_each_other(lab):
+def test_scenario_opens_in_a_session_with_several_laws(lab):
     seen = lab.post("/api/v1/sessions", json=OPENING)
     assert seen.status_code == 201
     state = seen.json()
@@ -99,7 +103,7 @@ def test_it_is_seen_in_a_session_with_laws_next_to_each_other(lab):
         ),
     ],
 )
-def test_a_wrong_one_is_refused_with_name_and_bound(lab, path, wrong, reported):
+def test_invalid_scenario_is_rejected_with_name_and_bound(lab, path, wrong, reported):
     refused = lab.post(path, json={"scenario": IMPULSE, "laws": LAWS} | wrong)
     assert refused.status_code == 422
     assert reported in refused.json()["detail"]

@@ -8,7 +8,7 @@ import pytest
 from tests.lab import Lab
 
 
-def test_the_lab_starts_running_on_figure_4a(lab: Lab) -> None:
+def test_lab_starts_running_on_figure_4a(lab: Lab) -> None:
     state = lab.read()
     configuration = state["configuration"]
     assert state["status"] == "running"
@@ -24,7 +24,7 @@ def test_session_time_follows_wall_time_and_speed(lab: Lab) -> None:
     lab.client.put(lab.session + "/speed", json={"speed": 4})
     begin, wall = lab.read()["time_s"], time.monotonic()
     end = begin
-    while end < begin + 1.0:  # on a busy machine later; it never ends where it stands still
+    while end < begin + 1.0:  # Later on a busy machine; the loop is endless if the time stops.
         time.sleep(0.02)
         end = lab.read()["time_s"]
     assert end - begin < 4 * (time.monotonic() - wall) + 0.3
@@ -39,13 +39,13 @@ def test_pause_step_and_start(lab: Lab) -> None:
     assert lab.client.post(lab.session + "/start").json()["status"] == "running"
 
 
-def test_step_while_running_is_refused_with_what_to_do(lab: Lab) -> None:
+def test_step_while_running_is_rejected_with_instructions(lab: Lab) -> None:
     answer = lab.client.post(lab.session + "/step", json={"ticks": 1})
     assert answer.status_code == 409
     assert "pause it" in answer.json()["detail"]
 
 
-def test_reset_begins_a_new_run_with_what_is_set(lab: Lab) -> None:
+def test_reset_starts_a_new_run_with_the_present_settings(lab: Lab) -> None:
     lab.client.put(lab.session + "/law", json={"law": "fl"})
     lab.client.post(lab.session + "/loads", json={"kind": "paper"})
     before = lab.jump(1)
@@ -57,7 +57,7 @@ def test_reset_begins_a_new_run_with_what_is_set(lab: Lab) -> None:
     assert after["configuration"]["law"] == "fl"
 
 
-def test_an_experiment_is_the_figure_with_its_load_at_5_s(lab: Lab) -> None:
+def test_experiment_is_the_figure_with_its_load_at_5_s(lab: Lab) -> None:
     state = lab.load_figure("4b", "fl", load=True)
     assert state["configuration"]["stiffness"]["stiffness_nm_per_rad"] == 60
     assert state["loads"][0]["start_s"] == 5.0
@@ -65,7 +65,7 @@ def test_an_experiment_is_the_figure_with_its_load_at_5_s(lab: Lab) -> None:
     assert lab.jump(6)["loads"][0]["active"]
 
 
-def test_an_experiment_has_the_lanes_and_effects_that_are_asked_for(lab: Lab) -> None:
+def test_experiment_has_the_requested_lanes_and_effects(lab: Lab) -> None:
     effects = {"friction": {"coulomb1_nm": 0.3}, "delay_samples": 1}
     request = {"figure": "4a", "comparisons": [{"law": "fl"}], "effects": effects}
     answer = lab.client.post(lab.session + "/experiment", json=request)
@@ -82,7 +82,7 @@ def test_an_experiment_has_the_lanes_and_effects_that_are_asked_for(lab: Lab) ->
     assert "delay_samples" in refused.json()["violations"][0]["message"]
 
 
-def test_a_fault_is_named_with_its_values_and_reset_leaves_it(lab: Lab) -> None:
+def test_fault_is_named_with_its_values_and_cleared_by_reset(lab: Lab) -> None:
     load = {"kind": "constant", "torque_nm": [20, 0, 0]}
     lab.client.post(lab.session + "/loads", json=load)
     state = lab.jump(2)
@@ -124,7 +124,7 @@ def test_figures_health_and_documentation(lab: Lab) -> None:
     assert all("examples" in body["schema"] or "examples" in body for body in bodies)
 
 
-def test_the_quick_stop_pauses_a_simulation_and_enters_an_event(lab: Lab) -> None:
+def test_quick_stop_pauses_a_simulation_and_adds_an_event(lab: Lab) -> None:
     lab.client.post(lab.session + "/start").raise_for_status()
     stopped = lab.client.post(lab.session + "/quick-stop").raise_for_status().json()
     assert stopped["status"] == "paused"

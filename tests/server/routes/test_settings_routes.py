@@ -1,4 +1,4 @@
-"""What can be set over REST, and how a wrong value is refused."""
+"""Settings over REST, and the rejection of invalid values."""
 
 import pytest
 
@@ -33,7 +33,7 @@ ACCEPTED = [
 
 
 @pytest.mark.parametrize(("method", "path", "body", "section", "field"), ACCEPTED)
-def test_a_setting_is_taken_over(
+def test_setting_is_applied(
     lab: Lab, method: str, path: str, body: dict, section: str, field: str
 ) -> None:
     state = lab.client.request(method, f"{lab.session}/{path}", json=body).raise_for_status().json()
@@ -58,7 +58,7 @@ REFUSED = [
     ("PUT", "position", SINE | {"frequency_hz": 9}, "frequency_hz", "Hz", "at most 5 Hz"),
     ("PUT", "position", SINE | {"amplitude_rad": "60"}, "amplitude_rad", "rad", "a number"),
     ("PUT", "position", SINE | {"amplitude_rad": True}, "amplitude_rad", "rad", "a number"),
-    ("PUT", "position", SINE | {"speed": 1}, "speed", "", "no such field"),
+    ("PUT", "position", SINE | {"speed": 1}, "speed", "", "unknown field"),
     ("PUT", "position", {"kind": "square"}, "kind", "", "'chirp', 'constant'"),
     ("PUT", "position", {"kind": "sine", "frequency_hz": 1}, "amplitude_rad", "rad", "given"),
     (
@@ -114,7 +114,7 @@ REFUSED = [
     ("PATCH", "actuator", {"radius_m": 0}, "actuator.radius_m", "m", "at least 0.001 m"),
     ("PATCH", "nominal", {"radius_m": 0}, "nominal.radius_m", "m", "at least 0.001 m"),
     ("PATCH", "nominal", {"radius_m": None}, "nominal.radius_m", "m", "a number, at least 0.001 m"),
-    ("PATCH", "nominal", {"mass": 1}, "nominal.mass", "", "no such field"),
+    ("PATCH", "nominal", {"mass": 1}, "nominal.mass", "", "unknown field"),
     (
         "PUT",
         "lanes",
@@ -163,7 +163,7 @@ REFUSED = [
 
 
 @pytest.mark.parametrize(("method", "path", "body", "name", "unit", "bound"), REFUSED)
-def test_wrong_input_names_field_unit_and_bound_and_changes_nothing(
+def test_invalid_input_names_field_unit_and_bound_and_changes_nothing(
     lab: Lab, method: str, path: str, body: dict, name: str, unit: str, bound: str
 ) -> None:
     lab.client.post(lab.session + "/pause")
@@ -192,7 +192,7 @@ def test_too_many_loads_and_too_many_fades_are_reported(lab: Lab) -> None:
     assert codes[-1] == 409
 
 
-def test_load_errors_rise_and_return_with_ndobc_and_stay_with_fl(lab: Lab) -> None:
+def test_load_error_recovers_with_ndobc_and_remains_with_fl(lab: Lab) -> None:
     peaks = {}
     for law in ("ndobc", "fl"):
         lab.load_figure("4a", law)

@@ -1,4 +1,4 @@
-"""Stability of a design that is tried, over REST; the session stays as it is."""
+"""Stability of a trial design over REST; the session is unchanged."""
 
 import math
 
@@ -15,7 +15,7 @@ def ask(lab: Lab, what: str, **request: object) -> dict:
     return answer.raise_for_status().json()
 
 
-def test_a_design_is_shown_with_its_range_without_changing_anything(lab: Lab) -> None:
+def test_design_is_returned_with_its_range_without_a_change(lab: Lab) -> None:
     lab.load_figure(law="ndobc")
     before = lab.read()["configuration"]
     found = ask(lab, "stability")
@@ -33,7 +33,7 @@ def test_a_design_is_shown_with_its_range_without_changing_anything(lab: Lab) ->
     assert lab.read()["configuration"] == before
 
 
-def test_the_response_is_that_of_the_poles_that_are_tried(lab: Lab) -> None:
+def test_response_is_that_of_the_trial_poles(lab: Lab) -> None:
     lab.load_figure(law="ndobc")
     present = ask(lab, "response")
     assert math.degrees(present["load"]["peak_error_rad"]) == pytest.approx(4.14, abs=0.05)
@@ -45,8 +45,10 @@ def test_the_response_is_that_of_the_poles_that_are_tried(lab: Lab) -> None:
     assert len(magnitude) == len(slower["disturbance"]["frequency_hz"])
 
 
-def test_a_response_says_that_on_the_rig_the_loop_is_unstable(lab: Lab) -> None:
-    """β 400 settles without counts and delay, where its curves are best; 249 is the most there."""
+def test_response_reports_an_unstable_loop_on_the_rig(lab: Lab) -> None:
+    """β = 400 settles without quantization and delay, where its curves are best; the
+    limit is 249.
+    """
     lab.load_figure(law="ndobc")
     fast = {"observer": {"bandwidth_rad_per_s": [400.0] * 3}}
     present, found = ask(lab, "response"), ask(lab, "response", **fast)
@@ -60,7 +62,7 @@ def test_a_response_says_that_on_the_rig_the_loop_is_unstable(lab: Lab) -> None:
     )
 
 
-def test_a_session_with_encoders_is_judged_by_its_own_loop(lab: Lab) -> None:
+def test_session_with_encoders_is_assessed_by_its_own_loop(lab: Lab) -> None:
     lab.load_figure(law="ndobc")
     rig = svsa.RIG.model_dump(mode="json")
     lab.client.put(f"{lab.session}/effects", json=rig).raise_for_status()
@@ -70,7 +72,7 @@ def test_a_session_with_encoders_is_judged_by_its_own_loop(lab: Lab) -> None:
     assert found["largest_pole"] > 1.0
 
 
-def test_poles_right_of_the_axis_are_shown_to_fail(lab: Lab) -> None:
+def test_poles_in_the_right_half_plane_are_reported_as_unstable(lab: Lab) -> None:
     lab.load_figure(law="ndobc")
     found = ask(lab, "response", gains=UNSTABLE)
     assert found["load"]["fault"]
@@ -81,14 +83,14 @@ def test_poles_right_of_the_axis_are_shown_to_fail(lab: Lab) -> None:
     assert shown["largest_pole"] > 1.0
 
 
-def test_gains_that_are_all_zero_are_shown_too(lab: Lab) -> None:
+def test_zero_gains_are_reported_too(lab: Lab) -> None:
     zero = {"position_coefficients": [0, 0, 0, 0], "stiffness_coefficients": [0, 0]}
     found = ask(lab, "stability", gains=zero, law="ndobc")
     assert found["formula_rad_s_per_nm"] is found["ramp_gain_rad_s_per_nm"] is None
     assert ask(lab, "response", gains=zero)["load"]["time_s"]
 
 
-def test_the_map_comes_in_parts_from_coarse_to_fine(lab: Lab) -> None:
+def test_map_is_returned_in_parts_from_coarse_to_fine(lab: Lab) -> None:
     lab.load_figure(law="ndobc")
     first = ask(lab, "region", starts=5, count=9)
     assert len(first["positions_rad"]) == 5
@@ -104,7 +106,7 @@ def test_the_map_comes_in_parts_from_coarse_to_fine(lab: Lab) -> None:
     assert sum(one["outcome"] == "rest" for one in stiff["outcomes"]) > 20
 
 
-def test_another_slice_has_starts_with_a_bent_spring(lab: Lab) -> None:
+def test_other_slice_has_starts_with_a_deflection(lab: Lab) -> None:
     lab.load_figure(law="ndobc")
     slower = {"gains": {"position_poles_rad_per_s": [-45] * 4}, "starts": 7, "count": 49}
     shares = [
@@ -119,7 +121,9 @@ def test_another_slice_has_starts_with_a_bent_spring(lab: Lab) -> None:
 
 
 @pytest.mark.parametrize("law", ["ndobc", "ndobc_w"])
-def test_every_law_has_margins_also_one_without_a_continuous_model(lab: Lab, law: str) -> None:
+def test_every_law_has_margins_including_those_without_a_continuous_model(
+    lab: Lab, law: str
+) -> None:
     lab.load_figure(law=law)
     found = ask(lab, "margins")
     assert (found["law"], found["encoders"], found["is_stable"]) == (law, "rig", True)
@@ -131,7 +135,7 @@ def test_every_law_has_margins_also_one_without_a_continuous_model(lab: Lab, law
     assert set(errors) == {"M", "B1", "B2", "Ks"}
 
 
-def test_an_unstable_design_fails_in_a_private_simulation_only(lab: Lab) -> None:
+def test_unstable_design_faults_in_a_private_simulation_only(lab: Lab) -> None:
     lab.load_figure(law="ndobc")
     before = lab.read()["configuration"]
     opening = {"from": "session", "id": "lab", "gains": UNSTABLE}
@@ -163,7 +167,7 @@ def test_an_unstable_design_fails_in_a_private_simulation_only(lab: Lab) -> None
         ({"law": "none_such"}, "none_such"),
     ],
 )
-def test_what_is_no_design_is_refused(lab: Lab, request_: dict, said: str) -> None:
+def test_invalid_design_is_rejected(lab: Lab, request_: dict, said: str) -> None:
     answer = lab.client.post(f"{lab.session}/design", json=request_ | {"kind": "response"})
     assert answer.status_code == 422
     assert said in answer.json()["detail"]

@@ -1,4 +1,4 @@
-"""Studies over REST: checked, run, cancelled and gone on with, looked at, seen as runs."""
+"""Studies over REST: validated, run, cancelled and continued, displayed, opened as runs."""
 
 import json
 import struct
@@ -9,7 +9,8 @@ import pytest
 
 from svsa.evaluation.metrics import METRICS
 from svsa.evaluation.statistics import estimate_share
-from svsa.evaluation.studies.store import find_missing, open_study, read_rows
+from svsa.evaluation.studies.rows import find_missing, read_rows
+from svsa.evaluation.studies.store import open_study
 from svsa.evaluation.studies.summary import summarize_laws
 from svsa_server.jobs.study_rows import thin_out
 from tests.lab_in_process import run_lab_in_process
@@ -57,9 +58,9 @@ def is_under_way(state):
 
 
 @pytest.fixture(scope="module")
-def whole(lab):
-    """The study of `TEXT`, completed."""
-    return run_study(lab, name="whole")
+def complete_study(lab):
+    """The completed study of `TEXT`."""
+    return run_study(lab, name="complete_study")
 
 
 def unpack(content):
@@ -73,30 +74,36 @@ def unpack(content):
     }
 
 
-def test_a_study_is_run_to_its_end_and_its_rows_are_those_of_the_table(lab, whole):
-    assert (whole["job"]["status"], whole["job"]["problem"]) == ("done", None)
-    assert whole["done"] == whole["rows"] == whole["job"]["done"] == whole["job"]["total"] == 48
+def test_study_is_run_to_its_end_and_its_rows_are_those_of_the_table(lab, complete_study):
+    assert (complete_study["job"]["status"], complete_study["job"]["problem"]) == ("done", None)
+    assert (
+        complete_study["done"]
+        == complete_study["rows"]
+        == complete_study["job"]["done"]
+        == complete_study["job"]["total"]
+        == 48
+    )
     listed = lab.get(STUDIES).json()
-    assert listed["saved"][0]["name"] == "whole"
+    assert listed["saved"][0]["name"] == "complete_study"
     assert {"perturbation", "load"} <= {one["name"] for one in listed["built_in"]}
 
     wanted = ["law", "loads[0].torque_nm[0]", "effects", "peak_position_error_rad", "succeeded"]
-    answer = lab.get(f"{STUDIES}/whole/rows", params={"column": [*wanted, "fault_tick"]})
+    answer = lab.get(f"{STUDIES}/complete_study/rows", params={"column": [*wanted, "fault_tick"]})
     header, columns = unpack(answer.content)
     assert (header["rows"], header["total"]) == (48, 48)
-    table = read_rows(open_study("whole"))
+    table = read_rows(open_study("complete_study"))
     assert columns["row"].tolist() == [*range(48)]
     for name in wanted:
         assert columns[name].tolist() == table[name].to_pylist(), name
     ended = [tick is not None for tick in table["fault_tick"].to_pylist()]
     assert np.isfinite(columns["fault_tick"]).tolist() == ended
     assert 0 < sum(ended) < 48
-    file = lab.get(f"{STUDIES}/whole/rows?format=parquet")
-    assert file.content == (open_study("whole").folder / "rows.parquet").read_bytes()
+    file = lab.get(f"{STUDIES}/complete_study/rows?format=parquet")
+    assert file.content == (open_study("complete_study").folder / "rows.parquet").read_bytes()
     assert file.headers["cache-control"] == "no-cache"
 
 
-def test_a_study_asked_for_some_metrics_keeps_those(lab):
+def test_study_with_chosen_metrics_stores_those(lab):
     offered = lab.get(STUDIES).json()["metrics"]
     assert {"name": "effort_n2m2_s", "label": "effort", "unit": "N²·m²·s"} in offered
     assert [one["name"] for one in offered] == [*METRICS]
@@ -114,20 +121,22 @@ def test_a_study_asked_for_some_metrics_keeps_those(lab):
         assert reported in wrong.json()["detail"]
 
 
-def test_of_many_rows_some_draws_come_each_under_every_law(lab, whole):
-    answer = lab.get(f"{STUDIES}/whole/rows", params={"column": ["draw", "law"], "most": 11})
+def test_of_many_rows_some_samples_are_returned_under_every_law(lab, complete_study):
+    answer = lab.get(
+        f"{STUDIES}/complete_study/rows", params={"column": ["draw", "law"], "most": 11}
+    )
     header, columns = unpack(answer.content)
     assert (header["rows"], header["total"]) == (10, 48)
     assert columns["draw"][::2].tolist() == columns["draw"][1::2].tolist()
     assert columns["law"].tolist() == ["ndobc", "fl"] * 5
-    rows = read_rows(open_study("whole"))
+    rows = read_rows(open_study("complete_study"))
     assert thin_out(rows, 2, 48) is rows
     assert thin_out(rows, 2, 47).num_rows == 46
 
 
-def test_what_came_of_it_is_summed_up_as_by_the_command(lab, whole):
-    summary = lab.get(f"{STUDIES}/whole/summary").json()
-    stored = open_study("whole")
+def test_result_is_summarized_as_by_the_command(lab, complete_study):
+    summary = lab.get(f"{STUDIES}/complete_study/summary").json()
+    stored = open_study("complete_study")
     for reported, law in zip(
         summary["laws"], summarize_laws(stored.study, read_rows(stored)), strict=True
     ):
@@ -142,27 +151,27 @@ def test_what_came_of_it_is_summed_up_as_by_the_command(lab, whole):
         assert shown == [value if np.isfinite(value) else None for value in expected]
     (pair,) = summary["pairings"]
     assert (pair["one"], pair["other"], pair["pairs"]) == ("ndobc", "fl", 24)
-    refused = lab.get(f"{STUDIES}/whole/sensitivity")
+    refused = lab.get(f"{STUDIES}/complete_study/sensitivity")
     assert refused.status_code == 409
     assert "sampling is sensitivity" in refused.json()["detail"]
 
 
-def test_a_row_becomes_a_recorded_run_with_the_metrics_of_the_table(lab, whole):
-    made = lab.post(f"{STUDIES}/whole/rows/7/replay")
+def test_row_becomes_a_recorded_run_with_the_metrics_of_the_table(lab, complete_study):
+    made = lab.post(f"{STUDIES}/complete_study/rows/7/replay")
     assert made.status_code == 201
     assert made.json()["differing"] == []
     run = lab.get(f"/api/v1/runs/{made.json()['run_id']}").json()
-    assert run["name"] == "Study whole, row 7"
-    row = read_rows(open_study("whole")).to_pylist()[7]
+    assert run["name"] == "Study complete_study, row 7"
+    row = read_rows(open_study("complete_study")).to_pylist()[7]
     assert (run["fault"]["code"] if run["fault"] else None) == row["fault"]
-    reported = lab.get(f"{STUDIES}/whole/rows/7").json()
+    reported = lab.get(f"{STUDIES}/complete_study/rows/7").json()
     assert reported == {name: None if one != one else one for name, one in row.items()}
     for wrong in (48, -1):
-        assert lab.post(f"{STUDIES}/whole/rows/{wrong}/replay").status_code == 422
-        assert lab.get(f"{STUDIES}/whole/rows/{wrong}").status_code == 422
+        assert lab.post(f"{STUDIES}/complete_study/rows/{wrong}/replay").status_code == 422
+        assert lab.get(f"{STUDIES}/complete_study/rows/{wrong}").status_code == 422
 
 
-def test_a_cancelled_study_keeps_its_rows_and_goes_on_to_the_same_table(lab, whole):
+def test_cancelled_study_keeps_its_rows_and_continues_to_the_same_table(lab, complete_study):
     begun = lab.post(STUDIES, json={"text": TEXT, "name": "left", "runs": 20_000}).json()
     again = lab.post(STUDIES, json={"text": TEXT, "name": "left", "runs": 20_000})
     assert (again.status_code, "cancel it first" in again.json()["detail"]) == (409, True)
@@ -174,7 +183,7 @@ def test_a_cancelled_study_keeps_its_rows_and_goes_on_to_the_same_table(lab, who
     stored = open_study("left")
     assert find_missing(stored)[0][0] == left["done"] // 2
     first = pq.read_table(stored.folder / "rows.parquet").slice(0, 48)
-    assert first.to_pandas().equals(read_rows(open_study("whole")).to_pandas())
+    assert first.to_pandas().equals(read_rows(open_study("complete_study")).to_pandas())
     on = lab.post(STUDIES, json={"source": "left"}).json()
     assert on["job"]["id"] != begun["job"]["id"]
     follow(
@@ -184,7 +193,7 @@ def test_a_cancelled_study_keeps_its_rows_and_goes_on_to_the_same_table(lab, who
     follow(lab, f"{STUDIES}/left", lambda state: not is_under_way(state))
 
 
-def test_a_wrong_study_is_refused_with_line_name_value_and_bound(lab):
+def test_invalid_study_is_rejected_with_line_name_value_and_bound(lab):
     wrong = TEXT.replace("high = 40.0", "high = -1.0")
     for path in ("/check", ""):
         refused = lab.post(STUDIES + path, json={"text": wrong, "name": "wrong"})
@@ -198,7 +207,7 @@ def test_a_wrong_study_is_refused_with_line_name_value_and_bound(lab):
         ({}, "source is missing"),
         ({"source": "load", "text": TEXT}, "not both"),
         ({"source": "no_such"}, "a kept study, or one of actuators"),
-        ({"source": "../whole"}, "a kept study, or one of"),
+        ({"source": "../complete_study"}, "a kept study, or one of"),
         ({"text": "title ="}, "a readable TOML file"),
         ({"source": "load", "runs": 10**8}, "at most 10000000 rows"),
         ({"source": "load", "laws": ["no_law"]}, "installed"),
@@ -207,10 +216,12 @@ def test_a_wrong_study_is_refused_with_line_name_value_and_bound(lab):
         refused = lab.post(STUDIES, json=asked)
         assert refused.status_code == 422, asked
         assert reported in refused.json()["detail"]
-    assert lab.get(f"{STUDIES}/whole/rows", params={"column": "no_such"}).status_code == 422
+    assert (
+        lab.get(f"{STUDIES}/complete_study/rows", params={"column": "no_such"}).status_code == 422
+    )
 
 
-def test_what_is_asked_otherwise_than_in_the_file_is_so(lab):
+def test_request_overrides_the_values_of_the_file(lab):
     asked = {"source": "load", "runs": 8, "laws": ["pd"], "success": {"recovery_time_s": 0.5}}
     plan = lab.post(f"{STUDIES}/check", json=asked).json()
     assert (plan["name"], plan["laws"], plan["rows"], plan["samples"]) == ("load", ["pd"], 8, 8)

@@ -1,4 +1,4 @@
-"""A study is deleted for good, also one that is being run."""
+"""A study is deleted permanently, also during its run."""
 
 from collections.abc import Iterator
 
@@ -21,19 +21,19 @@ def lab() -> Iterator[httpx.Client]:
 
 
 def delete(lab: httpx.Client, name: str) -> None:
-    """Until it is gone: its rows may take a slow machine longer than one call waits for them."""
+    """Delete until it is gone: a slow machine may need longer than the timeout of one call."""
     while (answer := lab.delete(f"{STUDIES}/{name}")).status_code == 409:
         assert "delete it later" in answer.json()["detail"]
     assert answer.status_code == 204
 
 
-def test_one_that_is_being_run_is_cancelled_first_and_leaves_nothing(lab: httpx.Client) -> None:
+def test_running_study_is_cancelled_first_and_leaves_nothing(lab: httpx.Client) -> None:
     begun = lab.post(STUDIES, json={"source": "load", "runs": 20_000, "laws": ["fl"]})
     name, job = begun.json()["name"], begun.json()["job"]["id"]
     delete(lab, name)
     assert lab.get(f"/api/v1/jobs/{job}").json()["status"] == "cancelled"
     assert lab.get(f"{STUDIES}/{name}").status_code == 404
-    assert lab.get(STUDIES).json()["saved"] == []
+    assert [one["is_example"] for one in lab.get(STUDIES).json()["saved"]] == [True]
     assert list(find_studies_folder().iterdir()) == []
     assert lab.delete(f"{STUDIES}/{name}").status_code == 404
     again = lab.post(STUDIES, json={"source": "load", "runs": 1, "laws": ["fl"]}).json()
@@ -41,7 +41,20 @@ def test_one_that_is_being_run_is_cancelled_first_and_leaves_nothing(lab: httpx.
     delete(lab, name)
 
 
-def test_what_another_process_works_at_is_left_alone(lab: httpx.Client) -> None:
+def test_the_example_is_read_and_not_deleted(lab: httpx.Client) -> None:
+    (example,) = lab.get(STUDIES).json()["saved"]
+    address = f"{STUDIES}/{example['name']}"
+    assert lab.get(address).json() == example
+    assert example["done"] == example["rows"] > 0
+    laws = lab.get(f"{address}/summary").raise_for_status().json()["laws"]
+    assert [one["law"] for one in laws] == example["laws"]
+    assert lab.get(f"{address}/rows?column=law").is_success
+    refused = lab.delete(address)
+    assert refused.status_code == 409
+    assert "part of the package" in refused.json()["detail"]
+
+
+def test_study_run_by_another_process_is_not_deleted(lab: httpx.Client) -> None:
     stored = keep_study("theirs", read_study("load")[1].changed(runs=4))
     with claim_study(stored):
         refused = lab.delete(f"{STUDIES}/theirs")
@@ -50,7 +63,7 @@ def test_what_another_process_works_at_is_left_alone(lab: httpx.Client) -> None:
     assert [one.name for one in list_studies()] == ["theirs"]
 
 
-def test_a_script_lists_reads_and_deletes_them(lab: httpx.Client) -> None:
+def test_script_lists_reads_and_deletes_studies(lab: httpx.Client) -> None:
     keep_study("mine", read_study("load")[1].changed(runs=4))
     with Connection("http://lab") as connection:
         connection._http = httpx.Client(

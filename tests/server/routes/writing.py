@@ -1,4 +1,4 @@
-"""Every operation that changes something of a lab, and how its schema says it is called."""
+"""Every changing operation of a lab, with the examples in its schema."""
 
 from collections.abc import Iterator
 
@@ -17,11 +17,11 @@ def list_writing() -> Iterator[tuple[str, dict]]:
 
 
 WRITING = dict(list_writing())
-"""PUT, PATCH and DELETE by method and path."""
+"""Return PUT, PATCH and DELETE by method and path."""
 
 
 def list_examples(operation: dict) -> list[dict]:
-    """The bodies that the schema shows, the first one first."""
+    """Return the example bodies of the schema, the first one first."""
     body = next(iter(operation["requestBody"]["content"].values()))
     return body.get("examples") or body["schema"].get("examples") or [body["example"]]
 

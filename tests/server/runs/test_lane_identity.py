@@ -1,4 +1,4 @@
-"""Which lane a sample on the wire is of: a lane keeps its id while lanes next to it come and go."""
+"""The lane of a sample in the stream: a lane keeps its id while others are added and removed."""
 
 import numpy as np
 
@@ -35,7 +35,7 @@ def read_ids(session: Session) -> list[int]:
 
 
 def read_batch(session: Session, cursor: SampleCursor) -> dict[int, np.ndarray]:
-    """The error of every lane, by the id that the batch gives it."""
+    """Return the error of every lane by its id in the batch."""
     message = cursor.take_batch(slow=False)
     assert message is not None
     *_, count, _, lanes = HEADER.unpack(message[: HEADER.size])
@@ -51,7 +51,7 @@ def open_cursor(session: Session, lanes: tuple[int, ...] | None = None) -> Sampl
     )
 
 
-def test_a_lane_keeps_its_id_when_the_one_before_it_goes() -> None:
+def test_lane_keeps_its_id_when_the_previous_one_is_removed() -> None:
     session = open_session()
     cursor = open_cursor(session)
     before = read_batch(session, cursor)
@@ -65,7 +65,7 @@ def test_a_lane_keeps_its_id_when_the_one_before_it_goes() -> None:
     assert abs(after[3][0] - before[3][-1]) < 1e-4 < abs(after[3][0] - before[2][-1])
 
 
-def test_a_lane_that_comes_has_an_id_that_no_lane_had() -> None:
+def test_added_lane_has_a_new_id() -> None:
     session = open_session()
     session.change(Set("comparisons", (FASTER,)))
     session.change(Set("comparisons", (FL, FASTER)))
@@ -74,7 +74,7 @@ def test_a_lane_that_comes_has_an_id_that_no_lane_had() -> None:
     assert list(read_batch(session, open_cursor(session, lanes=(2,)))) == [4]
 
 
-def test_a_new_run_counts_its_lanes_again() -> None:
+def test_new_run_numbers_its_lanes_again() -> None:
     session = open_session()
     session.change(Set("comparisons", (FASTER,)))
     session.reset()

@@ -1,4 +1,4 @@
-"""The lanes of a recorded run: their names, and who controlled them when."""
+"""The lanes of a recorded run: their names, and their laws over time."""
 
 from typing import Any
 
@@ -55,14 +55,14 @@ def list_segments(record: Record) -> list[list[tuple[str, int, int, int | None]]
         (2, [None], [(0, "comparisons", [7])], ["lane1", "lane2"]),
     ],
 )
-def test_lanes_are_called_by_the_laws_while_the_recording_went_on(
+def test_lanes_are_named_by_their_laws_during_the_recording(
     lanes: int, comparisons: list[Any], commands: list[tuple[int, str, Any]], names: list[str]
 ) -> None:
     record = record_lanes(lanes, comparisons, commands)
     assert name_lanes(list_record_segments(record, trace_record(record))) == names
 
 
-def test_a_bench_and_its_twin_are_distinguished() -> None:
+def test_bench_and_its_twin_are_distinguished() -> None:
     record = record_lanes(3, [NDOBC, FL], [(205, "law", "fl")], plant="emulated")
     assert list_segments(record) == [
         [("Bench NDOBC", 0, 0, 205), ("Bench FL", 6, 205, None)],
@@ -71,14 +71,14 @@ def test_a_bench_and_its_twin_are_distinguished() -> None:
     ]
 
 
-def test_what_was_tried_before_the_recording_takes_no_color_from_what_is_in_it() -> None:
+def test_laws_before_the_recording_take_no_color_from_recorded_ones() -> None:
     record = record_lanes(1, [], [(100, "observer", FASTER), (150, "law", "fl")])
     assert list_segments(record) == [[("FL", 1, 150, None)]]
     again = record_lanes(1, [], [(100, "observer", FASTER), (205, "law", "fl")])
     assert list_segments(again) == [[("NDOBC", 0, 100, 205), ("FL", 1, 205, None)]]
 
 
-def test_a_stretch_over_several_windows_says_so() -> None:
+def test_segment_over_several_windows_states_it() -> None:
     timeline = trace_record(record_lanes(1, [], [(205, "law", "fl")]))
     assert timeline is not None
     segments = ((200, 210), (205, 210), (200, 205))
@@ -86,13 +86,13 @@ def test_a_stretch_over_several_windows_says_so() -> None:
     assert reported == [["", "NDOBC → FL"], ["NDOBC → FL"], [""]]
 
 
-def test_a_record_whose_commands_no_run_can_have_had_keeps_the_names_of_its_lanes() -> None:
+def test_record_with_inconsistent_commands_keeps_the_names_of_its_lanes() -> None:
     assert build_command(0, "unload", 7).kind == "unload"
     assert trace_record(record_lanes(1, [], [(205, "unload", 7)])) is None
 
 
-def test_the_recovery_from_a_load_stays_with_the_law_that_recovered() -> None:
-    """NDOBC recovered, FL did not; that they change places afterwards makes neither the other."""
+def test_recovery_time_belongs_to_the_law_that_recovered() -> None:
+    """NDOBC recovered, FL did not; exchanging them afterwards changes neither."""
     fl_comparison = (Lane(law="fl"),)
     figure = get_figure("4a").build_configuration(load=False).changed(comparisons=fl_comparison)
     session = SimulatedSession("test", figure)

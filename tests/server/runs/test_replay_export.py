@@ -11,7 +11,7 @@ from tests.runs.records.records import build_header, build_samples
 @pytest.mark.parametrize(
     ("name", "title"), [("", "Fig. 4A · NDOBC · σ 15 · 3 kg"), ("Mine", "Mine")]
 )
-def test_it_is_called_as_in_the_list_of_runs(
+def test_page_is_named_as_in_the_list_of_runs(
     monkeypatch: pytest.MonkeyPatch, name: str, title: str
 ) -> None:
     configuration = get_figure("4a").build_configuration().model_dump(mode="json")

@@ -1,4 +1,4 @@
-"""The page of a worst run: whose it is, next to whom, and measured as on the board."""
+"""The page of a worst run: its law, its comparison, and metrics as on the leaderboard."""
 
 import numpy as np
 import pytest
@@ -10,7 +10,7 @@ from tests.teaching.leaderboard.test_leaderboard import short_season  # noqa: F4
 
 
 @pytest.mark.usefixtures("short_season")
-def test_it_shows_the_run_of_the_board_next_to_ndobc(tmp_path, monkeypatch):
+def test_page_shows_the_run_of_the_board_next_to_ndobc(tmp_path, monkeypatch):
     board, given = Board(tmp_path), []
     measure_missing(board)
     entry = board.get("fl")

@@ -1,4 +1,4 @@
-"""Poses of the actuator to show in 3D."""
+"""Poses of the actuator for the 3D view."""
 
 from typing import Any
 
@@ -6,7 +6,7 @@ from svsa_scene import ActuatorPose
 
 
 def make_pose(position_rad: float = 0.0, **changes: Any) -> ActuatorPose:
-    """Everything at one angle and at rest, but for `changes`."""
+    """All angles equal and at rest, except `changes`."""
     values: dict[str, Any] = {
         "position_rad": position_rad,
         "position_reference_rad": position_rad,

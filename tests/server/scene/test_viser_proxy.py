@@ -1,4 +1,4 @@
-"""What passes between a browser and viser: the page and a camera, and nothing else."""
+"""Messages between a browser and viser: the page and a camera, and no others."""
 
 import asyncio
 import math
@@ -90,7 +90,7 @@ def test_only_the_camera_of_a_browser_reaches_viser(monkeypatch: pytest.MonkeyPa
 
 
 @pytest.mark.parametrize("forged", FORGED, ids=lambda message: message["type"])
-def test_filter_drops_everything_but_a_whole_camera(forged: dict[str, Any]) -> None:
+def test_filter_drops_everything_but_complete_camera_messages(forged: dict[str, Any]) -> None:
     assert filter_browser_message(msgspec.msgpack.encode(forged)) is None
 
 
@@ -104,7 +104,7 @@ def test_filter_writes_the_camera_again() -> None:
     assert msgspec.msgpack.decode(passed) == CAMERA
 
 
-def test_other_sites_and_other_protocols_are_refused() -> None:
+def test_other_sites_and_other_protocols_are_rejected() -> None:
     async def check(lab: Lab) -> None:
         with pytest.raises(websockets.InvalidStatus) as refused:
             async with lab.connect(origin="http://elsewhere.example"):
@@ -121,7 +121,7 @@ def test_other_sites_and_other_protocols_are_refused() -> None:
     run_in_lab(check)
 
 
-def test_too_long_a_message_ends_the_connection() -> None:
+def test_oversized_message_ends_the_connection() -> None:
     async def check(lab: Lab) -> None:
         async with lab.connect() as browser:
             await browser.send(bytes(100_000))
@@ -133,7 +133,7 @@ def test_too_long_a_message_ends_the_connection() -> None:
     run_in_lab(check)
 
 
-def test_browser_is_reported_when_viser_goes_away() -> None:
+def test_browser_is_notified_when_viser_ends() -> None:
     async def check(lab: Lab) -> None:
         async with lab.connect() as browser:
             await receive_until(browser, lambda m: m.get("name") == LINK)

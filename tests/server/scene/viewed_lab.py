@@ -39,7 +39,7 @@ CAMERA: dict[str, Any] = {
 
 
 class Lab:
-    """A running server with the 3D view, and how to reach it."""
+    """A running server with the 3D view, and its addresses."""
 
     def __init__(self, laboratory: Laboratory, scenes: Scenes) -> None:
         self.http = ""
@@ -50,7 +50,7 @@ class Lab:
 
     @property
     def bridge(self) -> SceneBridge:
-        """viser of the shared session."""
+        """Return viser of the shared session."""
         return self.scenes.views["lab"].bridge
 
     def read_pose(self, session: Session) -> ActuatorPose | None:

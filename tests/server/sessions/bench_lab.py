@@ -1,6 +1,6 @@
 """A lab with a bench: `svsa serve --bench` and an emulator, as processes.
 
-What the rig's drives were reported is read from the rig itself, and every wait is generous.
+The commands that the rig's drives received are read from the rig itself, and every timeout is long.
 """
 
 import contextlib
@@ -12,6 +12,7 @@ from typing import Any
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
+from svsa.actuators.parameters import SVSA
 from svsa.hardware.emulator.launch import RunningEmulator
 from tests.hardware.live_bench import start_live_emulator, write_bench
 from tests.lab import START_TIMEOUT_S, Lab, run_lab
@@ -45,14 +46,14 @@ class BenchLab:
         assert answer.is_success, answer.text
         return answer.json()
 
-    def refuse(self, path: str, json: Any = None, method: str = "POST") -> str:
-        """Ask for something that is refused for the state that the bench is in; why."""
+    def expect_rejection(self, path: str, json: Any = None, method: str = "POST") -> str:
+        """Send a request that the state of the bench does not permit; return the reason."""
         answer = self.lab.client.request(method, self.lab.session + path, json=json)
         assert answer.status_code == 409, answer.text
         return answer.json()["detail"]
 
     def read_drives(self) -> list[tuple[int | None, int]]:
-        """Mode and commanded current, mA, of both drives, as the rig has them."""
+        """Return mode and commanded current, mA, of both drives on the rig."""
         drives = self.emulator.control.read_state()["drives"].values()
         return [(drive["mode"], drive["commanded_ma"]) for drive in drives]
 
@@ -63,12 +64,12 @@ class BenchLab:
         wait_until(lambda: self.status == status, self.describe)
 
     def describe(self) -> str:
-        """What to look at where it does not do what it should."""
+        """Describe the state for an error message."""
         state = self.read()
         return f"{state['fault']} {state['bench']}"
 
     def make_ready(self) -> None:
-        """Armed and at home, from wherever it is: the rig is set to its marks while OFF."""
+        """Arm and home from any state: the rig is set to its marks while OFF."""
         if self.status != "off":
             self.ask("/quick-stop")
             self.wait_for("fault")
@@ -81,14 +82,14 @@ class BenchLab:
             self.ask("/bench/home", {"step": step, "by": "a test"})
 
     def wait_for_ticks(self, ticks: int = 300) -> dict[str, Any]:
-        """The state once so many more ticks have been done."""
+        """Return the state after this many more ticks."""
         begin = self.read()["tick"]
         wait_until(lambda: self.read()["tick"] >= begin + ticks, self.describe)
         return self.read()
 
     @contextlib.contextmanager
     def watched(self) -> Iterator[None]:
-        """A user has a stream of it open, and reads it."""
+        """Read a stream of it, as a viewer."""
         with connect(self.lab.stream_url, proxy=None, max_size=None) as stream:
             stream.recv(timeout=PATIENCE_S)
             thread = threading.Thread(target=read_stream, args=(stream,))
@@ -98,7 +99,7 @@ class BenchLab:
 
     @contextlib.contextmanager
     def running(self) -> Iterator[None]:
-        """Ready, watched, and begun."""
+        """In the state READY, with a viewer, and started."""
         self.make_ready()
         with self.watched():
             self.ask("/start")
@@ -106,7 +107,7 @@ class BenchLab:
             yield
 
     def find_process(self, module: str) -> int:
-        """The process of this lab that runs a module."""
+        """Return the process of this lab that runs a module."""
         return find_child(self.lab.process.pid, module)
 
 
@@ -117,9 +118,9 @@ def read_stream(stream: Any) -> None:
 
 
 @contextlib.contextmanager
-def run_bench_lab(folder: Path) -> Iterator[BenchLab]:
+def run_bench_lab(folder: Path, actuator: str = SVSA) -> Iterator[BenchLab]:
     with (
-        start_live_emulator() as emulator,
-        run_lab("--bench", str(write_bench(folder, emulator))) as lab,
+        start_live_emulator(actuator) as emulator,
+        run_lab("--bench", str(write_bench(folder, emulator, actuator=actuator))) as lab,
     ):
         yield BenchLab(lab, emulator)

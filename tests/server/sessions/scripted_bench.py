@@ -18,7 +18,7 @@ from svsa.hardware.session.session import BenchSession
 from svsa.runs.paper import get_figure
 from svsa.runs.run import Start
 from svsa.simulation.loop.lane import AT_REST
-from svsa_server.sessions.lock import let_pass
+from svsa_server.sessions.lock import pause
 from tests.hardware.wired_bench import EMULATOR_BENCH
 from tests.runs.session.loop_ticks import write
 
@@ -29,7 +29,8 @@ STEP = "compiling the loop, once: 3 functions, observe the last"
 class Processes:
     """Loop and supervisor: `script` says how they start, and every command takes a while.
 
-    script: `ready`, so long until `wait_until_ready` returns, s; `refusal`, why it does not.
+    script: `ready_s`, the time until `wait_until_ready` returns, s; `refusal`, the reason if it
+    does not.
     """
 
     script = types.SimpleNamespace(ready_s=0.0, refusal=None)
@@ -45,14 +46,14 @@ class Processes:
 
     def wait_until_ready(self, silence_s: float, notify: Any) -> None:
         notify(self.step, self.age_s)
-        let_pass(self.script.ready_s)
+        pause(self.script.ready_s)
         if self.script.refusal is not None:
             self.failure = f"The bench cannot be opened: {self.script.refusal}"
             raise BenchError(self.failure)
         self.listens = self.alive = True
 
     def request(self, wanted: str, argument: Any = None) -> dict[str, Any]:
-        let_pass(ANSWER_S)
+        pause(ANSWER_S)
         self.reported.append(argument)
         return {"tick": 0}
 
@@ -71,12 +72,12 @@ class Processes:
 def build_bench_session(
     monkeypatch: pytest.MonkeyPatch, ready_s: float = 0.0, refusal: str | None = None
 ) -> BenchSession:
-    """A session of the rig's bench file that has still to be opened."""
+    """A session of the rig's bench file that is not open yet."""
     script = types.SimpleNamespace(ready_s=ready_s, refusal=refusal)
     monkeypatch.setattr(Processes, "script", script)
     monkeypatch.setattr(supervised_loop, "BenchProcesses", Processes)
     figure = get_figure("4a").build_configuration(load=False)
-    return BenchSession("lab", EMULATOR_BENCH, figure, rest=let_pass)
+    return BenchSession("lab", EMULATOR_BENCH, figure, rest=pause)
 
 
 def say(
@@ -85,20 +86,20 @@ def say(
     held_back: Iterable[str] = (),
     fault: Fault | None = None,
 ) -> None:
-    """What the loop says of its state: the session hears it at its next wake."""
+    """Send a state of the loop: the session receives it at its next wake-up."""
     assert isinstance(session.loop.processes, Processes)
     event = {"event": "state", "status": status, "problems": [], "homing_step": None}
     reported = {"held_back": list(held_back), "fault": asdict(fault) if fault else None}
     session.loop.processes.states.append(event | reported)
 
 
-def hear(session: BenchSession) -> None:
-    """What the loop has said, and nothing else of a wake."""
+def receive(session: BenchSession) -> None:
+    """Receive the messages of the loop, and nothing else of a wake-up."""
     session.report.take(session.loop.take_states())
 
 
 def begin_run(session: BenchSession, ticks: int) -> None:
-    """A run of so many ticks, which go on."""
+    """Run this many ticks, which continue."""
     memory, start = session.loop.memory, Start(session.bench.home.lever_ratio, AT_REST)
     memory.begin_run(1)
     session._begin(BenchRun(session.run.configuration, start, memory))

@@ -1,4 +1,4 @@
-"""Two clients change parts of one thing at a bench, whose loop takes a while to answer."""
+"""Concurrent changes of a bench, whose loop takes time to answer."""
 
 import asyncio
 from collections.abc import Iterator
@@ -21,7 +21,7 @@ from svsa.simulation.plant.loads.series import SeriesLoad
 from svsa_server.routes.lab import settings
 from svsa_server.schemas.lab.gain import GainsRequest
 from svsa_server.sessions.hosted import HostedSession
-from svsa_server.sessions.lock import take_turn
+from svsa_server.sessions.lock import run_waiting
 from svsa_server.sessions.state import build_progress
 from tests.runs.session.loop_ticks import write
 from tests.server.sessions.scripted_bench import Processes, begin_run, build_bench_session, say
@@ -37,10 +37,10 @@ def session(monkeypatch: pytest.MonkeyPatch) -> Iterator[BenchSession]:
 
 
 @pytest.mark.parametrize("points", [MAX_LOAD_POINTS, MAX_LOAD_POINTS + 1])
-def test_a_series_load_that_takes_the_loop_too_long_is_refused(
+def test_series_load_that_delays_the_loop_too_long_is_rejected(
     session: BenchSession, points: int
 ) -> None:
-    """Applied and planned; the loop gets nothing of one that is refused."""
+    """Immediate and planned; the loop receives nothing of a rejected one."""
     times, torques = tuple(1e-3 * i for i in range(points)), ((0.1, 0.0, 0.0),) * points
     load = SeriesLoad(time_s=times, torque_nm=torques)
     planned = session.run.configuration.changed(loads=(load,))
@@ -57,7 +57,7 @@ def test_a_series_load_that_takes_the_loop_too_long_is_refused(
         assert len(reported) == before
 
 
-def test_two_parts_of_the_gains_at_once_are_both_kept(session: BenchSession) -> None:
+def test_two_concurrent_changes_of_the_gains_are_both_kept(session: BenchSession) -> None:
     before, hosted = session.run.configuration.gains, HostedSession(session)
     requests = (
         GainsRequest(stiffness_coefficients=(900.0, 60.0)),
@@ -67,7 +67,7 @@ def test_two_parts_of_the_gains_at_once_are_both_kept(session: BenchSession) -> 
 
     async def ask() -> None:
         await asyncio.gather(
-            *(take_turn(settings.set_gains, hosted=hosted, request=each) for each in requests)
+            *(run_waiting(settings.set_gains, hosted=hosted, request=each) for each in requests)
         )
 
     asyncio.run(ask())
@@ -79,11 +79,11 @@ def test_two_parts_of_the_gains_at_once_are_both_kept(session: BenchSession) -> 
     )
 
 
-def test_the_twin_has_the_law_that_is_on_its_way(session: BenchSession) -> None:
+def test_twin_has_the_pending_law(session: BenchSession) -> None:
     async def ask() -> None:
         await asyncio.gather(
-            take_turn(session.change, Set("law", "fl")),
-            take_turn(session.change, Set("comparisons", (Lane(law="ndobc"),))),
+            run_waiting(session.change, Set("law", "fl")),
+            run_waiting(session.change, Set("comparisons", (Lane(law="ndobc"),))),
         )
 
     asyncio.run(ask())
@@ -91,7 +91,7 @@ def test_the_twin_has_the_law_that_is_on_its_way(session: BenchSession) -> None:
     assert [lane.law for lane in configuration.lanes] == ["fl", "fl", "ndobc"]
 
 
-def test_what_is_set_already_is_not_reported_to_the_loop_again(session: BenchSession) -> None:
+def test_unchanged_value_is_not_sent_to_the_loop_again(session: BenchSession) -> None:
     settings = [
         Set("law", "fl"),
         Set("comparisons", (Lane(law="ndobc"),)),
@@ -99,7 +99,7 @@ def test_what_is_set_already_is_not_reported_to_the_loop_again(session: BenchSes
     ]
 
     async def ask() -> None:
-        await asyncio.gather(*(take_turn(session.set, each) for each in settings * 2))
+        await asyncio.gather(*(run_waiting(session.set, each) for each in settings * 2))
 
     asyncio.run(ask())
     processes, journal = session.loop.processes, session.journal
@@ -114,8 +114,8 @@ def test_what_is_set_already_is_not_reported_to_the_loop_again(session: BenchSes
     assert len(journal.events) == before + 1, "begun again where that is asked for"
 
 
-def test_the_twin_is_not_set_on_its_own(session: BenchSession) -> None:
-    """Refused before the loop hears of it: it would control its own twin otherwise."""
+def test_twin_is_not_set_separately(session: BenchSession) -> None:
+    """Rejected before the loop receives it: it would control its own twin otherwise."""
     reported = len(session.loop.processes.reported)  # pyright: ignore[reportAttributeAccessIssue]
     setting = {"lane": 2, "setting": {"law": "ndobc", "observer": None}}
     with pytest.raises(StateError, match="Lane 2 is the bench's simulated twin"):
@@ -123,10 +123,10 @@ def test_the_twin_is_not_set_on_its_own(session: BenchSession) -> None:
     assert len(session.loop.processes.reported) == reported  # pyright: ignore[reportAttributeAccessIssue]
 
 
-def test_what_comes_to_be_known_of_a_lost_loop_reaches_the_record(
+def test_later_information_on_a_lost_loop_reaches_the_record(
     session: BenchSession, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """That no user has stopped the drives yet is not the last word on it."""
+    """The first report, that no process has stopped the drives yet, is not final."""
     written: list[Fault] = []
     recorder = SimpleNamespace(write_fault=written.append, fault=None)
     words = ["The drives are not stopped yet.", "The supervisor has.", "The supervisor has."]
@@ -142,10 +142,10 @@ def test_what_comes_to_be_known_of_a_lost_loop_reaches_the_record(
     monkeypatch.undo()
 
 
-def test_what_a_stop_does_on_its_ramp_is_not_in_the_numbers_of_the_run(
+def test_ramp_of_a_stop_is_excluded_from_the_metrics_of_the_run(
     session: BenchSession,
 ) -> None:
-    """The twin goes on without a ramp: in one window they would not be of the same."""
+    """The twin continues without a ramp: one window would compare different motions."""
     begin_run(session, 100)
     write(session.loop.memory, 100, 50)
     say(session, BenchStatus.RAMP)
@@ -160,8 +160,8 @@ def test_what_a_stop_does_on_its_ramp_is_not_in_the_numbers_of_the_run(
     assert journal.commands == [Stop(tick=100)], "a record has it, too"
 
 
-def test_a_twin_that_ended_has_no_numbers(session: BenchSession) -> None:
-    """What it did until then is not how it does; the bench goes on."""
+def test_ended_twin_has_no_metrics(session: BenchSession) -> None:
+    """Its earlier samples are incomplete; the bench continues."""
     begin_run(session, 100)
     hosted = HostedSession(session)
     assert all(lane.in_window is not None for lane in build_progress(hosted).lanes)
@@ -175,7 +175,7 @@ def test_a_twin_that_ended_has_no_numbers(session: BenchSession) -> None:
 
 
 def run_and_stop(session: BenchSession) -> None:
-    """A run of 100 ticks, after which the bench stands."""
+    """Run 100 ticks, then stop the bench."""
     begin_run(session, 50)
     write(session.loop.memory, 50, 50)
     for status in (BenchStatus.RAMP, BenchStatus.READY):
@@ -184,10 +184,10 @@ def run_and_stop(session: BenchSession) -> None:
     assert session.run.tick == 100
 
 
-def test_a_change_at_a_tick_without_a_sample_is_entered_at_the_last_one(
+def test_change_at_a_tick_without_a_sample_is_stored_at_the_last_one(
     session: BenchSession, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Another run of the loop has begun meanwhile: its samples are not those of this one."""
+    """Another run of the loop has started meanwhile, whose samples are not of this run."""
     begin_run(session, 50)
     monkeypatch.setattr(session.loop.processes, "request", lambda *_: {"tick": 60})
     session.change(Set("law", "fl"))
@@ -195,7 +195,7 @@ def test_a_change_at_a_tick_without_a_sample_is_entered_at_the_last_one(
     assert session.run.configuration.law == "fl"
 
 
-def test_a_change_waits_a_bounded_time_for_those_before_it(
+def test_change_waits_a_limited_time_for_earlier_ones(
     session: BenchSession, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(commands, "LONGEST_CHANGES_S", 0.1)
@@ -206,14 +206,14 @@ def test_a_change_waits_a_bounded_time_for_those_before_it(
     assert session.journal.commands == []
 
 
-def test_a_run_that_is_reset_is_not_read_again(session: BenchSession) -> None:
+def test_reset_run_is_not_read_again(session: BenchSession) -> None:
     run_and_stop(session)
     session.reset()
     session.wake(0.0)
     assert (session.run.tick, session.journal.history.end_tick) == (0, 0)
 
 
-def test_what_is_recorded_of_a_bench_that_stands_has_nothing_of_the_run_before(
+def test_recording_of_a_bench_at_rest_has_nothing_of_the_previous_run(
     session: BenchSession, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Its stop and its loads would be commands of the new one, and the loop's ticks its own."""

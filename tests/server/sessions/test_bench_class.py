@@ -18,7 +18,7 @@ from svsa_server.access.roles import INSTRUCTOR, Person, Role
 from tests.client.copied_script import (
     END_S,
     do_experiment,
-    expect_done,
+    finish_script,
     start_script,
     write_copied_script,
 )
@@ -36,14 +36,14 @@ TORQUES = ("torque1_nm", "torque2_nm")
 
 
 class Room(NamedTuple):
-    """bench: asked by the instructor. folder: its data. tokens: of Ada, Bob, the instructor."""
+    """bench: with the instructor's token. folder: its data. tokens: of Ada, Bob, the instructor."""
 
     bench: BenchLab
     folder: Path
     tokens: tuple[str, str, str]
 
     def connect(self, number: int) -> Lab:
-        """The lab for a script of one of them."""
+        """Connect a script of one of them to the lab."""
         return svsa.connect(self.bench.lab.url, self.tokens[number])
 
 
@@ -92,7 +92,7 @@ CHANGES = [hand_over, give_back, take_over, lock, remove]
 
 
 @pytest.mark.parametrize("change", exhaust(CHANGES, [hand_over]))
-def test_the_bench_ramps_down_before_another_user_has_it(
+def test_bench_ramps_down_before_another_user_gets_it(
     room: Room, change: Callable[[Lab, Lab], None]
 ) -> None:
     with room.connect(0) as ada, room.connect(1) as bob, room.connect(2) as instructor:
@@ -122,7 +122,7 @@ def test_the_bench_ramps_down_before_another_user_has_it(
 
 
 def expect_ramp(result: svsa.Result) -> None:
-    """The torques of a run go to zero in so many ticks, each share of them below its share."""
+    """The torques of a run decrease to zero in these ticks, each below its share."""
     torques = np.abs(np.column_stack([result[name] for name in TORQUES])).max(axis=1)
     torques = torques[np.isfinite(torques)]
     before, ramp = torques[-2 * RAMP_TICKS : -RAMP_TICKS], torques[-RAMP_TICKS:]
@@ -133,7 +133,7 @@ def expect_ramp(result: svsa.Result) -> None:
     assert ramp[-1] < 0.02 * before.max()
 
 
-def test_who_gets_it_starts_it_again_once_it_is_at_rest(room: Room) -> None:
+def test_new_holder_starts_the_bench_again_once_it_is_at_rest(room: Room) -> None:
     with room.connect(0) as ada, room.connect(1) as bob:
         room.bench.make_ready()
         ada.session.take_control()
@@ -152,7 +152,7 @@ def test_who_gets_it_starts_it_again_once_it_is_at_rest(room: Room) -> None:
 
 
 def test_all_users_may_stop_a_bench(room: Room) -> None:
-    """No login is needed to stop a machine; `test_access` shows that a simulation needs one."""
+    """Stopping a machine needs no login; `test_access` shows that a simulation needs one."""
     room.bench.make_ready()
     with httpx.Client(base_url=room.bench.lab.url, trust_env=False) as stranger:
         assert stranger.get("/api/v1/access").json()["stops_without_login"]
@@ -162,12 +162,12 @@ def test_all_users_may_stop_a_bench(room: Room) -> None:
     room.bench.make_ready()
 
 
-def test_the_script_of_a_simulation_runs_on_the_bench(room: Room, tmp_path: Path) -> None:
+def test_script_of_a_simulation_runs_on_the_bench(room: Room, tmp_path: Path) -> None:
     with run_lab_in_process() as simulated:
         path = write_copied_script(do_experiment(simulated.client), room.bench.lab.url, tmp_path)
     room.bench.make_ready()
     script = start_script(path, room.tokens[0], "--shared")
-    assert expect_done(script, ("Bench FL", "Twin FL")) >= END_S
+    assert finish_script(script, ("Bench FL", "Twin FL")) >= END_S
     state = room.bench.read()
     assert (state["control"]["holder"], state["bench"]["status"]) == (None, "ready")
     assert [event["label"] for event in state["events"]][-1] == "Stop"

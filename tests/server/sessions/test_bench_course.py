@@ -1,4 +1,4 @@
-"""An exercise on a bench, from its set-up to its grade, and what of it is refused."""
+"""An exercise on a bench, from its set-up to its grade, and its rejections."""
 
 import json
 from collections.abc import Iterator
@@ -128,13 +128,13 @@ def room(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Room]:
             yield Room(BenchLab(lab, emulator), folder)
 
 
-def test_a_step_that_is_simulated_only_is_refused(room: Room) -> None:
+def test_simulated_step_is_rejected(room: Room) -> None:
     refused = room.set_up("ideal")
     assert refused.status_code == 409
-    assert "simulated and nothing else" in refused.json()["detail"]
+    assert "can only be simulated" in refused.json()["detail"]
 
 
-def test_a_bench_gets_law_references_and_observer_and_keeps_what_it_is(room: Room) -> None:
+def test_set_up_sets_law_references_and_observer_and_keeps_the_bench(room: Room) -> None:
     before = room.bench.read()["configuration"]
     state = room.set_up("hold").raise_for_status().json()
     reported = state["configuration"]
@@ -147,7 +147,7 @@ def test_a_bench_gets_law_references_and_observer_and_keeps_what_it_is(room: Roo
     assert step["bench"]["manual_loads"] == [{"time_s": 0.8, "is_on": True}]
 
 
-def test_a_bench_is_given_its_earlier_settings_and_stays_at_rest(room: Room) -> None:
+def test_earlier_settings_are_restored_and_the_bench_stays_at_rest(room: Room) -> None:
     room.set_up("hold").raise_for_status()
     restored = room.bench.ask("/experiment", {"from": "before_exercise"})
     assert restored["configuration"]["observer"]["bandwidth_rad_per_s"] != SLOWER
@@ -166,9 +166,9 @@ def run_id(room: Room) -> Iterator[str]:
     yield run
 
 
-def test_it_begins_again_with_what_is_set_and_not_while_it_moves(room: Room, run_id: str) -> None:
-    """Gains and observer of the step stay where it is reset; of an emulator the load comes off,
-    which has turned the link away since the run's torque is gone.
+def test_reset_keeps_the_settings_and_is_rejected_in_motion(room: Room, run_id: str) -> None:
+    """Gains and observer of the step are kept; the load of an emulator, which has displaced the
+    link since the end of the run's torque, is removed.
     """
     reported = room.bench.ask("/reset")["configuration"]
     assert reported["observer"]["bandwidth_rad_per_s"] == SLOWER
@@ -191,7 +191,7 @@ def grade_run(room: Room, run_id: str) -> Grade:
     return grade(read_submission(path), exercise, room.folder, None)
 
 
-def test_its_run_is_judged_and_graded_by_what_was_verified_of_it(room: Room, run_id: str) -> None:
+def test_run_is_assessed_and_graded_by_verified_samples(room: Room, run_id: str) -> None:
     (judged,) = room.call("POST", "/steps/hold/check", {"run_id": run_id})
     assert judged["points"] == 1.0, judged["feedback"]
     given = grade_run(room, run_id)
@@ -202,7 +202,7 @@ def test_its_run_is_judged_and_graded_by_what_was_verified_of_it(room: Room, run
     assert "the same, bit for bit" in found.description
 
 
-def test_a_record_that_was_tampered_with_is_refused(room: Room, run_id: str) -> None:
+def test_manipulated_record_is_rejected(room: Room, run_id: str) -> None:
     path = room.folder / "runs" / run_id / START_FILE
     kept = path.read_bytes()
     start = json.loads(kept)

@@ -1,4 +1,4 @@
-"""A recording at a bench receives the fault that ended its run, and of no other."""
+"""A recording on a bench receives the fault that ended its run, and no other."""
 
 from collections.abc import Iterator
 
@@ -7,11 +7,11 @@ import pytest
 from svsa.errors import Fault
 from svsa.hardware.safety.machine import BenchStatus
 from svsa.hardware.session.session import BenchSession
-from tests.server.sessions.scripted_bench import build_bench_session, hear, say
+from tests.server.sessions.scripted_bench import build_bench_session, receive, say
 
 
 class Recording:
-    """Keeps what it is reported."""
+    """Stores the reported faults."""
 
     def __init__(self) -> None:
         self.faults: list[Fault | None] = []
@@ -34,10 +34,10 @@ def session(monkeypatch: pytest.MonkeyPatch) -> Iterator[BenchSession]:
 def report(session: BenchSession, status: BenchStatus, code: str | None = None) -> None:
     fault = None if code is None else Fault(code, 0, 70, 0.07, "It stopped.")
     say(session, status, fault=fault)
-    hear(session)
+    receive(session)
 
 
-def test_a_fault_in_motion_is_the_end_of_the_recorded_run(session: BenchSession) -> None:
+def test_fault_in_motion_is_the_end_of_the_recorded_run(session: BenchSession) -> None:
     session.journal.recorder = recording = Recording()  # pyright: ignore[reportAttributeAccessIssue]
     report(session, BenchStatus.RUN)
     report(session, BenchStatus.FAULT, "overspeed")
@@ -46,7 +46,7 @@ def test_a_fault_in_motion_is_the_end_of_the_recorded_run(session: BenchSession)
     assert recording.faults[0] == session.fault
 
 
-def test_a_fault_of_a_bench_at_rest_ended_no_run(session: BenchSession) -> None:
+def test_fault_of_a_bench_at_rest_ended_no_run(session: BenchSession) -> None:
     session.journal.recorder = recording = Recording()  # pyright: ignore[reportAttributeAccessIssue]
     report(session, BenchStatus.READY)
     report(session, BenchStatus.FAULT, "drive_silent")

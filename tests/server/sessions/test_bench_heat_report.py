@@ -1,4 +1,4 @@
-"""What a lab tells of the heat of a bench's motors: state, events, and before a load is hung."""
+"""The heat of a bench's motors: in the state, as events, and predicted before a load is added."""
 
 import asyncio
 from collections.abc import Iterator
@@ -15,7 +15,7 @@ from svsa_server.sessions.hosted import HostedSession
 from svsa_server.sessions.state import build_state
 from tests.runs.session.sessions import build_session
 
-from .scripted_bench import build_bench_session, hear, say
+from .scripted_bench import build_bench_session, receive, say
 
 
 @pytest.fixture
@@ -28,14 +28,14 @@ def session(monkeypatch: pytest.MonkeyPatch) -> Iterator[BenchSession]:
 
 def report(session: BenchSession, status: BenchStatus, *held_back: str) -> None:
     say(session, status, held_back)
-    hear(session)
+    receive(session)
 
 
 def list_events(session: BenchSession) -> list[tuple[str, str]]:
     return [(event.kind, event.label) for event in session.journal.events]
 
 
-def test_that_heat_begins_and_ends_to_hold_a_motor_back_are_events(session: BenchSession) -> None:
+def test_start_and_end_of_a_heat_limit_are_events(session: BenchSession) -> None:
     report(session, BenchStatus.RUN)
     report(session, BenchStatus.RUN, "motor2")
     report(session, BenchStatus.RUN, "motor2")
@@ -48,14 +48,14 @@ def test_that_heat_begins_and_ends_to_hold_a_motor_back_are_events(session: Benc
     ]
 
 
-def test_a_bench_that_stands_asks_nothing_of_a_warm_motor(session: BenchSession) -> None:
+def test_bench_at_rest_requests_nothing_of_a_warm_motor(session: BenchSession) -> None:
     report(session, BenchStatus.RUN, "motor2")
     report(session, BenchStatus.READY)
     report(session, BenchStatus.RUN, "motor2")
     assert [kind for kind, _ in list_events(session)] == ["held_back", "held_back"]
 
 
-def test_the_state_has_the_heat_of_both_motors_while_the_loop_ticks(session: BenchSession) -> None:
+def test_state_has_the_heat_of_both_motors_while_the_loop_ticks(session: BenchSession) -> None:
     fields = session.loop.memory.fields
     fields["heat"], fields["allowed_nm"], fields["is_held_back"] = (0.1, 0.99), (15.0, 1.6), (0, 1)
     fields["skipped"], fields["skipped_in_run"] = 64, 3
@@ -69,7 +69,7 @@ def test_the_state_has_the_heat_of_both_motors_while_the_loop_ticks(session: Ben
     assert (bench.loop.skipped_ticks, bench.loop.skipped_in_run) == (64, 3)
 
 
-def test_no_user_knows_the_heat_while_no_loop_ticks(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_heat_is_unknown_while_no_loop_ticks(monkeypatch: pytest.MonkeyPatch) -> None:
     starting = build_bench_session(monkeypatch)
     bench = build_state(HostedSession(starting)).bench
     starting.close()
@@ -77,7 +77,7 @@ def test_no_user_knows_the_heat_while_no_loop_ticks(monkeypatch: pytest.MonkeyPa
     assert bench.motors is None
 
 
-def test_before_a_load_hangs_it_is_reported_which_motor_bears_it_for_how_long(
+def test_permitted_time_of_a_load_is_reported_before_it_is_added(
     session: BenchSession,
 ) -> None:
     hosted = HostedSession(session)
@@ -91,6 +91,6 @@ def test_before_a_load_hangs_it_is_reported_which_motor_bears_it_for_how_long(
     assert session.journal.commands == []
 
 
-def test_a_simulation_has_no_motors_that_get_warm() -> None:
+def test_simulation_has_no_motor_heat() -> None:
     with pytest.raises(StateError, match="is simulated"):
         asyncio.run(predict_heat(HostedSession(build_session()), PaperLoad()))

@@ -1,4 +1,4 @@
-"""A setting after the loop's process was stopped for a moment: the server answers, and goes on."""
+"""A setting after a short suspension of the loop's process: the server answers and continues."""
 
 import os
 import signal
@@ -21,12 +21,12 @@ STOPPED_S = 0.6
 PROMPT = {"loop_s": 0.2, "stale_fault_s": 0.2}
 """The supervisor stops the drives within this time, and feedback of this age is a fault."""
 ANSWER_S = 30.0
-"""A server that hangs does not answer at all."""
+"""A blocked server does not answer at all."""
 
 
 @pytest.fixture(scope="module")
 def bench(tmp_path_factory: pytest.TempPathFactory) -> Iterator[BenchLab]:
-    """The rig's time goes on while the loop is stopped, as that of a bench does."""
+    """The rig's time advances while the loop is stopped, as that of a bench does."""
     folder: Path = tmp_path_factory.mktemp("bench")
     with start_emulator(False, IDLE_S, "--real-time") as emulator:
         path = write_bench(folder, emulator, lockstep=False, **PROMPT)
@@ -35,7 +35,7 @@ def bench(tmp_path_factory: pytest.TempPathFactory) -> Iterator[BenchLab]:
             yield BenchLab(lab, emulator)
 
 
-def test_a_setting_after_a_late_loop_is_answered(bench: BenchLab) -> None:
+def test_setting_after_a_late_loop_is_answered(bench: BenchLab) -> None:
     with bench.running():
         bench.wait_for_ticks(200)
         loop = bench.find_process(LOOP)

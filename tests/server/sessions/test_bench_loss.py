@@ -1,7 +1,7 @@
 """The lab with a bench whose processes are killed or stand still while it holds a load.
 
-That it comes to run again is seen where the next holds a load. Nothing here asks how soon
-anything was: `tests.hardware.safety.test_survivors` measures that, and what a killed server leaves.
+The next test shows that the bench runs again, because there it holds a load. These tests do not
+measure times: `tests.hardware.safety.test_survivors` does, and also tests a killed server.
 """
 
 import contextlib
@@ -27,9 +27,9 @@ def bench(tmp_path_factory: pytest.TempPathFactory) -> Iterator[BenchLab]:
 
 @contextlib.contextmanager
 def holding(bench: BenchLab) -> Iterator[None]:
-    """It runs, whatever was before, and holds a load still, on a rig that waits for its loop: in
-    the first tenth of a second of a load, one that stands still for as long leaves a motor that
-    turns faster than it may.
+    """In any previous state: start, and hold a load at rest on a rig that waits for its loop. In
+    the first tenth of a second of a load, a loop suspended for that long leaves a motor above its
+    speed limit.
     """
     with bench.running():
         state = bench.wait_for_ticks(100)
@@ -45,7 +45,7 @@ def holding(bench: BenchLab) -> Iterator[None]:
 
 
 def wait_until_reported(bench: BenchLab, words: str) -> dict[str, Any]:
-    """The fault once it says this: what was done about it is known later than what happened."""
+    """Return the fault once it has this text: the action taken is known later than the event."""
 
     def read() -> dict[str, Any]:
         return bench.read()["fault"] or {"message": ""}
@@ -54,7 +54,7 @@ def wait_until_reported(bench: BenchLab, words: str) -> dict[str, Any]:
     return read()
 
 
-def test_a_killed_loop_leaves_zero_current_and_is_started_again(bench: BenchLab) -> None:
+def test_killed_loop_leaves_zero_current_and_is_restarted(bench: BenchLab) -> None:
     with holding(bench):
         os.kill(bench.find_process(LOOP), signal.SIGKILL)
         wait_until(bench.is_at_zero, bench.describe)
@@ -64,7 +64,7 @@ def test_a_killed_loop_leaves_zero_current_and_is_started_again(bench: BenchLab)
 
 
 @pytest.mark.exhaustive
-def test_a_killed_supervisor_ends_the_run_and_is_started_again(bench: BenchLab) -> None:
+def test_killed_supervisor_ends_the_run_and_is_restarted(bench: BenchLab) -> None:
     with holding(bench):
         os.kill(bench.find_process(SUPERVISOR), signal.SIGKILL)
         fault = wait_until_reported(bench, "supervisor")
@@ -75,8 +75,8 @@ def test_a_killed_supervisor_ends_the_run_and_is_started_again(bench: BenchLab) 
     bench.ask("/bench/clear")
 
 
-def test_a_silent_loop_has_a_name_and_a_way_back_and_stops_no_other_user(bench: BenchLab) -> None:
-    """No user watches any more, so that the server has a reason to ask it at every wake."""
+def test_silent_loop_is_named_with_a_recovery_and_stops_no_other_user(bench: BenchLab) -> None:
+    """No user watches, so the server has a reason to query the loop at every wake-up."""
     client = bench.lab.client
     private = client.post("/api/v1/sessions", json={"figure": "4a"}).raise_for_status().json()
     path = f"/api/v1/sessions/{private['session']}"
@@ -94,14 +94,14 @@ def test_a_silent_loop_has_a_name_and_a_way_back_and_stops_no_other_user(bench: 
     assert state["bench"]["current_a"] is None, "no user hears what they make"
     assert min(state["bench"]["ages_s"]) > 0.5, "what was heard is as old as the last tick"
     before = client.get(path).json()["tick"]
-    assert "silent" in bench.refuse("/bench/arm")
+    assert "silent" in bench.expect_rejection("/bench/arm")
     wait_until(lambda: client.get(path).json()["tick"] > before + 1000)
     client.delete(path).raise_for_status()
     state = bench.ask("/bench/restart")
     assert (state["fault"], state["bench"]["loop"]["state"]) == (None, "ticking")
 
 
-def test_without_loop_and_supervisor_the_server_stops_the_drives(bench: BenchLab) -> None:
+def test_server_stops_the_drives_without_loop_and_supervisor(bench: BenchLab) -> None:
     with holding(bench):
         warmed = [motor["heat"] for motor in bench.read()["bench"]["motors"]]
         for module in (LOOP, SUPERVISOR):

@@ -12,7 +12,7 @@ pytestmark = pytest.mark.wall_clock
 
 ZERO_S = 5.0
 LASTING_S = 60.0
-"""Of a push that nothing here waits for the end of, however busy the machine."""
+"""Duration of a manual load whose end these tests do not wait for on any machine."""
 
 
 @pytest.fixture(scope="module")
@@ -22,7 +22,7 @@ def bench(tmp_path_factory: pytest.TempPathFactory) -> Iterator[BenchLab]:
 
 
 @pytest.mark.smoke
-def test_it_is_armed_and_homed_step_by_step_and_nothing_out_of_turn(bench: BenchLab) -> None:
+def test_bench_is_armed_and_homed_step_by_step_in_order_only(bench: BenchLab) -> None:
     state = bench.read()
     assert state["bench"]["status"] == "off"
     assert state["bench"]["problems"] == []
@@ -30,7 +30,7 @@ def test_it_is_armed_and_homed_step_by_step_and_nothing_out_of_turn(bench: Bench
     assert "arm it" in refuse_watched(bench)
     bench.emulator.control.home()
     bench.ask("/bench/arm")
-    assert "READY" in bench.refuse("/bench/home", {"step": "link", "by": "Ada"})
+    assert "READY" in bench.expect_rejection("/bench/home", {"step": "link", "by": "Ada"})
     bench.wait_for("ready")
     assert bench.read()["bench"]["emulated"] is True
     assert "zero mark of the link" in refuse_watched(bench)
@@ -42,17 +42,17 @@ def test_it_is_armed_and_homed_step_by_step_and_nothing_out_of_turn(bench: Bench
         homing = bench.ask("/bench/home", {"step": step, "by": "Ada"})["bench"]["homing"]
         assert homing["next_step"] == following
         assert homing["instruction"]
-    assert "No client watches" in bench.refuse("/start")
+    assert "No client watches" in bench.expect_rejection("/start")
     assert [mode for mode, _ in bench.read_drives()] == [2, 2]
     assert bench.is_at_zero()
 
 
 def refuse_watched(bench: BenchLab) -> str:
     with bench.watched():
-        return bench.refuse("/start")
+        return bench.expect_rejection("/start")
 
 
-def test_a_run_takes_commands_at_a_tick_and_carries_its_twin(bench: BenchLab) -> None:
+def test_run_takes_commands_at_a_tick_and_has_its_twin(bench: BenchLab) -> None:
     bench.make_ready()
     run_id = bench.ask("/recording", {"name": "A run", "tags": ["mine"]})["recording"]["run_id"]
     with bench.watched():
@@ -79,8 +79,8 @@ def test_a_run_takes_commands_at_a_tick_and_carries_its_twin(bench: BenchLab) ->
         assert sample["estimate_link_nm"] == pytest.approx(1.0, abs=0.4)
         assert 0.0 < abs(sample["position_residual_rad"]) < 0.1
         for refused in (("/step", {"ticks": 1}, "POST"), ("/speed", {"speed": 2.0}, "PUT")):
-            assert "real time" in bench.refuse(*refused)
-        assert "stop it" in bench.refuse("/reset")
+            assert "real time" in bench.expect_rejection(*refused)
+        assert "stop it" in bench.expect_rejection("/reset")
         bench.ask("/loads", method="DELETE")
         bench.ask("/pause")
         bench.wait_for("ready")
@@ -91,7 +91,7 @@ def test_a_run_takes_commands_at_a_tick_and_carries_its_twin(bench: BenchLab) ->
 
 
 def check_recording(bench: BenchLab, run_id: str) -> None:
-    """It says what it was made on, has every command with its tick, and is not simulated again."""
+    """The recording names its bench, has every command with its tick, and is not resimulated."""
     client, runs = bench.lab.client, f"/api/v1/runs/{run_id}"
     wait_until(lambda: client.get(runs).json()["state"] != "recording")
     run = client.get(runs).json()
@@ -110,7 +110,7 @@ def check_recording(bench: BenchLab, run_id: str) -> None:
         assert "emulated" in answer.json()["detail"]
 
 
-def test_a_quick_stop_is_latched_until_it_is_cleared(bench: BenchLab) -> None:
+def test_quick_stop_is_latched_until_it_is_cleared(bench: BenchLab) -> None:
     with bench.running():
         bench.wait_for_ticks(200)
         bench.ask("/quick-stop")
@@ -119,13 +119,13 @@ def test_a_quick_stop_is_latched_until_it_is_cleared(bench: BenchLab) -> None:
         assert (state["status"], state["bench"]["status"]) == ("fault", "fault")
         assert state["fault"]["code"] == "quick_stop"
         for refused in ("/start", "/bench/arm"):
-            assert "fault" in bench.refuse(refused)
+            assert "fault" in bench.expect_rejection(refused)
         bench.ask("/bench/clear")
         bench.wait_for("off")
         assert bench.read()["fault"] is None
 
 
-def test_losing_the_last_watcher_stops_it(bench: BenchLab) -> None:
+def test_loss_of_the_last_viewer_stops_the_bench(bench: BenchLab) -> None:
     with bench.running():
         with bench.watched():
             bench.wait_for_ticks(100)
@@ -136,7 +136,7 @@ def test_losing_the_last_watcher_stops_it(bench: BenchLab) -> None:
     assert bench.read()["fault"] is None
 
 
-def test_a_push_is_one_load_from_the_first_time_it_is_reported_to_its_end(bench: BenchLab) -> None:
+def test_manual_load_is_one_load_from_the_first_update_to_its_end(bench: BenchLab) -> None:
     bench.make_ready()
     run_id = bench.ask("/recording", {"name": "A push"})["recording"]["run_id"]
     with bench.watched():

@@ -1,4 +1,4 @@
-"""After every fault of a bench every setting is answered, and the server goes on."""
+"""After every fault of a bench every setting is answered, and the server continues."""
 
 import asyncio
 from collections.abc import Iterator
@@ -13,21 +13,21 @@ from svsa.hardware.realtime.launch import BenchError
 from svsa.hardware.realtime.memory import LoopMemory
 from svsa.hardware.safety.machine import BenchStatus
 from svsa.hardware.session.session import BenchSession
-from svsa.runs.records.catalogue.runs import DATA_VARIABLE
+from svsa.inputs.data_folder import DATA_VARIABLE
 from svsa_server.app import build_app
 from tests.exhaustive import exhaust
 from tests.server.routes.writing import list_examples
 from tests.server.schema import SCHEMA
-from tests.server.sessions.scripted_bench import begin_run, build_bench_session, hear, say
+from tests.server.sessions.scripted_bench import begin_run, build_bench_session, receive, say
 
 TICKS = 50
 COUNTS = 1000
-"""A request that counts the samples more often waits for some that never come."""
+"""A request that counts the samples more often waits for samples that never arrive."""
 TAGS = {"settings", "loads", "recording"}
 
 
 def list_settings() -> Iterator[tuple[str, str, Any]]:
-    """Method, path below the session, and body of every setting."""
+    """Return method, path below the session, and body of every setting."""
     for path, item in SCHEMA["paths"].items():
         _, found, below = path.partition("/sessions/{session}/")
         for method, operation in item.items():
@@ -39,7 +39,7 @@ def list_settings() -> Iterator[tuple[str, str, Any]]:
 
 
 class CountedMemory:
-    """Counts how often the server asks for the number of samples."""
+    """Counts the queries of the number of samples."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.left, count = COUNTS, LoopMemory.count
@@ -53,10 +53,10 @@ class CountedMemory:
 
 
 def fail(session: BenchSession, monkeypatch: pytest.MonkeyPatch, code: str) -> None:
-    """A run of the bench ends in this fault; its loop counts ticks that have no samples."""
+    """End a run of the bench in this fault; its loop counts ticks without samples."""
     begin_run(session, TICKS)
     say(session, BenchStatus.FAULT, fault=Fault(code, 0, TICKS + 25, 0.075, "It stopped."))
-    hear(session)
+    receive(session)
 
     def answer(*_: Any) -> dict[str, Any]:
         if code in LOSSES:

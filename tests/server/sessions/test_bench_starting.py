@@ -1,4 +1,4 @@
-"""A bench that starts slowly, or not at all: the lab is there before it, and says how far it is."""
+"""A bench that starts slowly or not at all: the lab runs before it, and reports its progress."""
 
 import asyncio
 import io
@@ -41,9 +41,7 @@ def starting(monkeypatch: pytest.MonkeyPatch) -> Iterator[BenchSession]:
 
 
 @pytest.mark.parametrize("name", COMMANDS)
-def test_until_it_is_ready_it_takes_no_command_and_says_why(
-    starting: BenchSession, name: str
-) -> None:
+def test_starting_bench_takes_no_command_and_states_why(starting: BenchSession, name: str) -> None:
     with pytest.raises(StateError, match=r"being started \(compiling .*, 12 s\): ask again when"):
         COMMANDS[name](starting)
     starting.open()
@@ -51,8 +49,8 @@ def test_until_it_is_ready_it_takes_no_command_and_says_why(
     assert starting.loop.processes.reported == [], "nothing of it comes later"
 
 
-def test_what_is_reported_a_bench_that_starts_is_known(starting: BenchSession) -> None:
-    """No mark is confirmed, nothing is heard, and its twin stands at rest."""
+def test_state_of_a_starting_bench_is_complete(starting: BenchSession) -> None:
+    """No mark is confirmed, no feedback is received, and its twin is at rest."""
     starting.wake(0.0)
     state = build_state(HostedSession(starting))
     assert state.bench is not None
@@ -69,7 +67,7 @@ def test_what_is_reported_a_bench_that_starts_is_known(starting: BenchSession) -
     assert (state.bench.loop.state, state.bench.loop.step) == ("ticking", None)
 
 
-def test_while_it_starts_the_lab_goes_on_and_the_console_says_how_it_goes(
+def test_lab_runs_and_the_console_reports_progress_during_the_start(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     session = build_bench_session(monkeypatch, ready_s=0.05)
@@ -87,12 +85,12 @@ def test_while_it_starts_the_lab_goes_on_and_the_console_says_how_it_goes(
     assert not session.loop.starting
     assert console.file.getvalue().splitlines() == [
         f"The bench is {STEP} (12 s) …",
-        "The bench is there: it may be armed.",
+        "The bench is ready: you can arm it.",
     ]
     session.close()
 
 
-def test_a_bench_that_cannot_be_opened_is_a_fault_with_its_reason_and_a_way_back(
+def test_bench_that_cannot_be_opened_is_a_fault_with_reason_and_recovery(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     session = build_bench_session(monkeypatch, refusal="No adapter is plugged in.")
@@ -122,7 +120,7 @@ def test_a_bench_that_cannot_be_opened_is_a_fault_with_its_reason_and_a_way_back
 @pytest.mark.parametrize(
     ("said", "ticks", "known"), [(1, 1, True), (0, 300, None), (0, 301, False)]
 )
-def test_whether_it_is_emulated_is_known_once_the_bus_was_listened_to(
+def test_emulation_is_known_after_listening_to_the_bus(
     starting: BenchSession, said: int, ticks: int, known: bool | None
 ) -> None:
     starting.open()
@@ -137,8 +135,8 @@ def test_whether_it_is_emulated_is_known_once_the_bus_was_listened_to(
 
 @pytest.mark.exhaustive
 @pytest.mark.wall_clock
-def test_a_lab_whose_bench_is_not_there_is_served_and_finds_it_again(tmp_path: Path) -> None:
-    """No user listens at the port in the bench file, until it is corrected."""
+def test_lab_without_its_bench_is_served_and_connects_later(tmp_path: Path) -> None:
+    """No process listens at the port in the bench file, until it is corrected."""
     with start_live_emulator() as emulator:
         path = write_bench(tmp_path, emulator)
         right = path.read_text(encoding="utf-8")

@@ -1,4 +1,4 @@
-"""What streams receive of a change: one message for equal content, ended items once."""
+"""Changes in the streams: one message for equal content, ended items once."""
 
 import json
 import random
@@ -25,7 +25,7 @@ def hosted():
 
 
 def slide(step: int) -> Command:
-    """A slider that is drawn: another observer each time."""
+    """A dragged slider: another observer gain each time."""
     return Set("observer", ObserverBandwidth(bandwidth_rad_per_s=(70.0 + step,) * 3))
 
 
@@ -33,7 +33,7 @@ def read(reported: Broadcast) -> dict:
     return json.loads(reported.text)
 
 
-def test_a_change_is_written_once_for_all_with_the_same_content(hosted, monkeypatch):
+def test_change_is_serialized_once_for_clients_with_the_same_content(hosted, monkeypatch):
     written = []
     build = broadcast.build_state
     monkeypatch.setattr(broadcast, "build_state", lambda *of: written.append(of) or build(*of))
@@ -56,7 +56,7 @@ def test_clients_of_different_age_receive_the_same_from_the_first_change_on(host
     assert len({message.reported for message in then}) == 1
 
 
-def test_the_holder_of_control_is_notified_and_no_other_user(hosted):
+def test_only_the_holder_of_control_is_notified(hosted):
     hosted.take_control(Holder("ada", "Ada"), take_over=False)
     reported = Reported.all_of(hosted)
     for client, is_ada in (("ada", True), ("bob", False), ("ada", True), (None, False)):
@@ -65,7 +65,7 @@ def test_the_holder_of_control_is_notified_and_no_other_user(hosted):
         assert (control["holder"], control["mine"]) == ("Ada", is_ada)
 
 
-def test_what_moves_on_its_own_is_written_once_in_each_period(hosted, monkeypatch):
+def test_continuous_values_are_serialized_once_per_period(hosted, monkeypatch):
     written = []
     build = broadcast.build_progress
     monkeypatch.setattr(broadcast, "build_progress", lambda *of: written.append(of) or build(*of))
@@ -80,7 +80,7 @@ def test_what_moves_on_its_own_is_written_once_in_each_period(hosted, monkeypatc
     assert len(written) == 3
 
 
-def test_a_window_is_fresh_in_its_first_seconds(hosted):
+def test_window_is_fresh_in_its_first_seconds(hosted):
     assert broadcast.is_fresh(hosted)
     for _ in range(4):
         hosted.session.step(1000)
@@ -89,8 +89,8 @@ def test_a_window_is_fresh_in_its_first_seconds(hosted):
     assert broadcast.is_fresh(hosted)
 
 
-def test_a_message_does_not_grow_with_the_changes_of_a_minute(hosted):
-    """A slider that is drawn tells a hundred browsers of each of its steps."""
+def test_message_size_does_not_grow_with_the_changes_of_a_minute(hosted):
+    """A dragged slider notifies a hundred browsers of each of its steps."""
     reported, sizes = Reported.all_of(hosted), []
     for step in range(200):
         hosted.session.step(20)
@@ -103,7 +103,7 @@ def test_a_message_does_not_grow_with_the_changes_of_a_minute(hosted):
 
 
 def join(known: dict, message: dict) -> dict:
-    """What a reader knows after a message, as the schema says."""
+    """Return the state of a reader after a message, as the schema defines it."""
     since, state = message["since_tick"], message["state"]
     was = {lane["id"]: lane["segments"] for lane in known["lanes"]}
     for lane in state["lanes"]:
@@ -133,8 +133,8 @@ def do_something(session: SimulatedSession, dice: random.Random) -> None:
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_who_joins_the_messages_knows_what_the_session_knows(hosted, seed):
-    """Also of a reader that hears of some changes late, together."""
+def test_merged_messages_give_the_state_of_the_session(hosted, seed):
+    """Also for a reader that receives some changes late, together."""
     dice, session = random.Random(seed), hosted.session  # noqa: S311
     reported, known = Reported.all_of(hosted), json.loads(build_state(hosted).model_dump_json())
     for number in range(100):
@@ -155,7 +155,7 @@ def test_who_joins_the_messages_knows_what_the_session_knows(hosted, seed):
             assert known[sent_part][-50:] == there[sent_part][-50:], sent_part
 
 
-def test_samples_are_packed_once_for_all_who_are_at_the_same_place(hosted):
+def test_samples_are_packed_once_for_clients_at_the_same_position(hosted):
     def open_cursor(*channels: str) -> SampleCursor:
         return SampleCursor(hosted.session, StreamRequest(), channels, hosted.batches)
 

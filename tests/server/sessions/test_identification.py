@@ -1,4 +1,4 @@
-"""From the excitation to a model of one's own: played, recorded, identified, used."""
+"""From the excitation to an own model: played, recorded, identified, used."""
 
 import json
 import subprocess
@@ -8,7 +8,7 @@ import pytest
 
 import svsa
 from svsa.analysis.identification.excitation import EXCITATION, EXCITATION_DURATION_S
-from svsa.runs.configuration import write_design
+from svsa.runs.design_file import write_design
 from svsa.runs.records.reader import open_record
 from tests.lab import Lab, run_lab
 from tests.waiting import follow
@@ -25,7 +25,7 @@ def run_command(*arguments: str, **settings: str) -> str:
 
 
 @pytest.mark.exhaustive
-def test_svsa_excite_records_what_svsa_identify_takes(tmp_path) -> None:
+def test_svsa_excite_records_the_input_of_svsa_identify(tmp_path) -> None:
     with run_lab(data=str(tmp_path)) as lab:
         lab.load_figure("4b")
         lab.client.put(lab.session + "/effects", json=BENCH_LIKE).raise_for_status()
@@ -50,7 +50,7 @@ def test_svsa_excite_records_what_svsa_identify_takes(tmp_path) -> None:
         assert estimate == pytest.approx(getattr(actuator, name), rel=0.05)
 
 
-def test_it_is_refused_under_a_load_and_while_something_is_recorded(lab: Lab) -> None:
+def test_excitation_is_rejected_under_a_load_and_during_a_recording(lab: Lab) -> None:
     lab.client.post(lab.session + "/loads", json={"kind": "paper"}).raise_for_status()
     refused = lab.client.post(lab.session + "/excitation", json={})
     assert refused.status_code == 409
@@ -64,7 +64,7 @@ def test_it_is_refused_under_a_load_and_while_something_is_recorded(lab: Lab) ->
 
 
 @pytest.mark.parametrize("how", ["reference", "reset", "delete", "recording"])
-def test_what_disturbs_it_breaks_it_off_with_its_recording(lab: Lab, how: str) -> None:
+def test_disturbed_excitation_is_cancelled_with_its_recording(lab: Lab, how: str) -> None:
     began = lab.client.post(lab.session + "/excitation", json={"name": "mine"})
     assert began.status_code == 201
     assert began.json()["recording"]["name"] == "mine"
@@ -86,7 +86,7 @@ def test_what_disturbs_it_breaks_it_off_with_its_recording(lab: Lab, how: str) -
 
 
 @pytest.mark.exhaustive
-def test_a_parameter_file_is_the_model_in_library_server_and_session(lab: Lab, tmp_path) -> None:
+def test_parameter_file_is_the_model_in_library_server_and_session(lab: Lab, tmp_path) -> None:
     paper = svsa.load_prototype()
     mine = paper.changed(nominal=paper.actuator)
     path = tmp_path / "mine-design.toml"

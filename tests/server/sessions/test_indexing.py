@@ -1,4 +1,4 @@
-"""A start with many runs that the catalogue does not have: answered at once, complete soon."""
+"""A start with many unknown runs in the folder: answered immediately, complete soon."""
 
 import itertools
 import json
@@ -26,7 +26,7 @@ LIST = "/api/v1/runs"
 
 
 def copy_runs(folder: Path, count: int) -> None:
-    """So many copies of one short run, each with its own id, and no catalogue."""
+    """Copies of one short run, each with its own id, and no catalogue."""
     first = folder / "runs" / "run-0000"
     write_record(first, build_header(first.name), [], 0, build_samples(20))
     header = json.loads((first / HEADER_FILE).read_text())
@@ -35,7 +35,7 @@ def copy_runs(folder: Path, count: int) -> None:
         (copy / HEADER_FILE).write_text(json.dumps(header | {"run_id": copy.name}))
 
 
-def test_a_start_with_unknown_runs_answers_while_they_are_indexed(
+def test_start_with_unknown_runs_answers_while_they_are_indexed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     copy_runs(tmp_path, RUNS)
@@ -70,7 +70,7 @@ def test_a_start_with_unknown_runs_answers_while_they_are_indexed(
         assert [run["id"] for run in trash["runs"]] == [newest]
 
 
-def test_the_start_reports_the_progress_of_the_index(
+def test_start_reports_the_progress_of_the_index(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     copy_runs(tmp_path, 3)
@@ -84,7 +84,7 @@ def test_the_start_reports_the_progress_of_the_index(
     ]
 
 
-def test_a_run_that_is_found_damaged_when_it_is_read_is_listed_as_damaged(tmp_path: Path) -> None:
+def test_damaged_run_is_listed_as_damaged_after_indexing(tmp_path: Path) -> None:
     copy_runs(tmp_path, 1)
     path = tmp_path / "runs" / "run-0000" / PARQUET_FILE
     with run_lab_in_process(data=str(tmp_path)) as lab:

@@ -20,7 +20,7 @@ from svsa.hardware.session.supervised_loop import SupervisedLoop
 from svsa.runs.paper import get_figure
 from svsa_server.sessions import laboratory
 from svsa_server.sessions.laboratory import EmulatorOperator
-from svsa_server.sessions.lock import let_pass, take_turn
+from svsa_server.sessions.lock import pause, run_waiting
 from tests.hardware.wired_bench import EMULATOR_BENCH
 
 LONG_S = 60.0
@@ -33,23 +33,23 @@ async def count_turns_of_the_loop(counted: list[int]) -> None:
 
 
 def take_in_parallel(do: Any, *arguments: Any) -> tuple[Any, int]:
-    """What a turn returns, and how often the event loop went on meanwhile."""
+    """Return the result of a locked section, and the number of event-loop iterations meanwhile."""
 
     async def run() -> tuple[Any, int]:
         counted = [0]
         other = asyncio.create_task(count_turns_of_the_loop(counted))
         try:
-            return await take_turn(do, *arguments), counted[0]
+            return await run_waiting(do, *arguments), counted[0]
         finally:
             other.cancel()
 
     return asyncio.run(run())
 
 
-def test_others_go_on_while_it_lets_time_pass() -> None:
+def test_others_continue_while_a_section_waits() -> None:
     def wait(times: int) -> str:
         for _ in range(times):
-            let_pass(0.005)
+            pause(0.005)
         return "done"
 
     answer, turns = take_in_parallel(wait, 10)
@@ -57,9 +57,9 @@ def test_others_go_on_while_it_lets_time_pass() -> None:
     assert turns >= 20
 
 
-def test_what_it_raises_comes_out_and_a_cancelled_one_is_unwound() -> None:
+def test_exception_is_raised_and_cancellation_unwinds_the_section() -> None:
     def fail() -> None:
-        let_pass(0.001)
+        pause(0.001)
         raise BenchError("no")
 
     with pytest.raises(BenchError, match="no"):
@@ -68,12 +68,12 @@ def test_what_it_raises_comes_out_and_a_cancelled_one_is_unwound() -> None:
 
     def wait() -> None:
         try:
-            let_pass(LONG_S)
+            pause(LONG_S)
         finally:
             unwound.append(True)
 
     async def cancel() -> None:
-        task = asyncio.create_task(take_turn(wait))
+        task = asyncio.create_task(run_waiting(wait))
         await asyncio.sleep(0.01)
         task.cancel()
         await asyncio.gather(task, return_exceptions=True)
@@ -82,28 +82,28 @@ def test_what_it_raises_comes_out_and_a_cancelled_one_is_unwound() -> None:
     assert unwound == [True]
 
 
-def test_outside_of_a_turn_time_passes_for_all() -> None:
+def test_waiting_outside_of_a_section_blocks_the_thread() -> None:
     begin = time.monotonic()
-    let_pass(0.02)
+    pause(0.02)
     assert time.monotonic() - begin >= 0.02
 
 
-def test_a_rig_that_does_not_answer_is_waited_for_in_a_bounded_time(
+def test_silent_rig_is_waited_for_in_a_limited_time(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(laboratory, "LONGEST_HANDS_S", 0.05)
-    hands, answered = EmulatorOperator(1), threading.Event()
-    hands._thread.submit(answered.wait, LONG_S)
+    monkeypatch.setattr(laboratory, "OPERATOR_TIMEOUT_S", 0.05)
+    operator, answered = EmulatorOperator(1), threading.Event()
+    operator._thread.submit(answered.wait, LONG_S)
     try:
         with pytest.raises(StateError, match="not set to its marks"):
-            take_in_parallel(hands.set_to_marks)
+            take_in_parallel(operator.set_to_marks)
     finally:
         answered.set()
 
 
 @pytest.fixture
 def asked(monkeypatch: pytest.MonkeyPatch) -> Iterator[tuple[BenchProcesses, Link]]:
-    """The processes of a bench that there are not: the loop's end of the link is the test's."""
+    """The processes of a missing bench: the test has the loop's end of the link."""
     ours, theirs = build_links()
     theirs.send({"event": "ready", "notes": []})
     process = types.SimpleNamespace(
@@ -115,7 +115,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> Iterator[tuple[BenchProcesses, Lin
     monkeypatch.setattr(launch, "_watch", lambda *_: types.SimpleNamespace(stop=lambda _: None))
     monkeypatch.setattr(launch, "END_S", 0.0)
     configuration = get_figure("4a").build_configuration()
-    processes = BenchProcesses(Path("bench.toml"), configuration, let_pass)
+    processes = BenchProcesses(Path("bench.toml"), configuration, pause)
     processes.wait_until_ready(LONG_S, lambda *_: None)
     theirs.receive(LONG_S)
     yield processes, theirs
@@ -124,7 +124,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> Iterator[tuple[BenchProcesses, Lin
     processes.free()
 
 
-def test_a_loop_that_does_not_answer_is_not_waited_for_by_the_event_loop(
+def test_event_loop_does_not_wait_for_a_silent_loop(
     asked: tuple[BenchProcesses, Link],
 ) -> None:
     processes, _ = asked
@@ -139,10 +139,10 @@ def test_a_loop_that_does_not_answer_is_not_waited_for_by_the_event_loop(
 
 
 @pytest.mark.parametrize(("loop_s", "patience_s"), [(0.02, 0.5), (1.0, 2.0)])
-def test_a_loop_is_silent_later_than_its_supervisor_waits_for_it(
+def test_loop_is_silent_later_than_the_timeout_of_its_supervisor(
     monkeypatch: pytest.MonkeyPatch, loop_s: float, patience_s: float
 ) -> None:
-    """What may be late by a second, the bench file says, is not given up after half of one."""
+    """A delay of a second, permitted by the bench file, is not abandoned after half of one."""
     asked: list[Any] = []
     nothing = types.SimpleNamespace(memory=None)
     monkeypatch.setattr(
@@ -155,7 +155,7 @@ def test_a_loop_is_silent_later_than_its_supervisor_waits_for_it(
     assert asked[-1] == patience_s
 
 
-def test_a_silent_loop_is_not_asked_at_all(
+def test_silent_loop_is_not_queried(
     asked: tuple[BenchProcesses, Link], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     processes, theirs = asked
@@ -171,7 +171,7 @@ def test_a_silent_loop_is_not_asked_at_all(
     assert theirs.receive() == []
 
 
-def test_requests_that_wait_together_end_in_their_order(
+def test_concurrent_requests_end_in_order(
     asked: tuple[BenchProcesses, Link],
 ) -> None:
     processes, theirs = asked
@@ -183,7 +183,7 @@ def test_requests_that_wait_together_end_in_their_order(
         ended.append(name)
 
     async def run() -> None:
-        turns = [asyncio.create_task(take_turn(ask, name)) for name in ("one", "two", "three")]
+        turns = [asyncio.create_task(run_waiting(ask, name)) for name in ("one", "two", "three")]
         numbers = []
         while len(numbers) < 3:
             await asyncio.sleep(0.001)

@@ -32,7 +32,7 @@ def list_names(lab: Lab) -> list[str]:
     return [state["session"] for state in lab.client.get(SESSIONS).json()]
 
 
-def test_a_private_session_is_one_s_own(lab: Lab) -> None:
+def test_private_session_is_independent(lab: Lab) -> None:
     own = create(lab, figure="4b", law="fl")
     name = own["session"]
     assert own["status"] == "running"
@@ -43,14 +43,14 @@ def test_a_private_session_is_one_s_own(lab: Lab) -> None:
     assert lab.client.get(f"{SESSIONS}/{name}").status_code == 404
 
 
-def test_the_shared_session_is_not_ended(lab: Lab) -> None:
+def test_shared_session_is_not_ended(lab: Lab) -> None:
     answer = lab.client.delete(lab.session)
     assert answer.status_code == 409
     assert "reset" in answer.json()["detail"]
 
 
 @pytest.mark.exhaustive
-def test_there_are_only_so_many_and_idle_ones_end(small_lab: Lab) -> None:
+def test_private_sessions_are_limited_and_idle_ones_end(small_lab: Lab) -> None:
     names = [create(small_lab)["session"] for _ in range(2)]
     refused = small_lab.client.post(SESSIONS, json={})
     assert refused.status_code == 409
@@ -68,7 +68,7 @@ def test_there_are_only_so_many_and_idle_ones_end(small_lab: Lab) -> None:
     assert list_names(small_lab) == ["lab"]
 
 
-def test_ending_a_session_ends_its_streams(lab: Lab) -> None:
+def test_end_of_a_session_ends_its_streams(lab: Lab) -> None:
     name = create(lab)["session"]
     stream = connect(lab.url.replace("http", "ws", 1) + f"{SESSIONS}/{name}/stream", proxy=None)
     stream.recv(timeout=10)
@@ -81,7 +81,7 @@ def test_ending_a_session_ends_its_streams(lab: Lab) -> None:
 
 
 @pytest.mark.wall_clock
-def test_as_fast_as_it_goes_is_faster_than_the_clock(lab: Lab) -> None:
+def test_maximum_speed_is_faster_than_real_time(lab: Lab) -> None:
     name = create(lab)["session"]
     path = f"{SESSIONS}/{name}"
     assert lab.client.put(path + "/speed", json={"speed": "max"}).json()["speed"] == "max"
@@ -97,7 +97,7 @@ def test_as_fast_as_it_goes_is_faster_than_the_clock(lab: Lab) -> None:
     lab.client.delete(path)
 
 
-def test_fl_next_to_ndobc_is_one_call(lab: Lab) -> None:
+def test_fl_added_to_ndobc_is_one_call(lab: Lab) -> None:
     state = lab.client.put(lab.session + "/lanes", json={"comparisons": [{"law": "fl"}]}).json()
     assert [lane["law"] for lane in state["lanes"]] == ["ndobc", "fl"]
     lab.client.post(lab.session + "/loads", json={"kind": "paper"})
@@ -114,7 +114,7 @@ def test_fl_next_to_ndobc_is_one_call(lab: Lab) -> None:
 
 
 @pytest.mark.parametrize(("query", "lanes"), [("all", 2), ("2", 1), ("1,2", 2)])
-def test_the_stream_carries_the_lanes_that_are_asked_for(lab: Lab, query: str, lanes: int) -> None:
+def test_stream_has_the_requested_lanes(lab: Lab, query: str, lanes: int) -> None:
     lab.client.put(lab.session + "/lanes", json={"comparisons": [{"law": "fl"}]})
     lab.client.post(lab.session + "/loads", json={"kind": "paper"})
     lab.jump(2)

@@ -1,4 +1,4 @@
-"""A client that takes its samples late gets the newest samples and a count of those missed."""
+"""A slow client gets the newest samples and a count of those missed."""
 
 import asyncio
 import types
@@ -20,7 +20,7 @@ PATIENT_ROUNDS = round(2.0 * stream.SLOW_AFTER_S / ROUND_S)
 
 
 class HeldSocket:
-    """A WebSocket whose client takes samples only while `open` is set."""
+    """A WebSocket whose client reads samples only while `open` is set."""
 
     def __init__(self) -> None:
         self.query_params = {"rate_hz": "1000", "channels": "time_s"}
@@ -86,7 +86,7 @@ def play(monkeypatch: pytest.MonkeyPatch, script: Callable) -> None:
     asyncio.run(run())
 
 
-def test_a_slow_client_gets_the_newest_and_a_count_of_those_missed_and_slows_no_client(
+def test_slow_client_gets_the_newest_samples_and_a_count_of_those_missed(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     async def script(streamed: StreamedSession) -> None:
@@ -112,7 +112,7 @@ def test_a_slow_client_gets_the_newest_and_a_count_of_those_missed_and_slows_no_
     play(monkeypatch, script)
 
 
-def test_a_client_that_is_a_little_late_misses_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_slightly_late_client_misses_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     async def script(streamed: StreamedSession) -> None:
         late = await streamed.connect()
         late.open.clear()

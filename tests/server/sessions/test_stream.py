@@ -20,7 +20,7 @@ HEADER = struct.Struct("<4sIQIIII")
 
 
 class Batch:
-    """One binary message, decoded as the documentation says."""
+    """One binary message, decoded as the documentation defines."""
 
     def __init__(self, message: bytes, channels: int) -> None:
         magic, *numbers = HEADER.unpack(message[:32])
@@ -33,8 +33,8 @@ class Batch:
         self.size = len(message)
 
 
-def test_a_run_many_times_faster_than_time_has_gaps_and_no_wide_steps() -> None:
-    """Samples seconds apart would be joined to curves that never were."""
+def test_run_faster_than_real_time_has_gaps_and_no_wide_steps() -> None:
+    """Samples seconds apart would be joined to false curves."""
     session = SimulatedSession("lab", get_figure("4a").build_configuration())
     session.set_speed(math.inf)
     session.start()
@@ -70,7 +70,7 @@ def read_batches(stream: ClientConnection, hello: dict, count: int) -> list[Batc
     return batches
 
 
-def test_the_greeting_names_channels_and_units(lab: Lab) -> None:
+def test_greeting_names_channels_and_units(lab: Lab) -> None:
     stream, hello = open_stream(lab)
     with stream:
         assert hello["type"] == "hello"
@@ -84,7 +84,7 @@ def test_the_greeting_names_channels_and_units(lab: Lab) -> None:
         assert hello["state"]["session"] == "lab"
 
 
-def test_batches_follow_without_a_gap_and_hold_the_session_values(lab: Lab) -> None:
+def test_batches_are_contiguous_and_contain_the_session_values(lab: Lab) -> None:
     stream, hello = open_stream(lab, "?rate_hz=1000&channels=time_s,position_reference_rad")
     with stream:
         batches = read_batches(stream, hello, 10)
@@ -97,8 +97,8 @@ def test_batches_follow_without_a_gap_and_hold_the_session_values(lab: Lab) -> N
     )
 
 
-def test_the_default_stream_costs_at_most_15_kb_a_second(lab: Lab) -> None:
-    """Once the first seconds of a window are over."""
+def test_default_stream_needs_at_most_15_kb_per_second(lab: Lab) -> None:
+    """After the first seconds of a window."""
     lab.load_figure()
     lab.jump(4)
     lab.client.post(lab.session + "/start").raise_for_status()
@@ -118,7 +118,7 @@ def test_the_default_stream_costs_at_most_15_kb_a_second(lab: Lab) -> None:
     assert size / seconds < 15_000
 
 
-def test_a_client_that_comes_late_gets_the_past_it_asks_for(lab: Lab) -> None:
+def test_late_client_gets_the_requested_past(lab: Lab) -> None:
     lab.jump(3)
     stream, hello = open_stream(lab, "?rate_hz=100&history_s=2")
     with stream:
@@ -127,7 +127,7 @@ def test_a_client_that_comes_late_gets_the_past_it_asks_for(lab: Lab) -> None:
     assert batch.stride == 10
 
 
-def test_a_new_run_begins_at_tick_zero_with_a_new_number(lab: Lab) -> None:
+def test_new_run_starts_at_tick_zero_with_a_new_number(lab: Lab) -> None:
     stream, hello = open_stream(lab)
     with stream:
         old = read_batches(stream, hello, 2)[-1]
@@ -151,10 +151,10 @@ def test_changes_are_reported_to_every_client(lab: Lab) -> None:
                     law = json.loads(message)["state"].get("configuration", {}).get("law")
 
 
-def test_a_client_that_does_not_read_is_held_by_its_socket_and_gets_a_count_of_those_missed(
+def test_client_that_does_not_read_gets_a_count_of_missed_samples(
     lab: Lab,
 ) -> None:
-    """While it has not read three seconds of the session, of which its buffers hold a fraction."""
+    """Until it lacks three seconds of the session, of which its buffers hold a fraction."""
     comparisons = [{"law": law} for law in ("fl", "ndobc", "fl")]
     lab.client.put(lab.session + "/lanes", json={"comparisons": comparisons}).raise_for_status()
     everything = "?rate_hz=1000&lanes=all&channels=" + ",".join(lab.read()["sample"])
@@ -183,10 +183,10 @@ def test_a_client_that_does_not_read_is_held_by_its_socket_and_gets_a_count_of_t
         ("?rate_hz=fast", "a number"),
         ("?channels=secrets", "one of time_s"),
         ("?history_s=1e9", "at most 20 s"),
-        ("?colour=1", "no such field"),
+        ("?colour=1", "unknown field"),
     ],
 )
-def test_a_wrong_question_is_answered_clearly(lab: Lab, query: str, word: str) -> None:
+def test_invalid_query_is_answered_clearly(lab: Lab, query: str, word: str) -> None:
     stream, answer = open_stream(lab, query)
     with stream:
         assert answer["type"] == "error"

@@ -80,8 +80,8 @@ async def join(
 ) -> JoinState | JSONResponse:
     """Join the class with a name and its code; the answer sets a cookie that identifies the user.
 
-    A name that is already in use gets a number. `rejoin_code` is returned once: with it one comes
-    back as the same person from any browser.
+    A name that is already in use gets a number. `rejoin_code` is returned once: with it the user
+    can log in again from any browser.
     """
     authentication = find_class(request)
     address = read_address(request.scope)
@@ -155,9 +155,9 @@ async def create_token(
     person: NamedPerson,
     wanted: Annotated[TokenRequest, Body(examples=[{"role": "operator"}])],
 ) -> TokenState:
-    """Create a bearer token, reported once: a script logs in as its owner, or as an observer.
+    """Create a bearer token, returned once: a script logs in as its owner, or as an observer.
 
-    It asks for control like a person. An instructor's scripts are operators, too.
+    A script requests control like a user. Scripts of an instructor are operators, too.
     """
     authentication = find_class(request)
     role = min(person.role, Role[wanted.role.upper()])

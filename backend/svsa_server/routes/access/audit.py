@@ -5,7 +5,7 @@ from typing import Annotated
 
 from fastapi import Query, Request
 
-from svsa.runs.records.catalogue.runs import find_data_folder
+from svsa.inputs.data_folder import find_data_folder
 from svsa_server.access.audit_reading import Question, list_operations, read_audit
 from svsa_server.access.owned import Owned
 from svsa_server.access.permissions import INSTRUCTOR_ONLY, allow
@@ -35,8 +35,8 @@ async def read_audit_log(
 ) -> AuditPage:
     """Read the audit log: user, action, session, tick and result, the newest first.
 
-    person: an id. kind: one of `kinds`. until: of the first page, so that the next ones go on from
-    it while more is done.
+    person: id of a user. kind: one of `kinds`. until: that of the first page, so that the following
+    pages do not change while entries are added.
     """
     find_class(request)
     await asyncio.to_thread(request.app.state.audit.catch_up)

@@ -69,16 +69,16 @@ async def change_person(
     name: Member,
     patch: Annotated[PersonPatch, Body(examples=[{"removed": False}])],
 ) -> MemberState:
-    """Remove a person from the class, or restore a removed one.
+    """Remove a user from the class, or restore a removed one.
 
-    A removed person's cookie, tokens and streams end at once; control and place are free. Their
-    runs remain. Every holder of the class code may join again as another person:
-    `POST /class/code` creates a new code.
+    The cookie, tokens and streams of a removed user end at once; control and place in the queue are
+    released. The runs remain. Every holder of the class code may join again as another user: `POST
+    /class/code` creates a new code.
     """
     changed = await find_class(request).set_removed(name, patch.removed)
     if patch.removed:
         for hosted in _find_laboratory(request).sessions.values():
-            hosted.let_go(changed.id)
+            hosted.release_lease_of(changed.id)
     return _build_member(changed)
 
 
@@ -100,8 +100,8 @@ async def renew_code(request: Request) -> ClassCode:
 def choose_join_address(base: URL, host: str) -> URL:
     """Choose the address at which other machines reach the page at `base`.
 
-    A name that means this machine only is replaced by the machine's address, if the lab listens
-    there. host: the address that is listened on.
+    A name that is valid on this machine only is replaced by the machine's address, if the lab
+    listens there. `host` is the address on which it listens.
     """
     if not is_loopback(base.hostname or ""):
         return base
@@ -138,7 +138,11 @@ def list_settings(configuration: Configuration) -> list[Command]:
 
 
 def find_class(request: Request) -> ClassAuthentication:
-    """Return the class of this lab; raises `StateError` if it has none."""
+    """Return the class of this lab.
+
+    Raises:
+        StateError: If it has none.
+    """
     authentication = request.app.state.authentication
     if not isinstance(authentication, ClassAuthentication):
         raise StateError("This lab is no class: it cannot be joined, and it has no members.")

@@ -62,11 +62,11 @@ async def start_job(
         ),
     ],
 ) -> JobState:
-    """Start a job that makes no live session late.
+    """Start a job; live sessions are not delayed.
 
     A tuning searches by CMA-ES on training trials, with the cost and the noise limit of the
-    ranking; its ten best candidates are then run on validation trials. A falsification searches
-    the load that hurts a law most, and ends at the first fault.
+    ranking; its ten best candidates are then run on validation trials. A falsification searches for
+    the worst-case load of a law, and ends at the first fault.
     """
     jobs = find_jobs(request)
     if isinstance(wanted, TuningRequest):
@@ -126,15 +126,15 @@ def find_jobs(request: Request) -> Jobs:
 def _start_tuning(request: Request, jobs: Jobs, wanted: TuningRequest, owner: str) -> Job:
     build_space(wanted.law, wanted.held)
     present = _find_present(request, wanted)
-    asked = tunings.Asked(wanted.law, wanted.budget, wanted.seed, dict(wanted.held), present)
-    return jobs.start("tuning", get_title(wanted.law), tunings.search, asked, owner)
+    task = tunings.Task(wanted.law, wanted.budget, wanted.seed, dict(wanted.held), present)
+    return jobs.start("tuning", get_title(wanted.law), tunings.search, task, owner)
 
 
 async def _start_falsification(jobs: Jobs, wanted: FalsificationRequest, owner: str) -> Job:
     adversary = await asyncio.to_thread(wanted.build)
-    asked = falsifications.Asked(adversary, wanted.runs, wanted.seed)
+    task = falsifications.Task(adversary, wanted.runs, wanted.seed)
     title = f"{get_title(adversary.law)}: {adversary.title}"
-    return jobs.start("falsification", title, falsifications.search, asked, owner)
+    return jobs.start("falsification", title, falsifications.search, task, owner)
 
 
 def _find_present(request: Request, wanted: TuningRequest) -> Design:
@@ -148,7 +148,7 @@ def _find_present(request: Request, wanted: TuningRequest) -> Design:
 def _find_result(job: Job) -> tuple[FilePath | None, str]:
     """Return the result file of a finished job, and the law that it concerns."""
     if not job.is_under_way and job.kind == "tuning":
-        return tunings.find_file(job.folder), job.asked.law
+        return tunings.find_file(job.folder), job.task.law
     if not job.is_under_way and job.kind == "falsification":
-        return falsifications.find_file(job.folder), job.asked.adversary.law
+        return falsifications.find_file(job.folder), job.task.adversary.law
     return None, ""

@@ -6,6 +6,7 @@ from fastapi import Body, Path, Query
 from fastapi.responses import Response
 
 from svsa.evaluation.falsifier.file import (
+    EXAMPLES,
     forget_scenario,
     format_scenario,
     is_kept,
@@ -43,8 +44,9 @@ _TOML = {"application/toml": {"schema": {"type": "string"}}}
 @router.get("")
 @allow(OBSERVER)
 def list_saved_scenarios() -> list[SavedScenario]:
-    """List the saved scenarios of this lab, by name."""
-    return [describe_kept(name, one) for name, one in list_scenarios().items()]
+    """List the saved scenarios of this lab, by name; before the first, the example."""
+    found = list_scenarios() or list_scenarios(EXAMPLES)
+    return [describe_kept(name, one) for name, one in found.items()]
 
 
 @router.post("/runs", responses=BUSY)

@@ -26,7 +26,8 @@ _COUNTS = Query(
 async def estimate_shares(counts: Annotated[list[Counts], _COUNTS]) -> list[Estimate]:
     """Compute Wilson's 95 % interval for each count.
 
-    Repeat the parameter: `?counts=8,2&counts=0,81`. The share of nothing is null, from 0 to 1.
+    Repeat the parameter: `?counts=8,2&counts=0,81`. Without trials the share is null, with the
+    interval 0 to 1.
     """
     return [_estimate(*map(int, one.split(","))) for one in counts]
 

@@ -9,10 +9,9 @@ from fastapi.responses import FileResponse, Response
 from svsa.errors import ParameterError, StateError, Violation
 from svsa.evaluation.metrics import METRICS
 from svsa.evaluation.studies.file import find_study_file, list_built_in
+from svsa.evaluation.studies.rows import TABLE_FILE
 from svsa.evaluation.studies.store import (
-    TABLE_FILE,
-    StoredStudy,
-    StudyError,
+    EXAMPLE,
     is_kept,
     keep_study,
     list_studies,
@@ -20,6 +19,7 @@ from svsa.evaluation.studies.store import (
     read_owner,
 )
 from svsa.evaluation.studies.store import delete_study as discard
+from svsa.evaluation.studies.stored import StoredStudy, StudyError
 from svsa.evaluation.studies.summary import SUCCEEDED
 from svsa.evaluation.studies.tables import format_metric
 from svsa.evaluation.studies.work import build_schema
@@ -53,7 +53,7 @@ Study = Annotated[str, Owned("study"), _NAME]
 ChangedStudy = Annotated[str, Owned("study", changes=True), _NAME]
 LONGEST_END_S = 60.0
 Row = Annotated[int, Path(ge=0, description="Number of the row")]
-Wanted = Annotated[StudyRequest, Body(examples=[{"source": "load", "runs": 256}])]
+StudyBody = Annotated[StudyRequest, Body(examples=[{"source": "load", "runs": 256}])]
 _BINARY = {MEDIA_TYPE: {"schema": {"type": "string", "format": "binary"}}}
 _PARQUET = {"application/vnd.apache.parquet": {"schema": {"type": "string", "format": "binary"}}}
 
@@ -63,10 +63,10 @@ _PARQUET = {"application/vnd.apache.parquet": {"schema": {"type": "string", "for
 def list_all_studies(request: Request, person: NamedPerson) -> StudyList:
     """List the built-in studies, and those that were started here, the newest first.
 
-    In a class the caller's own, and those without an owner in the class.
+    In a class: the caller's own, and those without an owner in the class.
     """
     seen = [stored for stored in list_studies() if person.may_see(stored.owner)]
-    kept = sorted(seen, key=lambda stored: stored.created, reverse=True)
+    kept = sorted(seen, key=lambda stored: stored.created, reverse=True) or [open_study(EXAMPLE)]
     built_in = [
         BuiltInStudy(name=name, title=title, text=_read_text(name))
         for name, title in list_built_in().items()
@@ -83,15 +83,15 @@ def list_all_studies(request: Request, person: NamedPerson) -> StudyList:
 
 @router.post("/check")
 @allow(OBSERVER)
-def check_study(person: NamedPerson, wanted: Wanted) -> StudyPlan:
+def check_study(person: NamedPerson, wanted: StudyBody) -> StudyPlan:
     """Check a study without starting it. A wrong text is rejected with lines and bounds."""
     return describe_plan(*wanted.build(person))
 
 
 @router.post("", status_code=201, responses=BUSY)
 @allow(OPERATOR)
-async def start_study(request: Request, person: NamedPerson, wanted: Wanted) -> StudyState:
-    """Start or continue a study of this name, as a job that makes no live session late.
+async def start_study(request: Request, person: NamedPerson, wanted: StudyBody) -> StudyState:
+    """Start or continue a study of this name as a job; live sessions are not delayed.
 
     In a class, only its user and the instructor see it and the runs of its rows.
     """
@@ -121,7 +121,7 @@ def read_study(request: Request, study: Study) -> StudyState:
 async def delete_study(request: Request, study: ChangedStudy) -> None:
     """Delete a study with all its rows permanently; a running one is cancelled first.
 
-    Runs that were recorded of its rows stay.
+    Recorded runs of its rows remain.
     """
     stored = await asyncio.to_thread(_open, study)
     job = _find_job(request, study)
@@ -169,9 +169,10 @@ def read_rows(
         Query(alias="format", description="parquet: the whole table, once a job of it has ended"),
     ] = "binary",
 ) -> Response:
-    """Read columns of the rows that are done; of more than `most` a random sample of that size.
+    """Read columns of the finished rows; if there are more than `most`, a random sample of that
+    size.
 
-    binary: uint32 length of a header of JSON, filled up to 8 bytes (`rows`, `total`, `columns` with
+    binary: uint32 length of a JSON header, padded to 8 bytes (`rows`, `total`, `columns` with
     `name` and `labels`), then each column as float64, little-endian, `row` first.
     """
     stored = _open(study)
@@ -206,7 +207,8 @@ def _send_table(study: str, stored: StoredStudy) -> FileResponse:
     table = stored.folder / TABLE_FILE
     if not table.exists():
         raise StateError(f"Study {study} has no table yet: it is made when a job of it ends.")
-    # A browser that several people use must ask again: the file has a date and would be kept.
+    # A browser that several people share must revalidate: with a modification date it would cache
+    # the file.
     asked_again = {"Cache-Control": "no-cache"}
     media_type = next(iter(_PARQUET))
     return FileResponse(
@@ -215,7 +217,7 @@ def _send_table(study: str, stored: StoredStudy) -> FileResponse:
 
 
 def _open(name: str) -> StoredStudy:
-    if "/" in name or "\\" in name or not is_kept(name):
+    if "/" in name or "\\" in name or not (is_kept(name) or name == EXAMPLE):
         raise UnknownError(
             f"There is no study {name[:80]!r} here; GET /studies has those there are."
         )
@@ -224,7 +226,7 @@ def _open(name: str) -> StoredStudy:
 
 def _find_job(request: Request, name: str) -> Job | None:
     jobs = find_jobs(request).list_all("study")
-    return next((job for job in jobs if job.asked.name == name), None)
+    return next((job for job in jobs if job.task.name == name), None)
 
 
 def _read_text(name: str) -> str:

@@ -15,11 +15,11 @@ from svsa_server.routes.depends import REFUSALS, NamedSession
 from svsa_server.routing import build_router
 from svsa_server.schemas.hardware.bench import EnduranceState, HomingRequest
 from svsa_server.schemas.lab.session import SessionState
-from svsa_server.sessions.lock import TurnRoute
+from svsa_server.sessions.lock import WaitingRoute
 from svsa_server.sessions.state import build_state
 
 router = build_router(
-    "/sessions/{session}/bench", tags=["bench"], responses=REFUSALS, route_class=TurnRoute
+    "/sessions/{session}/bench", tags=["bench"], responses=REFUSALS, route_class=WaitingRoute
 )
 
 
@@ -55,7 +55,7 @@ def clear_fault(hosted: NamedSession) -> SessionState:
 def restart_loop(hosted: NamedSession) -> SessionState:
     """Restart loop and supervisor, by force if they do not respond; takes a few seconds.
 
-    The way back from a loop that is silent or gone; refused while the bench moves.
+    Use it if the loop is silent or lost; rejected while the bench moves.
     """
     _find_bench(hosted.session).restart()
     return build_state(hosted)
@@ -69,8 +69,8 @@ async def predict_heat(
 ) -> EnduranceState | None:
     """Predict which motor overheats under this load within 30 s, and when; null if none does.
 
-    For the present settings, added to the active loads; computed on its simulated twin with the
-    motors cold. Nothing is changed.
+    For the present settings and active loads plus this one; computed on the simulated twin with
+    cold motors. The session is not changed.
     """
     session = _find_bench(hosted.session)
     run = session.run

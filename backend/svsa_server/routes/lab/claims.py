@@ -12,9 +12,9 @@ from svsa.runs.metrics import MEASURED
 from svsa_server.access.permissions import OBSERVER, allow
 from svsa_server.routes.depends import REFUSALS, NamedSession
 from svsa_server.routing import build_router
-from svsa_server.sessions.lock import TurnRoute
+from svsa_server.sessions.lock import WaitingRoute
 
-router = build_router("/sessions", tags=["session"], responses=REFUSALS, route_class=TurnRoute)
+router = build_router("/sessions", tags=["session"], responses=REFUSALS, route_class=WaitingRoute)
 
 
 class ClaimNumbersState(BaseModel):

@@ -40,7 +40,7 @@ from svsa_server.sessions.design import (
     map_attraction,
     measure_margins,
 )
-from svsa_server.sessions.tried_design import build_tried, read_stiffness
+from svsa_server.sessions.evaluated_design import build_trial, read_design_basis
 
 router = build_router("/sessions/{session}", tags=["settings"], responses=REFUSALS | BUSY)
 _POLES = {"position_poles_rad_per_s": [-60, -60, -60, -60]}
@@ -75,18 +75,18 @@ async def analyze_design(
     """Analyze gains, observer and law before they are applied; the session is not changed.
 
     * `prediction`: the roots, the law's steady-state error under the 3 kg (and FL's, if the law
-      adds an estimate to the gains), the encoders' noise in the torques, the peak torque under the
+      adds an estimate to the gains), the torque noise of the encoders, the peak torque under the
       load, and a verdict with its reasons. Gains that PUT …/gains rejects get the verdict refuse.
     * `response`: position error after the 3 kg, and for a sine on the link.
     * `stability`: the closed loop's poles with the true plant, the model errors up to which it
-      stays stable, the error that a disturbance of bounded rate causes, the fastest observer.
-    * `margins`: of any law; the tick of the sampled loop about rest is linearized numerically.
-    * `region`: a part of a map of sampled starts, a slice of the state space: no proof for any
-      other start. The starts come from coarse to fine; the first parts show the shape.
+      stays stable, the error caused by a disturbance of bounded rate, the fastest observer.
+    * `margins`: for any law; the tick of the sampled loop about rest is linearized numerically.
+    * `region`: a part of a map of sampled initial states, a slice of the state space: no proof for
+      other initial states. They are ordered from coarse to fine; the first parts show the shape.
     """
     if isinstance(wanted, PredictionRequest):
         return await _predict(hosted.session, wanted)
-    configuration, sigma = build_tried(hosted.session, wanted)
+    configuration, sigma = build_trial(hosted.session, wanted)
     if isinstance(wanted, RegionRequest):
         return await map_attraction(work, configuration, sigma, wanted)
     if wanted.kind == "response":
@@ -97,7 +97,7 @@ async def analyze_design(
 
 
 async def _predict(session: Session, request: PredictionRequest) -> Prediction:
-    configuration, sigma = session.run.configuration, read_stiffness(session)
+    configuration, sigma = read_design_basis(session)
     if request.observer is not None:
         configuration = configuration.changed(observer=request.observer)
     if request.gains is not None:

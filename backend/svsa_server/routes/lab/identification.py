@@ -5,7 +5,7 @@ from typing import Annotated
 from fastapi import Body, Depends, Request
 
 from svsa.runs.command import Set
-from svsa.runs.configuration import PROTOTYPE_FILE, parse_design
+from svsa.runs.design_file import PROTOTYPE_FILE, parse_design
 from svsa_server.access.permissions import OPERATOR, allow
 from svsa_server.routes.depends import (
     CHANGED,
@@ -19,11 +19,11 @@ from svsa_server.schemas.lab.session import SessionState
 from svsa_server.schemas.lab.setting import ParameterFileRequest
 from svsa_server.schemas.runs.run import ExcitationRequest
 from svsa_server.sessions.excitation import TAG
-from svsa_server.sessions.lock import TurnRoute, take_turn
+from svsa_server.sessions.lock import WaitingRoute, run_waiting
 from svsa_server.sessions.state import build_state
 
 router = build_router(
-    "/sessions/{session}", tags=["identification"], responses=REFUSALS, route_class=TurnRoute
+    "/sessions/{session}", tags=["identification"], responses=REFUSALS, route_class=WaitingRoute
 )
 
 
@@ -35,15 +35,15 @@ async def excite(
     person: NamedPerson,
     wanted: Annotated[ExcitationRequest, Body(examples=[{"name": "Identification"}])],
 ) -> SessionState:
-    """Play the identification excitation from now on and record it, 32 s; starts what is paused.
+    """Play the identification excitation from now on and record it, 32 s; starts a paused session.
 
-    Slow and fast, soft and stiff: what `svsa identify` needs. Only without loads. It ends
-    automatically, and with it the recording; a reference of your own breaks it off.
+    Slow and fast, soft and stiff, as `svsa identify` requires. Only without loads. It ends
+    automatically, together with the recording; a new reference cancels it.
     """
     hosted.check_excitable()
     await request.app.state.quota.check(person.id)
     if hosted.session.status != "running":
-        await take_turn(hosted.session.start)
+        await run_waiting(hosted.session.start)
     await request.app.state.recordings.start(
         hosted.session, wanted.name, (TAG,), "", owner=person.id
     )
@@ -67,9 +67,9 @@ def load_nominal(
         ParameterFileRequest, Body(examples=[{"toml": PROTOTYPE_FILE.read_text("utf-8")}])
     ],
 ) -> SessionState:
-    """Load the nominal model from a parameter file (TOML), and the parameters of laws in it.
+    """Load the nominal model, and the parameters of laws, from a parameter file (TOML).
 
-    Gains, observer, the true plant and limits stay as they are.
+    Gains, observer, the true plant and limits stay unchanged.
     """
     design = parse_design(request.toml)
     hosted.session.set(Set("nominal", design.nominal))

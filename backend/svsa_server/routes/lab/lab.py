@@ -13,9 +13,9 @@ from svsa_server.schemas.lab.kind import Kinds, list_kinds
 from svsa_server.schemas.lab.lab import Health, Readiness
 from svsa_server.schemas.lab.law import LawState, list_laws
 from svsa_server.sessions.laboratory import SHARED_SESSION
-from svsa_server.sessions.lock import TurnRoute
+from svsa_server.sessions.lock import WaitingRoute
 
-router = build_router(tags=["lab"], route_class=TurnRoute)
+router = build_router(tags=["lab"], route_class=WaitingRoute)
 
 
 @router.get("/health")
@@ -43,8 +43,8 @@ async def read_readiness(request: Request, response: Response) -> Readiness:
 def quick_stop_lab(request: Request) -> Response:
     """Stop the shared session at once.
 
-    A bench is stopped for every caller, without login. A simulation is harmless: it is stopped
-    only for callers whom the lab has admitted.
+    A bench is stopped for every caller, without login. A simulation, which is harmless, is stopped
+    only for callers who are logged in.
     """
     if request.scope.get(PERSON) is None and not needs_no_login_to_stop(request):
         return answer_problem(

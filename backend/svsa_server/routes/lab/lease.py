@@ -26,13 +26,13 @@ async def take_control(
 ) -> SessionState:
     """Take the control lease: only the client of `SVSA-Client` may command; all may pause and stop.
 
-    Where another client is in control, only with `take_over`. Control ends automatically some time
-    after its holder has closed its last stream and made its last call (SVSA_CONTROL_S, 15 s).
+    If another client is in control, only with `take_over`. Control ends automatically some time
+    after the holder's last stream and call (SVSA_CONTROL_S, 15 s).
 
-    In a class one asks for the shared session by it, under the name that one has joined with, and
-    waits in `queue` where it is not free; `take_over` is the instructor's. Control goes on to who
-    waits when its holder gives no command for SVSA_IDLE_OPERATOR_S (90 s). A bench ramps down
-    before it is handed on.
+    In a class this requests the shared session under the user's name, and joins `queue` if it is
+    not free; only the instructor may use `take_over`. Control passes to the next user in the queue
+    if its holder gives no command for SVSA_IDLE_OPERATOR_S (90 s). A bench ramps down before
+    control is passed.
     """
     if client is None:
         raise ParameterError(Violation(CLIENT_HEADER, None, "", "given, to know you again"))

@@ -5,9 +5,6 @@ from typing import Annotated
 from fastapi import Body, Request, WebSocket
 from fastapi.responses import JSONResponse
 
-from svsa.actuators.installed import find_mechanism
-from svsa.actuators.parameters import SVSA
-from svsa.errors import StateError
 from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
 from svsa_server.openapi import UPGRADED
 from svsa_server.problems import Problem, answer_problem
@@ -28,13 +25,13 @@ from svsa_server.schemas.lab.session import (
 )
 from svsa_server.schemas.lab.stream import StreamMessage, describe_stream, list_stream_parameters
 from svsa_server.sessions.cursor import BATCH_PERIOD_S
-from svsa_server.sessions.hosted import HostedSession
-from svsa_server.sessions.lock import TurnRoute, take_turn
+from svsa_server.sessions.kind import check_svsa
+from svsa_server.sessions.lock import WaitingRoute, run_waiting
 from svsa_server.sessions.opening import open_session
 from svsa_server.sessions.state import build_state
 from svsa_server.sessions.stream import stream_session
 
-router = build_router("/sessions", tags=["session"], responses=REFUSALS, route_class=TurnRoute)
+router = build_router("/sessions", tags=["session"], responses=REFUSALS, route_class=WaitingRoute)
 
 
 @router.get("")
@@ -59,6 +56,7 @@ async def create_session(
             examples=[
                 {"figure": "4a", "comparisons": [{"law": "fl"}]},
                 {"from": "actuator", "actuator": "qbmove", "law": "ndobc"},
+                {"from": "arm", "arm": "rods", "actuators": ["svsa", "qbmove"]},
                 {"from": "run", "id": "20260102-030405-9f8e7d6c", "tick": 500},
                 {"from": "session", "id": "lab", "law": "fl"},
                 {"from": "falsification", "id": "3f2a9c01b7de"},
@@ -70,7 +68,7 @@ async def create_session(
 ) -> SessionState:
     """Open a private simulated session from a figure, actuator, run, session ….
 
-    The lab ends it automatically when it is unused. It runs, but from a run it is paused.
+    The lab ends it automatically when it is unused. It is running; a session from a run is paused.
     """
     return build_state(await open_session(request.app, wanted, person.id))
 
@@ -110,7 +108,7 @@ def pause(hosted: NamedSession) -> SessionState:
 def quick_stop(hosted: NamedSession) -> SessionState:
     """Set zero current at once on a bench, latched until cleared; a simulation pauses.
 
-    Software may fail to deliver it: no emergency stop in the sense of EN ISO 13850.
+    Software may fail to deliver it: this is not an emergency stop in the sense of EN ISO 13850.
     """
     hosted.session.quick_stop()
     return build_state(hosted)
@@ -162,15 +160,15 @@ async def load_experiment(
     ],
 ) -> SessionState:
     """Set a session to a figure or an exercise's experiment, or back to before the exercise."""
-    if not isinstance(wanted, SettingsBeforeExercise):
-        _check_svsa(hosted)
     if isinstance(wanted, ExerciseExperiment):
         await set_up_step(request, hosted, person, wanted.exercise, wanted.step)
         return build_state(hosted)
     if isinstance(wanted, SettingsBeforeExercise):
         await restore_settings(hosted)
         return build_state(hosted)
-    configuration, session = wanted.build_configuration(request.app.state.design), hosted.session
+    session = hosted.session
+    check_svsa(session)
+    configuration = wanted.build_configuration(request.app.state.design)
 
     def begin() -> None:
         session.load(configuration)
@@ -179,19 +177,9 @@ async def load_experiment(
         else:
             session.pause()
 
-    await take_turn(begin)
+    await run_waiting(begin)
     hosted.keep_before_exercise(None)
     return build_state(hosted)
-
-
-def _check_svsa(hosted: HostedSession) -> None:
-    """Raise `StateError` if the session simulates another actuator than the SVSA."""
-    mechanism = find_mechanism(hosted.session.run.configuration.actuator)
-    if mechanism.name != SVSA:
-        raise StateError(
-            f"Figures of the paper and exercises are experiments of the SVSA, and this session"
-            f" simulates {mechanism.title}: use the lab, or open a session of the SVSA."
-        )
 
 
 @router.get(

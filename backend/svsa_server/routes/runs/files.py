@@ -42,9 +42,9 @@ async def export_run(
     run_id: RunId,
     kind: Annotated[ExportName, Query(description="Format of the file")],
 ) -> StreamingResponse:
-    """Export a run as a file of another program, or as one page with 3D replay and plots.
+    """Export a run as a file for other programs, or as one page with 3D replay and plots.
 
-    The page (`html`) opens from a file, offline.
+    The page (`html`) can be opened from a file, offline.
     """
     record = await asyncio.to_thread(runs.open, run_id)
     file = await work.write(partial(write_export, kind), runs.find_folder(run_id))
@@ -75,7 +75,7 @@ def send_page(file: IO[bytes]) -> StreamingResponse:
     headers = {
         "Cache-Control": f"private, max-age={REPLAY_AGE_S}",
         "Vary": "Cookie, Authorization",
-        # The page has its policy in itself, for offline use; only a header states who may frame it.
+        # The page contains its policy, for offline use; `frame-ancestors` works only in a header.
         "Content-Security-Policy": "frame-ancestors 'self'",
         "X-Content-Type-Options": "nosniff",
         "Referrer-Policy": "no-referrer",

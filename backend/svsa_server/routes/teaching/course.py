@@ -11,7 +11,6 @@ from svsa.errors import StateError
 from svsa.hardware.session.session import BenchSession
 from svsa.runs.records.catalogue.entry import UnknownRunError
 from svsa.runs.records.catalogue.runs import Catalogue
-from svsa.runs.result.recorded import open_run
 from svsa.runs.result.result import Result
 from svsa.teaching.course.criterion import CriterionResult, Judgement
 from svsa.teaching.course.exercise import Exercise
@@ -27,6 +26,7 @@ from svsa.teaching.course.progress import (
     keep_run,
     visit_step,
 )
+from svsa.teaching.course.run import open_course_run
 from svsa.teaching.course.steps import Experiment, Predict
 from svsa.teaching.grading import law_trial
 from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
@@ -47,7 +47,8 @@ from svsa_server.schemas.teaching.course import (
 )
 from svsa_server.sessions.bench_start import check_at_rest, check_for_step, set_up_bench
 from svsa_server.sessions.hosted import BeforeExercise, HostedSession
-from svsa_server.sessions.lock import take_turn
+from svsa_server.sessions.kind import check_arm, check_svsa
+from svsa_server.sessions.lock import run_waiting
 
 router = build_router(tags=["course"], responses=REFUSALS)
 ExerciseName = Annotated[
@@ -147,10 +148,10 @@ async def try_submission_law(
         CourseLawRequest, Body(examples=[{"text": "def law(*given): return 0.0, 0.0\n"}])
     ],
 ) -> ExerciseState:
-    """Try a law in an isolated process on a public scenario, and save it.
+    """Run a law in an isolated process on a public scenario, and save it.
 
-    The one that was kept last is submitted. It is kept also where it fails, or where this machine
-    cannot isolate it and leaves it untried.
+    The law that was saved last is submitted. It is saved even if it fails, or if this machine
+    cannot isolate it and does not run it.
     """
     found = _find_exercise(request, exercise)
     check_takes_law(found, find_store(request).read(person.id).get(exercise))
@@ -171,7 +172,7 @@ def submit_exercise(
 ) -> Judgement:
     """Submit the saved answers of an exercise, once; it is assessed and saved as a file.
 
-    Refused while a step is not done, and while a law is missing that belongs to it.
+    Rejected while a step is incomplete, or a required law is missing.
     """
     store = find_store(request)
     judged: list[Judgement] = []
@@ -196,13 +197,17 @@ def submit_exercise(
 
 
 def _open_own(runs: Catalogue, person: Person, run_id: str) -> Result:
-    """Open a finished run that the person has recorded; raises `SvsaError` for any other."""
+    """Open a finished run that the user has recorded.
+
+    Raises:
+        SvsaError: If it is any other run.
+    """
     entry = runs.get(run_id)
     if entry.owner != person.id:
         raise UnknownRunError(f"There is no run {run_id!r:.80} of yours.")
     if entry.state == "recording":
         raise StateError(f"Run {run_id} is being recorded: stop the recording first.")
-    return open_run(runs.find_folder(run_id))
+    return open_course_run(runs.find_folder(run_id))
 
 
 def _change(
@@ -225,18 +230,23 @@ def _change(
 async def set_up_step(
     request: Request, hosted: HostedSession, person: Person, exercise: str, name: str
 ) -> None:
-    """Set a session as an experiment of the course asks, at t = 0 and paused.
+    """Set up a session for an experiment of the course, at t = 0 and paused.
 
-    Its predictions are saved now. A bench has plant, effects and limits of its own: it gets law,
+    Its predictions become final. A bench has its own plant, effects and limits: it gets law,
     references, loads, gains and observer.
 
     Raises:
-        StateError: A prediction is missing, the bench moves, or the step is a simulation only.
+        StateError: If a prediction is missing, the bench moves, or the step is a simulation only.
     """
     found = _find_exercise(request, exercise)
     step, session = found.find_step(name), hosted.session
-    if isinstance(session, BenchSession) and isinstance(step, Experiment):
-        check_for_step(session, step)
+    if isinstance(step, Experiment):
+        if isinstance(session, BenchSession):
+            check_for_step(session, step)
+        if step.arm:
+            check_arm(session, step.configuration, step.arm)
+        else:
+            check_svsa(session)
     await asyncio.to_thread(
         _change, request, person, found.name, lambda e, p: begin_step(e, p, name)
     )
@@ -245,28 +255,28 @@ async def set_up_step(
         session.journal.build_restart(), session.status == "running", found.name
     )
     if isinstance(session, BenchSession):
-        await take_turn(set_up_bench, session, step.bench_configuration)
+        await run_waiting(set_up_bench, session, step.bench_configuration)
     else:
-        await take_turn(session.pause)
-        await take_turn(session.load, step.configuration)
+        await run_waiting(session.pause)
+        await run_waiting(session.load, step.configuration)
     hosted.keep_before_exercise(before._replace(exercise=found.name))
 
 
 async def restore_settings(hosted: HostedSession) -> None:
-    """Set a session to the settings from before the exercise, at t = 0; a bench stays at rest.
+    """Restore the settings from before the exercise, at t = 0; a bench stays at rest.
 
     Raises:
-        StateError: No exercise has set up the session, or the bench moves.
+        StateError: If no exercise has set up the session, or the bench moves.
     """
     before, session = hosted.before_exercise, hosted.session
     if before is None:
         raise StateError("No exercise has set up this session: there is nothing to restore.")
     if isinstance(session, BenchSession):
         check_at_rest(session)
-        await take_turn(set_up_bench, session, before.configuration)
+        await run_waiting(set_up_bench, session, before.configuration)
     else:
-        await take_turn(session.load, before.configuration)
-        await take_turn(session.start if before.was_running else session.pause)
+        await run_waiting(session.load, before.configuration)
+        await run_waiting(session.start if before.was_running else session.pause)
     hosted.keep_before_exercise(None)
 
 

@@ -13,7 +13,7 @@ from svsa.teaching.isolation.probe import find_isolation_problem
 from svsa_server.access.owned import Owned
 from svsa_server.access.permissions import INSTRUCTOR_ONLY, OBSERVER, allow
 from svsa_server.access.roles import Role
-from svsa_server.jobs.gradings import Asked, grade_all
+from svsa_server.jobs.gradings import Task, grade_all
 from svsa_server.routes.depends import BUSY, REFUSALS, NamedPerson
 from svsa_server.routes.evaluation.jobs import find_jobs
 from svsa_server.routes.teaching.course import find_store
@@ -54,7 +54,8 @@ async def read_grades(
         Query(alias="format", description="csv: a line each; html: a page to read or print"),
     ] = "json",
 ) -> GradesState | Response:
-    """Read the grades of the class or of one person: points by criterion, or why there are none.
+    """Read the grades of the class or of one user: points by criterion, or the reason for a missing
+    grade.
 
     The instructor reads the whole class; a student reads the own grades only.
     """
@@ -82,15 +83,15 @@ async def grade_class(
 ) -> JobState:
     """Start a job that grades the submissions without a grade, or all of them again.
 
-    Runs are simulated again from their records, laws run in isolation on trials of the class's
-    secret and the submission: graded again, a submission has the grade that it had. Where nothing
-    isolates, a law gets no grade, and the table says why.
+    Runs are simulated again from their records; laws run in isolation on trials that depend on the
+    class's secret and the submission: grading again gives the same grade. If the machine cannot
+    isolate laws, they get no grade, and the table contains the reason.
     """
     store = find_store(request)
     files = tuple(await asyncio.to_thread(store.list_submissions))
     if not files:
         raise StateError("Nothing was submitted yet: there is nothing to grade.")
-    asked = Asked(
+    task = Task(
         files,
         request.app.state.course,
         request.app.state.catalogue.folder,
@@ -98,4 +99,4 @@ async def grade_class(
         wanted.again,
     )
     title = "Everything again" if wanted.again else "What has no grade"
-    return describe_job(find_jobs(request).start(KIND, title, grade_all, asked, person.id))
+    return describe_job(find_jobs(request).start(KIND, title, grade_all, task, person.id))

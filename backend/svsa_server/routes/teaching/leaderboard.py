@@ -17,7 +17,7 @@ from svsa.teaching.leaderboard.standing import build_season
 from svsa.teaching.submission import digest_law
 from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
 from svsa_server.access.roles import Person
-from svsa_server.jobs.submissions import Asked, enter
+from svsa_server.jobs.submissions import Task, measure_laws
 from svsa_server.problems import UnknownError
 from svsa_server.routes.depends import BUSY, REFUSALS, NamedPerson, Work
 from svsa_server.routes.evaluation.jobs import find_jobs
@@ -64,8 +64,7 @@ async def show_worst_run(
     """Show the worst run of an entry in 3D as a separate page; `?t=5` opens it at 5 s.
 
     Compared with NDOBC, and NDOBC with FL, unless that run ends first; then its notes report it.
-
-    Of a submitted law, what it answered then is played: it does not run again.
+    For a submitted law its saved torques are replayed: the law is not executed again.
     """
     board = await asyncio.to_thread(Board.find_started, _find_folder(request))
     if board is None or await asyncio.to_thread(board.find, key) is None:
@@ -85,8 +84,8 @@ async def submit_law(
 ) -> SubmissionState:
     """Start a job that measures a law in the season in an isolated process (minutes).
 
-    The same text has one entry, which stays as it is. Nothing is measured where this machine
-    cannot isolate a law.
+    The same text has one entry, which is not changed. If this machine cannot isolate a law, nothing
+    is measured.
     """
     law = wanted.law.encode()
     key = digest_law(law)
@@ -95,8 +94,8 @@ async def submit_law(
         return SubmissionState(key=key, job=None)
     await asyncio.to_thread(check_isolation)
     board = await _open_board(request)
-    asked = Asked(board.folder, wanted.name, law, person.name or wanted.author)
-    return SubmissionState(key=key, job=_begin(request, person, asked))
+    task = Task(board.folder, wanted.name, law, person.name or wanted.author)
+    return SubmissionState(key=key, job=_begin(request, person, task))
 
 
 @router.post("/laws", status_code=201, responses=BUSY)
@@ -104,7 +103,7 @@ async def submit_law(
 async def measure_installed_laws(request: Request, person: NamedPerson) -> JobState:
     """Start a job that measures the installed laws without an entry in this season (minutes)."""
     board = await _open_board(request)
-    return _begin(request, person, Asked(board.folder, "The laws of the lab", None))
+    return _begin(request, person, Task(board.folder, "The laws of the lab", None))
 
 
 async def _open_board(request: Request) -> Board:
@@ -115,5 +114,5 @@ def _find_folder(request: Request) -> FilePath:
     return request.app.state.catalogue.folder / FOLDER
 
 
-def _begin(request: Request, person: Person, asked: Asked) -> JobState:
-    return describe_job(find_jobs(request).start(KIND, asked.name, enter, asked, person.id))
+def _begin(request: Request, person: Person, task: Task) -> JobState:
+    return describe_job(find_jobs(request).start(KIND, task.name, measure_laws, task, person.id))

@@ -1,6 +1,7 @@
 """Launches from a learning platform (LTI 1.3): login, launch, public keys. Off unless configured.
 
-Not part of the API of scripts and page: a browser comes here from the platform, top of its window.
+Not part of the API for scripts and page: the platform redirects the browser here, in the top
+window.
 """
 
 import asyncio
@@ -109,7 +110,7 @@ def _find_tool(request: Request) -> "LtiTool":
 def _offer_window(asked: dict[str, str]) -> HTMLResponse:
     """Offer the login in a separate window: in a frame the lab's cookies are third-party cookies.
 
-    Any site may frame this page: it has one link and tells nothing.
+    Any site may frame this page: it contains one link and no data.
     """
     link = escape(f"?{urlencode(asked)}")
     return HTMLResponse(

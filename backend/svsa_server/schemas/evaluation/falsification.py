@@ -44,7 +44,11 @@ class FalsificationRequest(Checked):
         return self
 
     def build(self) -> Adversary:
-        """Build the adversary; raises `ParameterError`, for a text with its lines."""
+        """Build the adversary.
+
+        Raises:
+            ParameterError: If it is invalid, for a text with its lines.
+        """
         changes = {} if self.law is None else {"law": self.law}
         if self.definition is not None:
             return self.definition.changed(**changes)
@@ -58,7 +62,7 @@ class FalsificationRequest(Checked):
 
 
 class AdversaryState(BaseModel):
-    """An adversary that comes with the lab."""
+    """A built-in adversary."""
 
     name: str
     title: str
@@ -67,7 +71,7 @@ class AdversaryState(BaseModel):
 
 
 class FalsificationResult(BaseModel):
-    """What a falsification searches, and what it has found so far."""
+    """Settings and present result of a falsification."""
 
     law: str
     cost: str
@@ -86,20 +90,20 @@ class FalsificationResult(BaseModel):
 
 
 def describe_falsification(job: Job, is_under_way: bool) -> FalsificationResult:
-    """Describe what a falsification found.
+    """Describe the result of a falsification.
 
     Args:
         job: The job.
-        is_under_way: As it was before its files are read, which may be finished meanwhile.
+        is_under_way: Whether it was running before its files are read; it may end in between.
     """
-    asked = job.asked
+    task = job.task
     found = None if is_under_way else read_found(job.folder)
     worst = read_worst(job.folder)
     return FalsificationResult(
-        law=asked.adversary.law,
-        cost=asked.adversary.cost,
-        seed=asked.seed,
-        adversary=asked.adversary.model_dump(mode="json"),
+        law=task.adversary.law,
+        cost=task.adversary.cost,
+        seed=task.seed,
+        adversary=task.adversary.model_dump(mode="json"),
         worst=worst and dump_scenario(worst),
         scenario=found and dump_scenario(found.scenario),
         steps=found.steps if found else [],

@@ -57,7 +57,7 @@ def describe_job(job: Job, first: int | None = None) -> JobState:
         job: The job.
         first: Number of the first candidate of a tuning to list; None for none.
     """
-    # The status before the files: a job that ends in between has not ended in this answer.
+    # Read the status before the files, so that a job that ends in between is reported as running.
     status, is_under_way = job.status, job.is_under_way
     progress = job.progress
     result: TuningResult | FalsificationResult | None = None

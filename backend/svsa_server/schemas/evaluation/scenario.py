@@ -6,6 +6,7 @@ from pydantic import BaseModel, Field, model_validator
 
 from svsa.control.installed import InstalledLaw
 from svsa.errors import ParameterError, Violation
+from svsa.evaluation.falsifier.file import is_example
 from svsa.evaluation.falsifier.scenario import LoadScenario
 from svsa.inputs.checked import Checked, quantity
 from svsa_server.schemas.evaluation.estimate import Estimate
@@ -72,6 +73,7 @@ class SavedScenario(BaseModel):
 
     name: str
     title: str
+    is_example: bool = Field(description="Whether it comes with the lab; it cannot be deleted")
     scenario: dict[str, Any] = Field(description="The scenario as in its file")
 
 
@@ -82,4 +84,9 @@ def dump_scenario(scenario: LoadScenario) -> dict[str, Any]:
 
 def describe_kept(name: str, scenario: LoadScenario) -> SavedScenario:
     """Describe a saved scenario."""
-    return SavedScenario(name=name, title=scenario.title, scenario=dump_scenario(scenario))
+    return SavedScenario(
+        name=name,
+        title=scenario.title,
+        is_example=is_example(name),
+        scenario=dump_scenario(scenario),
+    )

@@ -11,8 +11,10 @@ from svsa.errors import ParameterError, Violation
 from svsa.evaluation.metrics import METRICS, Metric
 from svsa.evaluation.studies.file import list_built_in, parse_study, read_study
 from svsa.evaluation.studies.outcome import Success
+from svsa.evaluation.studies.rows import count_done
 from svsa.evaluation.studies.setting_name import SettingName, name_variation
-from svsa.evaluation.studies.store import StoredStudy, count_done, is_kept, open_study, read_owner
+from svsa.evaluation.studies.store import is_kept, open_study, read_owner
+from svsa.evaluation.studies.stored import StoredStudy
 from svsa.evaluation.studies.study import MAX_LAWS, MAX_RUNS, Study
 from svsa.evaluation.studies.summary import SUCCEEDED
 from svsa.evaluation.studies.tables import format_metric
@@ -60,10 +62,13 @@ class StudyRequest(Checked):
         return self
 
     def build(self, person: Person) -> tuple[str, Study]:
-        """Build the study and the name to save it under; raises `ParameterError`.
+        """Build the study and the name to save it under.
 
-        person: the caller. Without a name in the request it is the source's, with a number if
-        another person's study has that one.
+        `person` is the caller. By default the name is that of the source, with a number if another
+        user's study has it.
+
+        Raises:
+            ParameterError: If the study is invalid.
         """
         asked = ("runs", "laws", "metrics", "success")
         changes = {name: one for name in asked if (one := getattr(self, name)) is not None}
@@ -129,11 +134,12 @@ class StudyState(StudyPlan):
     created: str = Field(description="Start time, ISO 8601 in UTC")
     version: str = Field(description="Version of SVSA Lab that started it")
     done: int = Field(description="Number of finished rows")
+    is_example: bool = Field(description="Whether it comes with the lab; it cannot be deleted")
     job: JobState | None = Field(description="Latest job of this server for it")
 
 
 class BuiltInStudy(BaseModel):
-    """A study that comes with the lab."""
+    """A built-in study."""
 
     name: str
     title: str
@@ -152,7 +158,9 @@ class StudyList(BaseModel):
     """All studies that can be read or run, and the metrics of a run."""
 
     built_in: list[BuiltInStudy]
-    saved: list[StudyState] = Field(description="Saved studies, newest first")
+    saved: list[StudyState] = Field(
+        description="Saved studies, newest first; without any, a finished example"
+    )
     metrics: list[StudyMetric]
 
 
@@ -208,7 +216,7 @@ class StudySummary(BaseModel):
 class SobolIndices(BaseModel):
     """Sobol indices of an outcome under a law, by varied setting.
 
-    Intervals are upper bounds: they take the points of the Sobol' sequence as independent.
+    The intervals are upper bounds: they treat the points of the Sobol' sequence as independent.
     """
 
     law: str
@@ -229,7 +237,7 @@ class RowReplay(BaseModel):
 
 
 def describe_plan(name: str, study: Study) -> StudyPlan:
-    """Describe what a study would run."""
+    """Describe the runs of a study."""
     return StudyPlan(
         name=name,
         title=study.title,
@@ -248,6 +256,7 @@ def describe_study(stored: StoredStudy, job: Job | None) -> StudyState:
         created=stored.created,
         version=stored.version,
         done=count_done(stored) * len(stored.study.laws),
+        is_example=stored.is_example,
         job=describe_job(job) if job else None,
     )
 

@@ -59,7 +59,7 @@ class CandidateState(BaseModel):
 
 
 class TuningResult(BaseModel):
-    """What a tuning searches, and what it has found so far."""
+    """Settings and present result of a tuning."""
 
     law: str
     budget: int
@@ -85,15 +85,15 @@ class TuningResult(BaseModel):
 
 
 def describe_tuning(tuning: Job, is_under_way: bool, first: int | None) -> TuningResult:
-    """Describe what a tuning found.
+    """Describe the result of a tuning.
 
     Args:
         tuning: The job.
-        is_under_way: As it was before its candidates are read, which may come meanwhile.
+        is_under_way: Whether it was running before its candidates are read; it may end in between.
         first: Number of the first candidate to list; None for none of them.
     """
-    asked, tried = tuning.asked, read_candidates(tuning.folder)
-    space = build_space(asked.law, asked.held)
+    task, tried = tuning.task, read_candidates(tuning.folder)
+    space = build_space(task.law, task.held)
     candidates = [one for one in tried if one["stage"] != "validation"]
     finals = [one for one in tried if one["stage"] == "validation"]
     is_final = bool(finals) and not is_under_way
@@ -102,18 +102,18 @@ def describe_tuning(tuning: Job, is_under_way: bool, first: int | None) -> Tunin
     )
     setting = None
     if best is not None:
-        design = space.set_design(asked.present, best["values"])
+        design = space.set_design(task.present, best["values"])
         setting = (
-            Lane(law=asked.law, parameters=design.parameters[asked.law])
-            if has_own_parameters(asked.law)
-            else Lane(law=asked.law, gains=design.gains, observer=design.observer)
+            Lane(law=task.law, parameters=design.parameters[task.law])
+            if has_own_parameters(task.law)
+            else Lane(law=task.law, gains=design.gains, observer=design.observer)
         )
     reported = [] if first is None else candidates[first:]
     return TuningResult(
-        law=asked.law,
-        budget=asked.budget,
-        seed=asked.seed,
-        held=asked.held,
+        law=task.law,
+        budget=task.budget,
+        seed=task.seed,
+        held=task.held,
         axes=[
             AxisState(name=one.label, symbol=one.symbol, unit=one.unit, low=one.low, high=one.high)
             for one in space.axes

@@ -10,9 +10,11 @@ from svsa.actuators.mechanism import Mechanism
 from svsa.actuators.parameters import Limits
 from svsa.actuators.reach import find_only_stiffness
 from svsa.analysis.datasheet.measure import Datasheet
-from svsa.analysis.datasheet.rows import list_rows
+from svsa.analysis.datasheet.rows import list_published, list_rows
+from svsa.control.installed import PAPERS_LAW
 from svsa.runs.experiment import build_default_load, choose_stiffness
 from svsa.simulation.plant.loads.constant import ConstantLoad
+from svsa_server.compiled_loops import find_compiling_s, is_compiled_for
 from svsa_server.schemas.lab.parameter import ParameterState, list_parameters
 
 ASSUMED = "assumed"
@@ -41,13 +43,24 @@ class ActuatorSummary(BaseModel):
     load: ConstantLoad = Field(
         description="Default load; the actuator holds it at the default stiffness"
     )
+    antagonistic: bool = Field(
+        description="Whether two motors a and b pull against each other: u1 = ua + ub and u2 ="
+        " ua − ub, and the torque limits are those of ua and ub"
+    )
 
 
 class ActuatorState(ActuatorSummary):
     """An installed actuator."""
 
     source: str = Field(description="Publication of the mechanism")
-    antagonistic: bool = Field(description="Whether two motors pull against each other")
+    is_compiled: bool = Field(
+        description="Whether a session with NDOBC opens at once; otherwise the first one compiles"
+        " its loop in a process of its own, and the request waits for it"
+    )
+    compiling_s: float | None = Field(
+        description="How long the first session has waited for the compiler, s: about 10 s; null"
+        " if none waits"
+    )
     limits: Limits
     parameters: list[ActuatorParameterState]
     limit_sources: dict[str, str] = Field(description="Source of each limit, by its name")
@@ -58,11 +71,16 @@ class DatasheetState(Datasheet):
     """A datasheet with its table for display."""
 
     rows: list[tuple[str, str]] = Field(description="Quantity, and value with unit")
+    published_rows: list[tuple[str, str, str, str, str]] = Field(
+        description="Quantity, simulated and published value with unit, deviation, source"
+    )
 
 
 def describe_datasheet(found: Datasheet) -> DatasheetState:
     """Build the answer: a datasheet with its table for display."""
-    return DatasheetState(**dict(found), rows=list_rows(found))
+    return DatasheetState(
+        **dict(found), rows=list_rows(found), published_rows=list_published(found)
+    )
 
 
 @cache
@@ -82,7 +100,8 @@ def describe_actuator(mechanism: Mechanism) -> ActuatorState:
     return ActuatorState(
         **_summarize(mechanism),
         source=mechanism.source,
-        antagonistic=mechanism.antagonistic,
+        is_compiled=is_compiled_for(mechanism.name, PAPERS_LAW),
+        compiling_s=find_compiling_s(),
         limits=mechanism.limits,
         parameters=[
             ActuatorParameterState(
@@ -107,4 +126,5 @@ def _summarize(mechanism: Mechanism) -> dict[str, Any]:
         "stiffness_nm_per_rad": choose_stiffness(mechanism),
         "only_stiffness_nm_per_rad": find_only_stiffness(mechanism.nominal),
         "load": build_default_load(mechanism),
+        "antagonistic": mechanism.antagonistic,
     }

@@ -42,9 +42,10 @@ class GainsRequest(Checked):
         return self
 
     def apply_to(self, gains: Gains, kind: type[Gains] = Gains) -> Gains:
-        """Apply the changes to gains; raises `ParameterError` with the roots if unstable.
+        """Apply the changes to gains; `kind` is `UncheckedGains` if unstable ones are allowed.
 
-        kind: `TriedGains` where unstable ones may be looked at.
+        Raises:
+            ParameterError: If they are unstable, with the roots.
         """
         position, stiffness = self.choose_coefficients(gains)
         try:

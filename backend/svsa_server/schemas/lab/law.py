@@ -27,7 +27,7 @@ def _check_lane(lane: Lane) -> Lane:
 
 
 InstalledLane = Annotated[Lane, AfterValidator(_check_lane)]
-"""A lane whose law is installed: one that can be run."""
+"""A lane whose law is installed."""
 
 
 class LawState(BaseModel):

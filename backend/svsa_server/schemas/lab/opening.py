@@ -12,6 +12,7 @@ from svsa.runs.configuration import MAX_LANES, Configuration, Design, Lane
 from svsa.runs.experiment import build_actuator_experiment
 from svsa.simulation.plant.effects import IDEAL, Effects
 from svsa_server.access.owned import Owned
+from svsa_server.schemas.lab.arm import FromArm
 from svsa_server.schemas.lab.law import InstalledLane
 from svsa_server.schemas.lab.session import FigureRequest
 from svsa_server.schemas.lab.stability import DesignRequest
@@ -28,14 +29,18 @@ class FromFigure(FigureRequest):
     seed: Whole = quantity("", "Seed of the sensor noise", ge=0, le=2**63 - 1, default=0)
 
     def build_configuration(self, design: Design) -> Configuration:
-        """Build the session's configuration with the lab's design; raises `ParameterError`."""
+        """Build the session's configuration with the lab's design.
+
+        Raises:
+            ParameterError: If a value is invalid.
+        """
         return super().build_configuration(design).changed(seed=self.seed)
 
 
 class FromActuator(Checked):
     """An actuator's default experiment, running: a sine, its default stiffness and load.
 
-    Gains and observer are those of the lab. See `GET /actuators` for names and parameters.
+    Gains and observer are the actuator's defaults. See `GET /actuators` for names and parameters.
     """
 
     source: Literal["actuator"] = quantity("", "An actuator", alias="from")
@@ -57,7 +62,11 @@ class FromActuator(Checked):
     seed: Whole = quantity("", "Seed of the sensor noise", ge=0, le=2**63 - 1, default=0)
 
     def build_configuration(self) -> Configuration:
-        """Build the session's configuration; raises `ParameterError`."""
+        """Build the session's configuration.
+
+        Raises:
+            ParameterError: If a value is invalid.
+        """
         experiment = build_actuator_experiment(
             self.actuator, self.law, self.load, self.parameters, self.nominal
         )
@@ -77,7 +86,7 @@ class FromRun(Checked):
 class FromSession(DesignRequest):
     """Another session's settings with this design, stable or not; 3 kg are added after 1 s.
 
-    It is a simulation also if the other session has a bench; the other session stays as it is.
+    It is a simulation even if the other session has a bench; the other session is not changed.
     """
 
     source: Literal["session"] = quantity("", "Another session", alias="from")
@@ -101,7 +110,11 @@ class FromScenario(Checked):
     )
 
     def build_configuration(self) -> Configuration:
-        """Build the run's configuration; raises `ParameterError`."""
+        """Build the run's configuration.
+
+        Raises:
+            ParameterError: If it does not fit the base experiment.
+        """
         law, *others = self.laws
         comparisons = tuple(Lane(law=other) for other in others)
         return self.scenario.build_configuration(law).changed(comparisons=comparisons)
@@ -110,7 +123,8 @@ class FromScenario(Checked):
 class FromRanking(Checked):
     """A row of the ranking in a scenario, running, compared with NDOBC (declared gains).
 
-    NDOBC itself is compared with FL. Without comparison if that would end earlier; `note` says why.
+    NDOBC itself is compared with FL. Without comparison if that would end earlier; `note` has the
+    reason.
     """
 
     source: Literal["ranking"] = quantity("", "The ranking", alias="from")
@@ -131,6 +145,7 @@ SessionRequest = TypeAliasType(
     Annotated[
         FromFigure
         | FromActuator
+        | FromArm
         | FromRun
         | FromSession
         | FromFalsification
@@ -140,13 +155,13 @@ SessionRequest = TypeAliasType(
         BeforeValidator(_add_source),
     ],
 )
-"""A type of its own: of a plain `Annotated` FastAPI applies the discriminator first."""
+"""A named type, because for a plain `Annotated` FastAPI applies the discriminator first."""
 
 
 class FigureExperiment(FigureRequest):
     """One of the paper's figures, from t = 0; the default if `from` is left out.
 
-    What is set comes from the figure; lanes and effects from the request. A bench has its own.
+    Settings come from the figure; lanes and effects from the request. A bench has its own.
     """
 
     source: Literal["figure"] = quantity("", "A figure", alias="from", default="figure")
@@ -156,7 +171,7 @@ class FigureExperiment(FigureRequest):
 class ExerciseExperiment(Checked):
     """An experiment of the course, paused at t = 0; its predictions become final.
 
-    A bench has plant, effects and limits of its own: it gets law, references, loads, gains and
+    A bench has its own plant, effects and limits: it gets law, references, loads, gains and
     observer. Rejected if a prediction is missing, on a bench that moves, or on a bench for a step
     that is a simulation only.
     """

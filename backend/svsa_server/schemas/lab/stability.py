@@ -191,7 +191,7 @@ class RegionState(BaseModel):
     """A part of the map of initial states: the link starts at q0 with q̇0; the reference is at
     rest.
 
-    The starts are a sample of a slice of the state space: no proof for any other start.
+    The initial states are a sample of a slice of the state space: no proof for other ones.
     """
 
     law: str

@@ -34,7 +34,7 @@ class RunFault(BaseModel):
 
     @classmethod
     def report(cls, fault: Fault, **more: Any) -> Self:
-        """Build the answer for a fault. more: the fields of a subclass."""
+        """Build the answer for a fault; `more` are the fields of a subclass."""
         return cls(
             code=fault.code,
             label=label_fault(fault.code),

@@ -162,7 +162,13 @@ class RunOrigin(BaseModel):
     tick: int = Field(description="Present tick of the run, or end of the record")
     period_s: float
     plant: PlantKind
-    defaults: dict[str, Any] = Field(description="Request for a new private session, `load` false")
+    opening: dict[str, Any] = Field(
+        description="Body of `POST /sessions` for a private session like it, without law and seed"
+    )
+    defaults: dict[str, Any] = Field(description="Configuration of that session")
+    problem: str | None = Field(
+        description="Why no script can repeat the run in that session; null if one can"
+    )
 
 
 class RunMetrics(BaseModel):
@@ -182,8 +188,8 @@ class RunMetrics(BaseModel):
 class RunSamples(BaseModel):
     """Samples of a run, decimated for a plot.
 
-    Where stride is greater than 1, every two points are least and greatest of `stride`
-    ticks, in the order in which they came, each channel separately.
+    If stride is greater than 1, every two points are minimum and maximum of `stride` ticks, in the
+    order of time, for each channel separately.
     """
 
     stride: int

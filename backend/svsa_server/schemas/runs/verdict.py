@@ -67,7 +67,7 @@ class Band(BaseModel):
 
     @classmethod
     def build(cls, time_s: list[float], bounds: np.ndarray) -> Self:
-        """Build the band. bounds: lower and upper, (times, 2)."""
+        """Build the band; `bounds` are lower and upper, (times, 2)."""
         low, high = ([_tell(value) for value in column] for column in bounds.T.tolist())
         return cls(time_s=time_s, low=low, high=high)
 

@@ -1,4 +1,4 @@
-"""A small server of the lab's routes, which has only runs, and three of them."""
+"""A small server with the routes of runs only, and three runs."""
 
 import socket
 import threading

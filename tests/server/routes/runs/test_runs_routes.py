@@ -1,4 +1,4 @@
-"""Recorded runs over REST: listed, changed, deleted, and what is refused."""
+"""Recorded runs over REST: listed, changed, deleted, and rejected requests."""
 
 from pathlib import Path
 
@@ -16,7 +16,7 @@ from tests.runs.records.records import build_header, build_samples
 from tests.server.routes.runs.conftest import FIRST_TICK, POSITION, TICKS
 
 
-def test_runs_are_listed_newest_first_a_page_at_a_time(client: httpx.Client) -> None:
+def test_runs_are_listed_newest_first_in_pages(client: httpx.Client) -> None:
     answer = client.get("runs", params={"page_size": 2}).raise_for_status().json()
     assert [run["id"] for run in answer["runs"]] == ["run-2", "run-1"]
     assert (answer["total"], answer["page"], answer["page_size"]) == (3, 1, 2)
@@ -30,7 +30,7 @@ def test_runs_are_listed_newest_first_a_page_at_a_time(client: httpx.Client) -> 
     assert client.get("runs", params={"sort": "name"}).json()["runs"][0]["id"] == "run-0"
 
 
-def test_a_run_is_reported_with_all_that_decided_it(client: httpx.Client) -> None:
+def test_run_has_all_that_determines_it(client: httpx.Client) -> None:
     run = client.get("runs/run-1").raise_for_status().json()
     assert run["configuration"] == build_header().configuration
     assert run["commands"] == [{"tick": 1200, "command": {"kind": "load"}}]
@@ -42,7 +42,7 @@ def test_a_run_is_reported_with_all_that_decided_it(client: httpx.Client) -> Non
     }
 
 
-def test_a_run_is_renamed_tagged_and_noted(client: httpx.Client) -> None:
+def test_run_is_renamed_tagged_and_annotated(client: httpx.Client) -> None:
     change = {"name": "../Übung \0 🦾", "tags": ["a", "b"]}
     run = client.patch("runs/run-0", json=change).raise_for_status().json()
     assert (run["name"], run["tags"], run["notes"]) == (change["name"], ["a", "b"], "with 3 kg")
@@ -50,7 +50,7 @@ def test_a_run_is_renamed_tagged_and_noted(client: httpx.Client) -> None:
     client.patch("runs/run-0", json={"name": "Run 0", "tags": ["tag-0", "all"]}).raise_for_status()
 
 
-def test_who_changes_a_run_that_a_user_else_has_changed_is_reported(client: httpx.Client) -> None:
+def test_concurrent_change_of_a_run_is_reported(client: httpx.Client) -> None:
     read = client.get("runs/run-0").json()
     seen = {"If-Match": f'"{read["revision"]}"'}
     changed = client.patch("runs/run-0", json={"notes": "mine"}, headers=seen).json()
@@ -97,7 +97,7 @@ REFUSED = [
 
 
 @pytest.mark.parametrize(("method", "path", "query", "body", "name"), REFUSED)
-def test_wrong_input_is_refused_by_name(
+def test_invalid_input_is_rejected_by_name(
     client: httpx.Client, method: str, path: str, query: dict, body: dict | None, name: str
 ) -> None:
     answer = client.request(method, path, params=query, json=body)
@@ -107,13 +107,13 @@ def test_wrong_input_is_refused_by_name(
 
 
 @pytest.mark.parametrize("run_id", [i for i in HOSTILE_IDS if len(i) < 100 and i.isprintable()])
-def test_hostile_ids_are_not_found(client: httpx.Client, run_id: str) -> None:
+def test_malicious_ids_are_not_found(client: httpx.Client, run_id: str) -> None:
     quoted = "".join(f"%{byte:02X}" for byte in run_id.encode())
     for path in (f"runs/{quoted or '%20'}", f"runs/{quoted or '%20'}/export?kind=csv"):
         assert client.get(path).status_code == 404
 
 
-def test_a_run_that_cannot_be_read_is_reported(client: httpx.Client, catalogue: Catalogue) -> None:
+def test_unreadable_run_is_reported(client: httpx.Client, catalogue: Catalogue) -> None:
     header = build_header("run-bad", created="2020-01-01T00:00:00+00:00", tags=())
     folder = catalogue.folder / "runs" / "run-bad"
     write_record(folder, header, [], 0, build_samples(10))
@@ -128,7 +128,7 @@ def test_a_run_that_cannot_be_read_is_reported(client: httpx.Client, catalogue: 
     catalogue.purge("run-bad")
 
 
-def test_a_lab_without_a_folder_for_runs_says_so(client: httpx.Client, app: FastAPI) -> None:
+def test_lab_without_a_folder_for_runs_reports_it(client: httpx.Client, app: FastAPI) -> None:
     kept, app.state.catalogue = app.state.catalogue, NoCatalogue("Runs cannot be kept in /x.")
     try:
         answer = client.get("runs")
@@ -150,7 +150,7 @@ def test_runs_are_named_filtered_and_sorted_by_their_settings(client: httpx.Clie
     assert refused.status_code == 422
 
 
-def test_a_branch_tells_its_origin_and_the_moment_in_its_replay(
+def test_branch_has_its_origin_and_its_time_in_the_replay(
     client: httpx.Client, catalogue: Catalogue, data: Path
 ) -> None:
     header = build_header("run-9", name="", branch_of=BranchPoint("run-1", FIRST_TICK + 250))
@@ -174,7 +174,7 @@ def test_a_branch_tells_its_origin_and_the_moment_in_its_replay(
         catalogue.delete("run-9")
 
 
-def test_the_settings_that_differ_between_runs(client: httpx.Client) -> None:
+def test_settings_that_differ_between_runs(client: httpx.Client) -> None:
     same = client.get("runs/run-0/difference", params={"other": "run-1"}).raise_for_status()
     assert same.json() == {"runs": ["run-0", "run-1"], "titles": ["Run 0", "Run 1"]} | {
         "differences": []

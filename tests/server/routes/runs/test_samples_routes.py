@@ -1,4 +1,4 @@
-"""The samples of a recorded run over REST: as files, thinned out, and a segment of them."""
+"""The samples of a recorded run over REST: as files, decimated, and a segment of them."""
 
 import io
 
@@ -14,7 +14,7 @@ from tests.server.routes.runs.conftest import FIRST_TICK, POSITION
 
 
 @pytest.mark.parametrize("kind", ["csv", "parquet", "mat", "mcap"])
-def test_exports_come_as_files(client: httpx.Client, catalogue: Catalogue, kind: str) -> None:
+def test_exports_are_files(client: httpx.Client, catalogue: Catalogue, kind: str) -> None:
     answer = client.get("runs/run-1/export", params={"kind": kind}).raise_for_status()
     assert answer.headers["content-disposition"] == f'attachment; filename="Run_1_run-1.{kind}"'
     assert int(answer.headers["content-length"]) == len(answer.content)
@@ -26,7 +26,7 @@ def test_exports_come_as_files(client: httpx.Client, catalogue: Catalogue, kind:
         assert table["fl.position_rad"].to_numpy().tobytes() == samples[:, 1, POSITION].tobytes()
 
 
-def test_samples_are_thinned_out_without_losing_a_peak(client: httpx.Client) -> None:
+def test_decimation_keeps_every_peak(client: httpx.Client) -> None:
     query = {"channels": "position_rad,torque1_nm", "points": 100}
     answer = client.get("runs/run-1/samples", params=query).raise_for_status().json()
     assert set(answer["lanes"]) == {"ndobc", "fl"}
@@ -39,7 +39,7 @@ def test_samples_are_thinned_out_without_losing_a_peak(client: httpx.Client) -> 
     assert answer["time_s"] == sorted(answer["time_s"])
 
 
-def test_a_short_stretch_comes_whole(client: httpx.Client, catalogue: Catalogue) -> None:
+def test_short_segment_is_complete(client: httpx.Client, catalogue: Catalogue) -> None:
     query = {"channels": "position_rad", "start_s": 1.005, "end_s": 1.015}
     answer = client.get("runs/run-1/samples", params=query).raise_for_status().json()
     assert (answer["stride"], answer["first_tick"]) == (1, 1005)
@@ -53,7 +53,7 @@ def test_a_short_stretch_comes_whole(client: httpx.Client, catalogue: Catalogue)
 
 
 @pytest.mark.parametrize("points", [2, 3, 10, 99, 100, 5000])
-def test_thinning_keeps_least_and_greatest(points: int) -> None:
+def test_decimation_keeps_minimum_and_maximum(points: int) -> None:
     values = build_samples(997)[:, :, :3]
     thinned = decimate(values, points)
     assert len(thinned.rows) == len(thinned.values) <= points

@@ -1,4 +1,4 @@
-"""One recorded run judged against another over REST."""
+"""One recorded run compared with another over REST."""
 
 from pathlib import Path
 
@@ -15,8 +15,8 @@ from tests.runs.records.records import build_header, build_samples
 from tests.server.routes.runs.conftest import FIRST_TICK, POSITION, TICKS
 
 
-def test_a_run_is_judged_against_another_with_the_band_to_draw(client: httpx.Client) -> None:
-    """Of all runs of this lab the same samples, of which one stands out of its neighbours."""
+def test_run_is_compared_with_another_with_the_band_to_draw(client: httpx.Client) -> None:
+    """The runs of this lab have equal samples, except one sample of one run."""
     wanted = {"other": "run-1", "rest": None, "points": 500}
     wanted["tolerances"] = {"position_rad": {"absolute": 0.5, "time_s": 0.01}}
     reported = client.post("runs/run-0/verdict", json=wanted).raise_for_status().json()
@@ -36,7 +36,7 @@ def test_a_run_is_judged_against_another_with_the_band_to_draw(client: httpx.Cli
     assert "absolute" in client.post("runs/run-0/verdict", json=negative).json()["detail"]
 
 
-def test_runs_are_judged_from_where_the_windows_of_their_numbers_begin(
+def test_runs_are_compared_from_the_start_of_their_windows(
     client: httpx.Client, catalogue: Catalogue, data: Path
 ) -> None:
     """A load 150 ticks later, and a step of the position as much later."""
@@ -65,4 +65,4 @@ def test_runs_are_judged_from_where_the_windows_of_their_numbers_begin(
     assert reported["window"]["begin_s"] - reported["window"]["other_begin_s"] == pytest.approx(
         150 * period
     )
-    assert not reported["window"]["held"]  # not as long from there on
+    assert not reported["window"]["held"]  # shorter from there on

@@ -1,4 +1,4 @@
-"""The schema with a secret and in a class: every check, as each of those who may come."""
+"""The API schema with a secret and in a class: every check, in each role."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -19,11 +19,11 @@ from tests.server.test_schema_fuzz import SETTINGS, probe
 
 SECRET = "correct horse battery"
 ONE_EACH = settings(SETTINGS, max_examples=1)
-"""Of each operation: how wide a request may be is tried where no user is asked who comes."""
+"""Limits of each operation are tested where no login is needed."""
 ENDLESS = dict.fromkeys(
     ("joins", "codes", "logins", "commands", "sessions", "runs"), "1000000/second"
 )
-"""Of a class: that a user does too much at once has tests of its own."""
+"""For a class: too many simultaneous requests have their own tests."""
 PEOPLE = {
     Role.OBSERVER: Person("p-1", "Ola", Role.OBSERVER),
     Role.OPERATOR: Person("p-2", "Ada", Role.OPERATOR),
@@ -32,13 +32,13 @@ PEOPLE = {
 
 
 class Class(NamedTuple):
-    """A class as a process, and the tokens of those in it."""
+    """A class as a process, and the tokens of its users."""
 
     lab: Lab
     tokens: dict[Role, str]
 
     def come_as(self, role: Role | None) -> Lab:
-        """The lab, whose client is of this role, or a stranger."""
+        """The lab, whose client has this role, or none."""
         headers = {} if role is None else {"Authorization": f"Bearer {self.tokens[role]}"}
         client = httpx.Client(base_url=self.lab.url, headers=headers, timeout=60, trust_env=False)
         return self.lab._replace(client=client)
@@ -62,7 +62,7 @@ def read_operations(lab: Lab) -> list[schemathesis.APIOperation]:
 
 
 @pytest.mark.exhaustive
-def test_a_lab_with_a_secret_keeps_to_its_schema_and_lets_no_user_in_without() -> None:
+def test_lab_with_a_secret_conforms_to_its_schema_and_rejects_clients_without_it() -> None:
     with run_lab(secret=SECRET) as lab:
         operations = read_operations(lab)
         tried = sum(probe(lab, one, GenerationMode.POSITIVE, ONE_EACH) for one in operations)
@@ -73,7 +73,7 @@ def test_a_lab_with_a_secret_keeps_to_its_schema_and_lets_no_user_in_without() -
 @pytest.mark.parametrize(
     "role", [None, *PEOPLE], ids=lambda role: role.word if role else "stranger"
 )
-def test_a_class_keeps_to_its_schema_for_every_role(classroom: Class, role: Role | None) -> None:
+def test_class_conforms_to_its_schema_in_every_role(classroom: Class, role: Role | None) -> None:
     lab = classroom.come_as(role)
     permissions = build_app().state.permissions
     tried = 0
@@ -81,7 +81,7 @@ def test_a_class_keeps_to_its_schema_for_every_role(classroom: Class, role: Role
         needed = permissions.find(one.method.upper(), one.path).permission.role
         is_let_in = needed is None or (role is not None and role >= needed)
         if is_let_in and needed is None and role is not None:
-            continue  # as for strangers
+            continue  # as without login
         tried += probe(lab, one, GenerationMode.POSITIVE, ONE_EACH, is_let_in)
     lab.client.close()
     assert tried > 100
