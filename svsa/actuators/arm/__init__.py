@@ -1,0 +1,1 @@
+"""A planar arm of two links with an actuator in each joint: parameters, dynamics, kinematics."""

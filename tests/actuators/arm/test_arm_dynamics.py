@@ -1,0 +1,89 @@
+"""M, C and g against Lagrange's equations of the links, derived from their energies by sympy."""
+
+import math
+
+import numpy as np
+import pytest
+import sympy as sp
+from hypothesis import given
+from hypothesis import strategies as st
+
+from svsa.actuators.arm.dynamics import (
+    Joints,
+    Point,
+    compute_arm_acceleration,
+    compute_arm_energy,
+    compute_bias,
+    compute_mass_matrix,
+    compute_tip_position,
+    compute_tip_torque,
+    compute_tip_velocity,
+    turn,
+)
+from svsa.actuators.arm.parameters import MACCEPA_ARM, RODS
+
+ARM = MACCEPA_ARM.changed(tip_mass_kg=0.35, length1_m=0.31)
+angles = st.floats(-math.pi, math.pi)
+speeds = st.floats(-8.0, 8.0)
+
+
+def derive_torques():
+    """τ(q, q̇, q̈) of two rigid bodies and a point mass, from d/dt ∂L/∂q̇ − ∂L/∂q."""
+    t, p = sp.Symbol("t"), ARM
+    q = [sp.Function(name)(t) for name in ("q1", "q2")]
+    angle = [q[0], q[0] + q[1]]
+    up = [sp.Matrix([sp.sin(a), -sp.cos(a)]) for a in angle]
+    elbow = p.length1_m * up[0]
+    places = [p.center1_m * up[0], elbow + p.center2_m * up[1], elbow + p.length2_m * up[1]]
+    masses, lagrangian = [p.mass1_kg, p.mass2_kg, p.tip_mass_kg], 0
+    for mass, place in zip(masses, places, strict=True):
+        speed = place.diff(t)
+        lagrangian += mass * speed.dot(speed) / 2 - mass * p.gravity_m_per_s2 * place[1]
+    for inertia, a in zip([p.inertia1_kg_m2, p.inertia2_kg_m2], angle, strict=True):
+        lagrangian += inertia * a.diff(t) ** 2 / 2
+    torques = [lagrangian.diff(one.diff(t)).diff(t) - lagrangian.diff(one) for one in q]
+    values = sp.symbols("a1 a2 v1 v2 x1 x2")
+    orders = [one.diff(t, order) for order in (2, 1, 0) for one in q]
+    replaced = [sp.sympify(one).subs(list(zip(orders, values, strict=True))) for one in torques]
+    return sp.lambdify(values, replaced)
+
+
+LAGRANGE = derive_torques()
+
+
+@given(angles, angles, speeds, speeds, speeds, speeds)
+def test_the_equations_are_those_of_the_energies(q1, q2, dq1, dq2, ddq1, ddq2):
+    arm, t, dq = ARM.build(), turn(Joints(q1, q2)), Joints(dq1, dq2)
+    M, bias = compute_mass_matrix(arm, t), compute_bias(arm, t, dq)
+    torque = (
+        M.m11 * ddq1 + M.m12 * ddq2 + bias.joint1,
+        M.m12 * ddq1 + M.m22 * ddq2 + bias.joint2,
+    )
+    assert torque == pytest.approx(LAGRANGE(ddq1, ddq2, dq1, dq2, q1, q2), abs=1e-11)
+    solved = compute_arm_acceleration(arm, t, dq, Joints(*torque))
+    assert solved == pytest.approx((ddq1, ddq2), abs=1e-10)
+
+
+@given(angles, angles, speeds, speeds)
+def test_a_force_at_the_tip_has_the_power_of_its_joint_torques(q1, q2, dq1, dq2):
+    """f · v = τ · q̇ for the Jacobian, whose velocity is the derivative of the position."""
+    arm, t, dq, force = ARM.build(), turn(Joints(q1, q2)), Joints(dq1, dq2), Point(3.0, -2.0)
+    velocity, torque = compute_tip_velocity(arm, t, dq), compute_tip_torque(arm, t, force)
+    power = force.x * velocity.x + force.y * velocity.y
+    assert power == pytest.approx(torque.joint1 * dq1 + torque.joint2 * dq2, abs=1e-11)
+    h = 1e-6
+    ends = [
+        np.array(compute_tip_position(arm, turn(Joints(q1 + way * h * dq1, q2 + way * h * dq2))))
+        for way in (1, -1)
+    ]
+    assert (ends[0] - ends[1]) / (2 * h) == pytest.approx(np.array(velocity), abs=1e-7)
+
+
+def test_an_arm_at_rest_hanging_down_has_no_energy_and_needs_no_torque():
+    arm, t, still = RODS.build(), turn(Joints(0.0, 0.0)), Joints(0.0, 0.0)
+    assert compute_arm_energy(arm, t, still) == 0.0
+    assert compute_bias(arm, t, still) == (0.0, 0.0)
+    lifted = turn(Joints(math.pi / 2, 0.0))
+    m, length, g = 0.3, 0.3, 9.81
+    assert compute_arm_energy(arm, lifted, still) == pytest.approx(2 * m * g * length)
+    assert compute_bias(arm, lifted, still).joint1 == pytest.approx(2 * m * g * length)
