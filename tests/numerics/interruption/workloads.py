@@ -6,6 +6,7 @@ import svsa
 from svsa.actuators.domain import build_domain
 from svsa.actuators.dynamics import build_actuator
 from svsa.actuators.faults import FAULT_CODES
+from svsa.actuators.installed import get_mechanism
 from svsa.actuators.reach import find_stiffness_range
 from svsa.actuators.signals import Disturbance, State, Torque
 from svsa.analysis.datasheet import measure
@@ -18,6 +19,8 @@ from svsa.evaluation.studies.replay import measure_samples
 from svsa.evaluation.timing.benchmark import list_c_constants
 from svsa.hardware.commissioning import magnitudes
 from svsa.hardware.emulator.experiment import LockstepBench
+from svsa.runs.arm import run as arm_run
+from svsa.runs.arm.experiment import build_arm_experiment
 from svsa.runs.batch import run_configurations
 from svsa.runs.configuration import Configuration
 from svsa.runs.fault import build_fault
@@ -36,18 +39,32 @@ def run_all() -> None:
     build_report(configuration, (15.0,), 2, lambda _: None)
     compute_fl_steady_error(configuration, 15.0, Disturbance(1.0, 0.0, 0.0))
     list_c_constants(Run(configuration))
-    # An actuator that is an elastic energy has its stiffness range checked under a lasting load.
+    # An actuator defined by an elastic energy has its stiffness range checked under a constant
+    # load.
     parameters = configuration.actuator
     domain = build_domain(parameters, configuration.limits)
     plant = build_actuator(parameters, 0.0)
     find_stiffness_range(plant, domain, 1.0)
-    # A datasheet finds out whether a motor is at its limit.
+    member = get_mechanism("leaf_spring")
+    build_domain(member.prototype, member.limits)
+    # A datasheet computes whether a motor is saturated.
     measure.are_at_limit(plant, Torque(0.0, 0.0), Torque(1.0, 1.0))
     sample_torque(configuration, 0.01)
     sample_reference(configuration.position, 4)
     # A commissioned bench compares its spring with this.
-    magnitudes.compute_stiffness(0.5, 0.0, configuration.actuator.rotational_stiffness_nm_per_rad)
+    magnitudes.compute_stiffness_of(plant, 0.5, 0.0)
+    magnitudes.compute_coordinate_for_stiffness(plant, 15.0)
     _run_bench()
+    wall = svsa.Wall(normal_rad=0.0, distance_m=0.0, stiffness_n_per_m=100.0)
+    # A change during the run plans the references again.
+    change = svsa.Change(at_s=0.005, law="fl")
+    arm = svsa.simulate_arm(
+        law="ndobc", feedforward=True, tip_loads=[wall], commands=[change], duration_s=0.01
+    )
+    _ = arm.wall_force_n
+    # A change of the lanes of an arm continues with the mass at its tip.
+    of_arm = arm_run.ArmRun(build_arm_experiment("rods", {}, {"law": "ndobc"}))
+    arm_run.adapt_blocks(of_arm.arms[0], 0.1)
 
 
 def _simulate(configuration: Configuration) -> None:
