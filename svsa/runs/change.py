@@ -10,19 +10,20 @@ from svsa.control.gains import Gains
 from svsa.control.installed import LawName, ParametersByLaw
 from svsa.control.observers.disturbance import ObserverBandwidth
 from svsa.errors import ParameterError, Violation
-from svsa.inputs.checked import Checked, Number, check_number, quantity
-from svsa.runs.command import Command, build_command
+from svsa.inputs.checked import Checked, Flag, Number, Whole, check_number, quantity
+from svsa.runs.command import OF_ARM, Command, build_command
 from svsa.simulation.plant.effects import Effects
 from svsa.simulation.plant.loads import Load
 from svsa.simulation.reference.kinds import PositionReference, StiffnessReference
+
+_PLACE = ("at_s", "joint")
 
 
 class Change(Checked):
     """The changes at a time of a run; fields left out keep their values.
 
-    A law, gains, parameters of laws, an observer, a reference of position or stiffness, the true
-    plant, the nominal model or effects hold from the first tick at or after `at_s`; a load comes on
-    then.
+    A law, gains, parameters of laws, an observer, a reference, the true plant, the nominal model or
+    effects are in effect from the first tick at or after `at_s`; a load has its onset then.
     """
 
     at_s: Number = quantity("s", "Time of the run", ge=0, le=1e6)
@@ -38,25 +39,34 @@ class Change(Checked):
     nominal: InstalledActuator | None = None
     effects: Effects | None = None
     load: Load | None = None
+    feedforward: Flag | None = quantity("", "Whether an arm has its feedforward", default=None)
+    joint: Whole | None = quantity(
+        "", "Joint of an arm; None: both, and joint 1 for a torque", ge=1, le=2, default=None
+    )
 
     @model_validator(mode="after")
     def _check_some(self) -> Self:
         if not self.list_given():
-            names = ", ".join(name for name in type(self).model_fields if name != "at_s")
+            names = ", ".join(name for name in type(self).model_fields if name not in _PLACE)
             raise ParameterError(Violation("change", {}, "", f"of {names}"))
         return self
 
     def list_given(self) -> dict[str, object]:
-        """List the changes: kind of the command, and argument."""
-        return {name: value for name, value in self if name != "at_s" and value is not None}
+        """List the changes.
+
+        Returns:
+            The new value by kind of command.
+        """
+        return {name: value for name, value in self if name not in _PLACE and value is not None}
 
 
 def build_commands(
     changes: Iterable[Change], period_s: float, duration_s: float
 ) -> tuple[Command, ...]:
-    """Build the commands of these changes, ordered by time, at whole ticks of `period_s`.
+    """Build the commands of these changes, ordered by time, at integer ticks of `period_s`.
 
-    Raises `ParameterError` for a time after the run's end, and what is no `Change`.
+    Raises:
+        ParameterError: If a time is after the end of the run, or an element is no `Change`.
     """
     commands: list[Command] = []
     for change in changes:
@@ -65,5 +75,8 @@ def build_commands(
         check_number("at_s", change.at_s, "s", 0.0, duration_s)
         tick = round(change.at_s / period_s)
         given = change.list_given()
-        commands += [build_command(tick, kind, value) for kind, value in given.items()]
+        commands += [
+            build_command(tick, kind, value, None if kind in OF_ARM else change.joint)
+            for kind, value in given.items()
+        ]
     return tuple(sorted(commands, key=lambda command: command.tick))

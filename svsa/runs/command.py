@@ -1,21 +1,22 @@
 """Commands: changes of a run, as values that can be stored and repeated.
 
-A change of a setting is one command, `Set(field, value)`, and `fold` alone says what becomes of a
-configuration: for a run, its timeline, its record and a script that repeats it. In a record, over
-REST, and on its way to a bench a command is an object of `tick`, `kind` (of a `Set` its field) and
-`argument` (its value).
+A change of a setting is one command, `Set(field, value)`, and only `fold` defines its effect on a
+configuration: for a run, its timeline, its record and a script that repeats it. In a record, in
+REST, and in messages to a bench a command is an object of `tick`, `kind` (for a `Set` its field)
+and `argument` (its value), for an arm also `joint`.
 """
 
+from collections.abc import Callable
 from dataclasses import replace
-from typing import Annotated, Any, Literal, Self, get_args
+from typing import Annotated, Any, Literal, Self, TypeAlias, get_args
 
 from pydantic import BaseModel, Field, ValidationError, create_model
 
 from svsa.control.installed import LawName
-from svsa.errors import ParameterError, Violation
+from svsa.errors import ParameterError, StateError, Violation
 from svsa.inputs.checked import BY_KIND, Checked, Whole, quantity
 from svsa.inputs.explanation import explain
-from svsa.runs.configuration import Configuration, Lane, LaneSetting
+from svsa.runs.configuration import ArmSetup, Configuration, Lane, LaneSetting
 from svsa.simulation.plant.loads import Load
 
 Settable = Literal[
@@ -31,10 +32,15 @@ Settable = Literal[
     "effects",
     "comparisons",
     "lane",
+    "feedforward",
+    "adaptation",
 ]
-"""The fields of a `Configuration` that a run may change; `laws` sets the laws of the first lanes,
-in their order, and `lane` one of the comparisons, whose plant stays as it is.
+"""The fields of a `Configuration` that a run may change; `laws` sets the laws of the first lanes in
+order, and `lane` one of the comparisons, whose plant keeps its state. The last two are those of an
+arm.
 """
+OF_ARM = ("feedforward", "adaptation")
+NO_ARM = "This run is of a single joint: joint 2, loads at the tip and feedforward need an arm."
 
 COMMANDS: dict[str, str] = {
     "position": "Motion changed",
@@ -49,6 +55,8 @@ COMMANDS: dict[str, str] = {
     "effects": "Effects changed",
     "comparisons": "Lanes changed",
     "lane": "A lane changed",
+    "feedforward": "Arm feedforward changed",
+    "adaptation": "Adaptive payload changed",
     "load": "Load applied",
     "unload": "Load removed",
     "stop": "Stop",
@@ -64,12 +72,16 @@ _OF_LANES: dict[str, Any] = {
 
 def _build_value(field: str) -> type[BaseModel]:
     """Build a model with a settable field as its only `argument`."""
-    known = Configuration.model_fields.get(field)
+    known = (ArmSetup if field in OF_ARM else Configuration).model_fields.get(field)
     value: Any = (_OF_LANES[field], ...) if known is None else (known.annotation, known)
     return create_model(field, argument=value)
 
 
 _VALUES = {field: _build_value(field) for field in get_args(Settable)}
+
+
+JointNumber: TypeAlias = int
+"""1 or 2."""
 
 
 class _Command(Checked):
@@ -83,6 +95,13 @@ class _Command(Checked):
     )
     kind: Any
     argument: Any
+    joint: Whole | None = quantity(
+        "",
+        "Joint of an arm; None for a single joint, and for what is not of one",
+        ge=1,
+        le=2,
+        default=None,
+    )
 
     def __init__(self, /, **values: Any) -> None:
         try:
@@ -100,9 +119,13 @@ class _Command(Checked):
         """Return the same command at another tick."""
         return self.model_copy(update={"tick": tick})
 
+    def of_joint(self, joint: int | None) -> Self:
+        """Return the same command for a joint of an arm."""
+        return self.model_copy(update={"joint": joint})
+
     def to_json(self) -> dict[str, Any]:
         """Convert to a dict for JSON; see `read_command`."""
-        return self.model_dump(mode="json")
+        return self.model_dump(mode="json", exclude={"joint"} if self.joint is None else None)
 
 
 class Set(_Command):
@@ -111,9 +134,11 @@ class Set(_Command):
     kind: Settable
     argument: Any = Field(description="New value of the field")
 
-    def __init__(self, kind: str, argument: Any, tick: int = 0) -> None:
+    def __init__(
+        self, kind: str, argument: Any, tick: int = 0, joint: JointNumber | None = None
+    ) -> None:
         read = _read_value(kind, argument) if kind in _VALUES else argument
-        super().__init__(tick=tick, kind=kind, argument=read)
+        super().__init__(tick=tick, kind=kind, argument=read, joint=joint)
 
 
 class ApplyLoad(_Command):
@@ -145,17 +170,35 @@ def fold(configuration: Configuration, command: Command, is_bench: bool = False)
     """Compute the configuration after a command.
 
     Args:
-        configuration: The one before.
-        command: A load or a stop, which is no part of the configuration, changes nothing.
+        configuration: The configuration before.
+        command: The command. A load or a stop is not part of the configuration and changes nothing.
         is_bench: Whether the first comparison is a bench's twin, which has the law of the bench.
 
     Returns:
-        The configuration after it; the same object where nothing is changed.
+        The configuration after it; the same object if nothing changes.
 
     Raises:
-        ParameterError: If the configuration cannot have the value.
+        ParameterError: If the value is invalid for the configuration.
+        StateError: If it is a command of an arm, and the configuration of a single joint.
     """
-    return configuration.changed(**list_changes(command, configuration.comparisons, is_bench))
+    if not isinstance(command, Set):
+        return configuration
+    c, arm = configuration, configuration.arm
+    if arm is None:
+        if command.joint == 2 or command.kind in OF_ARM:
+            raise StateError(NO_ARM)
+        return c.changed(**list_changes(command, c.comparisons, is_bench))
+    if command.kind in OF_ARM:
+        return c.changed(arm=arm.changed(**{command.kind: command.argument}))
+    changes: dict[str, Any] = {}
+    if command.joint != 2:
+        changes = list_changes(command, c.comparisons)
+    if command.joint != 1:
+        second = arm.joint2
+        changes["arm"] = arm.changed(
+            joint2=second.changed(**list_changes(command, second.comparisons))
+        )
+    return c.changed(**changes)
 
 
 def list_changes(
@@ -164,12 +207,12 @@ def list_changes(
     """List the fields of a configuration that a command replaces, as `fold` does.
 
     Args:
-        command: Any.
-        comparisons: Those of the configuration before.
+        command: Any command.
+        comparisons: The comparisons of the configuration before.
         is_bench: As in `fold`.
 
     Returns:
-        The new values by the names of the fields.
+        The new values by name of the field.
 
     Raises:
         ParameterError: If there is no such lane.
@@ -188,11 +231,35 @@ def list_changes(
 
 
 def is_held(configuration: Configuration, command: Command) -> bool:
-    """Whether the configuration already has the values of a command; raises as `fold`.
+    """Return whether the configuration already has the values of a command; raises as `fold`.
 
-    Never of a load or a stop: each one is another.
+    Always false for a load or a stop, which can be repeated.
     """
     return isinstance(command, Set) and fold(configuration, command) == configuration
+
+
+def list_joint_commands(
+    configuration: Configuration,
+    build: Callable[[Configuration], Command],
+    joint: JointNumber | None,
+) -> list[Command]:
+    """List the commands that change joints in the same way.
+
+    Args:
+        configuration: The configuration before.
+        build: Builds the command from the configuration of a joint.
+        joint: Joint of an arm; None: both, or the single joint.
+
+    Returns:
+        One command for a single joint, otherwise one for each of these joints.
+
+    Raises:
+        ParameterError: If there is no such joint.
+    """
+    if configuration.arm is None:
+        return [build(configuration).of_joint(None if joint == 1 else joint)]
+    numbers = (1, 2) if joint is None else (joint,)
+    return [build(configuration.joints[number - 1]).of_joint(number) for number in numbers]
 
 
 def _replace_laws(laws: tuple[str, ...], comparisons: tuple[Lane, ...]) -> tuple[Lane, ...]:
@@ -214,23 +281,35 @@ def _replace_lane(setting: LaneSetting, comparisons: tuple[Lane, ...]) -> tuple[
     return (*comparisons[:at], setting.setting, *comparisons[at + 1 :])
 
 
-def build_command(tick: int, kind: str, argument: Any) -> Command:
-    """A checked command; raises `ParameterError` for an unknown kind or a wrong argument."""
+def build_command(tick: int, kind: str, argument: Any, joint: JointNumber | None = None) -> Command:
+    """Build a validated command. joint: of an arm.
+
+    Raises:
+        ParameterError: If the kind is unknown or the argument is invalid.
+    """
     if not isinstance(kind, str) or kind not in COMMANDS:
         raise ParameterError(Violation("kind", kind, "", "one of " + ", ".join(COMMANDS)))
-    return _OTHERS.get(kind, Set)(tick=tick, kind=kind, argument=argument)
+    return _OTHERS.get(kind, Set)(tick=tick, kind=kind, argument=argument, joint=joint)
 
 
 def read_command(written: Any) -> Command:
-    """Read a command from its `to_json`; raises `ParameterError` for anything else."""
+    """Read a command from its `to_json`.
+
+    Raises:
+        ParameterError: If it is not a command.
+    """
     if not isinstance(written, dict):
         raise ParameterError(Violation("command", written, "", "an object with named fields"))
     given: dict[str, Any] = {"tick": None, "kind": None, "argument": None} | written
-    return build_command(given["tick"], given["kind"], given["argument"])
+    return build_command(given["tick"], given["kind"], given["argument"], given.get("joint"))
 
 
 def _read_value(field: str, given: Any) -> Any:
-    """The checked value of a settable field; raises `ParameterError` with the field's name."""
+    """Validate the value of a settable field.
+
+    Raises:
+        ParameterError: If it is invalid; the message contains the field.
+    """
     model = _VALUES[field]
     try:
         return model.model_validate({"argument": given}).argument  # pyright: ignore[reportAttributeAccessIssue]

@@ -1,23 +1,20 @@
-"""The configuration of a run: parameters, design, references and loads, with TOML files."""
+"""The configuration of a run: parameters, design, references, loads and arm."""
 
-from collections.abc import Callable
-from functools import cache
-from pathlib import Path
 from typing import Any, Self
 
-import tomli_w
 from pydantic import ValidationInfo, field_validator, model_validator
 
+from svsa.actuators.arm.parameters import ArmParameters
 from svsa.actuators.installed import InstalledActuator
 from svsa.actuators.parameters import Limits, get_mechanism_name
 from svsa.actuators.reach import check_only_stiffness
+from svsa.control.arm_payload import PayloadAdaptation
 from svsa.control.gains import Gains
 from svsa.control.installed import (
     PAPERS_LAW,
     LaneParameters,
     LawName,
     ParametersByLaw,
-    check_installed,
     get_law,
     has_own_parameters,
     is_usable,
@@ -26,16 +23,15 @@ from svsa.control.installed import (
 from svsa.control.observers.disturbance import ObserverBandwidth
 from svsa.control.parameters import LawParameters
 from svsa.errors import ParameterError, Violation
-from svsa.inputs.checked import Checked, Number, Whole, quantity
-from svsa.inputs.toml_file import parse_toml, read_toml
+from svsa.inputs.checked import Checked, Flag, Number, Whole, quantity
+from svsa.simulation.arm.tip_reference import TipReference
 from svsa.simulation.plant.effects import IDEAL, Effects
 from svsa.simulation.plant.loads import Load
+from svsa.simulation.plant.loads.load import MASS, TIP
 from svsa.simulation.reference.kinds import PositionReference, StiffnessReference, get_range
 
 MAX_LOADS = 16
-PARAMETER_FILE = "parameter file"
 MAX_LANES = 4
-PROTOTYPE_FILE = Path(__file__).parents[1] / "actuators" / "prototype.toml"
 
 
 class Sampling(Checked):
@@ -70,8 +66,13 @@ class Design(Checked):
         return self
 
     def find_parameters(self, lane: "Lane") -> LawParameters | None:
-        """Return the parameters that were set for a lane's law: the lane's or the design's;
-        None.
+        """Return the parameters that were set for a lane's law.
+
+        Args:
+            lane: A lane of a run with this design.
+
+        Returns:
+            The lane's parameters, otherwise those of the design, otherwise None.
         """
         if has_own_parameters(lane.law):
             return lane.parameters or self.parameters.get(lane.law)
@@ -80,7 +81,14 @@ class Design(Checked):
     def get_parameters(self, lane: "Lane") -> LawParameters:
         """Return the parameters of a lane's law: the lane's, the design's, or the defaults.
 
-        Raises `ParameterError` for a law that is not installed and not set either.
+        Args:
+            lane: A lane of a run with this design.
+
+        Returns:
+            The parameters.
+
+        Raises:
+            ParameterError: If the law is not installed and no parameters are set.
         """
         given = self.find_parameters(lane)
         return get_law(lane.law).parameters() if given is None else given
@@ -107,7 +115,14 @@ class Lane(Checked):
         return given if given is None or law is None else read_parameters(law, given)
 
     def controlled_by(self, law: str) -> Self:
-        """Return the lane with another law: gains and observer are kept, parameters are not."""
+        """Return the lane with another law: gains and observer are kept, parameters are not.
+
+        Args:
+            law: Name of the law.
+
+        Returns:
+            The lane; itself if it already has this law.
+        """
         return self if law == self.law else self.changed(law=law, parameters=None)
 
 
@@ -116,6 +131,26 @@ class LaneSetting(Checked):
 
     lane: Whole = quantity("", "Number of the lane; 1 is the run's own", ge=2, le=MAX_LANES)
     setting: Lane
+
+
+class ArmSetup(Checked):
+    """The arm whose joint 1 the rest of the configuration describes: links and joint 2.
+
+    Each joint has its own actuator, nominal model, law, gains, observer, limits, effects,
+    references and torques. The arm's M(q) replaces the link inertia of its plant; its nominal link
+    inertia is what its law knows of the arm. Loads at the tip are those of joint 1.
+    """
+
+    links: ArmParameters = quantity("", "The links")
+    model: ArmParameters = quantity("", "The links as the feedforward knows them")
+    feedforward: Flag = quantity("", "Whether the laws get the arm feedforward", default=False)
+    adaptation: PayloadAdaptation | None = quantity(
+        "", "Estimate of the mass at the tip, for feedforward and nominal inertias", default=None
+    )
+    tip: TipReference | None = quantity(
+        "", "Reference of the tip, in place of the joints' position references", default=None
+    )
+    joint2: "Configuration"
 
 
 class Configuration(Design):
@@ -137,6 +172,9 @@ class Configuration(Design):
     loads: tuple[Load, ...] = quantity(
         "", "Loads from the start on", default=(), max_length=MAX_LOADS
     )
+    arm: ArmSetup | None = quantity(
+        "", "The arm of which this is joint 1; None for a single joint", default=None
+    )
 
     @model_validator(mode="after")
     def _check_stiffness_range(self) -> Self:
@@ -145,116 +183,124 @@ class Configuration(Design):
         self.limits.check_stiffness("stiffness", low, high)
         return self
 
+    @model_validator(mode="after")
+    def _check_arm(self) -> Self:
+        arm = self.arm
+        if arm is None:
+            if any(load.acts_as == TIP for load in self.loads):
+                raise ParameterError(Violation("loads", "at the tip", "", "loads on a joint"))
+            return self
+        if arm.tip is not None:
+            arm.tip.check_reach(arm.links)
+        second = arm.joint2
+        for name, joint in (("", self), ("arm.joint2", second)):
+            if wrong := _list_wrong(joint, arm, is_second=joint is second):
+                error = ParameterError(*wrong)
+                raise error.within(name) if name else error
+        if second.sampling != self.sampling:
+            bound = f"{self.sampling.period_s:g} s, as that of joint 1"
+            given = second.sampling.period_s
+            raise ParameterError(Violation("arm.joint2.sampling.period_s", given, "s", bound))
+        if len(second.comparisons) != len(self.comparisons):
+            bound = f"{len(self.comparisons)}, as for joint 1"
+            given = len(second.comparisons)
+            raise ParameterError(Violation("arm.joint2.comparisons", given, "", bound))
+        return self
+
     @property
-    def lanes(self) -> tuple[Lane, ...]:
-        """All lanes: the run's own controller and its comparisons."""
+    def joints(self) -> "tuple[Configuration, ...]":
+        """The configuration of each joint: itself, and joint 2 of an arm."""
+        return (self,) if self.arm is None else (self, self.arm.joint2)
+
+    @property
+    def controllers(self) -> tuple[Lane, ...]:
+        """The own controller of this joint, and its comparisons."""
         return (Lane(law=self.law), *self.comparisons)
 
+    @property
+    def lanes(self) -> tuple[Lane, ...]:
+        """All lanes: each controller, for an arm that of joint 1, then that of joint 2."""
+        controllers = zip(*(joint.controllers for joint in self.joints), strict=True)
+        return tuple(lane for lanes in controllers for lane in lanes)
+
+    @property
+    def planned_loads(self) -> tuple[Load, ...]:
+        """The loads from the start on, of every joint."""
+        return tuple(load for joint in self.joints for load in joint.loads)
+
+    def require_arm(self) -> ArmSetup:
+        """Return the arm.
+
+        Returns:
+            Links, joint 2, and what acts on both joints.
+
+        Raises:
+            ParameterError: If the run is one of a single joint.
+        """
+        if self.arm is None:
+            raise ParameterError(Violation("arm", None, "", "an arm: this is a single joint"))
+        return self.arm
+
+    def with_loads_of(self, other: Self) -> Self:
+        """Return the configuration with the planned loads of another one, joint by joint.
+
+        Args:
+            other: Configuration of the loads, of an arm if this is one.
+
+        Returns:
+            The changed configuration.
+        """
+        if self.arm is None or other.arm is None:
+            return self.changed(loads=other.loads)
+        second = self.arm.joint2.changed(loads=other.arm.joint2.loads)
+        return self.changed(loads=other.loads, arm=self.arm.changed(joint2=second))
+
     def list_parameters(self) -> dict[str, LawParameters]:
-        """List the parameters by law: those that were set, and those of the lanes' laws."""
-        laws = dict.fromkeys((*(lane.law for lane in self.lanes), *self.parameters))
+        """List the parameters that were set, and those of the lanes' laws.
+
+        Returns:
+            The parameters by law.
+        """
+        laws = dict.fromkeys((*(lane.law for lane in self.controllers), *self.parameters))
         own = (law for law in laws if is_usable(law) and has_own_parameters(law))
         return {law: self.get_parameters(Lane(law=law)) for law in own}
 
     def with_design(self, design: Design) -> Self:
-        """Return the configuration with another design; unnamed laws keep their parameters."""
+        """Return the configuration with another design; unnamed laws keep their parameters.
+
+        Args:
+            design: Gains, observer, limits, models and parameters.
+
+        Returns:
+            The changed configuration.
+        """
         parameters = {**self.parameters, **design.parameters}
         return self.changed(**(dict(design) | {"parameters": parameters}))
 
 
-def read_design(path: Path | str) -> Design:
-    """Read a parameter file in the format of `prototype.toml`; a value may be a plain number.
-
-    The parameters of a law are in its own table, such as `[parameters.fl_integral]`.
-
-    Args:
-        path: The file, TOML.
-
-    Returns:
-        Actuator, nominal model, limits, gains, observer and parameters of laws, in SI units.
-
-    Raises:
-        ParameterError: For a file that cannot be read, and for every wrong value, with the name of
-            the file.
-    """
-    return _build_design(read_toml(path, PARAMETER_FILE), str(path))
-
-
-def parse_design(text: str, name: str = "") -> Design:
-    """The design in the text of a parameter file called `name`; raises `ParameterError`."""
-    return _build_design(parse_toml(text, PARAMETER_FILE, name), name)
-
-
-def _build_design(sections: dict[str, Any], file: str) -> Design:
-    plain = {name: _strip_sources(section) for name, section in sections.items()}
-    laws = plain.get("parameters", {})
-    if isinstance(laws, dict):
-        plain["parameters"] = {law: _strip_sources(table) for law, table in laws.items()}
-    try:
-        design = Design(**plain)
-        for law in design.parameters:
-            _check_law(law)
-    except ParameterError as error:
-        raise ParameterError(*error.violations, file=file) from None
-    return design
+def _list_wrong(joint: Configuration, arm: ArmSetup, is_second: bool) -> list[Violation]:
+    """List what a joint of an arm cannot have."""
+    found: list[Violation] = []
+    if is_second and joint.arm is not None:
+        found.append(Violation("arm", "an arm", "", "None: an arm has two joints"))
+    if len(joint.comparisons) > MAX_LANES // 2 - 1:
+        bound = f"at most {MAX_LANES // 2 - 1} comparison of an arm"
+        found.append(Violation("comparisons", len(joint.comparisons), "", bound))
+    if joint.effects.gravity is not None:
+        bound = "None: the weight of the links is in the parameters of the arm"
+        found.append(Violation("effects.gravity", joint.effects.gravity, "", bound))
+    for load in joint.loads:
+        if load.acts_as == MASS or (is_second and load.acts_as == TIP):
+            bound = "torques; a mass hangs at the tip (tip_mass), which is a load of joint 1"
+            found.append(Violation("loads", load.kind, "", bound))
+    for lane in joint.controllers if arm.feedforward else ():
+        if is_usable(lane.law) and not get_law(lane.law).takes_feedforward:
+            bound = (
+                "a law that takes the arm feedforward: this one estimates the whole disturbance,"
+                " and the feedforward would count twice, or it does not use q̈_d"
+            )
+            found.append(Violation("law", lane.law, "", bound))
+    return found
 
 
-def _check_law(law: str) -> None:
-    try:
-        check_installed(law)
-    except ParameterError as error:
-        raise error.within("parameters") from None
-
-
-def write_design(path: Path | str, design: Design, source: str) -> None:
-    """Write a parameter file. Every value has the same source.
-
-    Args:
-        path: The file to write.
-        design: Actuator, nominal model, limits, gains, observer and parameters of laws.
-        source: Where the values come from, as text.
-
-    Raises:
-        OSError: If the file cannot be written.
-    """
-    Path(path).write_text(format_design(design, lambda _: source), encoding="utf-8")
-
-
-def format_design(design: Design, describe_source: Callable[[str], str]) -> str:
-    """The text of a parameter file. describe_source: what stands as the source of a section's
-    values, of a name as "gains" or "parameters.esp".
-    """
-    sections = design.model_dump(mode="json")
-    laws = {
-        law: _add_source(table, describe_source(f"parameters.{law}"))
-        for law, table in sections.pop("parameters").items()
-    }
-    written = {name: _add_source(table, describe_source(name)) for name, table in sections.items()}
-    return tomli_w.dumps(written | ({"parameters": laws} if laws else {}))
-
-
-@cache
-def load_prototype() -> Design:
-    """Read the parameters of the paper's prototype, `svsa/actuators/prototype.toml`, once.
-
-    Returns:
-        The paper's actuator, nominal model and limits, and the lab's gains and observer.
-
-    Raises:
-        ParameterError: If the file of the package was changed to a wrong value.
-    """
-    return read_design(PROTOTYPE_FILE)
-
-
-def _add_source(section: dict[str, Any], source: str) -> dict[str, Any]:
-    return {key: {"value": value, "source": source} for key, value in section.items()}
-
-
-def _strip_sources(section: Any) -> Any:
-    if not isinstance(section, dict):
-        return section
-    plain = {
-        key: entry["value"] if isinstance(entry, dict) and "value" in entry else entry
-        for key, entry in section.items()
-    }
-    return {key: tuple(value) if isinstance(value, list) else value for key, value in plain.items()}
+ArmSetup.model_rebuild()

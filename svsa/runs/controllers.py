@@ -10,13 +10,18 @@ from svsa.control.parameters import LawParameters, UnreadParameters
 from svsa.runs.configuration import Configuration, Lane
 
 BENCH_LANES = ("Bench", "Twin")
+JOINTS = ("Joint 1", "Joint 2")
 
 
 class Controller(NamedTuple):
     """The identity and the name of a curve.
 
-    place: "Bench" or "Twin" on a bench, else "". observer: None where the law does not act on
-    it. copy: 1, and more for a lane with the same controller as another one.
+    Attributes:
+        place: "Bench" or "Twin" on a bench, "Joint 1" or "Joint 2" of an arm, otherwise "".
+        law: Name of the law.
+        parameters: Parameters of the law.
+        observer: Observer; None if the law does not use it.
+        copy: 1, or a higher number for another lane with the same controller.
     """
 
     place: str
@@ -29,11 +34,16 @@ class Controller(NamedTuple):
 def list_controllers(
     configuration: Configuration, is_bench: bool, before: Sequence[Controller | None] = ()
 ) -> list[Controller]:
-    """List the controllers of all lanes. before: former controllers, which keep their numbers."""
-    places = (*BENCH_LANES, *[""] * len(configuration.lanes)) if is_bench else None
+    """List the controllers of all lanes; former controllers in `before` keep their numbers."""
+    lanes, joints = configuration.lanes, configuration.joints
+    places = [""] * len(lanes)
+    if is_bench:
+        places = [*BENCH_LANES, *places]
+    elif len(joints) > 1:
+        places = [*JOINTS] * len(lanes)
     alone = [
-        _build(configuration, lane, places[number] if places else "")
-        for number, lane in enumerate(configuration.lanes)
+        _build(joints[number % len(joints)], lane, places[number])
+        for number, lane in enumerate(lanes)
     ]
     counts, taken, found = Counter(alone), set[Controller](), dict[int, Controller]()
     kept = dict(enumerate(before))
@@ -46,6 +56,11 @@ def list_controllers(
         taken.add(controller)
         found[number] = controller
     return [found[number] for number in range(len(alone))]
+
+
+def is_shown_together(one: Controller, other: Controller) -> bool:
+    """Whether two controllers are in one plot: all but those of different joints."""
+    return one.place == other.place or one.place not in JOINTS
 
 
 def name_controllers(controllers: Iterable[Controller]) -> dict[Controller, str]:

@@ -1,6 +1,6 @@
 """Events of a run, live or recorded, as text."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from svsa.actuators.faults import label_fault
@@ -30,17 +30,29 @@ def list_events(
 ) -> list[Event]:
     """List the events of a run with these commands, in order of time.
 
-    A load that comes and goes is one event each, whether it was planned or commanded; one that
-    never ends has an end at no tick of the run. fault: what the run ended in, or None. reported:
-    what a bench said of itself meanwhile.
+    Onset and end of a load are one event each, whether it was planned or commanded; a load without
+    an end has its end at no tick of the run.
+
+    Args:
+        configuration: Configuration at tick 0.
+        commands: Commands of the run.
+        fault: Fault at the end of the run, or None.
+        reported: Events that a bench reported.
+
+    Returns:
+        The events.
     """
-    commands, law = list(commands), configuration.law
+    commands, laws = list(commands), list_laws(configuration)
     found: list[tuple[float, str, str]] = []
     for command in commands:
         if not isinstance(command, ApplyLoad | RemoveLoad):
-            found.append((command.tick, command.kind, describe_change(command, law)))
-            law = find_law(command) or law
-    for _, load, start, end in list_loads(configuration, commands):
+            found.append((command.tick, command.kind, describe_change(command, laws)))
+            if (law := find_law(command)) is not None:
+                laws = [
+                    law if command.joint in (None, number) else held
+                    for number, held in enumerate(laws, start=1)
+                ]
+    for _, load, start, end, _ in list_loads(configuration, commands):
         if start < end:
             found.append((start, "load_on", describe_onset(load)))
             found.append((end, "load_off", describe_end(load)))
@@ -63,11 +75,19 @@ def find_law(command: Command) -> LawName | None:
     return None
 
 
-def describe_change(command: Command, law: LawName) -> str:
-    """Describe a change in a few words; law: previous law of the first lane."""
+def list_laws(configuration: Configuration) -> list[LawName]:
+    """List the law of the first lane of each joint."""
+    return [joint.law for joint in configuration.joints]
+
+
+def describe_change(command: Command, laws: Sequence[LawName]) -> str:
+    """Describe a change in a few words; `laws` are the previous ones, see `list_laws`."""
+    if command.joint is not None:
+        alone = describe_change(command.of_joint(None), laws[command.joint - 1 :])
+        return f"Joint {command.joint}: {alone}"
     given = find_law(command)
-    if given is not None and given != law:
-        return f"{get_title(law)} → {get_title(given)}"
+    if given is not None and given != laws[0]:
+        return f"{get_title(laws[0])} → {get_title(given)}"
     match command:
         case Set(kind="lane", argument=argument):
             return f"{get_title(argument.setting.law)} set"

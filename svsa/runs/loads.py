@@ -9,16 +9,27 @@ Loads = tuple[ScheduledLoad, ...]
 
 
 def give_load(
-    loads: Loads, number: int, load: Load, tick: int, period: float
+    loads: Loads, number: int, load: Load, tick: int, period: float, joint: int = 1
 ) -> tuple[ScheduledLoad, Loads]:
     """Add a load at a tick; return it with its absolute times, and all loads.
 
-    number: the one that it gets. A push sent while one is on changes that one instead. period: s.
+    A push while another one is active changes that one instead.
+
+    Args:
+        loads: The loads by number.
+        number: Number for the new load.
+        load: The load.
+        tick: Present tick.
+        period: T, s.
+        joint: Joint of an arm on which it acts.
+
+    Returns:
+        The load, and all loads.
     """
     held = continue_push(loads, load, tick, period)
     if held is not None:
         return held, tuple(held if one.number == held.number else one for one in loads)
-    scheduled = schedule_load(number, load, tick, period)
+    scheduled = schedule_load(number, load, tick, period)._replace(joint=joint)
     return scheduled, (*loads, scheduled)
 
 
@@ -27,8 +38,16 @@ def follow_loads(
 ) -> Loads:
     """List every load of a run, with its first and last tick.
 
-    planned: those of its configuration. changes: tick, and the load applied or the number of
-    the one removed. A push that was sent again is one load, as it was sent last.
+    A push that was sent again is one load with its last values. Times do not depend on the joint of
+    an arm: it is not followed, and `joint` of each load is 1.
+
+    Args:
+        planned: Loads of the configuration.
+        changes: Tick, and the load applied or the number of the load removed.
+        period: T, s.
+
+    Returns:
+        The loads.
     """
     loads: Loads = ()
     number = 0

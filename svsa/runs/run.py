@@ -1,31 +1,30 @@
 """A run: a configuration, its present state, and the changes so far."""
 
-import math
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from svsa.actuators.domain import INSIDE, build_domain
+from svsa.actuators.domain import INSIDE
 from svsa.actuators.dynamics import build_actuator
 from svsa.actuators.elasticity import compute_coordinate, compute_stiffness_of
-from svsa.actuators.reach import check_reach
 from svsa.actuators.signals import State
-from svsa.control.installed import check_installed, get_law
-from svsa.errors import Fault, ParameterError, StateError
+from svsa.control.installed import get_law
+from svsa.errors import Fault, ParameterError, StateError, Violation
 from svsa.runs.blocks import Bind, Connection, bind_law, compute_start_ratio, connect_lane
-from svsa.runs.command import ApplyLoad, Command, RemoveLoad, Set, fold
-from svsa.runs.configuration import MAX_LOADS, Configuration, Lane
+from svsa.runs.command import NO_ARM, ApplyLoad, Command, RemoveLoad, Set, fold
+from svsa.runs.configuration import MAX_LOADS, Configuration
 from svsa.runs.fault import build_fault
+from svsa.runs.lane_origins import find_lane_origins
 from svsa.runs.loads import Loads, give_load
+from svsa.runs.run_checks import check_joint_laws, check_lasting_loads
 from svsa.simulation.loop.lane import AT_REST, Inputs, LaneState, build_lane_state
 from svsa.simulation.loop.loop import advance
 from svsa.simulation.loop.slices import advance_in_slices
 from svsa.simulation.loop.stepwise import Controller, advance_stepwise
 from svsa.simulation.plant.load_table import ScheduledLoad, build_load_table
 from svsa.simulation.plant.loads import Load
-from svsa.simulation.plant.loads.load import TORQUE, W2, D
-from svsa.simulation.reference.kinds import get_range
+from svsa.simulation.plant.loads.load import TIP
 from svsa.simulation.reference.kinds.constant import ConstantPosition, ConstantStiffness
 from svsa.simulation.reference.transition import Stack, build_stack, push_trajectory
 
@@ -33,21 +32,47 @@ from svsa.simulation.reference.transition import Stack, build_stack, push_trajec
 class Start(NamedTuple):
     """The start of a run from a measured state of the actuator.
 
-    mu0: lever ratio at θ2 = 0, a fact of how the actuator was assembled. x: `State` at t = 0.
+    Attributes:
+        mu0: Lever ratio at θ2 = 0, which depends on the assembly of the actuator, 1.
+        x: `State` at t = 0.
     """
 
     mu0: float
     x: State
 
 
-class Run:
-    """A simulated run from t = 0, tick by tick, in one to four lanes.
+class Reached(NamedTuple):
+    """What an advance of one plant reached.
 
-    `configuration` is the present one; a change takes effect at the next tick. The run
-    starts at x = 0 with the μ0 that makes σ(0) = σ_d(0); with a `start`, from there, and the
-    references fade in from q and σ as they are. steps: Runge–Kutta steps a period.
-    controller: one's own in plain Python, in place of the first lane's law. bind: binds the law of
-    a lane. `blocks`, `laws` (one a lane) and `inputs` are what the compiled loop is given.
+    Attributes:
+        lanes: `LaneState` of each joint.
+        coupled: What else the plant carries; None for a single joint.
+        ticks: Ticks done.
+        codes: Of each joint; other than `INSIDE` says why the run ends.
+    """
+
+    lanes: tuple[LaneState, ...]
+    coupled: Any
+    ticks: int
+    codes: tuple[int, ...]
+
+
+class Run:
+    """A simulated run of a single joint from t = 0, tick by tick, in one to four lanes.
+
+    `svsa.runs.arm.run.build_run` builds that of any configuration.
+
+    `configuration` is the present one; a change takes effect at the next tick. The run starts at x
+    = 0 with the μ0 for which σ(0) = σ_d(0); with `start` it starts there, and the references blend
+    in from the present q and σ. `blocks`, `laws` (one per lane) and `inputs` are the arguments of
+    the compiled loop.
+
+    Args:
+        configuration: Configuration at tick 0.
+        steps: Runge–Kutta steps per period.
+        controller: A controller in plain Python instead of the first lane's law.
+        bind: Binds the law of a lane.
+        start: Measured initial state.
     """
 
     is_bench = False
@@ -61,8 +86,9 @@ class Run:
         start: Start | None = None,
         bind: Bind = bind_law,
     ) -> None:
-        check_laws(configuration)
-        check_lasting_loads(configuration)
+        check_joint_laws(configuration)
+        for joint in configuration.joints:
+            check_lasting_loads(joint)
         self.configuration = configuration
         self.steps = steps
         self._bind = bind
@@ -72,22 +98,37 @@ class Run:
         self._load_count = 0
         self.loads: Loads = ()
         self._connections: list[Connection] = []
+        joints = configuration.joints
         if start is None:
-            self.mu0 = compute_start_ratio(configuration)
+            self._ratios = [compute_start_ratio(joint) for joint in joints]
             x = AT_REST
-            self._position = build_stack(configuration.position)
-            self._stiffness = build_stack(configuration.stiffness)
+            self._positions = [build_stack(joint.position) for joint in joints]
+            self._stiffnesses = [build_stack(joint.stiffness) for joint in joints]
         else:
-            self.mu0 = start.mu0
+            self._ratios = [start.mu0]
             x = start.x
-            self._position, self._stiffness = _build_stacks(configuration, start)
+            position, stiffness = _build_stacks(configuration, start)
+            self._positions, self._stiffnesses = [position], [stiffness]
         self.lanes = [
             build_lane_state(get_law(lane.law).start_memory(), x) for lane in configuration.lanes
         ]
-        for load in configuration.loads:
-            self._schedule(load)
+        for number, joint in enumerate(joints, start=1):
+            for load in joint.loads:
+                self._schedule(load, number)
         self._connect(configuration, [None] * len(configuration.lanes))
         self._renew_inputs()
+        self._begin()
+
+    def _begin(self) -> None:
+        """Check that it is of a single joint."""
+        if self.configuration.arm is not None:
+            bound = "None: this is computed for a single joint"
+            raise ParameterError(Violation("arm", "an arm", "", bound))
+
+    @property
+    def mu0(self) -> float:
+        """Lever ratio at θ2 = 0 of the first joint."""
+        return self._ratios[0]
 
     @property
     def period_s(self) -> float:
@@ -102,28 +143,34 @@ class Run:
     def advance(self, samples: np.ndarray) -> int:
         """Advance as many ticks as `samples` (lanes, ticks, channels) has; return the number done.
 
-        Fewer than asked means that the run has ended: `fault` says why. All lanes end with
-        the first of them that leaves the domain of the model.
+        A smaller number means that the run has ended: `fault` contains the reason. All lanes end
+        with the first of them that leaves the domain of the model.
         """
         if self.fault is not None:
             return 0
-        done, reached = samples.shape[1], list(self.lanes)
-        ticks = [0] * len(self.lanes)
-        for number in reversed(range(len(self.lanes))):
-            rows = samples[number, :done]
-            reached[number], ticks[number], code = self._advance_lane(number, rows)
-            if code != INSIDE:
-                done, x = ticks[number], reached[number].x
-                name = self._name_lane(number)
-                self.fault = build_fault(
-                    code, number, self.tick + done, self.blocks[number], x, name
-                )
-        for number in range(len(self.lanes)):
-            if ticks[number] > done:
-                reached[number], _, _ = self._advance_lane(number, samples[number, :done])
-        self.lanes = reached
+        width, done = len(self.configuration.joints), samples.shape[1]
+        reached: dict[int, Reached] = {}
+        for plant in reversed(range(len(self.lanes) // width)):
+            first = plant * width
+            rows = samples[first : first + width, :done]
+            reached[plant] = one = self._advance_plant(plant, rows)
+            for lane, code in enumerate(one.codes, start=first):
+                if code != INSIDE and one.ticks < done:
+                    done, x = one.ticks, one.lanes[lane - first].x
+                    name, tick = self._name_lane(lane), self.tick + one.ticks
+                    self.fault = build_fault(code, lane, tick, self.blocks[lane], x, name)
+        for plant, one in reached.items():
+            if one.ticks > done:
+                first = plant * width
+                rows = samples[first : first + width, :done]
+                reached[plant] = self._advance_plant(plant, rows)
+        self._keep([reached[plant] for plant in sorted(reached)])
         self.tick += done
         return done
+
+    def _keep(self, reached: list[Reached]) -> None:
+        """Take over what the plants reached."""
+        self.lanes = [lane for one in reached for lane in one.lanes]
 
     def _name_lane(self, number: int) -> str:
         """Name a lane's law, with a number if another has the same; "" for a single lane."""
@@ -133,10 +180,14 @@ class Run:
         law = laws[number]
         return f"{law} ({number + 1})" if laws.count(law) > 1 else law
 
-    def _advance_lane(self, number: int, rows: np.ndarray) -> tuple[LaneState, int, int]:
-        """Advance one lane from the present tick on; the first lane is last, so that it is
-        called once.
+    def _advance_plant(self, number: int, rows: np.ndarray) -> Reached:
+        """Advance one plant from the present tick on; the first one is last, so that it is called
+        once. rows: (joints, ticks, channels), written.
         """
+        lane, ticks, code = self._advance_lane(number, rows[0])
+        return Reached((lane,), None, ticks, (code,))
+
+    def _advance_lane(self, number: int, rows: np.ndarray) -> tuple[LaneState, int, int]:
         blocks, inputs, law = self.blocks[number], self.inputs, self.laws[number]
         own = None if number else self._controller
         kind = law.function if own is None else "own", blocks.steps
@@ -151,22 +202,23 @@ class Run:
     def change(self, command: Command) -> ScheduledLoad | None:
         """Apply a command now, whatever its tick; if rejected, nothing changes.
 
+        A reference is blended. A new law starts with its initial memory, the same law keeps its
+        memory, and the plant of its lane keeps its state; μ0 stays with another plant. An existing
+        comparison continues; a new one starts with the state of the first lane.
+
         Args:
-            command: A reference is faded over. A law that comes remembers nothing, the same law
-                remembers, and the plant of its lane stays as it is; μ0, a fact of how the actuator
-                was assembled, stays with another plant. A comparison that ran before goes on, a
-                new one begins where the first lane is.
+            command: The command.
 
         Returns:
-            The load that a command is about, else None.
+            The load of the command, otherwise None.
 
         Raises:
-            ParameterError: If the run cannot have the value.
-            StateError: If too many loads or references are on, or there is no such load.
+            ParameterError: If the value is invalid for the run.
+            StateError: If too many loads or references are active, or there is no such load.
         """
         match command:
             case ApplyLoad():
-                return self.add_load(command.argument)
+                return self.add_load(command.argument, command.joint or 1)
             case RemoveLoad():
                 return self.remove_load(command.argument)
             case Set():
@@ -176,46 +228,74 @@ class Run:
     def _set(self, command: Set) -> None:
         before, after = self.configuration, fold(self.configuration, command, self.is_bench)
         match command.kind:
-            case "position":
-                self._position = push_trajectory(self._position, after.position, self.time_s)
-                self._renew_inputs()
-            case "stiffness":
-                self._stiffness = push_trajectory(self._stiffness, after.stiffness, self.time_s)
-                self._renew_inputs()
+            case "position" | "stiffness" as kind:
+                self._push(kind, after, command.joint)
             case kind:
-                check_laws(after)
+                check_joint_laws(after)
                 origins: Sequence[int | None] = range(len(before.lanes))
                 if kind == "comparisons":
-                    origins = find_origins(before.comparisons, after.comparisons)
+                    origins = find_lane_origins(before, after)
                 self._connect(after, origins)
+                width = len(after.joints)
+                begun = [at % width if one is None else one for at, one in enumerate(origins)]
                 self.lanes = [
-                    _follow_law(self.lanes[origin or 0], before.lanes[origin or 0].law, lane.law)
-                    for origin, lane in zip(origins, after.lanes, strict=True)
+                    _follow_law(self.lanes[begin], before.lanes[begin].law, lane.law)
+                    for begin, lane in zip(begun, after.lanes, strict=True)
                 ]
+                self._rearrange(after, origins)
         self.configuration = after
 
-    def add_load(self, load: Load) -> ScheduledLoad:
-        """Apply a load now or at its `start_s`; raises `StateError` if there are too many.
+    def _push(self, kind: str, after: Configuration, joint: int | None) -> None:
+        """Blend in a reference of one joint, or of each."""
+        for number, one in enumerate(after.joints):
+            if joint in (None, number + 1):
+                if kind == "position":
+                    stack = push_trajectory(self._positions[number], one.position, self.time_s)
+                    self._positions[number] = stack
+                else:
+                    stack = push_trajectory(self._stiffnesses[number], one.stiffness, self.time_s)
+                    self._stiffnesses[number] = stack
+        self._renew_inputs()
 
-        A push sent while one is on changes that one, which is returned. Each command counts,
+    def _rearrange(self, after: Configuration, origins: Sequence[int | None]) -> None:
+        """Give what the plants carry next to their lanes to the plants that continue them."""
+
+    def add_load(self, load: Load, joint: int = 1) -> ScheduledLoad:
+        """Apply a load now or at its `start_s`, to the first joint or to joint 2 of an arm.
+
+        A push while another one is active changes that one, which is returned. Each command counts,
         so that a load's number is that of its command.
+
+        Raises:
+            ParameterError: If the load is not one for this run.
+            StateError: If there are too many loads.
         """
-        scheduled = self._schedule(load)
+        self._check_load(load, joint)
+        scheduled = self._schedule(load, joint)
         self._renew_inputs()
         return scheduled
 
-    def _schedule(self, load: Load) -> ScheduledLoad:
+    def _check_load(self, load: Load, joint: int) -> None:
+        if load.acts_as == TIP or joint != 1:
+            raise StateError(NO_ARM)
+
+    def _schedule(self, load: Load, joint: int) -> ScheduledLoad:
         """`add_load` without the table that the loop reads."""
         lasting = tuple(kept for kept in self.loads if kept.end_tick >= self.tick)
-        given, loads = give_load(lasting, self._load_count + 1, load, self.tick, self.period_s)
+        number = self._load_count + 1
+        given, loads = give_load(lasting, number, load, self.tick, self.period_s, joint)
         if len(loads) > MAX_LOADS:
             raise StateError(f"{MAX_LOADS} loads are applied or planned: clear one first.")
-        self._load_count += 1
+        self._load_count = number
         self.loads = loads
         return given
 
     def remove_load(self, number: int) -> ScheduledLoad:
-        """Remove a load; raises `StateError` if there is none of that number."""
+        """Remove a load.
+
+        Raises:
+            StateError: If there is no load of that number.
+        """
         for load in self.loads:
             if load.number == number:
                 self.loads = tuple(kept for kept in self.loads if kept is not load)
@@ -227,53 +307,20 @@ class Run:
     def _connect(self, c: Configuration, origins: Sequence[int | None]) -> None:
         """Update the loop's constants for a configuration; if a law fails, nothing changes.
 
-        origins: of every lane the one that it continues.
+        `origins` contains for every lane the one that it continues.
         """
         held = [None if lane is None else self._connections[lane] for lane in origins]
+        joints = list(zip(c.joints, self._ratios, strict=True))
         self._connections = [
-            connect_lane(connection, c, lane, self.mu0, self.steps, self._bind)
-            for connection, lane in zip(held, c.lanes, strict=True)
+            connect_lane(connection, *joints[number % len(joints)], lane, self.steps, self._bind)
+            for number, (connection, lane) in enumerate(zip(held, c.lanes, strict=True))
         ]
         self.blocks = [one.blocks for one in self._connections]
         self.laws = [one.law for one in self._connections]
 
     def _renew_inputs(self) -> None:
-        self.inputs = Inputs(self._position, self._stiffness, build_load_table(self.loads))
-
-
-def find_origins(before: Sequence[Lane], after: Sequence[Lane]) -> list[int | None]:
-    """Return for each lane the number of the lane that it continues, from 0; None for a new one.
-
-    before, after: the comparisons of a run.
-    """
-    left: list[Lane | None] = [None, *before]
-    origins: list[int | None] = [0]
-    for comparison in after:
-        origin = left.index(comparison) if comparison in left else None
-        if origin is not None:
-            left[origin] = None
-        origins.append(origin)
-    return origins
-
-
-def check_laws(configuration: Configuration) -> None:
-    """Raise `ParameterError` if a lane's law is not installed."""
-    for number, lane in enumerate(configuration.lanes):
-        try:
-            check_installed(lane.law)
-        except ParameterError as error:
-            raise error.within(f"comparisons[{number - 1}].law" if number else "law") from None
-
-
-def check_lasting_loads(configuration: Configuration) -> None:
-    """Raise `ParameterError` for a stiffness that is impossible under the lasting loads."""
-    c, torque = configuration, 0.0
-    for load in c.loads:
-        if load.acts_as == TORQUE and load.factor is None and math.isinf(load.get_duration()):
-            row = np.zeros(D + 1)
-            load.fill(row)
-            torque += float(row[W2])
-    check_reach(c.actuator, build_domain(c.actuator, c.limits), torque, *get_range(c.stiffness))
+        table = build_load_table(self.loads)
+        self.inputs = Inputs(self._positions[0], self._stiffnesses[0], table)
 
 
 def _follow_law(lane: LaneState, before: str, law: str) -> LaneState:

@@ -7,7 +7,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from svsa.actuators.parameters import Limits
 from svsa.errors import ParameterError
-from svsa.runs.command import Set, Settable, list_changes
+from svsa.runs.command import OF_ARM, Set, Settable, list_changes
 from svsa.runs.configuration import Lane, Sampling
 from svsa.runs.loads import Loads, follow_loads
 from svsa.runs.records.header import RecordHeader
@@ -21,16 +21,22 @@ _FIXED: dict[str, TypeAdapter[Any]] = {
 }
 _LOAD: TypeAdapter[Load] = TypeAdapter(Load)
 _LOADS: TypeAdapter[tuple[Load, ...]] = TypeAdapter(tuple[Load, ...])
-SETTINGS = (*(name for name in get_args(Settable) if name not in _SEVERAL), *_FIXED)
+_SETTABLE = set(get_args(Settable)) - set(OF_ARM)
+SETTINGS = (
+    *(name for name in get_args(Settable) if name in _SETTABLE and name not in _SEVERAL),
+    *_FIXED,
+)
 
 
 @dataclass(frozen=True)
 class Acting:
-    """Settings by name in the configuration, each as (tick, value) in order of time.
+    """Settings and loads in effect during a record; those of joint 1 of an arm.
 
-    The first value is the one at the first sample. A value is None where this version cannot
-    read it. loads: those that were on during at least one sample, with the ticks at which they
-    came and went; None where they cannot be read.
+    Attributes:
+        settings: By name in the configuration, each as (tick, value) in order of time. The first
+            value is the one at the first sample. A value is None if this version cannot read it.
+        loads: Loads active during at least one sample, with the ticks of onset and end; None if
+            they cannot be read.
     """
 
     settings: dict[str, tuple[tuple[int, Any], ...]]
@@ -44,7 +50,7 @@ class Acting:
 def read_acting(header: RecordHeader, commands: Commands, first_tick: int, ticks: int) -> Acting:
     """Read settings and loads of the record of `ticks` samples from `first_tick` on.
 
-    A command at a sample's tick acts on that sample: one given after the last acted on none.
+    A command at a sample's tick affects that sample; a command after the last sample affects none.
     """
     end = first_tick + max(ticks, 1)
     held = {name: _read_setting(name, header.configuration.get(name)) for name in SETTINGS}
@@ -54,8 +60,8 @@ def read_acting(header: RecordHeader, commands: Commands, first_tick: int, ticks
             changes = _read_changes(command, held["comparisons"], header.plant != "simulated")
             held |= changes
             for name, value in changes.items():
-                # Commands before the first sample count as given at it: the last of them holds
-                # there.
+                # Commands before the first sample count as given at that sample; the last of them
+                # is valid there.
                 values[name][max(first_tick, tick)] = value
     return Acting(
         {name: _drop_repeated(list(found.items())) for name, found in values.items()},
@@ -68,7 +74,7 @@ def _read_changes(
 ) -> dict[str, Any]:
     """Return the changes of a command, as `fold` does; None if this version cannot read it."""
     kind = written.get("kind")
-    if not isinstance(kind, str) or kind not in get_args(Settable):
+    if not isinstance(kind, str) or kind not in _SETTABLE or written.get("joint") == 2:
         return {}
     try:
         return list_changes(Set(kind, written.get("argument")), comparisons or (), is_bench)
@@ -99,7 +105,9 @@ def _read(adapter: TypeAdapter[Any], written: Any) -> Any:
 
 
 def _find_loads(header: RecordHeader, commands: Commands, first: int, end: int) -> Loads | None:
-    planned = _read(_LOADS, header.configuration.get("loads") or ())
+    own, arm = header.configuration, header.configuration.get("arm")
+    second = arm.get("joint2", {}) if isinstance(arm, dict) else {}
+    planned = _read(_LOADS, [*(own.get("loads") or ()), *(second.get("loads") or ())])
     if planned is None:
         return None
     changes: list[tuple[int, Load | int]] = []

@@ -1,5 +1,6 @@
 """Settings that differ between recorded runs, with labels and units."""
 
+import json
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -8,6 +9,7 @@ from pydantic import BaseModel
 
 from svsa.control.gains import Gains
 from svsa.control.parameters import LawParameters
+from svsa.runs.command import OF_ARM
 from svsa.runs.records.acting import SETTINGS, Acting, read_acting
 from svsa.runs.records.reader import Record
 from svsa.runs.records.settings import NO_LOAD
@@ -37,6 +39,7 @@ _GROUPS = {
     "sampling": "Sampling",
 }
 _LOADS, _CHANGED, _RECORD = "Loads", "Changed while it was recorded", "Record"
+_ARM = "Arm"
 _ANGULAR = "rad/s"
 _SAME_POLE = 0.01
 
@@ -45,8 +48,11 @@ _SAME_POLE = 0.01
 class Difference:
     """A setting that differs between runs.
 
-    group, name: as people say it. unit: SI, of a value that is a number, else "". values: run
-    by run; None where a run has no such setting.
+    Attributes:
+        group: Group of settings, as text.
+        name: Name of the setting, as text.
+        unit: SI unit of a number, otherwise "".
+        values: One per run; None if a run has no such setting.
     """
 
     group: str
@@ -58,12 +64,12 @@ class Difference:
 def compare_settings(records: Sequence[Record]) -> tuple[Difference, ...]:
     """List the differences of these records by group; empty if all settings are equal.
 
-    Compared are the settings at the first sample of each, the loads that were on, and what was
-    changed in between, with times from the first sample on.
+    Compares the settings at the first sample of each, the active loads, and the changes during the
+    record, with times from the first sample on.
     """
     tables = [_list_rows(record) for record in records]
     keys = dict.fromkeys(key for table in tables for key in table)
-    order = [*dict.fromkeys(_GROUPS.values()), _LOADS, _CHANGED, _RECORD]
+    order = [*dict.fromkeys(_GROUPS.values()), _ARM, _LOADS, _CHANGED, _RECORD]
     found = [Difference(*key, tuple(table.get(key) for table in tables)) for key in keys]
     differing = [one for one in found if any(value != one.values[0] for value in one.values)]
     return tuple(sorted(differing, key=lambda one: order.index(one.group)))
@@ -84,9 +90,31 @@ def _list_rows(record: Record) -> Rows:
         if changes := acting.settings[setting][1:]:
             reported = [_describe_change(setting, value, tick, record) for tick, value in changes]
             rows[_CHANGED, _TITLES[setting], ""] = "; ".join(reported)
+    if header.is_arm:
+        for name, value in _flatten_arm(header.configuration["arm"], ""):
+            rows[_ARM, name, ""] = value
+        rows[_ARM, "Changes of joint 2 and of the arm", ""] = _list_arm_changes(record)
     rows[_RECORD, "Recorded on", ""] = header.plant
     rows[_RECORD, "Version of svsa", ""] = header.version
     return rows
+
+
+def _flatten_arm(written: Any, path: str) -> Iterator[tuple[str, str]]:
+    """List the fields of an arm, of any depth, by their names in the API."""
+    if isinstance(written, dict):
+        for name, value in written.items():
+            yield from _flatten_arm(value, f"{path}.{name}" if path else name)
+    else:
+        yield path, json.dumps(written, ensure_ascii=False)
+
+
+def _list_arm_changes(record: Record) -> str:
+    changes = [
+        f"{command['kind']} at {(tick - record.first_tick) * record.header.period_s:g} s"
+        for tick, command in record.commands
+        if command.get("joint") == 2 or command.get("kind") in OF_ARM
+    ]
+    return "; ".join(changes)
 
 
 def _flatten(setting: str, value: Any) -> Iterator[tuple[tuple[str, str], Value]]:
@@ -175,7 +203,7 @@ def _describe_loads(acting: Acting, record: Record) -> str:
 
 
 def _describe_change(setting: str, value: Any, tick: int, record: Record) -> str:
-    reported = UNKNOWN if value is None else _TELL[setting](value)
+    reported = UNKNOWN if value is None else _FORMATTERS[setting](value)
     return f"{reported} {_format_time(tick, record)}"
 
 
@@ -202,7 +230,7 @@ _TITLES = {
     "limits": "Limits",
     "sampling": "Sampling",
 }
-_TELL: dict[str, Callable[[Any], str]] = {
+_FORMATTERS: dict[str, Callable[[Any], str]] = {
     "position": describe_reference,
     "stiffness": describe_reference,
     "law": describe_law,

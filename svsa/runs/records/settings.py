@@ -1,14 +1,16 @@
 """Summary of a recorded run's settings: columns of the list of runs, and a name.
 
-Everything is said of the samples that were recorded and of nothing else: a law that was
-switched to before the first sample, or a load planned for after the last, is not named.
+The summary covers the recorded samples only: a law before the first sample, or a load planned for
+after the last, is not included.
 """
 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from svsa.runs.configuration import load_prototype
+from svsa.actuators.installed import get_mechanism, list_mechanism_names
+from svsa.actuators.parameters import SVSA
+from svsa.runs.design_file import load_prototype
 from svsa.runs.paper import LOAD_TIME_S, get_figure
 from svsa.runs.records.acting import Acting, read_acting
 from svsa.runs.records.header import RecordHeader
@@ -23,6 +25,7 @@ from svsa.runs.records.wording import (
     describe_reference,
     follow,
 )
+from svsa.runs.shorthand import read_mechanism
 from svsa.simulation.reference.paper import ON_BENCH, References, find_figure
 
 NO_LOAD = "no load"
@@ -42,17 +45,23 @@ _OWN = {
 
 @dataclass(frozen=True)
 class RunSettings:
-    """What a run was set to while it was recorded, as people say it; "" where it is not known.
+    """Settings of a run while it was recorded, as text; "" if unknown.
 
-    name: the settings joined, for a run without a name of its own. figure: key of the paper's
-    figure with its references at the first sample. figure_name: "Fig. 4A" of a run that is set as
-    the figure and has its load at its time, and no other; "Fig. 4A motion" of one with the
-    figure's references alone; "from Fig. 4A" of one that left them.
-    laws: lane by lane; law_kinds: every law that controlled a lane at some time. stiffness: σ_d,
-    N·m/rad; stiffness_nm_per_rad: its mean at the first sample. loads that were on; load_kinds:
-    their kinds, or "none". effects: non-ideal effects of the simulation, or the bench. own: what of
-    the design is not the paper's prototype with this lab's gains. An arrow stands between what came
-    after one another.
+    Values that followed one another are separated by an arrow.
+
+    Attributes:
+        name: The settings joined, for a run without a name.
+        figure: Key of the paper's figure with the references at the first sample.
+        figure_name: "Fig. 4A" if settings and load are those of the figure; "Fig. 4A motion" with
+            the references only; "from Fig. 4A" if they were changed.
+        laws: Laws of each lane.
+        law_kinds: Every law that controlled a lane at some time.
+        stiffness: σ_d, N·m/rad.
+        stiffness_nm_per_rad: Mean of σ_d at the first sample, N·m/rad.
+        load: Loads that were active.
+        load_kinds: Their kinds, or "none".
+        effects: Non-ideal effects of the simulation, or the bench.
+        own: Parts of the design that differ from the default one of the actuator.
     """
 
     name: str
@@ -74,23 +83,26 @@ def describe_settings(
 ) -> RunSettings:
     """Summarize the settings of the record of `ticks` samples from `first_tick` on.
 
-    Never raises: what this version cannot read is left out, and "?" where it was changed to that.
+    Never raises: settings that this version cannot read are left out, and changes to such settings
+    are shown as "?".
     """
     acting = read_acting(header, commands, first_tick, ticks)
     on_bench = header.plant != "simulated"
-    figure, is_held = _find_figure(acting, on_bench)
-    own = "" if on_bench else ", ".join(_find_own(acting))
+    is_arm = header.is_arm
+    figure, is_held = ("", False) if is_arm else _find_figure(acting, on_bench)
+    mechanism = _find_mechanism(header)
+    own = "" if on_bench or is_arm else ", ".join(_find_own(acting, mechanism))
     effects = _PLANTS.get(header.plant, "") or follow(
         map(describe_effects, acting.get_values("effects"))
     )
-    is_plain = not own and (on_bench or effects == IDEAL_NAME)
+    is_plain = mechanism == SVSA and not own and (on_bench or effects == IDEAL_NAME)
     is_whole = is_held and is_plain and _has_load_of(figure, acting, header.period_s)
     first = acting.get_values("stiffness")[0]
     settings = RunSettings(
         name="",
         figure=figure,
         figure_name=_name_figure(figure, is_held, is_whole),
-        motion=follow(map(describe_reference, acting.get_values("position"))),
+        motion=_describe_motion(acting, header),
         laws=_describe_laws(acting, header),
         law_kinds=_list_laws(acting),
         stiffness=follow(map(describe_reference, acting.get_values("stiffness"))),
@@ -100,7 +112,16 @@ def describe_settings(
         effects=effects,
         own=own,
     )
-    return replace(settings, name=_build_name(settings))
+    return replace(settings, name=_build_name(settings, _name_mechanism(mechanism)))
+
+
+def _describe_motion(acting: Acting, header: RecordHeader) -> str:
+    """Describe the position reference over time, of an arm that of joint 1 or of the tip."""
+    motion = follow(map(describe_reference, acting.get_values("position")))
+    if not header.is_arm:
+        return motion
+    tip = header.configuration["arm"].get("tip")
+    return f"arm, tip {tip.get('kind', UNKNOWN)}" if isinstance(tip, dict) else f"arm, {motion}"
 
 
 def _name_figure(figure: str, is_held: bool, is_whole: bool) -> str:
@@ -114,14 +135,27 @@ def _has_load_of(figure: str, acting: Acting, period_s: float) -> bool:
     """Whether the only load is the figure's, or a mass on a bench, from its time to the end."""
     if acting.loads is None or len(acting.loads) != 1:
         return False
-    [(_, load, start, end)] = acting.loads
+    [(_, load, start, end, _)] = acting.loads
     hung = get_figure(figure).hung
     is_same = load.changed(start_s=hung.start_s) == hung
     is_mass = figure in ON_BENCH.values() and load.kind == "mass"
     return (is_same or is_mass) and start == round(LOAD_TIME_S / period_s) and end == math.inf
 
 
-def _build_name(settings: RunSettings) -> str:
+def _find_mechanism(header: RecordHeader) -> str:
+    """The name of the recorded actuator, installed or not."""
+    written = header.configuration.get("actuator")
+    return str(written.get("mechanism", SVSA)) if isinstance(written, dict) else SVSA
+
+
+def _name_mechanism(name: str) -> str:
+    """The title of an actuator; none for the SVSA, which the settings are those of."""
+    if name == SVSA:
+        return ""
+    return get_mechanism(name).title if name in list_mechanism_names() else name
+
+
+def _build_name(settings: RunSettings, mechanism: str) -> str:
     parts = [
         settings.figure_name or settings.motion,
         settings.laws,
@@ -131,7 +165,7 @@ def _build_name(settings: RunSettings) -> str:
         f"own {settings.own}" if settings.own else "",
     ]
     name = _DOT.join(part for part in parts if part)
-    return name[:1].upper() + name[1:]
+    return f"{mechanism}{_DOT}{name}" if mechanism else name[:1].upper() + name[1:]
 
 
 def _find_figure(acting: Acting, on_bench: bool) -> tuple[str, bool]:
@@ -152,7 +186,8 @@ def _find_figure(acting: Acting, on_bench: bool) -> tuple[str, bool]:
 def _describe_laws(acting: Acting, header: RecordHeader) -> str:
     """Describe each lane with its laws over time; a bench's second lane is its twin."""
     every = [lanes or () for lanes in acting.get_values("comparisons")]
-    if any(1 + len(lanes) != len(header.lanes) for lanes in every):
+    width = 2 if header.is_arm else 1
+    if any(width * (1 + len(lanes)) != len(header.lanes) for lanes in every):
         every = [()]
     first = follow(
         UNKNOWN if law is None else describe_law(law) for law in acting.get_values("law")
@@ -193,13 +228,13 @@ def _list_load_kinds(acting: Acting) -> tuple[str, ...]:
     return tuple(kinds) or ("none",)
 
 
-def _find_own(acting: Acting) -> list[str]:
+def _find_own(acting: Acting, mechanism: str) -> list[str]:
     prototype = load_prototype()
+    plain = {name: getattr(prototype, name, {}) for name in _OWN}
+    if mechanism != SVSA and mechanism in list_mechanism_names():
+        plain |= read_mechanism(mechanism)
     return [
         title
         for name, title in _OWN.items()
-        if any(
-            value is not None and value != getattr(prototype, name, {})
-            for value in acting.get_values(name)
-        )
+        if any(value not in (None, plain[name]) for value in acting.get_values(name))
     ]

@@ -1,11 +1,13 @@
 """Recorded runs in scripts: list, open, simulate again, compare, export.
 
-Where a run is an argument, it is its id in this machine's catalogue, its folder, or a `Result`.
+A run is given by its id in this machine's catalogue, its folder, or a `Result`.
 """
 
 import warnings
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+
+import numpy as np
 
 from svsa.actuators.signals import CHANNEL_NAMES
 from svsa.errors import ParameterError
@@ -16,29 +18,30 @@ from svsa.runs.records.header import HEADER_FILE, RecordError, describe_newer
 from svsa.runs.records.reader import Record, open_record
 from svsa.runs.records.resimulation import Comparison, compare_with_simulation, read_origin
 from svsa.runs.records.verdict import Tolerance, Verdict, judge
+from svsa.runs.result.arm import ArmResult, build_arm_results
 from svsa.runs.result.channels import ChannelName
 from svsa.runs.result.result import Result, build_results
-from svsa.runs.result.saved import build_result_record
+from svsa.runs.result.saved import build_arm_result_record, build_result_record
 
 
 def list_runs(search: str = "", page: int = 1, page_size: int = 50) -> RunPage:
     """List the recorded runs of this machine, the newest first. `Catalogue` has more filters.
 
     Args:
-        search: Words that are in the id, name, session, tags or notes.
+        search: Words in the id, name, session, tags or notes.
         page: Number of the page, from 1.
-        page_size: Runs of a page.
+        page_size: Runs per page.
 
     Returns:
         The runs of the page, and the total number of runs found.
 
     Raises:
-        ParameterError: For a page or page size out of range.
+        ParameterError: If page or page size are out of range.
     """
     return Catalogue().list(search=search, page=page, page_size=page_size)
 
 
-def find_record(run: str | Path | Result) -> Record:
+def find_record(run: str | Path | Result | ArmResult) -> Record:
     """Find the record of a run.
 
     Args:
@@ -48,12 +51,14 @@ def find_record(run: str | Path | Result) -> Record:
         The record.
 
     Raises:
-        UnknownRunError: For an id that does not exist.
-        RecordError: For a record that cannot be read.
-        StateError: For a result that is one lane of a run, or has no samples.
+        UnknownRunError: If the id does not exist.
+        RecordError: If the record cannot be read.
+        StateError: If a result is one lane of a run, or has no samples.
     """
     if isinstance(run, Result):
         return build_result_record(run)
+    if isinstance(run, ArmResult):
+        return build_arm_result_record(run)
     folder = Path(run)
     if isinstance(run, Path) or (folder / HEADER_FILE).is_file():
         return open_record(folder)
@@ -65,8 +70,8 @@ def open_run(run: str | Path) -> Result:
 
     Its lanes are the `comparisons`. The samples are those of the record, bit for bit. Commands are
     those given while it was recorded or before. `fault` is None also for a record of a version that
-    did not write it. On a bench the true disturbance is unknown (NaN). Warns of a record of a newer
-    version.
+    did not write it. On a bench the true disturbance is unknown (NaN). Warns if a newer version
+    wrote the record.
 
     Args:
         run: Id of the run, or its folder.
@@ -75,12 +80,14 @@ def open_run(run: str | Path) -> Result:
         The run.
 
     Raises:
-        RecordError: For a record that cannot be read, has other channels, or has a configuration
-            that this version does not know.
-        UnknownRunError: For an id that does not exist.
+        RecordError: If the record cannot be read, has other channels, or has a configuration that
+            this version does not support.
+        UnknownRunError: If the id does not exist.
     """
     record = find_record(run)
     header = record.header
+    if header.is_arm:
+        raise RecordError(f"Run {header.run_id} is one of an arm: open it with svsa.open_arm_run.")
     if newer := describe_newer(header.version):
         warnings.warn(f"Run {header.run_id}: {newer}", stacklevel=2)
     if header.channel_names != CHANNEL_NAMES:
@@ -108,18 +115,49 @@ def open_run(run: str | Path) -> Result:
     )
 
 
-def resimulate(run: str | Path | Result) -> Comparison:
+def open_arm_run(run: str | Path) -> ArmResult:
+    """Read a recorded arm as the `ArmResult` that `svsa.simulate_arm` would have returned.
+
+    The samples are those of the record, bit for bit. The estimated payload is not recorded: NaN.
+
+    Args:
+        run: Id of the run, or its folder.
+
+    Returns:
+        The run; its comparison is the second arm.
+
+    Raises:
+        RecordError: For a record that cannot be read, has other channels, is not one of an arm, or
+            has a configuration that this version does not know.
+    """
+    record = find_record(run)
+    header = record.header
+    if not header.is_arm:
+        raise RecordError(f"Run {header.run_id} is not one of an arm: open it with svsa.open_run.")
+    if header.channel_names != CHANNEL_NAMES:
+        raise RecordError(f"Run {header.run_id} has other channels than this version of svsa.")
+    try:
+        configuration, commands = read_origin(record)
+    except ParameterError as error:
+        raise RecordError(f"Run {header.run_id} cannot be opened: {error}") from None
+    samples = record.samples.transpose(1, 0, 2)
+    unknown = np.full((len(samples) // 2, samples.shape[1]), np.nan)
+    known = record.fault, header.steps, tuple(commands)
+    return build_arm_results(configuration, samples, unknown, *known)
+
+
+def resimulate(run: str | Path | Result | ArmResult) -> Comparison:
     """Simulate a run again from its record alone, and compare every bit.
 
     Args:
-        run: Id or folder of a recorded run, or a result of `svsa.simulate`.
+        run: Id or folder of a recorded run, or a result of `svsa.simulate` or `svsa.simulate_arm`.
 
     Returns:
-        Whether every sample is identical, and the tick and channel of the first that is not.
+        Whether every sample is identical, and the tick and channel of the first one that is not.
 
     Raises:
-        RecordError: For a run of a bench, of a function as controller, or of more than one
-            integration step in a period.
+        RecordError: If the run is of a bench, of a function as controller, or has more than one
+            integration step per period.
     """
     return compare_with_simulation(find_record(run))
 
@@ -136,24 +174,24 @@ def compare_runs(
 ) -> Verdict:
     """Compare a run with another within tolerances, channel by channel and lane by lane.
 
-    A value a is compared with b, any value of the other run within `time_s` of that time:
-    |a − b| ≤ absolute + relative · |b|.
+    A value a is compared with b, any value of the other run within `time_s` of that time: |a − b| ≤
+    absolute + relative · |b|.
 
     Args:
-        run: The run that is judged.
-        other: The run that it should be.
+        run: The run.
+        other: The reference run.
         absolute: Tolerance in the unit of each channel.
-        relative: Tolerance as a share of the other run's value.
-        time_s: How much earlier or later a value may be, s.
-        channels: Only these; left out, all.
-        tolerances: Of single channels, in place of the three above.
+        relative: Tolerance as a share of the reference run's value.
+        time_s: Tolerance in time, s.
+        channels: Channels to compare; by default all.
+        tolerances: Tolerances of single channels, instead of the three above.
 
     Returns:
-        The verdict: `held`, and of every channel its worst moment.
+        The verdict: `held`, and the largest deviation of every channel.
 
     Raises:
         ParameterError: If a tolerance is negative or there is no such channel.
-        RecordError: If the runs have other lanes or periods, or nothing in common.
+        RecordError: If the runs differ in lanes or periods, or have no common time.
     """
     rest = Tolerance(absolute=absolute, relative=relative, time_s=time_s)
     given = dict(tolerances or {})
@@ -171,11 +209,11 @@ def export_run(run: str | Path | Result, kind: str, target: Path | str) -> None:
         target: File to write.
 
     Raises:
-        ParameterError: For another kind.
+        ParameterError: If the format is unknown.
         RecordError: If the run cannot be written.
     """
     from svsa.runs.records.export.formats import (
-        export,  # late: what the formats need takes a second
+        export,  # imported here: the packages of the formats take a second
     )
 
     export(find_record(run), kind, target)

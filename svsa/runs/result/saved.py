@@ -12,19 +12,20 @@ from svsa.runs.records.catalogue.runs import Catalogue
 from svsa.runs.records.header import build_header, is_run_id
 from svsa.runs.records.reader import Record, build_record
 from svsa.runs.records.writer import write_record
+from svsa.runs.result.arm import ArmResult
 from svsa.runs.result.result import Result
 
 SESSION = "script"
-"""What a record of a script has in place of the name of its session."""
+"""Name of the session in the record of a script."""
 
 
 def build_result_record(result: Result, **known: Any) -> Record:
     """Build the record of a result, in memory.
 
     Args:
-        result: A whole run. Its first lane's law is `OWN_LAW` in the record where a function
-            controlled it.
-        known: Fields of the header, as `name`, `tags` and `notes`.
+        result: A whole run. If a function controlled its first lane, the law is `OWN_LAW` in the
+            record.
+        **known: Fields of the header, such as `name`, `tags` and `notes`.
 
     Returns:
         The record, with commands, fault and the samples (ticks, lanes, channels) of every lane.
@@ -48,8 +49,32 @@ def build_result_record(result: Result, **known: Any) -> Record:
     return build_record(header, commands, first_tick, samples, result.fault)
 
 
+def build_arm_result_record(result: ArmResult, **known: Any) -> Record:
+    """Build the record of an arm's result, in memory.
+
+    Args:
+        result: A whole run.
+        known: Fields of the header, as `name`, `tags` and `notes`.
+
+    Returns:
+        The record, with two lanes for each arm.
+
+    Raises:
+        ParameterError: If a field of the header is out of range.
+        StateError: If the result has no samples.
+    """
+    if not result.samples.shape[1]:
+        raise StateError("This run has no samples: it ended before its first tick.")
+    arms = (result, *result.comparisons)
+    samples = np.concatenate([arm.samples for arm in arms]).transpose(1, 0, 2)
+    given = {"session": SESSION, "steps": result.steps}
+    header = build_header(result.configuration, samples.shape[1], **(given | known))
+    commands = [(command.tick, command.to_json()) for command in result.commands]
+    return build_record(header, commands, 0, samples, result.fault)
+
+
 def save_run(
-    result: Result,
+    result: Result | ArmResult,
     folder: Path | str | None = None,
     *,
     name: str = "",
@@ -59,15 +84,15 @@ def save_run(
     """Write a result as a record with bit-identical samples.
 
     Args:
-        result: What `simulate` returned, with its comparisons.
-        folder: A new folder; left out, one among the recorded runs of this machine, which a
-            lab of this machine lists.
-        name: What the run is called; left out, by its settings.
-        tags: Words to find it by.
+        result: Result of `simulate`, with its comparisons, or of `simulate_arm`.
+        folder: A new folder; by default one among the recorded runs of this machine, which a lab on
+            this machine lists.
+        name: Name of the run; by default its settings.
+        tags: Tags to find it by.
         notes: Any text.
 
     Returns:
-        The folder, which `open_run`, `resimulate`, `compare_runs` and `export_run` take; its name
+        The folder, which `open_run`, `resimulate`, `compare_runs` and `export_run` accept; its name
         is the run's id.
 
     Raises:
@@ -75,26 +100,33 @@ def save_run(
         RecordError: If the folder exists or cannot be written.
         StateError: If the result is one of several lanes of a run, or has no samples.
     """
-    known: dict[str, Any] = {"name": name or result.name, "tags": tuple(tags), "notes": notes}
+    called = name or ("" if isinstance(result, ArmResult) else result.name)
+    known: dict[str, Any] = {"name": called, "tags": tuple(tags), "notes": notes}
     if folder is None:
         catalogue = Catalogue()
         return catalogue.find_folder(record_result(result, catalogue, **known).id)
     folder = Path(folder)
     if is_run_id(folder.name):
         known["run_id"] = folder.name
-    _write(folder, build_result_record(result, **known))
+    _write(folder, _build_record(result, known))
     return folder
 
 
-def record_result(result: Result, catalogue: Catalogue, **known: Any) -> RunEntry:
-    """Add a result to a catalogue, where the lab shows it like any recorded run.
+def record_result(result: Result | ArmResult, catalogue: Catalogue, **known: Any) -> RunEntry:
+    """Add a result to a catalogue, so that the lab shows it like any recorded run.
 
-    known: as of `build_result_record`.
+    `known` are the fields of `build_result_record`.
     """
-    record = build_result_record(result, **known)
+    record = _build_record(result, known)
     _write(catalogue.folder / "runs" / record.header.run_id, record)
     catalogue.register(record.header)
     return catalogue.finish(record.header.run_id)
+
+
+def _build_record(result: Result | ArmResult, known: dict[str, Any]) -> Record:
+    if isinstance(result, ArmResult):
+        return build_arm_result_record(result, **known)
+    return build_result_record(result, **known)
 
 
 def _write(folder: Path, record: Record) -> None:

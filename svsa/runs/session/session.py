@@ -4,7 +4,7 @@ from collections.abc import Callable
 from typing import Literal, Protocol
 
 from svsa.errors import Fault
-from svsa.runs.command import Command, RemoveLoad
+from svsa.runs.command import Command, JointNumber, RemoveLoad
 from svsa.runs.configuration import Configuration
 from svsa.runs.records.header import PlantKind
 from svsa.runs.records.recorder import Recorder
@@ -21,8 +21,11 @@ Status = Literal["running", "paused", "fault"]
 class Session(Protocol):
     """A run with its journal. Not thread-safe.
 
-    `journal`: what is kept of the run. `watched`: set by its host, whether any client watches it.
-    `closed`: ended for good.
+    Attributes:
+        name: Name of the session.
+        journal: The run and its history.
+        watched: Whether any client watches it, set by its host.
+        closed: Whether it has ended for good.
     """
 
     name: str
@@ -69,7 +72,11 @@ class Session(Protocol):
         ...
 
     def start(self) -> None:
-        """Run; raises `StateError` if it is not allowed."""
+        """Start the run.
+
+        Raises:
+            StateError: If it is not allowed.
+        """
         ...
 
     def pause(self) -> None:
@@ -88,12 +95,16 @@ class Session(Protocol):
         """Quick stop from any thread."""
         ...
 
-    def hear_operator(self) -> None:
+    def note_operator_beat(self) -> None:
         """Note a message of the watching client, which holds the dead-man's switch."""
         ...
 
     def step(self, ticks: int) -> None:
-        """Run so many ticks at once; raises `StateError` unless paused."""
+        """Run this number of ticks at once.
+
+        Raises:
+            StateError: Unless the session is paused.
+        """
         ...
 
     def set_speed(self, factor: float) -> None:
@@ -111,8 +122,11 @@ class Session(Protocol):
     def change(self, command: Command) -> None:
         """Apply a command now, whatever its tick; if rejected, nothing changes.
 
-        A reference that is followed already begins again, faded over.
-        Raises `ParameterError` or `StateError` as the run does.
+        A reference that is already followed is restarted with a blend.
+
+        Raises:
+            ParameterError: If the value is invalid.
+            StateError: If the state of the run does not permit it.
         """
         ...
 
@@ -120,14 +134,28 @@ class Session(Protocol):
         """Apply a command unless nothing would change: then no transition, event or window."""
         ...
 
-    def patch(self, build: Callable[[Configuration], Command]) -> None:
-        """Apply `set` with the command that `build` derives from the present configuration."""
+    def patch(
+        self,
+        build: Callable[[Configuration], Command],
+        joint: JointNumber | None = None,
+        again: bool = False,
+    ) -> None:
+        """Apply `set` with the command that `build` derives from the present configuration.
+
+        Args:
+            build: Builds the command; for an arm it is called with each of these joints.
+            joint: Joint of an arm; None: both.
+            again: Apply it also if nothing would change.
+
+        Raises:
+            ParameterError: If the value is invalid for one of the joints; then none is changed.
+        """
         ...
 
     def prepare_recording(self) -> None:
         """Raise `StateError` if the session cannot be recorded.
 
-        Of a bench that stands its next run is recorded: the one that has ended is forgotten.
+        For a bench at rest the next run is recorded: the ended one is discarded.
         """
         ...
 
@@ -144,14 +172,14 @@ class Session(Protocol):
         ...
 
 
-def take_loads_off(session: Session) -> None:
+def remove_loads(session: Session) -> None:
     """Remove all loads."""
     for load in session.run.loads:
         session.change(RemoveLoad(argument=load.number))
 
 
-class Hands:
-    """An operator, who gets no commands; a simulated one follows them."""
+class Operator:
+    """The operator of a bench, who gets no commands; a simulated operator follows them."""
 
     def hang(self, loads: tuple[Load, ...]) -> None:
         """Set exactly these loads."""

@@ -4,7 +4,8 @@ from collections.abc import Callable, Iterable
 from typing import Self
 
 from svsa.errors import Fault, StateError
-from svsa.runs.command import Command, is_held
+from svsa.runs.arm.run import build_run
+from svsa.runs.command import Command, JointNumber, fold, is_held, list_joint_commands
 from svsa.runs.configuration import Configuration
 from svsa.runs.records.header import BranchPoint, PlantKind
 from svsa.runs.records.recorder import Recorder
@@ -22,7 +23,7 @@ class SimulatedSession:
     def __init__(self, name: str, configuration: Configuration) -> None:
         self.name = name
         self.watched = self.closed = False
-        self.journal = Journal(Run(configuration))
+        self.journal = Journal(build_run(configuration))
         self.clock = SimulationClock(configuration.sampling.period_s)
         self._running = False
 
@@ -37,8 +38,11 @@ class SimulatedSession:
     ) -> Self:
         """Create a paused session that continues a recorded run from `tick`.
 
-        The run is simulated again from its start. run_id: id of the run, for clients that ask
-        where the session comes from. Raises `StateError` where it had ended before.
+        The run is simulated again from its start. `run_id` is the id of the run, which clients can
+        query.
+
+        Raises:
+            StateError: If the run had ended before `tick`.
         """
         session = cls(name, configuration)
         for command in commands:
@@ -86,7 +90,7 @@ class SimulatedSession:
 
     def load(self, configuration: Configuration) -> None:
         """Start a new run of this configuration at t = 0; running or paused as before."""
-        run = Run(configuration)
+        run = build_run(configuration)
         self.journal.stop_recording()
         self.clock.begin()
         self.journal.begin(run)
@@ -96,7 +100,11 @@ class SimulatedSession:
         self.load(self.journal.build_restart())
 
     def start(self) -> None:
-        """Run; raises `StateError` after a fault."""
+        """Start the run.
+
+        Raises:
+            StateError: After a fault.
+        """
         if self.run.fault is not None:
             raise StateError(f"The run ended in a fault; reset it first. {self.run.fault.message}")
         self._running = True
@@ -121,11 +129,15 @@ class SimulatedSession:
     def stop_from_keyboard(self) -> None:
         """Do nothing: a simulation needs no guard."""
 
-    def hear_operator(self) -> None:
+    def note_operator_beat(self) -> None:
         """Do nothing: a simulation has no dead-man's switch."""
 
     def step(self, ticks: int) -> None:
-        """Run so many ticks at once; raises `StateError` unless paused."""
+        """Run this number of ticks at once.
+
+        Raises:
+            StateError: Unless the session is paused.
+        """
         if self.status != "paused":
             raise StateError(f"The session is {self.status}: pause it to go by single ticks.")
         self._advance(ticks)
@@ -159,13 +171,23 @@ class SimulatedSession:
 
     def set(self, command: Command) -> None:
         """Apply a command unless nothing would change."""
-        self.patch(lambda _: command)
-
-    def patch(self, build: Callable[[Configuration], Command]) -> None:
-        """Apply `set` with the command that `build` derives from the present configuration."""
-        command = build(self.run.configuration)
         if not is_held(self.run.configuration, command):
             self.change(command)
+
+    def patch(
+        self,
+        build: Callable[[Configuration], Command],
+        joint: JointNumber | None = None,
+        again: bool = False,
+    ) -> None:
+        """Apply `set` with the command that `build` derives from each joint's configuration."""
+        present = self.run.configuration
+        commands, after = list_joint_commands(present, build, joint), present
+        for command in commands:
+            after = fold(after, command)
+        for command in commands:
+            if again or not is_held(present, command):
+                self.change(command)
 
     def prepare_recording(self) -> None:
         """Check as `Journal.check_recordable`."""

@@ -1,4 +1,4 @@
-"""Random commands for a session: every kind, legal, refused, and at any tick."""
+"""Random commands for a session: every kind, valid and rejected, at any tick."""
 
 import json
 
@@ -7,7 +7,7 @@ from hypothesis import settings
 from hypothesis import strategies as st
 
 import svsa
-from svsa.runs.command import COMMANDS, build_command, read_command
+from svsa.runs.command import COMMANDS, OF_ARM, build_command, read_command
 from svsa.runs.configuration import Configuration, LaneSetting
 from svsa.runs.replay import simulate_again
 from svsa.simulation.plant.effects.current_lag import CurrentLag
@@ -103,7 +103,7 @@ REFUSED = [
     ("unload", 99),
     ("unload", 0),
 ]
-assert set(ARGUMENTS) == set(COMMANDS)
+assert set(ARGUMENTS) == set(COMMANDS) - set(OF_ARM)
 
 commands = st.sampled_from([*ARGUMENTS, "load", "unload", "unload", "refused"]).flatmap(
     lambda kind: (
@@ -131,7 +131,7 @@ BUSY = [
 
 
 def summarize(session):
-    """All of a session that a refused command must leave as it is."""
+    """Return all of a session that a rejected command must not change."""
     run = session.run
     return (
         run.configuration,
@@ -150,9 +150,9 @@ def summarize(session):
 
 
 def play(session, script, wakes):
-    """Give a session a script: so many ms in wakes after so many ms, then the command.
+    """Run a script in a session: a time in ms in wake-ups of some ms, then the command.
 
-    A refused command must leave no trace. Returns how many were refused.
+    A rejected command must not change anything. Returns the number of rejected commands.
     """
     refused, turn, now = 0, 0, 0
     session.start()
@@ -174,7 +174,7 @@ def play(session, script, wakes):
 
 
 def write(session):
-    """What a record keeps of a session, as JSON text."""
+    """Write the recorded parts of a session as JSON text."""
     written = {
         "configuration": session.journal.initial.model_dump(mode="json"),
         "commands": [command.to_json() for command in session.journal.commands],
@@ -183,7 +183,7 @@ def write(session):
 
 
 def read(text):
-    """(configuration, commands) from what `write` made."""
+    """Read (configuration, commands) from the text of `write`."""
     written = json.loads(text)
     configuration = Configuration(**written["configuration"])
     return configuration, [read_command(command) for command in written["commands"]]
@@ -196,5 +196,5 @@ def play_busy_session(seed=3):
 
 
 def collect(configuration, commands, first, ticks):
-    """`simulate_again` in one piece: (lanes, ticks, channels)."""
+    """`simulate_again` in one array: (lanes, ticks, channels)."""
     return np.concatenate(list(simulate_again(configuration, commands, first, ticks)), axis=1)

@@ -1,8 +1,8 @@
-"""MCAP for Foxglove: joint states and all channels as time series, a topic of each per lane.
+"""MCAP for Foxglove: joint states and all channels as time series, one topic of each per lane.
 
-`foxglove.JointStates` is one of Foxglove's own schemas, by which its 3D view knows joints.
-For plots Foxglove takes numbers of any JSON schema, so `svsa.Sample` names every channel
-with its unit. Messages are JSON; their time is that of the day.
+`foxglove.JointStates` is a schema of Foxglove, which its 3D view uses for joints. Plots accept
+numbers of any JSON schema, so `svsa.Sample` contains every channel with its unit. Messages are
+JSON; their time is the time of day.
 """
 
 import json
@@ -43,7 +43,7 @@ JOINTS = (
 def write_mcap(record: Record, stream: IO[bytes]) -> None:
     """Write a record as MCAP: /<lane>/samples, /<lane>/joint_states, /commands, /events.
 
-    Its metadata `svsa` has header and metrics as JSON.
+    The metadata `svsa` contain header and metrics as JSON.
     """
     header, names = record.header, record.header.channel_names
     joints = [joint for joint in JOINTS if joint.position in names]

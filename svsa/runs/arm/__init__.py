@@ -1,0 +1,1 @@
+"""Runs of an arm: configuration and run."""

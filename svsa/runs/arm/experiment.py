@@ -1,0 +1,150 @@
+"""The experiments of an arm, and their settings."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+from svsa.actuators.arm.parameters import MACCEPA_ARM, RODS, ArmParameters
+from svsa.control.installed import PAPERS_LAW
+from svsa.errors import ParameterError, Violation
+from svsa.inputs.nearest import suggest
+from svsa.runs.configuration import ArmSetup, Configuration
+from svsa.runs.experiment import build_actuator_experiment
+from svsa.runs.shorthand import change_configuration
+from svsa.simulation.plant.loads import Load
+from svsa.simulation.plant.loads.load import TIP
+from svsa.simulation.reference.kinds.reference import AnyPosition
+from svsa.simulation.reference.kinds.sine import SinePosition
+
+
+def compute_joint_inertias(arm: ArmParameters) -> tuple[float, float]:
+    """Constant link inertias for the nominal models: the diagonal of M(q) at q2 = ±90°, kg·m²."""
+    a = arm.build()
+    return a.inertia1 + a.inertia2, a.inertia2
+
+
+_SINES = (
+    SinePosition(amplitude_rad=0.6, frequency_hz=0.25),
+    SinePosition(amplitude_rad=0.8, frequency_hz=0.25, phase_rad=0.7),
+)
+_GENTLE = (
+    SinePosition(amplitude_rad=0.2, frequency_hz=0.25),
+    SinePosition(amplitude_rad=0.4, frequency_hz=0.25, phase_rad=0.7),
+)
+
+
+class NamedArm(NamedTuple):
+    """An arm of the lab.
+
+    Attributes:
+        title: Its name on the page.
+        description: What it is, in a sentence.
+        links: Parameters of its links.
+        actuator: Name of the actuator of both joints.
+        stiffness_nm_per_rad: Default stiffness of both joints.
+        motions: Default reference of each joint.
+    """
+
+    title: str
+    description: str
+    links: ArmParameters
+    actuator: str
+    stiffness_nm_per_rad: float
+    motions: tuple[SinePosition, SinePosition]
+
+
+ARMS: Mapping[str, NamedArm] = {
+    "rods": NamedArm(
+        "Two rods",
+        "Two rods of 0.3 m and 0.3 kg, hanging, with the SVSA in both joints.",
+        RODS,
+        "svsa",
+        80.0,
+        _SINES,
+    ),
+    "maccepa": NamedArm(
+        "MACCEPA arm",
+        "A two-link arm of the literature with MACCEPA in both joints.",
+        MACCEPA_ARM,
+        "maccepa",
+        2.5,
+        _GENTLE,
+    ),
+}
+"""The arms by name."""
+
+
+def build_arm_experiment(
+    experiment: str | Configuration,
+    given: Mapping[str, Any],
+    both: Mapping[str, Any],
+    each: Sequence[Mapping[str, Any]] = ({}, {}),
+    tip_loads: Sequence[Load] | None = None,
+) -> Configuration:
+    """Build the configuration of an arm's experiment.
+
+    Args:
+        experiment: Name of an arm ("rods", "maccepa"), or the configuration of an arm.
+        given: Fields of `ArmSetup` to replace.
+        both: Settings of both joints, as `svsa.runs.shorthand.Settings` and `law`.
+        each: Settings of joint 1 and of joint 2, after those of both.
+        tip_loads: Loads at the tip; None: those of the experiment.
+
+    Returns:
+        The configuration. Without a nominal link inertia in the settings, a named arm has that of
+        `compute_joint_inertias`.
+
+    Raises:
+        ParameterError: There is no such arm or setting, or a value is out of range.
+    """
+    first = experiment
+    if not isinstance(first, Configuration):
+        first = _build_named(first, given.get("links"))
+    arm = first.require_arm()
+    joints = []
+    for number, (joint, own) in enumerate(zip(split_joints(first), each, strict=True), start=1):
+        try:
+            joints.append(_change_joint(joint, {**both, **own}))
+        except ParameterError as error:
+            raise error.within(f"joint{number}") if own else error from None
+    at_tip = tuple(load for load in first.loads if load.acts_as == TIP)
+    at_tip = at_tip if tip_loads is None else tuple(tip_loads)
+    own, second = joints
+    setup = arm.changed(**{**given, "joint2": second})
+    return own.changed(arm=setup, loads=(*own.loads, *at_tip))
+
+
+def split_joints(configuration: Configuration) -> tuple[Configuration, ...]:
+    """Return the configuration of each joint as that of a single joint, without the arm."""
+    on_joint = tuple(load for load in configuration.loads if load.acts_as != TIP)
+    first, *others = configuration.joints
+    return first.changed(arm=None, loads=on_joint), *others
+
+
+def _build_named(name: str, arm: ArmParameters | None) -> Configuration:
+    if name not in ARMS:
+        finding = f"there is no such arm{suggest(name, ARMS)}"
+        raise ParameterError(Violation("experiment", name, "", "", finding=finding))
+    named = ARMS[name]
+    links = arm or named.links
+    first, second = (
+        _build_joint(named.actuator, inertia, motion, stiffness=named.stiffness_nm_per_rad)
+        for inertia, motion in zip(compute_joint_inertias(links), named.motions, strict=True)
+    )
+    return first.changed(arm=ArmSetup(links=links, model=links, joint2=second))
+
+
+def _build_joint(
+    actuator: str, inertia: float, position: AnyPosition, **settings: Any
+) -> Configuration:
+    """The configuration of a joint with the prototype of an actuator. inertia: kg·m²."""
+    given = {"link_inertia_kg_m2": inertia}
+    joint = build_actuator_experiment(actuator, PAPERS_LAW, False, given, given)
+    return change_configuration(joint, {"position": position, **settings})
+
+
+def _change_joint(joint: Configuration, settings: dict[str, Any]) -> Configuration:
+    """`change_configuration`; the name of an actuator leaves the nominal link inertia as it is."""
+    if isinstance(actuator := settings.get("actuator"), str):
+        joint = _build_joint(actuator, joint.nominal.link_inertia_kg_m2, joint.position)
+        settings = {name: value for name, value in settings.items() if name != "actuator"}
+    return change_configuration(joint, settings)

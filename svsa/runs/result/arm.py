@@ -1,0 +1,193 @@
+"""The result of an arm's run: a result for each joint, and the tip."""
+
+import math
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+
+from svsa.actuators.arm.dynamics import (
+    Joints,
+    compute_tip_position,
+    compute_tip_velocity,
+    turn,
+)
+from svsa.actuators.signals import CHANNEL_INDEX
+from svsa.errors import Fault
+from svsa.runs.arm.experiment import split_joints
+from svsa.runs.command import Command
+from svsa.runs.configuration import Configuration
+from svsa.runs.replay import list_loads
+from svsa.runs.result.law_style import name_law
+from svsa.runs.result.result import Result
+from svsa.simulation.arm.tip_loads import build_tip_table, compute_wall_force
+from svsa.simulation.plant.loads.tip import Wall
+
+
+@dataclass(frozen=True, repr=False)
+class ArmResult:
+    """A finished run of an arm.
+
+    Attributes:
+        configuration: At t = 0, that of joint 1 with the arm.
+        samples: (2, ticks, channels), SI, columns as `svsa.actuators.signals.CHANNELS`.
+        payload_kg: Estimated mass at the tip, (ticks,), kg; 0 without adaptation.
+        fault: Why the run ended early, or None; its `lane` is 0 for joint 1 and 1 for joint 2.
+        steps: Runge–Kutta steps a control period.
+        commands: Changes during the run.
+        comparisons: Results of the second arm, if there is one.
+    """
+
+    configuration: Configuration
+    samples: np.ndarray = field(repr=False)
+    payload_kg: np.ndarray = field(repr=False)
+    fault: Fault | None = None
+    steps: int = 1
+    commands: tuple[Command, ...] = ()
+    comparisons: "tuple[ArmResult, ...]" = field(default=(), repr=False)
+
+    @cached_property
+    def joints(self) -> tuple[Result, Result]:
+        """Result of each joint: channels, metrics, tables, plot."""
+        joints = split_joints(self.configuration)
+        first, second = (
+            Result(joint, rows, self.fault, law=joint.law, name=f"Joint {number}")
+            for number, (joint, rows) in enumerate(zip(joints, self.samples, strict=True), 1)
+        )
+        return first, second
+
+    @property
+    def time_s(self) -> np.ndarray:
+        """Time of every sample, (ticks,), s."""
+        return self.samples[0, :, CHANNEL_INDEX["time_s"]]
+
+    @property
+    def tip_position_m(self) -> np.ndarray:
+        """Tip, (ticks, 2), m: x horizontal, y up, from joint 1."""
+        return self._place(self._read("position_rad"))
+
+    @property
+    def tip_stiffness_n_per_m(self) -> np.ndarray:
+        """Stiffness of the tip at rest, J⁻ᵀ diag(σ1, σ2) J⁻¹, (ticks, 2, 2), N/m.
+
+        Without the part of the gravity. Not finite where the arm is straight or folded.
+        """
+        q, sigma = self._read("position_rad"), self._read("stiffness_nm_per_rad")
+        l1, l2 = (
+            self.configuration.require_arm().links.length1_m,
+            self.configuration.require_arm().links.length2_m,
+        )
+        p = q[:, 0] + q[:, 1]
+        jacobian = np.empty((len(q), 2, 2))
+        jacobian[:, 0, 1], jacobian[:, 1, 1] = l2 * np.cos(p), l2 * np.sin(p)
+        jacobian[:, 0, 0] = l1 * np.cos(q[:, 0]) + jacobian[:, 0, 1]
+        jacobian[:, 1, 0] = l1 * np.sin(q[:, 0]) + jacobian[:, 1, 1]
+        a, b, c, d = (jacobian[:, i, j] for i in (0, 1) for j in (0, 1))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            inverse = np.stack([np.stack([d, -b], 1), np.stack([-c, a], 1)], 1)
+            inverse /= (a * d - b * c)[:, None, None]
+            return np.einsum("tji,tj,tjk->tik", inverse, sigma, inverse)
+
+    @cached_property
+    def wall_force_n(self) -> np.ndarray:
+        """Force of the walls on the tip, (ticks, 2), N; zero without a wall.
+
+        Computed from positions and velocities of the joints, by the function of the loop.
+        """
+        force = np.zeros((self.samples.shape[1], 2))
+        loads = list_loads(self.configuration, self.commands)
+        if not any(isinstance(held.load, Wall) for held in loads):
+            return force
+        table = build_tip_table(loads, self.configuration.sampling.period_s)
+        arm, q, dq = (
+            self.configuration.require_arm().links.build(),
+            self._read("position_rad"),
+            self._read("velocity_rad_per_s"),
+        )
+        for tick, (angles, rates) in enumerate(zip(q.tolist(), dq.tolist(), strict=True)):
+            at, velocity = turn(Joints(*angles)), Joints(*rates)
+            tip, moves = compute_tip_position(arm, at), compute_tip_velocity(arm, at, velocity)
+            force[tick] = compute_wall_force(table, tick, tip, moves)
+        return force
+
+    @property
+    def _lengths_m(self) -> tuple[float, float]:
+        links = self.configuration.require_arm().links
+        return links.length1_m, links.length2_m
+
+    def _read(self, channel: str) -> np.ndarray:
+        """A channel of both joints, (ticks, 2)."""
+        return self.samples[:, :, CHANNEL_INDEX[channel]].T
+
+    def _place(self, q: np.ndarray) -> np.ndarray:
+        l1, l2 = (
+            self.configuration.require_arm().links.length1_m,
+            self.configuration.require_arm().links.length2_m,
+        )
+        q1, p = q[:, 0], q[:, 0] + q[:, 1]
+        x = l1 * np.sin(q1) + l2 * np.sin(p)
+        return np.stack([x, -l1 * np.cos(q1) - l2 * np.cos(p)], 1)
+
+    def measure(self, start_s: float, end_s: float) -> tuple[float, float]:
+        """Compute the rms position error of both joints between two times of the run.
+
+        Args:
+            start_s: First time of the window, s.
+            end_s: Last time of the window, s.
+
+        Returns:
+            Of joint 1 and joint 2, rad. `joints[0].measure` has all metrics.
+
+        Raises:
+            ParameterError: For a window without a sample.
+        """
+        first, second = (joint.measure(start_s, end_s) for joint in self.joints)
+        return first.rms_position_error_rad, second.rms_position_error_rad
+
+    def __repr__(self) -> str:
+        c = self.configuration
+        laws = " and ".join(dict.fromkeys(name_law(joint.law) for joint in c.joints))
+        options = {
+            "arm feedforward": self.configuration.require_arm().feedforward,
+            "adaptive payload": self.configuration.require_arm().adaptation is not None,
+        }
+        on = "".join(f" + {name}" for name, is_on in options.items() if is_on)
+        ticks = self.samples.shape[1]
+        lines = [f"Arm: {laws}{on}, {ticks * c.sampling.period_s:g} s"]
+        if ticks:
+            lines += [
+                f"Joint {number}: position error {math.degrees(m.rms_position_error_rad):.4g}° rms,"
+                f" {math.degrees(m.peak_position_error_rad):.4g}° peak"
+                for number, m in enumerate((joint.metrics for joint in self.joints), 1)
+            ]
+        if self.fault is not None:
+            lines.append(f"Ended early: {self.fault.message}")
+        return "\n".join(lines)
+
+
+def build_arm_results(
+    configuration: Configuration,
+    samples: np.ndarray,
+    masses: np.ndarray,
+    fault: Fault | None,
+    steps: int,
+    commands: tuple[Command, ...] = (),
+) -> ArmResult:
+    """Build the result of a run of one or two arms.
+
+    Args:
+        configuration: At t = 0.
+        samples: (lanes, ticks, channels), two lanes for each arm.
+        masses: (arms, ticks), estimated mass at the tip, kg.
+        fault: Why the run ended early, or None.
+        steps: Runge–Kutta steps a control period.
+        commands: Changes during the run.
+
+    Returns:
+        The result of the first arm; the second one is its comparison.
+    """
+    first, *others = (
+        ArmResult(configuration, samples[2 * arm : 2 * arm + 2], mass, fault, steps, commands)
+        for arm, mass in enumerate(masses)
+    )
+    return replace(first, comparisons=tuple(others))

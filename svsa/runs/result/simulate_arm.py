@@ -1,0 +1,92 @@
+"""Simulation of an arm at full speed."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, Unpack
+
+import numpy as np
+
+from svsa.actuators.arm.parameters import ArmParameters
+from svsa.actuators.signals import CHANNELS
+from svsa.control.arm_payload import PayloadAdaptation
+from svsa.inputs.checked import check_number
+from svsa.runs.arm.experiment import build_arm_experiment
+from svsa.runs.arm.run import ArmRun
+from svsa.runs.change import Change, build_commands
+from svsa.runs.configuration import Configuration
+from svsa.runs.paper import DURATION_S
+from svsa.runs.replay import play
+from svsa.runs.result.arm import ArmResult, build_arm_results
+from svsa.runs.result.progress import Follow, follow_progress
+from svsa.runs.result.simulate import MAX_STEPS, MAX_TICKS
+from svsa.runs.shorthand import LawChoice, Settings
+from svsa.simulation.arm.tip_reference import AnyTipReference
+from svsa.simulation.plant.loads.tip import AnyTipLoad
+
+
+def simulate_arm(
+    experiment: str | Configuration = "rods",
+    law: LawChoice | None = None,
+    *,
+    duration_s: float = DURATION_S,
+    steps: int = 1,
+    feedforward: bool | None = None,
+    adaptation: PayloadAdaptation | bool | None = None,
+    tip: AnyTipReference | None = None,
+    tip_loads: Sequence[AnyTipLoad] | None = None,
+    arm: ArmParameters | None = None,
+    model: ArmParameters | None = None,
+    joint1: Mapping[str, Any] | None = None,
+    joint2: Mapping[str, Any] | None = None,
+    commands: Iterable[Change] = (),
+    progress: Follow | None = None,
+    **changes: Unpack[Settings],
+) -> ArmResult:
+    """Simulate an arm with an actuator and a controller in each of its two joints.
+
+    Args:
+        experiment: Name of an arm ("rods": two rods of 0.3 m and 0.3 kg with the SVSA, "maccepa":
+            a two-link arm with MACCEPA), or the `Configuration` of an arm.
+        law: Name of the installed law of both joints.
+        duration_s: Duration of the run, s.
+        steps: Runge–Kutta steps in a control period.
+        feedforward: Whether the laws get what the arm's model explains along the references.
+        adaptation: Whether to estimate the mass at the tip for feedforward and nominal inertias,
+            or its parameters.
+        tip: Reference of the tip, `TipEllipse` or `TipMove`, in place of those of the joints.
+        tip_loads: Loads at the tip: `TipMass`, `TipForce`, `TipImpulse`, `Wall`.
+        arm: Parameters of the links.
+        model: Parameters of the links as the feedforward knows them; by default those of the arm.
+        joint1: Settings of joint 1 only, by name, as of `changes`, and `law`.
+        joint2: Settings of joint 2 only.
+        commands: Changes during the run, each of one joint or of both.
+        progress: Called with the finished share instead of showing a progress bar.
+        changes: Settings of both joints: position, stiffness, loads, gains, observer, limits,
+            actuator, nominal, effects, seed, comparisons (of a second arm).
+
+    Returns:
+        The samples of both joints with metrics of each, and the tip. A run in which a joint leaves
+        the domain of its model ends early: see `ArmResult.fault`.
+
+    Raises:
+        ParameterError: For a value out of range, or an unknown keyword.
+        KeyboardInterrupt: At Ctrl-C.
+    """
+    both = dict(changes) if law is None else {**changes, "law": law}
+    fields = {"feedforward": feedforward, "links": arm, "model": arm if model is None else model}
+    fields["adaptation"] = PayloadAdaptation() if adaptation is True else adaptation or None
+    fields["tip"] = tip
+    given = {name: value for name, value in fields.items() if value is not None}
+    each = (joint1 or {}, joint2 or {})
+    c = build_arm_experiment(experiment, given, both, each, tip_loads)
+    period = c.sampling.period_s
+    check_number("duration_s", duration_s, "s", period, MAX_TICKS * period)
+    check_number("steps", steps, "", 1, MAX_STEPS)
+    run, ticks, lanes = ArmRun(c, steps), round(duration_s / period), len(c.lanes)
+    at_ticks = build_commands(commands, period, duration_s)
+    samples, masses = np.empty((lanes, ticks, len(CHANNELS))), np.empty((lanes // 2, ticks))
+    run.keep_masses(masses)
+    with follow_progress("Simulating", progress) as follow:
+        for reached, _ in play(run, at_ticks, ticks, samples):
+            follow(reached.tick / ticks)
+    samples, masses = samples[:, : run.tick], masses[:, : run.tick]
+    return build_arm_results(c, samples, masses, run.fault, steps, at_ticks)
