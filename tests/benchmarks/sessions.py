@@ -1,4 +1,7 @@
-"""`python -m tests.benchmarks.sessions [N] [SECONDS]`: N real-time sessions, each with a stream."""
+"""`python -m tests.benchmarks.sessions [N] [SECONDS] [ARM]`: N sessions, each with a stream.
+
+ARM is the name of an arm; without it each session is Figure 4A.
+"""
 
 import asyncio
 import os
@@ -14,7 +17,7 @@ TICKS_PER_SECOND = os.sysconf("SC_CLK_TCK")
 
 
 async def watch(url: str, seconds: float) -> int:
-    """Read a stream for so long; how many bytes came."""
+    """Read a stream for this duration; return the number of bytes."""
     received = 0
     end = time.monotonic() + seconds
     async with connect(url, proxy=None, max_size=None) as stream:
@@ -30,19 +33,20 @@ async def watch_all(lab: Lab, names: list[str], seconds: float) -> list[int]:
 
 
 def read_cpu_seconds(process: int) -> float:
-    """User and system time of a process so far, s."""
+    """Return user and system time of a process, s."""
     fields = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
     return (int(fields[11]) + int(fields[12])) / TICKS_PER_SECOND
 
 
 def main() -> None:
-    """Print how the sessions kept up, and what they cost."""
+    """Print how many sessions ran in real time, and their cost."""
     count = int(sys.argv[1]) if len(sys.argv) > 1 else 40
     seconds = float(sys.argv[2]) if len(sys.argv) > 2 else 20.0
+    wanted = {"from": "arm", "arm": sys.argv[3]} if len(sys.argv) > 3 else {"figure": "4a"}
     with run_lab() as lab:
         names = []
         for _ in range(count):
-            answer = lab.client.post("/api/v1/sessions", json={"figure": "4a"}).raise_for_status()
+            answer = lab.client.post("/api/v1/sessions", json=wanted).raise_for_status()
             names.append(answer.json()["session"])
         begin = {state["session"]: state for state in lab.client.get("/api/v1/sessions").json()}
         cpu, wall = read_cpu_seconds(lab.process.pid), time.monotonic()

@@ -1,4 +1,4 @@
-"""Trials: two families as declared, separate sets, and a test set that tuning cannot reach."""
+"""Trials: two families as declared, disjoint sets, and a test set that tuning cannot import."""
 
 import subprocess
 import sys
@@ -27,20 +27,20 @@ def list_ratios(trials, name):
     return [dict(one.plant)[name] for one in trials if name in dict(one.plant)]
 
 
-def test_a_set_is_the_same_whatever_part_of_it_is_drawn():
+def test_set_does_not_depend_on_the_sampled_part():
     whole = build_test_set(3, 12)
     assert whole[4:9] == build_test_set(3, 5, 4)
     assert [one.name[6] for one in whole[:4]] == ["A", "B", "A", "B"]
     assert whole != build_test_set(4, 12)
 
 
-def test_training_validation_and_test_have_no_trial_in_common():
+def test_training_validation_and_test_sets_are_disjoint():
     sets = (build_training(7, COUNT), build_validation(7, COUNT), build_test_set(7, COUNT))
     seeds = {one.seed for trials in sets for one in trials}
     assert len(seeds) == 3 * COUNT
 
 
-def test_the_families_are_as_wide_as_they_say():
+def test_families_have_their_declared_ranges():
     trials = build_training(0, COUNT)
     for family, low, high in (("A", 15.0, 70.0), ("B", 12.0, 120.0)):
         chosen = [one for one in trials if one.name[6] == family]
@@ -72,7 +72,7 @@ def test_the_families_are_as_wide_as_they_say():
         assert np.all(np.histogram(phases, 8, (0.0, 1.0))[0] > 0)
 
 
-def test_at_rest_there_is_noise_and_no_load():
+def test_trial_at_rest_has_noise_and_no_load():
     for one in build_rest():
         assert one.loads == ()
         assert one.effects.noise is not None
@@ -80,7 +80,7 @@ def test_at_rest_there_is_noise_and_no_load():
         assert get_mean_stiffness(one) >= 12.0
 
 
-def test_a_hidden_seed_follows_from_secret_and_protocol():
+def test_hidden_seed_follows_from_secret_and_protocol():
     seeds = {derive_seed(b"spring"), derive_seed(b"spring", "other"), derive_seed(b"autumn")}
     assert len(seeds) == 3
     assert all(0 <= seed < 2**63 for seed in seeds)
@@ -88,7 +88,7 @@ def test_a_hidden_seed_follows_from_secret_and_protocol():
 
 @pytest.mark.parametrize("module", ["tuner", "tuned_law", "file", "cli"])
 def test_tuning_does_not_import_the_test_set(module):
-    """The import contract forbids it; here a process shows it."""
+    """The import contract forbids it; here a process verifies it."""
     code = f"import svsa.evaluation.tuning.{module}, sys; print(*sys.modules)"
     shown = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     loaded = shown.stdout.split()

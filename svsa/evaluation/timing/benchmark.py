@@ -1,7 +1,7 @@
 """`svsa benchmark`: cost of the loop compared with a C loop of the same work.
 
-Times are CPU times, the least of many, ours and C's one after the other in turns, so that only
-their ratio speaks: it is hardly moved by what else the machine does, nor by how fast it is.
+Times are CPU times, the minimum of many, of both loops alternately. Their ratio hardly depends on
+other load or on the speed of the machine.
 """
 
 import ctypes
@@ -16,7 +16,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from svsa.actuators.installed import list_mechanism_names
 from svsa.actuators.lever import compute_lever_ratio_slope
+from svsa.actuators.parameters import SVSA
 from svsa.actuators.signals import CHANNELS
 from svsa.control.installed import BASELINE, PAPERS_LAW
 from svsa.control.laws.feedback_linearization import build_gains
@@ -25,10 +27,14 @@ from svsa.evaluation.timing.bench_tick import measure_bench_tick
 from svsa.evaluation.timing.c_compiler import FLAGS, find_c_compiler
 from svsa.evaluation.timing.scipy_comparison import compare_with_scipy
 from svsa.evaluation.timing.turns import measure_in_turns
+from svsa.runs.arm.experiment import build_arm_experiment
+from svsa.runs.arm.run import ArmRun
 from svsa.runs.batch import build_run_batch
+from svsa.runs.experiment import build_actuator_experiment
 from svsa.runs.paper import DURATION_S, LOAD_TIME_S, get_figure
 from svsa.runs.result.simulate import simulate
 from svsa.runs.run import Run
+from svsa.simulation.arm.loop import advance_arm
 from svsa.simulation.loop.batch import run_batch
 from svsa.simulation.loop.loop import advance
 from svsa.simulation.plant.loads.paper import PAPER_TORQUE_NM
@@ -38,7 +44,7 @@ LANES = 32
 REPEATS = 15
 FIGURE, LAW = "4a", "ndobc"
 COMPILE = (f"from svsa.cli import prepare; prepare({(PAPERS_LAW, BASELINE)!r})",)
-"""What `make run` waits for at its first start."""
+"""Functions that `make run` compiles at its first start."""
 FIRST_RUN = (f"import svsa; svsa.simulate({FIGURE!r}, {LAW!r})",)
 
 
@@ -50,9 +56,9 @@ class CLoop(NamedTuple):
 
 
 def build_c_loop(folder: Path) -> CLoop | None:
-    """The C loop, compiled into `folder`; None without its source or without a C compiler.
+    """Compile the C loop into `folder`; None without its source or without a C compiler.
 
-    The source is a file of the tests: an installed package has none.
+    The source is a file of the tests: an installed package does not contain it.
     """
     compiler = find_c_compiler()
     if compiler is None or not C_LOOP.exists():
@@ -104,20 +110,43 @@ def run_c_lanes(loop: CLoop, run: Run, ticks: int) -> tuple[np.ndarray, np.ndarr
     return squares, peaks
 
 
+def build_arm_work(ticks: int) -> Callable[[], object]:
+    """The kernel of an arm of two joints with the same law: so many ticks."""
+    run = ArmRun(build_arm_experiment("rods", {}, {"law": LAW}))
+    samples, masses = np.empty((2, ticks, len(CHANNELS))), np.empty(ticks)
+    given = run.arms[0], *run.laws, run.arm_inputs, run.states[0]
+    return lambda: advance_arm(*given, 0, *samples, masses)
+
+
+def build_actuator_works() -> dict[str, Callable[[], object]]:
+    """The kernel of every other installed actuator with the same law: so many ticks each."""
+    names = (name for name in list_mechanism_names() if name != SVSA)
+    return {name: build_kernel_work(Run(build_actuator_experiment(name, LAW))) for name in names}
+
+
+def build_kernel_work(run: Run) -> Callable[[], object]:
+    """The loop of the first lane of a run over the duration of a figure."""
+    lane = run.blocks[0], run.laws[0], run.inputs, run.lanes[0]
+    samples = np.empty((round(DURATION_S / run.period_s), len(CHANNELS)))
+    return lambda: advance(*lane, 0, samples)
+
+
 def measure(repeats: int = REPEATS) -> dict[str, Any]:
     """Measure the figures of `svsa benchmark` except compilation and start.
 
-    What needs the C loop is None where there is none (see `build_c_loop`).
+    Figures that need the C loop are None without it (see `build_c_loop`).
     """
     run = Run(get_figure(FIGURE).build_configuration(LAW))
-    lane = run.blocks[0], run.laws[0], run.inputs, run.lanes[0]
     ticks = round(DURATION_S / run.period_s)
     samples = np.empty((ticks, len(CHANNELS)))
+    actuators = build_actuator_works()
     batch = build_run_batch([run.configuration] * LANES)
     works: dict[str, Callable[[], object]] = {
         "single": lambda: simulate(FIGURE, LAW),
-        "kernel": lambda: advance(*lane, 0, samples),
+        "kernel": build_kernel_work(run),
         "batch": lambda: run_batch(batch, ticks),
+        "arm": build_arm_work(ticks),
+        **actuators,
     }
     with tempfile.TemporaryDirectory(prefix="svsa-bench-") as folder:
         loop = build_c_loop(Path(folder))
@@ -135,6 +164,8 @@ def measure(repeats: int = REPEATS) -> dict[str, Any]:
         "single_run_realtime_factor": DURATION_S / cost["single"],
         "ratio_to_c": cost["single"] / c if c else None,
         "kernel_ratio_to_c": cost["kernel"] / c if c else None,
+        "arm_ratio_to_kernel": cost["arm"] / cost["kernel"],
+        "actuator_ratio_to_kernel": {name: cost[name] / cost["kernel"] for name in actuators},
         "batch_runs_per_second_1_core": LANES / cost["batch"],
         "batch_ratio_to_c": c_lane * LANES / cost["batch"] if c else None,
         "runs_per_second_1_core_by_effects": effects,

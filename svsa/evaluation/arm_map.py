@@ -1,0 +1,144 @@
+"""`svsa arm-map`: the error of an arm under a mass at its tip, over mass and stiffness."""
+
+import json
+import math
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
+
+import numpy as np
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from svsa.control.gains import Gains
+from svsa.control.installed import get_title
+from svsa.control.law_names import AnyLaw
+from svsa.errors import SvsaError
+from svsa.inputs.extras import require_extra
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+MASSES_KG = (0.0, 0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.7, 1.0)
+STIFFNESSES_NM_PER_RAD = (10.0, 20.0, 40.0, 60.0, 80.0, 100.0, 140.0)
+LOAD_S, WINDOW_S = 5.0, (8.0, 20.0)
+_STIFFNESS_POLE = 40.0
+
+
+class ArmMap(NamedTuple):
+    """Of one controller: rms position error under the load, (stiffnesses, masses), degrees.
+
+    The greater one of both joints, from 8 to 20 s; infinite where the run ended in a fault.
+    """
+
+    title: str
+    errors_deg: np.ndarray
+
+
+def measure_arm_map(
+    law: str,
+    settings: Mapping[str, Any],
+    title: str,
+    masses: Sequence[float] = MASSES_KG,
+    stiffnesses: Sequence[float] = STIFFNESSES_NM_PER_RAD,
+) -> ArmMap:
+    """Simulate an arm for every tip mass, kg, that comes at 5 s, and stiffness, N·m/rad.
+
+    settings: of `simulate_arm`.
+    """
+    # Imported here: every command of `svsa` imports this file.
+    from svsa.runs.result.simulate_arm import simulate_arm
+    from svsa.simulation.plant.loads.tip import TipMass
+
+    errors = np.full((len(stiffnesses), len(masses)), math.inf)
+    for i, stiffness in enumerate(stiffnesses):
+        for j, mass in enumerate(masses):
+            loads = [TipMass(mass_kg=mass, start_s=LOAD_S)] if mass else []
+            run = simulate_arm(law=AnyLaw(law), stiffness=stiffness, tip_loads=loads, **settings)
+            if run.fault is None:
+                errors[i, j] = math.degrees(max(run.measure(*WINDOW_S)))
+    return ArmMap(title, errors)
+
+
+def draw_arm_maps(maps: Sequence[ArmMap]) -> "Figure":
+    """Draw a panel for each controller; needs the extra `plot`. A cross is a fault."""
+    from matplotlib.colors import LogNorm
+    from matplotlib.figure import Figure
+
+    columns = min(3, len(maps))
+    rows = math.ceil(len(maps) / columns)
+    figure = Figure(figsize=(4.2 * columns, 2.9 * rows + 0.4), layout="constrained")
+    axes = np.atleast_1d(figure.subplots(rows, columns, sharex=True, sharey=True)).ravel()
+    shown: Any = None
+    for axis, one in zip(axes, maps, strict=False):
+        found = np.ma.masked_invalid(one.errors_deg)
+        shown = axis.imshow(
+            found, norm=LogNorm(0.01, 30.0), cmap="viridis_r", origin="lower", aspect="auto"
+        )
+        for i, j in np.argwhere(~np.isfinite(one.errors_deg)):
+            axis.plot(j, i, "x", color="tab:red", markersize=5)
+        axis.set_title(one.title, fontsize=10)
+        axis.set_xticks(range(len(MASSES_KG)), [f"{mass:g}" for mass in MASSES_KG], fontsize=7)
+        ticks = [f"{stiffness:g}" for stiffness in STIFFNESSES_NM_PER_RAD]
+        axis.set_yticks(range(len(ticks)), ticks, fontsize=8)
+    for axis in axes[len(maps) :]:
+        axis.set_visible(False)
+    figure.supxlabel("tip mass [kg]", fontsize=10)
+    figure.supylabel("stiffness σ [N·m/rad]", fontsize=10)
+    figure.colorbar(shown, ax=list(axes), label="rms position error [°], × fault")
+    return figure
+
+
+def arm_map(
+    laws: Annotated[list[str], typer.Argument(help="Installed laws, such as fl and ndobc.")],
+    adaptive: Annotated[
+        list[str] | None,
+        typer.Option(help="Law with feedforward and adaptive payload; may be given again."),
+    ] = None,
+    pole: Annotated[
+        float, typer.Option(help="Position poles of laws with gains, rad/s.", min=1.0, max=200.0)
+    ] = 60.0,
+    observer: Annotated[
+        float, typer.Option(help="Bandwidth of the observer, rad/s.", min=0.1, max=1000.0)
+    ] = 60.0,
+    plot: Annotated[Path | None, typer.Option(help="Draw into this file (.png, .pdf).")] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+) -> None:
+    """Map the error of an arm's controllers over tip mass and stiffness."""
+    if plot is not None:
+        require_extra("plot")
+    gains = Gains.from_poles([-pole] * 4, [-_STIFFNESS_POLE] * 2)
+    common = {"gains": gains, "observer": observer}
+    adapted = {**common, "feedforward": True, "adaptation": True}
+    try:
+        maps = [measure_arm_map(law, common, get_title(law)) for law in laws]
+        maps += [
+            measure_arm_map(law, adapted, f"{get_title(law)}, adaptive payload")
+            for law in adaptive or ()
+        ]
+    except SvsaError as error:
+        Console(stderr=True).print(f"Error: {error}", style="bold red", markup=False)
+        raise typer.Exit(2) from None
+    if plot is not None:
+        draw_arm_maps(maps).savefig(plot, dpi=110)
+    if as_json:
+        found = {one.title: [[_plain(e) for e in row] for row in one.errors_deg] for one in maps}
+        axes = {"tip_mass_kg": MASSES_KG, "stiffness_nm_per_rad": STIFFNESSES_NM_PER_RAD}
+        typer.echo(json.dumps(axes | {"rms_position_error_deg": found}))
+        return
+    Console().print(*map(_build_table, maps), highlight=False)
+
+
+def _plain(error: float) -> float | None:
+    return float(error) if math.isfinite(error) else None
+
+
+def _build_table(one: ArmMap) -> Table:
+    title = f"{one.title}: rms position error [°] over σ [N·m/rad] and tip mass [kg]"
+    heads = (f"{mass:g}" for mass in MASSES_KG)
+    table = Table("σ", *heads, title=title, padding=0)
+    for stiffness, row in zip(STIFFNESSES_NM_PER_RAD, one.errors_deg, strict=True):
+        cells = (f"{error:.2g}" if math.isfinite(error) else "fault" for error in row)
+        table.add_row(f"{stiffness:g}", *cells)
+    return table

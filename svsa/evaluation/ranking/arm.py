@@ -1,0 +1,217 @@
+"""The ranking of controllers of an arm: each tuned on training trials, graded on test trials."""
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from svsa.actuators.domain import INSIDE
+from svsa.control.installed import get_law, list_law_names
+from svsa.evaluation.metrics import compute_metrics, find_held
+from svsa.evaluation.ranking.results import rank_held
+from svsa.evaluation.ranking.table import format_p
+from svsa.evaluation.ranking.test_set import NAME
+from svsa.evaluation.statistics import estimate_median, estimate_share
+from svsa.evaluation.trials import LOAD_S
+from svsa.evaluation.tuning.arm import (
+    ArmController,
+    ArmTrial,
+    build_arm_problem,
+    build_arm_trials,
+    run_arm_trials,
+)
+from svsa.evaluation.tuning.judge import LOUD
+from svsa.evaluation.tuning.tuner import Candidate, tune
+from svsa.inputs.checked import Checked, Flag, Number, Whole, quantity
+
+LEFT_OUT = ("ilc", "nmpc")
+"""A law that learns over repetitions, and one that takes a thousand times as long as the others."""
+INFEASIBLE = " †"
+"""Mark of a row whose search found no parameters that are at rest below the noise limit."""
+OUTPUTS = ("joint 1: e [°]", "joint 2: e [°]", "joint 1: e_σ [%]", "joint 2: e_σ [%]")
+HEADINGS = ("rank", "controller", "held of {trials}, % (95 %)", "faults", "p against NDOBC")
+
+
+class ArmProtocol(Checked):
+    """Budget and trials of an arm's ranking; rows are comparable within one protocol."""
+
+    budget: Whole = quantity("", "Candidates of each search", ge=1, default=128)
+    training: Whole = quantity("", "Training trials of each candidate", ge=1, default=24)
+    validation: Whole = quantity("", "Validation trials of the best ten", ge=1, default=48)
+    trials: Whole = quantity("", "Test trials", ge=1, default=96)
+    seed: Whole = quantity("", "Seed of searches and trials", ge=0, default=0)
+
+
+class Median(Checked):
+    """A median over the trials with its 95 % interval; None for a fault or without an interval."""
+
+    value: Number | None
+    low: Number | None
+    high: Number | None
+
+
+class ArmRow(Checked):
+    """The result of a controller."""
+
+    law: str = quantity("", "Name of the law")
+    feedforward: Flag = quantity("", "Whether it gets the arm feedforward")
+    adaptive: Flag = quantity("", "Whether the payload is estimated")
+    values: dict[str, Number] = quantity("", "Tuned values by name")
+    before: Number = quantity("1", "Cost of the default parameters on the validation trials")
+    after: Number = quantity("1", "Cost of the tuned parameters on the validation trials")
+    held: tuple[Flag, ...] = quantity("", "Whether both joints held, of each test trial")
+    faults: Whole = quantity("", "Test trials that ended in a fault", ge=0)
+    outputs: tuple[Median, ...] = quantity(
+        "", "Median of rms position error (°) and rms stiffness error (%) of both joints"
+    )
+
+    @property
+    def controller(self) -> ArmController:
+        """The controller of this row."""
+        return ArmController(self.law, self.feedforward, self.adaptive)
+
+
+class ArmResults(Checked):
+    """Rows and their protocol."""
+
+    protocol: ArmProtocol
+    rows: tuple[ArmRow, ...] = ()
+
+
+class ArmTest(NamedTuple):
+    """The test trials: built once for all controllers."""
+
+    protocol: ArmProtocol
+    trials: tuple[ArmTrial, ...]
+
+
+def list_arm_controllers() -> list[ArmController]:
+    """List every suitable law; if it takes the feedforward, also with it, and adaptive."""
+    found = []
+    for law in list_law_names():
+        if law not in LEFT_OUT:
+            found.append(ArmController(law))
+            if get_law(law).takes_feedforward:
+                found += [ArmController(law, True), ArmController(law, True, True)]
+    return found
+
+
+def build_arm_test(protocol: ArmProtocol) -> ArmTest:
+    """Build the test trials of a protocol."""
+    return ArmTest(protocol, build_arm_trials(NAME, protocol.seed, protocol.trials))
+
+
+def measure_arm_row(
+    controller: ArmController,
+    test: ArmTest,
+    on_candidate: Callable[[Candidate], None] = lambda _: None,
+) -> ArmRow:
+    """Tune a controller, and grade it on the test trials."""
+    p = test.protocol
+    tuned = tune(
+        controller.law,
+        budget=p.budget,
+        trials=p.training,
+        validation=p.validation,
+        seed=p.seed,
+        on_candidate=on_candidate,
+        problem=build_arm_problem(controller),
+    )
+    summaries = run_arm_trials(test.trials, controller, tuned.design)
+    labels = [axis.label for axis in tuned.space.axes]
+    return ArmRow(
+        law=controller.law,
+        feedforward=controller.feedforward,
+        adaptive=controller.adaptive,
+        values=dict(zip(labels, tuned.best.values, strict=True)),
+        before=tuned.finals[0].judgment.cost,
+        after=tuned.best.judgment.cost,
+        held=tuple(bool(np.all(find_held(one))) for one in summaries),
+        faults=int(np.sum(summaries["code"][:, 0] != INSIDE)),
+        outputs=tuple(map(_describe_median, _list_errors(test, summaries))),
+    )
+
+
+def _list_errors(test: ArmTest, summaries: np.ndarray) -> list[np.ndarray]:
+    """Position errors (°) and stiffness errors (%) of both joints; infinite for a fault."""
+    periods = np.array([one.configuration.sampling.period_s for one in test.trials])
+    sigmas = np.array([one.sigmas for one in test.trials])
+    positions, stiffnesses = [], []
+    for joint in (0, 1):
+        found = compute_metrics(summaries[:, joint], periods, LOAD_S)
+        ended = summaries["code"][:, joint] != INSIDE
+        share = found["rms_stiffness_error_nm_per_rad"] / sigmas[:, joint]
+        error = np.degrees(found["rms_position_error_rad"])
+        positions.append(np.where(ended, np.inf, error))
+        stiffnesses.append(np.where(ended, np.inf, 100.0 * share))
+    return positions + stiffnesses
+
+
+def _describe_median(values: np.ndarray) -> Median:
+    found = (end if np.isfinite(end) else None for end in estimate_median(values))
+    value, low, high = found
+    return Median(value=value, low=low, high=high)
+
+
+def measure_arm_rows(
+    controllers: Sequence[ArmController],
+    protocol: ArmProtocol,
+    known: Sequence[ArmRow] = (),
+    report: Callable[[ArmController, float], None] = lambda controller, done: None,
+) -> Iterator[ArmResults]:
+    """Yield the results after each controller, with the `known` rows of the same protocol.
+
+    `report` receives the controller and its finished share.
+    """
+    rows = {row.controller: row for row in known}
+    test = build_arm_test(protocol)
+    for controller in controllers:
+
+        def follow(candidate: Candidate, controller: ArmController = controller) -> None:
+            report(controller, min(1.0, candidate.number / protocol.budget))
+
+        rows[controller] = measure_arm_row(controller, test, follow)
+        yield order_arm_rows(list(rows.values()), protocol)
+
+
+def order_arm_rows(rows: Sequence[ArmRow], protocol: ArmProtocol) -> ArmResults:
+    """The results in the order of their success rates."""
+    ordered = sorted(rows, key=lambda row: (-sum(row.held), row.controller.key))
+    return ArmResults(protocol=protocol, rows=tuple(ordered))
+
+
+def list_arm_headings(results: ArmResults) -> list[str]:
+    """The headings of the table."""
+    return [one.format(trials=results.protocol.trials) for one in HEADINGS] + list(OUTPUTS)
+
+
+def list_arm_cells(results: ArmResults) -> list[list[str]]:
+    """The cells of the table: a row for each controller, see `INFEASIBLE`."""
+    held = {row.controller.key: np.array(row.held) for row in results.rows}
+    ranks, p_values = rank_held(held)
+    table = []
+    for row in results.rows:
+        key = row.controller.key
+        share = estimate_share(sum(row.held), len(row.held))
+        percent = (f"{100.0 * one:.0f}" for one in share)
+        value, low, high = percent
+        title = row.controller.title + (INFEASIBLE if row.after >= LOUD else "")
+        cells = [str(ranks[key]), title, f"{value} ({low}–{high})", str(row.faults)]
+        cells += [format_p(p_values.get(key)), *map(format_median, row.outputs)]
+        table.append(cells)
+    return table
+
+
+def format_median(median: Median) -> str:
+    """A median with its interval; "fault" where that is a fault."""
+    value, low, high = (
+        "fault" if one is None else f"{one:.2g}" for one in (median.value, median.low, median.high)
+    )
+    return value if value == high == low else f"{value} ({low}–{high})"
+
+
+def format_arm_markdown(results: ArmResults) -> str:
+    """The table as Markdown."""
+    headings = list_arm_headings(results)
+    lines = [headings, ["---"] * len(headings), *list_arm_cells(results)]
+    return "\n".join(f"| {' | '.join(cells)} |" for cells in lines)

@@ -1,0 +1,116 @@
+"""`svsa ranking arm`: controllers of an arm, each tuned with the same budget."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from pydantic import ValidationError
+from rich.box import SIMPLE_HEAD
+from rich.console import Console
+from rich.table import Table
+
+from svsa.errors import ParameterError, Violation
+from svsa.evaluation.progress_bar import show_progress
+
+if TYPE_CHECKING:
+    from svsa.evaluation.ranking.arm import ArmProtocol, ArmResults, ArmRow
+    from svsa.evaluation.tuning.arm import ArmController
+
+MIN_WIDTH = 150
+"""Width of the terminal, in characters, that the table needs."""
+
+
+def rank_arm(
+    rows: Annotated[
+        list[str] | None,
+        typer.Argument(help="Controllers, such as fl, fl+ff, pd+adaptive; all if left out."),
+    ] = None,
+    budget: Annotated[int, typer.Option(min=1, help="Candidates of each search.")] = 128,
+    training: Annotated[int, typer.Option(min=1, help="Training trials of a candidate.")] = 24,
+    validation: Annotated[int, typer.Option(min=1, help="Trials of the best ten.")] = 48,
+    trials: Annotated[int, typer.Option(min=1, help="Test trials.")] = 96,
+    seed: Annotated[int, typer.Option(min=0, help="Seed of searches and trials.")] = 0,
+    save: Annotated[
+        Path | None,
+        typer.Option(help="Write results to this file after each row; its other rows stay."),
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+    markdown: Annotated[bool, typer.Option("--markdown", help="Print Markdown.")] = False,
+) -> None:
+    """Tune the controllers of an arm, and compare them on test trials.
+
+    Without names, rows of the file with the same protocol are kept: an interrupted command
+    continues.
+    """
+    from svsa.evaluation.ranking.arm import (
+        ArmProtocol,
+        format_arm_markdown,
+        list_arm_controllers,
+        measure_arm_rows,
+        order_arm_rows,
+    )
+
+    protocol = ArmProtocol(
+        budget=budget, training=training, validation=validation, trials=trials, seed=seed
+    )
+    offered = {one.key: one for one in list_arm_controllers()}
+    for key in rows or ():
+        if key not in offered:
+            raise ParameterError(Violation("row", key, "", "one of " + ", ".join(offered)))
+    known = _read_known(save, protocol)
+    done = () if rows else [row.controller for row in known]
+    chosen = [offered[key] for key in rows or offered if offered[key] not in done]
+    found = order_arm_rows(known, protocol)
+    with show_progress(Console(stderr=True), "", len(chosen), "") as bar:
+
+        def report(controller: "ArmController", share: float) -> None:
+            bar(chosen.index(controller) + share, controller.title)
+
+        for found in measure_arm_rows(chosen, protocol, known, report):
+            if save is not None:
+                save.write_text(found.model_dump_json(indent=1) + "\n", encoding="utf-8")
+    if as_json:
+        typer.echo(found.model_dump_json(indent=1))
+    elif markdown:
+        typer.echo(format_arm_markdown(found))
+    else:
+        screen = Console()
+        Console(width=max(screen.width, MIN_WIDTH)).print(_build_table(found), highlight=False)
+
+
+def _read_known(save: Path | None, protocol: "ArmProtocol") -> "tuple[ArmRow, ...]":
+    """Read the rows of a file that were measured with the same protocol."""
+    from svsa.evaluation.ranking.arm import ArmResults
+
+    if save is None or not save.exists():
+        return ()
+    try:
+        kept = ArmResults.model_validate_json(save.read_bytes())
+    except ValidationError as error:
+        bound = f"a file that svsa ranking arm --save writes ({error.error_count()} errors)"
+        raise ParameterError(Violation("--save", save, "", bound)) from None
+    return kept.rows if kept.protocol == protocol else ()
+
+
+def _build_table(results: "ArmResults") -> Table:
+    from svsa.evaluation.metrics import HELD
+    from svsa.evaluation.ranking.arm import INFEASIBLE, list_arm_cells, list_arm_headings
+
+    p = results.protocol
+    title = (
+        f"Controllers of an arm: {p.budget} candidates on {p.training} trials each, tested on"
+        f" {p.trials}, seed {p.seed}"
+    )
+    table = Table(
+        box=SIMPLE_HEAD,
+        padding=(0, 1, 0, 0),
+        title=title,
+        title_justify="left",
+        caption=f"Held: {HELD}, of both joints.{INFEASIBLE}: no parameters below the noise limit.",
+        caption_justify="left",
+    )
+    for number, heading in enumerate(list_arm_headings(results)):
+        table.add_column(heading, justify="left" if number == 1 else "right")
+    for cells in list_arm_cells(results):
+        table.add_row(*cells)
+    return table

@@ -1,0 +1,56 @@
+"""The collision of the tip with a wall: force and energy over stiffness, and its command."""
+
+import json
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from svsa.cli import app
+from svsa.evaluation.arm_collision import draw_collisions, measure_collision
+
+
+@pytest.mark.parametrize("direction", [1, -1])
+def test_peak_force_work_and_holding_force_rise_with_the_stiffness(direction):
+    """The impact itself does not: the links are decoupled from the motors at every stiffness."""
+    found = [measure_collision("pd", sigma, direction) for sigma in (10.0, 40.0, 80.0, 140.0)]
+    for name in ("peak_n", "work_j", "holding_n"):
+        values = [getattr(one, name) for one in found]
+        assert np.all(np.diff(values) > 0.1 * values[0]), (name, values)
+    for name in ("speed_m_per_s", "impact_n"):
+        values = [getattr(one, name) for one in found]
+        assert max(values) < 1.03 * min(values), (name, values)
+
+
+def test_an_elastic_wall_takes_the_energy_of_its_deepest_point():
+    one = measure_collision("pd", 40.0, 1, damping_ns_per_m=0.0)
+    assert one.peak_n == pytest.approx(2000.0 * one.depth_m.max(), rel=1e-9)
+    assert one.work_j == pytest.approx(0.5 * 2000.0 * one.depth_m.max() ** 2, rel=1e-3)
+
+
+def test_a_run_that_ends_before_the_wall_has_no_force():
+    one = measure_collision("ndobc", 10.0, 1)
+    assert one.fault is not None
+    assert np.isnan(one.peak_n) and np.isnan(one.work_j) and not len(one.force_n)
+
+
+def test_collisions_are_drawn_by_direction(tmp_path):
+    found = [measure_collision("pd", 80.0, direction) for direction in (1, -1)]
+    figure = draw_collisions(found)
+    assert [len(axes.lines) for axes in figure.axes] == [1] * 4
+    figure.savefig(tmp_path / "collision.png")
+
+
+def test_the_command_prints_the_collisions_as_json():
+    answer = CliRunner().invoke(app, ["arm-collision", "--json"])
+    assert answer.exit_code == 0, answer.output
+    found = json.loads(answer.stdout)
+    assert len(found) == 10
+    last = next(one for one in found if one["stiffness_nm_per_rad"] == 140.0)
+    assert last["peak_n"] == pytest.approx(34.1, abs=0.05)
+
+
+def test_an_unknown_law_is_named():
+    answer = CliRunner().invoke(app, ["arm-collision", "flx"])
+    assert answer.exit_code == 2
+    assert "flx" in answer.output

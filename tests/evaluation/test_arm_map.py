@@ -1,0 +1,61 @@
+"""The map of an arm's errors over tip mass and stiffness, and its command."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import svsa
+from svsa.cli import app
+from svsa.evaluation.arm_map import (
+    MASSES_KG,
+    STIFFNESSES_NM_PER_RAD,
+    draw_arm_maps,
+    measure_arm_map,
+)
+
+HEAVY = {"observer": 40.0, "gains": svsa.Gains.from_poles([-40] * 4, [-40] * 2)}
+ADAPTIVE = {**HEAVY, "feedforward": True, "adaptation": True}
+
+
+def measure(law, settings):
+    return measure_arm_map(law, settings, law, (0.1, 0.3), (80.0,)).errors_deg
+
+
+def test_ndobc_does_not_carry_what_fl_does_and_both_do_with_the_payload_known():
+    """0.1 and 0.3 kg at σ = 80."""
+    fl, ndobc = measure("fl", {}), measure("ndobc", {})
+    assert ndobc[0, 0] < 0.2 * fl[0, 0]
+    assert math.isinf(ndobc[0, 1]) and fl[0, 1] < 6.0
+    assert np.all(measure("fl", ADAPTIVE) < 0.1)
+    assert np.all(measure("ndobc", ADAPTIVE) < 0.1)
+
+
+def test_a_map_is_drawn_with_its_faults(tmp_path):
+    maps = [measure_arm_map("fl", {}, "FL", MASSES_KG[:1], STIFFNESSES_NM_PER_RAD[:1])]
+    errors = np.full((len(STIFFNESSES_NM_PER_RAD), len(MASSES_KG)), maps[0].errors_deg[0, 0])
+    errors[-1, -1] = math.inf
+    figure = draw_arm_maps([maps[0]._replace(errors_deg=errors)] * 4)
+    assert [axis.get_title() for axis in figure.axes[:4]] == ["FL"] * 4
+    assert len(figure.axes[0].lines) == 1
+    figure.savefig(tmp_path / "map.png")
+
+
+@pytest.mark.exhaustive
+def test_the_command_prints_the_map_as_json():
+    answer = CliRunner().invoke(app, ["arm-map", "fl", "--json"])
+    assert answer.exit_code == 0, answer.output
+    found = json.loads(answer.stdout)
+    rows = found["rms_position_error_deg"]["FL"]
+    assert len(rows) == len(found["stiffness_nm_per_rad"])
+    column = found["tip_mass_kg"].index(0.3)
+    row = rows[found["stiffness_nm_per_rad"].index(80.0)]
+    assert row[column] == pytest.approx(5.06, abs=0.01)
+
+
+def test_an_unknown_law_is_named():
+    answer = CliRunner().invoke(app, ["arm-map", "flx"])
+    assert answer.exit_code == 2
+    assert "flx" in answer.output
