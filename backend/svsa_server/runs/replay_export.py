@@ -14,6 +14,7 @@ from svsa.runs.records.settings import describe_settings
 from svsa.runs.replay import list_loads
 from svsa_scene.pose import LaneSegment
 from svsa_scene.replay import build_replay_html
+from svsa_scene.replay_scenes import ReplayArm
 from svsa_server.runs.lanes import list_record_segments, name_lanes
 from svsa_server.schemas.runs.lane import SegmentState
 
@@ -21,7 +22,8 @@ from svsa_server.schemas.runs.lane import SegmentState
 def build_replay(record: Record) -> str:
     """Build the page's HTML. Reads the whole record and takes seconds: not in the event loop.
 
-    Raises `ParameterError` where the record lacks a channel that the view needs.
+    Raises:
+        ParameterError: If the record lacks a channel that the view needs.
     """
     header = record.header
     segments = list_record_segments(record, trace_record(record))
@@ -48,9 +50,15 @@ def build_replay(record: Record) -> str:
         events=list_events(*origin, record.fault, record.events),
         first_tick=record.first_tick,
         actuator=origin[0].actuator,
+        arm=_find_arm(origin[0]),
         window=find_measured_window(record),
         segments=[[_place(record, one) for one in lane] for lane in segments],
     )
+
+
+def _find_arm(configuration: Configuration) -> ReplayArm | None:
+    arm = configuration.arm
+    return arm and ReplayArm(arm.links, arm.joint2.actuator)
 
 
 def _place(record: Record, segment: SegmentState) -> LaneSegment:
@@ -74,6 +82,6 @@ def trace_hung_mass(
     """The mass on the link at so many ticks of a run, kg, (tick_count,)."""
     ticks = np.arange(first_tick, first_tick + tick_count)
     mass = np.zeros(tick_count)
-    for _, load, start, end in list_loads(configuration, commands):
+    for _, load, start, end, _ in list_loads(configuration, commands):
         mass[(ticks >= start) & (ticks < end)] += load.get_hung_mass()
     return mass

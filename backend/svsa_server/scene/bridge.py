@@ -5,8 +5,10 @@ import io
 
 import viser
 
-from svsa.actuators.parameters import MechanismParameters
+from svsa.runs.configuration import Configuration
 from svsa_scene import ActuatorPose
+from svsa_scene.arm import ArmScene
+from svsa_scene.arm_pose import ArmPose
 from svsa_scene.scene import ActuatorScene
 
 
@@ -18,12 +20,12 @@ class _LoopbackViser(viser.ViserServer):
 
 
 class SceneBridge:
-    """Starts viser on 127.0.0.1 at a free port, with the actuator as its scene."""
+    """Starts viser on 127.0.0.1 at a free port, with the actuator or the arm as its scene."""
 
-    def __init__(self, parameters: MechanismParameters) -> None:
+    def __init__(self, configuration: Configuration) -> None:
         with contextlib.redirect_stdout(io.StringIO()):
             self._viser = _LoopbackViser(host="127.0.0.1", port=0, verbose=False)
-        self._scene = ActuatorScene(self._viser, parameters)
+        self._scene = _build_scene(self._viser, configuration)
         self._stopped = False
 
     @property
@@ -40,9 +42,17 @@ class SceneBridge:
         """Light or dark background for viewers that do not choose one by `?darkMode`."""
         self._scene.set_theme(dark)
 
-    def show(self, pose: ActuatorPose) -> None:
-        """Move the actuator to the pose, in every browser that shows it."""
-        self._scene.update(pose)
+    def show(self, pose: ActuatorPose | ArmPose) -> None:
+        """Move the actuator or the arm to the pose, in every browser that shows it. A pose of the
+        other kind, just after another experiment has been loaded, is left out.
+        """
+        match self._scene, pose:
+            case (ActuatorScene() as scene, ActuatorPose()):
+                scene.update(pose)
+            case (ArmScene() as scene, ArmPose()):
+                scene.update(pose)
+            case _:
+                pass
 
     def stop(self) -> None:
         """Close viser and its connections. Takes up to a second; may be called again."""
@@ -50,3 +60,12 @@ class SceneBridge:
             self._stopped = True
             with contextlib.redirect_stdout(io.StringIO()):
                 self._viser.stop()
+
+
+def _build_scene(
+    server: viser.ViserServer, configuration: Configuration
+) -> ActuatorScene | ArmScene:
+    arm = configuration.arm
+    if arm is None:
+        return ActuatorScene(server, configuration.actuator)
+    return ArmScene(server, arm.links, (configuration.actuator, arm.joint2.actuator))

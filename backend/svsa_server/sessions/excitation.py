@@ -10,7 +10,7 @@ from svsa.analysis.identification.excitation import EXCITATION_DURATION_S, build
 from svsa.errors import StateError, SvsaError
 from svsa.runs.session.session import Session
 from svsa_server.schemas.runs.run import ExcitationState
-from svsa_server.sessions.lock import take_turn
+from svsa_server.sessions.lock import run_waiting
 
 FASTEST_SPEED = 10.0
 TAG = "identification"
@@ -22,8 +22,8 @@ _log = logging.getLogger("svsa")
 class Excitation:
     """The excitation from this tick of a session's run on.
 
-    It ends with the recording: when it has been played, or earlier where the run ends, a user
-    gives a reference of his own, or the run refuses one. `is_interrupted`: it was interrupted.
+    It ends with the recording: when it is complete, or earlier if the run ends, a user sets another
+    reference, or the run rejects one. `is_interrupted`: whether it was interrupted.
     """
 
     def __init__(self, session: Session) -> None:
@@ -56,7 +56,7 @@ class Excitation:
         """Apply each reference when it is due, until the end; an error interrupts it."""
         try:
             while not (self.is_interrupted or self.over):
-                await take_turn(self._give_due)
+                await run_waiting(self._give_due)
                 await asyncio.sleep(_PERIOD_S)
         except SvsaError as error:
             name = self._session.name
@@ -71,6 +71,8 @@ class Excitation:
 
 def check_excitable(session: Session) -> None:
     """Raise `StateError` if the excitation could not be used for an identification."""
+    if session.run.configuration.arm is not None:
+        raise StateError("The identification is of a single joint, and this session is of an arm.")
     mechanism = find_mechanism(session.run.configuration.actuator)
     if mechanism.name != SVSA:
         raise StateError(

@@ -12,15 +12,17 @@ from svsa.errors import StateError
 from svsa.evaluation.falsifier.measure import list_baselines
 from svsa.evaluation.ranking.scenarios import find_scenario
 from svsa.evaluation.ranking.single_run import build_shown_run
+from svsa.runs.arm.run import build_run
 from svsa.runs.configuration import Configuration, Lane
 from svsa.runs.experiment import build_default_load
 from svsa.runs.records.resimulation import check_simulated, read_origin
-from svsa.runs.run import Run
 from svsa.simulation.plant.loads.paper import PaperLoad
+from svsa_server.compiled_loops import compile_arm, compile_for
 from svsa_server.jobs.falsifications import read_found
 from svsa_server.jobs.queue import Job
 from svsa_server.schemas.lab.opening import (
     FromActuator,
+    FromArm,
     FromFalsification,
     FromFigure,
     FromRanking,
@@ -29,12 +31,12 @@ from svsa_server.schemas.lab.opening import (
     FromSession,
     SessionRequest,
 )
+from svsa_server.sessions.evaluated_design import build_trial
 from svsa_server.sessions.hosted import HostedSession
 from svsa_server.sessions.laboratory import Laboratory
-from svsa_server.sessions.tried_design import build_tried
 
 LOAD_S = 1.0
-"""When the load comes in a session that shows a design, s."""
+"""Onset of the load in a session that shows a design, s."""
 
 
 async def open_session(app: FastAPI, wanted: SessionRequest, owner: str) -> HostedSession:
@@ -42,13 +44,14 @@ async def open_session(app: FastAPI, wanted: SessionRequest, owner: str) -> Host
 
     Args:
         app: The application.
-        wanted: What it is opened from.
-        owner: Id of the person; empty in a lab without a class.
+        wanted: Source of the session.
+        owner: Id of the user; empty in a lab without a class.
 
     Raises:
-        ParameterError: A value is rejected.
-        StateError: A falsification has no scenario yet, or the lab has no room for a session.
-        UnknownError: There is no such session, run or job.
+        ParameterError: If a value is rejected.
+        StateError: If a falsification has no scenario yet, or the maximum number of sessions is
+            reached.
+        UnknownError: If there is no such session, run or job.
     """
     laboratory: Laboratory = app.state.laboratory
     match wanted:
@@ -62,14 +65,19 @@ async def open_session(app: FastAPI, wanted: SessionRequest, owner: str) -> Host
             shown = await asyncio.to_thread(build_shown_run, scenario, wanted.row)
             return laboratory.create(shown.configuration, owner, shown.alone)
         case FromActuator():
-            # The first session of an actuator waits for its energy to be compiled.
+            for law in {wanted.law, *(lane.law for lane in wanted.comparisons)}:
+                await compile_for(wanted.actuator, law)
+            configuration = await asyncio.to_thread(_prepare, wanted)
+        case FromArm():
+            for law in {wanted.law, *(lane.law for lane in wanted.comparisons)}:
+                await compile_arm(wanted.list_actuators(), law)
             configuration = await asyncio.to_thread(_prepare, wanted)
         case FromFigure():
             configuration = wanted.build_configuration(app.state.design)
         case FromScenario():
             configuration = await asyncio.to_thread(wanted.build_configuration)
         case FromSession():
-            tried, _ = build_tried(laboratory.get(wanted.id).session, wanted)
+            tried, _ = build_trial(laboratory.get(wanted.id).session, wanted)
             mechanism = find_mechanism(tried.actuator)
             is_svsa = mechanism.name == SVSA
             load = PaperLoad(start_s=LOAD_S) if is_svsa else build_default_load(mechanism, LOAD_S)
@@ -79,10 +87,10 @@ async def open_session(app: FastAPI, wanted: SessionRequest, owner: str) -> Host
     return laboratory.create(configuration, owner)
 
 
-def _prepare(wanted: FromActuator) -> Configuration:
+def _prepare(wanted: FromActuator | FromArm) -> Configuration:
     """The configuration, with every function of its loop compiled."""
     configuration = wanted.build_configuration()
-    run = Run(configuration)
+    run = build_run(configuration)
     run.advance(np.empty((len(run.lanes), 1, len(CHANNELS))))
     return configuration
 
@@ -94,5 +102,5 @@ def _build_found(job: Job) -> Configuration:
             f"The falsification {job.id} is {job.status} and has no scenario: it writes one at its"
             " end."
         )
-    law, baseline = list_baselines(job.asked.adversary.law)
+    law, baseline = list_baselines(job.task.adversary.law)
     return found.scenario.build_configuration(law).changed(comparisons=(Lane(law=baseline),))

@@ -9,12 +9,16 @@ from svsa.actuators.installed import find_mechanism
 from svsa.actuators.signals import CHANNEL_NAMES
 from svsa.control.gains import Gains
 from svsa.hardware.session.session import BenchSession
+from svsa.runs.arm.run import ArmRun
+from svsa.runs.configuration import ArmSetup, Configuration
 from svsa.runs.metrics import Metrics
 from svsa.runs.records.header import BranchPoint
 from svsa.runs.records.recorder import Recorder
+from svsa.runs.run import Run
 from svsa.runs.session.session import Session
 from svsa.simulation.plant.effects import find_preset
 from svsa.simulation.plant.load_table import ScheduledLoad
+from svsa.simulation.plant.loads.load import TIP
 from svsa_server.leases.lease import ControlLease, asking
 from svsa_server.leases.queue import ControlQueue
 from svsa_server.runs.lanes import build_window, list_ended_windows, list_session_segments
@@ -22,7 +26,7 @@ from svsa_server.schemas.lab.actuator import summarize_actuator
 from svsa_server.schemas.lab.gain import GainsState, Root
 from svsa_server.schemas.lab.lease import ControlState, QueueState, WaitingState
 from svsa_server.schemas.lab.session import BranchState, LoadState, SessionProgress, SessionState
-from svsa_server.schemas.lab.setting import ConfigurationState
+from svsa_server.schemas.lab.setting import ArmSetupState, ConfigurationState
 from svsa_server.schemas.runs.fault import build_session_fault
 from svsa_server.schemas.runs.lane import LaneState
 from svsa_server.schemas.runs.run import RecordingState
@@ -34,7 +38,7 @@ from svsa_server.sessions.hosted import HostedSession
 def build_progress(hosted: HostedSession, since_tick: int = 0) -> SessionProgress:
     """Build the fields of the session that change with time.
 
-    since_tick: of ended items only those that reach to this tick are returned.
+    Of the ended items only those that reach to `since_tick` are returned.
     """
     session = hosted.session
     run, pace = session.run, session.pace
@@ -55,6 +59,7 @@ def build_progress(hosted: HostedSession, since_tick: int = 0) -> SessionProgres
         lanes=[
             LaneState(
                 lane=number + 1,
+                joint=None if run.configuration.arm is None else 1 if number % 2 == 0 else 2,
                 id=timeline.lane_ids[number],
                 law=lane.law,
                 name=segments[number][-1].name,
@@ -63,6 +68,7 @@ def build_progress(hosted: HostedSession, since_tick: int = 0) -> SessionProgres
             )
             for number, lane in enumerate(run.configuration.lanes)
         ],
+        payload_kg=_list_payloads(run),
         recording=_build_recording(session.journal.recorder),
         excitation=build_excitation(hosted.excitation),
         bench=build_bench_state(session) if isinstance(session, BenchSession) else None,
@@ -73,6 +79,7 @@ def build_state(hosted: HostedSession, since_tick: int = 0) -> SessionState:
     """Build the complete state of the session; since_tick as for `build_progress`."""
     session = hosted.session
     run = session.run
+    arm = run.configuration.arm
     newest = session.journal.history.read_newest()
     return SessionState(
         **dict(build_progress(hosted, since_tick)),
@@ -86,8 +93,9 @@ def build_state(hosted: HostedSession, since_tick: int = 0) -> SessionState:
         queue=build_queue(hosted.lease),
         rate_hz=1.0 / run.period_s,
         actuator=summarize_actuator(find_mechanism(run.configuration.actuator)),
-        configuration=_build_configuration(session),
-        loads=[_build_load(load, run.tick, run.period_s) for load in run.loads],
+        actuator2=None if arm is None else summarize_actuator(find_mechanism(arm.joint2.actuator)),
+        configuration=_build_configuration(run.configuration),
+        loads=[_build_load(load, run) for load in run.loads],
         events=[event for event in session.journal.events if event.tick >= since_tick],
         ended_windows=list_ended_windows(session, since_tick),
         sample=None if newest is None else _name_values(newest),
@@ -144,7 +152,7 @@ def _summarize(session: Session, lane: int) -> dict[str, Metrics | None]:
 
 
 def _drop_unknown(metrics: Metrics | None) -> Metrics | None:
-    """Return None for a lane that has ended, whose numbers would be outdated."""
+    """Return None for a lane that has ended, because its values would be outdated."""
     return None if metrics is None or math.isnan(metrics.rms_position_error_rad) else metrics
 
 
@@ -155,8 +163,20 @@ def _find_lane_at_load(session: Session, lane: int) -> int | None:
     return timeline.load_numbers.index(number) if number in timeline.load_numbers else None
 
 
-def _build_configuration(session: Session) -> ConfigurationState:
-    configuration = session.run.configuration
+def _list_payloads(run: Run) -> list[float] | None:
+    if not isinstance(run, ArmRun) or run.configuration.require_arm().adaptation is None:
+        return None
+    return run.payloads_kg
+
+
+def _build_arm(arm: ArmSetup | None) -> ArmSetupState | None:
+    if arm is None:
+        return None
+    joint2 = _build_configuration(arm.joint2)
+    return ArmSetupState(**{**dict(arm), "joint2": joint2})
+
+
+def _build_configuration(configuration: Configuration) -> ConfigurationState:
     return ConfigurationState(
         law=configuration.law,
         position=configuration.position,
@@ -174,6 +194,7 @@ def _build_configuration(session: Session) -> ConfigurationState:
         effects=configuration.effects,
         effects_preset=find_preset(configuration.effects),
         seed=configuration.seed,
+        arm=_build_arm(configuration.arm),
     )
 
 
@@ -186,14 +207,16 @@ def _build_gains(gains: Gains) -> GainsState:
     )
 
 
-def _build_load(scheduled: ScheduledLoad, tick: int, period_s: float) -> LoadState:
+def _build_load(scheduled: ScheduledLoad, run: Run) -> LoadState:
+    is_on_joint = run.configuration.arm is not None and scheduled.load.acts_as != TIP
     return LoadState(
         id=scheduled.number,
-        start_s=scheduled.start_tick * period_s,
-        end_s=None if math.isinf(scheduled.end_tick) else scheduled.end_tick * period_s,
-        active=scheduled.is_on(tick),
+        start_s=scheduled.start_tick * run.period_s,
+        end_s=None if math.isinf(scheduled.end_tick) else scheduled.end_tick * run.period_s,
+        active=scheduled.is_on(run.tick),
         label=scheduled.load.describe(),
         load=scheduled.load,
+        joint=scheduled.joint if is_on_joint else None,
     )
 
 

@@ -1,4 +1,4 @@
-"""The course over REST: what is kept, what may be changed, and what is refused."""
+"""The course over REST: stored progress, permitted changes, and rejections."""
 
 import json
 import shutil
@@ -27,12 +27,12 @@ def lab(data):
 
 @pytest.fixture
 def student(lab, data):
-    """One who has done nothing yet."""
+    """A student without progress."""
     shutil.rmtree(data / "course", ignore_errors=True)
     return Student(lab, find_exercise(NAME))
 
 
-def test_the_course_is_listed_and_tells_no_answer(student):
+def test_course_list_contains_no_answers(student):
     listed = student.client.get(COURSE).json()["exercises"]
     exercise = student.read()
 
@@ -42,7 +42,7 @@ def test_the_course_is_listed_and_tells_no_answer(student):
     assert student.client.get(f"{COURSE}/nowhere").status_code == 404
 
 
-def test_no_run_before_its_prediction_which_stays_from_then_on(student):
+def test_run_requires_a_prediction_which_is_final(student):
     refused = student.set_up("load")
     assert refused.status_code == 409
     assert "Predict first" in refused.json()["detail"]
@@ -59,7 +59,7 @@ def test_no_run_before_its_prediction_which_stays_from_then_on(student):
     assert part["is_final"]
 
 
-def test_a_choice_is_made_once(student):
+def test_choice_is_made_once(student):
     student.answer("why", "stiffness").raise_for_status()
 
     assert student.answer("why", "knowledge").status_code == 409
@@ -69,14 +69,14 @@ def test_a_choice_is_made_once(student):
 
 
 @pytest.mark.parametrize("answer", [-1.0, 91.0, "twelve"])
-def test_what_is_not_plausible_is_refused_with_its_bounds(student, answer):
+def test_implausible_value_is_rejected_with_its_bounds(student, answer):
     refused = student.answer("predict-error", answer)
 
     assert refused.status_code == 422
     assert "0 to 90 °" in refused.json()["detail"]
 
 
-def test_progress_is_there_for_another_browser_and_after_a_restart(tmp_path):
+def test_progress_is_available_in_another_browser_and_after_a_restart(tmp_path):
     data = tmp_path
     with run_lab_in_process(data=str(data)) as lab:
         student = Student(lab, find_exercise(NAME))
@@ -91,7 +91,7 @@ def test_progress_is_there_for_another_browser_and_after_a_restart(tmp_path):
     assert ProgressStore(data).read("").get(NAME).get("predict-error").answer == 7.5
 
 
-def test_a_run_is_judged_and_a_worse_one_does_not_take_its_place(student):
+def test_run_is_assessed_and_a_worse_one_does_not_replace_it(student):
     for step in ("predict-error", "predict-stiffness"):
         student.answer(step, 7.5).raise_for_status()
     student.set_up("load").raise_for_status()
@@ -110,12 +110,12 @@ def test_a_run_is_judged_and_a_worse_one_does_not_take_its_place(student):
     assert part["run_id"] == whole
 
 
-def test_nothing_is_submitted_before_it_is_done_and_nothing_changed_after(student, data):
+def test_incomplete_exercise_is_not_submitted_and_submitted_one_is_final(student, data):
     refused = student.submit()
     assert refused.status_code == 409
     assert "predict-error" in refused.json()["detail"]
 
-    judgement = student.play(
+    judgement = student.complete(
         {
             "predict-error": 7.5,
             "predict-stiffness": 0.05,
@@ -132,14 +132,14 @@ def test_nothing_is_submitted_before_it_is_done_and_nothing_changed_after(studen
     assert student.check("load", kept.runs["load"]).status_code == 409
 
 
-def test_a_run_that_is_not_there_or_still_recorded_is_refused(student):
+def test_missing_or_unfinished_run_is_rejected(student):
     assert student.check("load", "20260102-030405-9f8e7d6c").status_code == 404
     run = student.post("recording", {"name": "x"})["recording"]["run_id"]
     assert student.check("load", run).status_code == 409
     student.client.delete(f"{student.session}/recording")
 
 
-def test_in_a_class_all_users_has_progress_of_their_own(tmp_path):
+def test_users_of_a_class_have_their_own_progress(tmp_path):
     data = tmp_path
     from svsa_server.access.class_keys import ClassKeys
 
@@ -169,7 +169,7 @@ def test_in_a_class_all_users_has_progress_of_their_own(tmp_path):
     assert refused.status_code == 403
 
 
-def test_a_lecturer_s_folder_is_served(tmp_path):
+def test_folder_of_a_lecturer_is_served(tmp_path):
     from tests.teaching.course.test_exercise_file import EXERCISE
 
     folder = tmp_path / "mine"
@@ -181,8 +181,8 @@ def test_a_lecturer_s_folder_is_served(tmp_path):
     assert ("first", "A first one") in [(one["name"], one["title"]) for one in listed]
 
 
-def test_progress_with_former_words_is_kept(student, data):
-    """Of an exercise that was submitted before the words changed, with criteria as lists."""
+def test_progress_with_former_names_is_kept(student, data):
+    """Of an exercise submitted before the renaming, with criteria as lists."""
     folder = data / "course"
     (folder / "people").mkdir(parents=True, exist_ok=True)
     result = ["load", "It stays", 1.0, 1.0, "Right.", "position_error_rad", 2.0]
@@ -196,8 +196,8 @@ def test_progress_with_former_words_is_kept(student, data):
     assert list(part["results"][0].values()) == result
 
 
-def test_the_settings_from_before_the_first_step_are_restored(student):
-    """Also those that no settings route reaches: the exercise makes the model exact."""
+def test_settings_from_before_the_first_step_are_restored(student):
+    """Including those without a settings route: the exercise makes the model exact."""
     student.client.put(f"{student.session}/law", json={"law": "pd"}).raise_for_status()
     before = student.post("start")
     assert before["exercise"] is None
@@ -218,7 +218,7 @@ def test_the_settings_from_before_the_first_step_are_restored(student):
     assert student.restore().status_code == 409
 
 
-def test_a_figure_chosen_after_a_step_is_kept(student):
+def test_figure_chosen_after_a_step_is_kept(student):
     student.answer("predict-error", 7.5).raise_for_status()
     student.answer("predict-stiffness", 0.05).raise_for_status()
     student.set_up("load").raise_for_status()
@@ -227,3 +227,39 @@ def test_a_figure_chosen_after_a_step_is_kept(student):
 
     assert chosen["exercise"] is None
     assert student.restore().status_code == 409
+
+
+def test_experiment_of_an_arm_needs_a_session_of_that_arm(student, lab):
+    """And one of a single joint none of an arm; the predictions do not become final."""
+    coupling = Student(lab, find_exercise("coupling"))
+    for step, answer in (("predict-torque", 0.25), ("predict-ratio", 5.0)):
+        coupling.answer(step, answer).raise_for_status()
+    student.answer("predict-error", 7.5).raise_for_status()
+    student.answer("predict-stiffness", 0.05).raise_for_status()
+    of_arm, of_joint = coupling.session, student.session
+    coupling.session, student.session = of_joint, of_arm
+
+    refused = coupling.set_up("move")
+    assert refused.status_code == 409
+    assert "open a session of this arm" in refused.json()["detail"]
+    refused = student.set_up("load")
+    assert refused.status_code == 409
+    assert "this session is of an arm" in refused.json()["detail"]
+    for one, name in ((coupling, "predict-torque"), (student, "predict-error")):
+        part = next(part for part in one.read()["parts"] if part["name"] == name)
+        assert not part["is_final"]
+    coupling.session = of_arm
+    state = coupling.set_up("move").raise_for_status().json()
+    assert state["configuration"]["arm"]["links"]["gravity_m_per_s2"] == 0.0
+    move = next(part for part in coupling.read()["parts"] if part["name"] == "move")
+    assert move["arm"] == "rods"
+
+
+def test_earlier_settings_of_an_arm_are_restored(lab):
+    student = Student(lab, find_exercise("ellipse"))
+    student.answer("predict-round", 444.0).raise_for_status()
+    student.answer("predict-yield", 0.6).raise_for_status()
+    before = student.client.get(student.session).json()["configuration"]
+    student.set_up("round").raise_for_status()
+    after = student.restore().raise_for_status().json()["configuration"]
+    assert after == before

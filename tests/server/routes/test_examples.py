@@ -1,4 +1,4 @@
-"""What the schema shows as a body is taken by the server, or refused for no value in it."""
+"""Every example body in the schema is accepted, or rejected for another reason than its values."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -19,7 +19,7 @@ WORKERS = {
     "POST /api/v1/scenarios/runs",
     "POST /api/v1/grades",
 }
-"""Minutes of a worker; the tests of these routes send what their examples are."""
+"""They take minutes of a worker; the tests of these routes send their examples."""
 
 PATHS = SCHEMA["paths"]
 COURSE = "/api/v1/course/{exercise}"
@@ -30,6 +30,7 @@ NOT_HERE = {
     "PATCH /api/v1/class/people/{person}": "no class",
     "POST /api/v1/sessions/{session}/control/handover": "the queue is empty",
     "PUT /api/v1/sessions/{session}/control/lock": "no class",
+    "PATCH /api/v1/sessions/{session}/arm": "a single joint",
     "POST /api/v1/sessions/{session}/bench/home": "no bench",
     "POST /api/v1/sessions/{session}/bench/endurance": "no bench",
     f"POST {COURSE}/steps/{{step}}/check": "the run is of another lab",
@@ -37,14 +38,18 @@ NOT_HERE = {
     f"POST {COURSE}/submission": "the exercise is not done",
     "POST /api/v1/runs/{run_id}/verdict": "the run to judge by is of another lab",
 }
-"""What is asked for is not there, or not yet: 404 or 409, after the body was read."""
+"""The requested object does not exist: 404 or 409, after the body was read."""
 
 EXAMPLES_NOT_HERE = (
     {"from": "falsification", "id": "3f2a9c01b7de"},
     {"from": "exercise", "exercise": "feedback-linearization", "step": "load"},
     {"from": "before_exercise"},
+    {"kind": "tip_mass", "mass_kg": 0.1},
+    {"kind": "tip_push", "force_n": [1.0, 0.0], "hold_s": 0.5},
 )
-"""A job of another lab (see `test_falsifications`), a step without its prediction, no exercise."""
+"""A job of another lab (see `test_falsifications`), a step without its prediction, no exercise, and
+loads of an arm (see `test_arm_routes`).
+"""
 STEP_THAT_ASKS = "predict-error"
 
 
@@ -87,7 +92,7 @@ def run(lab: httpx.Client) -> str:
 
 @pytest.fixture
 def session(lab: httpx.Client) -> Iterator[str]:
-    """A private session, paused, with a lane next to its first and no load."""
+    """A private session, paused, with two lanes and no load."""
     asked = {"comparisons": [{"law": "pd"}], "load": False}
     name = lab.post("/api/v1/sessions", json=asked).raise_for_status().json()["session"]
     lab.post(f"/api/v1/sessions/{name}/pause").raise_for_status()
@@ -96,7 +101,7 @@ def session(lab: httpx.Client) -> Iterator[str]:
 
 
 @pytest.mark.parametrize(("label", "example"), list(list_shown()))
-def test_an_example_is_taken(
+def test_example_is_accepted(
     lab: httpx.Client, session: str, run: str, label: str, example: Any
 ) -> None:
     method, path = label.split()

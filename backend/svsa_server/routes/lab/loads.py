@@ -2,11 +2,11 @@
 
 from typing import Annotated
 
-from fastapi import Body, Response
+from fastapi import Body, Query, Response
 
 from svsa.errors import StateError
-from svsa.runs.command import ApplyLoad, RemoveLoad
-from svsa.runs.session.session import take_loads_off
+from svsa.runs.command import ApplyLoad, JointNumber, RemoveLoad
+from svsa.runs.session.session import remove_loads
 from svsa.simulation.plant.loads import Load
 from svsa.simulation.plant.loads.mass import PAPER_ARM_M, PAPER_MASS_KG
 from svsa_server.access.permissions import OBSERVER, OPERATOR, allow
@@ -14,11 +14,11 @@ from svsa_server.problems import UnknownError
 from svsa_server.routes.depends import REFUSALS, NamedSession
 from svsa_server.routing import API, build_router
 from svsa_server.schemas.lab.session import AddedLoad, LoadState, SessionState
-from svsa_server.sessions.lock import TurnRoute
+from svsa_server.sessions.lock import WaitingRoute
 from svsa_server.sessions.state import build_state
 
 router = build_router(
-    "/sessions/{session}/loads", tags=["loads"], responses=REFUSALS, route_class=TurnRoute
+    "/sessions/{session}/loads", tags=["loads"], responses=REFUSALS, route_class=WaitingRoute
 )
 
 
@@ -30,6 +30,8 @@ GivenLoad = Annotated[
             {"kind": "mass", "mass_kg": PAPER_MASS_KG, "arm_m": PAPER_ARM_M},
             {"kind": "pulse", "torque_nm": [2.0, 0.0, 0.0], "duration_s": 0.5},
             {"kind": "push", "torque_nm": [1.0, 0.0, 0.0], "hold_s": 0.5},
+            {"kind": "tip_mass", "mass_kg": 0.1},
+            {"kind": "tip_push", "force_n": [1.0, 0.0], "hold_s": 0.5},
             {"kind": "sine", "torque_nm": [1.0, 0.0, 0.0], "frequency_hz": 1.0},
             {
                 "kind": "series",
@@ -53,10 +55,19 @@ def list_loads(hosted: NamedSession) -> list[LoadState]:
 
 @router.post("", status_code=201, responses={201: {"headers": _LOCATION}})
 @allow(OPERATOR)
-def apply_load(hosted: NamedSession, response: Response, load: GivenLoad) -> AddedLoad:
+def apply_load(
+    hosted: NamedSession,
+    response: Response,
+    load: GivenLoad,
+    joint: Annotated[
+        JointNumber | None,
+        Query(ge=1, le=2, description="Joint of an arm on which a torque acts; left out: joint 1"),
+    ] = None,
+) -> AddedLoad:
     """Add a load, now or at `start_s`; the answer has its `id`, and `Location` its address.
 
-    A push ends automatically: sent again while it is on, it is changed and extended, as one load.
+    A push ends automatically; if it is sent again while it is active, it is changed and extended as
+    one load.
     """
     session = hosted.session
     if session.status == "fault":
@@ -64,7 +75,7 @@ def apply_load(hosted: NamedSession, response: Response, load: GivenLoad) -> Add
             f"Session {session.name} is in a fault and takes no load: reset it, or clear the fault"
             " of a bench, and add the load then."
         )
-    session.change(ApplyLoad(argument=load))
+    session.change(ApplyLoad(argument=load, joint=joint))
     state = build_state(hosted)
     added = state.loads[-1]
     past = [event for event in state.events if event.tick <= state.tick]
@@ -87,7 +98,7 @@ def read_load(hosted: NamedSession, load_id: int) -> LoadState:
 @allow(OPERATOR)
 def clear_loads(hosted: NamedSession) -> SessionState:
     """Remove all loads from a session."""
-    take_loads_off(hosted.session)
+    remove_loads(hosted.session)
     return build_state(hosted)
 
 

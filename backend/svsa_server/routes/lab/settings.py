@@ -1,6 +1,6 @@
 """Change the settings of a session: references, law, lanes, plant and effects.
 
-What is set already changes nothing when it is sent again: no fade, no event, no new window.
+Setting the present value again changes nothing: no transition, no event, no new window.
 """
 
 from typing import TYPE_CHECKING, Annotated, Any
@@ -13,7 +13,7 @@ from svsa.control.observers.disturbance import ObserverBandwidth
 from svsa.control.parameters import LawParameters
 from svsa.errors import ParameterError
 from svsa.inputs.checked import Checked
-from svsa.runs.command import Command, Set
+from svsa.runs.command import JointNumber, Set
 from svsa.runs.configuration import LaneSetting
 from svsa.simulation.plant.effects import Effects
 from svsa.simulation.reference.kinds import PositionReference, StiffnessReference
@@ -29,21 +29,24 @@ from svsa_server.schemas.lab.setting import (
     LawRequest,
     build_patch,
 )
-from svsa_server.sessions.hosted import HostedSession
-from svsa_server.sessions.lock import TurnRoute
+from svsa_server.sessions.lock import WaitingRoute
 from svsa_server.sessions.state import build_state
 
 router = build_router(
     "/sessions/{session}",
     tags=["settings"],
     responses=REFUSALS | CHANGED,
-    route_class=TurnRoute,
+    route_class=WaitingRoute,
     dependencies=[Depends(check_unchanged)],
 )
 
 Restart = Annotated[
     bool,
     Query(description="Start the reference again, faded over, even if it is followed already"),
+]
+
+OfJoint = Annotated[
+    JointNumber | None, Query(ge=1, le=2, description="Joint of an arm to change; left out: both")
 ]
 
 if TYPE_CHECKING:
@@ -75,9 +78,10 @@ def set_position(
         ),
     ],
     restart: Restart = False,
+    joint: OfJoint = None,
 ) -> SessionState:
     """Set the position reference, faded over without a jump in any derivative."""
-    _follow(hosted, Set("position", reference), restart)
+    hosted.session.patch(lambda _: Set("position", reference), joint, again=restart)
     return build_state(hosted)
 
 
@@ -100,9 +104,10 @@ def set_stiffness(
         ),
     ],
     restart: Restart = False,
+    joint: OfJoint = None,
 ) -> SessionState:
     """Set the stiffness reference, inside the limits of the session's actuator."""
-    _follow(hosted, Set("stiffness", reference), restart)
+    hosted.session.patch(lambda _: Set("stiffness", reference), joint, again=restart)
     return build_state(hosted)
 
 
@@ -113,12 +118,13 @@ def set_law(
     request: Annotated[
         LawRequest, Body(examples=[{"law": "fl"}, {"law": "fl", "comparison_laws": ["ndobc"]}])
     ],
+    joint: OfJoint = None,
 ) -> SessionState:
     """Change the law of lane 1, and of the comparison lanes; every plant keeps its state."""
+    command = Set("law", request.law)
     if request.comparison_laws:
-        hosted.session.set(Set("laws", (request.law, *request.comparison_laws)))
-    else:
-        hosted.session.set(Set("law", request.law))
+        command = Set("laws", (request.law, *request.comparison_laws))
+    hosted.session.patch(lambda _: command, joint)
     return build_state(hosted)
 
 
@@ -135,9 +141,10 @@ def set_gains(
             ]
         ),
     ],
+    joint: OfJoint = None,
 ) -> SessionState:
     """Set the gains, as poles or coefficients; rejected with the roots if not Hurwitz."""
-    hosted.session.patch(lambda run: Set("gains", request.apply_to(run.gains)))
+    hosted.session.patch(lambda run: Set("gains", request.apply_to(run.gains)), joint)
     return build_state(hosted)
 
 
@@ -149,12 +156,13 @@ def set_parameters(
         dict[str, dict[str, Any]],
         Body(examples=[{"fl_integral": {"position_pole_rad_per_s": 54.6}}]),
     ],
+    joint: OfJoint = None,
 ) -> SessionState:
     """Set parameters of laws that have their own, by the name of the law (see `GET /laws`).
 
-    What is left out stays.
+    Parameters that are left out keep their values.
     """
-    hosted.session.patch(lambda run: Set("parameters", _merge(run.parameters, request)))
+    hosted.session.patch(lambda run: Set("parameters", _merge(run.parameters, request)), joint)
     return build_state(hosted)
 
 
@@ -165,9 +173,10 @@ def set_observer(
     request: Annotated[
         ObserverBandwidth, Body(examples=[{"bandwidth_rad_per_s": [80.0, 80.0, 80.0]}])
     ],
+    joint: OfJoint = None,
 ) -> SessionState:
     """Set the bandwidth of the disturbance observer on link, motor 1 and motor 2."""
-    hosted.session.set(Set("observer", request))
+    hosted.session.patch(lambda _: Set("observer", request), joint)
     return build_state(hosted)
 
 
@@ -176,9 +185,12 @@ def set_observer(
 def change_actuator(
     hosted: NamedSession,
     patch: Annotated[ActuatorPatch, Body(examples=[{"link_inertia_kg_m2": 0.0206}])],
+    joint: OfJoint = None,
 ) -> SessionState:
     """Change parameters of the true plant."""
-    hosted.session.patch(lambda run: Set("actuator", _apply(patch, "actuator", run.actuator)))
+    hosted.session.patch(
+        lambda run: Set("actuator", _apply(patch, "actuator", run.actuator)), joint
+    )
     return build_state(hosted)
 
 
@@ -187,9 +199,10 @@ def change_actuator(
 def change_nominal(
     hosted: NamedSession,
     patch: Annotated[NominalPatch, Body(examples=[{"link_inertia_kg_m2": 0.0103}])],
+    joint: OfJoint = None,
 ) -> SessionState:
     """Change parameters of the nominal model of controller and observer."""
-    hosted.session.patch(lambda run: Set("nominal", _apply(patch, "nominal", run.nominal)))
+    hosted.session.patch(lambda run: Set("nominal", _apply(patch, "nominal", run.nominal)), joint)
     return build_state(hosted)
 
 
@@ -201,9 +214,10 @@ def set_effects(
         Effects,
         Body(examples=[{"encoders": {}, "estimation": {}, "delay_samples": 1}, {}]),
     ],
+    joint: OfJoint = None,
 ) -> SessionState:
     """Set the non-ideal effects of the simulation; an effect that is left out is off."""
-    hosted.session.set(Set("effects", effects))
+    hosted.session.patch(lambda _: Set("effects", effects), joint)
     return build_state(hosted)
 
 
@@ -234,20 +248,15 @@ def set_lane(
             ]
         ),
     ],
+    joint: OfJoint = None,
 ) -> SessionState:
     """Change the controller of one comparison lane; its plant keeps its state.
 
-    What is left out is the session's. The same law goes on with what it remembers.
+    Settings that are left out are those of the session. The same law keeps its memory.
     """
-    hosted.session.set(Set("lane", LaneSetting(lane=lane, setting=request)))
+    setting = LaneSetting(lane=lane, setting=request)
+    hosted.session.patch(lambda _: Set("lane", setting), joint)
     return build_state(hosted)
-
-
-def _follow(hosted: HostedSession, command: Command, restart: bool) -> None:
-    if restart:
-        hosted.session.change(command)
-    else:
-        hosted.session.set(command)
 
 
 def _apply(patch: Checked, section: str, actuator: MechanismParameters) -> MechanismParameters:

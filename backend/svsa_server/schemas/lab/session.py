@@ -49,7 +49,11 @@ class FigureRequest(Checked):
     effects: Effects = quantity("", "Non-ideal effects", default=IDEAL)
 
     def build_configuration(self, design: Design) -> Configuration:
-        """Build the session's configuration with the lab's design; raises `ParameterError`."""
+        """Build the session's configuration with the lab's design.
+
+        Raises:
+            ParameterError: If a value is invalid.
+        """
         figure = get_figure(self.figure).build_configuration(self.law, self.load, design)
         return figure.changed(comparisons=self.comparisons, effects=self.effects)
 
@@ -63,6 +67,10 @@ class LoadState(BaseModel):
     active: bool
     label: str = Field(description="The load in a few words")
     load: Load
+    joint: int | None = Field(
+        description="Joint of an arm on which the load acts; null for a load at the tip of an arm,"
+        " and for a single joint"
+    )
 
 
 class AddedLoad(LoadState):
@@ -90,6 +98,9 @@ class SessionProgress(BaseModel):
         description="From the newest load's onset to the next change; null without a load"
     )
     lanes: list[LaneState]
+    payload_kg: list[float] | None = Field(
+        description="Estimated mass at the tip of each arm; null without adaptive payload"
+    )
     recording: RecordingState | None
     excitation: ExcitationState | None = Field(
         description="The identification excitation, while it is being played"
@@ -128,6 +139,7 @@ class SessionState(SessionProgress):
     )
     rate_hz: float
     actuator: ActuatorSummary
+    actuator2: ActuatorSummary | None = Field(description="That of joint 2 of an arm, else null")
     configuration: ConfigurationState
     loads: list[LoadState]
     events: list[Event]

@@ -4,13 +4,16 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import BaseModel, Field, WithJsonSchema, create_model
 
+from svsa.actuators.arm.parameters import ArmParameters
 from svsa.actuators.installed import InstalledActuator, get_mechanism, list_mechanism_names
 from svsa.actuators.parameters import Limits
+from svsa.control.arm_payload import PayloadAdaptation
 from svsa.control.installed import InstalledLaw
 from svsa.control.observers.disturbance import ObserverBandwidth
 from svsa.errors import ParameterError
 from svsa.inputs.checked import Checked, quantity
 from svsa.runs.configuration import MAX_LANES, Lane
+from svsa.simulation.arm.tip_reference import TipReference
 from svsa.simulation.plant.effects import Effects
 from svsa.simulation.plant.effects.effect import PresetName
 from svsa.simulation.reference.kinds import PositionReference, StiffnessReference
@@ -47,8 +50,8 @@ class _Patch(Checked):
 def build_patch(section: str) -> type[Checked]:
     """Build a PATCH model of the parameters of every installed actuator, each optional.
 
-    Units, words and bounds are those of the first actuator that has the field; the actuator of the
-    session checks its own. A value must be given: the model rejects null.
+    Units, descriptions and bounds are those of the first actuator that has the field; the actuator
+    of the session validates its own. A value must be given: the model rejects null.
     """
     fields: dict[str, Any] = {}
     for mechanism in map(get_mechanism, list_mechanism_names()):
@@ -89,8 +92,21 @@ ActuatorValues = Annotated[
 ]
 
 
+class ArmSetupState(BaseModel):
+    """The arm of a session."""
+
+    links: ArmParameters
+    model: ArmParameters = Field(description="The links as the feedforward knows them")
+    feedforward: bool = Field(description="Whether the laws get the arm feedforward")
+    adaptation: PayloadAdaptation | None = Field(description="Estimate of the mass at the tip")
+    tip: TipReference | None = Field(
+        description="Reference of the tip, in place of those of the joints"
+    )
+    joint2: "ConfigurationState"
+
+
 class ConfigurationState(BaseModel):
-    """All settings of a session."""
+    """All settings of a session; for an arm those of joint 1."""
 
     law: str
     position: PositionReference
@@ -110,3 +126,7 @@ class ConfigurationState(BaseModel):
         description="The preset with the same effects, whatever their values; null for a mixture"
     )
     seed: int
+    arm: ArmSetupState | None = Field(description="Null for a single joint")
+
+
+ArmSetupState.model_rebuild()

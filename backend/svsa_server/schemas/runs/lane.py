@@ -1,5 +1,7 @@
 """Answers about lanes: their controllers over time, and their metrics."""
 
+from typing import Literal
+
 from pydantic import BaseModel, Field
 
 from svsa.runs.metrics import Metrics
@@ -46,8 +48,8 @@ class EndedWindowState(WindowState):
 class LaneState(BaseModel):
     """A lane; lane 1 is the session's own controller.
 
-    Metrics are null where the lane was not there at the beginning of what is measured, and half a
-    second after it ended: a twin of a bench that left the domain of the model.
+    Metrics are null if the lane did not exist at the beginning of the window, and half a second
+    after it ended (a twin of a bench that left the domain of the model).
     """
 
     since_start: Metrics | None = Field(description="Metrics of the whole run, including changes")
@@ -57,6 +59,7 @@ class LaneState(BaseModel):
         " lane that it had when the load came; its recovery time is the load's"
     )
     lane: int
+    joint: Literal[1, 2] | None = Field(description="Joint of an arm; null for a single joint")
     id: int = Field(
         description="Its own for the whole run: a lane keeps it where lanes before it are taken"
         " away, and none gets that of a lane that went"

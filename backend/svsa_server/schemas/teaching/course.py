@@ -84,6 +84,7 @@ class StepState(BaseModel):
     judged_by: str | None = Field(default=None, description="Step whose run decides the prediction")
     options: list[OptionState] = []
     duration_s: float | None = Field(default=None, description="Duration of its run")
+    arm: str = Field(default="", description="Name of the arm of its session; empty: no arm")
     free: list[str] = Field(default=[], description="Free settings before the run")
     criteria: list[str] = Field(default=[], description="Criteria of the run")
     bench: BenchStepState | None = Field(
@@ -192,6 +193,7 @@ def _describe_step(exercise: Exercise, step: Step, progress: ExerciseProgress) -
             state.is_final = state.is_final or progress.get(judge.name).begun
         case Experiment():
             state.duration_s, state.free = step.duration_s, list(step.free)
+            state.arm = step.arm
             state.criteria = [one.title for one in step.list_criteria(is_bench=False)]
             state.bench = _describe_bench(step)
             state.max_points = sum(one.points for one in step.criteria)

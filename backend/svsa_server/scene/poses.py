@@ -1,0 +1,90 @@
+"""The pose of a session's actuator or arm, from its newest samples."""
+
+import math
+from dataclasses import replace
+
+from svsa.actuators.signals import CHANNEL_INDEX
+from svsa.runs.session.session import Session
+from svsa.simulation.plant.loads import Load
+from svsa.simulation.plant.loads.tip import TipForce, TipImpulse, TipPush
+from svsa.simulation.plant.loads.tip import Wall as WallLoad
+from svsa_scene import ActuatorPose, ComparisonPose
+from svsa_scene.arm_pose import ArmPose, Wall
+from svsa_scene.pose import POSE_CHANNELS, replace_unknown_disturbances
+from svsa_server.runs.lanes import list_session_segments
+
+JOINTS = 2
+
+
+def read_pose(session: Session) -> ActuatorPose | ArmPose | None:
+    """Read the pose from the session's newest sample; None before the first."""
+    if session.run.configuration.arm is not None:
+        return _read_arm(session)
+    pose = _read_lane(session, 0)
+    return pose and replace(
+        pose,
+        comparisons=_read_comparisons(session),
+        load_mass_kg=sum(load.get_hung_mass() for load in _list_acting(session)),
+    )
+
+
+def _read_lane(session: Session, lane: int) -> ActuatorPose | None:
+    """Read the pose of a lane, from 0, without loads; None before its first sample."""
+    newest = session.journal.history.read_newest(lane)
+    if newest is None:
+        return None
+    values = {channel: float(newest[CHANNEL_INDEX[channel]]) for channel in POSE_CHANNELS}
+    known = replace_unknown_disturbances(values)
+    return ActuatorPose(**known, load_mass_kg=0.0, comparisons=())
+
+
+def _read_comparisons(session: Session) -> tuple[ComparisonPose, ...]:
+    """Read the link angles of the other lanes; none before a lane's first sample."""
+    poses = []
+    for number, segments in enumerate(list_session_segments(session)[1:], start=1):
+        pose = _read_lane(session, number)
+        position = math.nan if pose is None else pose.position_rad
+        if math.isfinite(position):
+            present = segments[-1]
+            poses.append(ComparisonPose(present.name, position, present.line_style))
+    return tuple(poses)
+
+
+def _list_acting(session: Session) -> list[Load]:
+    """List the loads that act now."""
+    return [held.load for held in session.run.loads if held.is_on(session.run.tick)]
+
+
+def _read_arm(session: Session) -> ArmPose | None:
+    """Read both joints, the comparison's angles and the loads at the tip."""
+    lanes = range(len(session.run.configuration.lanes))
+    found = [_read_lane(session, lane) for lane in lanes]
+    first, second, *others = found
+    if first is None or second is None:
+        return None
+    angles = [math.nan if one is None else one.position_rad for one in others]
+    is_compared = len(angles) == JOINTS and all(map(math.isfinite, angles))
+    loads = _list_acting(session)
+    forces = [force for load in loads if (force := _find_force(load)) is not None]
+    walls = [load for load in loads if isinstance(load, WallLoad)]
+    segments = list_session_segments(session)
+    return ArmPose(
+        (first, second),
+        comparison=(angles[0], angles[1]) if is_compared else None,
+        comparison_name=segments[JOINTS][-1].name.split(" ", 2)[-1] if is_compared else "",
+        tip_mass_kg=sum(load.get_hung_mass() for load in loads),
+        tip_force_n=(sum(x for x, _ in forces), sum(y for _, y in forces)),
+        wall=Wall(walls[0].normal_rad, walls[0].distance_m) if walls else None,
+    )
+
+
+def _find_force(load: Load) -> tuple[float, float] | None:
+    """The force of a load at the tip, N; None for another load."""
+    match load:
+        case TipForce() | TipPush():
+            return load.force_n
+        case TipImpulse():
+            x, y = load.impulse_ns
+            return x / load.DURATION_S, y / load.DURATION_S
+        case _:
+            return None

@@ -1,0 +1,114 @@
+"""Requests and answers about the arm of a session."""
+
+from typing import Any, Literal
+
+from pydantic import BaseModel, Field
+
+from svsa.actuators.arm.parameters import ArmParameters
+from svsa.control.arm_payload import PayloadAdaptation
+from svsa.control.installed import PAPERS_LAW, InstalledLaw
+from svsa.inputs.checked import Checked, Flag, Whole, quantity
+from svsa.runs.arm.experiment import ARMS, build_arm_experiment
+from svsa.runs.configuration import ArmSetup, Configuration
+from svsa.simulation.arm.tip_reference import TipReference
+from svsa.simulation.plant.effects import IDEAL, Effects
+from svsa_server.schemas.lab.law import InstalledLane
+
+AT_ONCE = ("feedforward", "adaptation")
+"""Fields of the arm that a session changes without a restart."""
+
+
+class NamedArmState(BaseModel):
+    """An arm of the lab."""
+
+    name: str
+    title: str
+    description: str
+    actuator: str = Field(description="Default actuator of both joints: see GET /actuators")
+    links: ArmParameters
+
+
+def list_arms() -> list[NamedArmState]:
+    """List the arms of the lab."""
+    return [
+        NamedArmState(
+            name=name,
+            title=arm.title,
+            description=arm.description,
+            actuator=arm.actuator,
+            links=arm.links,
+        )
+        for name, arm in ARMS.items()
+    ]
+
+
+class FromArm(Checked):
+    """An arm's default experiment, running: both joints follow a sine, or the tip a path."""
+
+    source: Literal["arm"] = quantity("", "An arm", alias="from")
+    arm: str = quantity("", "Name of an arm: see GET /arms", default="rods", max_length=40)
+    actuators: tuple[str, str] | None = quantity(
+        "", "Installed actuator of joint 1 and of joint 2; by default that of the arm", default=None
+    )
+    law: InstalledLaw = quantity("", "Law of both joints: see GET /laws", default=PAPERS_LAW)
+    comparisons: tuple[InstalledLane, ...] = quantity(
+        "", "Controller of both joints of a second arm", max_length=1, default=()
+    )
+    feedforward: Flag = quantity("", "Whether the laws get the arm feedforward", default=False)
+    tip: TipReference | None = quantity(
+        "", "Reference of the tip, in place of those of the joints", default=None
+    )
+    effects: Effects = quantity(
+        "", "Effects of a real bench that the simulation includes", default=IDEAL
+    )
+    seed: Whole = quantity("", "Seed of the sensor noise", ge=0, le=2**63 - 1, default=0)
+
+    def list_actuators(self) -> tuple[str, str]:
+        """Return the actuator of each joint."""
+        default = ARMS[self.arm].actuator if self.arm in ARMS else ""
+        return self.actuators or (default, default)
+
+    def build_configuration(self) -> Configuration:
+        """Build the session's configuration.
+
+        Raises:
+            ParameterError: If a value is invalid.
+        """
+        own: list[dict[str, Any]] = [{"actuator": name} for name in self.actuators or ()]
+        each = own or ({}, {})
+        both = {
+            "law": self.law,
+            "comparisons": self.comparisons,
+            "effects": self.effects,
+            "seed": self.seed,
+        }
+        given: dict[str, Any] = {"feedforward": self.feedforward, "tip": self.tip}
+        return build_arm_experiment(self.arm, given, both, each)
+
+
+class ArmPatch(Checked):
+    """Changes of the arm; what is left out stays."""
+
+    feedforward: Flag = quantity("", "Whether the laws get the arm feedforward", default=False)
+    adaptation: PayloadAdaptation | None = quantity(
+        "", "Estimate of the mass at the tip; null: none", default=None
+    )
+    tip: TipReference | None = quantity(
+        "", "Reference of the tip; null: those of the joints; restarts the run", default=None
+    )
+    links: ArmParameters = quantity("", "The links; restarts the run", default=None)
+    model: ArmParameters = quantity(
+        "", "The links as the feedforward knows them; restarts the run", default=None
+    )
+
+    def list_given(self) -> dict[str, Any]:
+        """Return the given values by field."""
+        return {name: getattr(self, name) for name in self.model_fields_set}
+
+    def apply_to(self, arm: ArmSetup) -> ArmSetup:
+        """Return the arm with the given values.
+
+        Raises:
+            ParameterError: If a value is invalid.
+        """
+        return arm.changed(**self.list_given())
