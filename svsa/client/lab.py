@@ -34,10 +34,10 @@ def connect(
 
     Args:
         url: Address of the lab.
-        token: Token of a class, or the lab's shared secret; if left out, that of the environment
+        token: Token of a class, or the lab's shared secret; by default that of the environment
             (SVSA_SECRET).
-        client: Name by which the lab knows this script; drawn at random if left out.
-        timeout_s: How long a lab that does not answer, or is busy, is asked again, s.
+        client: Id of this script in the lab; random by default.
+        timeout_s: Time for which requests are repeated while the lab does not answer or is busy, s.
 
     Returns:
         The lab, with its sessions, runs and jobs.
@@ -57,8 +57,10 @@ def connect(
 class Lab(Remote):
     """A running lab over its public API.
 
-    session: the shared one, with the bench if there is one. runs: what was
-    recorded there. studies: those that were begun there.
+    Attributes:
+        session: The shared session, with the bench if there is one.
+        runs: Recorded runs of the lab.
+        studies: Studies of the lab.
     """
 
     __slots__ = ("connection", "runs", "session", "studies")
@@ -94,7 +96,14 @@ class Lab(Remote):
         return tuple(law["name"] for law in self.connection.read("/laws"))
 
     def open_session(self, name: str) -> RemoteSession:
-        """Return the session of this name; whether it exists is checked at the first request."""
+        """Return the session of this name.
+
+        Args:
+            name: Name of the session. The first request checks whether it exists.
+
+        Returns:
+            The session.
+        """
         return RemoteSession(self.connection, self.runs, name)
 
     def create_session(
@@ -102,16 +111,19 @@ class Lab(Remote):
         figure: str = "4a",
         law: LawChoice = "ndobc",
         actuator: str | None = None,
+        arm: str | None = None,
         **settings: Any,
     ) -> RemoteSession:
         """Open a private simulated session, running; it ends automatically when unused.
 
         Args:
-            figure: Figure of the paper; it has to be left out with `actuator`.
+            figure: Figure of the paper; must be left out with `actuator` and `arm`.
             law: Name of the control law.
             actuator: Name of an actuator, such as "qbmove": its default experiment.
-            settings: load, comparisons, effects, seed, as of `POST /sessions`; of an actuator also
-                parameters and nominal. An effect's preset and a law may be given by name.
+            arm: Name of an arm of two joints, such as "rods": its default experiment.
+            **settings: load, comparisons, effects, seed, as for `POST /sessions`; for an actuator
+                also parameters and nominal, for an arm actuators, feedforward and tip. A preset of
+                effects and a law may be given by name.
 
         Returns:
             The session.
@@ -120,9 +132,11 @@ class Lab(Remote):
             LabError: If the lab rejects the request.
         """
         wanted = _write_experiment(figure, law, settings)
-        if actuator is not None:
-            del wanted["figure"]
-            wanted |= {"from": "actuator", "actuator": actuator}
+        given = {"actuator": actuator, "arm": arm}
+        for source, name in given.items():
+            if name is not None:
+                wanted.pop("figure", None)
+                wanted |= {"from": source, source: name}
         state = self.connection.call("POST", "/sessions", wanted)
         return self.open_session(state["session"])
 
@@ -130,7 +144,16 @@ class Lab(Remote):
     def new_session(
         self, figure: str = "4a", law: LawChoice = "ndobc", **settings: Any
     ) -> Iterator[RemoteSession]:
-        """Open a private session that ends with the block."""
+        """Open a private session that ends with the block.
+
+        Args:
+            figure: Figure of the paper.
+            law: Name of the control law.
+            **settings: As for `create_session`.
+
+        Yields:
+            The session.
+        """
         session = self.create_session(figure, law, **settings)
         try:
             yield session
@@ -146,9 +169,17 @@ class Lab(Remote):
     ) -> Iterator[RemoteSession]:
         """Set up the shared session at rest at t = 0, and release it after the block.
 
-        Asks for control of it, and in a class waits for its turn as a person does. A bench stays
-        armed and at home, is watched by this script while the block lasts, and moves from the first
-        `run_until` on: an operator has to watch it on site. settings: load, comparisons, effects.
+        Requests control of the session, and in a class waits in the queue like a user. A bench
+        stays armed and homed, and this script keeps a stream open while the block lasts. The bench
+        moves from the first `run_until` on: an operator must watch it on site.
+
+        Args:
+            figure: Figure of the paper.
+            law: Name of the control law.
+            **settings: load, comparisons, effects.
+
+        Yields:
+            The shared session.
         """
         session = self.session
         session.take_control()
@@ -166,7 +197,16 @@ class Lab(Remote):
     def experiment(
         self, shared: bool, seed: int = 0, **settings: Any
     ) -> AbstractContextManager[RemoteSession]:
-        """Call `operate`, or `new_session` with this seed; the shared session has its own noise."""
+        """Call `operate` or `new_session`.
+
+        Args:
+            shared: Whether to use the shared session, which has its own noise.
+            seed: Seed of the noise of a private session.
+            **settings: As for `operate` and `new_session`.
+
+        Returns:
+            A context manager of the session.
+        """
         return self.operate(**settings) if shared else self.new_session(seed=seed, **settings)
 
     def run(
@@ -181,9 +221,23 @@ class Lab(Remote):
     ) -> Result:
         """Simulate a run in the lab, record it there, and return it like `svsa.simulate`.
 
-        experiment, law, duration_s, commands, changes: as of `svsa.simulate`. name: what the
-        recorded run is called. The samples are the same bits. Limits and sampling are the lab's
-        own: raises `ParameterError` where the experiment has others.
+        The samples are bit-identical to those of `svsa.simulate`.
+
+        Args:
+            experiment: A figure of the paper, or a `Configuration`.
+            law: Name of an installed law.
+            duration_s: Duration of the run, s.
+            commands: Changes during the run.
+            name: Name of the recorded run.
+            **changes: Fields of the configuration to replace, as for `svsa.simulate`.
+
+        Returns:
+            Samples and metrics of the run. A run that leaves the domain of the model ends early:
+            see `Result.fault`.
+
+        Raises:
+            ParameterError: If a value is out of range, or limits or sampling differ from those of
+                the lab.
         """
         if isinstance(experiment, str):
             experiment = get_simulated_figure(experiment)
@@ -215,7 +269,7 @@ class Lab(Remote):
                     _give(session, change)
                 session.run_until(duration_s)
             except FaultError:
-                pass  # as of `simulate`, the result tells of it
+                pass  # as in `simulate`, the result reports the fault
             finally:
                 recording.stop()
             return recording.result

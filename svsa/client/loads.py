@@ -27,10 +27,11 @@ class AppliedLoad:
 class Loads(Remote):
     """The loads of a session: iterate over them, add, remove or clear."""
 
-    __slots__ = ("_session",)
+    __slots__ = ("_joint", "_session")
 
-    def __init__(self, session: SessionConnection) -> None:
+    def __init__(self, session: SessionConnection, joint: int | None = None) -> None:
         self._session = session
+        self._joint = joint
 
     def __iter__(self) -> Iterator[AppliedLoad]:
         return iter([_read(reported) for reported in self._list()])
@@ -43,11 +44,16 @@ class Loads(Remote):
 
     def add(self, load: Load | Part) -> AppliedLoad:
         """Add a load, now or at its `start_s`; return it with its number."""
-        added = self._session.call("POST", "/loads", read_load(load).model_dump(mode="json"))
+        path = "/loads" if self._joint is None else f"/loads?joint={self._joint}"
+        added = self._session.call("POST", path, read_load(load).model_dump(mode="json"))
         return _read(added)
 
     def remove(self, load: AppliedLoad | int) -> None:
-        """Remove a load; raises `LabError` if there is none of this number."""
+        """Remove a load.
+
+        Raises:
+            LabError: If there is none of this number.
+        """
         number = load if isinstance(load, int) else load.number
         self._session.call("DELETE", f"/loads/{number}")
 

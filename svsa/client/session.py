@@ -3,12 +3,14 @@
 from collections.abc import Mapping
 from contextlib import AbstractContextManager
 from typing import Any, Literal
+from urllib.parse import urlencode
 
-from pydantic import TypeAdapter
+from pydantic import BaseModel, TypeAdapter
 
 from svsa.actuators.installed import InstalledActuator
 from svsa.actuators.parameters import MechanismParameters
-from svsa.client.connection import Connection, Remote, SessionConnection, is_settable
+from svsa.client.bench import RemoteBench
+from svsa.client.connection import Connection, is_settable
 from svsa.client.loads import Loads
 from svsa.client.motion import RunningConnection
 from svsa.client.runs import Recording, RemoteRuns
@@ -42,17 +44,20 @@ _ACTUATOR: TypeAdapter[MechanismParameters] = TypeAdapter(InstalledActuator)
 class RemoteSession(RunningConnection):
     """A session by its name; every property is read from the lab.
 
-    Setting one returns when the lab has taken it, and `applied_at` says at which tick it holds;
-    what is set already stays as it is, without a new fade or event. What the lab refuses raises
-    `ParameterError` or `StateError` and changes nothing.
+    Setting a property returns when the lab has accepted it; `applied_at` is the tick at which it
+    takes effect. Setting the present value changes nothing: no new transition or event. If the lab
+    rejects a value, `ParameterError` or `StateError` is raised and nothing changes.
     """
 
-    __slots__ = ("_runs", "bench", "loads")
+    __slots__ = ("_joint", "_runs", "bench", "loads")
 
-    def __init__(self, connection: Connection, runs: RemoteRuns, name: str) -> None:
+    def __init__(
+        self, connection: Connection, runs: RemoteRuns, name: str, joint: int | None = None
+    ) -> None:
         super().__init__(connection, name)
         self._runs = runs
-        self.loads = Loads(self)
+        self._joint = joint
+        self.loads = Loads(self, joint)
         self.bench = RemoteBench(self)
 
     def __repr__(self) -> str:
@@ -83,13 +88,54 @@ class RemoteSession(RunningConnection):
         return self.read_state()["sample"]
 
     def _read(self, name: str) -> Any:
-        return self.read_state()["configuration"][name]
+        configuration = self.read_state()["configuration"]
+        return (configuration["arm"]["joint2"] if self._joint == 2 else configuration)[name]
 
-    def get(self, name: str) -> Any:
-        """Return a property by its name, such as "law" or "time_s".
+    def _change(self, method: str, path: str, body: Any, **query: str) -> None:
+        """Change a setting of the joint, or of both joints of an arm."""
+        query |= {} if self._joint is None else {"joint": str(self._joint)}
+        self.call(method, f"{path}?{urlencode(query)}" if query else path, body)
+
+    def open_joint(self, number: Literal[1, 2]) -> "RemoteSession":
+        """Return the session of an arm for the settings and torques of one joint.
+
+        Args:
+            number: Number of the joint.
+
+        Returns:
+            The same session; its settings are those of the joint.
+        """
+        return RemoteSession(self.connection, self._runs, self.name, number)
+
+    def change_arm(self, **fields: Any) -> None:
+        """Change the arm of the session; what is left out stays.
+
+        Feedforward and adaptation act at once; tip, links and model restart the run at t = 0.
+
+        Args:
+            **fields: feedforward, adaptation, tip, links, model, as in `svsa.ArmSetup`.
 
         Raises:
-            AttributeError: There is no such property.
+            ParameterError: If a value is invalid.
+            StateError: If the session is of a single joint.
+        """
+        written = {
+            name: value.model_dump(mode="json") if isinstance(value, BaseModel) else value
+            for name, value in fields.items()
+        }
+        self.call("PATCH", "/arm", written)
+
+    def get(self, name: str) -> Any:
+        """Return a property by its name.
+
+        Args:
+            name: Name of a property, such as "law" or "time_s".
+
+        Returns:
+            The value of the property.
+
+        Raises:
+            AttributeError: If there is no such property.
         """
         known = [one for one in dir(type(self)) if isinstance(getattr(type(self), one), property)]
         if name not in known:
@@ -103,8 +149,8 @@ class RemoteSession(RunningConnection):
             **settings: Any properties that can be set, such as law="fl", each with its value.
 
         Raises:
-            ParameterError, StateError: The lab rejects a value; what was set before it stays.
-            TypeError: There is no such setting; nothing is set.
+            ParameterError, StateError: If the lab rejects a value; earlier ones stay set.
+            TypeError: If there is no such setting; nothing is set.
         """
         known = [one for one in dir(type(self)) if is_settable(type(self), one)]
         for name in settings:
@@ -117,7 +163,7 @@ class RemoteSession(RunningConnection):
         """Set a property to the value that `given` abbreviates."""
         present = getattr(self, name) if isinstance(given, Mapping) else None
         value = read_setting(name, given, present)
-        self.call(method, f"/{name}", value.model_dump(mode="json", exclude={"mechanism"}))
+        self._change(method, f"/{name}", value.model_dump(mode="json", exclude={"mechanism"}))
 
     @property
     def position(self) -> PositionReference:
@@ -139,11 +185,11 @@ class RemoteSession(RunningConnection):
 
     def repeat_position(self) -> None:
         """Restart the position reference, faded in; setting the same one would not restart it."""
-        self.call("PUT", "/position?restart=true", self._read("position"))
+        self._change("PUT", "/position", self._read("position"), restart="true")
 
     def repeat_stiffness(self) -> None:
         """Restart the stiffness reference, faded in."""
-        self.call("PUT", "/stiffness?restart=true", self._read("stiffness"))
+        self._change("PUT", "/stiffness", self._read("stiffness"), restart="true")
 
     @property
     def law(self) -> AnyLaw:
@@ -152,7 +198,7 @@ class RemoteSession(RunningConnection):
 
     @law.setter
     def law(self, law: LawChoice) -> None:
-        self.call("PUT", "/law", {"law": law})
+        self._change("PUT", "/law", {"law": law})
 
     @property
     def gains(self) -> Gains:
@@ -211,25 +257,56 @@ class RemoteSession(RunningConnection):
         self.call("PUT", "/lanes", {"comparisons": [dump_lane(lane) for lane in lanes]})
 
     def set_lane(self, number: int, lane: Lane | LawChoice) -> None:
-        """Change the controller of one comparison lane; number: from 2."""
-        self.call("PUT", f"/lanes/{number}", dump_lane(read_lane(lane, "lane")))
+        """Change the controller of one comparison lane.
+
+        Args:
+            number: Number of the lane, from 2.
+            lane: The controller, or the name of its law.
+        """
+        self._change("PUT", f"/lanes/{number}", dump_lane(read_lane(lane, "lane")))
 
     def set_laws(self, law: LawChoice, *comparison_laws: LawChoice) -> None:
-        """Change the laws of the first lanes; every plant keeps its state."""
-        self.call("PUT", "/law", {"law": law, "comparison_laws": comparison_laws})
+        """Change the laws of the first lanes; every plant keeps its state.
+
+        Args:
+            law: Law of lane 1.
+            *comparison_laws: Laws of the comparison lanes, in order. Other lanes keep their laws.
+        """
+        self._change("PUT", "/law", {"law": law, "comparison_laws": comparison_laws})
 
     def set_parameters(self, law: str, **values: float) -> None:
-        """Set parameters of a law that has its own; those left out keep their values."""
-        self.call("PUT", "/parameters", {law: values})
+        """Set parameters of a law that has its own; those left out keep their values.
+
+        Args:
+            law: Name of the law.
+            **values: Values by parameter name, in the units of the law's description.
+        """
+        self._change("PUT", "/parameters", {law: values})
 
     def record(self, name: str = "", tags: tuple[str, ...] = (), notes: str = "") -> Recording:
-        """Record every sample and command from now on; as a context manager it stops at the end."""
+        """Record every sample and command from now on.
+
+        Args:
+            name: Name of the run; by default its settings.
+            tags: Tags of the run.
+            notes: Notes of the run.
+
+        Returns:
+            The recording; as a context manager it stops at the end of the block.
+        """
         body = {"name": name, "tags": list(tags), "notes": notes}
         state = self.call("POST", "/recording", body)
         return Recording(self, self._runs, state["recording"]["run_id"])
 
     def excite(self, name: str = "Identification") -> Recording:
-        """Play and record the excitation for `svsa identify`, 32 s."""
+        """Play and record the excitation for `svsa identify`, 32 s.
+
+        Args:
+            name: Name of the recorded run.
+
+        Returns:
+            The recording.
+        """
         state = self.call("POST", "/excitation", {"name": name})
         return Recording(self, self._runs, state["recording"]["run_id"])
 
@@ -241,10 +318,17 @@ class RemoteSession(RunningConnection):
         lanes: tuple[int, ...] | None = (1,),
         history_s: float = 0.0,
     ) -> BlockStream:
-        """Stream samples; channels: by default those of the plots.
+        """Stream samples.
 
-        duration_s: session time to return. rate_hz: samples a second at speed 1. lanes: their
-        numbers, from 1; None is all there are. history_s: past to return first, up to 20 s.
+        Args:
+            *channels: Names of channels; by default those of the plots.
+            duration_s: Session time to return, s.
+            rate_hz: Samples per second of session time, Hz.
+            lanes: Numbers of the lanes, from 1; None for all lanes.
+            history_s: Past to return first, up to 20 s.
+
+        Returns:
+            An iterator over blocks of samples, SI units.
         """
         query = {"rate_hz": f"{rate_hz:g}", "history_s": f"{history_s:g}"}
         query["lanes"] = "all" if lanes is None else ",".join(map(str, lanes))
@@ -253,42 +337,16 @@ class RemoteSession(RunningConnection):
         return BlockStream(self.connection, self.name, query, duration_s)
 
     def watch(self) -> AbstractContextManager[None]:
-        """Keep a stream open during the block; a bench requires one before it moves."""
+        """Keep a stream open during the block; a bench requires one before it moves.
+
+        Returns:
+            A context manager.
+        """
         return self.stream(rate_hz=1.0).held_open()
 
     def end(self) -> None:
         """End the private session."""
         self.connection.call("DELETE", self.path)
-
-
-class RemoteBench(Remote):
-    """Commands of a bench; a simulated session raises `StateError`."""
-
-    __slots__ = ("_session",)
-
-    def __init__(self, session: SessionConnection) -> None:
-        self._session = session
-
-    @property
-    def state(self) -> dict[str, Any] | None:
-        """State of the bench; None for a simulated session."""
-        return self._session.read_state()["bench"]
-
-    def arm(self) -> None:
-        """Reset the drives and bring them to current mode."""
-        self._session.call("POST", "/bench/arm")
-
-    def confirm_home(self, step: Literal["link", "motor1", "motor2"], by: str) -> None:
-        """Confirm that an axis is at its zero mark; by: name of the observer."""
-        self._session.call("POST", "/bench/home", {"step": step, "by": by})
-
-    def clear(self) -> None:
-        """Clear a latched fault; it must be armed again."""
-        self._session.call("POST", "/bench/clear")
-
-    def restart(self) -> None:
-        """Restart loop and supervisor."""
-        self._session.call("POST", "/bench/restart")
 
 
 def dump_lane(lane: Lane) -> dict[str, Any]:

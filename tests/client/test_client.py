@@ -1,4 +1,4 @@
-"""A running lab from Python: settings, loads, recordings, streams, refusals, lost answers."""
+"""A running lab from Python: settings, loads, recordings, streams, rejections, lost responses."""
 
 from collections.abc import Iterator
 
@@ -26,7 +26,7 @@ def lab(server: Server) -> Iterator[Lab]:
         yield connected
 
 
-def test_what_is_set_is_what_is_read_and_says_when_it_acted(lab: Lab) -> None:
+def test_settings_are_read_back_with_the_time_of_the_change(lab: Lab) -> None:
     with lab.new_session(load=False) as session:
         session.pause()
         session.run_until(0.25)
@@ -47,7 +47,7 @@ def test_what_is_set_is_what_is_read_and_says_when_it_acted(lab: Lab) -> None:
             assert (session.applied_at.tick, session.applied_at.time_s) == (250, 0.25)
 
 
-def test_what_is_unambiguous_is_accepted_and_the_rest_named(lab: Lab) -> None:
+def test_unambiguous_values_are_accepted_and_others_named(lab: Lab) -> None:
     with lab.new_session("4A", load=False, effects="rig", comparisons="fl") as session:
         assert session.effects == svsa.RIG
         assert session.comparisons == (svsa.Lane(law="fl"),)
@@ -68,7 +68,7 @@ def test_what_is_unambiguous_is_accepted_and_the_rest_named(lab: Lab) -> None:
         lab.run("4a", **{"stifness": 40})
 
 
-def test_a_refusal_is_the_error_of_the_library(lab: Lab) -> None:
+def test_rejection_raises_the_error_of_the_library(lab: Lab) -> None:
     with lab.new_session(load=False) as session, pytest.raises(svsa.ParameterError) as refused:
         session.set_parameters("fl_integral", position_pole_rad_per_s=1e6)
     (violation,) = refused.value.violations
@@ -80,7 +80,7 @@ def test_a_refusal_is_the_error_of_the_library(lab: Lab) -> None:
         _ = lab.runs["nowhere"]
 
 
-def test_a_load_of_a_run_that_is_recorded_and_watched(lab: Lab) -> None:
+def test_run_with_load_is_recorded_and_streamed(lab: Lab) -> None:
     with lab.new_session(load=False) as session:
         with session.record("3 kg", tags=("test",)) as recording:
             load = session.loads.add(svsa.PaperLoad())
@@ -105,10 +105,10 @@ CHANGES = [
     svsa.Change(at_s=0.4, load=svsa.PaperLoad()),
     svsa.Change(at_s=0.5, position=FIGURE_5.position, stiffness=FIGURE_5.stiffness),
 ]
-"""The last ones begin again what is followed already."""
+"""The last ones restart a reference that the session follows already."""
 
 
-def test_a_run_in_the_lab_is_the_run_of_the_library_to_the_bit(lab: Lab) -> None:
+def test_run_in_the_lab_equals_the_run_of_the_library_bit_for_bit(lab: Lab) -> None:
     settings = {
         "effects": svsa.RIG,
         "seed": 7,
@@ -123,7 +123,7 @@ def test_a_run_in_the_lab_is_the_run_of_the_library_to_the_bit(lab: Lab) -> None
     assert there.metrics == here.metrics
 
 
-def test_a_run_that_ends_in_a_fault_says_so(lab: Lab) -> None:
+def test_run_that_ends_in_a_fault_reports_it(lab: Lab) -> None:
     pull = svsa.ConstantLoad(start_s=0.1, torque_nm=(40.0, 0.0, 0.0))
     here = svsa.simulate("4a", duration_s=1.0, loads=(pull,))
     there = lab.run("4a", duration_s=1.0, loads=(pull,))
@@ -131,13 +131,13 @@ def test_a_run_that_ends_in_a_fault_says_so(lab: Lab) -> None:
     assert np.array_equal(there.samples, here.samples)
 
 
-def test_limits_that_the_lab_has_not_are_refused(lab: Lab) -> None:
+def test_unsupported_limits_are_rejected(lab: Lab) -> None:
     limits = svsa.load_prototype().limits.changed(torque1_nm=3.0)
     with pytest.raises(svsa.ParameterError, match=r"limits\.torque1_nm is 3"):
         lab.run("4a", limits=limits)
 
 
-def test_a_call_whose_answer_is_lost_is_carried_out_once(server: Server) -> None:
+def test_call_with_a_lost_response_is_carried_out_once(server: Server) -> None:
     with (
         run_faulty_line(server.url) as line,
         svsa.connect(line.url) as lab,
@@ -154,7 +154,7 @@ def test_a_call_whose_answer_is_lost_is_carried_out_once(server: Server) -> None
         assert len(session.loads) == 2
 
 
-def test_a_stream_that_breaks_goes_on_with_a_gap(server: Server) -> None:
+def test_interrupted_stream_continues_with_a_gap(server: Server) -> None:
     with run_faulty_line(server.url) as line, svsa.connect(line.url) as lab:
         blocks = iter(lab.session.stream("position_rad", duration_s=60.0))
         before = next(blocks)
@@ -164,20 +164,20 @@ def test_a_stream_that_breaks_goes_on_with_a_gap(server: Server) -> None:
     assert after.run == before.run
 
 
-def test_a_lab_that_is_not_there_is_named() -> None:
+def test_missing_lab_is_named_in_the_error() -> None:
     with pytest.raises(LabError, match=r"http://127\.0\.0\.1:9 does not answer"):
         svsa.connect("http://127.0.0.1:9", timeout_s=0.0)
 
 
-def test_a_session_that_is_gone_is_one_error_with_the_next_step(lab: Lab) -> None:
-    """As after a restart of the lab: the end of the block reports no second error."""
+def test_deleted_session_gives_one_error_with_the_next_step(lab: Lab) -> None:
+    """As after a restart of the lab: the end of the block raises no second error."""
     with pytest.raises(LabError, match="open a new one") as raised, lab.new_session() as session:
         lab.open_session(session.name).end()
         session.law = "fl"
     assert raised.value.__context__ is None
 
 
-def test_control_is_taken_and_given_back(server: Server, lab: Lab) -> None:
+def test_control_lease_is_acquired_and_released(server: Server, lab: Lab) -> None:
     with svsa.connect(server.url, client="Ada's") as other, lab.new_session(load=False) as session:
         other_s = other.open_session(session.name)
         other_s.take_control("Ada")
@@ -188,7 +188,7 @@ def test_control_is_taken_and_given_back(server: Server, lab: Lab) -> None:
 
 
 @pytest.mark.exhaustive
-def test_a_secret_opens_the_lab() -> None:
+def test_secret_opens_the_lab() -> None:
     with run_lab(secret="of the class") as guarded:
         with pytest.raises(AccessError):
             svsa.connect(guarded.url, token="of no one")
@@ -197,7 +197,7 @@ def test_a_secret_opens_the_lab() -> None:
             assert len(next(iter(lab.session.stream(duration_s=0.1))).ticks)
 
 
-def test_a_script_opens_a_session_of_an_actuator(lab: Lab) -> None:
+def test_script_opens_a_session_of_an_actuator(lab: Lab) -> None:
     assert lab.actuators == list_mechanism_names()
     with lab.new_session(actuator="qbmove", law="fl", load=False) as session:
         assert session.actuator == get_mechanism("qbmove").prototype
@@ -206,3 +206,33 @@ def test_a_script_opens_a_session_of_an_actuator(lab: Lab) -> None:
         assert session.nominal == get_mechanism("qbmove").nominal
     with pytest.raises(svsa.ParameterError, match="the nearest is qbmove"):
         lab.create_session(actuator="qbmov")
+
+
+def test_joints_of_an_arm_are_changed_one_by_one_and_together(lab: Lab) -> None:
+    with lab.new_session(arm="rods", feedforward=True) as session:
+        session.pause()
+        second = session.open_joint(2)
+        second.law = "fl"
+        second.stiffness = 60
+        assert (session.law, second.law) == ("ndobc", "fl")
+        assert session.open_joint(1).stiffness != second.stiffness
+        session.set(stiffness=50, observer=40)
+        assert session.stiffness == second.stiffness
+        second.repeat_position()
+        session.change_arm(feedforward=False, adaptation=svsa.PayloadAdaptation())
+        arm = session.read_state()["configuration"]["arm"]
+        assert (arm["feedforward"], arm["adaptation"]["mass_max_kg"]) == (False, 2.0)
+        session.loads.add(svsa.TipMass(mass_kg=0.1))
+        second.loads.add(svsa.PulseLoad(torque_nm=(0.1, 0.0, 0.0), duration_s=0.1))
+        session.run_until(0.5)
+        assert [one.load.kind for one in session.loads if one.active] == ["tip_mass"]
+        tip = svsa.TipMove(start_m=(0.2, -0.4), end_m=(0.3, -0.3), duration_s=1.0)
+        session.change_arm(tip=tip)
+        assert session.tick == 0
+        with pytest.raises(svsa.ParameterError, match="away from joint 1"):
+            session.change_arm(tip=tip.changed(end_m=(2.0, 0.0)))
+    with (
+        lab.new_session(load=False) as session,
+        pytest.raises(svsa.StateError, match="single joint"),
+    ):
+        session.change_arm(feedforward=True)
