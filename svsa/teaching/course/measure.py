@@ -1,7 +1,7 @@
 """Measures of an exercise: a statistic of a channel of a run over a time window."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, Literal, NamedTuple, Self
 
 import numpy as np
@@ -13,6 +13,7 @@ from svsa.evaluation.studies.setting import read_setting
 from svsa.inputs.checked import Checked, Number, Whole, quantity
 from svsa.runs.command import fold
 from svsa.runs.configuration import MAX_LANES, Configuration
+from svsa.runs.result.arm import ArmResult
 from svsa.runs.result.channels import ChannelName
 from svsa.runs.result.result import Result
 from svsa.teaching.submission import StepName
@@ -28,9 +29,10 @@ _TIMES = ("rise", "recovery")
 class Measured(NamedTuple):
     """A measured value in the measure's unit.
 
-    value: None if the run does not determine it; `problem` then has the reason.
-
-    time_s: the moment that shows it best, s of the run; None where there is none.
+    Attributes:
+        value: None if the run does not determine it; `problem` then has the reason.
+        time_s: Time in the run that shows it best, s, or None.
+        problem: Reason for a missing value.
     """
 
     value: float | None
@@ -39,20 +41,29 @@ class Measured(NamedTuple):
 
 
 class Measure(Checked):
-    """A statistic of a channel from `from_s` to `to_s`, or a setting of the run.
+    """A statistic of a channel from `from_s` to `to_s`, of the tip's stiffness, or a setting.
 
-    mean, rms, spread (standard deviation), peak (largest size), max, min, last; crossing: the
-    channel where `of` first reaches `level`, upwards; rise: how long after
-    `from_s` the channel first is at `level` or above; recovery: how long after `from_s` the channel
-    stays within ±`level`. setting: a path in the configuration, as
-    `observer.bandwidth_rad_per_s[0]`. unit: "°" shows radians in degrees. per: another measure
-    that this one is divided by.
+    Statistics: mean, rms, spread (standard deviation), peak (largest magnitude), max, min, last;
+    crossing: the channel where `of` first reaches `level`, upwards; rise: time from `from_s` until
+    the channel first is at `level` or above; recovery: time from `from_s` after which the channel
+    stays within ±`level`.
+
+    Attributes:
+        setting: Path in the configuration, such as `observer.bandwidth_rad_per_s[0]`.
+        tip_direction_rad: Angle of a direction n of an arm's tip, from horizontal, whose stiffness
+            nᵀ K n is taken in place of a channel, with K of `ArmResult.tip_stiffness_n_per_m`.
+        lane: That of the channel; for the stiffness of the tip that of joint 1.
+        unit: "°" shows radians in degrees.
+        per: Another measure by which this one is divided.
     """
 
     name: StepName
     label: str = quantity("", "What it is called", min_length=1, max_length=200)
     channel: ChannelName | None = quantity("", "Channel of the samples", default=None)
     setting: str = quantity("", "Path in the configuration", default="", max_length=200)
+    tip_direction_rad: Number | None = quantity(
+        "rad", "Direction of the tip's stiffness", ge=-math.pi, le=math.pi, default=None
+    )
     statistic: Statistic = quantity("", "What is taken of it", default="mean")
     lane: Whole = quantity("", "Number of the lane", ge=1, le=MAX_LANES, default=1)
     from_s: Number = quantity("s", "Begin of the window", ge=0, default=0.0)
@@ -64,8 +75,9 @@ class Measure(Checked):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        if (self.channel is None) == (self.setting == ""):
-            raise ParameterError(Violation("channel", self.channel, "", "given, or else a setting"))
+        if [self.channel, self.tip_direction_rad, self.setting or None].count(None) != 2:
+            bound = "given, or else tip_direction_rad or a setting"
+            raise ParameterError(Violation("channel", self.channel, "", bound))
         if (self.statistic in _NEEDS_LEVEL) != (self.level is not None):
             bound = f"given for {' and '.join(_NEEDS_LEVEL)}, and for nothing else"
             raise ParameterError(Violation("level", self.level, "", bound))
@@ -80,9 +92,11 @@ class Measure(Checked):
 
     @property
     def _own_unit(self) -> str:
-        if self.channel is None:
+        if self.setting:
             return ""
-        return "s" if self.statistic in _TIMES else CHANNELS[CHANNEL_INDEX[self.channel]].unit
+        if self.statistic in _TIMES:
+            return "s"
+        return "N/m" if self.channel is None else CHANNELS[CHANNEL_INDEX[self.channel]].unit
 
     @property
     def shown_unit(self) -> str:
@@ -94,14 +108,14 @@ class Measure(Checked):
 
     def read(self, result: Result) -> Measured:
         """Read the value of the measure in this run, before it is divided by another."""
-        if self.channel is None:
+        if self.setting:
             return Measured(_read_configured(result, self.setting))
         lanes = (result, *result.comparisons)
         if self.lane > len(lanes):
             return Measured(None, None, f"the run has {len(lanes)} lanes, not {self.lane}")
         lane = lanes[self.lane - 1]
         end_s = math.inf if self.to_s is None else self.to_s
-        time, values = lane.time_s, lane[self.channel]
+        time, values = lane.time_s, self._read_values(lanes)
         rows = (time >= self.from_s - 1e-9) & (time < end_s - 1e-9)
         if self.to_s is not None and not _reaches(result, self.to_s):
             return Measured(None, _end(result), _describe_end(result, self.to_s))
@@ -112,6 +126,22 @@ class Measure(Checked):
             return Measured(None, None, "it does not come to that in this run")
         shown = math.degrees(value) if self.unit == DEGREE else value
         return Measured(shown, None if row is None else float(time[rows][row]))
+
+    def _read_values(self, lanes: Sequence[Result]) -> np.ndarray:
+        """Read the channel, or the stiffness of the tip, of the measure's lane, (ticks,)."""
+        if self.channel is not None:
+            return lanes[self.lane - 1][self.channel]
+        assert self.tip_direction_rad is not None  # noqa: S101
+        return _read_tip_stiffness(lanes[self.lane - 1 : self.lane + 1], self.tip_direction_rad)
+
+
+def _read_tip_stiffness(joints: Sequence[Result], angle: float) -> np.ndarray:
+    """nᵀ K n of the tip of an arm from its joints' samples, (ticks,), N/m."""
+    samples = np.stack([joint.samples for joint in joints])
+    unknown = np.full(samples.shape[1], np.nan)
+    arm = ArmResult(joints[0].configuration, samples, unknown)
+    n = np.array([math.cos(angle), math.sin(angle)])
+    return np.einsum("i,tij,j->t", n, arm.tip_stiffness_n_per_m, n)
 
 
 def _reaches(result: Result, time_s: float) -> bool:
@@ -138,7 +168,11 @@ def _read_configured(result: Result, path: str) -> float:
 
 
 def read_number(configuration: Configuration, path: str) -> float:
-    """Read the number at a path of the configuration; raises `ParameterError` if there is none."""
+    """Read the number at a path of the configuration.
+
+    Raises:
+        ParameterError: If there is none.
+    """
     try:
         value = read_setting(configuration, path)
     except ParameterError as error:
@@ -148,8 +182,8 @@ def read_number(configuration: Configuration, path: str) -> float:
     return float(value)
 
 
-Taken = tuple[float | None, int | None]
-_Take = Callable[[Measure, Result, np.ndarray, np.ndarray], Taken]
+Reduced = tuple[float | None, int | None]
+_ComputeStatistic = Callable[[Measure, Result, np.ndarray, np.ndarray], Reduced]
 _Reduce = Callable[[np.ndarray], Any]
 
 
@@ -157,16 +191,20 @@ def _find_peak(values: np.ndarray) -> int:
     return int(np.argmax(np.abs(values)))
 
 
-def _build_take(reduce: _Reduce, find_row: _Reduce) -> _Take:
-    """Build a statistic that needs the values only. find_row: the sample that represents it."""
+def _build_statistic(reduce: _Reduce, find_row: _Reduce) -> _ComputeStatistic:
+    """Build a statistic that needs the values only; `find_row` returns the sample that represents
+    it.
+    """
 
-    def take(_: Measure, __: Result, values: np.ndarray, ___: np.ndarray) -> Taken:
+    def take(_: Measure, __: Result, values: np.ndarray, ___: np.ndarray) -> Reduced:
         return float(reduce(values)), int(find_row(values))
 
     return take
 
 
-def _take_crossing(measure: Measure, lane: Result, values: np.ndarray, rows: np.ndarray) -> Taken:
+def _compute_crossing(
+    measure: Measure, lane: Result, values: np.ndarray, rows: np.ndarray
+) -> Reduced:
     """Interpolate linearly between the two samples on both sides of the level."""
     assert measure.of is not None and measure.level is not None  # noqa: S101
     other = lane[measure.of][rows]
@@ -178,7 +216,7 @@ def _take_crossing(measure: Measure, lane: Result, values: np.ndarray, rows: np.
     return float(values[row] + share * (values[row + 1] - values[row])), row + 1
 
 
-def _take_rise(measure: Measure, lane: Result, values: np.ndarray, rows: np.ndarray) -> Taken:
+def _compute_rise(measure: Measure, lane: Result, values: np.ndarray, rows: np.ndarray) -> Reduced:
     assert measure.level is not None  # noqa: S101
     there = np.flatnonzero(values >= measure.level)
     if not len(there):
@@ -186,7 +224,9 @@ def _take_rise(measure: Measure, lane: Result, values: np.ndarray, rows: np.ndar
     return float(lane.time_s[rows][there[0]] - measure.from_s), int(there[0])
 
 
-def _take_recovery(measure: Measure, lane: Result, values: np.ndarray, rows: np.ndarray) -> Taken:
+def _compute_recovery(
+    measure: Measure, lane: Result, values: np.ndarray, rows: np.ndarray
+) -> Reduced:
     assert measure.level is not None  # noqa: S101
     outside = np.flatnonzero(np.abs(values) > measure.level)
     if not len(outside):
@@ -197,15 +237,15 @@ def _take_recovery(measure: Measure, lane: Result, values: np.ndarray, rows: np.
     return float(time[outside[-1] + 1] - time[0]), int(outside[-1]) + 1
 
 
-_STATISTICS: dict[Statistic, _Take] = {
-    "mean": _build_take(np.mean, _find_peak),
-    "rms": _build_take(lambda values: np.sqrt(np.mean(values**2)), _find_peak),
-    "spread": _build_take(np.std, lambda values: _find_peak(values - np.mean(values))),
-    "peak": _build_take(lambda values: np.max(np.abs(values)), _find_peak),
-    "max": _build_take(np.max, np.argmax),
-    "min": _build_take(np.min, np.argmin),
-    "last": _build_take(lambda values: values[-1], lambda values: len(values) - 1),
-    "crossing": _take_crossing,
-    "rise": _take_rise,
-    "recovery": _take_recovery,
+_STATISTICS: dict[Statistic, _ComputeStatistic] = {
+    "mean": _build_statistic(np.mean, _find_peak),
+    "rms": _build_statistic(lambda values: np.sqrt(np.mean(values**2)), _find_peak),
+    "spread": _build_statistic(np.std, lambda values: _find_peak(values - np.mean(values))),
+    "peak": _build_statistic(lambda values: np.max(np.abs(values)), _find_peak),
+    "max": _build_statistic(np.max, np.argmax),
+    "min": _build_statistic(np.min, np.argmin),
+    "last": _build_statistic(lambda values: values[-1], lambda values: len(values) - 1),
+    "crossing": _compute_crossing,
+    "rise": _compute_rise,
+    "recovery": _compute_recovery,
 }

@@ -1,20 +1,25 @@
 """The setup of an experiment, and the comparison of a run with it."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from functools import cached_property
 from typing import Any, Literal, NamedTuple, Self
 
 from pydantic import model_validator
 
 from svsa.control.installed import PAPERS_LAW, InstalledLaw
+from svsa.errors import ParameterError
+from svsa.evaluation.studies.setting import change_settings
 from svsa.evaluation.studies.study import FIGURE, build_base
 from svsa.inputs.checked import Checked, Number, quantity
+from svsa.runs.arm.experiment import build_arm_experiment
 from svsa.runs.command import ApplyLoad, Command, RemoveLoad, Stop, fold
 from svsa.runs.configuration import MAX_LANES, Configuration, Lane
 from svsa.runs.result.result import Result
 from svsa.teaching.course.on_bench import SET_ON_BENCH, OnBench
 
 LONGEST_S = 60.0
+ARM = "arm"
+"""Path of a base that is the name of an arm; the run is then one of an arm, not of a figure."""
 Free = Literal[
     "law", "comparisons", "gains", "parameters", "observer", "stiffness", "position", "effects"
 ]
@@ -33,22 +38,24 @@ _COMPARED = (
     "limits",
     "sampling",
 )
+_COMPARED_OF_ARM = ("links", "model", "feedforward", "adaptation", "tip")
 _FIELDS: dict[str, str] = {"laws": "law", "lane": "comparisons", "load": "loads", "unload": "loads"}
-"""The field of a configuration that a kind of command changes, where it is called otherwise."""
+"""Field of a configuration that a kind of command changes, if its name differs."""
 
 
 class Difference(NamedTuple):
-    """How a run differs from the required one; time_s: since when, or None."""
+    """A difference of a run from the required one; `time_s` is its beginning, or None."""
 
     message: str
     time_s: float | None = None
 
 
 class Setup(Checked):
-    """The configuration that a run starts from: a figure, and settings that replace its own.
+    """The configuration that a run starts from: a figure, and changed settings.
 
-    free: what the student may choose before the run. bench: how it is run on a bench; None for one
-    that is simulated and nothing else.
+    Attributes:
+        free: Settings that the student may choose before the run.
+        bench: Differences on a bench; None for an experiment that can only be simulated.
     """
 
     base: dict[str, Any] = quantity("", "Settings of the run", default={FIGURE: "4a"})
@@ -65,11 +72,23 @@ class Setup(Checked):
         _ = self.configuration
         return self
 
+    @property
+    def arm(self) -> str:
+        """Name of the arm; "" for a single joint."""
+        return str(self.base.get(ARM, ""))
+
     @cached_property
     def configuration(self) -> Configuration:
         """The required run, with the free fields at their start values."""
         comparisons = tuple(Lane(law=law) for law in self.comparisons)
-        return build_base(self.base, self.law).changed(comparisons=comparisons)
+        if not self.arm:
+            return build_base(self.base, self.law).changed(comparisons=comparisons)
+        settings = {path: value for path, value in self.base.items() if path != ARM}
+        both = {"law": self.law, "comparisons": comparisons}
+        try:
+            return change_settings(build_arm_experiment(self.arm, {}, both), settings)
+        except ParameterError as error:
+            raise error.within("base") from None
 
     @property
     def bench_configuration(self) -> Configuration:
@@ -85,10 +104,13 @@ class Setup(Checked):
             return Difference("it was recorded on a bench, and this step is simulated")
         wanted = self.bench_configuration if is_bench else self.configuration
         begun = _give_first(result.configuration, result.commands)
-        for field in SET_ON_BENCH if is_bench else _COMPARED:
-            if field in self.free:
-                continue
-            asked, had = getattr(wanted, field), getattr(begun, field)
+        if (wanted.arm is None) != (begun.arm is None):
+            kind = "a single joint" if begun.arm is None else "an arm"
+            return Difference(f"it is a run of {kind}")
+        fields = [
+            field for field in (SET_ON_BENCH if is_bench else _COMPARED) if field not in self.free
+        ]
+        for field, asked, had in _list_compared(wanted, begun, fields):
             if asked != had:
                 return Difference(f"{field} was not as the step sets it ({_tell(asked, had)})", 0.0)
         return self._find_change(result)
@@ -107,6 +129,18 @@ class Setup(Checked):
         return None
 
 
+def _list_compared(
+    wanted: Configuration, begun: Configuration, fields: Sequence[str]
+) -> Iterator[tuple[str, Any, Any]]:
+    """Yield name, wanted and actual value of the fields of each joint, and of those of an arm."""
+    for number, (asked, had) in enumerate(zip(wanted.joints, begun.joints, strict=True), start=1):
+        for field in fields:
+            name = field if number == 1 else f"{field} of joint 2"
+            yield name, getattr(asked, field), getattr(had, field)
+    for field in _COMPARED_OF_ARM if wanted.arm is not None else ():
+        yield f"arm.{field}", getattr(wanted.arm, field), getattr(begun.arm, field)
+
+
 def _give_first(configuration: Configuration, commands: Sequence[Command]) -> Configuration:
     """Apply the commands that were given before the first sample."""
     for command in commands:
@@ -117,10 +151,17 @@ def _give_first(configuration: Configuration, commands: Sequence[Command]) -> Co
             loads = (*configuration.loads, command.argument)
             configuration = configuration.changed(loads=loads)
         elif isinstance(command, RemoveLoad):
-            kept = list(configuration.loads)
-            del kept[command.argument - 1]
-            configuration = configuration.changed(loads=tuple(kept))
+            configuration = _remove_load(configuration, command.argument - 1)
     return configuration
+
+
+def _remove_load(configuration: Configuration, index: int) -> Configuration:
+    """Remove a planned load; those of joint 2 of an arm follow those of joint 1."""
+    loads, arm = configuration.loads, configuration.arm
+    if arm is not None and index >= len(loads):
+        second = _remove_load(arm.joint2, index - len(loads))
+        return configuration.changed(arm=arm.changed(joint2=second))
+    return configuration.changed(loads=(*loads[:index], *loads[index + 1 :]))
 
 
 def _tell(asked: Any, had: Any) -> str:

@@ -28,11 +28,14 @@ class Read(_Step):
 
 
 class Predict(_Step):
-    """A number to be predicted before the run that judges it.
+    """A number to be predicted before the run with which it is compared.
 
-    judged_by: step and measure of that run, as `fl.steady`. within, half_within: the share of
-    the measured value that the prediction may be off for all, and for half of the points.
-    by_factor: of the larger over the smaller of both instead, so that 9 is an order of magnitude.
+    Attributes:
+        judged_by: Step and measure of that run, such as `fl.steady`.
+        within: Maximum deviation for full points, as a share of the measured value.
+        half_within: Maximum deviation for half of the points.
+        by_factor: Whether the deviation is the ratio of the larger to the smaller value minus 1, so
+            that 9 is an order of magnitude.
     """
 
     kind: Literal["predict"] = "predict"
@@ -80,6 +83,10 @@ class Experiment(_Step, Setup):
             if measure.lane > len(self.configuration.lanes) and "comparisons" not in self.free:
                 bound = f"1 to {len(self.configuration.lanes)}, of the lanes that run"
                 raise ParameterError(Violation(f"{where}.lane", measure.lane, "", bound))
+            if measure.tip_direction_rad is not None and not self._is_tip(measure.lane):
+                bound = "left out, or the run is one of an arm and `lane` that of joint 1"
+                given = measure.tip_direction_rad
+                raise ParameterError(Violation(f"{where}.tip_direction_rad", given, "rad", bound))
             if measure.to_s is not None and measure.to_s > self.duration_s:
                 bound = f"at most duration_s, {self.duration_s:g} s"
                 raise ParameterError(Violation(f"{where}.to_s", measure.to_s, "s", bound))
@@ -94,6 +101,9 @@ class Experiment(_Step, Setup):
             check_for_bench(self.base, self.comparisons, self.free, loads, self.measures)
             self._check_bench(self.bench.criteria, bool(loads) and not self.bench.by_hand)
         return self
+
+    def _is_tip(self, lane: int) -> bool:
+        return self.configuration.arm is not None and lane % 2 == 1
 
     def _check_criteria(self, where: str, criteria: tuple[Criterion, ...]) -> None:
         names = [measure.name for measure in self.measures]
@@ -153,7 +163,7 @@ class Explain(_Step):
 
 
 class SubmitStep(_Step):
-    """The last step: submit the exercise. law: whether a law's Python file is included."""
+    """The last step: submit the exercise; `law` is whether a law's Python file is included."""
 
     kind: Literal["submit"] = "submit"
     law: Flag = quantity("", "Whether a law's file belongs to it", default=False)

@@ -1,4 +1,4 @@
-"""The runs that an exercise asks for, simulated once."""
+"""The runs of the exercises, simulated once."""
 
 from functools import cache
 
@@ -6,6 +6,7 @@ import svsa
 from svsa.runs.result.result import Result
 from svsa.teaching.course.exercise import Exercise
 from svsa.teaching.course.file import list_exercise_files, read_exercise
+from svsa.teaching.course.run import list_arm_lanes
 from svsa.teaching.course.steps import Experiment
 
 
@@ -17,4 +18,7 @@ def find_exercise(name: str) -> Exercise:
 def simulate_step(exercise: str, step: str) -> Result:
     found = find_exercise(exercise).find_step(step)
     assert isinstance(found, Experiment)
+    if found.configuration.arm is not None:
+        arm = svsa.simulate_arm(found.configuration, duration_s=found.duration_s)
+        return list_arm_lanes(arm)
     return svsa.simulate(found.configuration, duration_s=found.duration_s)

@@ -1,4 +1,4 @@
-"""A student who plays an exercise over the public API alone."""
+"""A student who completes an exercise over the public API."""
 
 from svsa.teaching.course.exercise import Exercise
 from svsa.teaching.course.steps import Experiment, Explain, Predict
@@ -9,17 +9,19 @@ WAIT_TICKS = 10_000
 
 
 def find_law(exercise: Exercise) -> str:
-    """The law that the text of an exercise begins with."""
+    """Return the law in the text of an exercise."""
     return exercise.steps[-1].text.partition("```python\n")[2].partition("```")[0]
 
 
 class Student:
-    """One who works in a private session, paused, so that no time is waited for."""
+    """Works in a private paused session, which does not wait for real time."""
 
     def __init__(self, lab: Lab, exercise: Exercise) -> None:
         self.client, self.exercise = lab.client, exercise
         self.path = f"{COURSE}/{exercise.name}"
-        begun = self.client.post("/api/v1/sessions", json={}).raise_for_status().json()
+        arms = {one.arm for one in exercise.steps if isinstance(one, Experiment)} - {""}
+        wanted = {"from": "arm", "arm": arms.pop()} if arms else {}
+        begun = self.client.post("/api/v1/sessions", json=wanted).raise_for_status().json()
         self.session = f"/api/v1/sessions/{begun['session']}"
 
     def read(self) -> dict:
@@ -36,7 +38,7 @@ class Student:
         return self.client.post(f"{self.session}/experiment", json={"from": "before_exercise"})
 
     def run(self, step: str, duration_s: float) -> str:
-        """Reset, as the page does, record and run; the id of the run."""
+        """Reset as the page does, record and run; return the id of the run."""
         self.post("reset")
         state = self.post("recording", {"name": step})
         run_id = state["recording"]["run_id"]
@@ -64,12 +66,14 @@ class Student:
         return self.client.post(f"{self.path}/submission", json={"student": "Ada"})
 
     def change(self, step: str, changes: dict[str, dict]) -> None:
-        """Settings that are the student's, by their path below the session."""
+        """Change settings of the student, by their path below the session."""
         for path, body in changes.items():
             self.client.put(f"{self.session}/{path}", json=body).raise_for_status()
 
-    def play(self, answers: dict, changes: dict[str, dict[str, dict]]) -> dict:
-        """From the first step to the submission; the judgement."""
+    def complete(self, answers: dict, changes: dict[str, dict[str, dict]]) -> dict:
+        """Complete the exercise from the first step to the submission, and return the
+        assessment.
+        """
         for step in self.exercise.steps:
             self.client.put(f"{self.path}/place", json={"step": step.name}).raise_for_status()
             if isinstance(step, Predict | Explain):

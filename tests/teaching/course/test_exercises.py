@@ -1,4 +1,4 @@
-"""Every exercise played over the API by a script: all points, and fewer where it is wrong."""
+"""Every exercise completed over the API by a script: full points, and fewer for wrong answers."""
 
 import pytest
 
@@ -11,6 +11,10 @@ from tests.teaching.course.student import Student
 pytestmark = pytest.mark.long
 BANDWIDTH = {"observer": {"bandwidth_rad_per_s": [80.0, 80.0, 80.0]}}
 SLOWER = {"gains": {"position_poles_rad_per_s": [-50.0] * 4}}
+SOFT_AND_STIFF = {
+    f"stiffness?joint={joint}": {"kind": "constant", "stiffness_nm_per_rad": sigma}
+    for joint, sigma in ((1, 18.0), (2, 90.0))
+}
 RIGHT = {
     "mechanism": (
         {"predict-lever": 0.704, "predict-soft": 8.6, "predict-lost": 0.544, "why": "geometry"},
@@ -48,6 +52,25 @@ RIGHT = {
         {"rescue": SLOWER},
     ),
     "own-law": ({"predict-peak": 2.8, "why": "tuned"}, {}),
+    "coupling": (
+        {
+            "predict-torque": 0.25,
+            "predict-ratio": 5.0,
+            "why-error": "lag",
+            "predict-wrong": 0.8,
+            "when": "both",
+        },
+        {},
+    ),
+    "ellipse": (
+        {
+            "predict-round": 444.0,
+            "predict-yield": 0.61,
+            "reverse": "impossible",
+            "law": "resists",
+        },
+        {"design": SOFT_AND_STIFF},
+    ),
 }
 
 
@@ -66,15 +89,15 @@ def another_lab():
 EXERCISES = sorted((read_exercise(path) for path in list_exercise_files()), key=lambda e: e.number)
 
 
-def test_the_course_is_played_whole():
+def test_complete_course_is_completed():
     assert [exercise.name for exercise in EXERCISES] == list(RIGHT)
 
 
 @pytest.mark.parametrize(
     "exercise", exhaust(EXERCISES, EXERCISES[:-1]), ids=lambda exercise: exercise.name
 )
-def test_from_start_to_full_points(lab, exercise):
-    judgement = Student(lab, exercise).play(*RIGHT[exercise.name])
+def test_exercise_is_completed_with_full_points(lab, exercise):
+    judgement = Student(lab, exercise).complete(*RIGHT[exercise.name])
 
     lost = [one for one in judgement["criteria"] if one["points"] < one["max_points"]]
     assert lost == []
@@ -84,14 +107,14 @@ def test_from_start_to_full_points(lab, exercise):
 @pytest.mark.parametrize(
     "exercise", exhaust(EXERCISES, EXERCISES[:2]), ids=lambda exercise: exercise.name
 )
-def test_wrong_answers_and_settings_have_fewer(another_lab, exercise):
+def test_wrong_answers_and_settings_have_fewer_points(another_lab, exercise):
     answers = {}
     for step in exercise.steps:
         if isinstance(step, Predict):
             answers[step.name] = step.high
         elif isinstance(step, Explain):
             answers[step.name] = next(one.name for one in step.options if not one.right)
-    judgement = Student(another_lab, exercise).play(answers, {})
+    judgement = Student(another_lab, exercise).complete(answers, {})
 
     reported = {one["step"]: one for one in judgement["criteria"]}
     assert [reported[name]["points"] for name in answers] == [0.0] * len(answers)
