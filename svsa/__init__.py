@@ -21,14 +21,8 @@ from svsa.inputs.extras import MissingExtraError
 from svsa.inputs.extras import __version__ as __version__
 from svsa.runs import paper
 from svsa.runs.change import Change
-from svsa.runs.configuration import (
-    Configuration,
-    Design,
-    Lane,
-    load_prototype,
-    read_design,
-    write_design,
-)
+from svsa.runs.configuration import ArmSetup, Configuration, Design, Lane
+from svsa.runs.design_file import load_prototype, read_design, write_design
 from svsa.runs.result.channels import ChannelName
 from svsa.runs.result.result import Result
 from svsa.runs.result.simulate import simulate
@@ -42,6 +36,7 @@ from svsa.simulation.plant.loads.pulse import PulseLoad
 from svsa.simulation.plant.loads.push import PushLoad
 from svsa.simulation.plant.loads.series import SeriesLoad
 from svsa.simulation.plant.loads.sine import SineLoad
+from svsa.simulation.plant.loads.tip import TipForce, TipImpulse, TipMass, TipPush, Wall
 from svsa.simulation.reference.kinds import POSITIONS, STIFFNESSES
 from svsa.simulation.reference.kinds.chirp import ChirpPosition, ChirpStiffness
 from svsa.simulation.reference.kinds.constant import ConstantPosition, ConstantStiffness
@@ -53,9 +48,11 @@ from svsa.simulation.reference.preview import sample_reference
 from svsa.simulation.reference.series_csv import read_series
 
 if TYPE_CHECKING:
+    from svsa.actuators.arm.parameters import ArmParameters
     from svsa.analysis import design
     from svsa.analysis.identification.measured import identify
     from svsa.client import connect, connect_async
+    from svsa.control.arm_payload import PayloadAdaptation
     from svsa.evaluation import falsifier as falsify
     from svsa.evaluation.studies.run import run_study
     from svsa.evaluation.sweep import sweep
@@ -63,16 +60,25 @@ if TYPE_CHECKING:
     from svsa.runs.environment import ActuatorEnv
     from svsa.runs.records.catalogue.runs import Catalogue
     from svsa.runs.records.verdict import Tolerance
+    from svsa.runs.result.arm import ArmResult
     from svsa.runs.result.recorded import (
         compare_runs,
         export_run,
         list_runs,
+        open_arm_run,
         open_run,
         resimulate,
     )
     from svsa.runs.result.saved import save_run
+    from svsa.runs.result.simulate_arm import simulate_arm
+    from svsa.simulation.arm.tip_reference import TipEllipse, TipMove
 
 _LATE = {
+    "ArmParameters": "svsa.actuators.arm.parameters",
+    "ArmResult": "svsa.runs.result.arm",
+    "PayloadAdaptation": "svsa.control.arm_payload",
+    "simulate_arm": "svsa.runs.result.simulate_arm",
+    **dict.fromkeys(("TipEllipse", "TipMove"), "svsa.simulation.arm.tip_reference"),
     "ActuatorEnv": "svsa.runs.environment",
     "design": "svsa.analysis.design",
     "falsify": "svsa.evaluation.falsifier",
@@ -86,19 +92,21 @@ _LATE = {
     "identify": "svsa.analysis.identification.measured",
     "run_study": "svsa.evaluation.studies.run",
     **dict.fromkeys(
-        ("compare_runs", "export_run", "open_run", "resimulate", "list_runs"),
+        ("compare_runs", "export_run", "open_arm_run", "open_run", "resimulate", "list_runs"),
         "svsa.runs.result.recorded",
     ),
 }
 
 
 _FOUND = {kind.__name__: kind for kind in (*LOADS, *POSITIONS, *STIFFNESSES)}
-"""Loads and references of files that are not listed here."""
+"""Loads and references that are found automatically and not listed here."""
 _MODULES = ("design", "falsify")
 
 
 def __getattr__(name: str) -> object:
-    """Import on first access what a simulation does not need and what is slow to import."""
+    """Import modules that a simulation does not need, or that are slow to import, on first
+    access.
+    """
     if name in _FOUND:
         return _FOUND[name]
     if name not in _LATE:
@@ -113,6 +121,9 @@ __all__ = [
     "ActuatorEnv",
     "ActuatorParameters",
     "AnyLaw",
+    "ArmParameters",
+    "ArmResult",
+    "ArmSetup",
     "Catalogue",
     "Change",
     "ChannelName",
@@ -136,6 +147,7 @@ __all__ = [
     "ObserverBandwidth",
     "PaperLoad",
     "ParameterError",
+    "PayloadAdaptation",
     "PulseLoad",
     "PushLoad",
     "Result",
@@ -150,7 +162,14 @@ __all__ = [
     "StepsPosition",
     "StepsStiffness",
     "SvsaError",
+    "TipEllipse",
+    "TipForce",
+    "TipImpulse",
+    "TipMass",
+    "TipMove",
+    "TipPush",
     "Tolerance",
+    "Wall",
     "compare_runs",
     "connect",
     "connect_async",
@@ -160,6 +179,7 @@ __all__ = [
     "identify",
     "list_runs",
     "load_prototype",
+    "open_arm_run",
     "open_run",
     "paper",
     "read_design",
@@ -170,6 +190,7 @@ __all__ = [
     "sample_reference",
     "save_run",
     "simulate",
+    "simulate_arm",
     "sweep",
     "tune",
     "write_design",

@@ -1,7 +1,7 @@
 """The `svsa` command.
 
-A package above this one adds its commands through the entry point group `svsa.commands`
-(the server adds `serve` and `openapi`), so that the library does not know of it.
+Other packages add commands through the entry point group `svsa.commands` (the server adds `serve`
+and `openapi`), so that the library does not depend on them.
 """
 
 import json
@@ -17,21 +17,26 @@ from rich.progress import Progress
 from rich.table import Table
 
 import svsa
+from svsa.actuators.installed import get_mechanism
+from svsa.actuators.parameters import SVSA
 from svsa.analysis.datasheet.cli import datasheet
 from svsa.analysis.design.cli import margins, stability
 from svsa.analysis.identification.cli import identify
 from svsa.control.installed import get_title
 from svsa.errors import SvsaError
+from svsa.evaluation.arm_collision import arm_collision
+from svsa.evaluation.arm_map import arm_map
 from svsa.evaluation.falsifier.cli import falsify
+from svsa.evaluation.ranking.arm_cli import rank_arm
 from svsa.evaluation.ranking.bench_cli import bench as ranking_bench
 from svsa.evaluation.ranking.cli import ranking
 from svsa.evaluation.studies.cli import study
 from svsa.evaluation.tuning.cli import tune
 from svsa.hardware.cli import bench_check, bench_home
 from svsa.hardware.emulator.cli import emulator
+from svsa.inputs.data_folder import find_data_folder
 from svsa.inputs.extras import require_extra
 from svsa.numerics.compilation import is_compiled_before
-from svsa.runs.records.catalogue.runs import find_data_folder
 from svsa.runs.result.cli import compare
 from svsa.runs.result.progress import hide_progress
 from svsa.teaching.course.cli import course
@@ -102,6 +107,7 @@ def reproduce(
 
 
 ranking.command("bench")(ranking_bench)
+ranking.command("arm")(rank_arm)
 ranking.command("submit")(submit_command)
 ranking.command("leaderboard")(leaderboard_command)
 app.add_typer(ranking, name="ranking")
@@ -116,6 +122,8 @@ app.command("identify")(identify)
 app.command("stability")(stability)
 app.command("margins")(margins)
 app.command("datasheet")(datasheet)
+app.command("arm-map")(arm_map)
+app.command("arm-collision")(arm_collision)
 app.command("bench-check")(bench_check)
 app.command("bench-home")(bench_home)
 
@@ -156,6 +164,8 @@ def measure_costs(
         table.add_row(law, *(f"{value:.4g}" for value in cost))
     by_effects = costs.pop("runs_per_second_1_core_by_effects", {})
     costs |= {f"runs_per_second_1_core: {name}": rate for name, rate in by_effects.items()}
+    by_actuator = costs.pop("actuator_ratio_to_kernel", {})
+    costs |= {f"actuator_ratio_to_kernel: {name}": ratio for name, ratio in by_actuator.items()}
     for name, solver in costs.pop("solvers", {}).items():
         costs |= {f"solver {name}: {key}": value for key, value in solver.items()}
     for name, value in costs.items():
@@ -200,19 +210,38 @@ def restore_backup(
 
 
 @app.command("compile")
-def compile_loop() -> None:
+def compile_loop(
+    laws: Annotated[
+        list[str] | None, typer.Argument(help="Laws; all installed ones if left out.")
+    ] = None,
+    actuator: Annotated[
+        str, typer.Option(help="Installed actuator; all but the SVSA share one compiled loop.")
+    ] = SVSA,
+    arm: Annotated[
+        tuple[str, str] | None, typer.Option(help="Actuators of the joints of an arm.")
+    ] = None,
+) -> None:
     """Compile the control loop into the cache, so that later starts are quick."""
-    prepare()
+    for name in (actuator, *(arm or ())):
+        get_mechanism(name)  # an unknown name is rejected before anything is compiled
+    prepare(laws, actuator, arm)
 
 
-def prepare(laws: Iterable[str] | None = None) -> None:
+def prepare(
+    laws: Iterable[str] | None = None, actuator: str = SVSA, arm: tuple[str, str] | None = None
+) -> None:
     """Compile the control loop, metrics and these laws, and report a long compilation.
 
-    laws: all that are installed if left out. One that does not work is named, and the others go on.
+    `laws` are all installed laws by default. A law that does not work is reported, and the others
+    are compiled.
+    The loop of the SVSA and that of all other actuators, `actuator`, are compiled separately, and
+    so is that of an arm with these actuators in its joints.
     """
     from svsa.control.installed import LawError, list_law_names
     from svsa.control.law_names import AnyLaw
+    from svsa.runs.experiment import build_actuator_experiment
     from svsa.runs.result.simulate import simulate
+    from svsa.runs.result.simulate_arm import simulate_arm
     from svsa.simulation.loop.loop import advance
 
     names = list_law_names() if laws is None else tuple(laws)
@@ -225,7 +254,11 @@ def prepare(laws: Iterable[str] | None = None) -> None:
     with _messages.status(text):
         for name in names:
             try:
-                simulate("4a", AnyLaw(name), duration_s=0.01).measure(0.0, 0.01)
+                experiment = "4a" if actuator == SVSA else build_actuator_experiment(actuator, name)
+                simulate(experiment, AnyLaw(name), duration_s=0.01).measure(0.0, 0.01)
+                if arm is not None:
+                    first, second = ({"actuator": joint} for joint in arm)
+                    simulate_arm("rods", AnyLaw(name), duration_s=0.01, joint1=first, joint2=second)
             except LawError as error:
                 _messages.print(f"[bold red]{escape(str(error))}[/]", highlight=False)
 
@@ -242,7 +275,7 @@ def main() -> None:
         raise SystemExit(1) from None
     except SystemExit as ended:
         if ended.__context__ and isinstance(ended.__context__.__cause__, KeyboardInterrupt):
-            _messages.print("Interrupted.")  # typer ends with 130 and says nothing
+            _messages.print("Interrupted.")  # typer exits with 130 without a message
         raise
 
 
