@@ -1,18 +1,18 @@
 """Configuration and commands of a run, live or recorded: enough to repeat it in a script."""
 
 from collections.abc import Iterable, Mapping
-from typing import Any
 
 from fastapi import Request
 
-from svsa.runs.command import Command, read_command
-from svsa.runs.configuration import Design
+from svsa.runs.command import Command
+from svsa.runs.configuration import Configuration, Design
+from svsa.runs.records import resimulation
 from svsa.runs.records.catalogue.entry import RunEntry
-from svsa.runs.records.header import BranchPoint, PlantKind
+from svsa.runs.records.header import BranchPoint, PlantKind, RecordError
 from svsa_server.access.permissions import OBSERVER, allow
 from svsa_server.routes.depends import REFUSALS, NamedSession, RunId, Runs
 from svsa_server.routing import build_router
-from svsa_server.schemas.lab.opening import FromFigure
+from svsa_server.runs.opening import choose_opening
 from svsa_server.schemas.runs.run import BranchOrigin, GivenCommand, RunOrigin
 
 router = build_router(tags=["runs"], responses=REFUSALS)
@@ -22,11 +22,10 @@ router = build_router(tags=["runs"], responses=REFUSALS)
 @allow(OBSERVER)
 async def read_origin(request: Request, hosted: NamedSession) -> RunOrigin:
     """Read the configuration of the session's run at t = 0, and every change since."""
-    return _tell(
-        hosted.session.journal.initial.model_dump(mode="json"),
+    return _build_origin(
+        hosted.session.journal.initial,
         hosted.session.journal.commands,
         (0, hosted.session.run.tick),
-        hosted.session.run.period_s,
         hosted.session.plant,
         request.app.state.design,
     )
@@ -37,15 +36,20 @@ async def read_origin(request: Request, hosted: NamedSession) -> RunOrigin:
 def read_run_origin(request: Request, runs: Runs, run_id: RunId) -> RunOrigin:
     """Read the configuration of a recorded run at t = 0, and every change to its last sample."""
     record = runs.open(run_id)
-    header = record.header
-    return _tell(
-        header.configuration,
-        (read_command(written) for _, written in record.commands),
+    configuration, commands = resimulation.read_origin(record)
+    origin = _build_origin(
+        configuration,
+        commands,
         (record.first_tick, record.first_tick + record.tick_count),
-        header.period_s,
-        header.plant,
+        record.header.plant,
         request.app.state.design,
     )
+    if origin.plant == "simulated":
+        try:
+            resimulation.check_simulated(record)
+        except RecordError as error:
+            return origin.model_copy(update={"problem": str(error)})
+    return origin
 
 
 def name_origin(
@@ -62,24 +66,22 @@ def name_origin(
     return BranchOrigin(run_id=run_id, tick=tick, title=origin.title, time_s=time_s)
 
 
-def _tell(
-    configuration: dict[str, Any],
+def _build_origin(
+    configuration: Configuration,
     commands: Iterable[Command],
     ticks: tuple[int, int],
-    period_s: float,
     plant: PlantKind,
     design: Design,
 ) -> RunOrigin:
+    opening = choose_opening(configuration, design)
     return RunOrigin(
-        configuration=configuration,
+        configuration=configuration.model_dump(mode="json"),
         commands=[GivenCommand(tick=command.tick, command=command) for command in commands],
         first_tick=ticks[0],
         tick=ticks[1],
-        period_s=period_s,
+        period_s=configuration.sampling.period_s,
         plant=plant,
-        defaults=_build_defaults(design),
+        opening=opening.request,
+        defaults=opening.defaults.model_dump(mode="json"),
+        problem=opening.problem if plant == "simulated" else None,
     )
-
-
-def _build_defaults(design: Design) -> dict[str, Any]:
-    return FromFigure(load=False).build_configuration(design).model_dump(mode="json")

@@ -3,7 +3,7 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import { text } from "../../core/text/en";
 
 interface CopyButtonProps {
-  /** What to copy; null where it could not be made, which is said elsewhere. */
+  /** The text to copy; null if it could not be made, which is reported elsewhere. */
   read: () => string | Promise<string | null>;
   class?: string;
   label?: string;
@@ -14,17 +14,17 @@ interface CopyButtonProps {
 
 const SHOWN_MS = 2000;
 
-/** Copies, and says so in its own place for a moment. */
+/** Copies a text, and confirms it for a moment. */
 export function CopyButton({ read, label, hint, disabled, children, ...rest }: CopyButtonProps) {
-  const [said, setSaid] = useState("");
+  const [message, setMessage] = useState("");
   const timer = useRef(0);
   useEffect(() => () => clearTimeout(timer.current), []);
   const copy = async () => {
     const content = await read();
     if (content === null) return;
-    setSaid((await copyText(content)) ? text.script.copied : text.script.notCopied);
+    setMessage((await copyText(content)) ? text.script.copied : text.script.notCopied);
     clearTimeout(timer.current);
-    timer.current = window.setTimeout(() => setSaid(""), SHOWN_MS);
+    timer.current = window.setTimeout(() => setMessage(""), SHOWN_MS);
   };
   return (
     <>
@@ -36,17 +36,17 @@ export function CopyButton({ read, label, hint, disabled, children, ...rest }: C
         disabled={disabled}
         onClick={() => void copy()}
       >
-        {said === "" ? children : <span aria-hidden="true">✓ {said}</span>}
-        {said !== "" && <span class="visually-hidden">{children}</span>}
+        {message === "" ? children : <span aria-hidden="true">✓ {message}</span>}
+        {message !== "" && <span class="visually-hidden">{children}</span>}
       </button>
       <span class="visually-hidden" role="status">
-        {said}
+        {message}
       </span>
     </>
   );
 }
 
-/** False where the browser does not let a page copy. */
+/** False if the browser does not allow copying. */
 export async function copyText(content: string): Promise<boolean> {
   try {
     await navigator.clipboard.writeText(content);

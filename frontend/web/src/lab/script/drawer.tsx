@@ -45,7 +45,7 @@ function CallRow({ call, language }: { call: Call; language: Language }) {
   );
 }
 
-/** The calls; the newest comes into sight, unless the reader looks at an older one. */
+/** The calls; scrolls to the newest, unless the user reads an older one. */
 function CallList({ language }: { language: Language }) {
   const list = useRef<HTMLOListElement>(null);
   const isAtEnd = useRef(true);
@@ -103,21 +103,7 @@ export function CallsDrawer() {
           {words.clear}
         </button>
         <span class="grow" />
-        <CopyButton
-          class="button is-primary"
-          hint={words.experimentHint}
-          read={makeExperimentScript}
-        >
-          {words.experiment}
-        </CopyButton>
-        <button
-          type="button"
-          class="button"
-          title={words.saveHint}
-          onClick={() => void saveExperiment()}
-        >
-          {words.save}
-        </button>
+        <ExperimentButtons />
         <button
           type="button"
           class="button is-icon"
@@ -130,6 +116,25 @@ export function CallsDrawer() {
       <ErrorLine>{scriptProblem.value}</ErrorLine>
       <CallList language={language} />
     </section>
+  );
+}
+
+/** The script of the experiment, to copy or to save. */
+function ExperimentButtons() {
+  return (
+    <>
+      <CopyButton class="button is-primary" hint={words.experimentHint} read={makeExperimentScript}>
+        {words.experiment}
+      </CopyButton>
+      <button
+        type="button"
+        class="button"
+        title={words.saveHint}
+        onClick={() => void saveExperiment()}
+      >
+        {words.save}
+      </button>
+    </>
   );
 }
 

@@ -1,99 +1,73 @@
-/** A run as a Python file that does it again in a private session, every change at its own tick.
- * It imports nothing of the browser: tests of the client bundle it alone and run it with Node. */
+/**
+ * A run as a Python file that repeats it in a private session, every change at its own tick. It has
+ * no browser dependencies: tests of the client bundle it alone and run it with Node.
+ */
 
 import type { CommandKind, RunOrigin } from "../../core/api/types";
-import { buildValue, type Fields, inDocstring, toPython, toRows } from "./snippets";
+import { findChanges, isEqual } from "../../core/state/changes";
+import { changeArm, INDENT, writeCommand } from "./commands";
+import { type Fields, inDocstring, toPython } from "./snippets";
 
-const INDENT = "        ";
-const SETTINGS = ["position", "stiffness", "gains", "observer", "effects", "comparisons"] as const;
+const SETTINGS = ["law", "position", "stiffness", "gains", "observer", "effects", "comparisons"];
 const MODELS = ["actuator", "nominal"] as const;
+const ARM_FIELDS = ["feedforward", "adaptation", "tip", "links", "model"];
+/** Commands that are of no joint, unless they name one. */
+const OF_SESSION = ["comparisons", "feedforward", "adaptation", "load", "unload", "stop"];
 
-const isSame = (one: unknown, other: unknown) => JSON.stringify(one) === JSON.stringify(other);
-
-/** Without what stands at null, which the library knows as its default. */
-function prune(value: unknown): unknown {
-  if (Array.isArray(value)) return value.map(prune);
-  if (value === null || typeof value !== "object") return value;
-  const entries = Object.entries(value).filter(([, inner]) => inner !== null);
-  return Object.fromEntries(entries.map(([key, inner]) => [key, prune(inner)]));
+/** A joint of an arm, or the only one. */
+interface Joint {
+  /** Its name in the script. */
+  on: string;
+  configuration: Fields;
+  /** Its configuration in a new session. */
+  defaults: Fields;
 }
 
-const pruned = (value: unknown) => prune(value) as Fields;
+const armOf = (configuration: Fields) => configuration.arm as (Fields & { joint2: Fields }) | null;
 
-/** A value with a `kind`: "minimum_jerk" of Position is svsa.MinimumJerkPosition. */
-function buildKind(value: unknown, of: string): string {
-  const { kind, ...fields } = pruned(value);
-  const words = String(kind).split("_");
-  const name = words.map((word) => word.charAt(0).toUpperCase() + word.slice(1)).join("");
-  return buildValue(`svsa.${name}${of}`, fields, INDENT);
+/** The joints; a session opens with the law of joint 1, whose comparisons are first set for both. */
+function listJoints({ configuration, ...origin }: RunOrigin): Joint[] {
+  const { law, comparisons } = configuration;
+  const [arm, plain] = [armOf(configuration), armOf(origin.defaults)];
+  const defaults = { ...origin.defaults, law };
+  if (!arm || !plain) return [{ on: "session", configuration, defaults }];
+  const joint2 = { configuration: arm.joint2, defaults: { ...plain.joint2, law, comparisons } };
+  return [
+    { on: "joint1", configuration, defaults },
+    { on: "joint2", ...joint2 },
+  ];
 }
 
-const buildLane = (lane: unknown) => buildValue("svsa.Lane", pruned(lane), INDENT);
-
-const assign = (field: string, value: string): string[] => [`session.${field} = ${value}`];
-const assignKind = (of: string) => (argument: unknown, field: string) =>
-  assign(field, buildKind(argument, of));
-const assignValue = (type: string) => (argument: unknown, field: string) =>
-  assign(field, buildValue(`svsa.${type}`, pruned(argument), INDENT));
-const assignModel = (argument: unknown, field: string) =>
-  assign(field, buildValue(`session.${field}.changed`, pruned(argument), INDENT));
-
-type Write = (argument: unknown, kind: CommandKind) => string[];
-
-/** How the library says each kind of command. */
-const WRITE: Record<CommandKind, Write> = {
-  position: assignKind("Position"),
-  stiffness: assignKind("Stiffness"),
-  gains: assignValue("Gains"),
-  observer: assignValue("ObserverBandwidth"),
-  effects: assignValue("Effects"),
-  actuator: assignModel,
-  nominal: assignModel,
-  law: (law) => assign("law", toPython(law)),
-  laws: (laws) => [`session.set_laws(${(laws as unknown[]).map(toPython).join(", ")})`],
-  comparisons: (lanes) =>
-    assign("comparisons", `[${(lanes as unknown[]).map(buildLane).join(", ")}]`),
-  lane: (argument) => {
-    const { lane, setting } = argument as { lane: number; setting: unknown };
-    return [`session.set_lane(${lane}, ${buildLane(setting)})`];
-  },
-  parameters: (laws) =>
-    Object.entries(pruned(laws)).map(([law, values]) =>
-      toRows(`session.set_parameters(${toPython(law)}, `, values as Fields, INDENT),
-    ),
-  load: (load) => [`session.loads.add(${buildKind(load, "Load")})`],
-  unload: (number) => [`session.loads.remove(${String(number)})`],
-  stop: () => ["# Here the bench was stopped; a simulation has no ramp to zero torque."],
-};
-
-/** The lines of Python that give a command again. */
-export const writeCommand = (kind: CommandKind, argument: unknown): string[] =>
-  WRITE[kind](argument, kind);
-
-/** What of the settings of a run a new private session has not. */
-function writeSettings({ configuration, defaults }: RunOrigin): string[] {
-  const lines: string[] = [];
-  for (const kind of SETTINGS) {
-    if (!isSame(configuration[kind], defaults[kind]))
-      lines.push(...writeCommand(kind, configuration[kind]));
-  }
+/** Settings of a joint that a new session lacks. */
+function writeJoint({ on, configuration, defaults }: Joint): string[] {
+  const changes = findChanges(configuration, defaults, SETTINGS);
   for (const kind of MODELS) {
-    const known = defaults[kind] as Fields;
-    const changes = Object.entries(configuration[kind] as Fields).filter(
-      ([key, value]) => !isSame(value, known[key]),
-    );
-    if (changes.length > 0) lines.push(...writeCommand(kind, Object.fromEntries(changes)));
+    const fields = findChanges(configuration[kind] as Fields, defaults[kind] as Fields);
+    if (Object.keys(fields).length > 0) changes[kind] = fields;
   }
-  if (!isSame(configuration.parameters, defaults.parameters))
-    lines.push(...writeCommand("parameters", configuration.parameters));
-  return lines;
+  Object.assign(changes, findChanges(configuration, defaults, ["parameters"]));
+  return Object.entries(changes).flatMap(([kind, argument]) =>
+    writeCommand(kind as CommandKind, argument, on),
+  );
 }
 
-function writeChanges({ configuration, commands, ...origin }: RunOrigin): string[] {
+function writeArm({ configuration, defaults }: RunOrigin): string[] {
+  const [arm, plain] = [armOf(configuration), armOf(defaults)];
+  const changes = arm && plain ? findChanges(arm, plain, ARM_FIELDS) : {};
+  return Object.keys(changes).length > 0 ? changeArm(changes) : [];
+}
+
+function writeChanges({ commands, ...origin }: RunOrigin, joints: readonly Joint[]): string[] {
   const { first_tick: first, period_s: periodS } = origin;
-  const loads = configuration.loads as unknown[];
-  const lines = loads.flatMap((load) => writeCommand("load", load));
-  const followed: Fields = { position: configuration.position, stiffness: configuration.stiffness };
+  const lines = joints.flatMap(({ on, configuration }) =>
+    (configuration.loads as unknown[]).flatMap((load) => writeCommand("load", load, on)),
+  );
+  const followed = new Map(
+    joints.map(({ on, configuration: { position, stiffness } }) => [
+      on,
+      { position, stiffness } as Fields,
+    ]),
+  );
   let reached = 0;
   const runTo = (tick: number, remark = "") => {
     if (tick > reached) lines.push(`session.run_until(${secondsOf(tick, periodS)})${remark}`);
@@ -101,13 +75,18 @@ function writeChanges({ configuration, commands, ...origin }: RunOrigin): string
   };
   const begin = () => runTo(first, "  # Here the recording begins.");
   for (const { tick, command } of commands) {
-    const { kind, argument } = command;
+    const { kind, argument, joint = null } = command;
     if (tick >= first) begin();
     runTo(tick);
-    // A reference that is followed already is not set again by its assignment.
-    const isRepeated = kind in followed && isSame(followed[kind], argument);
-    lines.push(...(isRepeated ? [`session.repeat_${kind}()`] : writeCommand(kind, argument)));
-    if (kind in followed) followed[kind] = argument;
+    const isOfAll = joint === null && !OF_SESSION.includes(kind);
+    const named = joints.filter(({ on }) => isOfAll || on === `joint${joint}`);
+    for (const { on } of named.length > 0 ? named : [{ on: "session" }]) {
+      // An assignment would not restart a reference that is already followed.
+      const held = followed.get(on);
+      const isRepeated = held && kind in held && isEqual(held[kind], argument);
+      lines.push(...(isRepeated ? [`${on}.repeat_${kind}()`] : writeCommand(kind, argument, on)));
+      if (held && kind in held) held[kind] = argument;
+    }
   }
   begin();
   return lines;
@@ -116,9 +95,29 @@ function writeChanges({ configuration, commands, ...origin }: RunOrigin): string
 const secondsOf = (tick: number, periodS: number): string =>
   String(Number((tick * periodS).toFixed(6)));
 
-/** `title` is said in the docstring; `lab` is the address of the lab, without a slash at its end. */
+/** The parts of the script that open its session; loops other than the SVSA's compile first. */
+function writeOpening({ opening, configuration, defaults }: RunOrigin) {
+  const { from, ...request } = opening;
+  const settings: Fields = { ...request, law: configuration.law };
+  if (!isEqual(configuration.seed, defaults.seed)) settings.seed = configuration.seed;
+  const head = `settings = ${toPython(settings)}`;
+  if (from !== "figure") {
+    const address = "asked.lab, timeout_s=120.0";
+    return { hint: "", option: "", head, address, call: "new_session(**settings)" };
+  }
+  return {
+    hint: ` With --shared it works in the lab's shared session, a
+simulation or a bench that is armed and at home: it asks for control, and waits for its turn.`,
+    option: `
+reader.add_argument("--shared", action="store_true", help="in the lab's shared session")`,
+    head,
+    address: "asked.lab",
+    call: "experiment(asked.shared, **settings)",
+  };
+}
+
+/** `title` is for the docstring; `lab` is the address of the lab, without a slash at its end. */
 export function writeExperiment(origin: RunOrigin, title: string, lab: string): string {
-  const { configuration, defaults } = origin;
   const [begin, end] = [origin.first_tick, origin.tick].map((tick) =>
     secondsOf(tick, origin.period_s),
   );
@@ -127,23 +126,22 @@ export function writeExperiment(origin: RunOrigin, title: string, lab: string): 
       ? ""
       : ` The recording begins at ${begin} s; the time before
 it is simulated too.`;
-  const law = toPython(configuration.law);
-  const seed = isSame(configuration.seed, defaults.seed)
-    ? ""
-    : `, "seed": ${toPython(configuration.seed)}`;
+  const { hint, option, head, address, call } = writeOpening(origin);
+  const joints = listJoints(origin);
   const lines = [
+    ...(joints.length > 1 ? ["joint1, joint2 = map(session.open_joint, (1, 2))"] : []),
     "session.pause()",
-    ...writeSettings(origin),
+    ...joints.flatMap(writeJoint),
+    ...writeArm(origin),
     "session.reset()",
-    ...writeChanges(origin),
+    ...writeChanges(origin, joints),
     `session.run_until(${end})`,
   ];
   return `"""${inDocstring(title)}: an experiment of SVSA Lab, 0 to ${end} s, to be run again.${before}
 
 It needs the library (pip install 'svsa-lab[client]') and a running lab; with a secret or the token
 of a class, set SVSA_SECRET. It uses a private session, so it affects no other user, and runs as fast as it
-goes; every change comes at its time. With --shared it works in the lab's shared session, a
-simulation or a bench that is armed and at home: it asks for control, and waits for its turn.
+goes; every change comes at its time.${hint}
 """
 
 import argparse
@@ -152,13 +150,12 @@ import sys
 import svsa
 
 reader = argparse.ArgumentParser(description=__doc__)
-reader.add_argument("lab", nargs="?", default=${toPython(lab)})
-reader.add_argument("--shared", action="store_true", help="in the lab's shared session")
+reader.add_argument("lab", nargs="?", default=${toPython(lab)})${option}
 asked = reader.parse_args()
 
-settings = {"law": ${law}, "load": False${seed}}
+${head}
 try:
-    with svsa.connect(asked.lab) as lab, lab.experiment(asked.shared, **settings) as session:
+    with svsa.connect(${address}) as lab, lab.${call} as session:
 ${lines.map((line) => INDENT + line).join("\n")}
         state = session.read_state()
 except svsa.SvsaError as error:

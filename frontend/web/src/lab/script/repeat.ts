@@ -4,7 +4,8 @@ import { signal } from "@preact/signals";
 import { LockedError, RefusedError } from "../../core/api/errors";
 import { API } from "../../core/api/request";
 import { readOrigin, readRunOrigin } from "../../core/api/runs";
-import { laneNames } from "../../core/state/lanes";
+import type { RunOrigin } from "../../core/api/types";
+import { controllerNames } from "../../core/state/lanes";
 import { phase } from "../../core/state/session";
 import { text } from "../../core/text/en";
 import { writeExperiment } from "./experiment";
@@ -14,23 +15,22 @@ export const scriptProblem = signal("");
 
 const LAB = new URL("../..", API).href.replace(/\/$/, "");
 
-async function attempt(make: () => Promise<string>): Promise<string | null> {
+async function write(read: () => Promise<RunOrigin>, title: string): Promise<string | null> {
   scriptProblem.value = "";
   try {
-    return await make();
+    const origin = await read();
+    if (origin.problem === null) return writeExperiment(origin, title, LAB);
+    scriptProblem.value = origin.problem;
   } catch (error) {
     if (error instanceof LockedError) phase.value = "locked";
     scriptProblem.value =
       error instanceof RefusedError ? error.message : text.connection.unreachable;
-    return null;
   }
+  return null;
 }
 
 export const makeExperimentScript = (): Promise<string | null> =>
-  attempt(async () => {
-    const title = text.script.experimentTitle(text.compare.versus(laneNames.peek()));
-    return writeExperiment(await readOrigin(), title, LAB);
-  });
+  write(readOrigin, text.script.experimentTitle(text.compare.versus(controllerNames.peek())));
 
 export const makeRunScript = (run: string, name: string): Promise<string | null> =>
-  attempt(async () => writeExperiment(await readRunOrigin(run), name, LAB));
+  write(() => readRunOrigin(run), name);

@@ -4,7 +4,7 @@ import type { Call } from "../../core/api/calls";
 const INDENT = "    ";
 const LINE = 92;
 
-/** A string as Python reads it: JSON's escapes are Python's too. */
+/** A Python string literal: JSON's escapes are valid in Python. */
 const quote = (value: string): string => JSON.stringify(value);
 
 export function toPython(value: unknown): string {
@@ -19,7 +19,7 @@ export function toPython(value: unknown): string {
 
 export type Fields = Record<string, unknown>;
 
-/** `head` closed with these keyword arguments, one a line where a single line is too short. */
+/** `head` with these keyword arguments, one per line if a single line is too long. */
 export function toRows(head: string, fields: Fields, indent: string): string {
   const parts = Object.entries(fields).map(([name, value]) => `${name}=${toPython(value)}`);
   const line = `${head}${parts.join(", ")})`;
@@ -32,12 +32,12 @@ export function toRows(head: string, fields: Fields, indent: string): string {
 export const buildValue = (name: string, fields: Fields, indent: string): string =>
   toRows(`${name}(`, fields, indent);
 
-/** Text that may stand between the quotes of a docstring. */
+/** Text without characters that would end a docstring. */
 export function inDocstring(value: string): string {
   return value.replaceAll("\\", "/").replaceAll('"', "'").replace(/\s+/g, " ").trim();
 }
 
-// One call in the words of a shell and of Python.
+// One call as a shell command and as Python.
 
 export const LANGUAGES = ["python", "curl"] as const;
 export type Language = (typeof LANGUAGES)[number];
@@ -65,7 +65,7 @@ export function toSnippet(call: Request, language: Language, api: URL): string {
   return language === "python" ? toHttpx(call, api) : toCurl(call, api);
 }
 
-/** Many calls, to be pasted as one. */
+/** Several calls as one text to paste. */
 export function toSnippets(all: readonly Request[], language: Language, api: URL): string {
   const lines = all.map((call) => toSnippet(call, language, api)).join("\n");
   return `${language === "python" ? IMPORT : ""}${lines}\n`;

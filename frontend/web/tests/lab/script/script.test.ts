@@ -1,8 +1,9 @@
 import "../../browserless";
 import { beforeEach, describe, expect, it } from "vitest";
-import { calls, clearCalls, noteCall, noteDownload } from "../../../src/core/api/calls";
+import { calls, clearCalls, logCall, logDownload } from "../../../src/core/api/calls";
 import type { CommandKind, RunOrigin } from "../../../src/core/api/types";
-import { writeCommand, writeExperiment } from "../../../src/lab/script/experiment";
+import { writeCommand } from "../../../src/lab/script/commands";
+import { writeExperiment } from "../../../src/lab/script/experiment";
 import { buildValue, toPython, toSnippet, toSnippets } from "../../../src/lab/script/snippets";
 
 const LAB = new URL("http://127.0.0.1:8000/api/v1/");
@@ -12,11 +13,11 @@ describe("the calls of the page", () => {
   beforeEach(clearCalls);
 
   it("are those that change something, with the time that the answer tells", () => {
-    noteCall("get", "sessions/lab", undefined, 200);
-    noteCall("post", "references/preview", { kind: "constant" }, 200, { time_s: [0] });
-    noteCall("post", "sessions/lab/loads", { kind: "paper" }, 201, { time_s: 2.5 });
-    noteCall("put", "sessions/lab/speed", { speed: 99 }, 422, { message: "no" });
-    noteDownload("runs/a/export?kind=csv");
+    logCall("get", "sessions/lab", undefined, 200);
+    logCall("post", "references/preview", { kind: "constant" }, 200, { time_s: [0] });
+    logCall("post", "sessions/lab/loads", { kind: "paper" }, 201, { time_s: 2.5 });
+    logCall("put", "sessions/lab/speed", { speed: 99 }, 422, { message: "no" });
+    logDownload("runs/a/export?kind=csv");
     expect(calls.value.map(({ path, status, timeS }) => [path, status, timeS])).toEqual([
       ["sessions/lab/loads", 201, 2.5],
       ["sessions/lab/speed", 422, null],
@@ -25,12 +26,12 @@ describe("the calls of the page", () => {
   });
 
   it("never hold the secret", () => {
-    noteCall("post", "login", { secret: "correct horse" }, 204);
+    logCall("post", "login", { secret: "correct horse" }, 204);
     expect(calls.value).toEqual([]);
   });
 
   it("are kept to the newest 200", () => {
-    for (let index = 0; index < 250; index++) noteCall("put", String(index), undefined, 200);
+    for (let index = 0; index < 250; index++) logCall("put", String(index), undefined, 200);
     expect(calls.value).toHaveLength(200);
     expect(calls.value.at(-1)?.path).toBe("249");
   });
@@ -87,7 +88,9 @@ const origin = (change: object, commands: RunOrigin["commands"] = []): RunOrigin
   tick: 7250,
   period_s: 0.001,
   plant: "simulated",
+  opening: { from: "figure", figure: "4a", load: false },
   defaults: DEFAULTS,
+  problem: null,
 });
 const given = (tick: number, kind: CommandKind, argument: unknown) =>
   ({ tick, command: { tick, kind, argument } }) as RunOrigin["commands"][number];
@@ -169,6 +172,59 @@ describe("an experiment as a script", () => {
     ]);
   });
 
+  it("opens another actuator, which the shared session cannot have", () => {
+    const opening = { from: "actuator", actuator: "qbmove", load: false };
+    const script = writeExperiment({ ...origin({}), opening }, "a", "http://lab");
+    expect(script).toContain('{"actuator": "qbmove", "load": False, "law": "ndobc"}');
+    expect(script).toContain("lab.new_session(**settings)");
+    expect(script).not.toContain("shared");
+    expect(writeExperiment(origin({}), "a", "http://lab")).toContain("--shared");
+  });
+
+  it("sets each joint of an arm, and the arm", () => {
+    const links = { length1_m: 0.3 };
+    const arm = { links, model: links, feedforward: false, adaptation: null, tip: null };
+    const plain = { ...DEFAULTS, arm: { ...arm, joint2: DEFAULTS } };
+    const joint2 = {
+      ...DEFAULTS,
+      law: "fl",
+      comparisons: [{ law: "pd", gains: null }],
+      loads: [{ kind: "constant", torque_nm: [1, 0, 0], start_s: 5 }],
+    };
+    const configuration = {
+      ...plain,
+      comparisons: [{ law: "fl", gains: null }],
+      loads: [{ kind: "tip_mass", mass_kg: 0.1 }],
+      arm: { ...arm, feedforward: true, adaptation: { mass_max_kg: 1 }, joint2 },
+    };
+    const repeated = given(100, "position", { kind: "sine" });
+    repeated.command = { ...repeated.command, joint: 2 };
+    const commands = [repeated, given(200, "law", "fl"), given(300, "adaptation", null)];
+    const opening = { from: "arm", arm: "rods" };
+    const changed = { ...origin({}, commands), configuration, defaults: plain, opening };
+    expect(writeExperiment(changed, "a", "http://lab").match(/^ +(session|joint).*/gm)).toEqual(
+      [
+        "joint1, joint2 = map(session.open_joint, (1, 2))",
+        "session.pause()",
+        'session.comparisons = [svsa.Lane(law="fl")]',
+        'joint2.law = "fl"',
+        'joint2.set_lane(2, svsa.Lane(law="pd"))',
+        'session.change_arm(feedforward=True, adaptation={"mass_max_kg": 1})',
+        "session.reset()",
+        "joint1.loads.add(svsa.TipMass(mass_kg=0.1))",
+        "joint2.loads.add(svsa.ConstantLoad(torque_nm=[1, 0, 0], start_s=5))",
+        "session.run_until(0.1)",
+        "joint2.repeat_position()",
+        "session.run_until(0.2)",
+        'joint1.law = "fl"',
+        'joint2.law = "fl"',
+        "session.run_until(0.3)",
+        "session.change_arm(adaptation=None)",
+        "session.run_until(7.25)",
+      ].map((line) => `        ${line}`),
+    );
+  });
+
   it("cannot be broken out of by a name", () => {
     const script = writeExperiment(origin({}), '"""\nimport os\n"""\\', "http://lab");
     expect(script.split("\n")[0]).toBe(
@@ -184,6 +240,9 @@ describe("an experiment as a script", () => {
     const jerk = { kind: "minimum_jerk", start_rad: 0, end_rad: 1 };
     expect(writeCommand("position", jerk)).toEqual([
       "session.position = svsa.MinimumJerkPosition(start_rad=0, end_rad=1)",
+    ]);
+    expect(writeCommand("actuator", { mechanism: "qbmove", a: 1 }, "joint2")).toEqual([
+      "joint2.actuator = joint2.actuator.changed(a=1)",
     ]);
     const parameters = { fl_integral: { position_pole_rad_per_s: 50 } };
     expect(writeCommand("parameters", parameters)).toEqual([
