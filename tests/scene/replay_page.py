@@ -1,4 +1,4 @@
-"""A page of a recorded run for the tests, from samples that are made up."""
+"""A page of a recorded run for the tests, from synthetic samples."""
 
 import math
 from pathlib import Path
@@ -14,7 +14,7 @@ CHANNELS = list(CHANNEL_NAMES)
 
 
 def make_run(ticks: int = 4000, lanes: int = 2) -> tuple[np.ndarray, np.ndarray]:
-    """A sine of 0.5 rad at 0.25 Hz, the second lane 0.2 rad behind from 2 s on, with 3 kg."""
+    """A sine of 0.5 rad at 0.25 Hz; the second lane lags by 0.2 rad from 2 s on, with 3 kg."""
     time = np.arange(ticks) * PERIOD_S
     samples = np.zeros((ticks, lanes, len(CHANNELS)))
 

@@ -1,4 +1,4 @@
-"""Torques as arrows and the other lanes as outlines, as a viser server holds them."""
+"""Torques as arrows and other lanes as outlines on a viser server."""
 
 import contextlib
 import io
@@ -29,14 +29,14 @@ def get_node(server: viser.ViserServer, name: str) -> Any:
 
 
 def compute_tip(server: viser.ViserServer, name: str) -> float:
-    """The angle about the axis at which the arrow's arc ends, from where it begins."""
+    """Return the angle about the axis from the start to the end of the arrow's arc."""
     root = trimesh.transformations.quaternion_matrix(get_node(server, name).wxyz)
     head = trimesh.transformations.quaternion_matrix(get_node(server, f"{name}/h").wxyz)
     tip = root @ head @ (1.0, 0.0, 0.0, 0.0)
     return math.atan2(tip[1], tip[0])
 
 
-def test_an_arrow_turns_with_size_and_sign_and_is_hidden_when_small(
+def test_arrow_shows_magnitude_and_sign_and_is_hidden_when_small(
     server: viser.ViserServer,
 ) -> None:
     scene = ActuatorScene(server)
@@ -52,9 +52,7 @@ def test_an_arrow_turns_with_size_and_sign_and_is_hidden_when_small(
 
 
 @pytest.mark.parametrize("torque_nm", [0.05, 0.3, 2.0, 9.0, 500.0])
-def test_the_pieces_of_an_arc_reach_its_head_and_not_beyond(
-    server: viser.ViserServer, torque_nm: float
-) -> None:
+def test_segments_of_an_arc_end_at_its_head(server: viser.ViserServer, torque_nm: float) -> None:
     scene = ActuatorScene(server)
     scene.update(make_pose(torque1_nm=40.0))
     scene.update(make_pose(torque1_nm=torque_nm))
@@ -65,7 +63,7 @@ def test_the_pieces_of_an_arc_reach_its_head_and_not_beyond(
     assert compute_arc(torque_nm) - piece <= ends + 1e-9 <= compute_arc(torque_nm) + 2e-9
 
 
-def test_arrows_grow_with_the_torque_up_to_an_end() -> None:
+def test_arrows_grow_with_the_torque_to_a_maximum() -> None:
     arcs = [compute_arc(torque) for torque in (0.01, 0.1, 1.0, -5.0, 15.0, 500.0)]
     assert arcs == sorted(arcs)
     assert len(set(arcs)) == len(arcs)
@@ -73,7 +71,7 @@ def test_arrows_grow_with_the_torque_up_to_an_end() -> None:
     assert arcs[-1] == compute_arc(1e9) < 2 * math.pi
 
 
-def test_each_torque_has_an_arrow_of_its_own(server: viser.ViserServer) -> None:
+def test_each_torque_has_its_own_arrow(server: viser.ViserServer) -> None:
     scene = ActuatorScene(server)
     torques = {
         "torque1_nm": "/a/u1",

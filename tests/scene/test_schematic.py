@@ -1,4 +1,4 @@
-"""The schematic of each mechanism: true to its geometry, drawn at every state of its domain."""
+"""The schematic of each mechanism: correct geometry, drawn at every state of its domain."""
 
 import math
 
@@ -48,7 +48,7 @@ def server():
 
 
 @pytest.mark.parametrize("name", OTHERS)
-def test_the_same_parts_are_drawn_at_every_state_and_stay_inside_the_view(name):
+def test_same_parts_are_drawn_at_every_state_inside_the_view(name):
     mechanism = get_mechanism(name)
     kinds = {
         tuple((part.kind, part.body) for part in draw(name, s, phi))
@@ -63,13 +63,13 @@ def test_the_same_parts_are_drawn_at_every_state_and_stay_inside_the_view(name):
 
 
 @pytest.mark.parametrize("name", OTHERS)
-def test_a_deflection_turns_the_mirrored_way_when_its_sign_changes(name):
+def test_deflection_of_opposite_sign_is_mirrored(name):
     s = sum(get_mechanism(name).coordinate) / 2
     lengths = [sorted(map(measure, draw(name, s, phi))) for phi in (-0.3, 0.3)]
     assert lengths[0] == pytest.approx(lengths[1])
 
 
-def test_the_spring_of_maccepa_has_the_length_of_its_energy():
+def test_spring_of_maccepa_has_the_length_of_its_energy():
     p = get_mechanism("maccepa").prototype
     (spring,) = [part for part in draw("maccepa", 0.01, 0.6) if part.kind == "spring"]
     B, C = p.arm_m, p.distance_m
@@ -78,14 +78,14 @@ def test_the_spring_of_maccepa_has_the_length_of_its_energy():
     assert measure(draw("maccepa", 0.01, 0.6)[2]) / 10 == pytest.approx(0.01)
 
 
-def test_the_lever_of_awas_is_straight_and_its_pivot_divides_it_as_s():
+def test_lever_of_awas_is_straight_and_its_pivot_divides_it_as_s():
     outer, inner = (part for part in draw("awas2", 0.4, 0.02) if part.body == "lever")
     assert measure(inner) / measure(outer) == pytest.approx(0.4 / 0.6, rel=2e-3)
     slopes = [(p.end[1] - p.start[1]) / (p.end[0] - p.start[0]) for p in (outer, inner)]
     assert slopes[0] == pytest.approx(slopes[1], rel=2e-3)
 
 
-def test_the_arms_of_qbmove_are_two_s_apart_and_a_deflection_stretches_one_spring():
+def test_arms_of_qbmove_are_two_s_apart_and_a_deflection_stretches_one_spring():
     arms = [part.end for part in draw("qbmove", 0.2, 0.0) if part.body == "motor1"][:2]
     wider = [part.end for part in draw("qbmove", 0.5, 0.0) if part.body == "motor1"][:2]
     angles = [abs(math.atan2(y, -x)) for x, y in (*arms, *wider)]
@@ -99,7 +99,22 @@ def test_the_arms_of_qbmove_are_two_s_apart_and_a_deflection_stretches_one_sprin
     assert left[0] > at_rest[0] > left[1]
 
 
-def test_the_free_leaf_is_as_long_as_s():
+def test_deflection_of_bavs_stretches_the_springs_on_one_side_of_both_motors():
+    at_rest, turned = (
+        [measure(one) for one in draw("bavs", 0.1, phi) if one.kind == "spring"]
+        for phi in (0.0, 0.1)
+    )
+    assert at_rest[0] > at_rest[1]
+    assert at_rest[2] < at_rest[3]
+    assert [now > before for now, before in zip(turned, at_rest, strict=True)] == [
+        False,
+        True,
+        False,
+        True,
+    ]
+
+
+def test_free_leaf_is_as_long_as_s():
     short, long = (
         next(measure(one) for one in draw("leaf_spring", s, 0.0) if one.kind == "leaf")
         for s in (0.06, 0.12)
@@ -108,13 +123,13 @@ def test_the_free_leaf_is_as_long_as_s():
 
 
 @pytest.mark.parametrize("name", OTHERS)
-def test_a_scene_moves_the_parts_of_its_actuator(server, name):
+def test_scene_moves_the_parts_of_its_actuator(server, name):
     mechanism = get_mechanism(name)
     server.scene.reset()
     scene = ActuatorScene(server, mechanism.prototype)
     s = sum(mechanism.coordinate) / 2
     scene.update(build_pose(s, 0.0))
-    nodes = scene._schematic._nodes
+    nodes = scene._parts.schematic._nodes
     before = [tuple(node.wxyz) for node in nodes]
     scene.update(build_pose(s, 0.2))
     assert before != [tuple(node.wxyz) for node in nodes]

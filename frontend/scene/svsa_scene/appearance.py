@@ -54,12 +54,15 @@ _STIFFNESS_SCALE = np.array(
 
 
 def compute_stiffness_step(stiffness_nm_per_rad: float, low: float, high: float) -> int:
-    """Step 0…31 of the spring's colour for σ, logarithmic over the actuator's range.
+    """Compute the step 0…31 of the spring's color for σ, logarithmic over the actuator's range.
 
     Args:
         stiffness_nm_per_rad: σ, N·m/rad.
-        low: Least stiffness of the actuator, N·m/rad.
-        high: Its greatest stiffness, N·m/rad.
+        low: Smallest stiffness of the actuator, N·m/rad.
+        high: Greatest stiffness of the actuator, N·m/rad.
+
+    Returns:
+        The step.
     """
     held = min(max(stiffness_nm_per_rad, low), high)
     share = math.log(held / low) / math.log(high / low)
@@ -97,11 +100,20 @@ def paint(mesh: trimesh.Trimesh, finish: Finish) -> trimesh.Trimesh:
     return mesh
 
 
-def set_stage(server: viser.ViserServer, ground: float) -> None:
-    """Light, ground grid at z = `ground` and the first camera pose: of those in `cameras.json`,
-    from which the page has its presets too, the one that shows all.
+def add_root(server: viser.ViserServer) -> None:
+    """Add the frame "/a" of every part: x down, y to the right, z towards the viewer in front."""
+    half = math.sqrt(0.5)
+    server.scene.add_frame("/a", show_axes=False, wxyz=(half, 0.0, half, 0.0))
 
-    There is no environment map: without a graphics card it makes a frame three times as long.
+
+def set_stage(
+    server: viser.ViserServer, ground: float, cameras: str = "actuator", size: float = 1.0
+) -> None:
+    """Set light, ground grid at z = `ground` and the first camera: of the presets in
+    `cameras.json`, which the page has too, the one that shows everything. size: relative to that
+    of an actuator.
+
+    There is no environment map: without a graphics card it triples the time of a frame.
     """
     scene = server.scene
     scene.set_up_direction("+z")
@@ -117,8 +129,8 @@ def set_stage(server: viser.ViserServer, ground: float) -> None:
     )
     scene.add_grid(
         "/ground",
-        width=9.0,
-        height=9.0,
+        width=9.0 * size,
+        height=9.0 * size,
         position=(-1.0, 0.0, ground),
         cell_size=0.5,
         section_size=2.0,
@@ -127,16 +139,16 @@ def set_stage(server: viser.ViserServer, ground: float) -> None:
         shadow_opacity=0.2,
         cell_thickness=0.6,
         section_thickness=0.9,
-        fade_distance=6.5,
+        fade_distance=6.5 * size,
         fade_from="origin",
     )
-    whole = json.loads((files("svsa_scene") / "cameras.json").read_text("utf-8"))["whole"]
+    whole = json.loads((files("svsa_scene") / "cameras.json").read_text("utf-8"))[cameras]["whole"]
     camera = server.initial_camera
     camera.position = tuple(whole["position"])
     camera.look_at = tuple(whole["look_at"])
     camera.fov = math.radians(whole["fov_deg"])
     camera.near = 0.1
-    camera.far = 60.0
+    camera.far = 60.0 * size
 
 
 def set_theme(server: viser.ViserServer, dark: bool) -> None:

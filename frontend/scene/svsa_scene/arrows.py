@@ -36,10 +36,13 @@ def compute_arc(torque_nm: float) -> float:
 
 
 class ArrowPlace(NamedTuple):
-    """Where an arrow is, in scene units.
+    """Position of an arrow, in scene units.
 
-    node: its frame, below the one that it moves with. radius: of its circle about the axis. z:
-    place of that along the axis. foot: angle about z at which it begins, rad.
+    Attributes:
+        node: Name of its frame, a child of the part with which it moves.
+        radius: Radius of its circle about the axis.
+        z: Position of the circle along the axis.
+        foot: Angle about z at which it begins, rad.
     """
 
     node: str
@@ -49,8 +52,8 @@ class ArrowPlace(NamedTuple):
 
 
 class TorqueArrow:
-    """One torque: as many pieces of arc as fit, and a head with a piece behind it that ends the
-    arc where the torque's size says. A positive torque turns as q does, counter-clockwise.
+    """One torque: as many pieces of arc as fit, and a head with a piece behind it that ends the arc
+    at an angle proportional to the torque. A positive torque turns like q, counter-clockwise.
     """
 
     def __init__(
@@ -87,7 +90,8 @@ class TorqueArrow:
         scene.add_mesh_simple(
             f"{node}/h/m", head.vertices, head.faces, color=color, cast_shadow=False
         )
-        add_label(server, f"{node}/h/t", label, (radius + 2 * _WIRE, 0.4 * _HEAD, 0.0))
+        if label:
+            add_label(server, f"{node}/h/t", label, (radius + 2 * _WIRE, 0.4 * _HEAD, 0.0))
 
     def show(self, torque_nm: float) -> None:
         """Turn with the torque; too small a one is not drawn."""
@@ -105,7 +109,7 @@ class TorqueArrow:
             self._head.wxyz = turn(arc)
 
     def _show_pieces(self, shown: int) -> None:
-        """shown: pieces in sight, that of the head included; 0 hides the arrow."""
+        """Show this number of pieces, including the head; 0 hides the arrow."""
         if (shown > 0) != (self._shown > 0):
             self._root.visible = shown > 0
         for number, piece in enumerate(self._pieces):
@@ -116,22 +120,25 @@ class TorqueArrow:
 
 
 class TorqueArrows:
-    """u1 and w4 about the principal motor, u2 and w6 about the stiffness motor, w2 on the link's
-    ring from its arm.
+    """Arrows: u1 and w4 about the principal motor, u2 and w6 about the stiffness motor, w2 on the
+    link's ring.
 
-    Those of the motors begin at the top and do not turn with them; they are so wide that the link's
-    ring, seen from the front, does not hide them.
+    Those of the motors begin at the top and do not turn with them; their radius is so large that
+    the link's ring does not hide them in the front view.
     """
 
-    def __init__(self, server: viser.ViserServer, moved: Moved) -> None:
+    def __init__(
+        self, server: viser.ViserServer, moved: Moved, root: str, has_labels: bool
+    ) -> None:
         def add(place: ArrowPlace, color: look.Rgb, label: str) -> TorqueArrow:
-            return TorqueArrow(server, moved, place, color, label)
+            place = place._replace(node=f"{root}/{place.node}")
+            return TorqueArrow(server, moved, place, color, label if has_labels else "")
 
-        self._torque1 = add(ArrowPlace("/a/u1", 1.3, -2.95, _TOP), look.PRINCIPAL.color, "u₁")
-        self._motor1 = add(ArrowPlace("/a/w4", 1.3, -2.4, _TOP), look.DISTURBANCE, "w₄")
-        self._torque2 = add(ArrowPlace("/a/u2", 1.1, -1.0, _TOP), look.SECONDARY.color, "u₂")
-        self._motor2 = add(ArrowPlace("/a/w6", 1.1, -0.45, _TOP), look.DISTURBANCE, "w₆")
-        self._link = add(ArrowPlace("/a/l/w2", 0.84, 1.0, 0.0), look.DISTURBANCE, "w₂")
+        self._torque1 = add(ArrowPlace("u1", 1.3, -2.95, _TOP), look.PRINCIPAL.color, "u₁")
+        self._motor1 = add(ArrowPlace("w4", 1.3, -2.4, _TOP), look.DISTURBANCE, "w₄")
+        self._torque2 = add(ArrowPlace("u2", 1.1, -1.0, _TOP), look.SECONDARY.color, "u₂")
+        self._motor2 = add(ArrowPlace("w6", 1.1, -0.45, _TOP), look.DISTURBANCE, "w₆")
+        self._link = add(ArrowPlace("l/w2", 0.84, 1.0, 0.0), look.DISTURBANCE, "w₂")
 
     def show(self, pose: ActuatorPose) -> None:
         """Every torque of the pose."""
@@ -150,7 +157,7 @@ def _build_piece(radius: float) -> trimesh.Trimesh:
 
 @cache
 def _build_head(radius: float) -> trimesh.Trimesh:
-    """What ends an arc at +x."""
+    """The end marker of an arc at +x."""
     cone = make_arrow_head(3.2 * _WIRE, _HEAD)
     cone.apply_translation((radius, 0.0, 0.0))
     return join([make_arc(radius, _WIRE, -_PIECE), cone])

@@ -142,9 +142,9 @@ def make_arrow_head(radius: float, length: float) -> trimesh.Trimesh:
 def make_spiral(
     pitch: float, turns: tuple[float, float], offset: float, z: float, wire: float
 ) -> trimesh.Trimesh:
-    """A ridge along the Archimedean spiral r = pitch·α/2π + offset on a plate.
+    """Make a ridge along the Archimedean spiral r = pitch·α/2π + offset on a plate.
 
-    α counts clockwise from −x, so that turning the plate by α brings radius r onto −x.
+    α counts clockwise from −x, so that turning the plate by α moves radius r onto −x.
     """
     angle = 2 * np.pi * np.linspace(turns[0], turns[1], 90)
     r = pitch * angle / (2 * np.pi) + offset

@@ -1,4 +1,4 @@
-"""How far the spring may deflect: two marks and the arc between them, on the principal motor."""
+"""The deflection limit: two marks and the arc between them, on the principal motor."""
 
 import viser
 
@@ -14,13 +14,13 @@ _INNER, _OUTER = 1.16, 1.2
 class DeflectionLimit:
     """An arc of straight pieces, which move only when the limit changes (it depends on μ)."""
 
-    def __init__(self, server: viser.ViserServer, moved: Moved) -> None:
+    def __init__(self, server: viser.ViserServer, moved: Moved, root: str) -> None:
         self._moved = moved
         scene = server.scene
         piece = make_sector(_INNER, _OUTER)
         self._pieces = [
             scene.add_mesh_simple(
-                f"/a/c/i{number}",
+                f"{root}/c/i{number}",
                 piece.vertices,
                 piece.faces,
                 color=look.LIMIT.color,
@@ -32,9 +32,9 @@ class DeflectionLimit:
         ]
         self._marks = []
         for name in ("m", "n"):
-            self._marks.append(scene.add_frame(f"/a/c/{name}", show_axes=False))
+            self._marks.append(scene.add_frame(f"{root}/c/{name}", show_axes=False))
             glb = mechanism.export(mechanism.build_limit_mark)
-            scene.add_glb(f"/a/c/{name}/solid", glb)
+            scene.add_glb(f"{root}/c/{name}/solid", glb)
 
     def show(self, limit_rad: float) -> None:
         """From −limit to +limit."""

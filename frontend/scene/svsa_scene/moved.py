@@ -1,4 +1,4 @@
-"""What was last sent to the viewers, so that only a visible change is sent again."""
+"""The last state sent to the viewers, so that only visible changes are sent."""
 
 from collections.abc import Sequence
 

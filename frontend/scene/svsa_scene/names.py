@@ -1,9 +1,9 @@
 """Labels of the scene: each at its part, where its line begins.
 
-The page lays them out on the picture, clear of each other
-(`frontend/web/src/lab/scene/labels.tsx`); in a viewer without the page they stand at the parts
-themselves. The names of the parts are hidden until a viewer asks: every browser shows them for
-itself alone (`frontend/web/src/lab/scene/viewer.ts` knows their nodes).
+The page lays them out on the picture without overlap (`frontend/web/src/lab/scene/labels.tsx`); in
+a viewer without the page they are at the parts. The names of the parts are hidden until a viewer
+requests them: every browser shows them for itself only (`frontend/web/src/lab/scene/viewer.ts`
+knows their nodes).
 """
 
 from typing import NamedTuple
@@ -12,14 +12,18 @@ import viser
 
 from svsa.actuators.mechanism import Mechanism
 from svsa.actuators.parameters import SVSA
-from svsa_scene.mechanism import SECTOR_Z
+from svsa_scene.mechanism import SECTOR_Z, SPRING_Z
 
 Point = tuple[float, float, float]
 
 
 class PartLabel(NamedTuple):
-    """A word for a part. node: frame of its own, below the one that it moves with. place: the
-    point of the part, scene units of that frame.
+    """A label for a part.
+
+    Attributes:
+        node: Name of its frame, a child of the part with which it moves.
+        text: The label.
+        place: Point of the part, scene units of that frame.
     """
 
     node: str
@@ -52,10 +56,10 @@ def add_label(server: viser.ViserServer, node: str, text: str, place: Point) -> 
 
 
 def add_part_labels(server: viser.ViserServer, mechanism: Mechanism) -> None:
-    """Add the symbols in sight, and the names of the parts, hidden.
+    """Add the visible symbols, and the names of the parts, hidden.
 
-    Of another actuator than the SVSA only the motors have a name; θ2 and its motor are left out if
-    there is none.
+    For an actuator other than the SVSA only the motors have a name; θ2 and its motor are left out
+    if there is none.
     """
     names = NAMES if mechanism.name == SVSA else NAMES[:2]
     missing = set() if mechanism.has_stiffness_motor else {"/a/t2", "/a/n2"}
@@ -64,3 +68,6 @@ def add_part_labels(server: viser.ViserServer, mechanism: Mechanism) -> None:
             continue
         server.scene.add_frame(one.node, show_axes=False, visible=one in SYMBOLS)
         add_label(server, f"{one.node}/t", one.text, one.place)
+    if mechanism.name != SVSA:
+        server.scene.add_frame("/a/c/t3", show_axes=False)
+        add_label(server, "/a/c/t3/t", mechanism.title, (0.0, 0.75, SPRING_Z))

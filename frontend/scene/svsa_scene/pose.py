@@ -8,9 +8,12 @@ from typing import NamedTuple
 
 @dataclass(frozen=True)
 class ComparisonPose:
-    """Where the link of another lane is.
+    """Pose of the link of another lane.
 
-    name: of who controls it, as it is read. position_rad: its q. line_style: colour of its curves.
+    Attributes:
+        name: Name of its controller.
+        position_rad: q, rad.
+        line_style: Number of the color of its curves.
     """
 
     name: str
@@ -32,14 +35,14 @@ POSE_CHANNELS = (
     "disturbance_motor2_nm",
     "deflection_limit_rad",
 )
-"""The channels of a sample that a pose is made of, by the names of its fields."""
+"""The channels of a sample that a pose contains, by the names of its fields."""
 _DISTURBANCES = ("disturbance_link_nm", "disturbance_motor1_nm", "disturbance_motor2_nm")
 
 
-def draw_nothing_unknown(values: Mapping[str, float]) -> dict[str, float]:
-    """The numbers of a pose by name, with no disturbance in place of one that is not known (NaN).
+def replace_unknown_disturbances(values: Mapping[str, float]) -> dict[str, float]:
+    """Return the numbers of a pose by name, with 0 for an unknown disturbance (NaN).
 
-    A position that is not known stays so: the view keeps the last one.
+    An unknown position stays NaN: the view keeps the last one.
     """
     return {
         name: 0.0 if name in _DISTURBANCES and math.isnan(value) else value
@@ -48,10 +51,15 @@ def draw_nothing_unknown(values: Mapping[str, float]) -> dict[str, float]:
 
 
 class LaneSegment(NamedTuple):
-    """Who controlled a lane of a recorded run. name: as it is read. line_style: of its curves.
+    """A controller of a lane of a recorded run.
 
-    number: which controller. first, end: ticks from the first sample, end not included.
-    has_estimate: whether its law acts on an estimate of the disturbance.
+    Attributes:
+        name: Name of the controller.
+        line_style: Number of the style of its curves.
+        number: Number of the controller.
+        first: First tick, counted from the first sample.
+        end: Tick after the last one.
+        has_estimate: Whether its law uses an estimate of the disturbance.
     """
 
     name: str
@@ -64,18 +72,23 @@ class LaneSegment(NamedTuple):
 
 @dataclass(frozen=True)
 class ActuatorPose:
-    """One instant of the actuator. Angles are positive in the sense of q (Eq 1).
+    """One instant of the actuator. Angles are positive in the direction of q (Eq 1).
 
-    position_rad: q, output link. position_reference_rad: q_d.
-    motor1_position_rad: θ1, principal motor. motor2_position_rad: θ2, stiffness motor.
-    lever_ratio: μ = a/R (Eq 4). stiffness_nm_per_rad: σ (Eq 3).
-    torque1_nm, torque2_nm: u1, u2 as applied, after limits.
-    disturbance_link_nm: w2, the torque on the link that the nominal model does not explain;
-    disturbance_motor1_nm, disturbance_motor2_nm: w4, w6, likewise on the motors; see
-    `draw_nothing_unknown` for a bench, which does not know them.
-    load_mass_kg: mass hung on the link, 0 when none is (the paper's load is torques).
-    deflection_limit_rad: largest |φ| allowed at this μ, where φ = q − θ1. comparisons: the other
-    lanes.
+    Attributes:
+        position_rad: q, output link.
+        position_reference_rad: q_d.
+        motor1_position_rad: θ1, principal motor.
+        motor2_position_rad: θ2, stiffness motor.
+        lever_ratio: μ = a/R (Eq 4).
+        stiffness_nm_per_rad: σ (Eq 3).
+        torque1_nm: u1 as applied, after limits.
+        torque2_nm: u2 as applied, after limits.
+        disturbance_link_nm: w2, the torque on the link that the nominal model does not explain; w4
+            and w6 likewise on the motors. For a bench, where they are unknown, see
+            `replace_unknown_disturbances`.
+        load_mass_kg: Hanging mass, 0 without one (the paper's load is torques).
+        deflection_limit_rad: Largest |φ| allowed at this μ, φ = q − θ1.
+        comparisons: The other lanes.
     """
 
     position_rad: float

@@ -15,7 +15,9 @@ from svsa_scene.replay_packing import ArrayPack
 Array = npt.NDArray[np.float64]
 
 MAX_POINTS = 120_000
-"""Of a curve, in all lanes together: a minute of two lanes at 1 kHz has every sample."""
+"""Maximum number of points of a curve in all lanes together: a minute of two lanes at 1 kHz has
+every sample.
+"""
 
 _AXIS_PARTS = 4000
 _MIN_AXES = {
@@ -56,9 +58,9 @@ def resolve(channel: str) -> float:
 def pack_curves(
     samples: Array, channels: Sequence[str], period_s: float, pack: ArrayPack
 ) -> dict[str, Any]:
-    """Every drawn channel that the run has: for each lane the number of its array.
+    """Pack every drawn channel of the run: for each lane the number of its array.
 
-    Every sample, or of a run of more than `MAX_POINTS` one of several, with the peaks between.
+    Every sample, or for a run of more than `MAX_POINTS` one of several, with the peaks between.
     """
     ticks, lanes, _ = samples.shape
     stride = -(-ticks * lanes // MAX_POINTS)

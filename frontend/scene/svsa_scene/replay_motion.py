@@ -1,8 +1,8 @@
-"""The 3D view of a replay: viser's own page with the scene in it, and its motion as tracks.
+"""The 3D view of a replay: viser's page with the scene in it, and its motion as tracks.
 
-The live scene is built and moved once through the run; the messages that it sends are the
-replay. They are kept apart from the scene, property by property, so that the page can show any
-instant without playing what came before.
+The live scene is built and moved once through the run; the messages that it sends are the replay.
+They are stored separately from the scene, property by property, so that the page can show any
+instant without replaying earlier ones.
 """
 
 import contextlib
@@ -18,26 +18,18 @@ import viser
 import zstandard
 
 from svsa.actuators.parameters import MechanismParameters
-from svsa_scene import appearance as look
-from svsa_scene import mechanism
-from svsa_scene.geometry import turn
-from svsa_scene.names import add_label
-from svsa_scene.pose import POSE_CHANNELS, ActuatorPose, LaneSegment, draw_nothing_unknown
+from svsa_scene.pose import LaneSegment
 from svsa_scene.replay_packing import ArrayPack
-from svsa_scene.scene import ActuatorScene
+from svsa_scene.replay_scenes import ActuatorReplay, ArmReplay, RecordedSamples, ReplayArm
 
 RATE_HZ = 30.0
 MAX_FRAMES = 5400
 _REST = {"wxyz": (1.0, 0.0, 0.0, 0.0), "position": (0.0, 0.0, 0.0), "visible": True}
 _SMOOTH = ("wxyz", "position", "scale")
-_GHOST_STEP = 0.16
-_MAX_NAMED = 2
-_LONGEST_NAME = 16
-_ON_GHOST = (1.43, 0.1, 0.86)
 
 
 class Motion(NamedTuple):
-    """`html`: the scene as a page. `content`: what the replay moves in it, for JSON."""
+    """`html`: the scene as a page. `content`: the parts that the replay moves, for JSON."""
 
     html: str
     content: dict[str, Any]
@@ -59,34 +51,24 @@ def record_motion(
     load_mass_kg: npt.NDArray[np.float64],
     pack: ArrayPack,
     parameters: MechanismParameters | None = None,
+    arm: ReplayArm | None = None,
 ) -> Motion:
-    """The first lane as the actuator, every other lane as the outline of its link, one for
-    each of its controllers that is seen while that one controls.
+    """Record the lanes as `ActuatorReplay` shows them, or as `ArmReplay` those of an arm.
 
-    parameters: of the plant, which name the actuator; left out, those of the SVSA.
-    30 frames a second of the run, fewer where that would be more than `MAX_FRAMES`.
+    `parameters` are those of the plant, which name the actuator; by default those of the SVSA. 30
+    frames per second of the run, fewer if that would exceed `MAX_FRAMES`.
     """
     stride = max(1, round(1.0 / (RATE_HZ * period_s)), math.ceil(len(samples) / MAX_FRAMES))
-    columns = [channels.index(name) for name in POSE_CHANNELS]
-    position = channels.index("position_rad")
+    recorded = RecordedSamples(samples, channels, lanes, load_mass_kg)
     with _start_viser() as server:
-        scene = ActuatorScene(server, parameters)
-        named = len(lanes) == _MAX_NAMED
-        ghosts = [_Ghosts(server, lane, lanes[lane], named) for lane in range(1, len(lanes))]
+        shown = _build_replay(server, recorded, parameters, arm)
         html = _hide_viser_controls(server.get_scene_serializer().as_html())
         recording = server.get_scene_serializer()
         for tick in range(0, len(samples), stride):
             recording.insert_sleep(1.0)
-            values = zip(POSE_CHANNELS, samples[tick, 0, columns].tolist(), strict=True)
-            pose = draw_nothing_unknown(dict(values))
-            mass = float(load_mass_kg[tick])
-            scene.update(ActuatorPose(**pose, load_mass_kg=mass, comparisons=()))
-            for lane, ghost in enumerate(ghosts, start=1):
-                angle = float(samples[tick, lane, position])
-                if math.isfinite(angle):
-                    ghost.show(tick, angle)
+            shown.show(tick)
         recording.insert_sleep(1.0)
-        scene.set_theme(dark=True)
+        shown.scene.set_theme(dark=True)
         messages = _decode(recording.serialize())
     frames = -(-len(samples) // stride)
     themes = [m for _, m in messages if m["type"] == "ThemeConfigurationMessage"]
@@ -99,6 +81,17 @@ def record_motion(
     return Motion(html, content)
 
 
+def _build_replay(
+    server: viser.ViserServer,
+    samples: RecordedSamples,
+    parameters: MechanismParameters | None,
+    arm: ReplayArm | None,
+) -> ActuatorReplay | ArmReplay:
+    if arm is None or parameters is None:
+        return ActuatorReplay(server, samples, parameters)
+    return ArmReplay(server, samples, parameters, arm)
+
+
 @contextlib.contextmanager
 def _start_viser() -> Iterator[viser.ViserServer]:
     with contextlib.redirect_stdout(io.StringIO()):
@@ -108,47 +101,6 @@ def _start_viser() -> Iterator[viser.ViserServer]:
     finally:
         with contextlib.redirect_stdout(io.StringIO()):
             server.stop()
-
-
-class _Ghosts:
-    """The outlines of a lane, one a controller; that of the present one is seen."""
-
-    def __init__(
-        self, server: viser.ViserServer, lane: int, segments: Sequence[LaneSegment], named: bool
-    ) -> None:
-        self._segments = segments
-        self._frames: dict[int, viser.SceneNodeHandle] = {}
-        for segment in segments:
-            if segment.number not in self._frames:
-                name = segment.name if named and len(segment.name) <= _LONGEST_NAME else ""
-                self._frames[segment.number] = _add_ghost(server, lane, segment, name)
-
-    def show(self, tick: int, angle: float) -> None:
-        """The lane's link at a tick, counted from the first sample."""
-        present = next((one for one in self._segments if one.first <= tick < one.end), None)
-        for number, frame in self._frames.items():
-            is_seen = present is not None and number == present.number
-            if frame.visible != is_seen:
-                frame.visible = is_seen
-            if is_seen:
-                frame.wxyz = turn(angle)
-
-
-def _add_ghost(
-    server: viser.ViserServer, lane: int, segment: LaneSegment, name: str
-) -> viser.SceneNodeHandle:
-    node = f"/a/lane{lane}c{segment.number}"
-    finish = look.Finish(look.get_line_color(segment.line_style), 0.0, 0.8, 0.45)
-    frame = server.scene.add_frame(
-        node,
-        show_axes=False,
-        position=(0.0, 0.0, _GHOST_STEP * lane),
-        visible=segment.first <= 0,
-    )
-    server.scene.add_glb(f"{node}/solid", mechanism.export(_build_ghost, finish))
-    if name:
-        add_label(server, f"{node}/t", name, _ON_GHOST)
-    return frame
 
 
 def _hide_viser_controls(html: str) -> str:
@@ -205,7 +157,3 @@ def _pack_track(key: _Key, frames: list[int], values: list[Any], pack: ArrayPack
         rows = [np.broadcast_to(np.asarray(value, dtype=float), width) for value in values]
         return track | {"width": width, "values": pack.add(rows), "smooth": key.field in _SMOOTH}
     return track | {"words": values}
-
-
-def _build_ghost(finish: look.Finish) -> mechanism.Group:
-    return [look.paint(mesh, finish) for mesh in mechanism.build_ghost()]

@@ -1,8 +1,9 @@
 """Arrays in a page: each once, compressed together into one base64 text.
 
-An array is float32, or a curve: whole numbers of a step, each as its difference from the one
-before, 0, −1, 1, −2 … written as 0, 1, 2, 3 …. Bytes of a kind stand together (all lowest bytes,
-then the next …), which lets smooth curves compress to a few hundredths of their size.
+An array is float32, or a curve: integer multiples of a step, each as the difference from the
+previous one, 0, −1, 1, −2 … stored as 0, 1, 2, 3 …. Bytes of equal significance are stored together
+(all lowest bytes, then the next …), so that smooth curves are compressed to a few hundredths of
+their size.
 """
 
 import base64
@@ -17,7 +18,7 @@ _NO_NUMBER = np.int32(-(2**31))
 
 
 class ArrayPack:
-    """Collects arrays and says where the page finds each."""
+    """Collects arrays and returns the position of each in the page."""
 
     def __init__(self) -> None:
         self._planes: list[bytes] = []

@@ -12,7 +12,6 @@ from svsa_scene import appearance as look
 from svsa_scene.geometry import join, make_disc, make_helix, make_plate, turn
 from svsa_scene.mechanism import LEVER_Z, SPRING_Z
 from svsa_scene.moved import Moved
-from svsa_scene.names import add_label
 from svsa_scene.pose import ActuatorPose
 
 _FINISHES: dict[Body, look.Finish] = {
@@ -43,8 +42,10 @@ class Schematic:
         moved: Moved,
         mechanism: Mechanism,
         parameters: MechanismParameters,
+        root: str,
     ) -> None:
         self._moved = moved
+        self._root = root
         self._draw = mechanism.draw or draw_torsion_spring
         self._parameters = parameters
         self._scene = server.scene
@@ -53,15 +54,13 @@ class Schematic:
         self._nodes = [
             self._add(number, part) for number, part in enumerate(self._draw(parameters, low, 0.0))
         ]
-        server.scene.add_frame("/a/c/t3", show_axes=False)
-        add_label(server, "/a/c/t3/t", mechanism.title, (0.0, 0.75, SPRING_Z))
 
     def _add(self, number: int, part: Part) -> viser.MeshHandle:
         solid = _build_part(part.kind)
         finish = _FINISHES[part.body]
         color = look.get_stiffness_color(0) if part.kind in _ELASTIC else finish.color
         return self._scene.add_mesh_simple(
-            f"/a/c/p{number}",
+            f"{self._root}/c/p{number}",
             solid.vertices,
             solid.faces,
             color=color,
@@ -69,7 +68,7 @@ class Schematic:
         )
 
     def move(self, pose: ActuatorPose, deflection: float) -> None:
-        """Move every part to the pose. deflection: φ, rad."""
+        """Move every part to the pose; `deflection` is φ, rad."""
         parts = self._draw(self._parameters, pose.lever_ratio, deflection)
         for number, (node, part) in enumerate(zip(self._nodes, parts, strict=True)):
             if not self._moved.is_due(f"part{number}", (*part.start, *part.end)):
