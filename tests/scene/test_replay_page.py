@@ -1,4 +1,4 @@
-"""What stands in the page of a recorded run: curves, events, numbers; no browser is needed."""
+"""The content of the page of a recorded run: curves, events, numbers; no browser is needed."""
 
 import base64
 import json
@@ -12,6 +12,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from svsa.actuators.arm.parameters import RODS
+from svsa.actuators.installed import get_mechanism
 from svsa.errors import ParameterError
 from svsa.runs.events import Event
 from svsa.runs.metrics import compute_metrics
@@ -20,11 +22,12 @@ from svsa_scene.pose import LaneSegment
 from svsa_scene.replay_curves import decimate, pack_curves
 from svsa_scene.replay_motion import record_motion
 from svsa_scene.replay_packing import ArrayPack
+from svsa_scene.replay_scenes import ReplayArm
 from tests.scene.replay_page import CHANNELS, PERIOD_S, make_run, write_page
 
 
 @pytest.mark.exhaustive
-def test_a_minute_of_two_lanes_is_below_4_megabytes_even_with_noise(tmp_path: Path) -> None:
+def test_minute_of_two_lanes_is_below_4_megabytes_with_noise(tmp_path: Path) -> None:
     samples, mass = make_run(ticks=60_000)
     noisy = samples + np.random.default_rng(1).normal(0.0, 1e-3, samples.shape)
     path = write_page(tmp_path, samples=noisy, load_mass_kg=mass)
@@ -43,7 +46,7 @@ def test_decimation_keeps_peaks_and_exact_samples() -> None:
 
 
 def unpack(exported: dict, number: int) -> np.ndarray:
-    """A curve of a pack, as the page reads it."""
+    """Decode a curve of a pack as the page does."""
     start, count, step = exported["places"][number]
     data = zlib.decompress(base64.b64decode(exported["data"]))
     planes = np.frombuffer(data, np.uint8, 4 * count, start).reshape(4, count)
@@ -53,7 +56,7 @@ def unpack(exported: dict, number: int) -> np.ndarray:
     return np.where(whole == -(2**31), np.nan, whole * step)
 
 
-def test_a_curve_has_every_sample_closer_than_a_pixel_of_any_zoom() -> None:
+def test_curve_is_within_a_pixel_of_every_sample_at_any_zoom() -> None:
     samples, _ = make_run(ticks=60_000)
     noisy = samples + np.random.default_rng(2).normal(0.0, 1e-3, samples.shape)
     noisy[100:200, 1] = np.nan
@@ -70,7 +73,7 @@ def test_a_curve_has_every_sample_closer_than_a_pixel_of_any_zoom() -> None:
             )
 
 
-def test_a_curve_far_off_its_axis_is_still_that_curve() -> None:
+def test_curve_far_from_zero_is_preserved() -> None:
     values = np.array([0.0, 1e6, -1e6, np.inf, 3.0])
     pack = ArrayPack()
     pack.add_curve(values, 1e-8)
@@ -78,7 +81,7 @@ def test_a_curve_far_off_its_axis_is_still_that_curve() -> None:
     np.testing.assert_allclose(unpack(pack.export(), 0), expected, rtol=0, atol=1e-3)
 
 
-def test_of_a_long_run_the_page_has_fewer_samples_and_says_so() -> None:
+def test_page_of_a_long_run_has_fewer_samples_and_states_it() -> None:
     samples, _ = make_run(ticks=130_000, lanes=1)
     curves = pack_curves(samples, CHANNELS, PERIOD_S, ArrayPack())
     assert (curves["stride"], curves["step_s"]) == (2, 2 * PERIOD_S)
@@ -102,25 +105,23 @@ def test_equal_arrays_are_stored_once() -> None:
         ({"load_mass_kg": np.zeros(3)}, "load_mass_kg"),
     ],
 )
-def test_arrays_that_do_not_fit_are_refused_by_name(
-    changes: dict, named: str, tmp_path: Path
-) -> None:
+def test_mismatched_arrays_are_rejected_by_name(changes: dict, named: str, tmp_path: Path) -> None:
     with pytest.raises(ParameterError, match=re.escape(named)):
         write_page(tmp_path, **changes)
 
 
 def read_run(page: Path) -> dict[str, Any]:
-    """The run inside a page, which has to be strict JSON."""
+    """Read the run inside a page, which has to be strict JSON."""
     inner = page.read_text(encoding="utf-8").split('id="run">', 1)[1].split("</script>", 1)[0]
     return json.loads(inner, parse_constant=lambda word: pytest.fail(f"{word} in the JSON"))
 
 
-def test_the_run_inside_the_page_is_strict_json(tmp_path: Path) -> None:
+def test_run_inside_the_page_is_strict_json(tmp_path: Path) -> None:
     assert read_run(write_page(tmp_path))["lanes"] == ["NDOBC", "FL"]
 
 
-def test_a_bench_that_does_not_know_its_disturbance_moves_all_the_same() -> None:
-    """Nothing is drawn of what is not known; where nothing is known, what was before stays."""
+def test_bench_without_a_known_disturbance_is_animated() -> None:
+    """Unknown quantities are not drawn; gaps keep the previous state."""
     samples, mass = make_run(ticks=1000, lanes=1)
     lanes = [[LaneSegment("Bench", 0, 1, 0, 1000)]]
     bench = samples.copy()
@@ -139,7 +140,7 @@ def test_a_bench_that_does_not_know_its_disturbance_moves_all_the_same() -> None
     assert all(found[track] >= count - 1 for track, count in known.items()), "one frame is left out"
 
 
-def test_what_acts_on_the_motors_is_drawn_as_it_is_in_the_live_view() -> None:
+def test_motor_disturbances_are_drawn_as_in_the_live_view() -> None:
     samples, mass = make_run(ticks=1000, lanes=1)
     names = []
     for load_nm in (0.0, 2.0):
@@ -151,7 +152,7 @@ def test_what_acts_on_the_motors_is_drawn_as_it_is_in_the_live_view() -> None:
     assert any("w4" in name for name in names[1] - names[0])
 
 
-def test_its_events_are_those_of_its_samples_in_its_own_time(tmp_path: Path) -> None:
+def test_events_match_the_samples_in_page_time(tmp_path: Path) -> None:
     ticks = (2999, 3000, 5000, 7000, 7001)
     events = [Event(tick, tick / 1000, "law", f"at {tick}") for tick in ticks]
     run = read_run(write_page(tmp_path, events=events, first_tick=3000))
@@ -162,7 +163,7 @@ def test_its_events_are_those_of_its_samples_in_its_own_time(tmp_path: Path) -> 
     ]
 
 
-def test_its_numbers_are_of_the_window_that_it_names_in_its_own_time(tmp_path: Path) -> None:
+def test_metrics_belong_to_the_named_window_in_page_time(tmp_path: Path) -> None:
     window = MeasuredWindow("load", "3 kg load", 5000, 6500, 5.0, 6.5, False, ("NDOBC", "FL"))
     run = read_run(write_page(tmp_path, window=window, first_tick=3000))
     assert (run["window"]["start_s"], run["window"]["end_s"]) == (2.0, 3.5)
@@ -170,3 +171,38 @@ def test_its_numbers_are_of_the_window_that_it_names_in_its_own_time(tmp_path: P
     samples, _ = make_run()
     for lane, metrics in enumerate(run["metrics"]):
         assert metrics == asdict(compute_metrics(samples[2000:3500, lane], PERIOD_S))
+
+
+def test_motion_of_an_arm_has_both_joints_and_the_path_of_the_tip() -> None:
+    """The joints turn, the comparison is an arm of its own, and the path is in the scene."""
+    samples, _ = make_run(ticks=2000, lanes=4)
+    actuator = get_mechanism("svsa").prototype
+    segments = [
+        [LaneSegment(name, 0, number, 0, 2000)]
+        for number, name in enumerate(("Joint 1 FL", "Joint 2 FL", "Joint 1 PD", "Joint 2 PD"))
+    ]
+    mass = np.where(np.arange(2000) >= 1000, 0.3, 0.0)
+    arm = ReplayArm(RODS, actuator)
+    motion = record_motion(samples, CHANNELS, segments, PERIOD_S, mass, ArrayPack(), actuator, arm)
+    turned = {track["name"] for track in motion.content["tracks"] if track["field"] == "wxyz"}
+    assert {"/a/l", "/a/l/2/l", "/a/g", "/a/g/2", "/a/r", "/a/r/2"} <= turned
+    (hung,) = [
+        track
+        for track in motion.content["tracks"]
+        if (track["name"], track["field"]) == ("/a/w", "visible")
+    ]
+    assert hung["words"][-1] is True
+    names = {track["name"] for track in motion.content["tracks"]}
+    assert "/a/t" not in names
+
+
+def test_page_of_an_arm_has_its_links(tmp_path: Path) -> None:
+    actuator = get_mechanism("svsa").prototype
+    page = write_page(
+        tmp_path,
+        ("Joint 1 FL", "Joint 2 FL"),
+        actuator=actuator,
+        arm=ReplayArm(RODS, actuator),
+    )
+    assert read_run(page)["arm"]["length1_m"] == RODS.length1_m
+    assert read_run(write_page(tmp_path))["arm"] is None

@@ -1,12 +1,12 @@
-"""Where the pivot, lever and springs stand for a given pose.
+"""Positions of pivot, lever and springs for a given pose.
 
-The arrangement drawn is the one whose small-angle stiffness is Eq 3 at φ = 0,
-K_s R² (μ/(1−μ))²: the lever is hinged on the output link at radius R, passes through the pivot
-at radius a = μR carried by the principal motor, and its inner end moves a block between two
-springs on a line through the joint centre.
+The arrangement drawn is the one whose small-angle stiffness is Eq 3 at φ = 0, K_s R² (μ/(1−μ))²:
+the lever is hinged on the output link at radius R, passes through the pivot at radius a = μR on the
+principal motor, and its inner end moves a block between two springs on a line through the joint
+center.
 
-Frames: z along the joint axis towards the viewer, x along the link at q = 0 (straight down).
-The lever's hinge is at (−R, 0) of the link, opposite to the arm. Lengths are scene units.
+Frames: z along the joint axis towards the viewer, x along the link at q = 0 (straight down). The
+lever's hinge is at (−R, 0) of the link, opposite to the arm. Lengths are scene units.
 """
 
 import math
@@ -26,11 +26,17 @@ _RATIO_DRAWN = (0.22, 0.86)
 
 
 class Linkage(NamedTuple):
-    """Placement of the moving parts, angles in rad about z, lengths in scene units.
+    """Positions of the moving parts, angles in rad about z, lengths in scene units.
 
-    plate_angle: spiral plate relative to the connector; one turn moves the pivot by R.
-    pivot_radius: a. deflection: φ = q − θ1. lever_angle: lever against the link's hinge line.
-    block_offset: y of the spring block on the link. spring_left, spring_right: spring lengths.
+    Attributes:
+        plate_angle: Angle of the spiral plate relative to the connector; one turn moves the pivot
+            by R.
+        pivot_radius: a.
+        deflection: φ = q − θ1.
+        lever_angle: Angle of the lever relative to the link's hinge line.
+        block_offset: y of the spring block on the link.
+        spring_left: Length of the left spring.
+        spring_right: Length of the right spring.
     """
 
     plate_angle: float
@@ -43,10 +49,10 @@ class Linkage(NamedTuple):
 
 
 def compute_linkage(pose: ActuatorPose) -> Linkage:
-    """Placement for a pose: tan ψ = a sin φ / (R − a cos φ), block at R tan ψ.
+    """Compute the positions for a pose: tan ψ = a sin φ / (R − a cos φ), block at R tan ψ.
 
-    μ is held to what the spiral can reach and the block to its travel, so that a run that has
-    left the model's domain still draws a mechanism.
+    μ is limited to the range of the spiral and the block to its travel, so that a run that has left
+    the model's domain is still drawn as a mechanism.
     """
     ratio = min(max(pose.lever_ratio, _RATIO_DRAWN[0]), _RATIO_DRAWN[1])
     pivot_radius = ratio * RADIUS

@@ -1,7 +1,7 @@
-"""The actuator's solid parts, each group in the frame that it moves with.
+"""The actuator's solid parts, each group in the frame with which it moves.
 
-z of a part is its place along the joint axis, from the motor at the back (negative) to the link
-in front. Colour tells the axis: blue turns with θ1, brass with θ2, white with q.
+z of a part is its position along the joint axis, from the motor at the back (negative) to the link
+in front. Colors show the axis: blue turns with θ1, brass with θ2, white with q.
 """
 
 from collections.abc import Callable, Hashable
@@ -32,17 +32,22 @@ HOOK_Z = 1.3
 Group = list[trimesh.Trimesh]
 
 
-def build_stand() -> Group:
-    """Base plate, two uprights and the principal motor's body: what does not move."""
-    floor = AXIS_HEIGHT
+def build_stand(floor: float = AXIS_HEIGHT) -> Group:
+    """Base plate, two uprights and the principal motor's body: what does not move. floor: height
+    of the axis above it.
+    """
     base = make_plate(
         [(floor - 0.14, -0.95), (floor, -0.95), (floor, 0.95), (floor - 0.14, 0.95)], (-3.75, -1.2)
     )
     uprights = [_make_upright(floor, z) for z in ((-3.45, -3.31), (-1.86, -1.7))]
+    return [look.paint(join([base, *uprights]), look.FRAME), *build_principal_motor()]
+
+
+def build_principal_motor() -> Group:
+    """Body and gearbox of the principal motor."""
     motor = [make_disc(0.48, (-3.32, -2.2), bevel=0.05), make_disc(0.2, (-3.7, -3.3))]
     gearbox = [make_disc(0.44, (-2.2, -1.68), bevel=0.03)]
     return [
-        look.paint(join([base, *uprights]), look.FRAME),
         look.paint(join(motor), look.PRINCIPAL),
         look.paint(join(gearbox), look.DARK),
     ]
@@ -207,7 +212,7 @@ def build_ghost() -> Group:
 
 
 def compute_comparison_tip(number: int) -> float:
-    """Where the outline of another lane's arm ends, from the axis: each a little farther."""
+    """Radius at which the outline of another lane's arm ends, slightly larger for each lane."""
     return 1.5 + 0.22 * number
 
 

@@ -1,7 +1,7 @@
 """A recorded run as one HTML page: 3D and plots on one time axis, opened from a file.
 
-The page is built with the lab's own (`frontend/web/src/runs/replay`); this fills the run in.
-Nothing in it asks for a network, and its content security policy would refuse it.
+The page is built together with the lab's page (`frontend/web/src/runs/replay`); this module inserts
+the run. The page makes no network requests, and its content security policy forbids them.
 """
 
 import html
@@ -24,6 +24,7 @@ from svsa_scene.pose import POSE_CHANNELS, LaneSegment
 from svsa_scene.replay_curves import compute_metrics, pack_curves
 from svsa_scene.replay_motion import record_motion
 from svsa_scene.replay_packing import ArrayPack
+from svsa_scene.replay_scenes import ReplayArm
 
 MAX_LANES = 4
 
@@ -38,7 +39,7 @@ _POLICY = (
 
 
 class ReplayError(SvsaError):
-    """The page cannot be made; the message says what is missing."""
+    """The page cannot be built; the message contains the reason."""
 
 
 def build_replay_html(
@@ -55,23 +56,36 @@ def build_replay_html(
     segments: Sequence[Sequence[LaneSegment]] | None = None,
     window: MeasuredWindow | None = None,
     actuator: MechanismParameters | None = None,
+    arm: ReplayArm | None = None,
 ) -> str:
-    """The run as a page of HTML.
+    """Build the page of a run; takes some seconds and starts viser on a loopback port: call it in a
+    thread.
 
-    title: heading, any text. period_s: s. lanes: 1–4 names; the first is drawn as the actuator,
-    the others as outlines of their links. segments: of every lane who controlled it when, in
-    order; left out, each lane is one under its name. channels: names as in
-    `svsa.actuators.signals.CHANNELS`, at least those of a pose; more are left out. samples: float64
-    (ticks, lanes, channels), SI. load_mass_kg: mass hung on the link at every tick, (ticks,), kg;
-    None is no mass. details: what the page says about the run (JSON); `version` and other plain
-    values stand in its header. events: marked on the plots, as far as they are of these samples.
-    window: in which the page measures; left out, the whole run. first_tick: tick of the first
-    sample, as events and window count; the page's time begins there at 0.
+    Args:
+        title: Heading, any text.
+        period_s: Control period, s.
+        lanes: 1–4 names; the first is drawn as the actuator, the others as outlines of their links.
+            Of an arm joint 1 and joint 2, then those of the comparison.
+        channels: Names as in `svsa.actuators.signals.CHANNELS`, at least those of a pose; others
+            are left out.
+        samples: float64 (ticks, lanes, channels), SI.
+        load_mass_kg: Hanging mass at every tick, (ticks,), kg; None for none.
+        details: Information about the run (JSON); `version` and other simple values are in the
+            header.
+        events: Events, marked on the plots if they are within these samples.
+        first_tick: Tick of the first sample, as in events and window; the page's time begins there
+            at 0.
+        segments: Controllers of every lane, in order; by default one per lane under its name.
+        window: Window of the metrics; by default the whole run.
+        actuator: Parameters of the plant, which name the actuator; by default the SVSA.
+        arm: The arm whose joint 1 has this actuator; None for a single joint.
 
-    actuator: parameters of the plant, which name the actuator; left out, the SVSA.
+    Returns:
+        The HTML.
 
-    Takes some seconds and starts viser on a loopback port meanwhile: call it in a thread. Raises
-    `ParameterError` for arrays that do not fit, `ReplayError` where the page was not built.
+    Raises:
+        ParameterError: If arrays do not fit.
+        ReplayError: If the page was not built.
     """
     samples = np.asarray(samples, dtype=np.float64)
     mass = np.zeros(len(samples)) if load_mass_kg is None else np.asarray(load_mass_kg, float)
@@ -87,20 +101,17 @@ def build_replay_html(
         end = first_tick + len(samples)
         times = first_tick * period_s, end * period_s
         window = MeasuredWindow("start", "", first_tick, end, *times, True, tuple(lanes))
-    motion = record_motion(samples, channels, segments, period_s, mass, pack, actuator)
+    motion = record_motion(samples, channels, segments, period_s, mass, pack, actuator, arm)
     run = {
         "title": title,
         "period_s": period_s,
         "ticks": len(samples),
         "lanes": lanes,
+        "arm": arm and arm.links.model_dump(mode="json"),
         "segments": [[_write_segment(one, period_s) for one in lane] for lane in segments],
         "details": details,
         "events": [
-            {
-                "time_s": (event.tick - first_tick) * period_s,
-                "kind": event.kind,
-                "label": event.label,
-            }
+            _write_event(event, period_s, first_tick)
             for event in events
             if 0 <= event.tick - first_tick <= len(samples)
         ],
@@ -190,7 +201,7 @@ def _fill(template: str, title: str, run: str) -> str:
 
 
 def _write_json(run: Mapping[str, Any]) -> str:
-    """JSON that may stand inside a <script>: nothing in it can end the element."""
+    """Encode JSON for use inside a <script>: no part of it can end the element."""
     text = json.dumps(_to_json(run), allow_nan=False, separators=(",", ":"))
     return text.replace("<", "\\u003c")
 

@@ -1,0 +1,46 @@
+"""What the view needs to know about an arm at one instant."""
+
+import math
+from dataclasses import dataclass
+
+from svsa_scene.pose import ActuatorPose
+
+
+@dataclass(frozen=True)
+class Wall:
+    """A wall: the points r with n · r = distance.
+
+    Attributes:
+        normal_rad: Direction of n, towards the arm, from horizontal, counterclockwise.
+        distance_m: n · r.
+    """
+
+    normal_rad: float
+    distance_m: float
+
+
+@dataclass(frozen=True)
+class ArmPose:
+    """One instant of an arm.
+
+    Attributes:
+        joints: Poses of the actuators of joint 1 and joint 2.
+        comparison: q1 and q2 of the second arm, rad; None without one.
+        comparison_name: Name of its controller.
+        tip_mass_kg: Mass hung at the tip, 0 without one.
+        tip_force_n: Force of the loads at the tip (x horizontal, y up), N.
+        wall: The wall, or None.
+    """
+
+    joints: tuple[ActuatorPose, ActuatorPose]
+    comparison: tuple[float, float] | None = None
+    comparison_name: str = ""
+    tip_mass_kg: float = 0.0
+    tip_force_n: tuple[float, float] = (0.0, 0.0)
+    wall: Wall | None = None
+
+    @property
+    def is_finite(self) -> bool:
+        """Whether every number of it can be drawn."""
+        others = (*(self.comparison or ()), self.tip_mass_kg, *self.tip_force_n)
+        return all(joint.is_finite for joint in self.joints) and all(map(math.isfinite, others))
