@@ -1,6 +1,6 @@
 import { vi } from "vitest";
 
-/** The browser that the modules under test live in. kept: what it has stored. */
+/** The simulated browser for the modules under test. kept: content of its storage. */
 export function stubBrowser(kept: Record<string, string> = {}): { store: Map<string, string> } {
   const store = new Map(Object.entries(kept));
   const storage = {
@@ -15,7 +15,7 @@ export function stubBrowser(kept: Record<string, string> = {}): { store: Map<str
   );
   vi.stubGlobal("sessionStorage", storage);
   vi.stubGlobal("localStorage", storage);
-  vi.stubGlobal("document", { baseURI: "http://lab/" });
+  vi.stubGlobal("document", { baseURI: "http://lab/", documentElement: { dataset: {} } });
   vi.stubGlobal("location", { search: "" });
   return { store };
 }

@@ -1,4 +1,6 @@
-/** What modules of the page ask of a browser when they are read: imported first, there is none else. */
+/**
+ * Browser globals that modules of the page read on import; imported first, because Node has none.
+ */
 import { vi } from "vitest";
 
 const storage = { getItem: () => null, setItem: () => {}, removeItem: () => {} };

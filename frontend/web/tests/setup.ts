@@ -1,4 +1,4 @@
-/** Before each file of tests: what one before it has left in their common process is gone. */
+/** Before each file of tests: remove the state that earlier files left in the common process. */
 import { vi } from "vitest";
 
 vi.useRealTimers();

@@ -1,11 +1,11 @@
-/** The numbers of the API as people read and type them: one name and one unit for each field. */
+/** The numbers of the API as users read and type them: one name and one unit per field. */
 import { text } from "./text/en";
 import { DEGREES_PER_RADIAN } from "./units";
 
 export interface Quantity {
   label: string;
   unit: string;
-  /** What is shown over what the API has, which is SI. */
+  /** Factor from the API's SI unit to the unit on screen. */
   factor?: number;
 }
 
@@ -34,8 +34,8 @@ export const QUANTITIES = {
   by: plain(text.control.name),
 } satisfies Record<string, Quantity>;
 
-/** What a control spreads into its field. */
-export const shownAs = (name: keyof typeof QUANTITIES): Quantity => QUANTITIES[name];
+/** Properties that a control passes to its field. */
+export const quantityProps = (name: keyof typeof QUANTITIES): Quantity => QUANTITIES[name];
 
 const isKey = <T extends object>(key: PropertyKey, table: T): key is keyof T =>
   Object.hasOwn(table, key);
@@ -61,8 +61,8 @@ type Shares = readonly [number, number, number];
 type Interval = Record<"value" | "low" | "high", number | null>;
 
 /**
- * Shares in percent, to so many digits that what differs, from each other or from none and all,
- * reads so: of a million runs that all succeeded the lower end is no 100 %.
+ * Shares in percent, with enough digits that different shares read differently, also from 0 and 100
+ * %: the lower bound of a million successful runs is not shown as 100 %.
  */
 export function formatPercents(shares: Shares): [string, string, string] {
   const exact = (share: number) => Number(share.toFixed(MAX_DECIMALS));
@@ -73,7 +73,7 @@ export function formatPercents(shares: Shares): [string, string, string] {
   return [format(shares[0]), format(shares[1]), format(shares[2])];
 }
 
-/** A share with its interval in percent, as "80.0 % (49.0 to 94.3)"; "–" where there is none. */
+/** A share with its interval in percent, as "80.0 % (49.0 to 94.3)"; "–" if there is none. */
 export const formatShare = (share: Interval): string =>
   share.value === null
     ? "–"

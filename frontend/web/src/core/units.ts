@@ -1,4 +1,6 @@
-/** SI inside, what people read on screen: conversion and number format, nowhere else. */
+/**
+ * Conversion between SI, used internally, and the units and number formats on screen; nowhere else.
+ */
 
 export const DEGREES_PER_RADIAN = 180 / Math.PI;
 
@@ -7,7 +9,7 @@ export const toRadians = (deg: number): number => deg / DEGREES_PER_RADIAN;
 
 const MINUS = "\u2212";
 
-/** Number of decimals that show `digits` significant ones, at most `most`. */
+/** Number of decimals that show `digits` significant digits, at most `most`. */
 function decimalsFor(value: number, digits: number, most = 4): number {
   const size = Math.abs(value);
   if (!Number.isFinite(size) || size === 0) return Math.min(digits - 1, most);
@@ -15,7 +17,7 @@ function decimalsFor(value: number, digits: number, most = 4): number {
   return Math.max(0, Math.min(most, decimals));
 }
 
-/** `digits` significant digits, never in exponent form, with a true minus sign. */
+/** `digits` significant digits, never in exponent form, with a typographic minus sign. */
 export function formatNumber(value: number | null | undefined, digits = 3, most = 4): string {
   if (value === null || value === undefined || !Number.isFinite(value)) return "\u2013";
   const text = value.toFixed(decimalsFor(value, digits, most));
@@ -25,18 +27,23 @@ export function formatNumber(value: number | null | undefined, digits = 3, most 
 
 const SMALL = 1e-3;
 
-/** An error with four decimals; a smaller one to two digits: none reads as zero, or as another. */
+/**
+ * An error with four decimals; a smaller one with two digits, so that none reads as zero or as
+ * another.
+ */
 export function formatError(value: number | null | undefined, digits = 3): string {
   const isSmall = value !== null && value !== undefined && Math.abs(value) < SMALL;
   return isSmall ? formatNumber(value, 2, 6) : formatNumber(value, digits, 4);
 }
 
-/** A number for an input field: short, with a plain minus sign, nothing lost that matters. */
+/**
+ * A number for an input field: short, with an ASCII minus sign, without relevant loss of precision.
+ */
 export function formatInput(value: number, digits = 5): string {
   return String(Number(value.toPrecision(digits)));
 }
 
-/** A short duration in the unit that reads best: 25 µs, 1.3 ms, 2.40 s. */
+/** A short duration in a suitable unit: 25 µs, 1.3 ms, 2.40 s. */
 export function formatLapse(seconds: number): string {
   const size = Math.abs(seconds);
   if (size < 0.9995e-3) return `${formatNumber(seconds * 1e6, 2, 0)} µs`;
@@ -46,8 +53,8 @@ export function formatLapse(seconds: number): string {
 
 /** A duration as minutes and whole seconds: 75.25 is 1:15. */
 export function formatSeconds(seconds: number): string {
-  const whole = Math.floor(Math.max(0, seconds) + 1e-6);
-  return `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, "0")}`;
+  const wholeSeconds = Math.floor(Math.max(0, seconds) + 1e-6);
+  return `${Math.floor(wholeSeconds / 60)}:${String(wholeSeconds % 60).padStart(2, "0")}`;
 }
 
 /** Session time as minutes and seconds: 75.25 is 1:15.2. */

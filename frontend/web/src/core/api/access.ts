@@ -1,4 +1,4 @@
-/** Who one is in this lab, how one comes in, and what the class does. */
+/** The user's identity, joining the lab or class, and the activity of the class. */
 import { request } from "./request";
 import type { components } from "./schema";
 
@@ -11,37 +11,37 @@ export type AuditPage = Schemas["AuditPage"];
 export type AuditLine = Schemas["AuditLine"];
 type Broadcast = Schemas["BroadcastState"];
 
-/** Without it, a client that gives up early would join the class twice. */
-const COMING_IN_MS = 30_000;
-const comeIn = (path: string, body: object) => request("post", path, body, COMING_IN_MS);
+/** Without it, a client that times out early would join the class twice. */
+const LOGIN_TIMEOUT_MS = 30_000;
+const postLogin = (path: string, body: object) => request("post", path, body, LOGIN_TIMEOUT_MS);
 
 export const readAccess = () => request("get", "access") as Promise<Access>;
 /** The lab's secret, or the instructor token of its class. */
-export const login = (secret: string) => comeIn("login", { secret });
+export const login = (secret: string) => postLogin("login", { secret });
 export const join = (name: string, code: string) =>
-  comeIn("join", { name, code, role: "operator" }) as Promise<Schemas["JoinState"]>;
-/** As who one was, by one's own rejoin code. */
-export const comeBack = (code: string) => comeIn("rejoin", { code }) as Promise<Access>;
+  postLogin("join", { name, code, role: "operator" }) as Promise<Schemas["JoinState"]>;
+/** Log in again with the user's rejoin code. */
+export const rejoin = (code: string) => postLogin("rejoin", { code }) as Promise<Access>;
 export const renewRejoinCode = () =>
   request("post", "rejoin-code") as Promise<Schemas["RejoinCode"]>;
 export const leave = () => request("post", "leave");
 export const createToken = () =>
   request("post", "tokens", { role: "operator" }) as Promise<Schemas["TokenState"]>;
 export const readClass = () => request("get", "class") as Promise<ClassState>;
-export interface AuditWish {
+export interface AuditQuery {
   person: string;
   kind: string;
   onlyRefused: boolean;
   page: number;
-  /** Of the first page, which the others go on from; empty for the newest. */
+  /** Cursor of the first page, from which the others continue; empty for the newest entries. */
   until: string;
 }
-/** Reading it all takes a worker some time. */
-const LONG_WAIT_MS = 60_000;
-export function readAudit({ person, kind, onlyRefused, page, until }: AuditWish) {
+/** A worker needs some time to read the whole log. */
+const LONG_TIMEOUT_MS = 60_000;
+export function readAudit({ person, kind, onlyRefused, page, until }: AuditQuery) {
   const query = new URLSearchParams({ person, kind, until, page: String(page) });
   if (onlyRefused) query.set("refused", "true");
-  return request("get", `class/audit?${query}`, undefined, LONG_WAIT_MS) as Promise<AuditPage>;
+  return request("get", `class/audit?${query}`, undefined, LONG_TIMEOUT_MS) as Promise<AuditPage>;
 }
 const personPath = (id: string) => `class/people/${encodeURIComponent(id)}`;
 const setRemoved = (id: string, removed: boolean) => request("patch", personPath(id), { removed });

@@ -1,24 +1,24 @@
-/** What this page asked of the server, oldest first: every call that changes something. */
+/** The requests of this page that change something, oldest first. */
 import { signal } from "@preact/signals";
 
 export interface Call {
   id: number;
   method: string;
-  /** Below api/v1/, with its query. */
+  /** Path below api/v1/, with the query. */
   path: string;
   body: unknown;
-  /** Null where no answer came, and nothing else is known. */
+  /** Status of the answer; null if no answer came and the outcome is unknown. */
   status: number | null;
-  /** Session time at which it held, where the answer tells it, s. */
+  /** Session time at which the request took effect, s, if the answer contains it. */
   timeS: number | null;
 }
 
 const MAX_CALLS = 200;
-/** What carries a secret of the lab is shown nowhere. */
+/** Requests with secrets of the lab are never shown. */
 const SECRET_PATHS = ["login", "join"];
-/** What is only looked at, at every key that is pressed: where its path begins, or ends. */
-const LOOKED_AT = "references/";
-const PREDICTION = "/bench/endurance";
+/** Read-only requests of interactive input, which are not shown: their path's beginning or end. */
+const PREVIEW_PREFIX = "references/";
+const PREDICTION_SUFFIX = "/bench/endurance";
 
 export const calls = signal<readonly Call[]>([]);
 let lastId = 0;
@@ -28,26 +28,27 @@ function readTime(answer: unknown): number | null {
   return typeof time === "number" ? time : null;
 }
 
-/** Notes a call, and says under which number; one that only reads is not worth showing. */
-export function noteCall(
+/** Log a call and return its number; read-only calls are not logged. */
+export function logCall(
   method: string,
   path: string,
   body: unknown,
   status: number | null,
   answer: unknown = null,
 ): number | null {
-  if (method === "get" || SECRET_PATHS.includes(path) || path.startsWith(LOOKED_AT)) return null;
-  if (path.endsWith(PREDICTION)) return null;
+  if (method === "get" || SECRET_PATHS.includes(path) || path.startsWith(PREVIEW_PREFIX))
+    return null;
+  if (path.endsWith(PREDICTION_SUFFIX)) return null;
   return addCall({ method, path, body, status, timeS: readTime(answer) });
 }
 
-/** Outcome of a call whose answer was lost; null where it never came to the server. */
-export function answerCall(id: number, status: number | null): void {
+/** Set the outcome of a call whose answer was lost; null if it never reached the server. */
+export function setCallStatus(id: number, status: number | null): void {
   calls.value = calls.peek().map((call) => (call.id === id ? { ...call, status } : call));
 }
 
-/** Records a file that the browser downloads without `fetch`. */
-export function noteDownload(path: string): void {
+/** Log a file that the browser downloads without `fetch`. */
+export function logDownload(path: string): void {
   addCall({ method: "get", path, body: undefined, status: 200, timeS: null });
 }
 

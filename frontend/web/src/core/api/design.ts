@@ -1,7 +1,7 @@
-/** What the server computes in advance for a design or a reference; the session stays unchanged. */
+/** Predictions for a design or a reference, computed by the server; the session stays unchanged. */
 import { request, sessionName } from "./request";
 import type { components } from "./schema";
-import type { Load, PositionReference, Sent, SessionState, StiffnessReference } from "./types";
+import type { Load, PositionReference, RequestOf, SessionState, StiffnessReference } from "./types";
 
 type Schemas = components["schemas"];
 
@@ -17,38 +17,44 @@ export type Endurance = Schemas["EnduranceState"];
 type PredictRequest = Omit<Partial<Schemas["PredictionRequest"]>, "kind">;
 
 const SESSION = `sessions/${encodeURIComponent(sessionName)}`;
-/** A worker that has to begin first takes its time. */
-const LONGEST_WORK_MS = 30_000;
+/** The start of a worker process takes some time. */
+const DESIGN_TIMEOUT_MS = 30_000;
 
-const analyze = (wanted: object) => request("post", `${SESSION}/design`, wanted, LONGEST_WORK_MS);
+const analyze = (designRequest: object) =>
+  request("post", `${SESSION}/design`, designRequest, DESIGN_TIMEOUT_MS);
 
-export const predict = (wanted: PredictRequest) =>
-  analyze({ kind: "prediction", ...wanted }) as Promise<Prediction>;
+export const predict = (designRequest: PredictRequest) =>
+  analyze({ kind: "prediction", ...designRequest }) as Promise<Prediction>;
 
-/** On a bench: the motor that heat holds back under this load, and when; null where neither is. */
+/** On a bench: the motor that heat will limit under this load, and when; null if none. */
 export const predictHeat = (load: Load) =>
-  request("post", `${SESSION}/bench/endurance`, load, LONGEST_WORK_MS) as Promise<Endurance | null>;
+  request(
+    "post",
+    `${SESSION}/bench/endurance`,
+    load,
+    DESIGN_TIMEOUT_MS,
+  ) as Promise<Endurance | null>;
 
-export const askResponse = (wanted: DesignRequest) =>
-  analyze({ kind: "response", ...wanted }) as Promise<DesignResponse>;
-export const askStability = (wanted: DesignRequest) =>
-  analyze({ kind: "stability", ...wanted }) as Promise<Stability>;
-export const askMargins = (wanted: DesignRequest) =>
-  analyze({ kind: "margins", ...wanted }) as Promise<Margins>;
-export const askRegion = (wanted: RegionRequest) =>
-  analyze({ kind: "region", ...wanted }) as Promise<Region>;
-/** A private simulated session with this design, stable or not. */
-export const simulateDesign = (wanted: DesignRequest) =>
+export const requestResponse = (designRequest: DesignRequest) =>
+  analyze({ kind: "response", ...designRequest }) as Promise<DesignResponse>;
+export const requestStability = (designRequest: DesignRequest) =>
+  analyze({ kind: "stability", ...designRequest }) as Promise<Stability>;
+export const requestMargins = (designRequest: DesignRequest) =>
+  analyze({ kind: "margins", ...designRequest }) as Promise<Margins>;
+export const requestRegion = (designRequest: RegionRequest) =>
+  analyze({ kind: "region", ...designRequest }) as Promise<Region>;
+/** Open a private simulated session with this design, stable or not. */
+export const simulateDesign = (designRequest: DesignRequest) =>
   request("post", "sessions", {
     from: "session",
     id: sessionName,
-    ...wanted,
+    ...designRequest,
   }) as Promise<SessionState>;
 
-// References before they are followed: read from a CSV, and looked at; nothing is changed.
+// Previews of references, and references from CSV files; the session stays unchanged.
 
 export type Follows = "position" | "stiffness";
-export type Reference = Sent<PositionReference> | Sent<StiffnessReference>;
+export type Reference = RequestOf<PositionReference> | RequestOf<StiffnessReference>;
 export type Preview = Schemas["ReferencePreview"];
 type Series = Schemas["PositionSeries"] | Schemas["StiffnessSeries"];
 

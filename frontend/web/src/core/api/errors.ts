@@ -2,7 +2,7 @@ import type { Refusal } from "./types";
 
 export type Violation = Refusal["violations"][number];
 
-/** The server answered, and refused: `violations` has each value that it did not take. */
+/** The server rejected the request: `violations` lists every invalid value. */
 export class RefusedError extends Error {
   constructor(
     readonly status: number,
@@ -18,7 +18,7 @@ export class RefusedError extends Error {
 export class ChangedError extends RefusedError {
   constructor(
     message: string,
-    /** What was to be set: a path below the session, such as "/position". */
+    /** The setting: a path below the session, such as "/position". */
     readonly path: string,
   ) {
     super(412, message);
@@ -34,15 +34,15 @@ export class LockedError extends RefusedError {
   }
 }
 
-/** No answer came: the request may have been carried out all the same. */
+/** No answer came: the server may have executed the request nevertheless. */
 export class UnansweredError extends Error {
   constructor(
     cause: unknown,
-    /** Under which the server knows the request; null for one that changes nothing. */
+    /** Id of the request on the server; null for a request that changes nothing. */
     readonly request: string | null = null,
-    /** When it was sent, `performance.now()`. */
+    /** Time of sending, `performance.now()`. */
     readonly sentMs = 0,
-    /** The call as the page notes it. */
+    /** Entry of the call in the page's log. */
     readonly call: number | null = null,
   ) {
     super("unanswered", { cause });
@@ -50,10 +50,10 @@ export class UnansweredError extends Error {
   }
 }
 
-/** The server was asked again: it has not carried out the request. */
-export class NotCarriedOutError extends Error {
+/** The server reports that it has not executed the request. */
+export class NotExecutedError extends Error {
   constructor(readonly status: number | null) {
     super("not carried out");
-    this.name = "NotCarriedOutError";
+    this.name = "NotExecutedError";
   }
 }

@@ -1,4 +1,4 @@
-/** Searches for the load that hurts a law most, and the scenarios that are kept of them. */
+/** Searches for the worst-case load of a law, and the scenarios saved from them. */
 import { type Job, jobFileOf, listJobs, readJob, startJob, stopJob } from "./jobs";
 import { API, request } from "./request";
 import type { components } from "./schema";
@@ -6,7 +6,7 @@ import type { Law, SessionState } from "./types";
 
 type Schemas = components["schemas"];
 
-/** A job, with its result next to its progress. */
+/** A job with its progress and result. */
 export type Search = Job & Schemas["FalsificationResult"];
 export type AdversaryState = Schemas["AdversaryState"];
 export type Adversary = Schemas["Adversary"];
@@ -14,11 +14,11 @@ export type Term = Adversary["terms"][number];
 export type LawTrace = Schemas["LawTraceState"];
 export type Trace = Schemas["ScenarioTraceState"];
 export type SavedScenario = Schemas["SavedScenario"];
-/** As it would stand in its file. */
+/** Content of its file. */
 export type Scenario = SavedScenario["scenario"];
 
-/** What is searched; one of adversary, text and definition. */
-export interface SearchWish {
+/** What to search; one of adversary, text and definition. */
+export interface SearchRequest {
   adversary?: string;
   text?: string;
   definition?: Adversary;
@@ -27,8 +27,8 @@ export interface SearchWish {
   seed: number;
 }
 
-/** Many laws, some of which have to be compiled first. */
-const LONG_WAIT_MS = 180_000;
+/** Slow: many laws, some of which must be compiled first. */
+const LONG_TIMEOUT_MS = 180_000;
 const readResult = (job: Job): Search => ({
   ...job,
   ...(job.result as Schemas["FalsificationResult"]),
@@ -38,19 +38,19 @@ const scenarioPath = (name: string, rest = ""): string =>
 
 export const listAdversaries = () => request("get", "adversaries") as Promise<AdversaryState[]>;
 export const listSearches = async () => (await listJobs("falsification")).map(readResult);
-export const startSearch = async (wish: SearchWish) =>
-  readResult(await startJob({ kind: "falsification", ...wish }));
+export const startSearch = async (searchRequest: SearchRequest) =>
+  readResult(await startJob({ kind: "falsification", ...searchRequest }));
 export const readSearch = async (id: string) => readResult(await readJob(id));
 export { jobFileOf as searchFileOf, stopJob as stopSearch };
 
 export const listScenarios = () => request("get", "scenarios") as Promise<SavedScenario[]>;
-export const keepScenario = (name: string, scenario: Scenario) =>
+export const saveScenario = (name: string, scenario: Scenario) =>
   request("put", scenarioPath(name), scenario) as Promise<SavedScenario>;
 export const scenarioFileOf = (name: string): string =>
   new URL(`${scenarioPath(name)}?format=toml`, API).href;
-/** The outcome of each law, and its errors over time. */
-export const runLaws = (scenario: Scenario, laws: readonly Law[]) =>
-  request("post", "scenarios/runs", { scenario, laws }, LONG_WAIT_MS) as Promise<Trace>;
-/** A private session with several laws in lanes. */
-export const seeLaws = (scenario: Scenario, laws: readonly Law[]) =>
+/** Outcome of each law, and its errors over time. */
+export const traceLaws = (scenario: Scenario, laws: readonly Law[]) =>
+  request("post", "scenarios/runs", { scenario, laws }, LONG_TIMEOUT_MS) as Promise<Trace>;
+/** Open a private session with several laws in lanes. */
+export const openScenarioSession = (scenario: Scenario, laws: readonly Law[]) =>
   request("post", "sessions", { from: "scenario", scenario, laws }) as Promise<SessionState>;

@@ -1,21 +1,21 @@
-/** Outcome of a request whose answer did not come: the server is asked until it says. */
+/** Outcome of a request whose answer was lost: polls the server until it is known. */
 import { signal } from "@preact/signals";
-import { answerCall } from "./calls";
-import { NotCarriedOutError, RefusedError, type UnansweredError } from "./errors";
+import { setCallStatus } from "./calls";
+import { NotExecutedError, RefusedError, type UnansweredError } from "./errors";
 import { request } from "./request";
 import type { OutcomeState } from "./types";
 
-/** asking: not known yet whether it was executed; carriedOut: executed, as the server reports. */
+/** asking: not yet known; carriedOut: the server has executed the request. */
 type CommandStatus = "asking" | "carriedOut" | null;
 export const commandStatus = signal<CommandStatus>(null);
 
-const PAUSE_MS = 500;
-const LONGEST_ASKED_MS = 60_000;
+const POLL_INTERVAL_MS = 500;
+const MAX_POLL_MS = 60_000;
 const SHOWN_MS = 8000;
 
 const wait = (ms: number) => new Promise((resolve) => setTimeout(resolve, ms));
 
-let asking = 0;
+let pendingCount = 0;
 
 function setStatus(next: CommandStatus): void {
   commandStatus.value = next;
@@ -27,41 +27,41 @@ function setStatus(next: CommandStatus): void {
 }
 
 /**
- * Resolves where it was carried out. Throws `NotCarriedOutError` where it was not, and
- * the `UnansweredError` itself where the server cannot say even after a minute.
+ * Resolve if the request was executed. Throws `NotExecutedError` if it was not, and the
+ * `UnansweredError` itself if the outcome is still unknown after a minute.
  */
-export async function learnOutcome(unanswered: UnansweredError): Promise<void> {
-  asking++;
+export async function awaitOutcome(unanswered: UnansweredError): Promise<void> {
+  pendingCount++;
   setStatus("asking");
   try {
-    const status = await askUntilKnown(unanswered);
-    if (unanswered.call !== null) answerCall(unanswered.call, status);
-    if (status === null || status >= 400) throw new NotCarriedOutError(status);
+    const status = await pollOutcome(unanswered);
+    if (unanswered.call !== null) setCallStatus(unanswered.call, status);
+    if (status === null || status >= 400) throw new NotExecutedError(status);
     setStatus("carriedOut");
   } finally {
-    asking--;
-    if (asking === 0 && commandStatus.peek() === "asking") setStatus(null);
+    pendingCount--;
+    if (pendingCount === 0 && commandStatus.peek() === "asking") setStatus(null);
   }
 }
 
-/** The status that it was answered with; null where it never came to the server. */
-async function askUntilKnown(unanswered: UnansweredError): Promise<number | null> {
-  const endMs = performance.now() + LONGEST_ASKED_MS;
-  let strange = 0;
+/** Status of its answer; null if the request never reached the server. */
+async function pollOutcome(unanswered: UnansweredError): Promise<number | null> {
+  const endMs = performance.now() + MAX_POLL_MS;
+  let unknownCount = 0;
   while (performance.now() < endMs) {
-    const found = await ask(`requests/${unanswered.request}`);
-    if (found?.outcome === "carried_out" || found?.outcome === "refused") return found.status;
+    const outcome = await queryOutcome(`requests/${unanswered.request}`);
+    if (outcome?.outcome === "carried_out" || outcome?.outcome === "refused") return outcome.status;
     const sinceS = (performance.now() - unanswered.sentMs) / 1000;
-    if (found?.outcome === "unknown" && found.known_for_s < sinceS) break;
-    // Asked twice: it may have come after the first question, by another way.
-    strange = found?.outcome === "unknown" ? strange + 1 : 0;
-    if (strange === 2) return null;
-    await wait(PAUSE_MS);
+    if (outcome?.outcome === "unknown" && outcome.known_for_s < sinceS) break;
+    // Query twice: the request may arrive after the first query over another connection.
+    unknownCount = outcome?.outcome === "unknown" ? unknownCount + 1 : 0;
+    if (unknownCount === 2) return null;
+    await wait(POLL_INTERVAL_MS);
   }
   throw unanswered;
 }
 
-async function ask(path: string): Promise<OutcomeState | null> {
+async function queryOutcome(path: string): Promise<OutcomeState | null> {
   try {
     return (await request("get", path)) as OutcomeState;
   } catch (error) {

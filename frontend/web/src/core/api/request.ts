@@ -1,62 +1,62 @@
-/** One request to the server, with the id by which the server recognises this tab. */
-import { noteCall } from "./calls";
+/** Requests to the server, with the id by which the server recognises this tab. */
+import { logCall } from "./calls";
 import { LockedError, RefusedError, UnansweredError } from "./errors";
 import type { Method, Refusal } from "./types";
 
-const KEY = "svsa.client";
+const STORAGE_KEY = "svsa.client";
 
 /** 128 random bits as text. */
-function drawText(): string {
+function randomId(): string {
   const bytes = crypto.getRandomValues(new Uint8Array(16));
   return Array.from(bytes, (byte) => byte.toString(16).padStart(2, "0")).join("");
 }
 
-/** What a reload keeps; a tab that was made from this one by duplication finds nothing. */
-function takeKept(): string | null {
+/** Read the id that a reload keeps; a duplicated tab finds none. */
+function takeStoredId(): string | null {
   try {
-    const kept = sessionStorage.getItem(KEY);
-    sessionStorage.removeItem(KEY);
-    return kept;
+    const storedId = sessionStorage.getItem(STORAGE_KEY);
+    sessionStorage.removeItem(STORAGE_KEY);
+    return storedId;
   } catch {
     return null;
   }
 }
 
-export const client = takeKept() ?? drawText();
+export const client = takeStoredId() ?? randomId();
 
 window.addEventListener("pagehide", () => {
   try {
-    sessionStorage.setItem(KEY, client);
+    sessionStorage.setItem(STORAGE_KEY, client);
   } catch {
-    // A tab that keeps nothing is another client after a reload.
+    // Without storage the tab is a new client after each reload.
   }
 });
 window.addEventListener("pageshow", (event) => {
-  if (event.persisted) takeKept();
+  if (event.persisted) takeStoredId();
 });
 
-// One request to the server, and which session the page is about.
+// One request to the server, and the session that the page shows.
 
 export const API = new URL("api/v1/", document.baseURI);
-const SHARED = "lab";
-/** The session that this page shows: the shared one, or the private one that its address names. */
-export const sessionName = new URLSearchParams(location.search).get("session") ?? SHARED;
-export const isPrivate = sessionName !== SHARED;
+const SHARED_SESSION = "lab";
+/** The session of this page: the shared one, or the private one in the address. */
+export const sessionName = new URLSearchParams(location.search).get("session") ?? SHARED_SESSION;
+export const isPrivate = sessionName !== SHARED_SESSION;
 const CLIENT_HEADER = "SVSA-Client";
-/** What the server knows a changing request by, should its answer be lost. */
+/** Id by which the server finds a changing request if its answer is lost. */
 const REQUEST_HEADER = "Idempotency-Key";
-export const LONGEST_WAIT_MS = 6000;
+export const DEFAULT_TIMEOUT_MS = 6000;
 
 export async function request(
   method: Method,
   path: string,
   body?: unknown,
-  waitMs = LONGEST_WAIT_MS,
-  more: Readonly<Record<string, string>> = {},
+  timeoutMs = DEFAULT_TIMEOUT_MS,
+  extraHeaders: Readonly<Record<string, string>> = {},
 ): Promise<unknown> {
-  const name = method === "get" ? null : drawText();
-  const headers: Record<string, string> = { ...more, [CLIENT_HEADER]: client };
-  if (name !== null) headers[REQUEST_HEADER] = name;
+  const requestId = method === "get" ? null : randomId();
+  const headers: Record<string, string> = { ...extraHeaders, [CLIENT_HEADER]: client };
+  if (requestId !== null) headers[REQUEST_HEADER] = requestId;
   if (body !== undefined) headers["Content-Type"] = "application/json";
   const sentMs = performance.now();
   let response: Response;
@@ -67,19 +67,19 @@ export async function request(
       cache: "no-store",
       headers,
       ...(body !== undefined && { body: JSON.stringify(body) }),
-      signal: AbortSignal.timeout(waitMs),
+      signal: AbortSignal.timeout(timeoutMs),
     });
     answer = parse(await response.text());
   } catch (cause) {
-    const call = noteCall(method, path, body, null);
-    throw new UnansweredError(cause, name, sentMs, call);
+    const call = logCall(method, path, body, null);
+    throw new UnansweredError(cause, requestId, sentMs, call);
   }
-  noteCall(method, path, body, response.status, answer);
+  logCall(method, path, body, response.status, answer);
   if (response.ok) return answer;
   throw buildRefusal(response, answer);
 }
 
-/** Why the server did not answer with what was asked for. */
+/** Reason why the server rejected a request. */
 export const readRefusal = async (response: Response): Promise<Error> =>
   buildRefusal(response, parse(await response.text()));
 

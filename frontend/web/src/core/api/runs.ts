@@ -1,4 +1,4 @@
-/** The public REST API of the recorded runs, one function a call. */
+/** The public REST API of the recorded runs, one function per call. */
 import { API, readRefusal, request, sessionName } from "./request";
 import type {
   ExportName,
@@ -14,12 +14,12 @@ import type {
   VerdictRequest,
 } from "./types";
 
-const LONG_WAIT_MS = 60_000;
-const LONGEST_MAKING_MS = 300_000;
+const LONG_TIMEOUT_MS = 60_000;
+const EXPORT_TIMEOUT_MS = 300_000;
 
-interface RunsWanted {
+interface RunQuery {
   search: string;
-  /** Only runs that have these: facet and value, "" for any. */
+  /** Only runs with these values by facet; "" for any value. */
   filters: Readonly<Record<string, string>>;
   sort: string;
   page: number;
@@ -29,8 +29,8 @@ interface RunsWanted {
 
 const pathOf = (run: string, rest = ""): string => `runs/${encodeURIComponent(run)}${rest}`;
 
-export function listRuns(wanted: RunsWanted): Promise<RunList> {
-  const { search, filters, sort, page, pageSize, isTrash } = wanted;
+export function listRuns(runQuery: RunQuery): Promise<RunList> {
+  const { search, filters, sort, page, pageSize, isTrash } = runQuery;
   const query = new URLSearchParams({ sort, page: String(page), page_size: String(pageSize) });
   if (search) query.set("search", search);
   for (const [facet, value] of Object.entries(filters)) if (value) query.set(facet, value);
@@ -48,21 +48,21 @@ export const deleteRun = (run: string) => request("delete", pathOf(run)) as Prom
 export const restoreRun = (run: string) =>
   request("patch", pathOf(run), { deleted: false }) as Promise<RunSummary>;
 export const readRunOrigin = (run: string) =>
-  request("get", pathOf(run, "/origin"), undefined, LONG_WAIT_MS) as Promise<RunOrigin>;
+  request("get", pathOf(run, "/origin"), undefined, LONG_TIMEOUT_MS) as Promise<RunOrigin>;
 export function readDifference(run: string, others: readonly string[]): Promise<RunDifference> {
   const query = new URLSearchParams(others.map((other) => ["other", other]));
   return request("get", pathOf(run, `/difference?${query}`)) as Promise<RunDifference>;
 }
 
-export const judgeRun = (run: string, wanted: VerdictRequest) =>
-  request("post", pathOf(run, "/verdict"), wanted, LONG_WAIT_MS) as Promise<RunVerdict>;
+export const assessRun = (run: string, runQuery: VerdictRequest) =>
+  request("post", pathOf(run, "/verdict"), runQuery, LONG_TIMEOUT_MS) as Promise<RunVerdict>;
 
 export const branchRun = (run: string, tick: number) =>
   request(
     "post",
     "sessions",
     { from: "run", id: run, tick },
-    LONG_WAIT_MS,
+    LONG_TIMEOUT_MS,
   ) as Promise<SessionState>;
 
 export function readSamples(
@@ -74,20 +74,20 @@ export function readSamples(
   return request("get", pathOf(run, `/samples?${query}`)) as Promise<RunSamples>;
 }
 
-/** The run that the page's session is on. */
+/** The run from which the page's session started. */
 export const readOrigin = () =>
   request(
     "get",
     `sessions/${encodeURIComponent(sessionName)}/origin`,
     undefined,
-    LONG_WAIT_MS,
+    LONG_TIMEOUT_MS,
   ) as Promise<RunOrigin>;
 
 export const exportPath = (run: string, kind: ExportName): string =>
   pathOf(run, `/export?kind=${kind}`);
-/** What an export holds, once the server has made it; what takes minutes has not been made. */
+/** Size and content of an export; exports that take minutes are made on request. */
 export async function fetchFile(path: string): Promise<{ name: string; content: Blob }> {
-  const answer = await fetch(addressOf(path), { signal: AbortSignal.timeout(LONGEST_MAKING_MS) });
+  const answer = await fetch(addressOf(path), { signal: AbortSignal.timeout(EXPORT_TIMEOUT_MS) });
   if (!answer.ok) throw await readRefusal(answer);
   const named = answer.headers.get("Content-Disposition") ?? "";
   const name = /filename="?([^";]+)"?/.exec(named)?.[1] ?? "replay.html";
@@ -95,6 +95,6 @@ export async function fetchFile(path: string): Promise<{ name: string; content: 
 }
 export const addressOf = (path: string): string => String(new URL(path, API));
 export const replayAddress = (run: string): string => addressOf(pathOf(run, "/replay"));
-/** Where a replay stands when it opens, s after its first sample. */
+/** Initial position of a replay, s after its first sample. */
 export const atMoment = (replay: string, timeS: number): string =>
   timeS > 0 ? `${replay}?t=${timeS}` : replay;

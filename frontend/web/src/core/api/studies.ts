@@ -1,4 +1,4 @@
-/** Studies and the jobs that work at them, one function a call. */
+/** Studies and their jobs, one function per call. */
 import { LockedError, RefusedError, UnansweredError } from "./errors";
 import { API, client, request } from "./request";
 import type { components } from "./schema";
@@ -16,8 +16,8 @@ export type SobolIndices = Schemas["SobolIndices"];
 type RowReplay = Schemas["RowReplay"];
 export type StudyRow = Readonly<Record<string, string | number | boolean | null>>;
 
-/** What is asked for; what is left out is as in the source or the text. */
-export interface StudyWish {
+/** Requested changes; fields that are left out keep the value of the source or the text. */
+export interface StudyChanges {
   source?: string;
   text?: string;
   name?: string;
@@ -27,48 +27,51 @@ export interface StudyWish {
   success?: Readonly<Record<string, number>>;
 }
 
-const LONG_WAIT_MS = 90_000;
+const LONG_TIMEOUT_MS = 90_000;
 const CLIENT_HEADER = "SVSA-Client";
 const pathOf = (study: string, rest = ""): string => `studies/${encodeURIComponent(study)}${rest}`;
 
 export const listStudies = () => request("get", "studies") as Promise<StudyList>;
 export const readStudy = (study: string) => request("get", pathOf(study)) as Promise<Study>;
-export const checkStudy = (wish: StudyWish) =>
-  request("post", "studies/check", wish) as Promise<StudyPlan>;
-export const startStudy = (wish: StudyWish) =>
-  request("post", "studies", wish, LONG_WAIT_MS) as Promise<Study>;
-/** For good; one that is being run is cancelled first, which may take as long as its rows. */
+export const checkStudy = (changes: StudyChanges) =>
+  request("post", "studies/check", changes) as Promise<StudyPlan>;
+export const startStudy = (changes: StudyChanges) =>
+  request("post", "studies", changes, LONG_TIMEOUT_MS) as Promise<Study>;
+/**
+ * Delete permanently; a running study is cancelled first, which may take as long as its present
+ * rows.
+ */
 export const deleteStudy = (study: string) =>
-  request("delete", pathOf(study), undefined, LONG_WAIT_MS);
+  request("delete", pathOf(study), undefined, LONG_TIMEOUT_MS);
 export const readSummary = (study: string) =>
-  request("get", pathOf(study, "/summary"), undefined, LONG_WAIT_MS) as Promise<StudySummary>;
+  request("get", pathOf(study, "/summary"), undefined, LONG_TIMEOUT_MS) as Promise<StudySummary>;
 export const readSensitivity = (study: string, outcome: string) =>
   request(
     "get",
     pathOf(study, `/sensitivity?outcome=${encodeURIComponent(outcome)}`),
     undefined,
-    LONG_WAIT_MS,
+    LONG_TIMEOUT_MS,
   ) as Promise<SobolIndices[]>;
 export const readRow = (study: string, row: number) =>
   request("get", pathOf(study, `/rows/${row}`)) as Promise<StudyRow>;
-/** Makes a recorded run of a row. */
+/** Record one row as a run. */
 export const replayRow = (study: string, row: number) =>
   request(
     "post",
     pathOf(study, `/rows/${row}/replay`),
     undefined,
-    LONG_WAIT_MS,
+    LONG_TIMEOUT_MS,
   ) as Promise<RowReplay>;
 export const tableOf = (study: string): string =>
   new URL(pathOf(study, "/rows?format=parquet"), API).href;
 
-/** Shares with their intervals of 95 %; counts: how many of how many, at most 256 of them. */
+/** Shares with 95 % confidence intervals; counts: pairs (successes, total), at most 256. */
 export const estimateShares = (counts: readonly (readonly [number, number])[]) => {
   const pairs = counts.map(([count, total]) => `counts=${count},${total - count}`);
   return request("get", `shares?${pairs.join("&")}`) as Promise<Estimate[]>;
 };
 
-/** Columns of all rows, or of so many draws by lot, as the server packs them. */
+/** Columns of all rows, or of a random subset of them, as the server packs them. */
 export async function readRows(study: string, columns: readonly string[]): Promise<ArrayBuffer> {
   const query = new URLSearchParams(columns.map((column) => ["column", column]));
   let response: Response;
@@ -76,7 +79,7 @@ export async function readRows(study: string, columns: readonly string[]): Promi
     response = await fetch(new URL(pathOf(study, `/rows?${query}`), API), {
       cache: "no-store",
       headers: { [CLIENT_HEADER]: client },
-      signal: AbortSignal.timeout(LONG_WAIT_MS),
+      signal: AbortSignal.timeout(LONG_TIMEOUT_MS),
     });
     if (response.ok) return await response.arrayBuffer();
   } catch (cause) {

@@ -1,4 +1,4 @@
-/** The names under which the page uses the server's schema. */
+/** Names of the types of the server's schema. */
 import type { components, paths } from "./schema";
 
 type Schemas = components["schemas"];
@@ -8,7 +8,7 @@ export type Configuration = Schemas["ConfigurationState"];
 export type PositionReference = Configuration["position"];
 export type StiffnessReference = Configuration["stiffness"];
 export type Effects = Configuration["effects"];
-/** What is left out is off, or has its default. */
+/** Effects that are left out are off, or have their defaults. */
 export type EffectsRequest = {
   [K in keyof Effects]?: NonNullable<Effects[K]> extends object
     ? Partial<NonNullable<Effects[K]>> | null
@@ -16,26 +16,26 @@ export type EffectsRequest = {
 };
 export type ActuatorParameters = Configuration["actuator"];
 export type ActuatorRow = Schemas["ActuatorState"];
-/** The controller of a comparison lane; null or left out: as the session's. */
+/** Controller of a comparison lane; null or left out: that of the session. */
 export type Lane = Schemas["Lane"];
 export type Gains = Schemas["Gains"];
 export type SessionFault = NonNullable<SessionState["fault"]>;
 export type EffectsPreset = Schemas["EffectsPreset"];
-/** What varies, except for laws. */
+/** Descriptions of the exchangeable parts, except for laws. */
 export type Kinds = Schemas["Kinds"];
 export type EffectRow = Schemas["EffectState"];
 export type FormField = Schemas["FormField"];
-/** A number that a kind of something has. */
+/** A numeric field of a kind. */
 export type ParameterRow = Schemas["ParameterState"];
 /** A figure's run compared with the paper's claim. */
 export type Claim = Schemas["ClaimState"];
 export type ClaimNumbers = Claim["numbers"][number];
 /** A row of the table of faults. */
 export type FaultKind = Schemas["FaultKindState"];
-/** The name of a law. */
+/** Name of a law. */
 export type Law = Configuration["law"];
 export type LawRow = Omit<Schemas["LawState"], "parameters"> & { parameters: LawParameter[] };
-/** A law's parameters have a default. */
+/** Parameters of a law have defaults. */
 export type LawParameter = Omit<ParameterRow, "default"> & {
   default: NonNullable<ParameterRow["default"]>;
 };
@@ -53,8 +53,8 @@ export type Figure = Schemas["FigureExperiment"]["figure"];
 export type Refusal = Schemas["Problem"];
 export type OutcomeState = Schemas["OutcomeState"];
 
-/** What has a default may be left out of a request. */
-type Defaulted =
+/** Fields with defaults are optional in a request. */
+type DefaultedField =
   | "comparison_laws"
   | "rise_s"
   | "transition_s"
@@ -63,22 +63,22 @@ type Defaulted =
   | "start_s"
   | "mass_kg"
   | "arm_m";
-export type Sent<T> = T extends unknown
-  ? Omit<T, Defaulted> & Partial<Pick<T, Extract<Defaulted, keyof T>>>
+export type RequestOf<T> = T extends unknown
+  ? Omit<T, DefaultedField> & Partial<Pick<T, Extract<DefaultedField, keyof T>>>
   : never;
-export type Load = Sent<LoadRow["load"]>;
+export type Load = RequestOf<LoadRow["load"]>;
 
 export type Method = "get" | "put" | "post" | "patch" | "delete";
-type Session = "/api/v1/sessions/{session}";
-type Below<P> = P extends `${Session}${infer Rest}` ? Rest : never;
-/** A path below a session, such as "/position". */
-export type SessionPath = Below<keyof paths>;
+type SessionPrefix = "/api/v1/sessions/{session}";
+type PathBelowSession<P> = P extends `${SessionPrefix}${infer Rest}` ? Rest : never;
+/** Path below a session, such as "/position". */
+export type SessionPath = PathBelowSession<keyof paths>;
 
-type Operation<M extends Method, P extends SessionPath> = paths[`${Session}${P}`][M];
-/** What a request must carry: nothing, or one body. */
+type Operation<M extends Method, P extends SessionPath> = paths[`${SessionPrefix}${P}`][M];
+/** Arguments of a request: none, or one body. */
 export type Body<M extends Method, P extends SessionPath> =
   Operation<M, P> extends { requestBody: { content: { "application/json": infer B } } }
-    ? [body: Sent<B>]
+    ? [body: RequestOf<B>]
     : [];
 
 export type RunSummary = Schemas["RunSummary"];
@@ -91,7 +91,7 @@ export type RunList = Schemas["RunList"];
 export type RunPatch = Schemas["RunPatch"];
 export type RunSamples = Schemas["RunSamples"];
 export type Hello = Schemas["Hello"];
-/** A channel of the library, as the stream calls it. */
+/** Name of a channel, as in the stream. */
 export type StreamedName = Schemas["StreamChannel"]["name"];
 export type RunOrigin = Schemas["RunOrigin"];
 export type CommandKind = RunOrigin["commands"][number]["command"]["kind"];

@@ -40,7 +40,7 @@ function EquationRow({ equation }: { equation: Equation }) {
   );
 }
 
-/** In addition to the paper's two laws, the laws of the present lanes with their own equations. */
+/** Equations: of the paper's two laws, and of the other laws in the present lanes. */
 export function equationsOf(topic: Topic, controlling: readonly LawRow[]): readonly Equation[] {
   const printed = EQUATIONS[topic];
   if (topic !== "controller") return printed;
@@ -63,7 +63,7 @@ export function EquationCard({ topic }: { topic: Topic }) {
   );
 }
 
-/** The symbol of a quantity; pressing it opens the equations behind it. */
+/** The symbol of a quantity; a click shows its equations. */
 export function EquationButton({ topic }: { topic: Topic }) {
   const title = words.open(words.topics[topic]);
   return (

@@ -1,14 +1,14 @@
-/** The equations behind the page, as the paper numbers them and as they are computed here. */
+/** The equations of the paper with their numbers, and the form that is computed here. */
 
 export interface Equation {
-  /** The paper's number; left out where the paper has none. */
+  /** Number in the paper; left out if the paper has none. */
   number?: string;
   tex: string;
-  /** As the paper prints it, where that is wrong. */
+  /** The printed form, if it contains an error. */
   printed?: string;
-  /** The law whose equation this is: it stands here with what the paper prints. */
+  /** Law whose own equation replaces this one. */
   law?: string;
-  /** Key of the words in `text.equations.notes`. */
+  /** Key of the note in `text.equations.notes`. */
   note?: NoteKey;
 }
 

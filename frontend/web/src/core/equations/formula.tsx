@@ -2,7 +2,7 @@ import { useEffect, useRef } from "preact/hooks";
 
 type Typesetter = typeof import("./typesetter");
 
-/** The typesetter and its fonts, fetched when the first formula is looked at. */
+/** KaTeX and its fonts, loaded when the first formula is shown. */
 const loading: { typesetter?: Promise<Typesetter> } = {};
 
 function loadTypesetter(): Promise<Typesetter> {
@@ -10,7 +10,7 @@ function loadTypesetter(): Promise<Typesetter> {
   return loading.typesetter;
 }
 
-/** Puts a formula into an element, unless it is no longer wanted when the typesetter is there. */
+/** Render a formula into an element, unless the element is gone when KaTeX has loaded. */
 async function typeset(
   element: HTMLElement,
   tex: string,
@@ -21,14 +21,14 @@ async function typeset(
   if (!isWanted()) return;
   render(tex, element, { displayMode: isDisplayed, throwOnError: false });
   if (!isDisplayed) return;
-  // What scrolls is reached by keyboard; the width changes with the window.
+  // A scrolling formula must be reachable by keyboard; its width changes with the window.
   new ResizeObserver(() => {
     if (element.scrollWidth > element.clientWidth) element.tabIndex = 0;
     else element.removeAttribute("tabindex");
   }).observe(element);
 }
 
-/** A formula, typeset, and as MathML for screen readers. */
+/** A formula, with MathML for screen readers. */
 export function Formula({ tex }: { tex: string }) {
   const host = useRef<HTMLDivElement>(null);
   useEffect(() => {
@@ -41,7 +41,7 @@ export function Formula({ tex }: { tex: string }) {
   return <div class="formula" ref={host} />;
 }
 
-/** Text of the server's own making, in which elements of class `math` hold TeX. */
+/** Text from the server in which elements of class `math` contain TeX. */
 export function Prose({ html }: { html: string }) {
   const host = useRef<HTMLDivElement>(null);
   useEffect(() => {

@@ -1,4 +1,4 @@
-/** Of KaTeX, what formulas need. */
+/** The parts of KaTeX that formulas need. */
 import "katex/dist/katex.min.css";
 
 export { render } from "katex";

@@ -1,51 +1,53 @@
-/** One job of the server, followed until it ends. */
+/** Follows one job of the server until it ends. */
 import { type Signal, signal } from "@preact/signals";
 import { type Job, listJobs, readJob, stopJob } from "../api/jobs";
-import { polling } from "./poll";
-import { isGoing } from "./progress";
+import { createPoll } from "./poll";
+import { isJobRunning } from "./progress";
 
-interface Followed {
-  /** null while none is looked at, and where the server does not know it any more. */
+interface JobFollower {
+  /** null while no job is followed, and if the server no longer has it. */
   job: Signal<Job | null>;
-  /** Follows it; resolves once it has ended or is gone, or another is followed, or none. */
+  /** Follow a job; resolves once it has ended or is gone, or another or no job is followed. */
   follow: (job: Job) => Promise<void>;
-  /** Takes up the one of this kind that is under way, from before the page was loaded. */
+  /** Follow the running job of this kind, started before the page was loaded. */
   resume: () => Promise<void>;
-  leave: () => void;
+  unfollow: () => void;
   cancel: () => Promise<void>;
 }
 
-/** tell: as that of `polling`. onEnd: once a job has ended. */
+/** onError: as in `createPoll`. onEnd: called once a job has ended. */
 export function followJobs(
   kind: Job["kind"],
   onError: (error: unknown) => void,
   onEnd: () => void,
-): Followed {
+): JobFollower {
   const job = signal<Job | null>(null);
-  const poll = polling(onError);
-  const follow = async (begun: Job): Promise<void> => {
-    job.value = begun;
-    const ending = await poll.follow(
-      () => readJob(begun.id),
-      (found) => {
-        job.value = found;
-        return !isGoing(found);
+  const poll = createPoll(onError);
+  const follow = async (startedJob: Job): Promise<void> => {
+    job.value = startedJob;
+    const pollEnd = await poll.follow(
+      () => readJob(startedJob.id),
+      (update) => {
+        job.value = update;
+        return !isJobRunning(update);
       },
     );
-    if (ending === "ended") onEnd();
-    else if (ending === "refused") job.value = null;
+    if (pollEnd === "ended") onEnd();
+    else if (pollEnd === "refused") job.value = null;
   };
   return {
     job,
     follow,
     resume: async () => {
-      const going = (await listJobs()).find((one) => one.kind === kind && isGoing(one));
-      if (going !== undefined) await follow(going);
+      const runningJob = (await listJobs()).find(
+        (candidate) => candidate.kind === kind && isJobRunning(candidate),
+      );
+      if (runningJob !== undefined) await follow(runningJob);
     },
-    leave: poll.leave,
+    unfollow: poll.stop,
     cancel: async () => {
-      const now = job.peek();
-      if (now !== null && isGoing(now)) job.value = await stopJob(now.id);
+      const current = job.peek();
+      if (current !== null && isJobRunning(current)) job.value = await stopJob(current.id);
     },
   };
 }

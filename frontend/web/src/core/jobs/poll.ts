@@ -1,77 +1,79 @@
-/** What grows on the server, asked for again and again until it has ended. */
+/** Polls growing data of the server until they are complete. */
 import { UnansweredError } from "../api/errors";
 
 const PAUSE_MS = 700;
 const pause = () => new Promise((resolve) => setTimeout(resolve, PAUSE_MS));
 
-/** Whether it has ended, the server no longer knows it, or the page shows something else. */
-type Ending = "ended" | "refused" | "left";
+/** Whether polling is over: complete, gone on the server, or the page shows other data. */
+type PollEnd = "ended" | "refused" | "left";
 
 interface Poll {
   /**
-   * Asks until `take` returns true, also over answers that do not come; one thing at a time: what
-   * was asked for before is left. isLeft, of `take`: whether that has happened meanwhile.
+   * Poll until `onAnswer` returns true, also after lost answers; a new call ends the previous one.
+   * isCancelled, argument of `onAnswer`: whether a new call has ended this one.
    */
   follow: <T>(
-    ask: () => Promise<T>,
-    take: (found: T, isLeft: () => boolean) => boolean | Promise<boolean>,
-  ) => Promise<Ending>;
-  leave: () => void;
+    query: () => Promise<T>,
+    onAnswer: (answer: T, isCancelled: () => boolean) => boolean | Promise<boolean>,
+  ) => Promise<PollEnd>;
+  stop: () => void;
 }
 
-/** tell: why no answer came, or a refusal; null once one has come after all. */
-export function polling(onError: (error: unknown) => void): Poll {
+/** onError: receives the reason of a lost answer or a rejection; null after the next answer. */
+export function createPoll(onError: (error: unknown) => void): Poll {
   let round = 0;
   return {
-    follow: async (ask, take) => {
+    follow: async (query, onAnswer) => {
       const number = ++round;
-      const isLeft = () => number !== round;
+      const isCancelled = () => number !== round;
       let isUnanswered = false;
       for (;;) {
         try {
-          const found = await ask();
-          if (isLeft()) return "left";
+          const answer = await query();
+          if (isCancelled()) return "left";
           if (isUnanswered) onError(null);
           isUnanswered = false;
-          const isEnded = await take(found, isLeft);
-          if (isLeft()) return "left";
+          const isEnded = await onAnswer(answer, isCancelled);
+          if (isCancelled()) return "left";
           if (isEnded) return "ended";
         } catch (error) {
-          if (isLeft()) return "left";
+          if (isCancelled()) return "left";
           onError(error);
           if (!(error instanceof UnansweredError)) return "refused";
           isUnanswered = true;
         }
         await pause();
-        if (isLeft()) return "left";
+        if (isCancelled()) return "left";
       }
     },
-    leave: () => {
+    stop: () => {
       round++;
     },
   };
 }
 
-type Read = <T>(ask: () => Promise<T>, take: (found: T) => void) => Promise<Ending>;
+type Reader = <T>(query: () => Promise<T>, onAnswer: (answer: T) => void) => Promise<PollEnd>;
 
-/** Reads what a page opens with: again until the server answers, or another read takes its place. */
-export function reading(onError: (error: unknown) => void) {
-  const poll = polling(onError);
-  const read: Read = (ask, take) =>
-    poll.follow(ask, (found) => {
-      take(found);
+/**
+ * Read the data of a page when it opens: retried until the server answers or another read starts.
+ */
+export function createReader(onError: (error: unknown) => void) {
+  const poll = createPoll(onError);
+  const read: Reader = (query, onAnswer) =>
+    poll.follow(query, (answer) => {
+      onAnswer(answer);
       return true;
     });
   return read;
 }
 
-/** For `take`, of what it asks for besides: null for a refusal; what is not answered is asked again. */
-export async function unlessRefused<T>(
-  asked: Promise<T>,
+/** For further requests in `onAnswer`: null for a rejection; a lost answer is retried. */
+export async function nullIfRejected<T>(
+  query: Promise<T>,
   onError: (error: unknown) => void,
 ): Promise<T | null> {
   try {
-    return await asked;
+    return await query;
   } catch (error) {
     if (error instanceof UnansweredError) throw error;
     onError(error);

@@ -1,4 +1,4 @@
-/** Long work on the server: how far it is, how fast it goes, how long it still takes. */
+/** Long-running job: progress, speed and remaining time. */
 import type { ComponentChildren } from "preact";
 import type { Job } from "../api/jobs";
 import { text } from "../text/en";
@@ -6,13 +6,13 @@ import { formatSeconds } from "../units";
 
 const words = text.jobs;
 
-export const isGoing = (job: Pick<Job, "status"> | null): boolean =>
+export const isJobRunning = (job: Pick<Job, "status"> | null): boolean =>
   job?.status === "waiting" || job?.status === "running";
 
-/** How it stands in a few words: nothing more of what is simply done. */
+/** Status in a few words; empty for a completed job. */
 export function describeJob(job: Job | null): string[] {
   if (job === null) return [];
-  const parts = isGoing(job) || job.status !== "done" ? [words.status[job.status]] : [];
+  const parts = isJobRunning(job) || job.status !== "done" ? [words.status[job.status]] : [];
   if (job.problem) parts.push(job.problem);
   if (job.status !== "running") return parts;
   parts.push(job.rate_per_s === null ? words.compiling : words.rate(job.rate_per_s));
@@ -22,7 +22,7 @@ export function describeJob(job: Job | null): string[] {
 
 interface JobProgressProps {
   job: Job | null;
-  /** How much is done, in words. */
+  /** Progress in words. */
   done: string;
   total: number;
   /** Label of the bar for screen readers. */
@@ -33,14 +33,14 @@ interface JobProgressProps {
 }
 
 export function JobProgress({ job, done, total, label, onCancel, children }: JobProgressProps) {
-  const isUnderWay = isGoing(job);
+  const hasStarted = isJobRunning(job);
   return (
     <div class="row grow">
       <span role="status" class="as-written">
         {[done, ...describeJob(job)].join(" · ")}
       </span>
-      {isUnderWay && <progress value={job?.done ?? 0} max={total} aria-label={label} />}
-      {isUnderWay ? (
+      {hasStarted && <progress value={job?.done ?? 0} max={total} aria-label={label} />}
+      {hasStarted ? (
         <button type="button" class="button" title={words.cancelHint} onClick={onCancel}>
           {words.cancel}
         </button>

@@ -1,44 +1,46 @@
-/** What jobs of one kind add to: read where it is looked at, and again when one of them has ended. */
+/**
+ * List of results that jobs of one kind extend: read when shown, and again when a job has ended.
+ */
 import { type Signal, signal } from "@preact/signals";
 import type { Job } from "../api/jobs";
-import { attempting, showErrorIn } from "../state/actions";
+import { showErrorIn, userAttempt } from "../state/actions";
 import { followJobs } from "./follow";
-import { reading } from "./poll";
+import { createReader } from "./poll";
 
 interface Results<T> {
   /** null until the server has answered. */
-  found: Signal<T | null>;
-  /** Why the last wish was refused. */
+  result: Signal<T | null>;
+  /** Reason why the last request was rejected. */
   problem: Signal<string>;
   job: Signal<Job | null>;
-  attempt: ReturnType<typeof attempting>;
+  attempt: ReturnType<typeof userAttempt>;
   read: () => Promise<void>;
-  /** Reads it, and takes up the job that is under way. */
+  /** Read the list, and follow the running job. */
   open: () => Promise<void>;
-  /** Follows a job that was begun here. */
-  follow: (begun: Job) => Promise<void>;
-  leave: () => void;
+  /** Follow a job that was started on this page. */
+  follow: (startedJob: Job) => Promise<void>;
+  unfollow: () => void;
   cancel: () => Promise<void>;
 }
 
-export function followResults<T>(kind: Job["kind"], ask: () => Promise<T>): Results<T> {
-  const found = signal<T | null>(null);
+export function followResults<T>(kind: Job["kind"], query: () => Promise<T>): Results<T> {
+  const result = signal<T | null>(null);
   const problem = signal("");
-  const attempt = attempting(problem);
-  const readFound = reading(showErrorIn(problem));
+  const attempt = userAttempt(problem);
+  const readResult = createReader(showErrorIn(problem));
   const read = async () => {
     problem.value = "";
-    await readFound(ask, (answer) => {
-      found.value = answer;
+    await readResult(query, (answer) => {
+      result.value = answer;
     });
   };
-  const { job, follow, resume, leave, cancel } = followJobs(
+  const { job, follow, resume, unfollow, cancel } = followJobs(
     kind,
     showErrorIn(problem),
     () => void read(),
   );
   return {
-    found,
+    result,
     problem,
     job,
     attempt,
@@ -48,7 +50,7 @@ export function followResults<T>(kind: Job["kind"], ask: () => Promise<T>): Resu
       await attempt(resume);
     },
     follow,
-    leave,
+    unfollow,
     cancel: async () => {
       await attempt(cancel);
     },

@@ -4,12 +4,12 @@ import { Swatch } from "./legend";
 import { listGroups, type MeasuredLane, readCell } from "./metricrows";
 
 interface AllMetricsProps {
-  /** The window that was measured. */
+  /** The measured window. */
   caption: ComponentChildren;
   lanes: readonly MeasuredLane[];
 }
 
-/** Every metric of a window, a column a lane: position, stiffness and effort. */
+/** Every metric of a window, one column per lane: position, stiffness and effort. */
 export function AllMetrics({ caption, lanes }: AllMetricsProps) {
   return (
     <table class="metrics all-metrics" aria-label={words.all}>

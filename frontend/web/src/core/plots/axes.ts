@@ -1,4 +1,4 @@
-/** The axes of every plot: limits, ticks and look. */
+/** The axes of every plot: limits, ticks and style. */
 
 import type uPlot from "uplot";
 import { plotsText as text } from "../text/plots";
@@ -16,8 +16,8 @@ export function niceStep(value: number): number {
 }
 
 /**
- * Round limits around [low, high], at least `span` wide, with a little air.
- * Without data (null, or no finite number) the limits are ±span/2.
+ * Round limits around [low, high] with a margin, at least `span` wide. Without data (null, or no
+ * finite number) the limits are ±span/2.
  */
 export function niceRange(low: number | null, high: number | null, span: number): [number, number] {
   if (low === null || high === null || !Number.isFinite(low) || !Number.isFinite(high)) {
@@ -32,7 +32,7 @@ export function niceRange(low: number | null, high: number | null, span: number)
   ];
 }
 
-/** Stretches the limits to a bound that the data come near to. */
+/** Extend the limits to a bound and its label if the data come near it. */
 export function includeBounds(
   low: number,
   high: number,
@@ -41,13 +41,13 @@ export function includeBounds(
   const reach = Math.max(Math.abs(low), Math.abs(high));
   const near = bounds.filter((bound) => reach >= bound * 0.85);
   if (near.length === 0) return [low, high];
-  const outermost = Math.max(...near) * 1.08;
+  const outermost = Math.max(...near) * 1.25;
   return [Math.min(low, -outermost), Math.max(high, outermost)];
 }
 
-// Where the numbers of an axis stand, and how they are written.
+// Positions and format of the numbers of an axis.
 
-/** Round places on an axis, at most about `most`. */
+/** Round tick values, at most about `most`. */
 export function placeTicks({ from, to }: Span, most: number): number[] {
   const step = niceStep((to - from) / most);
   const first = Math.ceil(from / step - 1e-9);
@@ -68,16 +68,16 @@ export function formatTicks(splits: readonly number[]): string[] {
   return splits.map((value) => formatNumber(Number(value.toFixed(decimals)), 12, decimals));
 }
 
-/** Steps of a time axis, s. */
+/** Possible steps of a time axis, s. */
 const TIME_STEPS_S = [0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20];
 const LARGEST_STEP_S = 20;
-/** No digit of the font is wider. */
+/** The widest digit of the font. */
 const DIGIT_PX = 7;
 const BETWEEN_WORDS_PX = 16;
 const MIN_BETWEEN_PX = 64;
 const MIN_GAP_PX = 6;
 
-/** The step of a time axis so wide, CSS pixels, on which its numbers have room next to each other. */
+/** Smallest step of a time axis at which its numbers do not overlap; width in CSS pixels. */
 export function timeStep({ from, to }: Span, width: number): number {
   const hasRoom = (step: number) => {
     const last = Math.floor(to / step);
@@ -89,8 +89,8 @@ export function timeStep({ from, to }: Span, width: number): number {
 }
 
 /**
- * Where words about `x` begin that stay on an axis from 0 to `width`; null where they would come
- * too near to the next ones, `step` away.
+ * Left edge of a text around `x` that stays within an axis from 0 to `width`; null if it would
+ * overlap the neighbours at distance `step`.
  */
 export function placeWords(x: number, words: number, width: number, step: number): number | null {
   const left = Math.max(0, Math.min(x - words / 2, width - words));
@@ -98,9 +98,11 @@ export function placeWords(x: number, words: number, width: number, step: number
   return shift + words + MIN_GAP_PX > step ? null : left;
 }
 
-// The axes of every plot look the same, and stand at the same place.
+// The axes of every plot have the same style and position.
 
-/** Room left and right of the curves, CSS pixels; also the place of everything laid over the plots. */
+/**
+ * Margins left and right of the curves, CSS pixels; also used by everything drawn over the plots.
+ */
 const LEFT_PX = 50;
 export const RIGHT_PX = 10;
 export const FONT = "11px system-ui, sans-serif";
@@ -114,14 +116,14 @@ const plainAxis = (size: number): uPlot.Axis => ({
   gap: 4,
 });
 
-/** The upright axis of a plot. */
+/** The vertical axis of a plot. */
 export const valueAxis = (): uPlot.Axis => ({
   ...plainAxis(LEFT_PX),
   space: 18,
   values: (_, splits) => formatTicks(splits),
 });
 
-/** Grid lines only: the numbers stand once below all plots. */
+/** Grid lines only: one row of numbers below all plots. */
 export const timeGrid = (): uPlot.Axis => ({
   ...plainAxis(0),
   space: 1,
@@ -129,7 +131,7 @@ export const timeGrid = (): uPlot.Axis => ({
   values: (_, splits) => splits.map(() => ""),
 });
 
-/** Numbers of a time, with their unit; none where there is no room for them. */
+/** Time labels with unit; empty if there is no space. */
 export const timeAxis = (size: number, tick: (timeS: number) => string): uPlot.Axis => ({
   ...plainAxis(size),
   space: 70,
@@ -139,14 +141,14 @@ export const timeAxis = (size: number, tick: (timeS: number) => string): uPlot.A
 interface Scale {
   label?: string;
   isLog?: boolean;
-  /** In place of numbers: of 0, 1, 2, … */
+  /** Names instead of the numbers 0, 1, 2, … */
   labels?: readonly string[] | null;
 }
 
 const writeDecade = (value: number | null): string =>
   value === null ? "" : String(Number(value.toPrecision(3)));
 
-/** An axis of any quantity, below a plot or left of it. */
+/** An axis of any quantity, below a plot or to its left. */
 export function otherAxis(way: "x" | "y", { label, isLog, labels }: Scale = {}): uPlot.Axis {
   return {
     ...plainAxis(way === "x" ? 26 : LEFT_PX),

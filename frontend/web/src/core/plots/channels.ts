@@ -1,28 +1,28 @@
-/** The server's channels as plots show them: unit, scale, line style, and which belong together. */
+/** The server's channels in plots: unit, scale, line style, and related channels. */
 import type { SessionState, StreamedName } from "../api/types";
 import type { DerivedName } from "../stream/ring";
 import { plotsText as text } from "../text/plots";
 import { DEGREES_PER_RADIAN } from "../units";
 import type { Bound, PlotColour, Trace } from "./definitions";
 
-/** Every channel of the library, and what the page derives of them. */
+/** Every channel of the library, and those that the page derives. */
 export type ChannelName = Exclude<StreamedName, "time_s"> | DerivedName;
 
 interface ChannelLook {
-  /** On screen. */
+  /** Unit on screen. */
   unit: string;
-  /** From SI to the unit on screen. */
+  /** Factor from SI to the unit on screen. */
   factor: number;
-  /** The axis never shows less than this, in the unit on screen. */
+  /** Minimum range of the axis, in the unit on screen. */
   span: number;
   colour: PlotColour;
-  /** The same in every lane. */
+  /** Whether all lanes have the same values. */
   isReference?: true;
-  /** What the channel of this name estimates. */
+  /** The channel that this one estimates. */
   truthOf?: ChannelName;
-  /** ± this is how far the channel of this name may go. */
+  /** This channel is the limit (±) of the channel of this name. */
   limitOf?: ChannelName;
-  /** A fixed limit, ±, in SI. */
+  /** Fixed limit (±), SI. */
   bound?: (state: SessionState) => number;
 }
 
@@ -42,6 +42,16 @@ const stiffness = (colour: PlotColour, span = 2): ChannelLook => ({
   span,
   colour,
 });
+
+/** The largest |u1| or |u2|, N·m; motors that pull against each other add their limits. */
+export function largestTorque(
+  { actuator, configuration }: SessionState,
+  motor: "torque1_nm" | "torque2_nm",
+): number {
+  const { torque1_nm, torque2_nm } = configuration.limits;
+  return actuator.antagonistic ? torque1_nm + torque2_nm : configuration.limits[motor];
+}
+
 const torque = (colour: PlotColour): ChannelLook => ({ unit: "N·m", factor: 1, span: 1, colour });
 
 export const CHANNELS: Readonly<Record<ChannelName, ChannelLook>> = {
@@ -66,11 +76,11 @@ export const CHANNELS: Readonly<Record<ChannelName, ChannelLook>> = {
   stiffness_residual_nm_per_rad: stiffness("purple", 0.004),
   torque1_nm: {
     ...torque("blue"),
-    bound: ({ configuration: { limits } }) => limits.torque1_nm,
+    bound: (state) => largestTorque(state, "torque1_nm"),
   },
   torque2_nm: {
     ...torque("orange"),
-    bound: ({ configuration: { limits } }) => limits.torque2_nm,
+    bound: (state) => largestTorque(state, "torque2_nm"),
   },
   estimate_link_nm: torque("vermilion"),
   estimate_motor1_nm: torque("blue"),
@@ -94,14 +104,14 @@ export const CHANNELS_BY_UNIT = UNITS.map((unit) => ({
   channels: CHANNEL_NAMES.filter((name) => CHANNELS[name].unit === unit),
 }));
 
-/** The one unit of a plot's channels; "" where it has none. */
+/** The common unit of a plot's channels; "" if it has none. */
 export const unitOf = (channels: readonly ChannelName[]): string =>
   channels[0] === undefined ? "" : CHANNELS[channels[0]].unit;
 
 export const spanOf = (channels: readonly ChannelName[]): number =>
   Math.max(...channels.map((name) => CHANNELS[name].span));
 
-// The plots that the lab knows.
+// The predefined plots.
 
 const EVERY_PRESET = {
   position: ["position_rad", "position_reference_rad"],
@@ -118,28 +128,39 @@ const EVERY_PRESET = {
     "disturbance_motor2_nm",
   ],
   deflection: ["deflection_rad", "deflection_limit_rad"],
-  /** Across and up; at first ė over e. */
+  /** Horizontal and vertical channel; initially ė over e. */
   phase: ["position_error_rad", "velocity_error_rad_per_s"],
 } as const satisfies Record<string, readonly ChannelName[]>;
 
 export type PresetName = keyof typeof EVERY_PRESET;
 export const PRESETS: Readonly<Record<PresetName, readonly ChannelName[]>> = EVERY_PRESET;
-// Fixed limits of what a plot shows, as the session has them now.
+// Fixed limits of a plot's channels in the present session.
 
-/** One for each channel with a limit; in its curve's colour where there is one lane. */
+/**
+ * One limit for each channel that has one, and one for channels with the same limit; in the color
+ * of its curve if there is one lane.
+ */
 export function boundsOf(traces: readonly Trace[], state: SessionState | null): Bound[] {
   if (state === null) return [];
-  const isAlone = traces.every((trace) => trace.lane === 1);
-  const limits = new Map<string, Bound>();
+  const isAlone = new Set(traces.map(({ lane }) => lane)).size <= 1;
+  const limits = new Map<number, { names: Set<string>; colour: Bound["colour"] }>();
   for (const { channel, colour } of traces) {
     const name = channel as ChannelName;
-    const value = CHANNELS[name].bound?.(state);
-    if (value === undefined || limits.has(channel)) continue;
-    limits.set(channel, {
-      label: text.plots.limit(text.channelLabels[name]),
-      value: value * CHANNELS[name].factor,
-      colour: isAlone ? colour : "reference",
-    });
+    const bound = CHANNELS[name].bound?.(state);
+    if (bound === undefined) continue;
+    const value = bound * CHANNELS[name].factor;
+    const label = text.channelLabels[name];
+    const same = limits.get(value);
+    if (same === undefined) {
+      limits.set(value, { names: new Set([label]), colour: isAlone ? colour : "reference" });
+    } else if (!same.names.has(label)) {
+      same.names.add(label);
+      same.colour = "reference";
+    }
   }
-  return [...limits.values()];
+  return [...limits].map(([value, { names, colour }]) => ({
+    label: text.plots.limit([...names].join(", ")),
+    value,
+    colour,
+  }));
 }

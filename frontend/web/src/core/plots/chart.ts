@@ -1,4 +1,4 @@
-/** One plot over time: uPlot has the scales, the axes and the grid; the strokes are a layer on it. */
+/** One plot over time: uPlot draws scales, axes and grid; a layer on top draws the curves. */
 import uPlot from "uplot";
 import { session } from "../state/session";
 import { includeBounds, niceRange, RIGHT_PX, timeGrid, valueAxis } from "./axes";
@@ -21,7 +21,7 @@ export class Chart {
   #shown: readonly Curve[];
   #bounds: readonly Bound[] = [];
   #perBucketS = 0;
-  /** Source of the curves: a plot that redraws on its own gets no newer samples. */
+  /** Source of the curves: a plot that redraws on its own receives no newer samples. */
   #taken: Pick<Frame, "ring" | "span" | "newest"> | null = null;
 
   constructor(
@@ -69,7 +69,7 @@ export class Chart {
     });
   }
 
-  /** Hides the curves of these keys, and those that follow them. */
+  /** Hide the curves of these keys, and those that belong to them. */
   hide(hidden: ReadonlySet<string>): void {
     this.#shown = this.#curves.filter(({ trace: { key, follows } }) => !hidden.has(follows ?? key));
   }

@@ -20,7 +20,9 @@ interface ChartBoxProps {
   hidden: ReadonlySignal<ReadonlySet<string>>;
 }
 
-/** A chart in its host: created again for other curves, drawn by the clock of all plots. */
+/**
+ * A chart in its host element: created again if the curves change, drawn by the clock of all plots.
+ */
 export function ChartBox({ class: look, make, setup, traces, hidden }: ChartBoxProps) {
   const host = useRef<HTMLDivElement>(null);
   useEffect(() => {
@@ -30,14 +32,14 @@ export function ChartBox({ class: look, make, setup, traces, hidden }: ChartBoxP
     const drawing = addDrawing(() => chart.draw());
     const stopHiding = effect(() => {
       chart.hide(hidden.value);
-      drawing.renew();
+      drawing.redraw();
     });
     const resizing = new ResizeObserver(() => {
       fillHost(chart.plot, element);
-      drawing.renew();
+      drawing.redraw();
     });
     const seeing = new IntersectionObserver((entries) =>
-      drawing.see(entries.at(-1)?.isIntersecting ?? true),
+      drawing.setVisible(entries.at(-1)?.isIntersecting ?? true),
     );
     resizing.observe(element);
     seeing.observe(element);

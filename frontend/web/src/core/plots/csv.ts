@@ -1,9 +1,9 @@
 /**
- * The window as CSV, as the server writes runs: "<name>.<channel> [unit]", in SI, every sample. A
- * column has the values of one controller, and none where it was not in control. A
- * gap is two rows without values, at its first and at its last sample.
+ * The window as CSV in the server's format of runs: "<name>.<channel> [unit]", SI, every sample. A
+ * column has the values of one controller, and is empty while another was in control. A gap is two
+ * rows without values, at its first and at its last sample.
  */
-import type { Cast } from "../state/lanes";
+import type { LaneSegments } from "../state/lanes";
 import type { SampleRing } from "../stream/ring";
 import { text } from "../text/en";
 import { CHANNELS, type ChannelName } from "./channels";
@@ -16,10 +16,10 @@ interface CsvColumn {
   pieces: readonly Pick<Trace, "lane" | "from" | "to">[];
 }
 
-/** Of every controller whose samples are in the span, and once what all lanes have in common. */
+/** The channels of every controller in the span, and once those that all lanes have in common. */
 export function columnsOf(
   channels: readonly ChannelName[],
-  cast: Cast,
+  cast: LaneSegments,
   { from, to }: Span,
 ): CsvColumn[] {
   const byController = new Map<number, Omit<CsvColumn, "channel">>();
@@ -38,7 +38,7 @@ export function columnsOf(
   );
 }
 
-/** A name ends in its unit; this is how the unit is written. */
+/** The name ends in the unit; format of the unit. */
 const SI_UNITS: Readonly<Record<string, string>> = { deg: "rad", "deg/s": "rad/s" };
 
 function siUnit(channel: ChannelName): string {
@@ -46,7 +46,7 @@ function siUnit(channel: ChannelName): string {
   return SI_UNITS[unit] ?? unit;
 }
 
-/** A single-precision value in as few digits as give it back; nothing where there is none. */
+/** Shortest decimal that gives the same single-precision value; empty if there is none. */
 const written = (value: number): string =>
   Number.isFinite(value) ? String(Number(value.toPrecision(9))) : "";
 
@@ -63,7 +63,11 @@ export function writeCsv(
 ): string {
   const header = columns.map(({ channel, name }) => `"${name}.${channel} [${siUnit(channel)}]"`);
   const rows = [`"time_s [s]",${header.join(",")}`];
-  for (let index = ring.firstAt(from); index < ring.length && ring.timeAt(index) <= to; index++) {
+  for (
+    let index = ring.lowerBound(from);
+    index < ring.length && ring.timeAt(index) <= to;
+    index++
+  ) {
     const values = columns.map((column) => written(valueAt(ring, column, index)));
     rows.push(`${Number(ring.timeAt(index).toFixed(6))},${values.join(",")}`);
   }

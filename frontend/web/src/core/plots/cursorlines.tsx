@@ -2,7 +2,7 @@ import type { RefObject } from "preact";
 import { text } from "../text/en";
 import { CURSOR_NAMES, type CursorName, cursors, moveCursor, stepCursor } from "./cursors";
 import { shareAt } from "./gestures";
-import { held } from "./span";
+import { frozen } from "./span";
 
 const LARGE_STEP = 20;
 
@@ -27,7 +27,7 @@ function useDrag(name: CursorName, box: RefObject<HTMLElement | null>) {
       event.stopPropagation();
     },
     onPointerMove: (event: PointerEvent) => {
-      const span = held.peek();
+      const span = frozen.peek();
       const element = event.currentTarget as Element;
       if (!element.hasPointerCapture(event.pointerId) || box.current === null || !span) return;
       const share = Math.min(1, Math.max(0, shareAt(box.current, event.clientX)));
@@ -37,14 +37,14 @@ function useDrag(name: CursorName, box: RefObject<HTMLElement | null>) {
 }
 
 function usePlace(name: CursorName): { share: number; time: number } | null {
-  const span = held.value;
+  const span = frozen.value;
   const time = cursors.value?.[name];
   if (span === null || time === undefined) return null;
   const share = (time - span.from) / (span.to - span.from);
   return { share, time };
 }
 
-/** The line of a cursor over all plots; it is dragged anywhere. */
+/** The line of a cursor over all plots; it can be dragged at any height. */
 function Line({ name, box }: CursorProps) {
   const drag = useDrag(name, box);
   const place = usePlace(name);
@@ -54,11 +54,14 @@ function Line({ name, box }: CursorProps) {
   );
 }
 
-/** The name of a cursor at its foot, which takes the keys. Beyond the axis it waits at its end. */
+/**
+ * The label at the foot of a cursor, which has the keyboard focus. Outside the axis it is shown at
+ * the axis' end.
+ */
 function Handle({ name, box }: CursorProps) {
   const drag = useDrag(name, box);
   const place = usePlace(name);
-  const ring = held.value?.ring;
+  const ring = frozen.value?.ring;
   if (place === null || ring === undefined) return null;
   const share = Math.min(1, Math.max(0, place.share));
   return (

@@ -1,18 +1,18 @@
-/** Two cursors, each on a sample of what is held; they are there only while the plots stand still. */
+/** Two cursors, each on a stored sample; available only while the plots are frozen. */
 import { computed, effect, signal } from "@preact/signals";
-import { goLive, held, hold, isHeld } from "./span";
+import { freeze, frozen, goLive, isFrozen } from "./span";
 
 export type CursorName = "a" | "b";
 export const CURSOR_NAMES: readonly CursorName[] = ["a", "b"];
-const AT_FIRST: Readonly<Record<CursorName, number>> = { a: 0.35, b: 0.65 };
+const INITIAL_SHARES: Readonly<Record<CursorName, number>> = { a: 0.35, b: 0.65 };
 
-/** Their times, s; null where they are off. */
+/** Times of the cursors, s; null while they are off. */
 export const cursors = signal<Readonly<Record<CursorName, number>> | null>(null);
 export const areCursorsOn = computed(() => cursors.value !== null);
 
-/** The nearest sample's time. */
+/** Time of the nearest sample. */
 function snap(timeS: number): number {
-  const ring = held.peek()?.ring;
+  const ring = frozen.peek()?.ring;
   return ring === undefined ? timeS : ring.timeAt(ring.nearestTo(timeS));
 }
 
@@ -21,9 +21,9 @@ export function moveCursor(name: CursorName, timeS: number): void {
   if (times !== null) cursors.value = { ...times, [name]: snap(timeS) };
 }
 
-/** Moves a cursor by so many samples. */
+/** Move a cursor by a number of samples. */
 export function stepCursor(name: CursorName, samples: number): void {
-  const ring = held.peek()?.ring;
+  const ring = frozen.peek()?.ring;
   const times = cursors.peek();
   if (ring === undefined || times === null) return;
   const index = ring.nearestTo(times[name]) + samples;
@@ -36,26 +36,27 @@ export function toggleCursors(): void {
     cursors.value = null;
     return;
   }
-  hold();
-  const span = held.peek();
+  freeze();
+  const span = frozen.peek();
   if (span === null || span.ring.length === 0) {
     goLive();
     return;
   }
-  const place = (name: CursorName) => snap(span.from + AT_FIRST[name] * (span.to - span.from));
-  cursors.value = { a: place("a"), b: place("b") };
+  const samplePosition = (name: CursorName) =>
+    snap(span.from + INITIAL_SHARES[name] * (span.to - span.from));
+  cursors.value = { a: samplePosition("a"), b: samplePosition("b") };
 }
 
-/** The indices of their samples in what is held; null where they are off. */
+/** Indices of their samples in the ring; null while they are off. */
 export const cursorSamples = computed<readonly [number, number] | null>(() => {
-  const ring = held.value?.ring;
+  const ring = frozen.value?.ring;
   const times = cursors.value;
   if (ring === undefined || times === null) return null;
   return [ring.nearestTo(times.a), ring.nearestTo(times.b)];
 });
 
-/** They go when the plots go live. */
+/** Remove the cursors when the plots go live. */
 export const releaseCursors = (): (() => void) =>
   effect(() => {
-    if (!isHeld.value) cursors.value = null;
+    if (!isFrozen.value) cursors.value = null;
   });

@@ -1,4 +1,4 @@
-/** Curves: their points of the span shown, their strokes and their signs. */
+/** Curves: the points of the visible span, strokes and markers. */
 import uPlot from "uplot";
 import type { SampleRing } from "../stream/ring";
 import { decimate, emptyPoints, type Points, samplesPerBucket } from "./decimation";
@@ -6,7 +6,7 @@ import { type PlotSign, samplesOf, type Trace } from "./definitions";
 import { palette } from "./linestyles";
 import type { Span } from "./spans";
 
-/** From time and value to the pixels of a canvas. */
+/** Map time and value to the pixels of a canvas. */
 export interface Place {
   x(value: number): number;
   y(value: number): number;
@@ -17,19 +17,22 @@ const BETWEEN_SIGNS_PX = 72;
 
 export class Curve {
   readonly points: Points = emptyPoints();
-  /** A point and the length of the curve up to it, so that dashes stay where they are. */
+  /** A point and the length of the curve up to it, which keeps the dash pattern in place. */
   #anchor = { time: Number.NaN, length: 0 };
 
   constructor(readonly trace: Trace) {}
 
-  /** Takes the samples in the span, and one beyond each end; returns how many share a bucket. */
+  /**
+   * Take the samples in the span, and one beyond each end; returns the number of samples per
+   * bucket.
+   */
   fill(ring: SampleRing, { from, to }: Span, pixels: number): number {
     const { channel, lane, factor } = this.trace;
     const { first, end } = samplesOf(
       ring,
       this.trace,
-      ring.firstAt(from) - 1,
-      ring.firstAt(to) + 2,
+      ring.lowerBound(from) - 1,
+      ring.lowerBound(to) + 2,
     );
     const segment = ring.segment(channel, lane, first, end);
     this.points.count = 0;
@@ -39,12 +42,12 @@ export class Curve {
     return perBucket;
   }
 
-  /** The dash pattern restarts. */
+  /** Restart the dash pattern. */
   forget(): void {
     this.#anchor = { time: Number.NaN, length: 0 };
   }
 
-  /** Strokes the curve from the last point left of `fromX` on. */
+  /** Draw the curve from the last point left of `fromX`. */
   stroke(context: CanvasRenderingContext2D, place: Place, fromX: number): void {
     const { dash, width, colour } = this.trace;
     const ratio = uPlot.pxRatio;
@@ -72,7 +75,7 @@ export class Curve {
     return index;
   }
 
-  /** Length of the curve up to a point, counted on from the anchor, which moves there. */
+  /** Length of the curve up to a point, measured from the anchor, which moves there. */
   #lengthAt(index: number, place: Place): number {
     const { x, y } = this.points;
     let at = index;
@@ -90,7 +93,7 @@ export class Curve {
   }
 }
 
-/** A path through the points from one of them on; no number lifts the pen. */
+/** Path through the points from one index on; NaN interrupts the path. */
 export function pathOf({ x: xs, y: ys, count }: Points, place: Place, begin = 0): Path2D {
   const path = new Path2D();
   let isDown = false;
@@ -107,7 +110,7 @@ export function pathOf({ x: xs, y: ys, count }: Points, place: Place, begin = 0)
   return path;
 }
 
-/** From the scales of a plot to its canvas. */
+/** Map from the scales of a plot to its canvas. */
 export function placeOn({ scales, bbox }: uPlot): Place {
   const { min: left = 0, max: right = 1 } = scales.x as uPlot.Scale;
   const { min: bottom = 0, max: top = 1 } = scales.y as uPlot.Scale;
@@ -133,7 +136,7 @@ export function addSign(path: Path2D, sign: PlotSign, x: number, y: number, size
   }
 }
 
-/** Signs along a curve at round times, so that they move with it; from a pixel on. */
+/** Markers along a curve at round times, so that they move with it; from a pixel on. */
 export function drawSigns(
   context: CanvasRenderingContext2D,
   { trace, points }: Curve,

@@ -1,7 +1,7 @@
-/** Fewer points with the same look: of each bucket of samples the smallest and the largest. */
+/** Fewer points with the same look: the smallest and the largest sample of each bucket. */
 import type { Segment } from "../stream/ring";
 
-/** Points to draw; no number (NaN) parts one piece of the curve from the next. */
+/** Points to draw; NaN separates two pieces of the curve. */
 export interface Points {
   x: Float64Array;
   y: Float64Array;
@@ -14,7 +14,7 @@ export const emptyPoints = (): Points => ({
   count: 0,
 });
 
-/** How many samples share a bucket so that there is at most one a pixel. */
+/** Number of samples per bucket, so that there is at most one bucket per pixel. */
 export const samplesPerBucket = (samples: number, pixels: number): number =>
   Math.max(1, Math.ceil(samples / Math.max(1, pixels)));
 
@@ -29,7 +29,7 @@ function put(points: Points, x: number, y: number): void {
   points.y[points.count++] = y;
 }
 
-/** The pen is lifted, once. */
+/** Insert one interruption of the path. */
 function lift(points: Points): void {
   const isLifted = points.count > 0 && Number.isNaN(points.y[points.count - 1]);
   if (!isLifted) put(points, Number.NaN, Number.NaN);
@@ -45,9 +45,9 @@ function copyAll({ time, values, start, count }: Segment, factor: number, out: P
 }
 
 /**
- * Writes the points of a segment, times `factor`, into `out`. Buckets begin at multiples of
- * `perBucket` of a sample's number, so that they do not change while time goes on. Real samples
- * only, in the order of time; a gap stays one, and ends a bucket.
+ * Write the points of a segment, times `factor`, into `out`. Buckets begin at multiples of
+ * `perBucket` of the sample number, so that they do not change while time advances. Only real
+ * samples are used, in the order of time; a gap stays a gap, and ends a bucket.
  */
 export function decimate(segment: Segment, perBucket: number, factor: number, out: Points): void {
   out.count = 0;
@@ -84,7 +84,7 @@ export function decimate(segment: Segment, perBucket: number, factor: number, ou
   }
 }
 
-/** Smallest and largest y, or x, of all points; null where there is none. */
+/** Smallest and largest y, or x, of all points; null without points. */
 export function extentOf(
   curves: Iterable<Points>,
   way: "x" | "y" = "y",

@@ -1,34 +1,38 @@
-/** What a plot is made of. */
+/** Types that define a plot. */
 import type { SampleRing } from "../stream/ring";
 
-/** Names of the colours in theme.css: --plot-<name>. */
+/** Names of the colors in theme.css: --plot-<name>. */
 export type PlotColour = "reference" | "blue" | "orange" | "green" | "vermilion" | "purple";
 
-/** How a curve is drawn. */
+/** Style of a curve. */
 export interface LineStyle {
   colour: PlotColour;
   dash: readonly number[];
   width: number;
 }
 
-/** Small signs along a curve that tell channels apart where colour and dash tell the lanes. */
+/**
+ * Small markers along a curve that distinguish channels if color and dash distinguish the lanes.
+ */
 export type PlotSign = "none" | "circle" | "square" | "triangle";
 
 export interface Trace extends LineStyle {
   key: string;
   channel: string;
-  /** 1, 2, … */
+  /** Number of the lane, from 1. */
   lane: number;
   label: string;
-  /** From the channel's SI unit to the one on screen; negative for the lower of two limits. */
+  /**
+   * Factor from the channel's SI unit to the unit on screen; negative for the lower of two limits.
+   */
   factor: number;
   sign: PlotSign;
-  /** The curve is there from this time on up to before the other, s. */
+  /** The curve exists from the first time up to before the second, s. */
   from: number;
   to: number;
-  /** Drawn and hidden together with the trace of this key, and covered by its legend. */
+  /** Shown and hidden together with the trace of this key, and part of its legend entry. */
   follows?: string;
-  /** It is another piece of the curve that it follows. */
+  /** Whether it is another piece of the curve that it belongs to. */
   continues?: true;
 }
 
@@ -39,41 +43,41 @@ export interface Bound {
   colour: PlotColour;
 }
 
-/** Several curves that are shown and hidden together: a quantity with its truth or its limit. */
+/** Curves that are shown and hidden together: a quantity with its true value or its limit. */
 export interface TraceGroup {
   key: string;
   label: string;
   traces: readonly Trace[];
 }
 
-/** A plot as it is drawn: of its groups the reader chooses some; the common curves are always there. */
+/** A plot as drawn: the user selects some of its groups; the common curves are always shown. */
 export interface PlotContent {
   groups: readonly TraceGroup[];
   common: readonly Trace[];
 }
 
-/** The legend's entry that a piece of a curve stands under. */
+/** Legend entry of a piece of a curve. */
 export const ownerOf = ({ key, follows, continues }: Trace): string =>
   continues ? (follows ?? key) : key;
 
-// The piece of a lane that a curve is: while the controller that it is named by was in control.
+// A curve of a lane exists while the controller after which it is named was in control.
 
 type Piece = Pick<Trace, "channel" | "lane" | "factor" | "from" | "to">;
 
 export const isWithin = ({ from, to }: Pick<Trace, "from" | "to">, timeS: number): boolean =>
   timeS >= from && timeS < to;
 
-/** Of the samples from `first` up to before `end` those of the piece. */
+/** Those samples from `first` up to before `end` that belong to the piece. */
 export function samplesOf(
   ring: SampleRing,
   { from, to }: Pick<Trace, "from" | "to">,
   first: number,
   end: number,
 ): { first: number; end: number } {
-  return { first: Math.max(first, ring.firstAt(from)), end: Math.min(end, ring.firstAt(to)) };
+  return { first: Math.max(first, ring.lowerBound(from)), end: Math.min(end, ring.lowerBound(to)) };
 }
 
-/** Value of a sample on screen; NaN outside the piece. */
+/** Value of a sample in the unit on screen; NaN outside the piece. */
 export const readPiece = (ring: SampleRing, piece: Piece, index: number): number =>
   isWithin(piece, ring.timeAt(index))
     ? ring.valueAt(piece.channel, index, piece.lane) * piece.factor

@@ -1,4 +1,7 @@
-/** Events of a run in its plots: vertical lines, full for a load, faint for others, and the sides of their names. */
+/**
+ * Events of a run in its plots: vertical lines, solid for a load, faint for others, and the sides
+ * of their labels.
+ */
 import type uPlot from "uplot";
 import { palette } from "./linestyles";
 
@@ -36,13 +39,13 @@ export function drawEventLines(plot: uPlot, events: readonly RunEvent[]): void {
   context.restore();
 }
 
-// Which of the marks above the plots have their names next to them, and on which side.
+// Selects the marks above the plots that get a label, and its side.
 
 export interface PlacedMark {
   x: number;
-  /** What its name takes, px. */
+  /** Width of its label, px. */
   room: number;
-  /** Who is named first where there is not room for all: the smallest. */
+  /** Priority of the label; the smallest number first. */
   rank: number;
 }
 
@@ -50,14 +53,14 @@ type Side = "right" | "left" | null;
 
 const HALF_MARK_PX = 6;
 const OFFSET_PX = 7;
-/** A name may begin so far beyond the left edge. */
+/** Distance by which a label may extend beyond the left edge. */
 const OVERHANG_PX = 50;
 
 /** A fault before a load, a load before any other change. */
 export const rankOf = (kind: string): number =>
   kind === "fault" ? 0 : kind === "load_on" || kind === "load_off" ? 1 : 2;
 
-/** marks: in the order of time; of equal rank the newest is named first. */
+/** marks: in the order of time; among equal priorities the newest gets its label first. */
 export function nameMarks(marks: readonly PlacedMark[], width: number): Side[] {
   const taken: [number, number][] = marks.map(({ x }) => [x - HALF_MARK_PX, x + HALF_MARK_PX]);
   const isFree = (from: number, to: number) =>

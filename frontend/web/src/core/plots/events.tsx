@@ -9,16 +9,16 @@ import { shownRing } from "./span";
 import { StepNumbers } from "./stepnumbers";
 
 const LABEL_GAP_PX = 6;
-/** A fault comes one tick after the last sample: it is in view with that. */
+/** A fault comes one tick after the last sample: the view must include it. */
 const PAST_THE_END = 0.005;
 
 interface MarkProps {
   event: SessionEvent;
-  /** When the next event comes, s. */
+  /** Time of the next event, s. */
   nextS: number;
 }
 
-/** One event: its name where there is room, and what it did, on hover or focus. */
+/** One event: its label if there is space, and its description on hover or focus. */
 function Mark({ event, nextS }: MarkProps) {
   const [isOpen, setOpen] = useState(false);
   useEffect(() => (isOpen ? closeOnEscape(() => setOpen(false)) : undefined), [isOpen]);
@@ -48,7 +48,7 @@ function Mark({ event, nextS }: MarkProps) {
   );
 }
 
-/** Puts the marks in their places, each with its name where it fits. */
+/** Place the marks, with labels where they fit. */
 function place(list: HTMLElement): void {
   const width = list.clientWidth;
   const seen = [...list.querySelectorAll<HTMLElement>(":scope > .mark")].filter((mark) => {
@@ -73,13 +73,13 @@ function measure(mark: HTMLElement): PlacedMark {
   };
 }
 
-/** The events whose samples are there to look at. */
-function keptEvents(): SessionEvent[] {
+/** The events whose samples are stored. */
+function eventsInView(): SessionEvent[] {
   const oldest = shownRing().oldestTime;
   return (session.value?.events ?? []).filter((event) => !(event.time_s < oldest));
 }
 
-/** A key for each event, also for two of one kind at one tick, as while a session is paused. */
+/** A key for each event, unique also for two events of one kind in one tick (paused session). */
 function keysOf(events: readonly SessionEvent[]): string[] {
   const seen = new Map<string, number>();
   return events.map(({ tick, kind, label }) => {
@@ -93,7 +93,7 @@ function keysOf(events: readonly SessionEvent[]): string[] {
 /** The events in view, above the plots. */
 export function EventMarks() {
   const list = useRef<HTMLUListElement>(null);
-  const events = keptEvents();
+  const events = eventsInView();
   const keys = keysOf(events);
   useEffect(() => {
     const put = () => list.current && place(list.current);

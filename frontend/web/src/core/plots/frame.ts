@@ -1,95 +1,96 @@
 /**
- * One clock for all plots, which runs while there is something to draw. Each frame draws those that
- * have waited longest: all of them where that is quick, else as many as keep each above ten drawings
- * a second.
+ * One clock for all plots, active while there is something to draw. Each frame draws the plots that
+ * have waited longest: all if that is fast enough, otherwise as many as give each plot more than
+ * ten frames per second.
  */
 import { effect } from "@preact/signals";
 import { windowS } from "../state/preferences";
-import { received, selectChannels, session } from "../state/session";
+import { receivedCount, selectChannels, session } from "../state/session";
 import { cursorSamples } from "./cursors";
+import { throttleViews } from "./framepacing";
 import { palette } from "./linestyles";
-import { paceViews } from "./pace";
 import { channelsInUse } from "./setups";
-import { held, isHeld, shownSpan } from "./span";
+import { frozen, isFrozen, shownSpan } from "./span";
 
-/** What is drawn whenever there is something new. */
+/** A part that is drawn when new data arrive. */
 interface Drawing {
-  /** Draws it again. */
-  renew(): void;
-  /** A plot scrolled out of view is not drawn. */
-  see(isSeen: boolean): void;
+  /** Draw it. */
+  redraw(): void;
+  /** A plot that is scrolled out of view is not drawn. */
+  setVisible(isVisible: boolean): void;
   remove(): void;
 }
 
-interface Drawn {
+interface DrawingState {
   draw(): void;
-  isSeen: boolean;
-  /** Of the content drawn. */
+  isVisible: boolean;
+  /** Version of the content drawn. */
   version: number;
 }
 
-const FASTEST_MS = 1000 / 30;
-const SLOWEST_MS = 75;
-const QUICK_MS = 6;
-/** Weight of the newest frame in the running mean of their distance. */
-const NEWEST = 0.1;
-const LONGEST_FRAME_MS = 250;
+const MIN_INTERVAL_MS = 1000 / 30;
+const MAX_INTERVAL_MS = 75;
+const DRAW_BUDGET_MS = 6;
+/** Weight of the newest frame in the moving average of the frame time. */
+const AVERAGE_WEIGHT = 0.1;
+const MAX_FRAME_MS = 250;
 const NEVER = -1;
 
-/** What is drawn last stands last. */
-const drawings = new Set<Drawn>();
+/** The part drawn last is at the end. */
+const drawings = new Set<DrawingState>();
 const followers = new Set<() => void>();
 let version = 0;
 let versionAt = 0;
-let drawnCount = NEVER;
+let drawnReceivedCount = NEVER;
 let isStale = true;
-let isAsked = false;
-let frameMs = FASTEST_MS;
+let isFrameRequested = false;
+let frameMs = MIN_INTERVAL_MS;
 let frameAt = 0;
 
-/** Has it drawn, now and whenever there is something new. */
+/** Register a part; it is drawn now and when new data arrive. */
 export function addDrawing(draw: () => void): Drawing {
-  const drawn: Drawn = { draw, isSeen: true, version: NEVER };
-  drawings.add(drawn);
-  askWhereDue();
+  const state: DrawingState = { draw, isVisible: true, version: NEVER };
+  drawings.add(state);
+  requestFrameIfDue();
   return {
-    renew: () => {
-      drawn.version = NEVER;
-      askWhereDue();
+    redraw: () => {
+      state.version = NEVER;
+      requestFrameIfDue();
     },
-    see: (isSeen) => {
-      drawn.isSeen = isSeen;
-      askWhereDue();
+    setVisible: (isVisible) => {
+      state.isVisible = isVisible;
+      requestFrameIfDue();
     },
-    remove: () => drawings.delete(drawn),
+    remove: () => drawings.delete(state),
   };
 }
 
-/** Calls it in every frame that shows another span or other samples. */
+/** Call it in every frame that shows another span or other samples. */
 export function onFrame(follower: () => void): () => void {
   followers.add(follower);
   isStale = true;
-  askWhereDue();
+  requestFrameIfDue();
   return () => followers.delete(follower);
 }
 
-const isNew = (): boolean => isStale || (!isHeld.peek() && received.peek() !== drawnCount);
+const hasNewSamples = (): boolean =>
+  isStale || (!isFrozen.peek() && receivedCount.peek() !== drawnReceivedCount);
 
-const listWaiting = (): Drawn[] =>
-  [...drawings].filter((one) => one.version !== version && one.isSeen);
+const listWaiting = (): DrawingState[] =>
+  [...drawings].filter((drawing) => drawing.version !== version && drawing.isVisible);
 
-/** The only place that asks for a frame: after all that may have made one due, the last one too. */
-function askWhereDue(): void {
+/** Request a frame; the only caller, so that all changes of one task share a frame. */
+function requestFrameIfDue(): void {
   const isFollowed = drawings.size + followers.size > 0;
-  if (isAsked || !((isFollowed && isNew()) || listWaiting().length > 0)) return;
-  isAsked = true;
+  if (isFrameRequested || !((isFollowed && hasNewSamples()) || listWaiting().length > 0)) return;
+  isFrameRequested = true;
   requestAnimationFrame(tick);
 }
 
-function noticeNewSamples(now: number): boolean {
-  if (!isNew() || (!isStale && now - versionAt < FASTEST_MS - 2)) return false;
+function updateVersion(now: number): boolean {
+  if (!hasNewSamples() || (!isStale && now - versionAt < MIN_INTERVAL_MS - 2)) return false;
   isStale = false;
-  drawnCount = received.peek();
+  drawnReceivedCount = receivedCount.peek();
   versionAt = now;
   version++;
   return true;
@@ -97,39 +98,39 @@ function noticeNewSamples(now: number): boolean {
 
 function drawWaiting(): void {
   const waiting = listWaiting();
-  const leastMany = Math.ceil((waiting.length * frameMs) / SLOWEST_MS);
-  const begun = performance.now();
-  for (const [index, one] of waiting.entries()) {
-    if (index >= leastMany && performance.now() - begun > QUICK_MS) return;
-    drawings.delete(one);
-    drawings.add(one);
-    one.version = version;
-    one.draw();
+  const minCount = Math.ceil((waiting.length * frameMs) / MAX_INTERVAL_MS);
+  const startedAt = performance.now();
+  for (const [index, drawing] of waiting.entries()) {
+    if (index >= minCount && performance.now() - startedAt > DRAW_BUDGET_MS) return;
+    drawings.delete(drawing);
+    drawings.add(drawing);
+    drawing.version = version;
+    drawing.draw();
   }
 }
 
 function tick(now: number): void {
-  isAsked = false;
-  frameMs += NEWEST * (Math.min(LONGEST_FRAME_MS, now - frameAt) - frameMs);
+  isFrameRequested = false;
+  frameMs += AVERAGE_WEIGHT * (Math.min(MAX_FRAME_MS, now - frameAt) - frameMs);
   frameAt = now;
-  if (noticeNewSamples(now)) for (const follow of followers) follow();
+  if (updateVersion(now)) for (const follow of followers) follow();
   drawWaiting();
-  askWhereDue();
+  requestFrameIfDue();
 }
 
-/** From now on the stream carries what the plots need, and they are drawn. */
+/** Start: the stream carries the channels of the plots, and they are drawn. */
 export function startFrames(): void {
   channelsInUse.subscribe(selectChannels);
-  paceViews();
+  throttleViews();
   effect(() => {
-    void [windowS.value, palette.value, session.value, held.value, cursorSamples.value];
+    void [windowS.value, palette.value, session.value, frozen.value, cursorSamples.value];
     isStale = true;
-    askWhereDue();
+    requestFrameIfDue();
   });
-  received.subscribe(askWhereDue);
+  receivedCount.subscribe(requestFrameIfDue);
 }
 
-/** Where a time is on the axis, 0 to 1 of what is seen. */
+/** Position of a time on the axis, 0 to 1 of the visible span. */
 export function shareOf(timeS: number): number {
   const { from, to } = shownSpan();
   return (timeS - from) / (to - from);

@@ -1,6 +1,6 @@
 /** Wheel and pointer over the plots: zoom, move, go live, and the time under the pointer. */
 import { hoverShare } from "./hover";
-import { goLive, hold, pan, shownSpan, showSpan } from "./span";
+import { freeze, goLive, pan, shownSpan, showSpan } from "./span";
 import { type Span, zoomSpan } from "./spans";
 
 const PER_WHEEL_PX = 0.0016;
@@ -8,7 +8,7 @@ const PER_WHEEL_LINE_PX = 24;
 const DRAG_PX = 4;
 const OVER_CURVES = ".plot:not(.is-phase) .plot-canvas, .time-axis";
 
-/** Where on the axis a pointer is, 0 to 1; `box` is the room of the curves. */
+/** Position of a pointer on the axis, 0 to 1; `box` is the area of the curves. */
 export function shareAt(box: Element, clientX: number): number {
   const { left, width } = box.getBoundingClientRect();
   return (clientX - left) / Math.max(1, width);
@@ -17,7 +17,9 @@ export function shareAt(box: Element, clientX: number): number {
 const isOverCurves = (event: Event) =>
   event.target instanceof Element && event.target.closest(OVER_CURVES) !== null;
 
-/** @param box what lies exactly over the room of the curves */
+/**
+ * @param box an element that covers exactly the area of the curves
+ */
 export function listenToGestures(stage: HTMLElement, box: HTMLElement): () => void {
   let drag: { x: number; span: Span; isMoving: boolean } | null = null;
 
@@ -51,7 +53,7 @@ export function listenToGestures(stage: HTMLElement, box: HTMLElement): () => vo
     if (!drag.isMoving && Math.abs(by) < DRAG_PX) return;
     if (!drag.isMoving) {
       drag.isMoving = true;
-      hold();
+      freeze();
       stage.setPointerCapture(event.pointerId);
     }
     const { from, to } = drag.span;

@@ -5,10 +5,10 @@ import { text } from "../text/en";
 import { onFrame } from "./frame";
 import { shownRing, shownSpan } from "./span";
 
-/** Where the pointer is on the axis, 0 to 1; null where it is not over a plot. */
+/** Position of the pointer on the axis, 0 to 1; null if it is not over a plot. */
 export const hoverShare = signal<number | null>(null);
 
-/** The time under the pointer, s; null where it is not over a plot. */
+/** Time under the pointer, s; null if it is not over a plot. */
 function hoverTime(): number | null {
   const share = hoverShare.peek();
   if (share === null) return null;
@@ -16,14 +16,14 @@ function hoverTime(): number | null {
   return from + share * (to - from);
 }
 
-/** The sample that a reading is of: the one under the pointer, or the newest on screen; -1: none. */
+/** Index of the sample that is read: under the pointer, or the newest on screen; -1: none. */
 export function sampleRead(): number {
   const ring = shownRing();
   const time = hoverTime();
   return time === null ? ring.nearestTo(shownSpan().to) : ring.sampleAt(time);
 }
 
-/** The line under the pointer, over all plots, with its time, which goes on where the plots do. */
+/** The line under the pointer, over all plots, with its time, which advances with live plots. */
 export function HoverLine() {
   const line = useRef<HTMLDivElement>(null);
   const words = useRef<HTMLSpanElement>(null);

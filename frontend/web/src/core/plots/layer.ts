@@ -1,8 +1,8 @@
 /**
- * The strokes of a plot on a canvas of their own. While time goes on only what is new is stroked,
- * over what has left the plot: the canvas is a roll on which the plot's left edge moves, and each
- * pixel stays where it was stroked, for moving it again and again would blur it. Anything else draws
- * them all again.
+ * The curves of a plot on a separate canvas. While time advances, only new samples are drawn, over
+ * columns that have left the plot: the canvas is a ring buffer of columns with a moving left edge.
+ * Drawn pixels stay in place, because repeated moves would blur them. Any other change redraws
+ * everything.
  */
 import uPlot from "uplot";
 import type { SampleRing } from "../stream/ring";
@@ -10,7 +10,9 @@ import { type Curve, drawSigns, type Place } from "./curves";
 import { palette } from "./linestyles";
 import type { Span } from "./spans";
 
-/** Columns of the roll, from one up to before another; `shift` is from columns of the plot to them. */
+/**
+ * Columns of the canvas from one up to before another; `shift` maps columns of the plot to them.
+ */
 interface Piece {
   from: number;
   to: number;
@@ -18,8 +20,8 @@ interface Piece {
 }
 
 /**
- * Where the columns of a plot from `first` on are on a roll as wide as the plot, `start` being where
- * its column 0 is: up to the end of the roll, then on from its beginning.
+ * Columns of the canvas that show the columns of a plot from `first` on; `start` is the canvas
+ * column of the plot's column 0: up to the end of the canvas, then from its beginning.
  */
 export function piecesOf(start: number, first: number, width: number): Piece[] {
   const pieces = [
@@ -29,11 +31,11 @@ export function piecesOf(start: number, first: number, width: number): Piece[] {
   return pieces.filter((piece) => piece.from < piece.to);
 }
 
-/** Everything that the strokes depend on but time. */
+/** Everything except for time that the drawing depends on. */
 export interface Frame {
   ring: SampleRing;
   span: Span;
-  /** Time of the newest sample that the curves have. */
+  /** Time of the newest sample of the curves. */
   newest: number;
   min: number;
   max: number;
@@ -49,7 +51,7 @@ interface Drawn extends Frame {
   left: number;
 }
 
-/** What may still change left of the newest sample: the last buckets, and the width of a stroke. */
+/** Width that may still change left of the newest sample: the last buckets, and the line width. */
 const UNSETTLED_BUCKETS = 3;
 const STROKE_PX = 6;
 
@@ -73,10 +75,12 @@ export class StrokeLayer {
   readonly #canvas = document.createElement("canvas");
   readonly #context = this.#canvas.getContext("2d") as CanvasRenderingContext2D;
   #drawn: Drawn | null = null;
-  /** Which pixel since time 0 stands at the roll's beginning, as do those whole widths after it. */
+  /** Pixel since time 0 in the first column of the canvas, and at each multiple of its width. */
   #origin = 0;
 
-  /** @param perBucketS time between two points of a curve */
+  /**
+   * @param perBucketS time between two points of a curve
+   */
   draw(frame: Frame, perBucketS: number): void {
     const { span, min, max, width, height, shown } = frame;
     const perSecond = width / (span.to - span.from);
@@ -94,7 +98,7 @@ export class StrokeLayer {
       context.rect(piece.from, 0, piece.to - piece.from, this.#canvas.height);
       context.clip();
       context.translate(piece.shift, 0);
-      // The chosen controller, the first, is on top, and the references are below all.
+      // The first controller, which is selected, is on top, and the references are below all.
       for (const curve of [...shown].reverse()) {
         curve.stroke(context, place, from - STROKE_PX * uPlot.pxRatio);
         drawSigns(context, curve, place, from);
@@ -104,7 +108,7 @@ export class StrokeLayer {
     this.#drawn = { ...frame, look: palette.peek(), left };
   }
 
-  /** Puts what was drawn onto a plot, pixel by pixel. */
+  /** Copy the drawn pixels onto a plot. */
   paint(context: CanvasRenderingContext2D, x: number, y: number): void {
     if (this.#drawn === null) return;
     const { width, height } = this.#canvas;
@@ -123,7 +127,7 @@ export class StrokeLayer {
     return piecesOf((left - this.#origin) % width, first, width);
   }
 
-  /** Lets stay what stands; returns where the rest begins, in pixels of the plot. */
+  /** Keep the valid part; returns the pixel of the plot at which the rest begins. */
   #makeRoom(frame: Frame, left: number, place: Place, perBucketS: number): number {
     const [width, height] = [Math.round(frame.width), Math.round(frame.height)];
     const drawn = this.#drawn;

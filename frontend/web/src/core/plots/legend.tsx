@@ -33,7 +33,7 @@ interface LegendEntry extends LineStyle {
   key: string;
   label: string;
   sign?: PlotSign;
-  /** Stands behind the label. */
+  /** Content behind the label. */
   remark?: ComponentChildren;
 }
 
@@ -43,13 +43,13 @@ interface LegendProps {
   entries: readonly LegendEntry[];
   hidden: ReadonlySet<string>;
   onToggle: (key: string) => void;
-  /** The elements whose text the plot keeps up to date, by key; none: there are no values. */
+  /** The elements whose text the plot updates, by key; undefined: no values. */
   readings?: Map<string, HTMLElement>;
-  /** Whether an entry has one value; left out, each has. */
+  /** Whether an entry has one value; by default each has. */
   isRead?: (key: string) => boolean;
 }
 
-/** Which curves are hidden, and what hides one or shows it again. */
+/** The hidden curves, and the function that hides or shows one. */
 export function useHidden() {
   const hidden = useSignal<ReadonlySet<string>>(new Set());
   const toggle = (key: string) => {
@@ -60,7 +60,7 @@ export function useHidden() {
   return [hidden, toggle] as const;
 }
 
-/** One entry a curve with its value; pressing an entry hides the curve. */
+/** One entry per curve with its value; a click hides the curve. */
 export function Legend({ note, entries, hidden, onToggle, ...rest }: LegendProps) {
   const { class: look = "legend", readings, isRead = () => true } = rest;
   return (

@@ -1,4 +1,4 @@
-/** What is drawn behind and above the curves: bounds, and the samples under the cursors. */
+/** Marks behind and above the curves: bounds, and the samples under the cursors. */
 import type uPlot from "uplot";
 import type { SampleRing } from "../stream/ring";
 import { text } from "../text/en";
@@ -23,8 +23,8 @@ function strokeLine(
 }
 
 /**
- * Faint lines at ±value of each bound that is on the axis. A name is beyond its line, where the
- * curve that it limits does not go.
+ * Faint lines at ±value of each bound that is on the axis. A label is beyond its line, where the
+ * limited curve does not go.
  */
 export function drawBounds(plot: uPlot, bounds: readonly Bound[]): void {
   const { min, max } = plot.scales.y as uPlot.Scale;
@@ -45,8 +45,11 @@ export function drawBounds(plot: uPlot, bounds: readonly Bound[]): void {
       context.globalAlpha = 0.6;
       strokeLine(context, [bbox.left, y], [right, y]);
       context.globalAlpha = 1;
-      context.textBaseline = value > 0 ? "bottom" : "top";
-      context.fillText(bound.label, right - gap, y - Math.sign(value) * gap);
+      // Outside the limits, where no curve is, unless the plot is too low for it.
+      const room = value > 0 ? y - bbox.top : bbox.top + bbox.height - y;
+      const side = Math.sign(value) * (room > LABEL_PX * devicePixelRatio + gap ? 1 : -1);
+      context.textBaseline = side > 0 ? "bottom" : "top";
+      context.fillText(bound.label, right - gap, y - side * gap);
     }
   }
   context.restore();
@@ -80,9 +83,9 @@ export function drawCursorSamples(plot: uPlot, curves: readonly Curve[]): void {
   context.restore();
 }
 
-/** Where no curve has samples as old as those held: from when on there are some. */
+/** If no curve has samples as old as the ring: the time of its first sample. */
 export function drawBeginning(plot: uPlot, curves: readonly Curve[], ring: SampleRing): void {
-  const times = curves.map(({ trace }) => ring.beginningOf(trace.channel, trace.lane));
+  const times = curves.map(({ trace }) => ring.firstTimeOf(trace.channel, trace.lane));
   const begin = Math.min(...times.filter((time) => !Number.isNaN(time)));
   if (!(begin > ring.oldestTime) || begin === Number.POSITIVE_INFINITY) return;
   const { ctx: context, bbox } = plot;

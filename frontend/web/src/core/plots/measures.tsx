@@ -7,7 +7,7 @@ import { readPiece, samplesOf, type Trace } from "./definitions";
 import { Swatch } from "./legend";
 import { titleOf } from "./plot";
 import { type PlotSetup, setups } from "./setups";
-import { held, shownCast } from "./span";
+import { frozen, shownLaneSegments } from "./span";
 import { type Measures, measureBetween } from "./statistics";
 import { composeContent, tracesOf } from "./traces";
 
@@ -23,9 +23,9 @@ const HEADS: Readonly<Record<(typeof COLUMNS)[number], string>> = {
 
 const isTruth = ({ channel }: Trace) => CHANNELS[channel as ChannelName].truthOf !== undefined;
 
-/** Every curve of a plot but the other side of its limits; the truth of each lane has its name. */
+/** Every curve of a plot except for the opposite limits; true values are named after their lane. */
 function curvesOf({ channels }: PlotSetup): Trace[] {
-  const lanes = shownCast.value;
+  const lanes = shownLaneSegments.value;
   const content = composeContent(channels, lanes);
   const everything = new Set(content.groups.map((group) => group.key));
   return tracesOf(content, everything, lanes.length)
@@ -36,7 +36,7 @@ function curvesOf({ channels }: PlotSetup): Trace[] {
     });
 }
 
-/** Between the cursors, as far as the piece reaches; null where it does not. */
+/** Statistics between the cursors, within the piece; null outside it. */
 function measurePiece(ring: SampleRing, trace: Trace, [a, b]: RowsProps["indices"]) {
   const { first, end } = samplesOf(ring, trace, Math.min(a, b), Math.max(a, b) + 1);
   if (end <= first) return null;
@@ -52,7 +52,7 @@ interface RowsProps {
 }
 
 function Rows({ setup, indices }: RowsProps) {
-  const ring = held.value?.ring;
+  const ring = frozen.value?.ring;
   if (ring === undefined) return null;
   return (
     <tbody>
@@ -85,10 +85,10 @@ function Rows({ setup, indices }: RowsProps) {
   );
 }
 
-/** What lies between the cursors, curve by curve. */
+/** Statistics between the cursors, one row per curve. */
 export function MeasureTable() {
   const indices = cursorSamples.value;
-  const ring = held.value?.ring;
+  const ring = frozen.value?.ring;
   if (indices === null || ring === undefined) return null;
   const [a, b] = [ring.timeAt(indices[0]), ring.timeAt(indices[1])];
   const lapse = b - a;

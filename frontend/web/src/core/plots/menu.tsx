@@ -13,7 +13,7 @@ interface PlotMenuProps {
   hidden: ReadonlySet<string>;
 }
 
-/** The channels that may stand on one plot: those of its unit. */
+/** The channels that a plot may contain: those with its unit. */
 function Curves({ setup }: { setup: PlotSetup }) {
   const unit = unitOf(setup.channels);
   const channels = CHANNELS_BY_UNIT.find((one) => one.unit === unit)?.channels ?? [];
@@ -59,7 +59,7 @@ function Axes({ channels }: PlotSetup) {
   );
 }
 
-/** What can be done with one plot. */
+/** The commands of one plot. */
 export function PlotMenu({ setup, title, traces, hidden }: PlotMenuProps) {
   const shown = traces.filter(({ key, follows }) => !hidden.has(follows ?? key));
   return (

@@ -10,13 +10,13 @@ export interface MeasuredLane {
   key: string;
   look: LineStyle;
   name: string;
-  /** null where samples are no numbers. */
+  /** null if samples are missing. */
   metrics: Metrics | null;
-  /** Whether a load came on or was removed at the start of the window. */
+  /** Whether a load was added or removed at the start of the window. */
   isDisturbed: boolean;
 }
 
-/** A value in words and, of one that is not defined, why. */
+/** Formatted value; for an undefined metric the reason. */
 interface Shown {
   value: string;
   hint?: string;
@@ -33,13 +33,13 @@ const RECOVERY_SHARE = 0.02;
 /** A smaller stiffness error has no recovery time. */
 const UNMOVED_NM_PER_RAD = 0.01;
 
-/** The error in the end is beyond what counts as recovered: a load that grows later comes to that. */
+/** The final error is outside the recovery band, for example because a load grows later. */
 export const isLost = (steady: number | null, peak: number): boolean =>
   (steady ?? 0) > RECOVERY_SHARE * peak;
 
 const SMALLEST = 1e-6;
 
-/** A number that is not zero does not read as zero: a loop without effects leaves 10⁻¹⁵. */
+/** A non-zero number is never shown as zero: without effects the loop leaves 10⁻¹⁵. */
 const format = (value: number): string =>
   value !== 0 && Math.abs(value) < SMALLEST ? words.tiny : formatError(value);
 
@@ -52,7 +52,7 @@ const both = (first: number | null, second: number | null): Shown =>
     ? missing(reasons.moving)
     : { value: `${format(first)} / ${format(second)}` };
 
-/** What the metrics of position and stiffness have in common; convert: to the unit on screen. */
+/** Metrics that position and stiffness have in common; convert: to the unit on screen. */
 interface Output {
   unit: string;
   integralUnit: string;
@@ -108,7 +108,7 @@ function showRecovery(of: Output, metrics: Metrics, isDisturbed: boolean): Shown
   return number(seconds);
 }
 
-/** The rows of the errors, and those of a step where one of the lanes has a response to one. */
+/** The rows of the errors, and those of the step response if one of the lanes has one. */
 function listOutput(of: Output, lanes: readonly MeasuredLane[]): MetricRow[] {
   const inUnit = (read: (metrics: Metrics) => number) => (metrics: Metrics) =>
     number(of.convert(read(metrics)));
@@ -191,13 +191,13 @@ interface MetricGroup {
   rows: readonly MetricRow[];
 }
 
-/** The rows by what they are of. */
+/** The rows by group. */
 export const listGroups = (lanes: readonly MeasuredLane[]): MetricGroup[] => [
   { name: words.groups.position, remark: "", rows: listOutput(POSITION, lanes) },
   { name: words.groups.stiffness, remark: "", rows: listOutput(STIFFNESS, lanes) },
   { name: words.groups.effort, remark: words.both, rows: EFFORT },
 ];
 
-/** What a row shows of a lane. */
+/** Cell of a row for a lane. */
 export const readCell = (row: MetricRow, { metrics, isDisturbed }: MeasuredLane): Shown =>
   metrics === null ? missing(reasons.lane) : row.read(metrics, isDisturbed);

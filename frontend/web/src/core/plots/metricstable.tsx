@@ -5,7 +5,7 @@ import { Swatch } from "./legend";
 
 const { compare: words } = plotsText;
 
-/** Who was measured. */
+/** The measured controller. */
 interface MeasuredRow {
   key: string;
   look: LineStyle;
@@ -17,11 +17,11 @@ export interface MetricsColumn {
   title: ComponentChildren;
   hint?: string | undefined;
   class?: string;
-  /** A row's value in words. */
+  /** Text of a row's value. */
   cell: (row: number) => ComponentChildren;
   cellHint?: (row: number) => string | undefined;
-  /** The row that is marked as the best. */
-  best?: number;
+  /** The row that is marked as the best, or several rows. */
+  best?: number | readonly number[];
 }
 
 interface MetricsTableProps {
@@ -29,15 +29,15 @@ interface MetricsTableProps {
   label?: string;
   caption: ComponentChildren;
   captionHint?: string;
-  /** The head of the rows' names. */
+  /** Header of the column of row names. */
   corner: ComponentChildren;
-  /** What several columns have in common stands above them. */
+  /** Header that several columns share. */
   groups?: readonly { title: ComponentChildren; columns: number }[];
   rows: readonly MeasuredRow[];
   columns: readonly MetricsColumn[];
 }
 
-/** Numbers of errors, a row a lane. */
+/** Numbers of errors, one row per lane. */
 export function MetricsTable({ label, caption, captionHint, ...rest }: MetricsTableProps) {
   const { class: look, corner, groups, rows, columns } = rest;
   const cornerHead = (
@@ -88,7 +88,7 @@ export function MetricsTable({ label, caption, captionHint, ...rest }: MetricsTa
 }
 
 function Cell({ column, row }: { column: MetricsColumn; row: number }) {
-  const isBest = column.best === row;
+  const isBest = [column.best].flat().includes(row);
   const classes = [column.class, isBest && "is-best"].filter(Boolean).join(" ");
   return (
     <td class={classes || undefined} title={column.cellHint?.(row)}>

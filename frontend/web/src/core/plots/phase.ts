@@ -1,4 +1,4 @@
-/** The phase plane: one channel over another, a curve a lane, of the span that all plots show. */
+/** The phase plane: one channel over another, one curve per lane, in the span of all plots. */
 import uPlot from "uplot";
 import type { SampleRing } from "../stream/ring";
 import { niceRange, otherAxis, RIGHT_PX, valueAxis } from "./axes";
@@ -13,23 +13,23 @@ import { plotIn } from "./staticchart";
 
 const MARGIN_PX = 6;
 const MIN_STEP_PX = 2;
-/** Thin, for the loops of many periods lie close together. */
+/** Thin, because the loops of many periods are close together. */
 const STROKE_WIDTH = 1;
 const SIGN_PX = 4;
 
-/** Across and up. */
+/** Horizontal and vertical channel. */
 export type PhaseChannels = readonly [ChannelName, ChannelName];
 
 interface PhaseCurve {
-  /** Of the channel of the upright axis. */
+  /** Limits of the vertical channel. */
   trace: Trace;
   points: Points;
 }
 
-/** Every sample of the span shown, in the units on screen. */
+/** Every sample of the visible span, in the units on screen. */
 function takeSamples({ trace, points }: PhaseCurve, channels: PhaseChannels, ring: SampleRing) {
   const { from, to } = shownSpan();
-  const { first, end } = samplesOf(ring, trace, ring.firstAt(from), ring.firstAt(to) + 1);
+  const { first, end } = samplesOf(ring, trace, ring.lowerBound(from), ring.lowerBound(to) + 1);
   points.count = Math.max(0, Math.min(end, ring.length) - first);
   makeRoom(points, points.count);
   for (const [index, channel] of channels.entries()) {
@@ -38,7 +38,7 @@ function takeSamples({ trace, points }: PhaseCurve, channels: PhaseChannels, rin
   }
 }
 
-/** The curves' samples, and the limits of both axes. */
+/** The samples of the curves, and the limits of both axes. */
 export function takePhase(curves: readonly PhaseCurve[], channels: PhaseChannels) {
   for (const curve of curves) takeSamples(curve, channels, shownRing());
   const points = curves.map((curve) => curve.points);
@@ -48,18 +48,18 @@ export function takePhase(curves: readonly PhaseCurve[], channels: PhaseChannels
   return { x, y };
 }
 
-/** Leaves the points that a reader can tell from the one before. */
+/** Keep only points that are visibly different from the previous one. */
 function thin(points: Points, minX: number, minY: number): void {
   const { x, y, count } = points;
-  let kept = 0;
+  let keptCount = 0;
   for (let index = 0; index < count; index++) {
-    const across = Math.abs((x[index] as number) - (x[kept - 1] ?? Number.NaN));
-    const up = Math.abs((y[index] as number) - (y[kept - 1] ?? Number.NaN));
+    const across = Math.abs((x[index] as number) - (x[keptCount - 1] ?? Number.NaN));
+    const up = Math.abs((y[index] as number) - (y[keptCount - 1] ?? Number.NaN));
     if (across < minX && up < minY) continue;
-    x[kept] = x[index] as number;
-    y[kept++] = Number.isNaN(x[index]) ? Number.NaN : (y[index] as number);
+    x[keptCount] = x[index] as number;
+    y[keptCount++] = Number.isNaN(x[index]) ? Number.NaN : (y[index] as number);
   }
-  points.count = kept;
+  points.count = keptCount;
 }
 
 export class PhaseChart {
@@ -116,10 +116,10 @@ export class PhaseChart {
     context.restore();
   }
 
-  /** Where each lane is: now, or under the cursors. */
+  /** Position of each lane: now, or under the cursors. */
   #drawPlaces(): void {
     const ring = shownRing();
-    const newest = ring.firstAt(shownSpan().to + 1e-9) - 1;
+    const newest = ring.lowerBound(shownSpan().to + 1e-9) - 1;
     const to = placeOn(this.plot);
     for (const { trace } of this.#shown) {
       this.plot.ctx.fillStyle = palette.peek()[trace.colour];

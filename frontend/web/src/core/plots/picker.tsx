@@ -6,14 +6,14 @@ import { addOwnPlot, MAX_PLOTS, PRESET_NAMES, resetPlots, setups, togglePreset }
 
 interface ChannelChoiceProps {
   name: string;
-  /** Where none is chosen yet, what the list begins with. */
+  /** First entry of the list if none is selected. */
   hint?: string;
   value: ChannelName | "";
   disabled?: boolean;
   onChoose: (channel: ChannelName) => void;
 }
 
-/** One of all channels, by their units. */
+/** Select one of all channels, grouped by unit. */
 export function ChannelChoice({ name, hint, value, disabled, onChoose }: ChannelChoiceProps) {
   const id = useId();
   return (
@@ -43,7 +43,7 @@ export function ChannelChoice({ name, hint, value, disabled, onChoose }: Channel
   );
 }
 
-/** Which plots there are. */
+/** Select the plots. */
 export function PlotPicker() {
   const shown = setups.value;
   const isFull = shown.length >= MAX_PLOTS;

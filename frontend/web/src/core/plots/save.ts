@@ -1,4 +1,4 @@
-/** What the plots show, as files. */
+/** Files of the plotted data. */
 import { session } from "../state/session";
 import { text } from "../text/en";
 import { includeBounds, niceRange } from "./axes";
@@ -10,7 +10,7 @@ import type { Trace } from "./definitions";
 import { palette } from "./linestyles";
 import { type PhaseChannels, takePhase } from "./phase";
 import { type PlotSetup, setups } from "./setups";
-import { shownCast, shownRing, shownSpan } from "./span";
+import { shownLaneSegments, shownRing, shownSpan } from "./span";
 import { type Drawing, drawSvg, HEIGHT, WIDTH } from "./svg";
 
 const SHARPNESS = 2;
@@ -99,10 +99,10 @@ export async function savePng(
   canvas.toBlob((content) => content && download(content, name), "image/png");
 }
 
-/** Every controller of the channels, at the stream's full rate. */
+/** Every controller of the channels, at the full rate of the stream. */
 function saveCsv(what: string, channels: readonly ChannelName[]): void {
   const span = shownSpan();
-  const csv = writeCsv(shownRing(), span, columnsOf(channels, shownCast.peek(), span));
+  const csv = writeCsv(shownRing(), span, columnsOf(channels, shownLaneSegments.peek(), span));
   download(new Blob([csv], { type: "text/csv" }), fileName(what, "csv"));
 }
 

@@ -1,6 +1,6 @@
-/** Which plots there are and what is in them, as the reader arranged them and the browser keeps them. */
+/** The list of plots and their channels, as the user arranged them and the browser stores them. */
 import { computed, signal } from "@preact/signals";
-import { areAllControlsOn, remember, remembered } from "../state/preferences";
+import { areAllControlsOn, readStored, store } from "../state/preferences";
 import { sourcesOf } from "../stream/ring";
 import { CHANNELS, type ChannelName, isChannel, PRESETS, type PresetName } from "./channels";
 
@@ -9,14 +9,14 @@ const AT_FIRST: readonly PresetName[] = ["position", "error", "stiffness", "torq
 
 export interface PlotSetup {
   key: string;
-  /** "own" for one that the reader began with a channel of choice. */
+  /** "own" for a plot that the user started with a selected channel. */
   preset: PresetName | "own";
   channels: readonly ChannelName[];
 }
 
 export const MAX_PLOTS = 16;
 const STORE = "svsa.plots";
-/** What numbers on the page need, whatever is plotted. */
+/** Channels that the numbers on the page need, whatever is plotted. */
 const ALWAYS: readonly ChannelName[] = ["position_error_rad"];
 
 const isPreset = (name: unknown): name is PresetName =>
@@ -33,7 +33,7 @@ const phaseOf = (channels: readonly ChannelName[]): PlotSetup => ({
   channels,
 });
 
-/** The plots of a first experiment, whatever the reader arranged. */
+/** The plots of the basic view, independent of the user's arrangement. */
 export const BASIC_SETUPS: readonly PlotSetup[] = [ofPreset("position"), ofPreset("error")];
 
 const setupsAtFirst = (): PlotSetup[] => AT_FIRST.map(ofPreset);
@@ -50,7 +50,7 @@ function readSetup(stored: unknown, index: number): PlotSetup[] {
   return ofOneUnit.length > 0 ? [{ key: `own${index}`, preset: "own", channels: ofOneUnit }] : [];
 }
 
-/** What was kept, as far as it still makes sense; null where nothing does. */
+/** Validate the stored arrangement; null if nothing of it is valid. */
 export function readSetups(stored: string | null): PlotSetup[] | null {
   if (stored === null) return null;
   let rows: unknown;
@@ -66,13 +66,13 @@ export function readSetups(stored: string | null): PlotSetup[] | null {
 }
 
 export const setups = signal<readonly PlotSetup[]>(
-  readSetups(remembered(STORE)) ?? setupsAtFirst(),
+  readSetups(readStored(STORE)) ?? setupsAtFirst(),
 );
 
-/** What is drawn outside the plots. */
+/** Channels that are shown outside the plots. */
 export const alsoDrawn = signal<readonly ChannelName[]>([]);
 
-/** What the stream has to carry. */
+/** Channels that the stream must carry. */
 export const channelsInUse = computed(() => [
   ...new Set(
     [
@@ -87,10 +87,10 @@ export const channelsInUse = computed(() => [
 
 function arrange(next: readonly PlotSetup[]): void {
   setups.value = next;
-  remember(STORE, JSON.stringify(next.map(({ preset, channels }) => ({ preset, channels }))));
+  store(STORE, JSON.stringify(next.map(({ preset, channels }) => ({ preset, channels }))));
 }
 
-/** Adds one of the plots that the lab knows, at its place among them, or takes it away. */
+/** Add a predefined plot at its position, or remove it. */
 export function togglePreset(preset: PresetName): void {
   const rest = setups.peek().filter((setup) => setup.key !== preset);
   if (rest.length < setups.peek().length) {
@@ -113,7 +113,7 @@ export function removePlot(key: string): void {
   arrange(setups.peek().filter((setup) => setup.key !== key));
 }
 
-/** Adds a channel to a plot or takes it away; the last one stays. */
+/** Add a channel to a plot or remove it; the last one stays. */
 export function toggleChannel(key: string, channel: ChannelName): void {
   arrange(
     setups.peek().map((setup) => {
@@ -126,7 +126,7 @@ export function toggleChannel(key: string, channel: ChannelName): void {
   );
 }
 
-/** Which two channels the phase plane is of: across and up. */
+/** Set the two channels of the phase plane: horizontal and vertical. */
 export function choosePhase(across: ChannelName, up: ChannelName): void {
   const setup = phaseOf([across, up]);
   arrange(setups.peek().map((one) => (one.preset === "phase" ? setup : one)));

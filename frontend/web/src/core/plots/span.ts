@@ -1,54 +1,56 @@
-/** The span of time that all plots show: it follows the newest sample, or it is held. */
+/** The time span that all plots show: it follows the newest sample, or it is frozen. */
 import { computed, effect, signal } from "@preact/signals";
-import { type Cast, cast } from "../state/lanes";
+import { type LaneSegments, laneSegments } from "../state/lanes";
 import { windowS } from "../state/preferences";
-import { countReceived, samples, selectionCount, session } from "../state/session";
+import { incrementReceived, samples, selectionCount, session } from "../state/session";
 import type { SampleRing } from "../stream/ring";
-import { keepInside, liveSpan, type Span, zoomSpan } from "./spans";
+import { clampSpan, liveSpan, type Span, zoomSpan } from "./spans";
 
-/** What the plots stand still on: samples of their own, for those of the session go on. */
-interface Held extends Span {
+/** Copied samples that frozen plots show, because those of the session advance. */
+interface FrozenPlots extends Span {
   ring: SampleRing;
-  cast: Cast;
+  laneSegments: LaneSegments;
 }
 
-export const held = signal<Held | null>(null);
-export const isHeld = computed(() => held.value !== null);
+export const frozen = signal<FrozenPlots | null>(null);
+export const isFrozen = computed(() => frozen.value !== null);
 
 /** The samples that the plots show. */
-export const shownRing = (): SampleRing => held.peek()?.ring ?? samples.ring;
+export const shownRing = (): SampleRing => frozen.peek()?.ring ?? samples.ring;
 
-/** Who controlled the lanes whose samples the plots show. */
-export const shownCast = computed<Cast>(() => held.value?.cast ?? cast.value);
+/** The controllers of the lanes whose samples the plots show. */
+export const shownLaneSegments = computed<LaneSegments>(
+  () => frozen.value?.laneSegments ?? laneSegments.value,
+);
 
-export const shownSpan = (): Span => held.peek() ?? liveSpan(samples.ring, windowS.peek());
+export const shownSpan = (): Span => frozen.peek() ?? liveSpan(samples.ring, windowS.peek());
 
-/** What a chart draws: which samples, and from when to when. */
+/** Data of a chart: the samples, and the span. */
 export interface ChartView {
   ring(): SampleRing;
   span(): Span;
-  /** The cursors' samples are marked. */
+  /** Whether the samples of the cursors are marked. */
   hasCursors: boolean;
 }
 
 export const PLOTS_VIEW: ChartView = { ring: shownRing, span: shownSpan, hasCursors: true };
 
-/** The plots stand still, on a copy of what is there now. */
-export function hold(): void {
-  if (held.peek() !== null) return;
+/** Freeze the plots on a copy of the present samples. */
+export function freeze(): void {
+  if (frozen.peek() !== null) return;
   const span = shownSpan();
   const ring = samples.ring.copy();
-  held.value = { ring, cast: cast.peek(), from: span.from, to: span.to };
+  frozen.value = { ring, laneSegments: laneSegments.peek(), from: span.from, to: span.to };
 }
 
 export function goLive(): void {
-  held.value = null;
+  frozen.value = null;
 }
 
 export function showSpan(span: Span): void {
-  hold();
-  const { ring, cast } = held.peek() as Held;
-  held.value = { ring, cast, ...keepInside(span, ring.oldestTime, ring.newestTime) };
+  freeze();
+  const { ring, laneSegments } = frozen.peek() as FrozenPlots;
+  frozen.value = { ring, laneSegments, ...clampSpan(span, ring.oldestTime, ring.newestTime) };
 }
 
 export function zoom(factor: number, around?: number): void {
@@ -56,26 +58,28 @@ export function zoom(factor: number, around?: number): void {
   showSpan(zoomSpan(span, factor, around ?? (span.from + span.to) / 2));
 }
 
-/** Moves by a share of the span: 1 is a whole one, to later times. */
+/** Move by a share of the span, positive to later times. */
 export function pan(share: number): void {
   const { from, to } = shownSpan();
   const by = share * (to - from);
   showSpan({ from: from + by, to: to + by });
 }
 
-/** Another length: live it follows, held it stays around its middle. */
+/** Set another length: a live span follows the newest sample, a frozen one keeps its middle. */
 export function showLength(lengthS: number): void {
-  const span = held.peek();
+  const span = frozen.peek();
   if (span !== null) zoom(lengthS / (span.to - span.from));
 }
 
-/** Seconds that the data have gone on since the plots stand still. */
-export const behindS = (): number => {
-  const span = held.peek();
+/** Seconds by which the session has advanced since the plots were frozen. */
+export const secondsBehind = (): number => {
+  const span = frozen.peek();
   return span === null ? 0 : samples.ring.newestTime - span.ring.newestTime;
 };
 
-/** A restarted run has no past to pause on; new channels get their past there, too. */
+/**
+ * A restarted run has no past, so the plots go live; new channels get their past in the copy, too.
+ */
 export function followSession(): () => void {
   let run = session.peek()?.run_number;
   const stopRun = effect(() => {
@@ -85,11 +89,11 @@ export function followSession(): () => void {
   });
   const stopChannels = effect(() => {
     void selectionCount.value;
-    const span = held.peek();
+    const span = frozen.peek();
     if (span === null) return;
-    span.ring.adopt(samples.ring);
-    held.value = { ...span };
-    countReceived();
+    span.ring.addChannelsFrom(samples.ring);
+    frozen.value = { ...span };
+    incrementReceived();
   });
   return () => {
     stopRun();

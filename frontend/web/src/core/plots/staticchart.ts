@@ -1,4 +1,4 @@
-/** uPlot as the page uses it: in the size of its host, without a legend; and charts that stand still. */
+/** uPlot in the size of its host, without a legend; and charts without live samples. */
 import { effect, type ReadonlySignal, signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import uPlot from "uplot";
@@ -9,11 +9,11 @@ import type { Span } from "./spans";
 
 const SMALLEST_DRAG_PX = 4;
 
-/** The options of a plot without its size. */
-type Look = Omit<uPlot.Options, "width" | "height">;
+/** Options of a plot without its size. */
+type ChartOptions = Omit<uPlot.Options, "width" | "height">;
 
-/** A uPlot as large as its host is. */
-export const plotIn = (host: HTMLElement, look: Look, data: uPlot.AlignedData): uPlot =>
+/** A uPlot with the size of its host element. */
+export const plotIn = (host: HTMLElement, look: ChartOptions, data: uPlot.AlignedData): uPlot =>
   new uPlot(
     {
       legend: { show: false },
@@ -26,7 +26,7 @@ export const plotIn = (host: HTMLElement, look: Look, data: uPlot.AlignedData): 
     host,
   );
 
-/** A host without room, as of what is folded, changes nothing. */
+/** A host without size, for example in a closed section, changes nothing. */
 export function fillHost(
   plot: uPlot,
   { clientWidth: width, clientHeight: height }: HTMLElement,
@@ -34,22 +34,22 @@ export function fillHost(
   if (width > 0 && height > 0) plot.setSize({ width, height });
 }
 
-/** A chart without live samples: created again for other curves, which its owner stores. */
-export interface StillChart {
-  look: Look;
+/** A chart without live samples: created again if the curves change; its owner stores them. */
+export interface StaticChart {
+  look: ChartOptions;
   data: uPlot.AlignedData;
-  /** Called with the plot; returns what ends it. */
+  /** Called with the plot; returns its cleanup function. */
   watch?: (plot: uPlot) => () => void;
 }
 
 /** A static chart in the host whose ref is returned. */
-export function useStillChart(chart: StillChart) {
+export function useStaticChart(chart: StaticChart) {
   const host = useRef<HTMLDivElement>(null);
   useEffect(() => {
     const element = host.current;
     if (element === null) return;
     const plot = plotIn(element, chart.look, chart.data);
-    // Draws it now: before, its scales have no limits, and no value a place.
+    // Draw now: before the first drawing the scales have no limits and values no position.
     plot.batch(() => undefined);
     const stopLook = effect(() => {
       void palette.value;
@@ -68,7 +68,7 @@ export function useStillChart(chart: StillChart) {
   return host;
 }
 
-/** Not moved to whole pixels, which would turn a slow curve into steps. */
+/** Not rounded to whole pixels, which would turn a slow curve into steps. */
 export const drawnCurve = ({
   colour,
   width,
@@ -81,43 +81,43 @@ export const drawnCurve = ({
   pxAlign: 0,
 });
 
-// Curves over time, of a recorded run, or of several over one another.
+// Curves over time, of one or several recorded runs.
 
-export interface StillCurve extends LineStyle {
+export interface StaticCurve extends LineStyle {
   key: string;
   values: uPlot.AlignedData[1];
-  /** Drawn and hidden together with the curve of this key. */
+  /** Shown and hidden together with the curve of this key. */
   follows?: string | undefined;
 }
 
 export interface TimeChart {
   time: uPlot.AlignedData[0];
-  curves: readonly StillCurve[];
-  /** The axis never shows less than this. */
+  curves: readonly StaticCurve[];
+  /** Minimum range of the axis. */
   minSpan: number;
   /** Top, right, bottom, left, CSS pixels. */
   padding: uPlot.Padding;
-  /** Height of the numbers below the plot, CSS pixels, and the words of each; 0: none. */
+  /** Height of the numbers below the plot, CSS pixels, and the format of each; 0: none. */
   timeAxis: { size: number; tick: (timeS: number) => string };
-  /** The plots of one group have one pointer. */
+  /** Plots of one group share the pointer. */
   group: string;
-  /** What part of the time is shown. */
+  /** The visible part of the time axis. */
   span: ReadonlySignal<Span>;
   hidden?: ReadonlySignal<ReadonlySet<string>> | undefined;
-  /** A drag over the plot has chosen a part of the time; null: a double click, all of it. */
+  /** Called when a drag selects a part of the time axis; null: a double click, the whole axis. */
   onSelect: (span: Span | null) => void;
-  /** Below the curves, and above them. */
+  /** Drawn below and above the curves. */
   drawBelow?: (plot: uPlot) => void;
   drawAbove?: (plot: uPlot) => void;
-  /** The pointer has moved; without a reader of the values there are no marks. */
+  /** Called when the pointer moves; without it there are no markers. */
   onCursor?: (plot: uPlot) => void;
   watch?: (plot: uPlot) => () => void;
 }
 
-export function describeTimeChart(chart: TimeChart): StillChart {
+export function describeTimeChart(chart: TimeChart): StaticChart {
   const { curves, minSpan, padding, group, span, hidden, onSelect, onCursor } = chart;
   const { from: min, to: max } = span.peek();
-  const look: Look = {
+  const look: ChartOptions = {
     padding,
     cursor: {
       y: false,
@@ -161,23 +161,23 @@ export function describeTimeChart(chart: TimeChart): StillChart {
   return { look, data: [chart.time, ...curves.map(({ values }) => withGaps(values))], watch };
 }
 
-/** From the earliest to the latest of times that are in order each. */
+/** From the earliest to the latest of several ascending arrays of times. */
 export const wholeOf = (times: readonly Float64Array[]): Span => ({
   from: Math.min(...times.map((time) => time[0] ?? 0)),
   to: Math.max(...times.map((time) => time[time.length - 1] ?? 1)),
 });
 
-/** A part of the time that was chosen, or the whole of it. */
-export const spanWithin = (whole: Span) => {
-  const span = signal(whole);
+/** The selected part of the time axis, or all of it. */
+export const spanWithin = (fullSpan: Span) => {
+  const span = signal(fullSpan);
   const onSelect = (chosen: Span | null) => {
-    span.value = chosen ?? whole;
+    span.value = chosen ?? fullSpan;
   };
   return { span, onSelect };
 };
 
-/** Values with null, which uPlot leaves out, for NaN; the same array where there is none. */
-function withGaps(values: StillCurve["values"]): uPlot.AlignedData[1] {
+/** NaN replaced by null, which uPlot leaves out; the same array if there is no NaN. */
+function withGaps(values: StaticCurve["values"]): uPlot.AlignedData[1] {
   if (!(values instanceof Float32Array) || !values.some(Number.isNaN)) return values;
   return Array.from(values, (value) => (Number.isNaN(value) ? null : value));
 }

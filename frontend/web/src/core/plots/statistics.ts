@@ -1,4 +1,4 @@
-/** What lies between two samples of one curve. */
+/** Statistics between two samples of one curve. */
 import type { SampleRing } from "../stream/ring";
 
 export interface Measures {
@@ -8,11 +8,11 @@ export interface Measures {
   min: number;
   max: number;
   rms: number;
-  /** For so long of it there is no number, s: min, max and rms are of the rest. */
+  /** Duration without values, s: min, max and rms are of the rest. */
   missingS: number;
 }
 
-/** Of the samples from index `a` to `b`, both included, past what is no number. */
+/** Statistics of the samples from index `a` to `b`, both included; NaN is left out. */
 export function measureBetween(
   ring: SampleRing,
   channel: string,
@@ -40,7 +40,7 @@ export function measureBetween(
   return { a: atA, b: atB, delta: atB - atA, min, max, rms, missingS };
 }
 
-/** How long there is no number, s, from the sample at index `first` up to the one at `last`. */
+/** Duration without values, s, from the sample at index `first` up to the one at `last`. */
 function measureMissing(
   ring: SampleRing,
   channel: string,

@@ -1,6 +1,6 @@
 /** Metrics of a lane after an event, as in the table next to the plots. */
 import type { SessionEvent, SessionState } from "../api/types";
-import { type Cast, controllerAt } from "../state/lanes";
+import { controllerAt, type LaneSegments } from "../state/lanes";
 import type { SampleRing } from "../stream/ring";
 import { measureBetween } from "./statistics";
 
@@ -10,30 +10,30 @@ const LATE_S = 0.1;
 interface StepMetrics {
   peak: number;
   rms: number;
-  /** From the step until the error stays small, s; null: not yet, NaN: not measured. */
+  /** Recovery time, s; null: not yet recovered, NaN: not measured. */
   recoveryS: number | null;
-  /** For so long of it there is no number, s: the true peak may be higher. */
+  /** Duration without values, s: the true peak may be higher. */
   missingS: number;
 }
 
 interface Step {
-  /** Its end, session time in s; infinity where it goes on. */
+  /** End of the window, session time in s; infinity while it is open. */
   untilS: number;
-  /** Of the lane of an index among those shown; null where nothing is known of it. */
+  /** Metrics of the lane at an index among those shown; null if unknown. */
   read: (lane: number) => StepMetrics | null;
 }
 
-/** The error from a time on up to before another; null where its beginning is held no more. */
+/** The error from one time up to before another; null if its beginning is no longer stored. */
 function measureHeld(ring: SampleRing, lane: number, fromS: number, toS: number) {
-  const first = ring.firstAt(fromS);
-  const last = Math.min(ring.length, ring.firstAt(toS)) - 1;
+  const first = ring.lowerBound(fromS);
+  const last = Math.min(ring.length, ring.lowerBound(toS)) - 1;
   if (first > last || (first === 0 && ring.oldestTime > fromS + LATE_S)) return null;
   const { min, max, rms, missingS } = measureBetween(ring, ERROR, lane, [first, last]);
   const peak = Math.max(Math.abs(min), Math.abs(max));
   return Number.isNaN(rms) ? null : { peak, rms, recoveryS: Number.NaN, missingS };
 }
 
-/** The window that an event began: when it ends, and its metrics of the present lanes. */
+/** The window that an event began: its end, and its metrics of the present lanes. */
 function findWindow(state: SessionState, tick: number) {
   if (state.window.start_tick === tick) {
     return { endS: null, lanes: state.lanes.map((lane) => lane.in_window) };
@@ -43,23 +43,24 @@ function findWindow(state: SessionState, tick: number) {
 }
 
 /**
- * What an event began: the session's window, measured on every sample by the server. Of an event that
- * began none, such as a load that ends, peak and rms of the samples held up to the next event.
+ * Metrics of the window that an event began, measured by the server on every sample. For an event
+ * without a window, such as the end of a load: peak and rms of the stored samples up to the next
+ * event.
  *
- * shown: who controlled the lanes that the plots show, of which `ring` holds the samples; present:
- * those of the session. nextS: when the next event comes, s.
+ * shown: controllers of the lanes in the plots, whose samples `ring` contains; present: those of
+ * the session. nextS: time of the next event, s.
  */
 export function findStep(
   state: SessionState,
   event: SessionEvent,
   nextS: number,
-  { ring, shown, present }: { ring: SampleRing; shown: Cast; present: Cast },
+  { ring, shown, present }: { ring: SampleRing; shown: LaneSegments; present: LaneSegments },
 ): Step {
   const window = findWindow(state, event.tick);
   if (window === undefined) {
     return { untilS: nextS, read: (lane) => measureHeld(ring, lane + 1, event.time_s, nextS) };
   }
-  const numberAt = (cast: Cast, lane: number) =>
+  const numberAt = (cast: LaneSegments, lane: number) =>
     controllerAt(cast[lane] ?? [], event.time_s)?.number;
   const read = (lane: number) => {
     const number = numberAt(shown, lane);

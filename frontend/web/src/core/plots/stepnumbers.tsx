@@ -1,12 +1,12 @@
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import type { SessionEvent } from "../api/types";
-import { cast, controllerAt } from "../state/lanes";
+import { controllerAt, laneSegments } from "../state/lanes";
 import { session } from "../state/session";
 import { text } from "../text/en";
 import { formatNumber, toDegrees } from "../units";
 import { Swatch } from "./legend";
 import { lineStyleOfLane } from "./linestyles";
-import { shownCast, shownRing } from "./span";
+import { shownLaneSegments, shownRing } from "./span";
 import { findStep } from "./stepmetrics";
 
 const AGAIN_MS = 500;
@@ -15,11 +15,11 @@ const degrees = (rad: number) => formatNumber(toDegrees(rad), 3, 3);
 
 interface StepNumbersProps {
   event: SessionEvent;
-  /** When the next event comes, s. */
+  /** Time of the next event, s. */
   nextS: number;
 }
 
-/** What an event did to the position, lane by lane, while nothing else happened. */
+/** Effect of an event on the position of each lane, up to the next event. */
 export function StepNumbers({ event, nextS }: StepNumbersProps) {
   const [, setCount] = useState(0);
   const panel = useRef<HTMLDivElement>(null);
@@ -39,8 +39,8 @@ export function StepNumbers({ event, nextS }: StepNumbersProps) {
   });
   const state = session.value;
   if (state === null) return null;
-  const shown = shownCast.value;
-  const of = { ring: shownRing(), shown, present: cast.value };
+  const shown = shownLaneSegments.value;
+  const of = { ring: shownRing(), shown, present: laneSegments.value };
   const { untilS, read } = findStep(state, event, nextS, of);
   const rows = shown.flatMap((segments, index) => {
     const controller = controllerAt(segments, event.time_s);

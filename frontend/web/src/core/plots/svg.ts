@@ -1,4 +1,4 @@
-/** A plot as a drawing: the same curves as vectors, to be kept or turned into a picture. */
+/** A plot as SVG: the same curves as vectors, for a file or a raster image. */
 
 import { formatTicks, placeTicks } from "./axes";
 import type { Points } from "./decimation";

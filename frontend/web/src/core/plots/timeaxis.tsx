@@ -2,10 +2,10 @@ import { useEffect, useRef } from "preact/hooks";
 import { session } from "../state/session";
 import { text } from "../text/en";
 import { FONT, placeWords, timeStep } from "./axes";
-import { hasZoomed, zoomedEvent, zoomedSpan } from "./eventzoom";
+import { mayHaveZoomedSamples, zoomedEvent, zoomedSpan } from "./eventzoom";
 import { onFrame } from "./frame";
 import { palette } from "./linestyles";
-import { goLive, isHeld, pan, shownRing, shownSpan, showSpan, zoom } from "./span";
+import { goLive, isFrozen, pan, shownRing, shownSpan, showSpan, zoom } from "./span";
 import type { Span } from "./spans";
 
 const PAN_SHARE = 0.1;
@@ -54,7 +54,7 @@ function drawTicks(canvas: HTMLCanvasElement, { from, to }: Span): void {
   }
 }
 
-/** A canvas that has the numbers of a span, drawn with every frame. onDrawn: what else is due then. */
+/** A canvas with the numbers of a span, drawn with every frame. onDrawn: called after drawing. */
 function useTicks(spanOf: () => Span, onDrawn: () => void = () => undefined) {
   const canvas = useRef<HTMLCanvasElement>(null);
   useEffect(() => {
@@ -73,7 +73,7 @@ function useTicks(spanOf: () => Span, onDrawn: () => void = () => undefined) {
   return canvas;
 }
 
-/** The axis of time below all plots: it has the numbers, and the keys that move and zoom. */
+/** The time axis below all plots: its numbers, and the keys that move and zoom. */
 export function TimeAxis() {
   const axis = useRef<HTMLDivElement>(null);
   const writtenAt = useRef(0);
@@ -88,7 +88,7 @@ export function TimeAxis() {
     writtenAt.current = performance.now();
   };
   const canvas = useTicks(shownSpan, () => {
-    if (isHeld.peek() || performance.now() - writtenAt.current > SHOWN_MS) publish();
+    if (isFrozen.peek() || performance.now() - writtenAt.current > SHOWN_MS) publish();
   });
   return (
     <div
@@ -117,7 +117,7 @@ export function ZoomTitle() {
   void session.value;
   const event = zoomedEvent.value;
   const words = event && text.zoom.title(event.time_s.toFixed(2), event.label);
-  const label = words === null ? text.zoom.none : hasZoomed() ? words : text.zoom.gone;
+  const label = words === null ? text.zoom.none : mayHaveZoomedSamples() ? words : text.zoom.gone;
   return (
     <p class="zoom-title" title={words ?? undefined}>
       <span>{label}</span>

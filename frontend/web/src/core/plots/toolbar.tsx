@@ -1,19 +1,19 @@
-import { chooseWindow, WINDOWS_S, type WindowS, windowS } from "../state/preferences";
+import { setWindow, WINDOWS_S, type WindowS, windowS } from "../state/preferences";
 import { text } from "../text/en";
 import { useLiveText } from "../widgets/live";
 import { areCursorsOn, toggleCursors } from "./cursors";
 import { isZoomOn, toggleZoom } from "./eventzoom";
 import { PlotPicker } from "./picker";
 import { saveWindowCsv } from "./save";
-import { behindS, goLive, held, hold, isHeld, showLength, zoom } from "./span";
+import { freeze, frozen, goLive, isFrozen, secondsBehind, showLength, zoom } from "./span";
 
 const ZOOM = 1.6;
-const readBehind = () => text.plots.behind(behindS().toFixed(1));
+const readBehind = () => text.plots.behind(secondsBehind().toFixed(1));
 
 function WindowPicker() {
-  const span = held.value;
+  const span = frozen.value;
   const choose = (seconds: WindowS) => {
-    chooseWindow(seconds);
+    setWindow(seconds);
     showLength(seconds);
   };
   return (
@@ -40,14 +40,14 @@ function WindowPicker() {
   );
 }
 
-/** How far the data have gone on since the plots stand still. */
+/** How far the session has advanced since the plots were frozen. */
 function Behind() {
   const element = useLiveText<HTMLSpanElement>(readBehind);
   return <span class="behind" ref={element} aria-hidden="true" />;
 }
 
 function HoldButton() {
-  if (isHeld.value) {
+  if (isFrozen.value) {
     return (
       <button
         type="button"
@@ -64,7 +64,7 @@ function HoldButton() {
     );
   }
   return (
-    <button type="button" class="button tool" title={text.plots.holdHint} onClick={hold}>
+    <button type="button" class="button tool" title={text.plots.holdHint} onClick={freeze}>
       <svg viewBox="0 0 12 12" aria-hidden="true">
         <path d="M2 1h3v10H2zM7 1h3v10H7z" />
       </svg>
@@ -95,7 +95,7 @@ function ZoomButton({ name, factor, path }: ZoomButtonProps) {
   );
 }
 
-/** What holds for all plots; `isBasic` leaves what is on, and how to look at the session. */
+/** Commands of all plots; `isBasic` leaves out the selection of plots. */
 export function Toolbar({ isBasic }: { isBasic: boolean }) {
   return (
     <div class="plot-tools" role="toolbar" aria-label={text.plots.tools}>
@@ -113,7 +113,7 @@ export function Toolbar({ isBasic }: { isBasic: boolean }) {
         </button>
       </fieldset>
       <span class="visually-hidden" role="status">
-        {isHeld.value ? text.plots.held : ""}
+        {isFrozen.value ? text.plots.held : ""}
       </span>
       {(!isBasic || areCursorsOn.value) && (
         <button

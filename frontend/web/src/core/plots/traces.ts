@@ -1,5 +1,5 @@
-/** From the channels of a plot and the lanes of the session to the curves that are drawn. */
-import type { Cast, Segment } from "../state/lanes";
+/** Converts the channels of a plot and the lanes of the session into curves. */
+import type { LaneSegments, Segment } from "../state/lanes";
 import { plotsText as text } from "../text/plots";
 import { CHANNELS, type ChannelName } from "./channels";
 import {
@@ -20,7 +20,7 @@ const BOUND: LineStyle = { ...REFERENCE, dash: DASHED };
 
 const label = (channel: ChannelName): string => text.channelLabels[channel];
 
-/** A channel of a lane for as long as there are samples of it. */
+/** A channel of a lane while there are samples of it. */
 function trace(channel: ChannelName, lane: number, lineStyle: LineStyle, name: string): Trace {
   return {
     key: `${channel}.${lane}`,
@@ -39,22 +39,24 @@ interface Placed extends Segment {
   lane: number;
 }
 
-/** Who controls a lane now comes first, in the order of the lanes, then who did before. */
-function listSegments(cast: Cast): Placed[] {
+/** The present controllers first, in the order of the lanes, then the previous ones. */
+function listSegments(cast: LaneSegments): Placed[] {
   const lanes = cast.map((lane, index) => lane.map((one) => ({ ...one, lane: index + 1 })));
   const present = lanes.flatMap((lane) => lane.slice(-1));
   const past = lanes.flatMap((lane) => lane.slice(0, -1));
   return [...present, ...past.sort((one, other) => one.number - other.number)];
 }
 
-/** Of several lanes, an estimate is drawn only for as long as the lane's law acts on it. */
-const isDrawn = (channel: ChannelName, cast: Cast, { hasEstimate }: Segment): boolean =>
+/** With several lanes, an estimate is drawn only while the lane's law uses it. */
+const isDrawn = (channel: ChannelName, cast: LaneSegments, { hasEstimate }: Segment): boolean =>
   hasEstimate || cast.length <= 1 || !channel.startsWith("estimate_");
 
-/** A channel piece by piece; the pieces of one owner are one curve, of which the first is the key. */
+/**
+ * A channel in pieces; the pieces of one controller are one curve, whose key is that of the first.
+ */
 function pieces(
   channel: ChannelName,
-  cast: Cast,
+  cast: LaneSegments,
   ownerOf: (segment: Placed) => string,
   look: (segment: Placed, isChosen: boolean) => { lineStyle: LineStyle; label: string },
 ): Trace[] {
@@ -76,11 +78,11 @@ function pieces(
 
 const keyOf = (channel: ChannelName, { number }: Placed): string => `${channel}.${number}`;
 
-/** How many controllers have curves. */
-const countControllers = (cast: Cast): number =>
+/** Number of controllers with curves. */
+const countControllers = (cast: LaneSegments): number =>
   new Set(cast.flat().map(({ number }) => number)).size;
 
-/** The other side of a limit. */
+/** The opposite limit. */
 const mirror = (limit: Trace): Trace => ({
   ...limit,
   key: `-${limit.key}`,
@@ -90,7 +92,7 @@ const mirror = (limit: Trace): Trace => ({
 
 interface Sorted {
   references: ChannelName[];
-  /** Each with the truth or the limit that goes with it. */
+  /** Each curve with its true value or its limit. */
   leaders: { channel: ChannelName; companions: ChannelName[] }[];
 }
 
@@ -114,7 +116,7 @@ const withMirror = (one: Trace): Trace[] =>
   CHANNELS[one.channel as ChannelName].limitOf === undefined ? [one] : [one, mirror(one)];
 
 /** A true value or a limit, drawn with the curve it belongs to. */
-function compose(companion: ChannelName, own: readonly Trace[], cast: Cast): Trace[] {
+function compose(companion: ChannelName, own: readonly Trace[], cast: LaneSegments): Trace[] {
   const isAlone = cast.length <= 1;
   const [leader] = own;
   if (CHANNELS[companion].truthOf !== undefined) {
@@ -141,10 +143,10 @@ function compose(companion: ChannelName, own: readonly Trace[], cast: Cast): Tra
 }
 
 /**
- * The line style of who controls each lane. One lane with several channels has a colour a channel;
- * several lanes with several channels have a sign a channel.
+ * The line style of each lane's controller. One lane with several channels has one color per
+ * channel; several lanes with several channels have one marker per channel.
  */
-export function composeContent(channels: readonly ChannelName[], cast: Cast): PlotContent {
+export function composeContent(channels: readonly ChannelName[], cast: LaneSegments): PlotContent {
   const { references, leaders } = sort(channels);
   const isAlone = cast.length <= 1;
   const isOneName = isAlone && countControllers(cast) === 1;
@@ -170,7 +172,7 @@ export function composeContent(channels: readonly ChannelName[], cast: Cast): Pl
   return { groups, common };
 }
 
-/** The curves of the groups chosen; where several lanes show several groups, with both names. */
+/** The curves of the selected groups; with both names if several lanes show several groups. */
 export function tracesOf(
   { groups, common }: PlotContent,
   chosen: ReadonlySet<string>,
@@ -186,14 +188,17 @@ export function tracesOf(
   return [...named, ...common];
 }
 
-/** Whether the truth of a curve stands in the legend under the curve. */
+/** Whether the true value of a curve is in the legend under the curve. */
 export const hasUnnamedTruth = (traces: readonly Trace[]): boolean =>
   traces.some(({ channel, follows }) => {
     const { truthOf } = CHANNELS[channel as ChannelName];
     return traces.some((one) => one.key === follows && one.channel === truthOf);
   });
 
-/** Whether an entry of the legend has one value: several lanes share one for their truths, which differ. */
+/**
+ * Whether a legend entry has one value: several lanes share an entry for their true values, which
+ * differ.
+ */
 export function hasOneValue(traces: readonly Trace[], key: string): boolean {
   const leader = traces.find((one) => one.key === key);
   return !traces.some(

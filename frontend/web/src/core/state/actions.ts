@@ -1,35 +1,38 @@
-/** Every wish of the user goes through `perform`: it sends, takes over the answer, keeps the refusal. */
+/**
+ * Every request of the user goes through `perform`: it sends it, applies the answer, and stores the
+ * rejection.
+ */
 import { type Signal, signal } from "@preact/signals";
-import { expectRevision, lastSet, readState } from "../api/client";
+import { expectRevision, lastConfirmed, readState } from "../api/client";
 import {
   ChangedError,
   LockedError,
-  NotCarriedOutError,
+  NotExecutedError,
   RefusedError,
   UnansweredError,
 } from "../api/errors";
 import type { SessionState } from "../api/types";
 import { text } from "../text/en";
-import { describeChange, isSame } from "./meanwhile";
+import { describeChange, isSame } from "./conflicts";
 import { explainRefusal } from "./refusal";
 import { acceptState, phase, session } from "./session";
 
 const MAX_TRIES = 5;
 
-interface Refused {
+interface Rejection {
   control: string;
   message: string;
-  /** Sends it all the same, where only another person's change stood against it. */
-  again?: () => Promise<boolean>;
+  /** Send it again although another user's change caused the rejection. */
+  retry?: () => Promise<boolean>;
 }
 
-/** The last refusal and the control that caused it; the next action takes its place. */
-export const problem = signal<Refused | null>(null);
+/** The last rejection and the control that caused it; cleared by the next action. */
+export const problem = signal<Rejection | null>(null);
 
-/** Why a wish was not fulfilled, as the user reads it. */
+/** The reason of a rejection in the words of the page. */
 export function explain(error: unknown): string {
   if (error instanceof RefusedError) return explainRefusal(error);
-  if (error instanceof NotCarriedOutError) {
+  if (error instanceof NotExecutedError) {
     return error.status === null
       ? text.connection.notCarriedOut
       : text.connection.refused(error.status);
@@ -38,19 +41,19 @@ export function explain(error: unknown): string {
   return isUnknown ? text.connection.stillUnknown : text.connection.unreachable;
 }
 
-/** As `explain`, but a refusal in the server's words, which name file, line, value and bound. */
+/** As `explain`, but with the server's message, which names file, line, value and bound. */
 export const describeError = (error: unknown): string =>
   error instanceof RefusedError ? error.message : explain(error);
 
 /**
- * Sends for as long as only other things than this one were changed since `seen`; throws the
- * `ChangedError` if another client has set the same value.
+ * Send while only other settings have changed since `base`; throws the `ChangedError` if another
+ * client has set the same value.
  */
 async function sendUnlessChanged(
   request: () => Promise<SessionState>,
-  seen: SessionState | null,
+  base: SessionState | null,
 ): Promise<SessionState> {
-  let known = seen;
+  let known = base;
   for (let left = MAX_TRIES; ; left--) {
     expectRevision(known?.revision ?? null);
     try {
@@ -59,25 +62,27 @@ async function sendUnlessChanged(
       if (!(error instanceof ChangedError)) throw error;
       const now = await readState();
       acceptState(now);
-      const isOthers = [seen, lastSet(error.path)].every((held) => !isSame(error.path, held, now));
-      if (isOthers || left === 0) throw error;
+      const isConflict = [base, lastConfirmed(error.path)].every(
+        (earlier) => !isSame(error.path, earlier, now),
+      );
+      if (isConflict || left === 0) throw error;
       known = now;
     }
   }
 }
 
 /**
- * Sends a request for a control; resolves when the page shows what the server holds. seen: what
- * the user saw who asks for it, if that was not now.
+ * Send a request for a control; resolves when the page shows the state of the server. base: the
+ * state that the user saw, if not the present one.
  */
 export async function perform(
   control: string,
   request: () => Promise<SessionState>,
-  seen: SessionState | null = session.peek(),
+  base: SessionState | null = session.peek(),
 ): Promise<boolean> {
   problem.value = null;
   try {
-    acceptState(await sendUnlessChanged(request, seen));
+    acceptState(await sendUnlessChanged(request, base));
     return true;
   } catch (error) {
     if (error instanceof LockedError) phase.value = "locked";
@@ -85,31 +90,31 @@ export async function perform(
       error instanceof ChangedError
         ? {
             control,
-            message: describeChange(error.path, seen, session.peek()),
-            again: () => perform(control, request),
+            message: describeChange(error.path, base, session.peek()),
+            retry: () => perform(control, request),
           }
         : { control, message: explain(error) };
     return false;
   }
 }
 
-// A request whose rejection is shown at a place of the page.
+// Requests whose rejection is shown at one place of the page.
 
-type Attempt = <T>(wish: () => Promise<T>) => Promise<T | null>;
+type Attempt = <T>(request: () => Promise<T>) => Promise<T | null>;
 
-/** Wraps a background request: null if rejected; an earlier error message stays. */
-export const asking =
+/** Wrap a background request: null if rejected; an earlier error message stays. */
+export const backgroundAttempt =
   (problem: Signal<string>): Attempt =>
-  async (wish) => {
+  async (request) => {
     try {
-      return await wish();
+      return await request();
     } catch (error) {
       problem.value = describeError(error);
       return null;
     }
   };
 
-/** Shows why a repeated request has no answer; null: it has one after all. */
+/** Show why a repeated request has no answer; null clears the message. */
 export const showErrorIn = (problem: Signal<string>) => (error: unknown) => {
   problem.value =
     error === null
@@ -119,11 +124,11 @@ export const showErrorIn = (problem: Signal<string>) => (error: unknown) => {
         : describeError(error);
 };
 
-/** Wraps a request of the user: null if rejected, with its reason shown. */
-export const attempting = (problem: Signal<string>): Attempt => {
-  const ask = asking(problem);
-  return (wish) => {
+/** Wrap a request of the user: null if rejected, with the reason shown. */
+export const userAttempt = (problem: Signal<string>): Attempt => {
+  const ask = backgroundAttempt(problem);
+  return (request) => {
     problem.value = "";
-    return ask(wish);
+    return ask(request);
   };
 };

@@ -1,8 +1,8 @@
-/** The actuators of the lab, as each describes itself. */
+/** The actuators of the lab with their descriptions. */
 import { signal } from "@preact/signals";
 import type { ActuatorParameters, ActuatorRow } from "../api/types";
 
-/** The actuator of the paper; parameters that name no actuator are of it. */
+/** The paper's actuator; parameters without the name of an actuator belong to it. */
 export const SVSA = "svsa";
 
 /** null until the server has answered. */
@@ -14,7 +14,7 @@ export const nameOfActuator = ({ mechanism }: ActuatorParameters): string =>
 export const describeActuator = (name: string): ActuatorRow | undefined =>
   actuators.value?.find((one) => one.name === name);
 
-/** All parameters, as a request takes them. */
+/** All parameters, as a request needs them. */
 export function patchOf({ mechanism: _, ...values }: ActuatorParameters): ActuatorParameters {
   return values;
 }

@@ -1,4 +1,4 @@
-/** What a button does and a key does too. */
+/** Commands that have both a button and a key. */
 import {
   addLoad,
   pause,
@@ -11,12 +11,12 @@ import {
 } from "../api/client";
 import type { Lane, Law, SessionState } from "../api/types";
 import { perform } from "./actions";
-import { comparedWith, comparisonLanes, comparisonsOf, gainsOf } from "./lanes";
+import { comparisonLanes, comparisonsOf, gainsOf, lanesToCompare } from "./lanes";
 import { lawOf } from "./laws";
-import { hungWeights, nextWeight } from "./plant";
+import { activeWeights, nextWeight } from "./plant";
 import { session } from "./session";
 
-/** Names of the controls that show why a command was refused. */
+/** Names of the controls that show why a command was rejected. */
 export const CONTROL = {
   session: "session",
   load: "load.weight",
@@ -33,10 +33,10 @@ export function toggleRecording({ recording }: SessionState): Promise<boolean> {
 
 export function toggleCompare(state: SessionState): Promise<boolean> {
   const isOn = comparisonsOf(state).length > 0;
-  return perform(CONTROL.compare, () => putLanes(isOn ? [] : comparedWith(state)));
+  return perform(CONTROL.compare, () => putLanes(isOn ? [] : lanesToCompare(state)));
 }
 
-/** Adds a comparison lane; the session's own law gets a copy of the present settings. */
+/** Add a comparison lane; with the law of lane 1 it gets a copy of its settings. */
 export function addLane(state: SessionState, law: Law): Promise<boolean> {
   const { configuration } = state;
   const lane: Lane = { law };
@@ -46,27 +46,29 @@ export function addLane(state: SessionState, law: Law): Promise<boolean> {
 }
 
 export function removeLane(state: SessionState, lane: number): Promise<boolean> {
-  const kept = comparisonLanes(state).filter((one) => one.lane !== lane);
-  return perform(CONTROL.compare, () => putLanes(kept.map(({ controller }) => controller)));
+  const remaining = comparisonLanes(state).filter((row) => row.lane !== lane);
+  return perform(CONTROL.compare, () => putLanes(remaining.map(({ controller }) => controller)));
 }
 
 async function removeWeights(state: SessionState): Promise<SessionState> {
-  for (const row of hungWeights(state)) await removeLoad(row.id);
+  for (const row of activeWeights(state)) await removeLoad(row.id);
   return readState();
 }
 
-/** A press waits for what the one before has done: of a button and its key at once both would hang 3 kg. */
-let answered: Promise<boolean> = Promise.resolve(true);
+/**
+ * A command waits for the previous one: a button and its key at the same time would both add 3 kg.
+ */
+let pending: Promise<boolean> = Promise.resolve(true);
 
-/** Adds or removes the 3 kg; on a real bench it marks that the operator did. */
+/** Add or remove the 3 kg; on a real bench it marks that the operator has done so. */
 export function toggleWeight(): Promise<boolean> {
-  answered = answered.then(() => {
+  pending = pending.then(() => {
     const state = session.peek();
     if (state === null) return false;
-    const isHung = hungWeights(state).length > 0;
+    const isWeightActive = activeWeights(state).length > 0;
     return perform(CONTROL.load, () =>
-      isHung ? removeWeights(state) : addLoad(nextWeight(state)),
+      isWeightActive ? removeWeights(state) : addLoad(nextWeight(state)),
     );
   });
-  return answered;
+  return pending;
 }

@@ -1,4 +1,4 @@
-/** The table of faults, as the server reports it: the page has no texts of its own for them. */
+/** The table of faults from the server: the page has no texts of its own for them. */
 import { signal } from "@preact/signals";
 import { readFaults } from "../api/client";
 import type { FaultKind } from "../api/types";
@@ -7,14 +7,14 @@ const RETRY_MS = 2000;
 
 export const faultKinds = signal<readonly FaultKind[]>([]);
 
-/** The label of a fault; its code with blanks before the table is read, and of an unknown fault. */
+/** Label of a fault; for an unknown fault, or before the table is read, its code with spaces. */
 export const labelFault = (code: string): string =>
   faultKinds.value.find((kind) => kind.code === code)?.label ?? code.replaceAll("_", " ");
 
-/** The same within a sentence or a cell: no capital at its beginning. */
+/** The label within a sentence or a cell, in lower case. */
 export const writeFault = (code: string): string => labelFault(code).toLowerCase();
 
-/** Read the table when the page opens, once: it changes with the server only. */
+/** Read the table once, when the page opens: it changes only with the server. */
 export async function openFaults(): Promise<void> {
   try {
     faultKinds.value = await readFaults();

@@ -1,4 +1,4 @@
-/** What varies, except for laws, as the server describes each kind. */
+/** The exchangeable parts, except for laws, with the server's description of each kind. */
 import { signal } from "@preact/signals";
 import { putEffects, readKinds } from "../api/client";
 import type {
@@ -13,14 +13,14 @@ import type { Quantity } from "../quantities";
 import { DEGREES_PER_RADIAN, formatInput } from "../units";
 
 const RETRY_MS = 2000;
-const MILLI_BELOW = 0.1;
+const MILLI_LIMIT = 0.1;
 
 export type Preset = EffectsPreset["name"];
 
 /** null until the server has answered. */
 export const kinds = signal<Kinds | null>(null);
 
-/** Read them when the page opens, once. */
+/** Read them once, when the page opens. */
 export async function openKinds(): Promise<void> {
   try {
     kinds.value = await readKinds();
@@ -32,15 +32,15 @@ export async function openKinds(): Promise<void> {
 /** Switch on the effects of a preset, with their default values. */
 export async function choosePreset(name: Preset): Promise<SessionState> {
   kinds.value ??= await readKinds();
-  const preset = kinds.value.presets.find((one) => one.name === name);
+  const preset = kinds.value.presets.find((candidate) => candidate.name === name);
   return putEffects(preset?.effects ?? {});
 }
 
-/** Label, unit and factor on screen: angles in degrees, what is always small in thousandths. */
-export function shownAsDescribed({ symbol, meaning, unit, high }: ParameterRow): Quantity {
+/** Label, unit and factor on screen: angles in degrees, small numbers in thousandths. */
+export function quantityOfParameter({ symbol, meaning, unit, high }: ParameterRow): Quantity {
   const label = symbol || meaning;
   if (unit === "1" || unit === "") return { label, unit: "" };
-  const isSmall = (unit === "s" || unit === "rad") && high !== null && high <= MILLI_BELOW;
+  const isSmall = (unit === "s" || unit === "rad") && high !== null && high <= MILLI_LIMIT;
   if (isSmall) return { label, unit: `m${unit}`, factor: 1e3 };
   if (unit === "rad") return { label, unit: "deg", factor: DEGREES_PER_RADIAN };
   return { label, unit };
@@ -49,33 +49,35 @@ export function shownAsDescribed({ symbol, meaning, unit, high }: ParameterRow):
 const listNumbers = ({ value, parameters }: EffectRow): ParameterRow[] =>
   value === null ? parameters : [value];
 
-/** The quantity of a path such as `noise.motor_std_rad`; null where no effect has one. */
+/** The quantity of a path such as `noise.motor_std_rad`; null if no effect has it. */
 export function effectQuantityOf(path: string): Quantity | null {
   const [name, effect] = path.split(".").reverse();
   const found = kinds.value?.effects
-    .filter((one) => effect === undefined || effect === "effects" || one.name === effect)
+    .filter(
+      (candidate) => effect === undefined || effect === "effects" || candidate.name === effect,
+    )
     .flatMap(listNumbers)
     .find((row) => row.name === name);
-  return found === undefined ? null : shownAsDescribed(found);
+  return found === undefined ? null : quantityOfParameter(found);
 }
 
-/** What stands first in the fields of a form, by their names. */
-export const firstOf = (form: readonly FormField[]): Record<string, string> =>
+/** Initial values of the fields of a form, by name. */
+export const initialValues = (form: readonly FormField[]): Record<string, string> =>
   Object.fromEntries(
     form.map(({ parameter, first }) => {
-      const { factor = 1 } = shownAsDescribed(parameter);
+      const { factor = 1 } = quantityOfParameter(parameter);
       return [parameter.name, formatInput(first * factor)];
     }),
   );
 
-/** In SI what is typed into a form; null while a number is missing or is none. */
-export function readForm(
+/** Values of a form in SI; null while a number is missing or invalid. */
+export function parseForm(
   form: readonly FormField[],
   typed: Readonly<Record<string, string>>,
 ): Record<string, number> | null {
   const entries = form.map(({ parameter }) => {
     const written = typed[parameter.name]?.trim() ?? "";
-    const { factor = 1 } = shownAsDescribed(parameter);
+    const { factor = 1 } = quantityOfParameter(parameter);
     return [parameter.name, written === "" ? Number.NaN : Number(written) / factor] as const;
   });
   return entries.every(([, value]) => Number.isFinite(value)) ? Object.fromEntries(entries) : null;

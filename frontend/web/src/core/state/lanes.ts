@@ -1,17 +1,18 @@
-/** The lanes of the session: what runs side by side, and under which names. */
+/** The lanes of the session: controllers and their names. */
 import { computed, effect, signal } from "@preact/signals";
 import type { Gains, Lane, LaneRow, Law, SessionState } from "../api/types";
-import { otherLaw } from "./laws";
+import { armOf, LANES_OF_ARM, nameArms, nameWithoutJoint } from "./joints";
+import { defaultComparisonLaw } from "./laws";
 import { session } from "./session";
 
-/** The comparison lanes; a bench's simulated twin is not one of them. */
+/** The comparison lanes, without the simulated twin of a bench. */
 export const comparisonsOf = ({ configuration: { comparisons }, bench }: SessionState) =>
   bench === null ? comparisons : comparisons.slice(1);
 
 /** The comparison lane of this number. */
 export interface ComparisonLane {
   lane: number;
-  /** The lane's own in the whole run. */
+  /** Id of the lane, constant during the run. */
   id: number;
   name: string;
   lineStyle: number;
@@ -20,28 +21,30 @@ export interface ComparisonLane {
 
 export function comparisonLanes(state: SessionState): ComparisonLane[] {
   const first = 1 + state.configuration.comparisons.length - comparisonsOf(state).length;
+  const lanesOfOne = armOf(state) === null ? 1 : LANES_OF_ARM;
   return comparisonsOf(state).flatMap((controller, index) => {
-    const row = state.lanes[first + index];
+    const row = state.lanes[lanesOfOne * (first + index)];
     const lane = first + index + 1;
     const lineStyle = row?.segments.at(-1)?.line_style ?? 0;
-    return row ? [{ lane, id: row.id, name: row.name, lineStyle, controller }] : [];
+    const name = nameWithoutJoint(row?.name ?? "");
+    return row ? [{ lane, id: row.id, name, lineStyle, controller }] : [];
   });
 }
 
-/** The gains of a lane: its own, or the session's while it has none. */
+/** The gains of a lane: its own, or the session's if it has none. */
 export function gainsOf({ gains }: Lane, { configuration }: SessionState): Gains {
   const { position_coefficients, stiffness_coefficients } = configuration.gains;
   return gains ?? ({ position_coefficients, stiffness_coefficients } as Gains);
 }
 
-/** Whether something of it is its own, and not the session's. */
+/** Whether the lane has its own settings. */
 export const hasOwnSettings = ({ gains, parameters, observer }: Lane): boolean =>
   [gains, parameters, observer].some((own) => own !== null && own !== undefined);
 
 /**
- * The laws of the comparison lanes when the session takes a law: the lane that has it takes the
- * session's in exchange, each from where its actuator is. None where no lane has it, or where it
- * is set there otherwise: that is another controller, which stays.
+ * The laws of the comparison lanes when the session changes to a law: the lane that has this law
+ * takes the session's in exchange; each plant keeps its state. No change if no lane has the law, or
+ * if that lane has its own settings: it is a different controller, and stays.
  */
 export function comparisonLaws(law: Law, state: SessionState): Law[] {
   const { law: before, comparisons } = state.configuration;
@@ -56,29 +59,29 @@ export function comparisonLaws(law: Law, state: SessionState): Law[] {
   });
 }
 
-/** A controller on a lane, from a time on up to before another, s. */
+/** A controller on a lane, from one time up to before another, s. */
 export interface Segment {
-  /** Which controller. */
+  /** Number of the controller. */
   number: number;
   name: string;
   lineStyle: number;
-  /** Its law acts on an estimate of the disturbance. */
+  /** Whether its law uses an estimate of the disturbance. */
   hasEstimate: boolean;
   from: number;
   to: number;
 }
 
-/** Of lane 1, 2, … who controlled it when, the present one last. */
-export type Cast = readonly (readonly Segment[])[];
+/** Controllers of lanes 1, 2, … over time, the present one last. */
+export type LaneSegments = readonly (readonly Segment[])[];
 
-/** A string, so that its dependents are computed again only when a lane changes. */
-const castKey = computed(() =>
+/** A string, so that dependents are recomputed only when a lane changes. */
+const segmentsKey = computed(() =>
   JSON.stringify((session.value?.lanes ?? []).map(({ segments }) => segments)),
 );
 
 /** The same array until a lane changes. */
-export const cast = computed<Cast>(() =>
-  (JSON.parse(castKey.value) as LaneRow["segments"][]).map((segments) =>
+export const laneSegments = computed<LaneSegments>(() =>
+  (JSON.parse(segmentsKey.value) as LaneRow["segments"][]).map((segments) =>
     segments.map(({ number, name, start_s: from, end_s: to, ...more }) => {
       const { line_style: lineStyle, has_estimate: hasEstimate } = more;
       return { number, name, lineStyle, hasEstimate, from, to: to ?? Number.POSITIVE_INFINITY };
@@ -86,31 +89,35 @@ export const cast = computed<Cast>(() =>
   ),
 );
 
-/** Who controls a lane now. */
-const presentOf = (lane: readonly Segment[]): Segment | undefined => lane.at(-1);
+/** Present controller of a lane. */
+const currentSegment = (lane: readonly Segment[]): Segment | undefined => lane.at(-1);
 
-/** Who controlled a lane at a time. */
+/** Controller of a lane at a time. */
 export const controllerAt = (lane: readonly Segment[], timeS: number): Segment | undefined =>
   lane.find(({ from, to }) => timeS >= from && timeS < to);
 
-/** Names of lane 1, 2, … as they are now. */
-export const laneNames = computed(() => cast.value.map((lane) => presentOf(lane)?.name ?? ""));
+/** Present names of the controllers: of lanes 1, 2, …, or of each arm. */
+export const controllerNames = computed(() => {
+  const names = laneSegments.value.map((lane) => currentSegment(lane)?.name ?? "");
+  return session.value !== null && armOf(session.value) !== null ? nameArms(names) : names;
+});
 
-// What *Compare* switches on: the last comparison lanes, or the first other law.
+// The lanes that *Compare* switches on: the last comparison lanes, or the first other law.
 
-const last = signal<readonly Lane[]>([]);
+const lastComparisons = signal<readonly Lane[]>([]);
 
-/** Without what would be the session's own controller a second time. */
-export function comparedWith(state: SessionState): readonly Lane[] {
+/** Without a lane that equals the session's own controller. */
+export function lanesToCompare(state: SessionState): readonly Lane[] {
   const { law } = state.configuration;
-  const kept = last.value.filter((lane) => lane.law !== law || hasOwnSettings(lane));
-  const other = otherLaw(law);
-  if (kept.length > 0 || other === undefined) return kept;
+  const previous = lastComparisons.value.filter((lane) => lane.law !== law || hasOwnSettings(lane));
+  const other = defaultComparisonLaw(law);
+  if (previous.length > 0 || other === undefined) return previous;
   return [{ law: other }];
 }
 
 export const watchComparisons = (): (() => void) =>
   effect(() => {
     const { value: state } = session;
-    if (state !== null && comparisonsOf(state).length > 0) last.value = comparisonsOf(state);
+    if (state !== null && comparisonsOf(state).length > 0)
+      lastComparisons.value = comparisonsOf(state);
   });

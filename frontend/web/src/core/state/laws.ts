@@ -1,4 +1,4 @@
-/** The laws that are installed, as each describes itself. */
+/** The installed laws with their descriptions. */
 import { computed, signal } from "@preact/signals";
 import { readLaws } from "../api/client";
 import type { Law, LawParameter, LawRow } from "../api/types";
@@ -9,48 +9,58 @@ const RETRY_MS = 2000;
 
 export const laws = signal<readonly LawRow[]>([]);
 
-/** Those that can be used; a broken one is named in `brokenLaws`. */
+/** The usable laws; a broken one is listed in `brokenLaws`. */
 export const usableLaws = computed(() => laws.value.filter(({ problem }) => problem === null));
 export const brokenLaws = computed(() => laws.value.filter(({ problem }) => problem !== null));
 
-/** What the server says of a law; undefined before it has, and of a law that is not installed. */
+/**
+ * Description of a law; undefined before the server has answered, and for a law that is not
+ * installed.
+ */
 export const lawOf = (name: Law): LawRow | undefined => laws.value.find((law) => law.name === name);
 
-/** How a law is called; its name where nothing else is known. */
+/** Title of a law; its name if it has no description. */
 export const titleOf = (name: Law): string => lawOf(name)?.title ?? name;
 
-/** A law of a record, which need not be here: its title, or its name and why it cannot be used. */
+/**
+ * A law of a record, which may not be installed: its title, or its name and the reason why it
+ * cannot be used.
+ */
 export function describeLaw(name: Law): string {
   const law = lawOf(name);
   if (law?.problem) return text.laws.broken(name);
   return law?.title ?? (laws.value.length > 0 ? text.laws.notInstalled(name) : name);
 }
 
-/** The default comparison law of a law: the first other one. */
-export const otherLaw = (law: Law): Law | undefined =>
+/** The default comparison for a law: the first other law. */
+export const defaultComparisonLaw = (law: Law): Law | undefined =>
   usableLaws.value.find(({ name }) => name !== law)?.name;
 
-const LONGEST_LABEL = 18;
+const MAX_LABEL_LENGTH = 18;
 
-/** A meaning that leaves no room for the slider stands above it, which then has the symbol. */
-export const isWordy = ({ symbol, meaning }: LawParameter): boolean =>
-  symbol !== "" && meaning.length > LONGEST_LABEL;
+/**
+ * A meaning that is too long for the slider's line is shown above it; the slider then has the
+ * symbol.
+ */
+export const hasLongMeaning = ({ symbol, meaning }: LawParameter): boolean =>
+  symbol !== "" && meaning.length > MAX_LABEL_LENGTH;
 
-/** What a parameter's field is called; of several numbers each has its place. */
+/** Label of a parameter's field; for several numbers each has its index. */
 export function labelParameter(row: LawParameter, index: number | null): string {
-  const label = isWordy(row) ? row.symbol : row.meaning;
+  const label = hasLongMeaning(row) ? row.symbol : row.meaning;
   return index === null ? label : `${label} ${index + 1}`;
 }
 
 /**
- * The parameter of a path such as `lqi.position_rad`, or of a lane, `comparisons[0].parameters.rate[1]`,
- * which does not say of which law: null where laws call what has this name otherwise.
+ * The parameter of a path such as `lqi.position_rad`, or of a lane,
+ * `comparisons[0].parameters.rate[1]`, which does not contain the law: null if laws have different
+ * parameters of this name.
  */
 export function parameterOf(path: string): Quantity | null {
   const [, law, name, place] = /(?:^|\.)(\w+)\.(\w+)(?:\[(\d+)\])?$/.exec(path) ?? [];
   const index = place === undefined ? null : Number(place);
   const [first, ...others] = laws.value
-    .filter((one) => law === "parameters" || one.name === law)
+    .filter((candidate) => law === "parameters" || candidate.name === law)
     .flatMap(({ parameters }) => parameters.filter((row) => row.name === name))
     .map((row) => ({ label: labelParameter(row, index), unit: row.unit === "1" ? "" : row.unit }));
   if (first === undefined) return null;
@@ -59,31 +69,31 @@ export function parameterOf(path: string): Quantity | null {
     : null;
 }
 
-const plain = (words: string): string => words.toLowerCase().trim();
+const normalize = (words: string): string => words.toLowerCase().trim();
 
-/** Those that have every word in their name, title or summary. */
-export function findLaws(listed: readonly LawRow[], sought: string): LawRow[] {
-  const wanted = plain(sought).split(/\s+/);
-  return listed.filter(({ name, title, summary }) => {
-    const said = plain(`${name} ${title} ${summary}`);
-    return wanted.every((word) => said.includes(word));
+/** Laws that have every word in their name, title or summary. */
+export function findLaws(candidates: readonly LawRow[], query: string): LawRow[] {
+  const queryWords = normalize(query).split(/\s+/);
+  return candidates.filter(({ name, title, summary }) => {
+    const searchText = normalize(`${name} ${title} ${summary}`);
+    return queryWords.every((word) => searchText.includes(word));
   });
 }
 
 const ESTIMATES = ["observer", "own", "none"] as const;
 
-/** By whose estimate of the load they act on; while there are few it is one group. */
-export const groupLaws = (listed: readonly LawRow[]) =>
+/** Groups by the source of their load estimate; with few laws there is one group. */
+export const groupLaws = (candidates: readonly LawRow[]) =>
   ESTIMATES.map((estimate) => ({
     estimate,
-    laws: listed.filter((law) => law.estimate === estimate),
+    laws: candidates.filter((law) => law.estimate === estimate),
   })).filter((group) => group.laws.length > 0);
 
-/** What Enter takes of those found: the law that was written out, or the first that is shown. */
-export const pickLaw = (found: readonly LawRow[], sought: string): LawRow | undefined =>
-  found.find(({ title }) => plain(title) === plain(sought)) ?? groupLaws(found)[0]?.laws[0];
+/** Selection by Enter: the law whose name was typed completely, or the first one found. */
+export const pickLaw = (found: readonly LawRow[], query: string): LawRow | undefined =>
+  found.find(({ title }) => normalize(title) === normalize(query)) ?? groupLaws(found)[0]?.laws[0];
 
-/** When the page opens, once: laws are installed before the lab starts. */
+/** Read once, when the page opens: laws are installed before the lab starts. */
 export async function openLaws(): Promise<void> {
   try {
     laws.value = await readLaws();

@@ -1,8 +1,8 @@
-/** What this browser remembers: theme, span of the plots, keys, and who sits before it. */
+/** Preferences stored in this browser: theme, span of the plots, keys, and the user's name. */
 import { effect, signal } from "@preact/signals";
 import { controlText as text } from "../text/control";
 
-export function remembered(key: string): string | null {
+export function readStored(key: string): string | null {
   try {
     return localStorage.getItem(key);
   } catch {
@@ -10,11 +10,11 @@ export function remembered(key: string): string | null {
   }
 }
 
-export function remember(key: string, value: string): void {
+export function store(key: string, value: string): void {
   try {
     localStorage.setItem(key, value);
   } catch {
-    // Nothing is lost but the memory of a choice.
+    // Without storage only the preference is lost.
   }
 }
 
@@ -24,61 +24,61 @@ export type Theme = "light" | "dark";
 
 const systemIsDark = window.matchMedia("(prefers-color-scheme: dark)");
 
-function firstTheme(): Theme {
-  const chosen = remembered("svsa.theme");
+function initialTheme(): Theme {
+  const chosen = readStored("svsa.theme");
   if (chosen === "light" || chosen === "dark") return chosen;
   return systemIsDark.matches ? "dark" : "light";
 }
 
-export const theme = signal<Theme>(firstTheme());
+export const theme = signal<Theme>(initialTheme());
 export const windowS = signal<WindowS>(
-  WINDOWS_S.find((seconds) => String(seconds) === remembered("svsa.window_s")) ?? 20,
+  WINDOWS_S.find((seconds) => String(seconds) === readStored("svsa.window_s")) ?? 20,
 );
-/** Whether the lab shows all controls, or those of a first experiment. */
-export const areAllControlsOn = signal(remembered("svsa.controls") === "all");
-/** Whether single keys command the page; Shift + Esc always does. */
-export const areKeysOn = signal(remembered("svsa.keys") !== "off");
-export const personName = signal(remembered("svsa.name") ?? "");
+/** Whether the lab shows all controls, or the basic view. */
+export const areAllControlsOn = signal(readStored("svsa.controls") === "all");
+/** Whether single keys are commands; Shift + Esc always is. */
+export const areKeysOn = signal(readStored("svsa.keys") !== "off");
+export const personName = signal(readStored("svsa.name") ?? "");
 
-/** As long as the server takes a name for who is in control. */
-export const LONGEST_NAME = 40;
+/** Maximum length of a name that the server accepts. */
+export const MAX_NAME_LENGTH = 40;
 
 export function defaultName(): string {
   const letter = () => String.fromCharCode(65 + Math.floor(26 * Math.random()));
   return text.control.defaultName(letter() + letter() + letter());
 }
 
-/** A name as the server takes it. */
+/** A name in the form that the server accepts. */
 export const nameForControl = (name: string): string =>
-  name.trim().slice(0, LONGEST_NAME).trim() || defaultName();
+  name.trim().slice(0, MAX_NAME_LENGTH).trim() || defaultName();
 
-export function chooseKeys(isOn: boolean): void {
+export function setKeysOn(isOn: boolean): void {
   areKeysOn.value = isOn;
-  remember("svsa.keys", isOn ? "on" : "off");
+  store("svsa.keys", isOn ? "on" : "off");
 }
 
 export function toggleAllControls(): void {
   areAllControlsOn.value = !areAllControlsOn.peek();
-  remember("svsa.controls", areAllControlsOn.peek() ? "all" : "basic");
+  store("svsa.controls", areAllControlsOn.peek() ? "all" : "basic");
 }
 
-export function rememberPerson(name: string): void {
+export function setPersonName(name: string): void {
   personName.value = name;
-  remember("svsa.name", name);
+  store("svsa.name", name);
 }
 
 export function toggleTheme(): void {
   theme.value = theme.peek() === "dark" ? "light" : "dark";
-  remember("svsa.theme", theme.peek());
+  store("svsa.theme", theme.peek());
 }
 
-export function chooseWindow(seconds: WindowS): void {
+export function setWindow(seconds: WindowS): void {
   windowS.value = seconds;
-  remember("svsa.window_s", String(seconds));
+  store("svsa.window_s", String(seconds));
 }
 
 systemIsDark.addEventListener("change", () => {
-  if (remembered("svsa.theme") === null) theme.value = systemIsDark.matches ? "dark" : "light";
+  if (readStored("svsa.theme") === null) theme.value = systemIsDark.matches ? "dark" : "light";
 });
 
 effect(() => {

@@ -1,4 +1,4 @@
-/** Why the server refused, in the names and units of the page. */
+/** The reason of a rejection, in the names and units of the page. */
 import type { RefusedError, Violation } from "../api/errors";
 import { type Quantity, quantityOf } from "../quantities";
 import { text } from "../text/en";
@@ -23,14 +23,14 @@ export function explainViolation(violation: Violation): string {
   if (violation.value === null) return words.missing(label);
   const limits = describeLimits(violation.limits, quantity);
   if (typeof violation.value === "number" && limits !== null) {
-    return words.outOfRange(label, show(violation.value, quantity), limits);
+    return words.outOfRange(label, formatQuantity(violation.value, quantity), limits);
   }
   return limits === null && quantity.factor === undefined
     ? words.wrong(label, violation.bound)
     : violation.message;
 }
 
-export function show(value: number, { unit, factor = 1 }: Quantity): string {
+export function formatQuantity(value: number, { unit, factor = 1 }: Quantity): string {
   const number = formatInput(value * factor).replace("-", "\u2212");
   return unit === "" ? number : `${number} ${unit}`;
 }
@@ -38,10 +38,13 @@ export function show(value: number, { unit, factor = 1 }: Quantity): string {
 function describeLimits(limits: Violation["limits"], quantity: Quantity): string | null {
   const { ge, gt, le, lt } = limits ?? {};
   if (ge !== undefined && le !== undefined) {
-    return words.between(show(ge, { ...quantity, unit: "" }), show(le, quantity));
+    return words.between(
+      formatQuantity(ge, { ...quantity, unit: "" }),
+      formatQuantity(le, quantity),
+    );
   }
-  if (ge !== undefined) return words.atLeast(show(ge, quantity));
-  if (gt !== undefined) return words.moreThan(show(gt, quantity));
-  if (le !== undefined) return words.atMost(show(le, quantity));
-  return lt === undefined ? null : words.lessThan(show(lt, quantity));
+  if (ge !== undefined) return words.atLeast(formatQuantity(ge, quantity));
+  if (gt !== undefined) return words.moreThan(formatQuantity(gt, quantity));
+  if (le !== undefined) return words.atMost(formatQuantity(le, quantity));
+  return lt === undefined ? null : words.lessThan(formatQuantity(lt, quantity));
 }

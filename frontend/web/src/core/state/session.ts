@@ -1,64 +1,70 @@
-/** What the page knows of the session: signals for what changes slowly, a ring for the samples. */
+/** State of the session: signals for slow changes, a ring for the samples. */
 import { computed, signal } from "@preact/signals";
 import { readState, streamAddress } from "../api/client";
 import { LockedError, RefusedError } from "../api/errors";
 import type { Hello, SessionState } from "../api/types";
-import { type Finding, type Phase, StreamConnection } from "../stream/connection";
+import { type Phase, type ProbeResult, StreamConnection } from "../stream/connection";
 import { BatchDecoder } from "../stream/decoder";
-import { HISTORY_S, LONGEST_WINDOW_S, RATE_HZ, SampleRing } from "../stream/ring";
-import { type Mark, markOfBench } from "./plant";
+import { HISTORY_S, MAX_WINDOW_S, RATE_HZ, SampleRing } from "../stream/ring";
+import { type PlantKind, plantKindOfBench } from "./plant";
 
-/** After a change the whole state; between changes only the fields that change with time. */
+/** After a change the whole state; otherwise only the fields that change with time. */
 export type Progress = Pick<SessionState, "run_number" | "tick"> & Partial<SessionState>;
 
 const MAX_EVENTS = 200;
 
-type Over = { end_tick: number | null };
+type Ended = { end_tick: number | null };
 
 /**
- * The state after a message, which reports events, ended windows and ended segments of lanes from
- * its `sinceTick` on: those before are as they were known.
+ * Apply a message, which contains events, ended windows and ended segments of lanes from its
+ * `sinceTick` on; earlier ones stay.
  */
-export function joinPast(known: SessionState, progress: Progress, sinceTick: number): SessionState {
-  const joined = { ...known, ...progress };
-  if (sinceTick === 0) return joined;
-  const firstTick = joined.tick - LONGEST_WINDOW_S * joined.rate_hz;
-  const isBefore = ({ end_tick }: Over) =>
+export function mergeProgress(
+  known: SessionState,
+  progress: Progress,
+  sinceTick: number,
+): SessionState {
+  const merged = { ...known, ...progress };
+  if (sinceTick === 0) return merged;
+  const firstTick = merged.tick - MAX_WINDOW_S * merged.rate_hz;
+  const isBefore = ({ end_tick }: Ended) =>
     end_tick !== null && end_tick < sinceTick && end_tick > firstTick;
   if (progress.events !== undefined) {
     const before = known.events.filter(({ tick }) => tick < sinceTick);
-    joined.events = [...before, ...progress.events].slice(-MAX_EVENTS);
+    merged.events = [...before, ...progress.events].slice(-MAX_EVENTS);
   }
   if (progress.ended_windows !== undefined) {
-    joined.ended_windows = [...known.ended_windows.filter(isBefore), ...progress.ended_windows];
+    merged.ended_windows = [...known.ended_windows.filter(isBefore), ...progress.ended_windows];
   }
   if (progress.lanes !== undefined) {
     const pastOf = (lane: number) => known.lanes.find(({ id }) => id === lane)?.segments ?? [];
-    joined.lanes = progress.lanes.map((lane) => ({
+    merged.lanes = progress.lanes.map((lane) => ({
       ...lane,
       segments: [...pastOf(lane.id).filter(isBefore), ...lane.segments],
     }));
   }
-  return joined;
+  return merged;
 }
 
-const CAPACITY = LONGEST_WINDOW_S * RATE_HZ + 1;
+const CAPACITY = MAX_WINDOW_S * RATE_HZ + 1;
 
 type TextMessage = Hello | { type: "state"; since_tick: number; state: Progress };
 
 export const session = signal<SessionState | null>(null);
 export const phase = signal<Phase>("connecting");
 export const missedSamples = signal(0);
-/** Counts the connections: what must start afresh after a lost one is keyed by it. */
+/** Number of connections: used as key by parts that must restart after a lost connection. */
 export const connectionCount = signal(0);
-/** A new session has the name of the one that was shown, until the user dismisses the message. */
-export const isAnother = signal(false);
-/** Counts what was received: a plot whose count is behind has something to draw. */
-export const received = signal(0);
+/**
+ * Set if a new session has the name of the one shown before, until the user dismisses the message.
+ */
+export const isNewInstance = signal(false);
+/** Number of messages received: a plot with a smaller number has something to draw. */
+export const receivedCount = signal(0);
 
-/** Other samples are there than before. */
-export function countReceived(): void {
-  received.value = received.peek() + 1;
+/** Incremented when the samples are replaced. */
+export function incrementReceived(): void {
+  receivedCount.value = receivedCount.peek() + 1;
 }
 
 export const isLive = computed(() => phase.value === "live");
@@ -66,40 +72,40 @@ export const samples: { ring: SampleRing } = { ring: new SampleRing(1, []) };
 
 let periodS = 0.001;
 let decoder: BatchDecoder | null = null;
-let run = -1;
+let currentRun = -1;
 
-/** The channels that the page asks for, and whether the answer continues what it holds already. */
-const selection: { channels: readonly string[]; continues: boolean } = {
+/** The channels that the page requests, and whether the answer extends the stored samples. */
+const selection: { channels: readonly string[]; extendsSamples: boolean } = {
   channels: [],
-  continues: false,
+  extendsSamples: false,
 };
 const SELECTION_MS = 250;
 let selectionTimer: ReturnType<typeof setTimeout> | undefined;
-/** Counts the selections of channels whose past has come. */
+/** Incremented when the past of newly selected channels has arrived. */
 export const selectionCount = signal(0);
 
 /**
- * Takes over what the server sent, unless something newer is known. sinceTick: from where on it
- * tells what is over; all of it, if left out.
+ * Apply the server's message, unless a newer one is known. sinceTick: start of the reported past;
+ * all of it if left out.
  */
 export function acceptState(state: Progress, sinceTick = 0): void {
   const known = session.peek();
   if (known === null || state.run_number < known.run_number) return;
   if (state.run_number === known.run_number && state.tick < known.tick) return;
-  take(joinPast(known, state, sinceTick));
+  applyState(mergeProgress(known, state, sinceTick));
 }
 
-/** A run that has begun has no samples yet: those of the one before are not of it. */
+/** A restarted run has no samples yet: stored ones belong to the previous run. */
 function beginRun(number: number): void {
-  run = number;
+  currentRun = number;
   samples.ring.clear();
-  countReceived();
+  incrementReceived();
 }
 
-/** The samples stand in the order of the lanes that the page draws them as. */
-function take(state: SessionState): void {
-  if (state.run_number > run) beginRun(state.run_number);
-  samples.ring.arrange(state.lanes.map(({ id }) => id));
+/** The samples are in the order of the page's lanes. */
+function applyState(state: SessionState): void {
+  if (state.run_number > currentRun) beginRun(state.run_number);
+  samples.ring.setLanes(state.lanes.map(({ id }) => id));
   session.value = state;
 }
 
@@ -113,34 +119,37 @@ function acceptText(message: string): void {
   const names = content.channels.map((channel) => channel.name);
   const known = session.peek();
   const isSame = known === null || known.instance === content.state.instance;
-  if (!isSame) isAnother.value = true;
-  const continues = selection.continues && isSame && content.state.run_number === run;
+  if (!isSame) isNewInstance.value = true;
+  const extendsSamples =
+    selection.extendsSamples && isSame && content.state.run_number === currentRun;
   periodS = content.period_s;
   decoder = new BatchDecoder(content);
-  run = content.state.run_number;
-  samples.ring = continues ? samples.ring.reselect(names) : new SampleRing(CAPACITY, names);
-  take(content.state);
-  countReceived();
-  if (continues) return;
-  selection.continues = false;
+  currentRun = content.state.run_number;
+  samples.ring = extendsSamples
+    ? samples.ring.withChannels(names)
+    : new SampleRing(CAPACITY, names);
+  applyState(content.state);
+  incrementReceived();
+  if (extendsSamples) return;
+  selection.extendsSamples = false;
   missedSamples.value = 0;
   connectionCount.value++;
 }
 
 function acceptBinary(message: ArrayBuffer): void {
   const batch = decoder?.decode(message);
-  if (batch === undefined || batch.run < run) return;
-  if (batch.run > run) beginRun(batch.run);
+  if (batch === undefined || batch.run < currentRun) return;
+  if (batch.run > currentRun) beginRun(batch.run);
   samples.ring.append(batch, periodS);
   if (batch.missed > 0) missedSamples.value += batch.missed;
-  countReceived();
-  if (selection.continues) {
-    selection.continues = false;
+  incrementReceived();
+  if (selection.extendsSamples) {
+    selection.extendsSamples = false;
     selectionCount.value++;
   }
 }
 
-async function probe(): Promise<Finding> {
+async function probe(): Promise<ProbeResult> {
   try {
     await readState();
     return "up";
@@ -156,44 +165,44 @@ const connection = new StreamConnection(
   {
     onPhase: (next) => {
       phase.value = next;
-      if (next === "lost") selection.continues = false;
+      if (next === "lost") selection.extendsSamples = false;
     },
     onText: acceptText,
     onBinary: acceptBinary,
   },
 );
 
-/** The dead-man's switch of a bench is held; the server takes it for 0.1 s. */
-export const saySwitchIsHeld = (): void => connection.say("held");
+/** The dead-man's switch of a bench is held; the server accepts it for 0.1 s. */
+export const sendSwitchHeld = (): void => connection.send("held");
 
 export const openStream = (): void => connection.open();
 
-/** Has the stream carry these channels; what is held of them stays, the last 20 s of new ones come. */
+/** Request these channels; their stored samples stay, and the last 20 s of new ones arrive. */
 export function selectChannels(channels: readonly string[]): void {
   selection.channels = channels;
   clearTimeout(selectionTimer);
   const isSame = (names: readonly string[]) => names.join() === channels.join();
   selectionTimer = setTimeout(() => {
     if (phase.peek() !== "live" || isSame(samples.ring.channels)) return;
-    selection.continues = true;
+    selection.extendsSamples = true;
     connection.open();
   }, SELECTION_MS);
 }
 
 export function watchNetwork(): void {
-  const hurry = () => {
-    if (phase.peek() !== "locked" && phase.peek() !== "ended") connection.hurry();
+  const reconnect = () => {
+    if (phase.peek() !== "locked" && phase.peek() !== "ended") connection.retryNow();
   };
-  window.addEventListener("online", hurry);
+  window.addEventListener("online", reconnect);
   document.addEventListener("visibilitychange", () => {
-    if (!document.hidden) hurry();
+    if (!document.hidden) reconnect();
   });
 }
 
 export const bench = computed(() => session.value?.bench ?? null);
 
 /** Null for a simulation, which needs no mark. */
-export const mark = computed<Mark | null>(() => {
+export const plantKind = computed<PlantKind | null>(() => {
   if (bench.value === null) return null;
-  return markOfBench(bench.value);
+  return plantKindOfBench(bench.value);
 });

@@ -1,8 +1,8 @@
 /** A WebSocket that detects silence and reconnects automatically. */
 
-/** What an ordinary request finds where the stream was lost. */
-/** ended: the server lives, but what was streamed is there no more. */
-export type Finding = "up" | "down" | "locked" | "ended";
+/** Result of an ordinary request after the stream was lost. */
+/** ended: the server answers, but the streamed session no longer exists. */
+export type ProbeResult = "up" | "down" | "locked" | "ended";
 export type Phase = "connecting" | "live" | "lost" | "locked" | "ended";
 
 interface StreamHandlers {
@@ -11,10 +11,10 @@ interface StreamHandlers {
   onBinary(message: ArrayBuffer): void;
 }
 
-const SILENCE_MS = 5000;
-const SOON_MS = 600;
+const SILENCE_TIMEOUT_MS = 5000;
+const SHORT_RETRY_MS = 600;
 
-/** Wait before attempt `attempt` (0, 1, …), ms: doubles from 0.5 s to 4 s, spread by ±20 %. */
+/** Delay before attempt `attempt` (0, 1, …), ms: doubles from 0.5 s to 4 s, randomised by ±20 %. */
 export function backoffMs(attempt: number, random: number = Math.random()): number {
   const wait = Math.min(4000, 500 * 2 ** attempt);
   return wait * (0.8 + 0.4 * random);
@@ -23,18 +23,18 @@ export function backoffMs(attempt: number, random: number = Math.random()): numb
 export class StreamConnection {
   #socket: WebSocket | null = null;
   #attempt = 0;
-  /** What never came cannot have been lost. */
+  /** Whether a connection existed, which can be lost. */
   #wasLive = false;
   #retryTimer: ReturnType<typeof setTimeout> | undefined;
   #silenceTimer: ReturnType<typeof setTimeout> | undefined;
 
   /**
-   * @param address where the stream is
-   * @param probe asked after a failure, because a WebSocket does not tell why it was refused
+   * @param address address of the stream
+   * @param probe called after a failure, because a WebSocket does not report why it was rejected
    */
   constructor(
     private readonly address: () => URL,
-    private readonly probe: () => Promise<Finding>,
+    private readonly probe: () => Promise<ProbeResult>,
     private readonly handlers: StreamHandlers,
   ) {}
 
@@ -49,15 +49,15 @@ export class StreamConnection {
     this.#listenForSilence();
   }
 
-  /** Tries at once when it was waiting: the network or the page has just come back. */
-  hurry(): void {
+  /** Retry at once if it was waiting: the network or the page is available again. */
+  retryNow(): void {
     if (this.#socket === null) this.open();
   }
 
-  /** Tells the server something now, or not at all: what would wait in line is left out. */
-  say(words: string): void {
+  /** Send a message now or drop it: a queued message would arrive too late. */
+  send(message: string): void {
     const socket = this.#socket;
-    if (socket?.readyState === WebSocket.OPEN && socket.bufferedAmount === 0) socket.send(words);
+    if (socket?.readyState === WebSocket.OPEN && socket.bufferedAmount === 0) socket.send(message);
   }
 
   #receive(data: string | ArrayBuffer): void {
@@ -71,24 +71,24 @@ export class StreamConnection {
 
   #listenForSilence(): void {
     clearTimeout(this.#silenceTimer);
-    this.#silenceTimer = setTimeout(() => void this.#recover(), SILENCE_MS);
+    this.#silenceTimer = setTimeout(() => void this.#recover(), SILENCE_TIMEOUT_MS);
   }
 
   async #recover(): Promise<void> {
     this.#drop();
     if (this.#wasLive) this.handlers.onPhase("lost");
-    const finding = await this.probe();
+    const probeResult = await this.probe();
     const isOpenAgain = this.#socket !== null;
     if (isOpenAgain) return;
-    if (finding === "locked" || finding === "ended") {
-      this.handlers.onPhase(finding);
+    if (probeResult === "locked" || probeResult === "ended") {
+      this.handlers.onPhase(probeResult);
       return;
     }
     const wait = backoffMs(this.#attempt++);
     clearTimeout(this.#retryTimer);
     this.#retryTimer = setTimeout(
       () => this.open(),
-      finding === "up" ? Math.min(wait, SOON_MS) : wait,
+      probeResult === "up" ? Math.min(wait, SHORT_RETRY_MS) : wait,
     );
   }
 

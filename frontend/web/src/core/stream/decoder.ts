@@ -1,7 +1,7 @@
-/** Binary messages of the stream, decoded as the greeting lays them out. */
+/** Decodes the binary messages of the stream, whose layout the greeting defines. */
 import type { Hello } from "../api/types";
 
-export type Greeting = Pick<Hello, "batch"> & { channels: readonly unknown[] };
+export type StreamDescription = Pick<Hello, "batch"> & { channels: readonly unknown[] };
 type Layout = Hello["batch"];
 type Field = Layout["header"][number];
 type FieldName = Field["name"];
@@ -13,7 +13,7 @@ export interface Batch {
   count: number;
   /** Samples that the server dropped for this client before this batch. */
   missed: number;
-  /** Of every lane its id, as the session's state has it. */
+  /** The id of each lane, as in the session's state. */
   lanes: readonly number[];
   /** Row-major: values[(i * lanes.length + l) * channels + c]. */
   values: Float32Array;
@@ -40,13 +40,13 @@ export class BatchDecoder {
   readonly #channels: number;
   readonly #fields: ReadonlyMap<FieldName, Field>;
 
-  constructor({ batch, channels }: Greeting) {
+  constructor({ batch, channels }: StreamDescription) {
     this.#layout = batch;
     this.#channels = channels.length;
     this.#fields = new Map(batch.header.map((field) => [field.name, field]));
   }
 
-  /** Throws `StreamFormatError` for what is no batch of so many channels. */
+  /** Throws `StreamFormatError` if it is not a batch with this number of channels. */
   decode(message: ArrayBuffer): Batch {
     const { header_bytes: headerBytes, lane_id, value } = this.#layout;
     if (message.byteLength < headerBytes) {

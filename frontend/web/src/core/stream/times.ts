@@ -1,7 +1,7 @@
-/** A ring of samples' times: where the newest stands, and which sample is of a time. */
+/** A ring of sample times: position of the newest, and lookup by time. */
 
-/** So far from a sample it is still the one meant, s. */
-const REACH_S = 0.02;
+/** Tolerance for the time of a sample, s. */
+const TIME_TOLERANCE_S = 0.02;
 
 export class TimeRing {
   readonly capacity: number;
@@ -39,12 +39,12 @@ export class TimeRing {
 
   /** Time of a sample, counted from the oldest one, s; NaN when there is none. */
   timeAt(index: number): number {
-    const isHeld = index >= 0 && index < this.#length;
-    return isHeld ? (this.#time[this.slot(index)] as number) : Number.NaN;
+    const isStored = index >= 0 && index < this.#length;
+    return isStored ? (this.#time[this.slot(index)] as number) : Number.NaN;
   }
 
   /** Index, counted from the oldest sample, of the first one at or after `timeS`. */
-  firstAt(timeS: number): number {
+  lowerBound(timeS: number): number {
     let low = 0;
     let high = this.#length;
     while (low < high) {
@@ -55,18 +55,19 @@ export class TimeRing {
     return low;
   }
 
-  /** Index of the sample nearest to a time; -1 when there is none. */
+  /** Index of the sample nearest to a time; -1 if there is none. */
   nearestTo(timeS: number): number {
     if (this.#length === 0) return -1;
-    const after = Math.min(this.firstAt(timeS), this.#length - 1);
+    const after = Math.min(this.lowerBound(timeS), this.#length - 1);
     const before = Math.max(0, after - 1);
     return timeS - this.timeAt(before) <= this.timeAt(after) - timeS ? before : after;
   }
 
   /** Index of the sample at a time, the nearest; -1 before the oldest and after the newest. */
   sampleAt(timeS: number): number {
-    const isHeld = timeS >= this.oldestTime - REACH_S && timeS <= this.newestTime + REACH_S;
-    return isHeld ? this.nearestTo(timeS) : -1;
+    const isStored =
+      timeS >= this.oldestTime - TIME_TOLERANCE_S && timeS <= this.newestTime + TIME_TOLERANCE_S;
+    return isStored ? this.nearestTo(timeS) : -1;
   }
 
   /** Copies time from sample `first` on into `out`; returns how many were copied. */
@@ -74,27 +75,27 @@ export class TimeRing {
     return this.copyOut(this.#time, first, out, 1);
   }
 
-  /** Where the next sample goes. */
+  /** Position of the next sample. */
   protected get head(): number {
     return this.#next;
   }
 
   /** The tick at which the next sample is expected; null before the first. */
-  protected get due(): number | null {
+  protected get expectedTick(): number | null {
     return this.#length === 0 ? null : (this.#due[this.slot(this.#length - 1)] as number);
   }
 
-  /** Of all slots, as they lie. */
+  /** All slots, in storage order. */
   protected get time(): Float64Array {
     return this.#time;
   }
 
-  /** Which sample since the beginning one is, counted from the oldest held. */
-  protected numberOf(index: number): number {
+  /** Number of a sample since the beginning, from its index counted from the oldest. */
+  protected sampleNumber(index: number): number {
     return this.#total - this.#length + index;
   }
 
-  protected adoptTimes(other: TimeRing): void {
+  protected copyTimesFrom(other: TimeRing): void {
     this.#time = other.#time.slice();
     this.#due = other.#due.slice();
     this.#next = other.#next;
@@ -112,13 +113,13 @@ export class TimeRing {
 
   protected dropFrom(timeS: number): void {
     if (!(timeS <= this.newestTime)) return;
-    const dropped = this.#length - this.firstAt(timeS);
+    const dropped = this.#length - this.lowerBound(timeS);
     this.#next = (this.#next - dropped + this.capacity) % this.capacity;
     this.#length -= dropped;
     this.#total -= dropped;
   }
 
-  /** Where a sample lies, counted from the oldest. */
+  /** Position of a sample counted from the oldest. */
   protected slot(index: number): number {
     return (this.#next - this.#length + index + this.capacity) % this.capacity;
   }

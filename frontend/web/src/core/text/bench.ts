@@ -1,4 +1,4 @@
-/** A bench, its marks, and the quick stop. */
+/** Texts of a bench, its marks, and the quick stop. */
 export const benchText = {
   mark: {
     emulated: { name: "EMULATED", title: "Emulator", means: "no metal moves" },

@@ -1,4 +1,4 @@
-/** A class: join it, whose turn it is, who is here, the instructor's page. */
+/** Texts of a class: joining, the queue for control, members, the instructor's page. */
 export const classroomText = {
   classroom: {
     title: "Join the class",
@@ -138,7 +138,7 @@ export const classroomText = {
   },
 } as const;
 
-/** Grades: the class's table, and one's own. */
+/** Grades: the table of the class, and the student's own. */
 export const gradesText = {
   grades: {
     title: "Grades",

@@ -1,4 +1,4 @@
-/** Who is in control, and the dead-man's switch. */
+/** Texts of the control lease and the dead-man's switch. */
 export const controlText = {
   control: {
     heading: "Control",
@@ -26,6 +26,8 @@ export const controlText = {
     leaveQueue: "Leave the queue",
     leaveQueueHint: "Remove yourself from the queue",
     giveOnHint: "The first user in the queue gets control",
+    private: "Open a private session",
+    privateHint: "A private simulated session that only you command",
     place: (place: number) => `your place: ${place}`,
     defaultName: (letters: string) => `Page ${letters}`,
   },

@@ -1,4 +1,4 @@
-/** The settings. */
+/** Texts of the settings. */
 export const controlsText = {
   controls: {
     heading: "Controls",
@@ -68,10 +68,8 @@ export const controlsText = {
       `Line ${line} is “${written}”; expected a time and a level.`,
     levelCount: (count: number, most: number) =>
       `The list has ${count} lines; expected 1 to ${most}.`,
-    example: {
-      position: "time_s,position_deg\n0,0\n1,30\n2,-30\n3,0\n",
-      stiffness: "time_s,stiffness_nm_per_rad\n0,15\n1,30\n3,15\n",
-    },
+    example: (column: string, low: string, high: string) =>
+      `time_s,${column}\n0,${low}\n1,${high}\n3,${low}\n`,
     isOther: {
       position: "This CSV holds positions: open it under Motion.",
       stiffness: "This CSV holds stiffness: open it under Stiffness.",
@@ -107,6 +105,7 @@ export const controlsText = {
   load: {
     title: "Load",
     weight: "3 kg",
+    massSign: "m",
     hang: "Hang 3 kg",
     remove: "Remove 3 kg",
     hangs: "3 kg hang on the link",
@@ -185,7 +184,7 @@ export const lawsText = {
   },
 } as const;
 
-/** From an excitation to a model of one's own. */
+/** From an excitation to an identified model. */
 export const identificationText = {
   identification: {
     title: "Identification",

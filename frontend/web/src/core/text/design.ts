@@ -1,4 +1,4 @@
-/** Gains and observer designed on the s-plane. */
+/** Texts of the design of gains and observer on the s-plane. */
 export const designText = {
   design: {
     open: "Place poles",

@@ -1,5 +1,6 @@
-/** Every word of the page, by area. */
+/** All texts of the page, by area. */
 import { actuatorsText } from "./actuators";
+import { armText } from "./arm";
 import { benchText } from "./bench";
 import { classroomText, gradesText } from "./classroom";
 import { controlText } from "./control";
@@ -21,6 +22,7 @@ import { studiesText } from "./studies";
 export const text = {
   ...pageText,
   ...actuatorsText,
+  ...armText,
   ...plotsText,
   ...controlsText,
   ...controlText,

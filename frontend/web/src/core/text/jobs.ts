@@ -14,6 +14,8 @@ export const jobsText = {
     left: (time: string) => `${time} left`,
     cancel: "Cancel",
     cancelHint: "Stop after the present runs; completed runs are kept",
+    example: "Example",
+    exampleHint: "A finished result that comes with the lab; your first result replaces it",
   },
 };
 
@@ -53,7 +55,7 @@ export const tuningText = {
     results: "Results, before and best",
     onValidation: "On the validation trials",
     onTraining: "On the training trials",
-    resultHeads: ["values", "cost", "held", "error, °", "σ error, %", "noise, N·m/s"],
+    resultHeads: ["values", "cost", "held", "rms error, °", "stiffness error, %", "noise, N·m/s"],
     held: (held: number, trials: number) => `${held} of ${trials}`,
     tooNoisy: "too noisy",
     noiseLimit: (limit: string) =>

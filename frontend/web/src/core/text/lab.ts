@@ -4,7 +4,7 @@ export const sceneText = {
   scene: {
     tools: "3D view",
     camera: "Camera",
-    cameras: { whole: "Whole", front: "Front", side: "Side", spring: "Spring" },
+    cameras: { whole: "Whole", front: "Front", side: "Side", spring: "Spring", top: "Above" },
     cameraHint: (name: string) => `Camera: ${name}`,
     push: "Push",
     pushHint: "Drag the link with the mouse: a virtual spring pulls it towards the pointer",

@@ -8,6 +8,9 @@ export const leaderboardText = {
     empty: "No law has been submitted in this season yet",
     emptyHint:
       "Paste a law into the form, choose a file, or use the command below. A law takes a dozen lines; the form contains a complete example.",
+    published: "Published ranking",
+    publishedHint:
+      "The season begins with the first submission or measurement; its entries then replace this table. The published trials are not those of the season.",
     entries: "Entries",
     table: "Rank, success rate, cost and worst run, a law a row",
     tableHint:
@@ -22,16 +25,19 @@ export const leaderboardText = {
         hint: "Title of an installed law (marked baseline), or name and author of a submitted one",
       },
       success: {
-        name: "Held",
+        name: "Trials held",
         hint: "Share of the season's hidden trials that held, with Wilson's 95 % interval: no fault, in the last second at most 1° and 10 % of the stiffness reference, a peak of at most 30°",
       },
       ended: {
-        name: "Ended",
+        name: "Ended early",
         hint: "Hidden trials that ended in a fault or with an error of the law",
       },
-      rms: { name: "rms, °", hint: "Median over the hidden trials of the rms position error" },
+      rms: {
+        name: "Median rms error, °",
+        hint: "Median over the hidden trials of the rms position error",
+      },
       cost: {
-        name: "µs/tick",
+        name: "Time per tick, µs",
         hint: "Median time of a tick by this machine's clock, with plant and sensors; of a submitted law also the way to its process and back, so compare it with other submitted ones only",
       },
       worst: {
@@ -55,7 +61,7 @@ export const leaderboardText = {
     rms: (error: string) => `${error}° rms`,
     see: (name: string) => `${name}, worst run in 3D:`,
     seeHint: (name: string) => `${name}: see this run in 3D, compared with NDOBC`,
-    note: "All laws run on the same trials, so a difference between two laws is more certain than their intervals suggest. Compare µs/tick within one kind of entry only. Repeated submissions reveal something about a season's trials.",
+    note: "All laws run on the same trials, so a difference between two laws is more certain than their intervals suggest. Compare the time per tick within one kind of entry only. Repeated submissions reveal something about a season's trials.",
     submit: "Submit a law",
     submitHint: (runs: number) =>
       `${runs} runs in an isolated process; takes some minutes. The same text has one permanent entry.`,

@@ -1,11 +1,11 @@
-/** Numbers of errors, and the window of a run in which they were measured: on every page alike. */
+/** Texts of metrics and their window, the same on every page. */
 export const measuredText = {
   names: { rms: "rms", peak: "Peak", settled: "Steady-state error", recovered: "Recovery time" },
   whole: "Whole run",
   start: "From the start",
-  /** From in seconds, of a window that goes on. */
+  /** From, in seconds, of an open window. */
   since: (what: string, from: string) => `${what}, since ${from} s`,
-  /** From and to in seconds. */
+  /** From and to, in seconds. */
   during: (what: string, from: string, to: string) => `${what}, ${from}–${to} s`,
   controlled: (lanes: readonly string[], what: string) => `${lanes.join(" / ")}: ${what}`,
   steadyStateHint: "rms position error over the last 0.5 s of the window",

@@ -1,4 +1,4 @@
-/** The frame of the page: header, status bar, banners and login. */
+/** Texts of the frame of the page: header, status bar, banners and login. */
 
 export const pageText = {
   name: "SVSA Lab",

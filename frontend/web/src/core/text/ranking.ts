@@ -28,33 +28,39 @@ export const rankingText = {
         hint: "By the success rate over both families; rows that do not differ significantly from the first of their group share its rank",
       },
       familyA: {
-        name: "Family A, %",
+        name: "Trials held, family A, %",
         hint: "Trials that held, with Wilson's 95 % interval. The paper's motion, σ 15–70, inertias ±50 %, encoders, friction, noise, 1–2 samples of delay; on the link a step, pulse, impulse, sine to 1 Hz or hung mass",
       },
       familyB: {
-        name: "Family B, %",
+        name: "Trials held, family B, %",
         hint: "The same with σ 12–120, also varying, spring ±5 % and dampings × 0.5–2, current lag 0.2–2 ms, sines to 5 Hz, loads on the motors",
       },
       p: {
-        name: "p vs NDOBC",
+        name: "p-value against NDOBC",
         hint: "McNemar's exact test against the tuned NDOBC, with Holm's correction",
       },
       rig: {
-        name: "Paper's load, °",
+        name: "Paper's load: peak error, °",
         hint: fixedHint("2 N·m on link and motors, rig, σ = 15"),
       },
-      removal: { name: "Load removal, °", hint: fixedHint("The same load removed after 3 s") },
-      mass: { name: "3 kg, °", hint: fixedHint("3 kg on an arm of 68 mm, rig, σ = 15") },
+      removal: {
+        name: "Load removal: peak error, °",
+        hint: fixedHint("The same load removed after 3 s"),
+      },
+      mass: {
+        name: "3 kg: peak error, °",
+        hint: fixedHint("3 kg on an arm of 68 mm, rig, σ = 15"),
+      },
       unmodelled: {
-        name: "Unmodelled, °",
+        name: "Unmodelled effects: peak error, °",
         hint: fixedHint("Paper's load with friction, a lag of 2 ms and the link's weight"),
       },
       load: {
-        name: "Largest load, N·m",
+        name: "Largest load held, N·m",
         hint: "Largest step on the link up to which all signs and phases held, rig, σ = 15, by 0.5 N·m",
       },
       noise: {
-        name: "Noise, N·m/s",
+        name: "Torque variation at rest, N·m/s",
         hint: "Total variation of u1 at rest under the rig's noise, mean of eight runs",
       },
     },
@@ -84,7 +90,13 @@ export const rankingText = {
     tuned: (candidates: number, trials: number, validation: number, seed: number) =>
       `Tuned by CMA-ES: ${candidates} candidates on ${trials} training trials, the best ten on ${validation} validation trials, seed ${seed}.`,
     scenarios: "Fixed scenarios, median / worst over signs and phases; a name opens the worst run",
-    scenarioHeads: ["Scenario", "Peak, °", "Stiffness, %", "Recovery, s", "Held"],
+    scenarioHeads: [
+      "Scenario",
+      "Peak error, °",
+      "Peak stiffness error, %",
+      "Recovery time, s",
+      "Held",
+    ],
     seeWorst: "Open the worst run in the lab",
     ofRuns: (held: number, runs: number) => `${held} of ${runs}`,
     trials: "Trials, median / 90 % quantile",

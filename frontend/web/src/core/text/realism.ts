@@ -1,4 +1,4 @@
-/** What separates the simulation from a bench. */
+/** Texts of the non-ideal effects. */
 export const realismText = {
   realism: {
     title: "Realism",

@@ -1,4 +1,4 @@
-/** Every word of the page of an exported run; of its plots, those of the live page. */
+/** Texts of the page of an exported run; its plots use those of the live page. */
 import { measuredText } from "./measured";
 import { plotsText } from "./plots";
 
@@ -9,7 +9,12 @@ export const text = {
   broken: "This file is damaged or incomplete: the run in it cannot be read.",
   view: "The actuator in 3D",
   noView: "The 3D view cannot start in this browser: it needs WebGL. The plots work without it.",
-  drawn: { lane: "actuator", ghost: "link in outline", reference: "reference angle" },
+  drawn: {
+    lane: "actuator",
+    ghost: "link in outline",
+    reference: "reference angle",
+    ellipse: "tip stiffness",
+  },
   transport: {
     heading: "Playback",
     play: "Play",

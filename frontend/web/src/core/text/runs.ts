@@ -1,4 +1,4 @@
-/** Recorded runs: the list, one run, several laid over one another. */
+/** Texts of recorded runs: the list, one run, overlays. */
 import { measuredText } from "./measured";
 
 export const runsText = {

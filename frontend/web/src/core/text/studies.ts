@@ -7,8 +7,6 @@ export const studiesText = {
     lead: "Repeats one experiment with varied settings, for several laws on the same samples. Each dot is a run: select one to see it in 3D.",
     loading: "Loading the studies …",
     kept: "My studies",
-    none: "No study yet: start one below.",
-    choose: "Choose or start a study: its runs are shown here as dots.",
     state: (done: number, rows: number) =>
       `${done.toLocaleString("en")} of ${rows.toLocaleString("en")} runs`,
     begin: "New study",
@@ -84,15 +82,15 @@ export const studiesText = {
     faults: "Faults",
     noFaults: "none",
     refused: (count: number) => `${samples(count)} not run: incompatible settings`,
-    median: (metric: string) => `${metric}: 5, 50, 95 %`,
+    median: (metric: string) => `${metric}: 5, 50 and 95 % quantile`,
     fault: "fault",
     interval: (share: string, low: string, high: string) => `${share} % (${low} to ${high})`,
     estimate: (value: string, low: string | null, high: string | null) =>
       low === null ? `${value} (no interval)` : `${value} (${low} to ${high})`,
     pair: (one: string, other: string) => `${one} − ${other}`,
     points: (estimate: string) => `${estimate} percentage points`,
-    pSuccess: (value: string) => `McNemar's p, Holm-corrected: ${value}`,
-    pMetric: (value: string) => `Wilcoxon's p, Holm-corrected: ${value}`,
+    pSuccess: (value: string) => `McNemar's p-value, Holm-corrected: ${value}`,
+    pMetric: (value: string) => `Wilcoxon's p-value, Holm-corrected: ${value}`,
     pSmall: "< 0.0001",
     only: (one: number, other: number) =>
       `only the first succeeded: ${samples(one)}; only the second: ${other}`,

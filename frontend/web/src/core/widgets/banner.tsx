@@ -7,7 +7,7 @@ interface BannerProps {
   role?: "alert" | "status";
   title?: string;
   words?: string | undefined;
-  /** What can be done about it. */
+  /** Commands of the notice. */
   children?: ComponentChildren;
 }
 

@@ -2,9 +2,9 @@ import type { RefObject } from "preact";
 import { useEffect, useState } from "preact/hooks";
 
 /**
- * The parts of a list that scrolls whose headings are below its lower edge.
+ * The sections of a scrolling list whose headings are below its lower edge.
  *
- * parts: selector of them. cover: what of that edge is covered, px.
+ * parts: their selector. cover: height of that edge that is covered, px.
  */
 export function useBelow(
   list: RefObject<HTMLElement | null>,
@@ -21,11 +21,11 @@ export function useBelow(
         (part) => (headingOf(part)?.getBoundingClientRect().bottom ?? 0) > end,
       );
       const isSame = (before: readonly HTMLElement[]) =>
-        before.length === found.length && before.every((one, at) => one === found[at]);
+        before.length === found.length && before.every((item, at) => item === found[at]);
       setBelow((before) => (isSame(before) ? before : found));
     };
     const resizing = new ResizeObserver(find);
-    for (const one of [element, ...element.children]) resizing.observe(one);
+    for (const item of [element, ...element.querySelectorAll(parts)]) resizing.observe(item);
     element.addEventListener("scroll", find, { passive: true });
     return () => {
       resizing.disconnect();
@@ -38,7 +38,7 @@ export function useBelow(
 export const headingOf = (part: HTMLElement): HTMLElement | null =>
   part.querySelector<HTMLElement>("h2, h3");
 
-/** Scrolls to a part and reads on from there. */
+/** Scroll to a section and focus it. */
 export function goTo(part: HTMLElement): void {
   part.scrollIntoView({ block: "start" });
   headingOf(part)?.focus({ preventScroll: true });

@@ -24,7 +24,7 @@ export function Criteria({ grade }: { grade: Grade }) {
   );
 }
 
-/** What was verified of the runs that were submitted. */
+/** Result of the verification of the submitted runs. */
 export function VerifiedRuns({ grade }: { grade: Grade }) {
   return (
     <>

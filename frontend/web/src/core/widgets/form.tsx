@@ -1,4 +1,4 @@
-/** Parts of a form: choices, numbers, and the reason why a request was rejected. */
+/** Parts of a form: choices, numbers, and the reason of a rejection. */
 import { useEffect, useId, useRef, useState } from "preact/hooks";
 import { problem } from "../state/actions";
 import { text } from "../text/en";
@@ -14,11 +14,14 @@ interface ChoiceProps<T extends string> {
   /** null: none of them. */
   value: T | null;
   describedBy?: string;
-  /** Resolves when the choice was taken or refused; until then it stands as chosen. */
+  /**
+   * Resolves when the server has accepted or rejected the choice; until then it is shown as
+   * selected.
+   */
   onChoose: (value: T) => unknown;
 }
 
-/** One of a few, all in sight. */
+/** Select one of a few options, all visible. */
 export function Choice<T extends string>(props: ChoiceProps<T>) {
   const group = useId();
   const [pending, setPending] = useState<T | null>(null);
@@ -52,7 +55,7 @@ interface NumberBoxProps {
   onInput: (value: string) => void;
 }
 
-/** A number of a form, as it is typed. */
+/** A number of a form, as text. */
 export function NumberBox({ label, unit, value, onInput }: NumberBoxProps) {
   const id = useId();
   return (
@@ -71,11 +74,11 @@ export function NumberBox({ label, unit, value, onInput }: NumberBoxProps) {
   );
 }
 
-/** Why the server refused what a control asked for; brought into sight where its panel scrolls. */
+/** Reason why the server rejected a control's request; scrolled into view in its panel. */
 export function Problem({ control, id }: { control: string; id?: string }) {
   const line = useRef<HTMLParagraphElement>(null);
   const mine = problem.value?.control === control ? problem.value : null;
-  const again = mine?.again;
+  const again = mine?.retry;
   useEffect(() => {
     if (mine !== null) line.current?.scrollIntoView({ block: "nearest" });
   }, [mine]);
@@ -94,7 +97,7 @@ export function Problem({ control, id }: { control: string; id?: string }) {
   );
 }
 
-/** Why a request of the page or of its form was rejected; hidden while it is empty. */
+/** Reason why a request of the page or of its form was rejected; hidden while it is empty. */
 export function ErrorLine({ children }: { children: string }) {
   return (
     <p class="problem" role="alert" hidden={children === ""}>
@@ -107,14 +110,14 @@ interface SelectFieldProps<T extends string> {
   label: string;
   value: T;
   options: readonly T[];
-  /** What is shown of an option. */
+  /** Text of an option. */
   name: (value: T) => string;
   title?: string;
   disabled?: boolean;
   onChoose: (value: T) => void;
 }
 
-/** One of some options, below its label. */
+/** Select one option, below its label. */
 export function SelectField<T extends string>(props: SelectFieldProps<T>) {
   const { label, value, options, name, title, disabled, onChoose } = props;
   return (

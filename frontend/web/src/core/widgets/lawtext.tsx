@@ -1,4 +1,4 @@
-/** A law of one's own, as a file or as a text. */
+/** The user's own law, as a file or as text. */
 
 import { useState } from "preact/hooks";
 import { text } from "../text/en";
@@ -9,7 +9,7 @@ export const MAX_BYTES = 1 << 16;
 
 const countBytes = (law: string): number => new TextEncoder().encode(law).length;
 
-/** Why a text cannot be sent; "" where it can. */
+/** Reason why a text cannot be sent; "" if it can. */
 export function findFault(law: string): string {
   const bytes = countBytes(law);
   return bytes > MAX_BYTES ? words.tooLong(bytes, MAX_BYTES) : "";
@@ -20,7 +20,7 @@ interface LawTextProps {
   onLaw: (law: string) => void;
   /** Name of the file that it was read from. */
   onFile?: (name: string) => void;
-  /** A law to begin with, and what the button says that takes it; "" for none. */
+  /** An example to start from, and the label of its button; "" for none. */
   start: string;
   startWord: string;
 }

@@ -1,17 +1,19 @@
 import type { RefObject } from "preact";
 import { useEffect, useRef } from "preact/hooks";
-import { received } from "../state/session";
+import { receivedCount } from "../state/session";
 
 const PERIOD_MS = 100;
 
-/** An element whose text follows the samples, ten times a second, without rendering anything. */
+/**
+ * An element whose text follows the samples, ten times per second, without rendering a component.
+ */
 export function useLiveText<T extends HTMLElement>(read: () => string): RefObject<T | null> {
   const element = useRef<T>(null);
   useEffect(() => {
     let shownCount = -1;
     const write = () => {
-      if (element.current === null || shownCount === received.peek()) return;
-      shownCount = received.peek();
+      if (element.current === null || shownCount === receivedCount.peek()) return;
+      shownCount = receivedCount.peek();
       const next = read();
       if (element.current.textContent !== next) element.current.textContent = next;
     };

@@ -5,7 +5,7 @@ import { text } from "../text/en";
 
 const open: (() => void)[] = [];
 
-/** Has Escape call `close` until the returned function is called. */
+/** Call `close` on Escape until the returned function is called. */
 export function closeOnEscape(close: () => void): () => void {
   open.push(close);
   return () => {
@@ -14,7 +14,7 @@ export function closeOnEscape(close: () => void): () => void {
   };
 }
 
-/** Closes the newest; false where nothing is open, or a popup that the browser closes. */
+/** Close the newest panel; false if none is open, or the browser closes a popup. */
 export function closeNewest(): boolean {
   const close = open.at(-1);
   if (close === undefined || document.querySelector(":popover-open") !== null) return false;
@@ -25,13 +25,13 @@ export function closeNewest(): boolean {
 interface PanelProps {
   title: string;
   class: string;
-  /** Stands between the title and the button that closes. */
+  /** Content between the title and the close button. */
   aside?: ComponentChildren;
   onClose: () => void;
   children: ComponentChildren;
 }
 
-/** Lies over the page and leaves it in reach; gives the focus back when it closes. */
+/** A panel over the page, which stays operable; it returns the focus when it closes. */
 export function Panel({ title, class: look, aside, onClose, children }: PanelProps) {
   const id = useId();
   const panel = useRef<HTMLDialogElement>(null);
@@ -68,9 +68,9 @@ export function Panel({ title, class: look, aside, onClose, children }: PanelPro
 interface PanelButtonProps {
   isOpen: Signal<boolean>;
   hint: string;
-  /** Its name, where it shows only a sign. */
+  /** Its name if it shows only an icon. */
   name?: string;
-  /** The key that does the same, in the words of `aria-keyshortcuts`. */
+  /** Key of the same command, in the syntax of `aria-keyshortcuts`. */
   shortcut?: string;
   children: ComponentChildren;
 }

@@ -2,7 +2,7 @@ import type { ComponentChildren } from "preact";
 import { useEffect, useId, useRef, useState } from "preact/hooks";
 
 interface PopupProps {
-  /** What the button says, or shows with `name` as its name. */
+  /** Label of the button, or its icon with `name` as its accessible name. */
   button: ComponentChildren;
   name?: string;
   title: string;
@@ -14,8 +14,10 @@ interface PopupProps {
 
 const GAP_PX = 4;
 
-/** Below its button, or above it, or over it where neither has room enough; never over the status
- * bar, where the quick stop is. */
+/**
+ * Below its button, or above it, or over it if neither has enough space; never over the status bar,
+ * which has the quick stop.
+ */
 function place(popup: HTMLElement, button: HTMLElement): void {
   const { left, right, top, bottom } = button.getBoundingClientRect();
   const { innerWidth, innerHeight } = window;
@@ -27,11 +29,11 @@ function place(popup: HTMLElement, button: HTMLElement): void {
     (y) => y >= GAP_PX && y + height <= floor,
   );
   popup.style.top = `${fits ?? GAP_PX}px`;
-  const wanted = left + width > innerWidth - GAP_PX ? right - width : left;
-  popup.style.left = `${Math.max(GAP_PX, wanted)}px`;
+  const preferredLeft = left + width > innerWidth - GAP_PX ? right - width : left;
+  popup.style.left = `${Math.max(GAP_PX, preferredLeft)}px`;
 }
 
-/** A button and what it opens; Esc or a press elsewhere closes it and gives the focus back. */
+/** A button and its popup; Esc or a click elsewhere closes it and returns the focus. */
 export function Popup({
   button,
   name,
@@ -48,13 +50,13 @@ export function Popup({
   useEffect(() => {
     const [box, below] = [popup.current, opener.current];
     if (!isOpen || box === null || below === null) return;
-    const put = () => place(box, below);
-    const follow = new ResizeObserver(put);
+    const updatePosition = () => place(box, below);
+    const follow = new ResizeObserver(updatePosition);
     follow.observe(box);
-    window.addEventListener("resize", put);
+    window.addEventListener("resize", updatePosition);
     return () => {
       follow.disconnect();
-      window.removeEventListener("resize", put);
+      window.removeEventListener("resize", updatePosition);
     };
   }, [isOpen]);
   return (

@@ -1,13 +1,13 @@
-/** Where a value stands on a slider of STEPS positions, evenly or by ratio. */
+/** Position of a value on a slider with STEPS positions, linear or logarithmic. */
 
 export const STEPS = 400;
 
 export interface SliderRange {
   min: number;
   max: number;
-  /** Equal ways on the slider are equal ratios of the value. */
+  /** Logarithmic: equal distances on the slider are equal ratios of the value. */
   logarithmic?: boolean;
-  /** Values the slider stops at; any number can be typed. */
+  /** Values at which the slider stops; any number can be typed. */
   step?: number;
 }
 

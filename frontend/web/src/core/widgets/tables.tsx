@@ -1,24 +1,24 @@
-/** Parts of tables that several pages show: the best value, heads that sort, pages. */
+/** Parts of tables that several pages show: the best value, sortable headers, pages. */
 import type { Signal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 
 interface TableProps {
-  /** Names the part that scrolls; left out where it stands in one with that name. */
+  /** Name of the scrolling part; left out inside a part with that name. */
   label?: string;
   caption?: ComponentChildren;
   heads: readonly ComponentChildren[];
   /** `metrics` for numbers whose names are in the first column. */
   look?: string;
-  /** Of the part that scrolls. */
+  /** Class of the scrolling part. */
   class?: string;
-  /** Its rows. */
+  /** The rows. */
   children: ComponentChildren;
 }
 
-/** A table that scrolls where it is wider than its page, also by keyboard. */
+/** A table that scrolls if it is wider than its page, also by keyboard. */
 export function Table({ label, caption, heads, look = "table", children, ...rest }: TableProps) {
   return (
-    // biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls is reached by keyboard
+    // biome-ignore lint/a11y/noNoninteractiveTabindex: scrolling needs the keyboard
     <section class={`scroll ${rest.class ?? ""}`} tabIndex={0} aria-label={label}>
       <table class={look}>
         {caption && <caption>{caption}</caption>}
@@ -41,14 +41,14 @@ interface PagerProps {
   label: string;
   page: number;
   pages: number;
-  /** Which part is shown, in words. */
+  /** The range that is shown, as text. */
   children: string;
   back: string;
   on: string;
   onTurn: (page: number) => void;
 }
 
-/** Turns the pages of a list; nothing where there is one. */
+/** Previous and next page of a list; nothing if there is one page. */
 export function Pager({ label, page, pages, children, back, on, onTurn }: PagerProps) {
   if (pages < 2) return null;
   const turn = (to: number, name: string, sign: string) => (
@@ -75,7 +75,7 @@ export function Pager({ label, page, pages, children, back, on, onTurn }: PagerP
 const CLEARLY = 0.95;
 const NOTHING = 1e-6;
 
-/** Index of the smallest value where it is clearly smaller than every other; else -1. */
+/** Index of the smallest value if it is clearly smaller than every other; otherwise -1. */
 export function bestOf(values: readonly (number | null | undefined)[]): number {
   const known = values.map((value) => value ?? Number.NaN);
   const best = known.indexOf(Math.min(...known));
@@ -85,9 +85,9 @@ export function bestOf(values: readonly (number | null | undefined)[]): number {
   return isClear ? best : -1;
 }
 
-// The head of a column that a table can be ordered by: pressed again it orders the other way.
+// Header of a sortable column: another click reverses the order.
 
-/** Rows in the order of a value, else as they are; those without a value come last. */
+/** Rows sorted by a value, or unsorted; those without a value come last. */
 export function sortBy<T>(
   rows: readonly T[],
   read: (row: T) => number | string | null,
@@ -103,7 +103,7 @@ export function sortBy<T>(
   });
 }
 
-/** An order is the name of a column, with "-" before it where the greatest is first. */
+/** An order is the name of a column, with "-" before it for descending order. */
 export function nextSort(now: string, column: string, isDownFirst: boolean): string {
   if (now.replace(/^-/, "") !== column) return isDownFirst ? `-${column}` : column;
   return now.startsWith("-") ? column : `-${column}`;
@@ -111,7 +111,7 @@ export function nextSort(now: string, column: string, isDownFirst: boolean): str
 
 export interface SortColumn {
   key: string;
-  /** The first press brings the greatest up. */
+  /** The first click sorts in descending order. */
   isDownFirst?: boolean | undefined;
   class?: string;
 }
@@ -152,7 +152,7 @@ interface SortHeadsProps<K extends string> {
   sort: Signal<string>;
 }
 
-/** The heads of a table that is ordered here. */
+/** The headers of a table that is sorted in the browser. */
 export function SortHeads<K extends string>({ columns, words, sort }: SortHeadsProps<K>) {
   return columns.map((column) => (
     <SortHead

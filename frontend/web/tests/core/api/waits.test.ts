@@ -20,15 +20,15 @@ afterEach(() => {
 });
 
 it("waits for a slow lab during login, which would else create a second user", async () => {
-  const { comeBack, join, login } = await import("../../../src/core/api/access");
+  const { rejoin: comeBack, join, login } = await import("../../../src/core/api/access");
   await Promise.all([join("Ada", "ABCD-EFGH"), comeBack("IJKL"), login("secret")]);
   expect(waits).toHaveLength(3);
   expect(Math.min(...waits)).toBeGreaterThan(SLOW_MS);
 });
 
 it("gives a prediction the time that a worker which has to begin takes, and asks it once", async () => {
-  const { askResponse, predict } = await import("../../../src/core/api/design");
-  await Promise.all([predict({}), askResponse({} as never)]);
+  const { requestResponse, predict } = await import("../../../src/core/api/design");
+  await Promise.all([predict({}), requestResponse({} as never)]);
   expect(waits).toHaveLength(2);
   expect(Math.min(...waits)).toBeGreaterThan(SLOW_MS);
 });

@@ -5,7 +5,7 @@ import { RefusedError, UnansweredError } from "../../../src/core/api/errors";
 const api = { readJob: vi.fn(), listJobs: vi.fn(), stopJob: vi.fn() };
 vi.doMock("../../../src/core/api/jobs", async (load) => ({ ...(await load<object>()), ...api }));
 const { followJobs } = await import("../../../src/core/jobs/follow");
-const { polling } = await import("../../../src/core/jobs/poll");
+const { createPoll: polling } = await import("../../../src/core/jobs/poll");
 
 const errors: unknown[] = [];
 const unanswered = new UnansweredError(new TypeError("Failed to fetch"));
@@ -58,7 +58,7 @@ test("another error message of the meantime stays", async () => {
 });
 
 test("an answer to what was asked for before comes to nothing", async () => {
-  const { follow, leave } = polling((error) => errors.push(error));
+  const { follow, stop: leave } = polling((error) => errors.push(error));
   let arrive: (found: string) => void = () => undefined;
   let fail: (error: unknown) => void = () => undefined;
   const taken: string[] = [];

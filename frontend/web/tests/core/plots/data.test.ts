@@ -112,7 +112,7 @@ describe("between two cursors", () => {
   });
 });
 
-/** 100 Hz: six samples of 1, nothing for 2 s, then six samples of 2. */
+/** 100 Hz: six samples of 1, a gap of 2 s, then six samples of 2. */
 function ringWithGap(): SampleRing {
   const ring = new SampleRing(1000, ["position_error_rad"], [1]);
   const header = { run: 1, stride: 10, count: 6, lanes: [1] };

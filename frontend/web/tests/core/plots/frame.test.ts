@@ -12,7 +12,7 @@ const FRAME_MS = 50;
 let now = 0;
 let page: Modules;
 
-/** The browser draws; how often it was asked to. */
+/** Runs the requested animation frame; returns the number of requests. */
 function passFrame(lapseMs = FRAME_MS): number {
   const callbacks = asked.splice(0);
   now += lapseMs;
@@ -20,7 +20,7 @@ function passFrame(lapseMs = FRAME_MS): number {
   return callbacks.length;
 }
 
-/** Frames as long as one is asked for; how many. */
+/** Runs frames while they are requested; returns their number. */
 function passFrames(): number {
   let count = 0;
   while (passFrame() > 0) count++;
@@ -46,7 +46,7 @@ beforeEach(() => {
 });
 
 it("asks for no frame where there is no plot", () => {
-  page.countReceived();
+  page.incrementReceived();
   expect(asked.length).toBe(0);
 });
 
@@ -66,8 +66,8 @@ it("asks for one frame when samples come, however many do before it", () => {
   const stop = page.onFrame(follow);
   passFrames();
   const [drawn, followed] = [draw.mock.calls.length, follow.mock.calls.length];
-  page.countReceived();
-  page.countReceived();
+  page.incrementReceived();
+  page.incrementReceived();
   expect(asked.length).toBe(1);
   expect(passFrames()).toBe(1);
   expect(draw).toHaveBeenCalledTimes(drawn + 1);
@@ -79,23 +79,23 @@ it("asks for one frame when samples come, however many do before it", () => {
 it("draws the last samples too that come sooner than it draws", () => {
   let shown = -1;
   const stop = page.onFrame(() => {
-    shown = page.received.peek();
+    shown = page.receivedCount.peek();
   });
   passFrames();
-  page.countReceived();
+  page.incrementReceived();
   passFrame();
-  page.countReceived();
+  page.incrementReceived();
   passFrame(1);
-  expect(shown).toBe(page.received.peek() - 1);
+  expect(shown).toBe(page.receivedCount.peek() - 1);
   passFrames();
-  expect(shown).toBe(page.received.peek());
+  expect(shown).toBe(page.receivedCount.peek());
   stop();
 });
 
 it.each([
-  ["the length of the span", () => page.chooseWindow(page.windowS.peek() === 5 ? 10 : 5)],
+  ["the length of the span", () => page.setWindow(page.windowS.peek() === 5 ? 10 : 5)],
   ["the theme", () => page.toggleTheme()],
-  ["what is held", () => page.hold()],
+  ["what is held", () => page.freeze()],
   ["the cursors", () => page.toggleCursors()],
 ])("draws again for another state of %s", (_, change) => {
   page.samples.ring.append(
@@ -118,10 +118,10 @@ it.each([
 it("draws no samples while it stands still, and those that came when it goes live", () => {
   const draw = vi.fn();
   const drawing = page.addDrawing(draw);
-  page.hold();
+  page.freeze();
   passFrames();
   draw.mockClear();
-  page.countReceived();
+  page.incrementReceived();
   expect(asked.length).toBe(0);
   page.goLive();
   expect(passFrames()).toBe(1);
@@ -132,13 +132,13 @@ it("draws no samples while it stands still, and those that came when it goes liv
 it("leaves what is scrolled out of sight, and draws it when it comes back", () => {
   const draw = vi.fn();
   const drawing = page.addDrawing(draw);
-  drawing.see(false);
+  drawing.setVisible(false);
   passFrames();
   draw.mockClear();
-  page.countReceived();
+  page.incrementReceived();
   passFrames();
   expect(draw).not.toHaveBeenCalled();
-  drawing.see(true);
+  drawing.setVisible(true);
   expect(passFrames()).toBe(1);
   expect(draw).toHaveBeenCalledOnce();
   drawing.remove();
@@ -149,7 +149,7 @@ it("draws one again for another size without the others", () => {
   const drawings = [page.addDrawing(draw), page.addDrawing(other)];
   passFrames();
   const before = other.mock.calls.length;
-  drawings[0]?.renew();
+  drawings[0]?.redraw();
   expect(passFrames()).toBe(1);
   expect(draw).toHaveBeenCalledTimes(before + 1);
   expect(other).toHaveBeenCalledTimes(before);

@@ -6,7 +6,7 @@ vi.mock("uplot", () => ({ default: class {} }));
 
 describe("the roll that a plot's strokes are on", () => {
   const WIDTH = 7;
-  /** The columns of the roll, each with the pixel since time 0 that is on it. */
+  /** The pixel since time 0 in each column of the canvas. */
   const roll = (left: number, first: number) =>
     piecesOf(left % WIDTH, first, WIDTH).flatMap(({ from, to, shift }) =>
       Array.from({ length: to - from }, (_, index) => [from + index, left + from + index - shift]),

@@ -85,7 +85,7 @@ describe("a law has one line style", () => {
 
   it("in a study, wherever it stands there", async () => {
     const { study } = await import("../../../src/evaluation/studies/studies");
-    const { lawLineStyles } = await import("../../../src/evaluation/studies/shown");
+    const { lawLineStyles } = await import("../../../src/evaluation/studies/drawnrows");
     study.value = { laws: ["pd", "ndobc"] } as typeof study.value;
     expect(lawLineStyles.value).toEqual([lineStyleOf(3), lineStyleOf(0)]);
     study.value = null;
@@ -99,7 +99,7 @@ describe("a law has one line style", () => {
 
 type Triple = [number, number, number];
 
-/** Machado, Oliveira and Fernandes 2009, of linear RGB: as few see it, at full strength. */
+/** Simulation of full color blindness on linear RGB (Machado, Oliveira and Fernandes 2009). */
 const SIGHTS: Record<string, readonly Triple[]> = {
   "all cones": [
     [1, 0, 0],

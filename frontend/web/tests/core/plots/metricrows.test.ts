@@ -42,7 +42,7 @@ const lane = (changes: Partial<Metrics> = {}, isDisturbed = true): MeasuredLane 
   isDisturbed,
 });
 
-/** What every group shows of a lane, by the names of its rows. */
+/** The values of a lane in every group, by the names of its rows. */
 function show(one: MeasuredLane) {
   const groups = listGroups([one]).map(({ name, rows }) => {
     const cells = rows.map((row) => [row.name, readCell(row, one)] as const);

@@ -7,7 +7,7 @@ import { shareColours } from "../../../src/core/plots/linestyles";
 import { readSetups } from "../../../src/core/plots/setups";
 import { drawSvg } from "../../../src/core/plots/svg";
 import { composeContent, hasOneValue, tracesOf } from "../../../src/core/plots/traces";
-import type { Cast, Segment } from "../../../src/core/state/lanes";
+import type { LaneSegments, Segment } from "../../../src/core/state/lanes";
 import { SampleRing } from "../../../src/core/stream/ring";
 
 describe("what the browser kept of the plots", () => {
@@ -57,14 +57,15 @@ const segment = (
   return { number, name, lineStyle: number - 1, hasEstimate: name !== "FL", from, to };
 };
 /** Unchanged lanes. */
-const castOf = (...names: string[]): Cast => names.map((name, index) => [segment(index + 1, name)]);
+const castOf = (...names: string[]): LaneSegments =>
+  names.map((name, index) => [segment(index + 1, name)]);
 
 describe("the curves of a switch", () => {
-  const swapped: Cast = [
+  const swapped: LaneSegments = [
     [segment(1, "NDOBC", 0, 7), segment(2, "FL", 7)],
     [segment(2, "FL", 0, 7), segment(1, "NDOBC", 7)],
   ];
-  const curves = (cast: Cast) =>
+  const curves = (cast: LaneSegments) =>
     tracesOf(composeContent(["position_error_rad"], cast), new Set(["position_error_rad"]), 2);
 
   it("keep name and lineStyle of the law whose samples they are, past and present", () => {
@@ -103,7 +104,7 @@ describe("the curves of a switch", () => {
   });
 
   it("of a lane alone are in the lineStyles of its laws too, and named by them", () => {
-    const alone: Cast = [[segment(1, "NDOBC", 0, 7), segment(2, "FL", 7)]];
+    const alone: LaneSegments = [[segment(1, "NDOBC", 0, 7), segment(2, "FL", 7)]];
     const traces = tracesOf(composeContent(["position_error_rad"], alone), new Set(), 1);
     expect(traces.map(({ label, colour }) => [label, colour])).toEqual([
       ["FL", "vermilion"],
@@ -112,7 +113,7 @@ describe("the curves of a switch", () => {
   });
 
   it("of a new lane begin where it began", () => {
-    const cast: Cast = [[segment(1, "NDOBC")], [segment(2, "FL", 7)]];
+    const cast: LaneSegments = [[segment(1, "NDOBC")], [segment(2, "FL", 7)]];
     expect(curves(cast).find(({ lane }) => lane === 2)?.from).toBe(7);
   });
 });
@@ -122,7 +123,7 @@ describe("the curves of a plot", () => {
 
   it("have a value each, but the truth of several lanes, which differs from lane to lane", () => {
     const channels = ["estimate_link_nm", "disturbance_link_nm"] as const;
-    const valued = (cast: Cast) => {
+    const valued = (cast: LaneSegments) => {
       const all = tracesOf(composeContent(channels, cast), new Set(channels), cast.length);
       const entries = all.filter(({ follows }) => follows === undefined);
       return entries.filter(({ key }) => hasOneValue(all, key)).map(({ label }) => label);
@@ -135,14 +136,17 @@ describe("the curves of a plot", () => {
 
   it("leave out the estimate that a compared law does not use, not the truth of its lane", () => {
     const channels = ["estimate_link_nm", "disturbance_link_nm"] as const;
-    const drawn = (cast: Cast) =>
+    const drawn = (cast: LaneSegments) =>
       tracesOf(composeContent(channels, cast), new Set(channels), cast.length).map(
         ({ channel, lane }) => `${channel} ${lane}`,
       );
     const truths = ["disturbance_link_nm 1", "disturbance_link_nm 2"];
     expect(drawn(castOf("NDOBC", "FL"))).toEqual(["estimate_link_nm 1", ...truths]);
     expect(drawn(castOf("FL", "NDOBC"))).toEqual(["estimate_link_nm 2", ...truths]);
-    const joined: Cast = [[segment(1, "FL", 0, 7), segment(2, "NDOBC", 7)], [segment(3, "FL")]];
+    const joined: LaneSegments = [
+      [segment(1, "FL", 0, 7), segment(2, "NDOBC", 7)],
+      [segment(3, "FL")],
+    ];
     expect(drawn(joined)).toEqual(["estimate_link_nm 1", ...truths]);
   });
 

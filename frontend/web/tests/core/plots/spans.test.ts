@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { keepInside, liveSpan, zoomSpan } from "../../../src/core/plots/spans";
+import { clampSpan, liveSpan, zoomSpan } from "../../../src/core/plots/spans";
 import { SampleRing } from "../../../src/core/stream/ring";
 
 describe("the span of time", () => {
@@ -12,10 +12,10 @@ describe("the span of time", () => {
   });
 
   it("keeps samples in sight", () => {
-    expect(keepInside({ from: -30, to: -10 }, 0, 100)).toEqual({ from: -10, to: 10 });
-    expect(keepInside({ from: 95, to: 115 }, 0, 100)).toEqual({ from: 90, to: 110 });
-    expect(keepInside({ from: 5, to: 15 }, 0, 100)).toEqual({ from: 5, to: 15 });
-    expect(keepInside({ from: 5, to: 15 }, Number.NaN, Number.NaN)).toEqual({ from: 5, to: 15 });
+    expect(clampSpan({ from: -30, to: -10 }, 0, 100)).toEqual({ from: -10, to: 10 });
+    expect(clampSpan({ from: 95, to: 115 }, 0, 100)).toEqual({ from: 90, to: 110 });
+    expect(clampSpan({ from: 5, to: 15 }, 0, 100)).toEqual({ from: 5, to: 15 });
+    expect(clampSpan({ from: 5, to: 15 }, Number.NaN, Number.NaN)).toEqual({ from: 5, to: 15 });
   });
 
   it("begins at zero and follows the newest sample", () => {

@@ -1,6 +1,6 @@
 import { beforeAll, describe, expect, it, vi } from "vitest";
 import type { Metrics, SessionEvent, SessionState } from "../../../src/core/api/types";
-import type { Cast } from "../../../src/core/state/lanes";
+import type { LaneSegments } from "../../../src/core/state/lanes";
 import { SampleRing } from "../../../src/core/stream/ring";
 import { stubBrowser } from "../../browser";
 
@@ -29,7 +29,7 @@ const segment = (number: number, name: string) => ({
   from: 0,
   to: Number.POSITIVE_INFINITY,
 });
-const BOTH: Cast = [[segment(1, "NDOBC")], [segment(2, "FL")]];
+const BOTH: LaneSegments = [[segment(1, "NDOBC")], [segment(2, "FL")]];
 const state = {
   window: { start_tick: 9000 },
   ended_windows: [{ start_tick: 5000, end_s: 9, lanes: [metrics(0.0723), metrics(0.21)] }],
@@ -37,7 +37,7 @@ const state = {
 } as unknown as SessionState;
 const ring = new SampleRing(40, ["position_error_rad"], [1, 2]);
 
-/** As the stream has it: every fifth sample, and the greatest is between two. */
+/** As in the stream: every fifth sample, with the maximum between two of them. */
 beforeAll(() => {
   ring.append(
     {
@@ -66,7 +66,7 @@ describe("the numbers of an event", () => {
   });
 
   it("are each lane's own where lanes have been taken away since the plots stand still", () => {
-    const present: Cast = [[segment(2, "FL")]];
+    const present: LaneSegments = [[segment(2, "FL")]];
     const later = {
       ...state,
       ended_windows: [{ start_tick: 5000, end_s: 9, lanes: [metrics(0.21)] }],

@@ -81,7 +81,11 @@ it("only a lane without settings of its own changes places with the session's la
 });
 
 it("a step back brings back what differs, lane by lane, and of those that went the tuned", async () => {
-  const { callsBack, designOf, isSame } = await import("../../../src/lab/design/history");
+  const {
+    restoringRequests: callsBack,
+    designOf,
+    isSame,
+  } = await import("../../../src/lab/design/history");
   const slow = { law: "fl_integral", parameters: { position_pole_rad_per_s: 40 } };
   const fast = { law: "fl_integral", parameters: { position_pole_rad_per_s: 70 } };
   const before = stateOf("ndobc", [slow]);

@@ -1,7 +1,7 @@
 import "../../browserless";
 import { describe, expect, it } from "vitest";
 import type { FormField } from "../../../src/core/api/types";
-import { firstOf, readForm, shownAsDescribed } from "../../../src/core/state/kinds";
+import { initialValues, parseForm, quantityOfParameter } from "../../../src/core/state/kinds";
 
 const row = { symbol: "", kind: "number", default: null, low: null } as const;
 const angle = { ...row, name: "amplitude_rad", meaning: "Amplitude", unit: "rad", high: 6.3 };
@@ -14,15 +14,15 @@ const FORM: FormField[] = [
 
 describe("a form from a description", () => {
   it("has angles in degrees, small numbers in thousandths, and nothing where there is no unit", () => {
-    expect(shownAsDescribed(angle)).toMatchObject({ label: "Amplitude", unit: "deg" });
-    expect(shownAsDescribed(lag)).toMatchObject({ unit: "ms", factor: 1000 });
-    expect(shownAsDescribed(ratio)).toEqual({ label: "Breakaway", unit: "" });
+    expect(quantityOfParameter(angle)).toMatchObject({ label: "Amplitude", unit: "deg" });
+    expect(quantityOfParameter(lag)).toMatchObject({ unit: "ms", factor: 1000 });
+    expect(quantityOfParameter(ratio)).toEqual({ label: "Breakaway", unit: "" });
   });
 
   it("begins with the first values, on screen, and reads them in SI", () => {
-    const first = firstOf(FORM);
+    const first = initialValues(FORM);
     expect(first).toEqual({ amplitude_rad: "10", duration_s: "5" });
-    expect(readForm(FORM, { ...first, amplitude_rad: "90" })).toEqual({
+    expect(parseForm(FORM, { ...first, amplitude_rad: "90" })).toEqual({
       amplitude_rad: Math.PI / 2,
       duration_s: 5,
     });
@@ -30,8 +30,8 @@ describe("a form from a description", () => {
 
   it("is nothing while a number is missing or is none", () => {
     for (const wrong of [" ", "x"]) {
-      expect(readForm(FORM, { amplitude_rad: wrong, duration_s: "5" })).toBeNull();
+      expect(parseForm(FORM, { amplitude_rad: wrong, duration_s: "5" })).toBeNull();
     }
-    expect(readForm(FORM, { amplitude_rad: "1" })).toBeNull();
+    expect(parseForm(FORM, { amplitude_rad: "1" })).toBeNull();
   });
 });

@@ -3,7 +3,8 @@ import { SampleRing } from "../../../src/core/stream/ring";
 
 const FOREVER = { start_s: 0, end_s: null };
 const laneOf = (id: number, name: string) => ({ id, segments: [{ ...FOREVER, name }] });
-const stateAt = (tick: number, lanes: object[]) => ({ run_number: 1, tick, lanes }) as never;
+const stateAt = (tick: number, lanes: object[]) =>
+  ({ run_number: 1, tick, lanes, configuration: {} }) as never;
 const batchAt = (tick: number, lanes: number[], values: number[]) => ({
   ...{ run: 1, firstTick: tick, stride: 1, count: 1, missed: 0 },
   ...{ lanes, values: new Float32Array(values) },
@@ -14,7 +15,7 @@ it("a lane taken away by a script leaves each other one its samples under its na
   vi.stubGlobal("document", { baseURI: "http://lab/" });
   vi.stubGlobal("location", { search: "" });
   const { acceptState, samples, session } = await import("../../../src/core/state/session");
-  const { laneNames } = await import("../../../src/core/state/lanes");
+  const { controllerNames } = await import("../../../src/core/state/lanes");
   const [ndobc, fl, faster] = [laneOf(1, "NDOBC"), laneOf(2, "FL"), laneOf(3, "NDOBC β 120")];
   samples.ring = new SampleRing(10, ["a"], [1, 2, 3]);
   session.value = stateAt(0, [ndobc, fl, faster]);
@@ -25,7 +26,7 @@ it("a lane taken away by a script leaves each other one its samples under its na
   samples.ring.append(batchAt(1, [1, 2, 3], [2, 21, 301]), 1);
   samples.ring.append(batchAt(2, [1, 3], [3, 302]), 1);
 
-  const drawn = laneNames.value.map((name, index) => [
+  const drawn = controllerNames.value.map((name, index) => [
     name,
     ...[0, 1, 2].map((sample) => samples.ring.valueAt("a", sample, index + 1)),
   ]);

@@ -16,7 +16,12 @@ beforeEach(() => {
 });
 
 it("any number of laws: the comparison law is the first other one that works", async () => {
-  const { laws, otherLaw, titleOf, usableLaws } = await import("../../../src/core/state/laws");
+  const {
+    laws,
+    defaultComparisonLaw: otherLaw,
+    titleOf,
+    usableLaws,
+  } = await import("../../../src/core/state/laws");
   expect(otherLaw("ndobc")).toBeUndefined();
   laws.value = [law("broken", { problem: "no" }), law("a"), law("b"), law("c")];
   expect(usableLaws.value.map(({ name }) => name)).toEqual(["a", "b", "c"]);
@@ -26,7 +31,7 @@ it("any number of laws: the comparison law is the first other one that works", a
 
 it("a parameter has a slider where both its ends are bounded", async () => {
   const { changedAt, rangeOf } = await import("../../../src/lab/panels/law");
-  const { isWordy } = await import("../../../src/core/state/laws");
+  const { hasLongMeaning: isWordy } = await import("../../../src/core/state/laws");
   const row = { ...RATE, default: 2 };
   expect(rangeOf({ ...row, low: 1, high: 150 })).toEqual({
     range: { min: 1, max: 150, logarithmic: true },

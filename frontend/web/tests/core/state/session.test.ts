@@ -1,7 +1,7 @@
 import "../../browserless";
 import { expect, it } from "vitest";
 import type { SessionState } from "../../../src/core/api/types";
-import { joinPast, type Progress } from "../../../src/core/state/session";
+import { mergeProgress, type Progress } from "../../../src/core/state/session";
 
 const segment = (name: string, end_tick: number | null) => ({ name, end_tick });
 const ended = (start_tick: number, end_tick: number) => ({ start_tick, end_tick });
@@ -27,7 +27,7 @@ it("keeps what was over before, and takes what a message tells from its tick on"
       { id: 3, segments: [segment("FL", null)] },
     ],
   });
-  const joined = joinPast(KNOWN, progress as Progress, 500);
+  const joined = mergeProgress(KNOWN, progress as Progress, 500);
   expect(joined.events.map(({ tick }) => tick)).toEqual([100, 400, 600]);
   expect(joined.ended_windows.map(({ end_tick }) => end_tick)).toEqual([100, 400, 600]);
   expect(joined.lanes.map((lane) => lane.segments.map(({ name }) => name))).toEqual([
@@ -42,17 +42,17 @@ it("applies nothing twice that a response has already reported", () => {
     ended_windows: [ended(100, 400)],
     lanes: KNOWN.lanes,
   });
-  expect(joinPast(KNOWN, progress as Progress, 300)).toEqual(KNOWN);
+  expect(mergeProgress(KNOWN, progress as Progress, 300)).toEqual(KNOWN);
 });
 
 it("forgets all where a message tells all, and what is over for a minute", () => {
   const progress = stateAt(500, { events: [], ended_windows: [] });
-  expect(joinPast(KNOWN, progress as Progress, 0).events).toEqual([]);
-  const later = joinPast(KNOWN, stateAt(60_200, { ended_windows: [] }) as Progress, 60_000);
+  expect(mergeProgress(KNOWN, progress as Progress, 0).events).toEqual([]);
+  const later = mergeProgress(KNOWN, stateAt(60_200, { ended_windows: [] }) as Progress, 60_000);
   expect(later.ended_windows.map(({ end_tick }) => end_tick)).toEqual([400]);
 });
 
 it("leaves alone what a message does not tell", () => {
-  const joined = joinPast(KNOWN, { run_number: 1, tick: 900 }, 800);
+  const joined = mergeProgress(KNOWN, { run_number: 1, tick: 900 }, 800);
   expect(joined).toEqual({ ...KNOWN, tick: 900 });
 });

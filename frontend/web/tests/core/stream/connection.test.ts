@@ -1,5 +1,5 @@
 import { describe, expect, it, vi } from "vitest";
-import { backoffMs, type Finding, StreamConnection } from "../../../src/core/stream/connection";
+import { backoffMs, type ProbeResult, StreamConnection } from "../../../src/core/stream/connection";
 
 describe("reconnecting", () => {
   it("waits longer each time, up to about four seconds", () => {
@@ -60,7 +60,7 @@ describe("a stream whose session has ended", () => {
   it("reports it and does not reconnect automatically, unlike a broken one", async () => {
     vi.useFakeTimers();
     const sockets = stubSockets();
-    const findings: Finding[] = ["up", "ended"];
+    const findings: ProbeResult[] = ["up", "ended"];
     const phases: string[] = [];
     const connection = new StreamConnection(
       () => new URL("ws://lab/stream"),

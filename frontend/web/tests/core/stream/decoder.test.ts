@@ -1,7 +1,11 @@
 import { describe, expect, it } from "vitest";
-import { BatchDecoder, type Greeting, StreamFormatError } from "../../../src/core/stream/decoder";
+import {
+  BatchDecoder,
+  type StreamDescription,
+  StreamFormatError,
+} from "../../../src/core/stream/decoder";
 
-const LAYOUT: Greeting["batch"] = {
+const LAYOUT: StreamDescription["batch"] = {
   magic: "SVSA",
   header_bytes: 32,
   header: [

@@ -27,11 +27,11 @@ describe("a channel that is derived", () => {
     const ring = new SampleRing(10, VELOCITIES.slice(0, 1), [1]);
     ring.append(of(0, 3), 1);
     const held = ring.copy();
-    const both = ring.reselect(VELOCITIES);
+    const both = ring.withChannels(VELOCITIES);
     both.append(of(0, 3, 1), 1);
     expect(derived(both)).toEqual([2]);
-    held.adopt(both);
+    held.addChannelsFrom(both);
     expect(derived(held)).toEqual([2]);
-    expect(derived(both.reselect(VELOCITIES.slice(0, 1)))).toEqual([Number.NaN]);
+    expect(derived(both.withChannels(VELOCITIES.slice(0, 1)))).toEqual([Number.NaN]);
   });
 });

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { mayShow } from "../../../src/core/plots/spans";
+import { mayHaveSamples } from "../../../src/core/plots/spans";
 import type { Batch } from "../../../src/core/stream/decoder";
 import { SampleRing } from "../../../src/core/stream/ring";
 
@@ -28,10 +28,10 @@ describe("SampleRing", () => {
   it("may show a span while samples come, and not where it was over without one", () => {
     const ring = new SampleRing(20, ["a", "b"], [1]);
     ring.append(batch(0, 2), 0.001);
-    expect(mayShow(ring, { from: 1, to: 2 })).toBe(true);
+    expect(mayHaveSamples(ring, { from: 1, to: 2 })).toBe(true);
     ring.append(batch(3000, 2), 0.001);
-    expect(mayShow(ring, { from: 1, to: 2 })).toBe(false);
-    expect(mayShow(ring, { from: 2.5, to: 3.002 })).toBe(true);
+    expect(mayHaveSamples(ring, { from: 1, to: 2 })).toBe(false);
+    expect(mayHaveSamples(ring, { from: 2.5, to: 3.002 })).toBe(true);
   });
 
   it("gives back what was put in, with time from the ticks", () => {
@@ -63,10 +63,10 @@ describe("SampleRing", () => {
   it("finds the first sample at or after a time", () => {
     const ring = new SampleRing(4, ["a", "b"], [1]);
     ring.append(batch(0, 6), 1);
-    expect(ring.firstAt(-1)).toBe(0);
-    expect(ring.firstAt(15)).toBe(1);
-    expect(ring.firstAt(15.5)).toBe(2);
-    expect(ring.firstAt(99)).toBe(4);
+    expect(ring.lowerBound(-1)).toBe(0);
+    expect(ring.lowerBound(15)).toBe(1);
+    expect(ring.lowerBound(15.5)).toBe(2);
+    expect(ring.lowerBound(99)).toBe(4);
   });
 
   it("multiplies by a factor on the way out", () => {
@@ -110,16 +110,16 @@ describe("the lanes of a SampleRing", () => {
   it("begin without a past, and go with theirs", () => {
     const ring = new SampleRing(10, ["a"], [1]);
     ring.append(tick(0, { 1: 1 }), 1);
-    ring.arrange([1, 2]);
+    ring.setLanes([1, 2]);
     ring.append(tick(1, { 1: 2, 2: 20 }), 1);
     ring.append(tick(2, { 1: 3, 2: 30 }), 1);
     expect(ring.lanes).toBe(2);
     expect(lane(ring, 1)).toEqual([1, 2, 3]);
     expect(lane(ring, 2)).toEqual([Number.NaN, 20, 30]);
     expect(ring.newest("a", 2)).toBe(30);
-    ring.arrange([1]);
+    ring.setLanes([1]);
     ring.append(tick(3, { 1: 4 }), 1);
-    ring.arrange([1, 3]);
+    ring.setLanes([1, 3]);
     ring.append(tick(4, { 1: 5, 3: 50 }), 1);
     expect(lane(ring, 1)).toEqual([1, 2, 3, 4, 5]);
     expect(lane(ring, 2)).toEqual([Number.NaN, Number.NaN, Number.NaN, Number.NaN, 50]);
@@ -128,7 +128,7 @@ describe("the lanes of a SampleRing", () => {
   it("have their own past where one between them is taken away, and none has that one's", () => {
     const ring = new SampleRing(10, ["a"], [1, 2, 3]);
     ring.append(tick(0, { 1: 1, 2: 20, 3: 300 }), 1);
-    ring.arrange([1, 3]);
+    ring.setLanes([1, 3]);
     expect(lane(ring, 2)).toEqual([300]);
     ring.append(tick(1, { 1: 2, 3: 301 }), 1);
     expect(ring.lanes).toBe(2);
@@ -141,7 +141,7 @@ describe("the lanes of a SampleRing", () => {
 
   it("are distinguished by the batch, if it was sent before lanes changed", () => {
     const ring = new SampleRing(10, ["a"], [1, 2, 3]);
-    ring.arrange([1, 3, 4]);
+    ring.setLanes([1, 3, 4]);
     ring.append(tick(0, { 1: 1, 2: 20, 3: 300 }), 1);
     expect([1, 2, 3].map((number) => lane(ring, number))).toEqual([[1], [300], [Number.NaN]]);
   });
@@ -150,10 +150,10 @@ describe("the lanes of a SampleRing", () => {
     const ring = new SampleRing(10, ["b"], [1, 2, 3]);
     ring.append(tick(0, { 1: 1, 2: 2, 3: 3 }), 1);
     const held = ring.copy();
-    const next = ring.reselect(["a"]);
-    next.arrange([1, 3]);
+    const next = ring.withChannels(["a"]);
+    next.setLanes([1, 3]);
     next.append(tick(0, { 1: 10, 3: 30 }), 1);
-    held.adopt(next);
+    held.addChannelsFrom(next);
     expect([1, 2, 3].map((number) => lane(held, number))).toEqual([[10], [Number.NaN], [30]]);
   });
 
@@ -204,7 +204,7 @@ describe("samples that were not sent", () => {
     const ring = new SampleRing(20, ["a"], [1]);
     ring.append(row(0, 5, 1, 2), 1);
     ring.append(row(20, 5, 5), 1);
-    const next = ring.reselect(["a"]);
+    const next = ring.withChannels(["a"]);
     next.append(row(10, 5, 3, 4, 5), 1);
     expect(rows(next).map(([, value]) => value)).toEqual([1, 2, 3, 4, 5]);
   });
@@ -221,7 +221,7 @@ describe("a SampleRing whose channels change", () => {
   it("keeps the past of what stays, and takes what is sent again", () => {
     const ring = new SampleRing(10, ["a"], [1]);
     ring.append(one(0, 1, 2, 3, 4), 1);
-    const next = ring.reselect(["b", "a"]);
+    const next = ring.withChannels(["b", "a"]);
     next.append({ ...one(2, 30, 3, 40, 4, 50, 5), count: 3 }, 1);
     expect(values(next, "a")).toEqual([1, 2, 3, 4, 5]);
     expect(values(next, "b")).toEqual([Number.NaN, Number.NaN, 30, 40, 50]);
@@ -232,9 +232,9 @@ describe("a SampleRing whose channels change", () => {
     const ring = new SampleRing(10, ["a"], [1]);
     ring.append(one(0, 1, 2, 3), 1);
     const held = ring.copy();
-    const next = ring.reselect(["b"]);
+    const next = ring.withChannels(["b"]);
     next.append(one(1, 20, 30, 40), 1);
-    held.adopt(next);
+    held.addChannelsFrom(next);
     expect(held.channels).toEqual(["a", "b"]);
     expect(values(held, "a")).toEqual([1, 2, 3]);
     expect(values(held, "b")).toEqual([Number.NaN, 20, 30]);
@@ -264,10 +264,10 @@ describe("a reading", () => {
   it("of a channel that came later begins where it has numbers", () => {
     const ring = new SampleRing(10, ["a"], [1]);
     ring.append(tick(0, { 1: 1 }), 1);
-    ring.arrange([1, 2]);
+    ring.setLanes([1, 2]);
     ring.append(tick(1, { 1: 2, 2: 20 }), 1);
-    expect(ring.beginningOf("a", 1)).toBe(0);
-    expect(ring.beginningOf("a", 2)).toBe(1);
-    expect(ring.beginningOf("b", 1)).toBeNaN();
+    expect(ring.firstTimeOf("a", 1)).toBe(0);
+    expect(ring.firstTimeOf("a", 2)).toBe(1);
+    expect(ring.firstTimeOf("b", 1)).toBeNaN();
   });
 });

@@ -6,10 +6,10 @@ import { text as replay } from "../../../src/core/text/replay";
 const SPOKEN = new Set(["aria-label", "aria-description", "title", "placeholder", "alt"]);
 /** Symbols of units are the same in every language. */
 const UNITS = new Set(["deg", "Hz"]);
-/** Two words, the first with a capital: what people read, not a class or a key. */
+/** Two words, the first with a capital: a visible text, not a class or a key. */
 const SENTENCE = /^[A-Z][a-z]+,? [a-zA-Z]/;
 
-/** To read every file takes seconds on a machine that has other work. */
+/** Reading every file takes seconds on a busy machine. */
 const PATIENCE_MS = 60_000;
 
 const files = import.meta.glob<string>(

@@ -1,23 +1,24 @@
-/** Pages of their own, with or without a side, and the boxes of their forms. */
+/** Full pages, with or without a side column, and the boxes of their forms. */
 
 import type { ComponentChildren } from "preact";
 import type { Law } from "../api/types";
 import { usableLaws } from "../state/laws";
+import { text } from "../text/en";
 import { ErrorLine } from "./form";
 
 interface PageProps {
   title: string;
-  /** What the page shows, in a sentence. */
+  /** Description of the page in one sentence. */
   lead: string;
   /** Why the last request was rejected; empty without one. */
   problem: string;
-  /** Stands at the end of the title's line. */
+  /** Content at the end of the title's line. */
   aside?: ComponentChildren;
   class?: string;
   children: ComponentChildren;
 }
 
-/** A page of its own: title, error of the last request, content. */
+/** A full page: title, error of the last request, content. */
 export function Page({ title, lead, problem, aside, children, class: look = "" }: PageProps) {
   return (
     <main class={`page ${look}`} aria-label={title}>
@@ -34,8 +35,8 @@ export function Page({ title, lead, problem, aside, children, class: look = "" }
   );
 }
 
-/** A page with a side for what was begun and kept. */
-export function Desk({ side, children, ...page }: PageProps & { side: ComponentChildren }) {
+/** A page with a side column for forms and saved items. */
+export function PageWithForm({ side, children, ...page }: PageProps & { side: ComponentChildren }) {
   return (
     <Page {...page}>
       <div class="desk">
@@ -46,13 +47,20 @@ export function Desk({ side, children, ...page }: PageProps & { side: ComponentC
   );
 }
 
+/** Marks a result that comes with the lab, and is shown until the user has one. */
+export const Example = () => (
+  <span class="tag" title={text.jobs.exampleHint}>
+    {text.jobs.example}
+  </span>
+);
+
 interface BoxesProps {
   offered: readonly { name: string; title: string }[];
   chosen: readonly string[];
   onChange: (chosen: readonly string[]) => void;
 }
 
-/** Any of some things, each a box. */
+/** Select any of several items, one check box each. */
 export function Boxes({ offered, chosen, onChange }: BoxesProps) {
   return (
     <div class="boxes">
@@ -79,7 +87,7 @@ interface LawBoxesProps {
   onChange: (laws: readonly Law[]) => void;
 }
 
-/** Any of the laws that are installed, each a box. */
+/** Select any of the installed laws, one check box each. */
 export function LawBoxes({ laws, onChange }: LawBoxesProps) {
   return <Boxes offered={usableLaws.value} chosen={laws} onChange={onChange} />;
 }
