@@ -2,7 +2,7 @@ import { useId, useState } from "preact/hooks";
 import { text } from "../../core/text/en";
 import { formatInput } from "../../core/units";
 import { positionOf, type SliderRange, STEPS, valueAt } from "../../core/widgets/scale";
-import { draft, type Group, tryObserver, tryPoles } from "./draft";
+import { draft, type Group, setDraftObserver, setDraftPoles } from "./draft";
 import { allAt, areTogether, bandwidthOf } from "./poles";
 
 const words = text.design;
@@ -23,7 +23,7 @@ interface RowProps {
   onTry: (value: number) => void;
 }
 
-/** One number for all of a group; tried at once, applied later. */
+/** One bandwidth for all poles of a group; predicted at once, applied later. */
 function Row({ look, label, name, note, value, range, onTry }: RowProps) {
   const id = useId();
   const [typed, setTyped] = useState<string | null>(null);
@@ -87,7 +87,7 @@ function PolesRow({ group }: { group: Group }) {
       note={areTogether(poles) ? words.unit : words.mean}
       value={bandwidthOf(poles)}
       range={POLES}
-      onTry={(value) => tryPoles(group, allAt(poles.length, value))}
+      onTry={(value) => setDraftPoles(group, allAt(poles.length, value))}
     />
   );
 }
@@ -107,7 +107,7 @@ export function Bandwidths() {
         note={isSpread ? observer.map((beta) => formatInput(beta, 3)).join(", ") : words.unit}
         value={observer[0]}
         range={OBSERVER}
-        onTry={tryObserver}
+        onTry={setDraftObserver}
       />
     </div>
   );

@@ -1,13 +1,13 @@
-/** A small chart: a few curves on two axes, each even or logarithmic. */
+/** A small chart: a few curves on two axes, each linear or logarithmic. */
 import { useMemo } from "preact/hooks";
 import uPlot from "uplot";
 import { niceRange, otherAxis } from "../../core/plots/axes";
 import type { Palette } from "../../core/plots/linestyles";
-import { drawnCurve, type StillChart, useStillChart } from "../../core/plots/staticchart";
+import { drawnCurve, type StaticChart, useStaticChart } from "../../core/plots/staticchart";
 
 export interface Axis {
   label: string;
-  /** From and to; left out, the curves and zero have room. */
+  /** Limits; if left out, they include the curves and zero. */
   limits?: readonly [number, number];
   isLog?: boolean;
 }
@@ -15,7 +15,7 @@ export interface Axis {
 export interface Curve {
   look: "tried" | "present" | "each";
   points: readonly (readonly [number, number])[];
-  /** Not what would happen: drawn fainter. */
+  /** Not a valid prediction: drawn fainter. */
   isDoubtful?: boolean;
 }
 
@@ -32,7 +32,7 @@ const rangeOf =
   (_, low, high) =>
     limits ? [...limits] : niceRange(Math.min(0, low ?? 0), Math.max(0, high ?? 0), LEAST_SPAN);
 
-function describeCurves(x: Axis, y: Axis, curves: readonly Curve[]): StillChart {
+function describeCurves(x: Axis, y: Axis, curves: readonly Curve[]): StaticChart {
   const tables = curves.map(
     ({ points }): uPlot.AlignedData => [points.map(([at]) => at), points.map(([, value]) => value)],
   );
@@ -58,20 +58,20 @@ function describeCurves(x: Axis, y: Axis, curves: readonly Curve[]): StillChart 
 
 interface CurvesProps {
   title: string;
-  /** What the curves show, for who does not see them. */
+  /** Description of the curves for screen readers. */
   summary: string;
   x: Axis;
   y: Axis;
   curves: readonly Curve[];
-  /** Stands in place of curves that have no meaning. */
+  /** Shown instead of curves without a meaning. */
   note?: string | null;
-  /** Why the curves are not what would happen: written above a hatched ground. */
+  /** Why the curves are not a valid prediction: shown above a hatched background. */
   caveat?: string | null;
 }
 
 export function Curves({ title, summary, x, y, curves, note, caveat }: CurvesProps) {
   const content = JSON.stringify([x, y, curves]);
-  const host = useStillChart(useMemo(() => describeCurves(x, y, curves), [content]));
+  const host = useStaticChart(useMemo(() => describeCurves(x, y, curves), [content]));
   return (
     <figure class={`curves ${caveat ? "is-hatched" : ""}`}>
       <figcaption>

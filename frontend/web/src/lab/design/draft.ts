@@ -1,10 +1,10 @@
-/** The draft design: its settings, its predicted effect, and the settings in use. */
+/** The draft design: its settings, its predicted behaviour, and the settings in use. */
 import { computed, signal } from "@preact/signals";
 import { putGains, putObserver } from "../../core/api/client";
 import { type Prediction, predict } from "../../core/api/design";
 import type { Configuration, SessionState } from "../../core/api/types";
 import { perform } from "../../core/state/actions";
-import { session } from "../../core/state/session";
+import { settings as session } from "../../core/state/arm";
 import { type Pole, type Poles, polesOf, toRequest } from "./poles";
 
 export type Group = "position" | "stiffness";
@@ -16,19 +16,19 @@ export interface Draft {
 }
 
 export const isOpen = signal(false);
-const changed = signal<Draft | null>(null);
-export const expected = signal<Prediction | null>(null);
-export const present = signal<Prediction | null>(null);
-export const isAsking = signal(false);
+const changedDraft = signal<Draft | null>(null);
+export const draftPrediction = signal<Prediction | null>(null);
+export const currentPrediction = signal<Prediction | null>(null);
+export const isPredicting = signal(false);
 export const isApplying = signal(false);
 
-/** What was set when the draft was begun. */
-let seen: SessionState | null = null;
+/** Settings when the draft was started. */
+let baseState: SessionState | null = null;
 
 const PAUSE_MS = 90;
 const RETRY_MS = 1500;
 let timer: ReturnType<typeof setTimeout> | undefined;
-let asked = 0;
+let requestNumber = 0;
 
 function draftOf({ gains, observer }: Configuration): Draft {
   return {
@@ -38,16 +38,18 @@ function draftOf({ gains, observer }: Configuration): Draft {
   };
 }
 
-export const inUse = computed<Draft | null>(() => {
+export const designInUse = computed<Draft | null>(() => {
   const state = session.value;
   return state && draftOf(state.configuration);
 });
-export const draft = computed(() => changed.value ?? inUse.value);
+export const draft = computed(() => changedDraft.value ?? designInUse.value);
 export const isChanged = computed(
-  () => changed.value !== null && JSON.stringify(changed.value) !== JSON.stringify(inUse.value),
+  () =>
+    changedDraft.value !== null &&
+    JSON.stringify(changedDraft.value) !== JSON.stringify(designInUse.value),
 );
-/** Everything that the prediction depends on besides the draft. */
-export const surroundings = computed(() => {
+/** All other inputs of the prediction. */
+export const predictionInputs = computed(() => {
   const state = session.value;
   if (state === null) return "";
   const { gains, observer, law, stiffness, position, effects, limits } = state.configuration;
@@ -63,88 +65,88 @@ export const surroundings = computed(() => {
   ]);
 });
 
-export function requestOf(wanted: Draft): Parameters<typeof predict>[0] {
-  const [p1, p2, p3, p4] = wanted.position.map(toRequest) as [number, number, number, number];
-  const [s1, s2] = wanted.stiffness.map(toRequest) as [number, number];
+export function requestOf(design: Draft): Parameters<typeof predict>[0] {
+  const [p1, p2, p3, p4] = design.position.map(toRequest) as [number, number, number, number];
+  const [s1, s2] = design.stiffness.map(toRequest) as [number, number];
   return {
     gains: {
       position_poles_rad_per_s: [p1, p2, p3, p4],
       stiffness_poles_rad_per_s: [s1, s2],
     },
-    observer: { bandwidth_rad_per_s: [...wanted.observer] },
+    observer: { bandwidth_rad_per_s: [...design.observer] },
   };
 }
 
-async function ask(): Promise<void> {
-  const wanted = draft.peek();
-  if (wanted === null) return;
-  const number = ++asked;
+async function updatePredictions(): Promise<void> {
+  const design = draft.peek();
+  if (design === null) return;
+  const number = ++requestNumber;
   try {
-    const now = present.peek() ?? (await predict({}));
-    const answer = isChanged.peek() ? await predict(requestOf(wanted)) : now;
-    if (number !== asked) return;
-    present.value = now;
-    expected.value = answer;
-    isAsking.value = false;
+    const now = currentPrediction.peek() ?? (await predict({}));
+    const answer = isChanged.peek() ? await predict(requestOf(design)) : now;
+    if (number !== requestNumber) return;
+    currentPrediction.value = now;
+    draftPrediction.value = answer;
+    isPredicting.value = false;
   } catch {
-    if (number === asked) timer = setTimeout(() => void ask(), RETRY_MS);
+    if (number === requestNumber) timer = setTimeout(() => void updatePredictions(), RETRY_MS);
   }
 }
 
-function askSoon(): void {
+function schedulePrediction(): void {
   clearTimeout(timer);
-  isAsking.value = true;
-  timer = setTimeout(() => void ask(), PAUSE_MS);
+  isPredicting.value = true;
+  timer = setTimeout(() => void updatePredictions(), PAUSE_MS);
 }
 
-/** While the panel is open: asks again whenever the session is set otherwise. */
-export function watchSurroundings(): () => void {
-  const stop = surroundings.subscribe(() => {
-    present.value = null;
-    askSoon();
+/** While the panel is open: request again whenever the settings of the session change. */
+export function watchPredictionInputs(): () => void {
+  const stop = predictionInputs.subscribe(() => {
+    currentPrediction.value = null;
+    schedulePrediction();
   });
   return () => {
     stop();
     clearTimeout(timer);
-    asked++;
+    requestNumber++;
   };
 }
 
-export function tryPoles(group: Group, poles: readonly Pole[]): void {
+export function setDraftPoles(group: Group, poles: readonly Pole[]): void {
   const before = draft.peek();
   if (before === null) return;
-  if (changed.peek() === null) seen = session.peek();
-  changed.value = { ...before, [group]: poles };
-  askSoon();
+  if (changedDraft.peek() === null) baseState = session.peek();
+  changedDraft.value = { ...before, [group]: poles };
+  schedulePrediction();
 }
 
-export function tryObserver(bandwidth: number): void {
+export function setDraftObserver(bandwidth: number): void {
   const before = draft.peek();
   if (before === null) return;
-  if (changed.peek() === null) seen = session.peek();
-  changed.value = { ...before, observer: [bandwidth, bandwidth, bandwidth] };
-  askSoon();
+  if (changedDraft.peek() === null) baseState = session.peek();
+  changedDraft.value = { ...before, observer: [bandwidth, bandwidth, bandwidth] };
+  schedulePrediction();
 }
 
 export function discard(): void {
-  changed.value = null;
-  askSoon();
+  changedDraft.value = null;
+  schedulePrediction();
 }
 
-/** Only what was changed is sent: the gains' coefficients stay to the last bit where they may. */
+/** Only changes are sent: unchanged coefficients of the gains stay bit-identical. */
 export async function apply(): Promise<void> {
-  const wanted = changed.peek();
-  const now = inUse.peek();
-  if (wanted === null || now === null) return;
+  const design = changedDraft.peek();
+  const now = designInUse.peek();
+  if (design === null || now === null) return;
   isApplying.value = true;
-  const { gains } = requestOf(wanted);
-  const isOther = (key: keyof Draft) => JSON.stringify(wanted[key]) !== JSON.stringify(now[key]);
+  const { gains } = requestOf(design);
+  const differs = (key: keyof Draft) => JSON.stringify(design[key]) !== JSON.stringify(now[key]);
   const send = async () => {
     const state =
-      gains && (isOther("position") || isOther("stiffness")) ? await putGains(gains) : null;
-    return isOther("observer") || state === null ? putObserver(...wanted.observer) : state;
+      gains && (differs("position") || differs("stiffness")) ? await putGains(gains) : null;
+    return differs("observer") || state === null ? putObserver(...design.observer) : state;
   };
-  const isDone = await perform("design.apply", send, seen);
+  const isDone = await perform("design.apply", send, baseState);
   isApplying.value = false;
-  if (isDone) changed.value = null;
+  if (isDone) changedDraft.value = null;
 }

@@ -3,19 +3,19 @@ import { simulateDesign } from "../../core/api/design";
 import { explain } from "../../core/state/actions";
 import { text } from "../../core/text/en";
 import { ErrorLine } from "../../core/widgets/form";
-import { expected } from "./draft";
-import { designRequest, stability, tried } from "./stability";
+import { draftPrediction } from "./draft";
+import { designRequest, draftResponse, stability } from "./stability";
 
 const words = text.stability;
 
-/** Whether the design would fail: refused, unstable about rest, or ended by the 3 kg. */
+/** Whether the design would fail: rejected, unstable about rest, or a fault under the 3 kg. */
 const wouldFail = () =>
-  expected.value?.verdict === "refuse" ||
-  expected.value?.reasons.some(({ code }) => code === "unstable_loop") === true ||
+  draftPrediction.value?.verdict === "refuse" ||
+  draftPrediction.value?.reasons.some(({ code }) => code === "unstable_loop") === true ||
   (stability.value?.largest_pole ?? 0) >= 1 ||
-  (tried.value?.load.fault ?? null) !== null;
+  (draftResponse.value?.load.fault ?? null) !== null;
 
-/** What must not be applied may be seen to fail: in a private simulation, never on a bench. */
+/** Run a design that cannot be applied in a private simulation, never on a bench. */
 export function FailButton() {
   const [isBusy, setBusy] = useState(false);
   const [problem, setProblem] = useState("");

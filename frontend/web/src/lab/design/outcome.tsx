@@ -1,8 +1,9 @@
 import type { Prediction } from "../../core/api/design";
+import { largestTorque } from "../../core/plots/channels";
 import { session } from "../../core/state/session";
 import { text } from "../../core/text/en";
 import { formatLapse, formatNumber } from "../../core/units";
-import { expected, isAsking, present } from "./draft";
+import { currentPrediction, draftPrediction, isPredicting } from "./draft";
 import { degreesOf, torqueOf, verdictOf } from "./words";
 
 const words = text.design;
@@ -11,7 +12,7 @@ interface Line {
   label: string;
   hint: string;
   read: (found: Prediction) => string;
-  /** Share of a limit, where there is one. */
+  /** Share of a limit, if there is one. */
   share?: (found: Prediction) => number | null;
 }
 
@@ -20,7 +21,7 @@ const orDash = <T,>(value: T | null | undefined, format: (value: T) => string) =
   value === null || value === undefined ? "\u2013" : format(value);
 
 function linesOf(found: Prediction | null): Line[] {
-  const limits = session.value?.configuration.limits;
+  const state = session.value;
   const noise = (name: string, key: "torque1_rms_nm" | "torque2_rms_nm"): Line => ({
     label: words.noise(name),
     hint: noiseHint(found),
@@ -38,20 +39,20 @@ function linesOf(found: Prediction | null): Line[] {
   const peak = (
     name: string,
     key: "peak_torque1_nm" | "peak_torque2_nm",
-    limit: number | undefined,
+    motor: "torque1_nm" | "torque2_nm",
   ): Line => ({
     label: words.peak(name),
     hint: words.peakHint,
     read: ({ demand }) => orDash(demand?.[key], torqueOf),
-    share: ({ demand }) => (demand && limit ? demand[key] / limit : null),
+    share: ({ demand }) => (demand && state ? demand[key] / largestTorque(state, motor) : null),
   });
   return [
     ...(found === null ? [] : [steady(words.steady(found.law), words.steadyHint, "steady")]),
     ...(found?.adds_estimate ? [steady(words.fl, words.flHint, "fl")] : []),
     noise("u₁", "torque1_rms_nm"),
     noise("u₂", "torque2_rms_nm"),
-    peak("u₁", "peak_torque1_nm", limits?.torque1_nm),
-    peak("u₂", "peak_torque2_nm", limits?.torque2_nm),
+    peak("u₁", "peak_torque1_nm", "torque1_nm"),
+    peak("u₂", "peak_torque2_nm", "torque2_nm"),
     {
       label: words.atLimit,
       hint: words.peakHint,
@@ -60,7 +61,7 @@ function linesOf(found: Prediction | null): Line[] {
   ];
 }
 
-/** How much of a limit: a bar with a mark at the limit, and a word beyond it. */
+/** Share of a limit: a bar with a mark at the limit, and a word above it. */
 function Bar({ share }: { share: number }) {
   const isBeyond = share > 1;
   return (
@@ -112,13 +113,13 @@ function Judgement({ found }: { found: Prediction }) {
   );
 }
 
-/** The predicted effect of the design, next to the values in use. */
+/** The predicted behaviour of the design, next to that of the settings in use. */
 export function Outcome() {
-  const found = expected.value;
-  const now = present.value;
+  const found = draftPrediction.value;
+  const now = currentPrediction.value;
   if (found === null) return <p class="hint">{words.asking}</p>;
   return (
-    <div class={`stack ${isAsking.value ? "is-stale" : ""}`}>
+    <div class={`stack ${isPredicting.value ? "is-stale" : ""}`}>
       <table class="metrics strong">
         <caption>
           {words.expected}{" "}

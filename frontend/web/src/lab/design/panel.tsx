@@ -9,17 +9,17 @@ import {
   apply,
   discard,
   draft,
-  expected,
+  draftPrediction,
   isApplying,
-  isAsking,
   isChanged,
   isOpen,
-  watchSurroundings,
+  isPredicting,
+  watchPredictionInputs,
 } from "./draft";
 import { FailButton } from "./failbutton";
 import { Outcome } from "./outcome";
 import { Plane } from "./plane";
-import { stopFilling } from "./region";
+import { stopComputing } from "./region";
 import { RegionMap } from "./regionmap";
 import { Responses } from "./responses";
 import { watchStability } from "./stability";
@@ -34,8 +34,8 @@ function close(): void {
 }
 
 function Buttons() {
-  const verdict = expected.value?.verdict;
-  const isReady = isChanged.value && isLive.value && !isApplying.value && !isAsking.value;
+  const verdict = draftPrediction.value?.verdict;
+  const isReady = isChanged.value && isLive.value && !isApplying.value && !isPredicting.value;
   return (
     <div class="row design-buttons">
       <button
@@ -72,16 +72,16 @@ function Roots() {
   );
 }
 
-/** Pole placement: place the poles, see the predicted effect, then apply. */
+/** Pole placement: place the poles, see the predicted behaviour, then apply. */
 export function DesignPanel() {
   const law = lawOf(session.value?.configuration.law ?? "");
   return isOpen.value && law?.takes_gains !== false ? <Design /> : null;
 }
 
 function Design() {
-  useEffect(watchSurroundings, []);
+  useEffect(watchPredictionInputs, []);
   useEffect(watchStability, []);
-  useEffect(() => stopFilling, []);
+  useEffect(() => stopComputing, []);
   return (
     <Panel
       title={words.title}

@@ -1,6 +1,6 @@
 import { useRef } from "preact/hooks";
 import { text } from "../../core/text/en";
-import { type Draft, draft, type Group, inUse, tryPoles } from "./draft";
+import { type Draft, designInUse, draft, type Group, setDraftPoles } from "./draft";
 import {
   countPlaces,
   MAX_IM,
@@ -34,7 +34,7 @@ const ARROWS: Record<string, readonly [number, number]> = {
 const xOf = (re: number) => (Math.max(MIN_RE, Math.min(MAX_RE, re)) - MIN_RE) * SCALE;
 const yOf = (im: number) => (MAX_IM - Math.max(-MAX_IM, Math.min(MAX_IM, im))) * SCALE;
 
-/** Axes, circles of equal speed, and the half where nothing is stable. */
+/** Axes, circles of equal natural frequency, and the unstable half. */
 function Ground() {
   const x0 = xOf(0);
   const y0 = yOf(0);
@@ -89,7 +89,7 @@ function ObserverMark({ bandwidth }: { bandwidth: number }) {
   );
 }
 
-/** Faster observers than this line are unstable in the sampled loop. */
+/** Limit of the observer's bandwidth for stability of the sampled loop. */
 function FastestMark() {
   const fastest = stability.value?.fastest_observer_rad_per_s ?? null;
   if (fastest === null || -fastest < MIN_RE) return null;
@@ -112,7 +112,7 @@ interface PoleMarkProps {
   readPlace: (event: PointerEvent) => Pole;
 }
 
-/** A pole to drag, or to move with the arrows. */
+/** A pole to drag, or to move with the arrow keys. */
 function PoleMark({ group, poles, index, readPlace }: PoleMarkProps) {
   const start = useRef<Poles | null>(null);
   const pole = poles[index] as Pole;
@@ -122,7 +122,7 @@ function PoleMark({ group, poles, index, readPlace }: PoleMarkProps) {
     start.current = poles;
   };
   const drag = (event: PointerEvent) => {
-    if (start.current) tryPoles(group, movePole(start.current, index, readPlace(event)));
+    if (start.current) setDraftPoles(group, movePole(start.current, index, readPlace(event)));
   };
   const release = () => {
     start.current = null;
@@ -133,7 +133,7 @@ function PoleMark({ group, poles, index, readPlace }: PoleMarkProps) {
     event.preventDefault();
     event.stopPropagation();
     const step = event.shiftKey ? FAR : 1;
-    tryPoles(group, stepPole(poles, index, arrow[0] * step, arrow[1] * step));
+    setDraftPoles(group, stepPole(poles, index, arrow[0] * step, arrow[1] * step));
   };
   return (
     <g
@@ -159,7 +159,7 @@ function PoleMark({ group, poles, index, readPlace }: PoleMarkProps) {
   );
 }
 
-/** What is in use now, faintly, below what is tried. */
+/** The poles in use, faint, behind those of the draft. */
 function Shadows({ now }: { now: Draft }) {
   return (
     <svg class="plane-now" aria-hidden="true">
@@ -196,11 +196,11 @@ function Counts({ group, poles }: { group: Group; poles: Poles }) {
   );
 }
 
-/** Six poles to be placed. */
+/** The six poles. */
 export function Plane() {
   const picture = useRef<SVGSVGElement>(null);
   const tried = draft.value;
-  const now = inUse.value;
+  const now = designInUse.value;
   const readPlace = (event: PointerEvent): Pole => {
     const box = (picture.current as SVGSVGElement).getBoundingClientRect();
     return {

@@ -1,14 +1,14 @@
-/** Poles as they are drawn and moved: real ones alone, complex ones with their conjugate. */
+/** Poles in the plane: single real ones, and complex ones with their conjugate. */
 
 export interface Pole {
   re: number;
-  /** Zero on the real axis; a pole at re + j·im has its partner at re − j·im. */
+  /** Zero on the real axis; a pole at re + j·im has its conjugate at re − j·im. */
   im: number;
 }
 
 export type Poles = readonly Pole[];
 
-/** Closer to the real axis than this, a pole lies on it, rad/s. */
+/** A pole closer to the real axis than this becomes real, rad/s. */
 const SNAP = 4;
 export const MAX_RE = 40;
 export const MIN_RE = -300;
@@ -18,7 +18,7 @@ const clamp = (value: number, least: number, most: number) =>
   Math.min(most, Math.max(least, value));
 const rounded = (value: number) => Math.round(value * 10) / 10;
 
-/** Roots as the server tells them; numerical dust around a multiple root is swept onto the axis. */
+/** Roots from the server; rounding errors around a multiple real root are removed. */
 export function polesOf(roots: readonly Pole[]): Pole[] {
   const clean = roots.map(({ re, im }) => ({ re: rounded(re), im: rounded(im) }));
   const mean = clean.reduce((sum, { re }) => sum + re, 0) / clean.length;
@@ -27,7 +27,7 @@ export function polesOf(roots: readonly Pole[]): Pole[] {
   return clean.map(() => ({ re: rounded(mean), im: 0 }));
 }
 
-/** Each complex pole followed by its conjugate, so that both have exactly one value. */
+/** Each complex pole followed by its conjugate, so that both have exactly the same values. */
 function pairUp(poles: Poles): Pole[] {
   const above = poles.filter(({ im }) => im > 0);
   const onAxis = poles.filter(({ im }) => im === 0);
@@ -40,7 +40,9 @@ function pairUp(poles: Poles): Pole[] {
   ];
 }
 
-/** The pole that goes along when this one moves off the axis: its conjugate, or the nearest real. */
+/**
+ * The pole that moves along when this one leaves the axis: its conjugate, or the nearest real one.
+ */
 export function partnerOf(poles: Poles, index: number): number {
   const moved = poles[index] as Pole;
   let best = -1;
@@ -57,8 +59,9 @@ export function partnerOf(poles: Poles, index: number): number {
 }
 
 /**
- * The poles with one of them moved from where it was when the drag began. Off the axis its partner
- * mirrors it; on the axis a partner that came from there goes back to its place.
+ * The poles with one of them moved from its position at the start of the drag. Off the axis its
+ * partner becomes the conjugate; on the axis a partner that came from there returns to its
+ * position.
  */
 export function movePole(start: Poles, index: number, to: Pole): Pole[] {
   const partner = partnerOf(start, index);
@@ -73,7 +76,7 @@ export function movePole(start: Poles, index: number, to: Pole): Pole[] {
   });
 }
 
-/** One step of a key: off the axis at once, and back onto it where the step would end near. */
+/** One step of an arrow key: off the axis at once, and back onto it if the step ends near it. */
 export function stepPole(poles: Poles, index: number, dRe: number, dIm: number): Pole[] {
   const { re, im } = poles[index] as Pole;
   const isLeaving = im === 0 && dIm !== 0;
@@ -84,7 +87,7 @@ export function stepPole(poles: Poles, index: number, dRe: number, dIm: number):
 export const allAt = (count: number, bandwidth: number): Pole[] =>
   Array.from({ length: count }, () => ({ re: -bandwidth, im: 0 }));
 
-/** p where all poles are at −p; else the geometric mean of their sizes, as c₀ = pⁿ. */
+/** p if all poles are at −p; otherwise the geometric mean of their magnitudes, as c₀ = pⁿ. */
 export function bandwidthOf(poles: Poles): number {
   const product = poles.reduce((size, { re, im }) => size * Math.hypot(re, im), 1);
   return product ** (1 / poles.length);
@@ -104,7 +107,7 @@ export function coefficientsOf(count: number, bandwidth: number): number[] {
 export const areTogether = (poles: Poles): boolean =>
   poles.every(({ re, im }) => im === 0 && re === poles[0]?.re);
 
-/** As the API takes a pole: a real part, or [re, im]. */
+/** Format of a pole in the API: a real part, or [re, im]. */
 export const toRequest = ({ re, im }: Pole): number | [number, number] =>
   im === 0 ? re : [re, im];
 
@@ -113,7 +116,7 @@ interface Place {
   count: number;
 }
 
-/** Poles that lie on one another, counted. */
+/** Number of coinciding poles at each position. */
 export function countPlaces(poles: Poles): Place[] {
   const places: Place[] = [];
   for (const pole of poles) {

@@ -1,41 +1,46 @@
-/** The map of starts that come to rest, as it fills. */
+/** The map of initial states from which the loop comes to rest, computed in parts. */
 import { computed, signal } from "@preact/signals";
-import { askRegion, type Region, type StartOutcome } from "../../core/api/design";
+import { type Region, requestRegion, type StartOutcome } from "../../core/api/design";
 import type { Law } from "../../core/api/types";
 import { draft } from "./draft";
 import { designRequest } from "./stability";
 
 export type Slice = Region["chosen"];
 export const STARTS = 31;
-const PART = 48;
+const PART_SIZE = 48;
 
 export const outcomes = signal<readonly StartOutcome[]>([]);
-/** What the map is of: the answer that came first. */
-export const shown = signal<Region | null>(null);
-export const isFilling = signal(false);
+/** Design of the map, from its first answer. */
+export const shownRegion = signal<Region | null>(null);
+export const isComputing = signal(false);
 export const problem = signal<unknown>(null);
-const mapped = signal("");
+const mappedDesign = signal("");
 
 const designOf = () => JSON.stringify(draft.value);
 /** Whether the poles have been moved since. */
-export const isOutdated = computed(() => shown.value !== null && mapped.value !== designOf());
-export const share = computed(() => {
+export const isOutdated = computed(
+  () => shownRegion.value !== null && mappedDesign.value !== designOf(),
+);
+export const restShare = computed(() => {
   const all = outcomes.value;
   return all.length === 0
     ? null
     : all.filter(({ outcome }) => outcome === "rest").length / all.length;
 });
 
-let filling = 0;
+let fillNumber = 0;
 
-export function stopFilling(): void {
-  filling++;
-  isFilling.value = false;
+export function stopComputing(): void {
+  fillNumber++;
+  isComputing.value = false;
 }
 
-/** Part by part, from coarse to fine, until it is full, stopped, or the poles are moved. */
-export async function fillRegion(law: Law, chosen: Slice, stiffness: number): Promise<void> {
-  const number = ++filling;
+/**
+ * Compute part after part, from coarse to fine, until it is complete, stopped, or the poles are
+ * moved.
+ */
+export async function computeRegion(law: Law, chosen: Slice, stiffness: number): Promise<void> {
+  const number = ++fillNumber;
   const request = {
     ...designRequest(),
     law,
@@ -44,21 +49,21 @@ export async function fillRegion(law: Law, chosen: Slice, stiffness: number): Pr
     starts: STARTS,
   };
   outcomes.value = [];
-  shown.value = null;
+  shownRegion.value = null;
   problem.value = null;
-  mapped.value = designOf();
-  isFilling.value = true;
+  mappedDesign.value = designOf();
+  isComputing.value = true;
   let first: number | null = 0;
   try {
-    while (first !== null && number === filling && mapped.peek() === designOf()) {
-      const part: Region = await askRegion({ ...request, first, count: PART });
-      if (number !== filling) return;
-      shown.value ??= part;
+    while (first !== null && number === fillNumber && mappedDesign.peek() === designOf()) {
+      const part: Region = await requestRegion({ ...request, first, count: PART_SIZE });
+      if (number !== fillNumber) return;
+      shownRegion.value ??= part;
       outcomes.value = [...outcomes.peek(), ...part.outcomes];
       first = part.next;
     }
   } catch (error) {
-    if (number === filling) problem.value = error;
+    if (number === fillNumber) problem.value = error;
   }
-  if (number === filling) isFilling.value = false;
+  if (number === fillNumber) isComputing.value = false;
 }

@@ -1,23 +1,24 @@
 import { useId, useState } from "preact/hooks";
 import { explain } from "../../core/state/actions";
+import { settings } from "../../core/state/arm";
 import { titleOf, usableLaws } from "../../core/state/laws";
-import { session } from "../../core/state/session";
+import { findStiffness } from "../../core/state/stiffness";
 import { text } from "../../core/text/en";
 import { formatInput, formatNumber } from "../../core/units";
 import { ErrorLine, SelectField } from "../../core/widgets/form";
 import {
-  fillRegion,
-  isFilling,
+  computeRegion,
+  isComputing,
   isOutdated,
   outcomes,
   problem,
+  restShare,
   type Slice,
   STARTS,
-  share,
-  shown,
-  stopFilling,
+  shownRegion,
+  stopComputing,
 } from "./region";
-import { tried } from "./stability";
+import { draftResponse } from "./stability";
 
 const words = text.stability;
 const WIDTH = 340;
@@ -39,7 +40,7 @@ const placeY = (speed: number) =>
   HEIGHT - BOTTOM - CELL_Y / 2 - ((speed + 20) / 40) * (HEIGHT - TOP - BOTTOM - CELL_Y);
 const written = (value: number) => String(value).replace("-", "\u2212");
 
-/** One path a look: a thousand cells are three elements. */
+/** One path per color: a thousand cells are three elements. */
 function pathOf(look: (typeof LOOKS)[number]): string {
   return outcomes.value
     .filter(({ outcome }) => outcome === look)
@@ -54,8 +55,8 @@ function pathOf(look: (typeof LOOKS)[number]): string {
 const percent = (part: number) => `${formatNumber(100 * part, 3, 1)} %`;
 
 function Picture() {
-  const found = shown.value;
-  const part = share.value;
+  const found = shownRegion.value;
+  const part = restShare.value;
   const summary =
     found === null || part === null
       ? words.regionEmpty
@@ -98,23 +99,26 @@ function Picture() {
   );
 }
 
-/** From where the loop comes to rest: a map that fills while it is worked out. */
+/** Region of attraction: a map that fills while it is computed. */
 export function RegionMap() {
   const id = useId();
-  const own = session.value?.configuration.law ?? "ndobc";
+  const configuration = settings.value?.configuration;
+  const own = configuration?.law ?? "ndobc";
   const [law, setLaw] = useState<string | null>(null);
   const [chosen, setChosen] = useState<Slice>("rigid");
   const [typed, setTyped] = useState<string | null>(null);
-  const sigma = typed ?? formatInput(tried.value?.stiffness_nm_per_rad ?? 15, 3);
-  const limits = session.value?.configuration.limits;
+  const present =
+    draftResponse.value?.stiffness_nm_per_rad ?? (configuration && findStiffness(configuration));
+  const sigma = typed ?? formatInput(present ?? 0, 3);
+  const limits = configuration?.limits;
   const value = Number(sigma);
   const isTaken =
     sigma.trim() !== "" &&
     limits !== undefined &&
     value >= limits.stiffness_min_nm_per_rad &&
     value <= limits.stiffness_max_nm_per_rad;
-  const part = share.value;
-  const found = shown.value;
+  const part = restShare.value;
+  const found = shownRegion.value;
   return (
     <section
       class={`stack region ${isOutdated.value ? "is-outdated" : ""}`}
@@ -129,7 +133,7 @@ export function RegionMap() {
           value={law ?? own}
           options={usableLaws.value.map(({ name }) => name)}
           name={titleOf}
-          disabled={isFilling.value}
+          disabled={isComputing.value}
           onChoose={setLaw}
         />
         <SelectField
@@ -137,7 +141,7 @@ export function RegionMap() {
           value={chosen}
           options={SLICES}
           name={(slice) => words.slices[slice]}
-          disabled={isFilling.value}
+          disabled={isComputing.value}
           onChoose={setChosen}
         />
         <label>
@@ -148,12 +152,12 @@ export function RegionMap() {
             value={sigma}
             aria-label={words.regionStiffness}
             aria-invalid={!isTaken}
-            disabled={isFilling.value}
+            disabled={isComputing.value}
             onInput={(event) => setTyped(event.currentTarget.value)}
           />
         </label>
-        {isFilling.value ? (
-          <button type="button" class="button end" onClick={stopFilling}>
+        {isComputing.value ? (
+          <button type="button" class="button end" onClick={stopComputing}>
             {words.stop}
           </button>
         ) : (
@@ -161,7 +165,7 @@ export function RegionMap() {
             type="button"
             class="button end"
             disabled={!isTaken}
-            onClick={() => void fillRegion(law ?? own, chosen, value)}
+            onClick={() => void computeRegion(law ?? own, chosen, value)}
           >
             {words.fill}
           </button>
@@ -189,7 +193,7 @@ export function RegionMap() {
         ))}
       </p>
       <p class="hint">{words.regionCaption(words.slices[found?.chosen ?? chosen], STARTS)}</p>
-      <p class="hint" role={isFilling.value ? undefined : "status"}>
+      <p class="hint" role={isComputing.value ? undefined : "status"}>
         {found === null || part === null
           ? words.regionEmpty
           : words.regionFound(

@@ -3,7 +3,7 @@ import { text } from "../../core/text/en";
 import { formatNumber, toDegrees } from "../../core/units";
 import { type Axis, type Curve, Curves } from "./curves";
 import { isChanged } from "./draft";
-import { present, tried } from "./stability";
+import { currentResponse, draftResponse } from "./stability";
 import { caveatOf } from "./words";
 
 const words = text.stability;
@@ -30,23 +30,25 @@ const curveOf = (
 ): Curve => ({ look, points: read(found), isDoubtful: caveatOf(found) !== null });
 
 function curvesOf(read: (found: DesignResponse) => Points): Curve[] {
-  const now = present.value;
-  const found = tried.value;
+  const now = currentResponse.value;
+  const found = draftResponse.value;
   return [
     ...(now && isChanged.value ? [curveOf("present", now, read)] : []),
     ...(found ? [curveOf("tried", found, read)] : []),
   ];
 }
 
-/** What the 3 kg and a sine on the link do, with these poles and with those in use. */
+/**
+ * Responses to the 3 kg and to a sine on the link, with the draft's poles and with those in use.
+ */
 export function Responses() {
-  const found = tried.value;
+  const found = draftResponse.value;
   if (found === null) return <p class="hint">{text.design.asking}</p>;
   const errors = curvesOf(errorOf);
   const magnitudes = curvesOf(magnitudeOf);
   const caveat = caveatOf(found);
   const doubt = caveat?.short ?? null;
-  const now = present.value;
+  const now = currentResponse.value;
   const addCaveat = (summary: string) => (caveat ? words.caveat(summary, caveat.short) : summary);
   const peak = formatNumber(toDegrees(found.load.peak_error_rad), 3, 2);
   return (

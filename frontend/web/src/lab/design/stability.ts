@@ -1,63 +1,68 @@
-/** What is asked of the server about the stability of the design that is tried. */
+/** Requests about the stability of the draft design. */
 import { computed, effect, signal } from "@preact/signals";
 import {
-  askMargins,
-  askResponse,
-  askStability,
   type DesignRequest,
   type DesignResponse,
   type Margins,
+  requestMargins,
+  requestResponse,
+  requestStability,
   type Stability,
 } from "../../core/api/design";
-import { session } from "../../core/state/session";
-import { draft, isChanged, requestOf, surroundings } from "./draft";
+import { settings } from "../../core/state/arm";
+import { draft, isChanged, predictionInputs, requestOf } from "./draft";
 
-export const tried = signal<DesignResponse | null>(null);
-export const present = signal<DesignResponse | null>(null);
+export const draftResponse = signal<DesignResponse | null>(null);
+export const currentResponse = signal<DesignResponse | null>(null);
 export const stability = signal<Stability | null>(null);
 export const margins = signal<Margins | null>(null);
-/** Whether what is shown is of other gains than those that stand in the plane. */
+/** Whether the shown result belongs to other gains than those in the plane. */
 export const isStale = signal(false);
 
-const QUICK_PAUSE_MS = 120;
-const LONG_PAUSE_MS = 450;
+const RESPONSE_DELAY_MS = 120;
+const STABILITY_DELAY_MS = 450;
 const RETRY_MS = 2500;
 
-/** Everything that the answers depend on: changes only if a value changes. */
-const question = computed(() => {
-  const configuration = session.value?.configuration;
-  return JSON.stringify([configuration?.actuator, configuration?.nominal, surroundings.value]);
+/** All inputs of the answers: changes only if a value changes. */
+const inputsKey = computed(() => {
+  const configuration = settings.value?.configuration;
+  return JSON.stringify([configuration?.actuator, configuration?.nominal, predictionInputs.value]);
 });
-const wanted = computed(() => JSON.stringify(draft.value));
+const draftKey = computed(() => JSON.stringify(draft.value));
 
-/** The request for the design in the plane; for what is in use nothing is sent along. */
+/** The request for the design in the plane; the settings in use need no body. */
 export function designRequest(): DesignRequest {
   const tried = draft.peek();
   return tried !== null && isChanged.peek() ? requestOf(tried) : {};
 }
 
-/** Asks after a pause; one question at a time, the last one counts, and it is asked again if refused. */
-function asker(pauseMs: number, ask: () => Promise<() => void>): { soon(): void; stop(): void } {
+/**
+ * Request after a pause; one request at a time, the last one counts; repeated after a rejection.
+ */
+function createScheduler(
+  pauseMs: number,
+  request: () => Promise<() => void>,
+): { schedule(): void; stop(): void } {
   let timer: ReturnType<typeof setTimeout> | undefined;
   let isBusy = false;
   let number = 0;
   const start = async () => {
     if (isBusy) return;
     isBusy = true;
-    const asked = number;
-    let isDone = false;
+    const startedNumber = number;
+    let isAnswered = false;
     try {
-      const take = await ask();
-      isDone = true;
-      if (asked === number) take();
+      const applyAnswer = await request();
+      isAnswered = true;
+      if (startedNumber === number) applyAnswer();
     } catch {
-      if (asked === number) timer = setTimeout(() => void start(), RETRY_MS);
+      if (startedNumber === number) timer = setTimeout(() => void start(), RETRY_MS);
     }
     isBusy = false;
-    if (isDone && asked !== number && number > 0) void start();
+    if (isAnswered && startedNumber !== number && number > 0) void start();
   };
   return {
-    soon() {
+    schedule() {
       number++;
       clearTimeout(timer);
       timer = setTimeout(() => void start(), pauseMs);
@@ -69,46 +74,46 @@ function asker(pauseMs: number, ask: () => Promise<() => void>): { soon(): void;
   };
 }
 
-/** While the panel is open: asks again whenever the design or the session changes. */
+/** While the panel is open: request again whenever the design or the session changes. */
 export function watchStability(): () => void {
-  let seen = "";
-  const quick = asker(QUICK_PAUSE_MS, async () => {
-    const now = present.peek() ?? (await askResponse({}));
-    const found = isChanged.peek() ? await askResponse(designRequest()) : now;
+  let lastInputsKey = "";
+  const responseScheduler = createScheduler(RESPONSE_DELAY_MS, async () => {
+    const now = currentResponse.peek() ?? (await requestResponse({}));
+    const found = isChanged.peek() ? await requestResponse(designRequest()) : now;
     return () => {
-      present.value = now;
-      tried.value = found;
+      currentResponse.value = now;
+      draftResponse.value = found;
     };
   });
-  const long = asker(LONG_PAUSE_MS, async () => {
-    const found = await askStability(designRequest());
+  const stabilityScheduler = createScheduler(STABILITY_DELAY_MS, async () => {
+    const found = await requestStability(designRequest());
     return () => {
       stability.value = found;
       isStale.value = false;
     };
   });
-  const longer = asker(LONG_PAUSE_MS, async () => {
-    const found = await askMargins(designRequest());
+  const marginsScheduler = createScheduler(STABILITY_DELAY_MS, async () => {
+    const found = await requestMargins(designRequest());
     return () => {
       margins.value = found;
     };
   });
   const stop = effect(() => {
-    if (wanted.value === "null") return;
-    if (question.value !== seen) {
-      seen = question.value;
-      present.value = null;
+    if (draftKey.value === "null") return;
+    if (inputsKey.value !== lastInputsKey) {
+      lastInputsKey = inputsKey.value;
+      currentResponse.value = null;
     }
     isStale.value = true;
     margins.value = null;
-    quick.soon();
-    long.soon();
-    longer.soon();
+    responseScheduler.schedule();
+    stabilityScheduler.schedule();
+    marginsScheduler.schedule();
   });
   return () => {
     stop();
-    quick.stop();
-    long.stop();
-    longer.stop();
+    responseScheduler.stop();
+    stabilityScheduler.stop();
+    marginsScheduler.stop();
   };
 }

@@ -1,11 +1,12 @@
 import type { SessionState } from "../../core/api/types";
+import { isArm } from "../../core/state/arm";
 import { comparisonLanes } from "../../core/state/lanes";
 import { lawOf } from "../../core/state/laws";
 import { isLive, session } from "../../core/state/session";
 import { text } from "../../core/text/en";
 import { Problem } from "../../core/widgets/form";
 import { PanelButton } from "../../core/widgets/panel";
-import { discard, inUse, isOpen } from "./draft";
+import { designInUse, discard, isOpen } from "./draft";
 import { steps, undo } from "./history";
 import { describePoles } from "./words";
 
@@ -44,22 +45,22 @@ export function Undo() {
   );
 }
 
-/** The comparisons that have no gains of their own. */
+/** The comparisons without their own gains. */
 const sharedWith = (state: SessionState): string[] =>
   comparisonLanes(state)
     .filter(({ controller: { law, gains } }) => !gains && lawOf(law)?.takes_gains)
     .map(({ name }) => name);
 
-/** Which comparisons change with the poles that are placed. */
+/** The comparisons that use the placed poles. */
 export function SharedPoles() {
   const state = session.value;
   const shared = state === null ? [] : sharedWith(state);
   return shared.length > 0 ? <p class="hint">{words.shared(shared)}</p> : null;
 }
 
-/** The poles in use, and the way to other ones. */
+/** The poles in use, and a button to change them, which predicts the behaviour of one joint. */
 export function DesignSummary() {
-  const now = inUse.value;
+  const now = designInUse.value;
   if (now === null) return null;
   return (
     <>
@@ -75,12 +76,14 @@ export function DesignSummary() {
       </dl>
       <SharedPoles />
       <div class="row design-open">
-        <PanelButton isOpen={isOpen} hint={words.openHint}>
-          <svg viewBox="0 0 16 16" aria-hidden="true">
-            <path d="M11 0h1.6v16H11zM0 7.2h16v1.6H0zM3 1.8l1.4 1.4L5.8 1.8l1 1-1.4 1.4 1.4 1.4-1 1-1.4-1.4L3 6.6l-1-1 1.4-1.4L2 2.8zM3 9.8l1.4 1.4 1.4-1.4 1 1-1.4 1.4 1.4 1.4-1 1-1.4-1.4L3 14.6l-1-1 1.4-1.4L2 10.8z" />
-          </svg>
-          {words.open}
-        </PanelButton>
+        {!isArm.value && (
+          <PanelButton isOpen={isOpen} hint={words.openHint}>
+            <svg viewBox="0 0 16 16" aria-hidden="true">
+              <path d="M11 0h1.6v16H11zM0 7.2h16v1.6H0zM3 1.8l1.4 1.4L5.8 1.8l1 1-1.4 1.4 1.4 1.4-1 1-1.4-1.4L3 6.6l-1-1 1.4-1.4L2 2.8zM3 9.8l1.4 1.4 1.4-1.4 1 1-1.4 1.4 1.4 1.4-1 1-1.4-1.4L3 14.6l-1-1 1.4-1.4L2 10.8z" />
+            </svg>
+            {words.open}
+          </PanelButton>
+        )}
         <UndoButton />
       </div>
       <Problem control="design.undo" />

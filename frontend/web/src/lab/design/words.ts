@@ -1,4 +1,4 @@
-/** Poles and numbers of a design as they are read. */
+/** Poles and numbers of a design as text. */
 import type { DesignResponse, Margins, Prediction, Stability } from "../../core/api/design";
 import { text } from "../../core/text/en";
 import { formatInput, formatNumber, toDegrees } from "../../core/units";
@@ -26,18 +26,18 @@ export function describePoles(poles: Poles): string {
 export const degreesOf = (rad: number) => `${formatNumber(Math.abs(toDegrees(rad)), 3, 3)}°`;
 export const torqueOf = (torque: number) => `${formatNumber(torque, 3, 4)} N·m`;
 
-/** Nothing is plainly good that goes beyond a limit, however shortly. */
+/** Never marked as good if a limit is exceeded, however shortly. */
 export const verdictOf = ({ verdict, reasons }: Prediction): keyof typeof text.design.verdict =>
   verdict === "ok" && reasons.length > 0 ? "note" : verdict;
 
 interface Caveat {
-  /** In the chart. */
+  /** Short text in the chart. */
   short: string;
-  /** Beneath it. */
+  /** Text below it. */
   summary: string;
 }
 
-/** Why the curves of a design are not what it would do, or null where they are. */
+/** Why the curves of a design are not a valid prediction, or null if they are. */
 export function caveatOf(found: Pick<DesignResponse, "largest_pole" | "encoders">): Caveat | null {
   if (found.largest_pole < 1) return null;
   const { short, summary } = text.stability.unstableOn[found.encoders];
@@ -46,7 +46,7 @@ export function caveatOf(found: Pick<DesignResponse, "largest_pole" | "encoders"
 
 const ratio = (value: number) => formatNumber(value, 3, 2);
 
-/** For which true over nominal values of a parameter the loop is stable. */
+/** Ratios of the true to the nominal value of a parameter for which the loop is stable. */
 export function rangeOf({ low, high }: Pick<Stability["ranges"][number], "low" | "high">): string {
   if (high === null) return low === null ? text.stability.all : text.stability.from(ratio(low));
   return low === null
@@ -54,13 +54,13 @@ export function rangeOf({ low, high }: Pick<Stability["ranges"][number], "low" |
     : text.stability.between(ratio(low), ratio(high));
 }
 
-/** Factors on a torque between which the loop stays stable. */
+/** Factors on a torque for which the loop stays stable. */
 export function gainRangeOf(found: Margins["torque1_gain"]): string {
   if (found === null) return text.stability.all;
   return rangeOf({ low: found.low ?? 0, high: found.high });
 }
 
-/** "M −24 %, B1 +18 %" without what rounds to nothing. */
+/** "M −24 %, B1 +18 %", without those that round to zero. */
 export function errorsOf(errors: Record<string, number>): string {
   return Object.entries(errors)
     .filter(([, error]) => Math.abs(error) >= 0.005)

@@ -1,6 +1,6 @@
 import type { ComponentChildren } from "preact";
 import { useId } from "preact/hooks";
-import { areKeysOn, chooseKeys } from "../../core/state/preferences";
+import { areKeysOn, setKeysOn } from "../../core/state/preferences";
 import { bench } from "../../core/state/session";
 import { text } from "../../core/text/en";
 import { Panel, PanelButton } from "../../core/widgets/panel";
@@ -31,7 +31,7 @@ function close(): void {
   isHelpOpen.value = false;
 }
 
-/** Every key of the page. */
+/** List of all keys. */
 function Sheet() {
   const id = useId();
   return (
@@ -57,7 +57,7 @@ function Sheet() {
           type="checkbox"
           checked={areKeysOn.value}
           aria-describedby={`${id}-hint`}
-          onChange={(event) => chooseKeys(event.currentTarget.checked)}
+          onChange={(event) => setKeysOn(event.currentTarget.checked)}
         />
         {keys.switch}
       </label>

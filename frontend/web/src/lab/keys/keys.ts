@@ -1,4 +1,4 @@
-/** The keyboard of the page: what a key does now. */
+/** Keyboard commands of the page in its present state. */
 import { signal } from "@preact/signals";
 import { pause } from "../../core/api/client";
 import type { SessionState } from "../../core/api/types";
@@ -14,7 +14,7 @@ import {
 import { areKeysOn } from "../../core/state/preferences";
 import { isLive, session } from "../../core/state/session";
 import { closeNewest } from "../../core/widgets/panel";
-import { canHold, hold, letGo } from "../../hardware/hold";
+import { isSwitchEffective, pressInput, releaseInput } from "../../hardware/hold";
 import { place, toggleRuns } from "../../runs/list/place";
 import { pressStop } from "../safety/stop";
 import { toggleNames } from "../scene/viewer";
@@ -42,7 +42,7 @@ const answers: Record<SessionCommand, (state: SessionState) => Promise<boolean> 
   compare: (state) => (state.recording === null ? toggleCompare(state) : undefined),
 };
 
-/** A key waits for the answer to the one before, so that two presses of one key are two wishes. */
+/** A key waits for the answer to the previous one, so that two presses are two commands. */
 let answered: Promise<unknown> = Promise.resolve();
 
 async function answerSession(command: SessionCommand): Promise<void> {
@@ -51,18 +51,18 @@ async function answerSession(command: SessionCommand): Promise<void> {
   await answers[command](state);
 }
 
-/** Answers a key; also given to the document inside the 3D view. */
+/** Handle a key; also registered in the document inside the 3D view. */
 export function answerKey(event: KeyboardEvent): void {
   const focus = focusOf(event.target);
-  if (endsHold(event, focus)) letGo(HOLD_GRIP);
+  if (endsHold(event, focus)) releaseInput(HOLD_GRIP);
   const command = findCommand(event, focus, areKeysOn.peek());
   if (command === null || (command === "close" && !closeNewest())) return;
-  // Inside the 3D view the page would not receive the release of the key.
-  if (command === "hold" && !(canHold() && event.view === window)) return;
+  // The page would not receive the release of a key inside the 3D view.
+  if (command === "hold" && !(isSwitchEffective() && event.view === window)) return;
   event.preventDefault();
   event.stopPropagation();
   if (command === "stop") void pressStop();
-  else if (command === "hold") hold(HOLD_GRIP);
+  else if (command === "hold") pressInput(HOLD_GRIP);
   else if (command === "zoom") toggleZoom();
   else if (command === "names") toggleNames();
   else if (command === "runs") toggleRuns();
@@ -76,7 +76,7 @@ export function listenToKeys(): void {
   window.addEventListener(
     "keyup",
     (event) => {
-      if (event.key.toLowerCase() === "d") letGo(HOLD_GRIP);
+      if (event.key.toLowerCase() === "d") releaseInput(HOLD_GRIP);
     },
     true,
   );

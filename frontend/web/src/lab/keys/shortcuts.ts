@@ -1,4 +1,4 @@
-/** Which key means what, and where. */
+/** Keys and their commands. */
 
 export type Command =
   | "stop"
@@ -14,7 +14,7 @@ export type Command =
   | "help"
   | "close";
 
-/** What has the focus: a place to write, a control that needs Space itself, or neither. */
+/** The focused element: a text field, a control that needs Space itself, or neither. */
 export type Focus = "writing" | "control" | "free";
 
 export type KeyPress = Pick<
@@ -35,7 +35,7 @@ const COMMANDS: Readonly<Record<string, Command>> = {
   "?": "help",
 };
 
-/** The command of a key, or null where the key belongs to something else. */
+/** The command of a key, or null if the focused element uses the key. */
 export function findCommand(press: KeyPress, focus: Focus, areKeysOn: boolean): Command | null {
   if (press.repeat) return null;
   if (press.key === "Escape" && press.shiftKey) return "stop";
@@ -46,15 +46,15 @@ export function findCommand(press: KeyPress, focus: Focus, areKeysOn: boolean): 
   return COMMANDS[press.key.toLowerCase()] ?? null;
 }
 
-/** Events that release a held key: a modifier may swallow its release, a field its meaning. */
+/** Events that release a held key: a modifier may suppress its release, a text field may use it. */
 export const endsHold = (press: KeyPress, focus: Focus): boolean =>
   press.ctrlKey || press.metaKey || press.altKey || focus === "writing";
 
 const WRITING =
   "textarea, select, [contenteditable], input:not([type=range], [type=radio], [type=checkbox])";
-/** An open menu in which keys search: they belong to it before its field has the focus. */
+/** Keys search in an open menu, even before its field has the focus. */
 const TYPED_MENU = ".law-popup:popover-open";
-/** A button that was reached by key; one that was clicked gives the space bar back. */
+/** A button focused by keyboard; after a click Space is a command again. */
 const CONTROL = ":is(button, summary, a, input):focus-visible";
 
 export function focusOf(target: EventTarget | null): Focus {

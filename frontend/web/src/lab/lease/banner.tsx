@@ -2,21 +2,21 @@ import { useId, useState } from "preact/hooks";
 import {
   CONTROL_OF_SESSION,
   confirmControl,
-  isAsked,
+  isControlDialogOpen,
   otherHolder,
   queue,
-  wishControl,
+  requestControl,
 } from "../../core/state/control";
-import { defaultName, LONGEST_NAME, personName } from "../../core/state/preferences";
+import { defaultName, MAX_NAME_LENGTH, personName } from "../../core/state/preferences";
 import { isLive } from "../../core/state/session";
 import { text } from "../../core/text/en";
 import { Banner } from "../../core/widgets/banner";
 import { Problem } from "../../core/widgets/form";
-import { InTurn } from "./inturn";
+import { QueueStatus } from "./queuestatus";
 
 const words = text.control;
 
-/** Asks for a name if none is known, and before control is taken from its holder. */
+/** Dialog for a missing name, and to confirm taking control from its holder. */
 function Question({ other }: { other: string | null }) {
   const id = useId();
   const [name, setName] = useState(personName.peek().trim() || defaultName());
@@ -38,7 +38,7 @@ function Question({ other }: { other: string | null }) {
             id={id}
             type="text"
             required
-            maxLength={LONGEST_NAME}
+            maxLength={MAX_NAME_LENGTH}
             autocomplete="name"
             value={name}
             onInput={(event) => setName(event.currentTarget.value)}
@@ -52,7 +52,7 @@ function Question({ other }: { other: string | null }) {
         type="button"
         class="button"
         onClick={() => {
-          isAsked.value = false;
+          isControlDialogOpen.value = false;
         }}
       >
         {words.cancel}
@@ -64,22 +64,22 @@ function Question({ other }: { other: string | null }) {
 function Held({ other }: { other: string }) {
   return (
     <Banner look="is-news is-calm" sign="▪" title={words.heldTitle(other)} words={words.heldText}>
-      <button type="button" class="button" disabled={!isLive.value} onClick={wishControl}>
+      <button type="button" class="button" disabled={!isLive.value} onClick={requestControl}>
         {words.takeOver}
       </button>
     </Banner>
   );
 }
 
-/** Reports that another user is in control, and asks before this page takes it. */
+/** Reports that another user is in control, and asks for confirmation before this page takes it. */
 export function ControlBanner() {
   const other = otherHolder.value;
   return (
     <>
-      {isAsked.value ? (
+      {isControlDialogOpen.value ? (
         <Question other={other} />
       ) : queue.value !== null ? (
-        <InTurn queue={queue.value} />
+        <QueueStatus queue={queue.value} />
       ) : (
         other !== null && <Held other={other} />
       )}

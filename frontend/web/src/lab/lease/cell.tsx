@@ -2,11 +2,11 @@ import {
   control,
   isInstructor,
   isObserver,
-  leaveControl,
   mayCommand,
   otherHolder,
   queue,
-  wishControl,
+  releaseControl,
+  requestControl,
 } from "../../core/state/control";
 import { isLive } from "../../core/state/session";
 import { text } from "../../core/text/en";
@@ -34,14 +34,14 @@ function Button() {
       class="button is-small"
       disabled={!isLive.value}
       title={hint}
-      onClick={() => (isMine || waits ? void leaveControl() : wishControl())}
+      onClick={() => (isMine || waits ? void releaseControl() : requestControl())}
     >
       {label}
     </button>
   );
 }
 
-/** In the status bar: who is in control, how many watch, and the button that changes it. */
+/** In the status bar: the holder of control, the number of viewers, and the button to change it. */
 export function ControlCell() {
   const now = control.value;
   if (now === null) return null;

@@ -1,7 +1,7 @@
 import { useId } from "preact/hooks";
 import type { SessionState } from "../../core/api/types";
 import { addLane, CONTROL, toggleCompare } from "../../core/state/commands";
-import { comparedWith, comparisonLanes } from "../../core/state/lanes";
+import { comparisonLanes, lanesToCompare } from "../../core/state/lanes";
 import { titleOf } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { Problem } from "../../core/widgets/form";
@@ -11,7 +11,7 @@ import { LawPicker } from "./lawpicker";
 const MAX_LANES = 4;
 const words = text.comparisons;
 
-/** Comparison lanes in addition to the session's own: switched on and off, added, set, removed. */
+/** Comparison lanes: switch on and off, add, set, remove. */
 export function Compare({ state }: { state: SessionState }) {
   const others = comparisonLanes(state);
   const id = useId();
@@ -19,7 +19,7 @@ export function Compare({ state }: { state: SessionState }) {
   const isRecording = state.recording !== null;
   const isFull = state.lanes.length >= MAX_LANES;
   const most = others.length;
-  const compared = isOn ? others.map(({ controller }) => controller) : comparedWith(state);
+  const compared = isOn ? others.map(({ controller }) => controller) : lanesToCompare(state);
   if (compared.length === 0) return null;
   const names = [...new Set(compared.map(({ law }) => law))].map(titleOf).join(", ");
   const whyNotAdded = isFull ? words.full(most) : words.addHint;

@@ -1,7 +1,10 @@
 import { useRef } from "preact/hooks";
 import type { SessionState } from "../../core/api/types";
+import { settingsOf } from "../../core/state/arm";
 import { takesCommands } from "../../core/state/control";
+import { armOf } from "../../core/state/joints";
 import { text } from "../../core/text/en";
+import { ArmGroup } from "./armgroup";
 import { Controller } from "./controller";
 import { GroupIndex } from "./group";
 import { hasOtherLoads, Loads } from "./load";
@@ -16,35 +19,39 @@ interface ControlsProps {
 }
 
 /**
- * Everything a student sets, in the order of the block diagram.
+ * All settings, in the order of the block diagram.
  *
- * isBasic: the controller alone, with loads and effects that act in addition to the button's.
+ * isBasic: only the controller, and active loads and effects that have no button.
  */
-export function Controls({ state, isBasic = false }: ControlsProps) {
+export function Controls({ state: session, isBasic = false }: ControlsProps) {
+  const state = settingsOf(session);
   const groups = useRef<HTMLDivElement>(null);
   return (
-    <fieldset
+    <section
       id="controls"
       tabIndex={-1}
       class="surface controls"
-      disabled={!takesCommands.value}
       aria-label={text.controls.heading}
     >
-      <div class="groups" ref={groups}>
-        {!isBasic && (
-          <>
-            <Motion state={state} />
-            <Stiffness state={state} />
-          </>
-        )}
-        <Controller state={state} isBasic={isBasic} />
-        {!isBasic && <Observer state={state} />}
-        {(!isBasic || hasOtherLoads(state)) && <Loads state={state} />}
-        {state.bench === null && (!isBasic || state.configuration.effects_preset !== "ideal") && (
-          <Realism state={state} />
-        )}
+      {/* Without control nothing in it takes the focus, and the keyboard has to scroll it. */}
+      <div class="groups" ref={groups} tabIndex={takesCommands.value ? undefined : 0}>
+        <fieldset disabled={!takesCommands.value}>
+          <ArmGroup state={session} isBasic={isBasic} />
+          {!isBasic && (
+            <>
+              {!armOf(session)?.tip && <Motion state={state} />}
+              <Stiffness state={state} />
+            </>
+          )}
+          <Controller state={state} isBasic={isBasic} />
+          {!isBasic && <Observer state={state} />}
+          {(!isBasic || hasOtherLoads(state)) && <Loads state={state} />}
+          {state.bench === null && (!isBasic || state.configuration.effects_preset !== "ideal") && (
+            <Realism state={state} />
+          )}
+        </fieldset>
       </div>
       <GroupIndex groups={groups} />
-    </fieldset>
+    </section>
   );
 }

@@ -1,4 +1,4 @@
-/** What the user types before the server holds it. */
+/** Typed values before the server has accepted them. */
 import { useRef, useState } from "preact/hooks";
 import type { SessionState } from "../../core/api/types";
 import { perform, problem } from "../../core/state/actions";
@@ -6,24 +6,24 @@ import { session } from "../../core/state/session";
 import { text } from "../../core/text/en";
 import { formatInput } from "../../core/units";
 
-export interface HeldNumber {
-  /** Names the control among all others of the page. */
+export interface ServerNumber {
+  /** Name of the control, unique on the page. */
   name: string;
-  /** What the server holds, in the unit on screen. */
+  /** Value on the server, in the unit on screen. */
   value: number;
   send: (value: number) => Promise<SessionState>;
 }
 
 /**
- * A number the server holds. Typing makes a draft; leaving the field drops it, Enter sends it;
- * then what the server holds is shown again.
+ * A number of the server. Typing makes a draft; leaving the field discards it, Enter sends it; then
+ * the server's value is shown again.
  */
-export function useDraft({ name, value, send }: HeldNumber) {
-  const [draft, keepDraft] = useState<string | null>(null);
-  const seen = useRef<SessionState | null>(null);
+export function useDraft({ name, value, send }: ServerNumber) {
+  const [draft, storeDraft] = useState<string | null>(null);
+  const stateAtStart = useRef<SessionState | null>(null);
   const setDraft = (next: string | null) => {
-    if (draft === null) seen.current = session.peek();
-    keepDraft(next);
+    if (draft === null) stateAtStart.current = session.peek();
+    storeDraft(next);
   };
   const commit = async (next: string) => {
     const number = Number(next);
@@ -31,9 +31,9 @@ export function useDraft({ name, value, send }: HeldNumber) {
       problem.value = { control: name, message: text.refusal.noNumber };
     } else if (next !== formatInput(value)) {
       setDraft(next);
-      await perform(name, () => send(number), seen.current);
+      await perform(name, () => send(number), stateAtStart.current);
     }
-    keepDraft((current) => (current === null || current === next ? null : current));
+    storeDraft((current) => (current === null || current === next ? null : current));
   };
   const shown = draft ?? formatInput(value);
   const inputProps = {

@@ -4,29 +4,29 @@ import { formatInput } from "../../core/units";
 import { Problem } from "../../core/widgets/form";
 import { positionOf, type SliderRange, STEPS, valueAt } from "../../core/widgets/scale";
 import { MathSymbol } from "../../core/widgets/symbol";
-import { type HeldNumber, useDraft } from "./draft";
+import { type ServerNumber, useDraft } from "./draft";
 
-interface FieldProps extends HeldNumber {
+interface FieldProps extends ServerNumber {
   label: string;
-  /** Goes on where the group makes the label clear to the eye, but not to a screen reader. */
+  /** Extends the label for screen readers if the label is clear only within its group. */
   labelRest?: string;
   unit: string;
-  /** What is shown over what is held and sent. */
+  /** Factor from the server's value to the value on screen. */
   factor?: number;
   /** In the unit on screen. */
   range?: SliderRange;
 }
 
 /**
- * A number with its label and unit. Moving the slider makes a draft, releasing it sends it; below
- * stands why a draft was refused.
+ * A number with its label and unit. Moving the slider makes a draft, releasing it sends it; a
+ * rejection is shown below.
  */
-export function Field({ label, labelRest, unit, factor = 1, range, ...held }: FieldProps) {
+export function Field({ label, labelRest, unit, factor = 1, range, ...serverNumber }: FieldProps) {
   const id = useId();
   const { shown, setDraft, commit, inputProps } = useDraft({
-    name: held.name,
-    value: held.value * factor,
-    send: (value) => held.send(value / factor),
+    name: serverNumber.name,
+    value: serverNumber.value * factor,
+    send: (value) => serverNumber.send(value / factor),
   });
   const fromSlider = (event: Event) =>
     formatInput(valueAt((event.target as HTMLInputElement).valueAsNumber, range as SliderRange), 3);
@@ -54,7 +54,7 @@ export function Field({ label, labelRest, unit, factor = 1, range, ...held }: Fi
       <span class="unit" id={`${id}-unit`}>
         {unit}
       </span>
-      <Problem id={`${id}-problem`} control={held.name} />
+      <Problem id={`${id}-problem`} control={serverNumber.name} />
     </div>
   );
 }

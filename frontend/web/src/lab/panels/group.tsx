@@ -1,4 +1,4 @@
-/** A group of settings, and the index of the groups below the edge of the panel. */
+/** A group of settings, and the index of the groups below the panel. */
 import type { ComponentChildren, RefObject } from "preact";
 import { useId } from "preact/hooks";
 import { EquationButton } from "../../core/equations/equation";
@@ -8,9 +8,9 @@ import { goTo, headingOf, useBelow } from "../../core/widgets/below";
 
 interface GroupProps {
   title: string;
-  /** What the equation behind the group is of. */
+  /** Key of the group's equation. */
   topic?: Topic | undefined;
-  /** Stands in the line of the title. */
+  /** Content in the line of the title. */
   aside?: ComponentChildren;
   children: ComponentChildren;
 }
@@ -31,7 +31,7 @@ export function Group({ title, topic, aside, children }: GroupProps) {
   );
 }
 
-/** The groups that are scrolled out of sight below; a touch goes there. */
+/** The groups that are scrolled out of view below; a click scrolls there. */
 export function GroupIndex({ groups }: { groups: RefObject<HTMLElement | null> }) {
   const below = useBelow(groups, ".group");
   return (

@@ -1,6 +1,6 @@
 import { signal } from "@preact/signals";
 import { useId } from "preact/hooks";
-import { excite, putNominal, stopExcitation } from "../../core/api/client";
+import { putNominal, startExcitation, stopExcitation } from "../../core/api/client";
 import type { SessionState } from "../../core/api/types";
 import { perform } from "../../core/state/actions";
 import { takesCommands } from "../../core/state/control";
@@ -18,7 +18,7 @@ function close(): void {
   isIdentifying.value = false;
 }
 
-/** Plays the excitation for `svsa identify`, and uses the result as the model. */
+/** Play the excitation for `svsa identify`, and use the result as the model. */
 export function IdentificationPanel() {
   const state = session.value;
   if (!isIdentifying.value || state === null) return null;
@@ -42,7 +42,9 @@ function Identification({ state }: { state: SessionState }) {
         <button
           type="button"
           class="button"
-          onClick={() => void perform("identification.excite", () => excite(words.runName))}
+          onClick={() =>
+            void perform("identification.excite", () => startExcitation(words.runName))
+          }
         >
           {words.excite}
         </button>

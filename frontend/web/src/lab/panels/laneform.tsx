@@ -1,6 +1,6 @@
 import { putLane } from "../../core/api/client";
 import type { Gains, LawRow, SessionState } from "../../core/api/types";
-import { shownAs } from "../../core/quantities";
+import { quantityProps } from "../../core/quantities";
 import { perform } from "../../core/state/actions";
 import { type ComparisonLane, gainsOf, hasOwnSettings } from "../../core/state/lanes";
 import { text } from "../../core/text/en";
@@ -20,7 +20,7 @@ interface LaneFormProps {
   comparison: ComparisonLane;
 }
 
-/** One bandwidth for all poles of a polynomial, as c₀ = ωⁿ says it. */
+/** One bandwidth for all poles of a polynomial, c₀ = ωⁿ. */
 function Bandwidths({ state, comparison }: Omit<LaneFormProps, "law">) {
   const { lane, id, controller } = comparison;
   const gains = gainsOf(controller, state);
@@ -54,7 +54,7 @@ function Bandwidths({ state, comparison }: Omit<LaneFormProps, "law">) {
   );
 }
 
-/** Settings of a comparison lane; the first change gives it settings of its own. */
+/** Settings of a comparison lane; the first change gives it its own settings. */
 export function LaneForm({ law, state, comparison }: LaneFormProps) {
   const { lane, id, controller } = comparison;
   const { configuration } = state;
@@ -88,7 +88,7 @@ export function LaneForm({ law, state, comparison }: LaneFormProps) {
       {law.estimate === "observer" && (
         <Field
           name={`lanes.${id}.observer`}
-          {...shownAs("bandwidth_rad_per_s")}
+          {...quantityProps("bandwidth_rad_per_s")}
           label="β"
           labelRest={text.design.observerBandwidth}
           value={observer.bandwidth_rad_per_s[0]}

@@ -1,26 +1,26 @@
 import { putParameters } from "../../core/api/client";
 import type { LawParameter, LawRow, SessionState } from "../../core/api/types";
-import { isWordy, labelParameter } from "../../core/state/laws";
+import { hasLongMeaning, labelParameter } from "../../core/state/laws";
 import type { SliderRange } from "../../core/widgets/scale";
 import { Undo } from "../design/summary";
 import { Field } from "./field";
 
 type Value = string | number | boolean | readonly number[];
 
-/** A slider where both ends are bounded; by decades where they are far apart. */
+/** A slider if both ends are bounded; logarithmic if they are decades apart. */
 export function rangeOf({ low, high }: LawParameter): { range?: SliderRange } {
   if (low === null || high === null) return {};
   return { range: { min: low, max: high, logarithmic: low > 0 && high / low >= 10 } };
 }
 
-/** Of several numbers each has its place. */
+/** Index, for a parameter of several numbers. */
 export function changedAt(held: Value, index: number | null, value: number): Value {
   if (index === null || !Array.isArray(held)) return value;
   return held.map((number, at) => (at === index ? value : number));
 }
 
 interface ParameterProps {
-  /** Of the form, among all of the page. */
+  /** Name of the form, unique on the page. */
   name: string;
   row: LawParameter;
   held: Value;
@@ -32,13 +32,13 @@ function Parameter({ name, row, held, send }: ParameterProps) {
   const places = row.kind === "numbers" ? (held as number[]).map((_, index) => index) : [null];
   return (
     <>
-      {isWordy(row) && <p class="hint">{row.meaning}</p>}
+      {hasLongMeaning(row) && <p class="hint">{row.meaning}</p>}
       {places.map((index) => (
         <Field
           key={index}
           name={`${name}.${row.name}${index === null ? "" : `[${index}]`}`}
           label={labelParameter(row, index)}
-          {...(isWordy(row) ? { labelRest: row.meaning } : {})}
+          {...(hasLongMeaning(row) ? { labelRest: row.meaning } : {})}
           unit={unit}
           value={index === null ? (held as number) : ((held as number[])[index] as number)}
           {...rangeOf(row)}
@@ -53,7 +53,7 @@ interface ParameterFieldsProps {
   law: LawRow;
   name: string;
   held: Record<string, unknown>;
-  /** Takes every parameter, those that stay too. */
+  /** Receives all parameters, including the unchanged ones. */
   send: (parameters: Record<string, unknown>) => Promise<SessionState>;
 }
 
@@ -75,7 +75,7 @@ export function ParameterFields({ law, name, held, send }: ParameterFieldsProps)
   );
 }
 
-/** What the session's law is set to, and the way back. */
+/** The parameters of the session's law, and a button to restore the defaults. */
 export function LawForm({ law, state }: { law: LawRow; state: SessionState }) {
   return (
     <>

@@ -4,11 +4,12 @@ import type { Law, LawRow } from "../../core/api/types";
 import { brokenLaws, findLaws, groupLaws, pickLaw, usableLaws } from "../../core/state/laws";
 import { text } from "../../core/text/en";
 import { Popup } from "../../core/widgets/popup";
+import { MathSymbol } from "../../core/widgets/symbol";
 
 const words = text.laws;
-const MAX_AT_A_GLANCE = 6;
+const MAX_WITHOUT_SEARCH = 6;
 
-/** Arrows go through what can be pressed in a list, the search before it; Home and End too. */
+/** Arrow keys move through the search field and the buttons of a list; Home and End, too. */
 function stepTo(list: HTMLElement, event: KeyboardEvent): void {
   const stops = [...list.querySelectorAll<HTMLElement>("input, button")];
   const at = stops.indexOf(event.target as HTMLElement);
@@ -29,33 +30,35 @@ interface LawListProps {
   onChoose: (law: Law) => void;
 }
 
-function Row({ law, isPresent, onChoose }: { law: LawRow; isPresent: boolean } & LawListProps) {
+function Row({ law, isCurrent, onChoose }: { law: LawRow; isCurrent: boolean } & LawListProps) {
   return (
     <li>
       <button
         type="button"
         class="law-row"
-        aria-current={isPresent}
+        aria-current={isCurrent}
         onClick={() => onChoose(law.name)}
       >
         <span class="law-sign" aria-hidden="true">
-          {isPresent && words.presentSign}
+          {isCurrent && words.presentSign}
         </span>
         <strong>{law.title}</strong>
-        <span class="law-summary">{law.summary}</span>
+        <span class="law-summary">
+          <MathSymbol text={law.summary} />
+        </span>
       </button>
     </li>
   );
 }
 
-/** Every law in a line of its own words; of many those that are looked for, group by group. */
+/** One line per law with its summary; with many laws a search and groups. */
 function LawList({ value, onChoose }: LawListProps) {
-  const [sought, setSought] = useState("");
+  const [query, setQuery] = useState("");
   const list = useRef<HTMLDivElement>(null);
   const id = useId();
   const usable = usableLaws.value;
-  const isMany = usable.length > MAX_AT_A_GLANCE;
-  const found = findLaws(usable, sought);
+  const isMany = usable.length > MAX_WITHOUT_SEARCH;
+  const found = findLaws(usable, query);
   useEffect(() => {
     const first = list.current?.querySelector<HTMLElement>("input, [aria-current=true], button");
     first?.focus();
@@ -69,18 +72,18 @@ function LawList({ value, onChoose }: LawListProps) {
           type="search"
           aria-label={words.search}
           placeholder={words.search}
-          value={sought}
-          onInput={(event) => setSought(event.currentTarget.value)}
+          value={query}
+          onInput={(event) => setQuery(event.currentTarget.value)}
           onKeyDown={(event) => {
-            if (event.key !== "Enter" || sought.trim() === "") return;
-            event.preventDefault(); // the focus goes back to the button, which it would press
-            const picked = pickLaw(found, sought);
+            if (event.key !== "Enter" || query.trim() === "") return;
+            event.preventDefault(); // the button has the focus again, and the key would press it
+            const picked = pickLaw(found, query);
             if (picked) onChoose(picked.name);
           }}
         />
       )}
       <span class="visually-hidden" role="status">
-        {sought.trim() !== "" && words.found(found.length)}
+        {query.trim() !== "" && words.found(found.length)}
       </span>
       {groupLaws(found).map(({ estimate, laws }) => (
         <section key={estimate} aria-labelledby={isMany ? `${id}-${estimate}` : undefined}>
@@ -90,7 +93,7 @@ function LawList({ value, onChoose }: LawListProps) {
               <Row
                 key={law.name}
                 law={law}
-                isPresent={law.name === value}
+                isCurrent={law.name === value}
                 value={value}
                 onChoose={onChoose}
               />
@@ -112,7 +115,7 @@ interface LawPickerProps {
   /** Label of the choice for screen readers. */
   label: string;
   button: ComponentChildren;
-  /** Which law is in use; null: none yet. */
+  /** The law in use; null: none yet. */
   value: Law | null;
   title: string;
   class?: string;
@@ -120,7 +123,7 @@ interface LawPickerProps {
   onChoose: (law: Law) => unknown;
 }
 
-/** One law of all that are installed. */
+/** Select one of the installed laws. */
 export function LawPicker(props: LawPickerProps) {
   return (
     <Popup

@@ -3,11 +3,13 @@ import type { SessionState } from "../../core/api/types";
 import { CONTROL, toggleWeight } from "../../core/state/commands";
 import { takesCommands } from "../../core/state/control";
 import {
-  formOfNext,
-  hungWeights,
+  activeWeights,
+  hungAtTip,
   isRealBench,
   nextWeight,
   nextWeightAt,
+  nextWeightForm,
+  tipMassKg,
   type WeightForm,
 } from "../../core/state/plant";
 import { isLive } from "../../core/state/session";
@@ -16,9 +18,9 @@ import { formatInput } from "../../core/units";
 import { Problem } from "../../core/widgets/form";
 import { EnduranceNote } from "../../hardware/endurance";
 
-/** A mass on a cord, or the paper's torques: these have no mass and do not hang. */
-function WeightPicture({ isHung, form }: { isHung: boolean; form: WeightForm }) {
-  if (form !== "mass") {
+/** A hanging mass, or the paper's torques, which have no mass. */
+function WeightPicture({ isActive, form }: { isActive: boolean; form: WeightForm }) {
+  if (form !== "mass" && form !== "tip") {
     return (
       <svg class="weight" viewBox="0 0 48 48" aria-hidden="true">
         <path class="weight-ring" d="M9 36a17 17 0 1 1 30 0" />
@@ -31,46 +33,53 @@ function WeightPicture({ isHung, form }: { isHung: boolean; form: WeightForm }) 
   }
   return (
     <svg class="weight" viewBox="0 0 48 48" aria-hidden="true">
-      {isHung && <path class="weight-cord" d="M24 0v16" />}
+      {isActive && <path class="weight-cord" d="M24 0v16" />}
       <circle class="weight-ring" cx="24" cy="19" r="4.5" />
       <path class="weight-body" d="M14.5 24h19l5.5 19a3 3 0 0 1-3 4H12a3 3 0 0 1-3-4z" />
       <text class="weight-text" x="24" y="41" text-anchor="middle">
-        {text.load.weight}
+        {form === "mass" ? text.load.weight : text.load.massSign}
       </text>
     </svg>
   );
 }
 
-/** Of the load that acts, else of the one that the button adds. */
+/** Text of the acting load, otherwise of the one that the button adds. */
 function formOf(state: SessionState): WeightForm {
-  const [hung] = hungWeights(state);
-  if (hung === undefined || formOfNext(state) === "torque") return formOfNext(state);
+  const [hung] = activeWeights(state);
+  const next = nextWeightForm(state);
+  if (hung === undefined || next === "torque" || next === "tip") return next;
   return hung.load.kind === "paper" ? "paper" : "mass";
 }
 
-function caption(state: SessionState, isHung: boolean): string {
+function caption(state: SessionState, isActive: boolean): string {
   if (!isLive.value) return text.status.notKnown;
-  if (isRealBench(state.bench)) return isHung ? text.load.marked : text.load.mark;
+  if (isRealBench(state.bench)) return isActive ? text.load.marked : text.load.mark;
   const form = formOf(state);
+  if (form === "tip") return text.arm.short;
   const torque = text.load.torqueShort(formatInput(Math.abs(state.actuator.load.torque_nm[0])));
-  if (isHung && form === "torque") return torque;
-  if (isHung) return form === "paper" ? text.load.acts : text.load.hangs;
+  if (isActive && form === "torque") return torque;
+  if (isActive) return form === "paper" ? text.load.acts : text.load.hangs;
   const next = nextWeightAt(state);
   if (next !== null) return text.load.comesAt(next);
   if (form === "torque") return torque;
   return form === "paper" ? text.load.paperShort : text.load.massShort;
 }
 
-function words(state: SessionState, isHung: boolean): string {
-  if (isRealBench(state.bench)) return isHung ? text.load.markRemoved : text.load.markHung;
-  if (formOfNext(state) === "torque") return isHung ? text.load.removeTorque : text.load.addTorque;
-  return isHung ? text.load.remove : text.load.hang;
+function words(state: SessionState, isActive: boolean): string {
+  if (nextWeightForm(state) === "tip") {
+    const mass = formatInput(hungAtTip(state) || tipMassKg.value);
+    return isActive ? text.arm.remove(mass) : text.arm.hang(mass);
+  }
+  if (isRealBench(state.bench)) return isActive ? text.load.markRemoved : text.load.markHung;
+  if (nextWeightForm(state) === "torque")
+    return isActive ? text.load.removeTorque : text.load.addTorque;
+  return isActive ? text.load.remove : text.load.hang;
 }
 
-/** The one thing to press: hangs 3 kg on the link, or takes them off. */
+/** The main button: adds or removes the 3 kg on the link. */
 export function LoadButton({ state }: { state: SessionState }) {
   const [isBusy, setBusy] = useState(false);
-  const isHung = hungWeights(state).length > 0;
+  const isActive = activeWeights(state).length > 0;
 
   const press = async () => {
     setBusy(true);
@@ -82,18 +91,18 @@ export function LoadButton({ state }: { state: SessionState }) {
     <div class="load-place" tabIndex={-1}>
       <button
         type="button"
-        class={`load-button ${isHung ? "is-hung" : ""}`}
+        class={`load-button ${isActive ? "is-hung" : ""}`}
         aria-keyshortcuts="l"
         disabled={isBusy || !takesCommands.value || state.status === "fault"}
         onClick={() => void press()}
       >
-        <WeightPicture isHung={isHung} form={formOf(state)} />
+        <WeightPicture isActive={isActive} form={formOf(state)} />
         <span class="load-words">
-          <strong>{words(state, isHung)}</strong>
-          <small>{caption(state, isHung)}</small>
+          <strong>{words(state, isActive)}</strong>
+          <small>{caption(state, isActive)}</small>
         </span>
       </button>
-      <EnduranceNote load={isHung ? null : nextWeight(state)} />
+      <EnduranceNote load={isActive ? null : nextWeight(state)} />
       <Problem control={CONTROL.load} />
     </div>
   );

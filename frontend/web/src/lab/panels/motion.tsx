@@ -1,8 +1,8 @@
 import { useRef } from "preact/hooks";
 import { putPosition } from "../../core/api/client";
-import type { PositionReference, Sent, SessionState } from "../../core/api/types";
-import { shownAs } from "../../core/quantities";
-import { standing } from "../../core/state/meanwhile";
+import type { PositionReference, RequestOf, SessionState } from "../../core/api/types";
+import { quantityProps } from "../../core/quantities";
+import { currentValueOr } from "../../core/state/conflicts";
 import { text } from "../../core/text/en";
 import { toRadians } from "../../core/units";
 import { Field } from "./field";
@@ -10,7 +10,11 @@ import { ReferenceGroup } from "./reference";
 
 type Sine = Extract<PositionReference, { kind: "sine" }>;
 
-const FIRST_SINE: Sent<Sine> = { kind: "sine", amplitude_rad: toRadians(60), frequency_hz: 0.2 };
+const FIRST_SINE: RequestOf<Sine> = {
+  kind: "sine",
+  amplitude_rad: toRadians(60),
+  frequency_hz: 0.2,
+};
 const KINDS = [
   { value: "sine", label: text.motion.sine },
   { value: "constant", label: text.motion.constant },
@@ -19,26 +23,26 @@ const KINDS = [
 
 function SineFields({ reference }: { reference: Sine }) {
   const send = (change: Partial<Sine>) =>
-    putPosition({ ...standing("position", reference), ...change });
+    putPosition({ ...currentValueOr("position", reference), ...change });
   return (
     <>
       <Field
         name="motion.amplitude"
-        {...shownAs("amplitude_rad")}
+        {...quantityProps("amplitude_rad")}
         value={reference.amplitude_rad}
         range={{ min: 0, max: 90, step: 1 }}
         send={(amplitude_rad) => send({ amplitude_rad })}
       />
       <Field
         name="motion.frequency"
-        {...shownAs("frequency_hz")}
+        {...quantityProps("frequency_hz")}
         value={reference.frequency_hz}
         range={{ min: 0.02, max: 2, logarithmic: true }}
         send={(hz) => send({ frequency_hz: hz })}
       />
       <Field
         name="motion.offset"
-        {...shownAs("offset_rad")}
+        {...quantityProps("offset_rad")}
         value={reference.offset_rad}
         range={{ min: -60, max: 60, step: 1 }}
         send={(offset_rad) => send({ offset_rad })}
@@ -49,7 +53,7 @@ function SineFields({ reference }: { reference: Sine }) {
 
 export function Motion({ state }: { state: SessionState }) {
   const reference = state.configuration.position;
-  const lastSine = useRef<Sent<Sine>>(FIRST_SINE);
+  const lastSine = useRef<RequestOf<Sine>>(FIRST_SINE);
   if (reference.kind === "sine") lastSine.current = reference;
 
   const choose = (kind: "sine" | "constant") => {
@@ -71,7 +75,7 @@ export function Motion({ state }: { state: SessionState }) {
       ) : reference.kind === "constant" ? (
         <Field
           name="motion.position"
-          {...shownAs("position_rad")}
+          {...quantityProps("position_rad")}
           value={reference.position_rad}
           range={{ min: -90, max: 90, step: 1 }}
           send={(position_rad) => putPosition({ kind: "constant", position_rad })}

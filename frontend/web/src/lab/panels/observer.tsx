@@ -1,8 +1,8 @@
 import { putObserver } from "../../core/api/client";
 import type { SessionState } from "../../core/api/types";
-import { shownAs } from "../../core/quantities";
+import { quantityProps } from "../../core/quantities";
+import { currentValueOr } from "../../core/state/conflicts";
 import { lawOf } from "../../core/state/laws";
-import { standing } from "../../core/state/meanwhile";
 import { text } from "../../core/text/en";
 import type { SliderRange } from "../../core/widgets/scale";
 import { Field } from "./field";
@@ -15,7 +15,7 @@ export function Observer({ state }: { state: SessionState }) {
   const present = lawOf(law);
   const bandwidth = observer.bandwidth_rad_per_s;
   const sendOne = (changed: number, beta: number) => {
-    const next: typeof bandwidth = [...standing("observer", observer).bandwidth_rad_per_s];
+    const next: typeof bandwidth = [...currentValueOr("observer", observer).bandwidth_rad_per_s];
     next[changed] = beta;
     return putObserver(...next);
   };
@@ -27,7 +27,7 @@ export function Observer({ state }: { state: SessionState }) {
       )}
       <Field
         name="observer.all"
-        {...shownAs("bandwidth_rad_per_s")}
+        {...quantityProps("bandwidth_rad_per_s")}
         value={bandwidth[0]}
         range={RANGE}
         send={(beta) => putObserver(beta, beta, beta)}
@@ -39,7 +39,7 @@ export function Observer({ state }: { state: SessionState }) {
           <Field
             key={text.channels[index]}
             name={`observer.${index}`}
-            {...shownAs("bandwidth_rad_per_s")}
+            {...quantityProps("bandwidth_rad_per_s")}
             label={text.channels[index] as string}
             value={beta}
             range={RANGE}

@@ -6,10 +6,10 @@ import { describeActuator, nameOfActuator, patchOf, SVSA } from "../../core/stat
 import { text } from "../../core/text/en";
 import { formatNumber } from "../../core/units";
 import { Problem } from "../../core/widgets/form";
-import { type HeldNumber, useDraft } from "./draft";
+import { type ServerNumber, useDraft } from "./draft";
 
 const words = text.realism;
-/** A parameter as it is written in the table. */
+/** Format of a parameter in the table. */
 interface Row {
   key: string;
   symbol: string;
@@ -24,7 +24,7 @@ function Cell({
   label,
   describedBy,
   ...held
-}: HeldNumber & { label: string; describedBy: string }) {
+}: ServerNumber & { label: string; describedBy: string }) {
   const { inputProps } = useDraft(held);
   return (
     <td>
@@ -43,7 +43,7 @@ function differenceOf(model: number, actual: number): string {
 type Models = Pick<Configuration, "actuator" | "nominal">;
 const numberOf = (values: ActuatorParameters, key: string): number => Number(values[key]);
 
-/** Numbers of the actuator, in the words of the page where it has shorter ones. */
+/** Numbers of the actuator, with the page's shorter labels if there are any. */
 function listRows({ actuator }: Models): Row[] {
   const name = nameOfActuator(actuator);
   const described = describeActuator(name)?.parameters ?? [];
@@ -65,11 +65,11 @@ function listRows({ actuator }: Models): Row[] {
   ];
 }
 
-/** Whether the controller's model is the plant. */
+/** Whether the controller's model equals the plant. */
 export const isExact = ({ actuator, nominal }: Models): boolean =>
   Object.keys(actuator).every((key) => actuator[key] === nominal[key]);
 
-/** What the plant is, and what the controller takes it for. */
+/** Parameters of the plant, and of the controller's model. */
 export function ParameterTable({ actuator, nominal }: Models) {
   const id = useId();
   const held = { actuator, nominal };

@@ -2,10 +2,11 @@ import { useRef } from "preact/hooks";
 import { putEffects } from "../../core/api/client";
 import type { EffectRow, Effects, SessionState } from "../../core/api/types";
 import { perform } from "../../core/state/actions";
-import { choosePreset, kinds, type Preset, shownAsDescribed } from "../../core/state/kinds";
-import { standing } from "../../core/state/meanwhile";
+import { currentValueOr } from "../../core/state/conflicts";
+import { choosePreset, kinds, type Preset, quantityOfParameter } from "../../core/state/kinds";
 import { text } from "../../core/text/en";
 import { Choice, Problem } from "../../core/widgets/form";
+import { Switch } from "../../core/widgets/switch";
 import { Field } from "./field";
 import { Group } from "./group";
 import { ParameterTable } from "./parameters";
@@ -16,7 +17,7 @@ const CHOICES = (Object.keys(words.presets) as Preset[]).map((value) => ({
   label: words.presets[value],
 }));
 
-/** What separates the simulation from a bench: effects, and errors of the controller's model. */
+/** Non-ideal effects, and errors of the controller's model. */
 export function Realism({ state }: { state: SessionState }) {
   const { effects, effects_preset: preset, actuator, nominal } = state.configuration;
   return (
@@ -49,66 +50,49 @@ export function Realism({ state }: { state: SessionState }) {
   );
 }
 
-interface SwitchProps {
-  name: string;
-  label: string;
-  isOn: boolean;
-  onToggle: (isOn: boolean) => unknown;
-}
-
-function Switch({ name, label, isOn, onToggle }: SwitchProps) {
-  return (
-    <>
-      <label class="check">
-        <input
-          type="checkbox"
-          checked={isOn}
-          onChange={(event) => onToggle(event.currentTarget.checked)}
-        />
-        {label}
-      </label>
-      <Problem control={name} />
-    </>
-  );
-}
-
 type Values = Record<string, unknown>;
 
 interface EffectControlProps {
   effect: EffectRow;
   effects: Effects;
-  /** What it was set to when it was last on. */
+  /** Its values when it was last on. */
   last: Values | undefined;
 }
 
-/** An effect as its description has it: a switch, with its values while it is on, or one value. */
+/** An effect from its description: a switch with its values while it is on, or one value. */
 function EffectControl({ effect, effects, last }: EffectControlProps) {
   const name = `realism.${effect.name}`;
   const find = (held: Effects) => (held as Values)[effect.name];
   const send = (value: unknown) =>
-    putEffects({ ...standing("effects", effects), [effect.name]: value } as Effects);
+    putEffects({ ...currentValueOr("effects", effects), [effect.name]: value } as Effects);
   const toggle = (value: unknown) => perform(name, () => send(value));
   const held = find(effects);
   if (effect.value?.kind === "number") {
     return (
-      <Field name={name} {...shownAsDescribed(effect.value)} value={held as number} send={send} />
+      <Field
+        name={name}
+        {...quantityOfParameter(effect.value)}
+        value={held as number}
+        send={send}
+      />
     );
   }
   const isOn = Boolean(held);
   const onToggle = (next: boolean) => toggle(effect.value ? next : next ? (last ?? {}) : null);
   return (
     <div>
-      <Switch name={name} label={effect.meaning} isOn={isOn} onToggle={onToggle} />
+      <Switch label={effect.meaning} isOn={isOn} onToggle={onToggle} />
+      <Problem control={name} />
       {isOn &&
         effect.parameters.map((row) => (
           <Field
             key={row.name}
             name={`${name}.${row.name}`}
-            {...shownAsDescribed(row)}
+            {...quantityOfParameter(row)}
             value={(held as Values)[row.name] as number}
             send={(value) =>
               send({
-                ...((find(standing("effects", effects)) ?? held) as Values),
+                ...((find(currentValueOr("effects", effects)) ?? held) as Values),
                 [row.name]: value,
               })
             }

@@ -7,17 +7,22 @@ import {
   type Reference,
   readSeries,
 } from "../../core/api/design";
-import type { PositionReference, Sent, StiffnessReference } from "../../core/api/types";
+import type {
+  Configuration,
+  PositionReference,
+  RequestOf,
+  StiffnessReference,
+} from "../../core/api/types";
 import { explain, perform } from "../../core/state/actions";
-import { firstOf, kinds, readForm, shownAsDescribed } from "../../core/state/kinds";
+import { initialValues, kinds, parseForm, quantityOfParameter } from "../../core/state/kinds";
 import { session } from "../../core/state/session";
 import { text } from "../../core/text/en";
 import { DEGREES_PER_RADIAN, formatNumber } from "../../core/units";
 import { Choice, ErrorLine, NumberBox, Problem } from "../../core/widgets/form";
-import { Levels, Series } from "./listed";
+import { Levels, Series } from "./referencelist";
 import {
-  drawCourse,
-  FIRST,
+  coursePath,
+  firstSteps,
   INPUTS,
   type Input,
   type Listed,
@@ -26,9 +31,11 @@ import {
 } from "./shapes";
 
 const words = text.references;
+/** Columns of a CSV. */
+const COLUMNS = { position: "position_deg", stiffness: "stiffness_nm_per_rad" } as const;
 const isListed = (shape: string): shape is Listed => shape === "steps" || shape === "series";
 
-/** What a kind of reference is called in the form. */
+/** Label of a kind of reference in the form. */
 export const titleOf = (follows: Follows, kind: string): string =>
   isListed(kind)
     ? words.kinds[kind]
@@ -38,40 +45,47 @@ const PAUSE_MS = 300;
 const repeat = (follows: Follows) =>
   follows === "position" ? repeatPosition() : repeatStiffness();
 
-interface Wanted {
+interface PreviewedReference {
   reference: Reference;
   preview: Preview;
 }
 
-/** What a CSV holds, where it is for this quantity. */
+/** Content of a CSV, if it is for this quantity. */
 async function readCsv(follows: Follows, csv: string): Promise<Reference> {
   const series = await readSeries(csv);
   if (series.follows !== follows) throw new RangeError(words.isOther[series.follows]);
   return series.reference;
 }
 
-function put(follows: Follows, reference: Reference) {
+function putReference(follows: Follows, reference: Reference) {
   return follows === "position"
-    ? putPosition(reference as Sent<PositionReference>)
-    : putStiffness(reference as Sent<StiffnessReference>);
+    ? putPosition(reference as RequestOf<PositionReference>)
+    : putStiffness(reference as RequestOf<StiffnessReference>);
 }
 
-/** What is followed already begins again: the server takes it twice for once. */
+/** The present reference restarts: the server treats a repeated request as one. */
 async function follow(follows: Follows, reference: Reference) {
   const before = session.peek()?.revision;
-  const state = await put(follows, reference);
+  const state = await putReference(follows, reference);
   return state.revision === before ? repeat(follows) : state;
 }
 
-/** The list that the numbers of steps stand for; null while one is missing. */
+/** The list that the fields of steps generate; null while one is missing. */
 function listLevels({ low, high, hold, count }: Record<Input, string>): string | null {
   const numbers = [low, high, hold, count].map((typed) => (typed.trim() ? Number(typed) : NaN));
   const [from, to, everyS, steps] = numbers as [number, number, number, number];
   return numbers.every(Number.isFinite) ? writeLevels(from, to, everyS, steps) : null;
 }
 
-/** A reference with a beginning and an end: typed or from a CSV, looked at, then applied. */
-export function Shaped({ follows, held }: { follows: Follows; held: string }) {
+interface ShapedProps {
+  follows: Follows;
+  held: string;
+  configuration: Configuration;
+}
+
+/** A finite reference: typed or from a CSV, previewed, then applied. */
+export function Shaped({ follows, held, configuration }: ShapedProps) {
+  const first = firstSteps(follows, configuration);
   const described = kinds.value?.[follows].filter(({ form }) => form !== null) ?? [];
   const shapes = ["steps", ...described.map((one) => one.kind), "series"].map((value) => ({
     value,
@@ -79,25 +93,25 @@ export function Shaped({ follows, held }: { follows: Follows; held: string }) {
   }));
   const isKnown = shapes.some(({ value }) => value === held);
   const [shape, setShape] = useState(isKnown ? held : "steps");
-  const [steps, setSteps] = useState(FIRST[follows]);
+  const [steps, setSteps] = useState(first);
   const [typed, setTyped] = useState<Record<string, string>>({});
-  const [csv, setCsv] = useState<string>(words.example[follows]);
-  const [levels, setLevels] = useState(listLevels(FIRST[follows]) ?? "");
-  const [wanted, setWanted] = useState<Wanted | null>(null);
+  const [csv, setCsv] = useState(words.example(COLUMNS[follows], first.low, first.high));
+  const [levels, setLevels] = useState(listLevels(first) ?? "");
+  const [previewed, setPreviewed] = useState<PreviewedReference | null>(null);
   const [refusal, setRefusal] = useState("");
   const unit = follows === "position" ? "deg" : "N·m/rad";
   const units: Partial<Record<Input, string>> = { hold: "s", count: "" };
   const kind = described.find((one) => one.kind === shape);
   const form = kind?.form ?? [];
-  const values = { ...firstOf(form), ...typed };
+  const values = { ...initialValues(form), ...typed };
 
   useEffect(() => {
     let isLatest = true;
-    setWanted(null);
+    setPreviewed(null);
     const read = () => {
       if (shape === "series") return readCsv(follows, csv);
       if (shape === "steps") return readLevels(follows, levels);
-      const numbers = readForm(form, values);
+      const numbers = parseForm(form, values);
       return numbers && ({ kind: shape, ...numbers } as Reference);
     };
     const look = async () => {
@@ -105,7 +119,7 @@ export function Shaped({ follows, held }: { follows: Follows; held: string }) {
         const reference = await read();
         if (reference === null) throw new RangeError(text.refusal.noNumber);
         const preview = await previewReference(follows, reference);
-        if (isLatest) setWanted({ reference, preview });
+        if (isLatest) setPreviewed({ reference, preview });
         if (isLatest) setRefusal("");
       } catch (error) {
         if (isLatest) setRefusal(error instanceof RangeError ? error.message : explain(error));
@@ -126,7 +140,7 @@ export function Shaped({ follows, held }: { follows: Follows; held: string }) {
 
   const submit = (event: Event) => {
     event.preventDefault();
-    if (wanted) void perform(`${follows}.shaped`, () => follow(follows, wanted.reference));
+    if (previewed) void perform(`${follows}.shaped`, () => follow(follows, previewed.reference));
   };
 
   return (
@@ -147,21 +161,21 @@ export function Shaped({ follows, held }: { follows: Follows; held: string }) {
       {form.map(({ parameter }) => (
         <NumberBox
           key={`${shape}.${parameter.name}`}
-          {...shownAsDescribed(parameter)}
+          {...quantityOfParameter(parameter)}
           value={values[parameter.name] ?? ""}
           onInput={(value) => setTyped({ ...typed, [parameter.name]: value })}
         />
       ))}
-      {wanted && (
+      {previewed && (
         <Course
-          preview={wanted.preview}
+          preview={previewed.preview}
           unit={unit}
           factor={follows === "position" ? DEGREES_PER_RADIAN : 1}
         />
       )}
       <ErrorLine>{refusal}</ErrorLine>
       <div class="shaped-acts">
-        <button type="submit" class="button" disabled={wanted === null}>
+        <button type="submit" class="button" disabled={previewed === null}>
           {words.apply}
         </button>
         {isKnown && (
@@ -190,7 +204,7 @@ interface CourseProps {
   factor: number;
 }
 
-/** What a reference would ask for, before anything follows it. */
+/** Preview of a reference: its demands, before it is applied. */
 function Course({ preview, unit, factor }: CourseProps) {
   const shown = (value: number) => formatNumber(value * factor, 3);
   const caption = text.references.course(
@@ -208,7 +222,7 @@ function Course({ preview, unit, factor }: CourseProps) {
         role="img"
         aria-label={caption}
       >
-        <polyline points={drawCourse(preview.time_s, preview.value, WIDTH, HEIGHT)} />
+        <polyline points={coursePath(preview.time_s, preview.value, WIDTH, HEIGHT)} />
       </svg>
       <figcaption>{caption}</figcaption>
     </figure>

@@ -1,21 +1,27 @@
-/** Steps and time series, from what people type. */
+/** Steps and time series from typed text. */
 import type { Follows, Reference } from "../../core/api/design";
+import type { Configuration } from "../../core/api/types";
+import { findStiffness } from "../../core/state/stiffness";
 import { text } from "../../core/text/en";
-import { DEGREES_PER_RADIAN } from "../../core/units";
+import { DEGREES_PER_RADIAN, formatInput } from "../../core/units";
 
-/** Those that have a form of their own; any other is described by the server. */
+/** Kinds with their own form; any other is described by the server. */
 export type Listed = "steps" | "series";
 export type Input = "low" | "high" | "hold" | "count";
 
-/** Of steps, in the units on screen: degrees or N·m/rad, s. */
-export const FIRST: Record<Follows, Record<Input, string>> = {
-  position: { low: "-20", high: "20", hold: "2", count: "4" },
-  stiffness: { low: "15", high: "30", hold: "2", count: "4" },
-};
-export const INPUTS = Object.keys(FIRST.position) as Input[];
+export const INPUTS: readonly Input[] = ["low", "high", "hold", "count"];
 
-/** The points of a polyline in a box of this size, greatest on top. */
-export function drawCourse(
+/** First parameters of steps, in the units on screen: degrees or N·m/rad, s. */
+export function firstSteps(follows: Follows, configuration: Configuration): Record<Input, string> {
+  const timing = { hold: "2", count: "4" };
+  if (follows === "position") return { low: "-20", high: "20", ...timing };
+  const low = findStiffness(configuration);
+  const high = Math.min(2 * low, configuration.limits.stiffness_max_nm_per_rad);
+  return { low: formatInput(low, 3), high: formatInput(high, 3), ...timing };
+}
+
+/** The points of a polyline in a box of this size, with the greatest value on top. */
+export function coursePath(
   timeS: readonly number[],
   values: readonly number[],
   width: number,
@@ -34,19 +40,19 @@ export function drawCourse(
     .join(" ");
 }
 
-// Steps as a list: a line each, its time in s and its level in degrees or N·m/rad.
+// Steps as a list: one per line, time in s and level in degrees or N·m/rad.
 
 export const MAX_LEVELS = 200;
 const GAP = /[\s,;]+/;
 
-/** So many steps between two levels, at equal times; the list that these numbers stand for. */
+/** A list of equidistant steps between two levels. */
 export function writeLevels(low: number, high: number, everyS: number, count: number): string {
   const numbers = Array.from({ length: Math.max(0, Math.round(count)) + 1 }, (_, number) => number);
   const timeOf = (number: number) => Number((number * everyS).toPrecision(12));
   return numbers.map((one) => `${timeOf(one)}, ${one % 2 === 0 ? low : high}`).join("\n");
 }
 
-/** The reference of a list; throws a `RangeError` that names the line which is none. */
+/** The reference of a list; throws a `RangeError` that contains the invalid line. */
 export function readLevels(follows: Follows, list: string): Reference {
   const rows = list.split("\n").flatMap((line, index) => {
     if (line.trim() === "") return [];

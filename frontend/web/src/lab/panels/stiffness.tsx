@@ -1,8 +1,8 @@
 import { useRef } from "preact/hooks";
 import { putStiffness } from "../../core/api/client";
-import type { Sent, SessionState, StiffnessReference } from "../../core/api/types";
-import { shownAs } from "../../core/quantities";
-import { standing } from "../../core/state/meanwhile";
+import type { RequestOf, SessionState, StiffnessReference } from "../../core/api/types";
+import { quantityProps } from "../../core/quantities";
+import { currentValueOr } from "../../core/state/conflicts";
 import { text } from "../../core/text/en";
 import { formatInput } from "../../core/units";
 import type { SliderRange } from "../../core/widgets/scale";
@@ -22,7 +22,7 @@ const reachOf = ({ configuration: { limits } }: SessionState): SliderRange => ({
   logarithmic: true,
 });
 
-/** Amplitudes up to a fifth of the range, in two digits. */
+/** Amplitudes up to a fifth of the range, with two digits. */
 function amplitudesOf({ min, max }: SliderRange): SliderRange {
   const most = Number((AMPLITUDE_SHARE * (max - min)).toPrecision(2));
   return { min: 0, max: most, step: most / AMPLITUDE_STEPS };
@@ -35,26 +35,26 @@ const KINDS = [
 
 function SineFields({ reference, reach }: { reference: Sine; reach: SliderRange }) {
   const send = (change: Partial<Sine>) =>
-    putStiffness({ ...standing("stiffness", reference), ...change });
+    putStiffness({ ...currentValueOr("stiffness", reference), ...change });
   return (
     <>
       <Field
         name="stiffness.offset"
-        {...shownAs("offset_nm_per_rad")}
+        {...quantityProps("offset_nm_per_rad")}
         value={reference.offset_nm_per_rad}
         range={reach}
         send={(value) => send({ offset_nm_per_rad: value })}
       />
       <Field
         name="stiffness.amplitude"
-        {...shownAs("amplitude_nm_per_rad")}
+        {...quantityProps("amplitude_nm_per_rad")}
         value={reference.amplitude_nm_per_rad}
         range={amplitudesOf(reach)}
         send={(value) => send({ amplitude_nm_per_rad: value })}
       />
       <Field
         name="stiffness.frequency"
-        {...shownAs("frequency_hz")}
+        {...quantityProps("frequency_hz")}
         value={reference.frequency_hz}
         range={{ min: 0.02, max: 2, logarithmic: true }}
         send={(hz) => send({ frequency_hz: hz })}
@@ -63,7 +63,7 @@ function SineFields({ reference, reach }: { reference: Sine; reach: SliderRange 
   );
 }
 
-/** What to hold, or to swing about, after this reference: its mean, or else its last level. */
+/** Level or mean for the next reference: the mean of this one, or its last level. */
 function meanOf(reference: StiffnessReference, otherwise: number): number {
   const fields: Record<string, unknown> = reference;
   const { offset_nm_per_rad, end_nm_per_rad, stiffness_nm_per_rad } = fields;
@@ -75,7 +75,7 @@ function meanOf(reference: StiffnessReference, otherwise: number): number {
 export function Stiffness({ state }: { state: SessionState }) {
   const reference = state.configuration.stiffness;
   const reach = reachOf(state);
-  const lastSine = useRef<Sent<Sine> | null>(null);
+  const lastSine = useRef<RequestOf<Sine> | null>(null);
   if (reference.kind === "sine") lastSine.current = reference;
 
   const choose = (kind: "sine" | "constant") => {
@@ -112,7 +112,7 @@ export function Stiffness({ state }: { state: SessionState }) {
       ) : reference.kind === "constant" ? (
         <Field
           name="stiffness.level"
-          {...shownAs("stiffness_nm_per_rad")}
+          {...quantityProps("stiffness_nm_per_rad")}
           value={reference.stiffness_nm_per_rad}
           range={reach}
           send={(value) => putStiffness({ kind: "constant", stiffness_nm_per_rad: value })}

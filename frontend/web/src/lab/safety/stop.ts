@@ -1,13 +1,16 @@
-/** The quick stop: sent at once, asked again until the server confirms it. */
+/** The quick stop: sent at once, and repeated until the server confirms it. */
 import { signal } from "@preact/signals";
-import { stopAtOnce, stopWithoutLogin } from "../../core/api/client";
+import { quickStop, quickStopWithoutLogin } from "../../core/api/client";
 import { LockedError, RefusedError } from "../../core/api/errors";
 import { acceptState } from "../../core/state/session";
 
 export type StopStage = "idle" | "sending" | "confirmed" | "unconfirmed" | "refused";
 
-/** How far the last stop of this page is, and why it was refused. */
-export const stop = signal<{ stage: StopStage; message: string }>({ stage: "idle", message: "" });
+/** Status of this page's last stop, and the reason of a rejection. */
+export const stopState = signal<{ stage: StopStage; message: string }>({
+  stage: "idle",
+  message: "",
+});
 
 const RETRY_MS = 300;
 const CONFIRMED_MS = 3000;
@@ -17,16 +20,16 @@ const wait = (ms: number) => new Promise((resolve) => setTimeout(resolve, ms));
 const isFinal = (error: unknown): error is RefusedError =>
   error instanceof RefusedError && error.status < 500;
 
-let latest = 0;
+let latestNumber = 0;
 
-/** Sends the stop; another press sends another one, which takes the place of this one. */
+/** Send the stop; another press sends a new one, which replaces this one. */
 export async function pressStop(): Promise<void> {
-  const mine = ++latest;
+  const attemptNumber = ++latestNumber;
   const report = (stage: StopStage, message = "") => {
-    if (mine === latest) stop.value = { stage, message };
+    if (attemptNumber === latestNumber) stopState.value = { stage, message };
   };
   report("sending");
-  for (let attempt = 0; attempt < ATTEMPTS && mine === latest; attempt++) {
+  for (let attempt = 0; attempt < ATTEMPTS && attemptNumber === latestNumber; attempt++) {
     try {
       await send();
       report("confirmed");
@@ -42,9 +45,9 @@ export async function pressStop(): Promise<void> {
 
 async function send(): Promise<void> {
   try {
-    acceptState(await stopAtOnce());
+    acceptState(await quickStop());
   } catch (error) {
     if (!(error instanceof LockedError)) throw error;
-    await stopWithoutLogin();
+    await quickStopWithoutLogin();
   }
 }

@@ -7,13 +7,13 @@ import { isLive, session } from "../../core/state/session";
 import { text } from "../../core/text/en";
 import { Problem } from "../../core/widgets/form";
 import {
-  allowedOn,
+  allowedCommands,
   isLoopLost,
   isNeverOpened,
   isQuickStop,
   isStoppedSimulation,
 } from "../../hardware/status";
-import { pressStop, type StopStage, stop } from "./stop";
+import { pressStop, type StopStage, stopState } from "./stop";
 
 interface StopNoticeProps {
   title: string;
@@ -68,7 +68,7 @@ function LatchedBench({ state, bench }: { state: SessionState; bench: BenchState
         type="button"
         class="button"
         title={isLost ? text.bench.restartHint : text.bench.clearHint}
-        disabled={!mayCommand.value || (isLost && !allowedOn(bench).restart)}
+        disabled={!mayCommand.value || (isLost && !allowedCommands(bench).restart)}
         onClick={() => void perform("bench.clear", isLost ? restartBench : clearBench)}
       >
         {isLost ? text.bench.restart : text.bench.clear}
@@ -77,9 +77,9 @@ function LatchedBench({ state, bench }: { state: SessionState; bench: BenchState
   );
 }
 
-/** Outcome of a quick stop, of this page or of any other. */
+/** Outcome of a quick stop, of this or another page. */
 export function StopBanners() {
-  const { stage, message } = stop.value;
+  const { stage, message } = stopState.value;
   const state = session.value;
   return (
     <>
@@ -103,7 +103,7 @@ export function StopBanners() {
   );
 }
 
-/** Why a fault happens and what to try; nothing if its message says it all. */
+/** Cause of a fault and what to try; nothing if its message already contains it. */
 export function FaultAdvice({ fault: { advice } }: { fault: SessionFault }) {
   if (advice === null) return null;
   return (
@@ -122,11 +122,13 @@ const WORDS: Record<StopStage, string> = {
   refused: text.stop.refused,
 };
 
-/** Never disabled, whatever the page believes of the connection.
+/**
+ * Never disabled, whatever the state of the connection.
  *
- * Where it is known that nothing but a simulation runs, it is as modest as any other button. */
+ * If only a simulation can be running, its style is that of an ordinary button.
+ */
 export function StopButton() {
-  const { stage } = stop.value;
+  const { stage } = stopState.value;
   const isSimulation = session.value?.bench === null;
   return (
     <button

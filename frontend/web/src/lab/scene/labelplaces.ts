@@ -1,6 +1,6 @@
 /**
- * Where labels lie on a picture: each as near its part as there is room, inside the field, none over
- * another. One that lies well where it was stays there.
+ * Positions of labels on a picture: as near to its part as possible, inside the area, without
+ * overlap. A label with a good position stays there.
  */
 
 export interface Box {
@@ -10,8 +10,8 @@ export interface Box {
   height: number;
 }
 
-/** A label of a part that is seen at x, y. Pixels. */
-export interface Wanted {
+/** A label of a visible part at x, y, px. */
+export interface LabelRequest {
   key: string;
   x: number;
   y: number;
@@ -19,9 +19,9 @@ export interface Wanted {
   height: number;
 }
 
-export interface Placed extends Wanted, Box {}
+export interface PlacedLabel extends LabelRequest, Box {}
 
-/** From a part to the middle of its label. */
+/** From a part to the center of its label. */
 interface Way {
   across: number;
   down: number;
@@ -30,13 +30,13 @@ interface Way {
 const GAP_PX = 3;
 const DISTANCES_PX = [5, 15, 26, 38, 52, 70, 95, 130];
 const DIRECTIONS = 20;
-/** What is as bad as a distance of so many pixels. */
+/** Penalties, as equivalent distances in pixels. */
 const INWARD_PX = 14;
 const COVER_PX = 30;
 const CROSSING_PX = 40;
-/** So good a place is kept. */
+/** A position with a smaller penalty is kept. */
 const GOOD_PX = 45;
-/** Labels with room nowhere near are looked for at all places of a grid. */
+/** Labels without space nearby are tried at all points of a grid. */
 const GRID_PX = 6;
 
 const isOver = (one: Box, other: Box): boolean =>
@@ -54,16 +54,16 @@ const isInside = (one: Box, field: Box): boolean =>
 const contains = ({ left, top, width, height }: Box, x: number, y: number): boolean =>
   x >= left && x <= left + width && y >= top && y <= top + height;
 
-/** The end at its label of the line from a part. */
-export function lineEnd({ x, y, left, top, width, height }: Placed): { x: number; y: number } {
+/** End point at its label of the line from a part. */
+export function lineEnd({ x, y, left, top, width, height }: PlacedLabel): { x: number; y: number } {
   return {
     x: Math.max(left, Math.min(left + width, x)),
     y: Math.max(top, Math.min(top + height, y)),
   };
 }
 
-/** Whether the line of one label runs through the box of another. */
-function crosses(line: Placed, box: Box): boolean {
+/** Whether the line of one label crosses the box of another. */
+function crosses(line: PlacedLabel, box: Box): boolean {
   const end = lineEnd(line);
   const steps = Math.ceil(Math.hypot(end.x - line.x, end.y - line.y) / 5);
   for (let step = 1; step < steps; step++) {
@@ -75,13 +75,13 @@ function crosses(line: Placed, box: Box): boolean {
   return false;
 }
 
-const boxAt = (label: Wanted, { across, down }: Way): Placed => ({
+const boxAt = (label: LabelRequest, { across, down }: Way): PlacedLabel => ({
   ...label,
   left: label.x + across - label.width / 2,
   top: label.y + down - label.height / 2,
 });
 
-function listWays({ width, height }: Wanted): Way[] {
+function listWays({ width, height }: LabelRequest): Way[] {
   const ways: Way[] = [];
   for (const distance of DISTANCES_PX) {
     for (let turn = 0; turn < DIRECTIONS; turn++) {
@@ -96,7 +96,7 @@ function listWays({ width, height }: Wanted): Way[] {
   return ways;
 }
 
-function* listGrid(label: Wanted, field: Box): Generator<Way> {
+function* listGrid(label: LabelRequest, field: Box): Generator<Way> {
   for (let down = field.top; down + label.height <= field.top + field.height; down += GRID_PX) {
     for (let left = field.left; left + label.width <= field.left + field.width; left += GRID_PX) {
       yield {
@@ -107,30 +107,34 @@ function* listGrid(label: Wanted, field: Box): Generator<Way> {
   }
 }
 
-/** Places labels again and again, on pictures that follow one another. */
+/** Places labels repeatedly, on successive pictures. */
 export class LabelPlaces {
   readonly #before = new Map<string, Way>();
 
   /**
-   * Labels that have their places; of a part outside the field there is none, nor where the field is
-   * full. taken: what else lies on the picture.
+   * Labels with their positions, without those of parts outside the area or without space. taken:
+   * boxes of other elements on the picture.
    */
-  place(wanted: readonly Wanted[], field: Box, taken: readonly Box[] = []): Placed[] {
-    const seen = wanted.filter(({ x, y }) => contains(field, x, y));
+  place(
+    requests: readonly LabelRequest[],
+    field: Box,
+    occupied: readonly Box[] = [],
+  ): PlacedLabel[] {
+    const visible = requests.filter(({ x, y }) => contains(field, x, y));
     const middle = {
-      x: seen.reduce((sum, { x }) => sum + x, 0) / seen.length,
-      y: seen.reduce((sum, { y }) => sum + y, 0) / seen.length,
+      x: visible.reduce((sum, { x }) => sum + x, 0) / visible.length,
+      y: visible.reduce((sum, { y }) => sum + y, 0) / visible.length,
     };
-    const placed: Placed[] = [];
-    for (const label of seen) {
-      const isFree = (box: Placed) =>
-        isInside(box, field) && ![...taken, ...placed].some((other) => isOver(box, other));
+    const placed: PlacedLabel[] = [];
+    for (const label of visible) {
+      const isFree = (box: PlacedLabel) =>
+        isInside(box, field) && ![...occupied, ...placed].some((other) => isOver(box, other));
       const judge = (way: Way) => {
         const box = boxAt(label, way);
         if (!isFree(box)) return Number.POSITIVE_INFINITY;
         return (
           costOfPlace(box, middle) +
-          seen.filter((one) => one !== label && contains(box, one.x, one.y)).length * COVER_PX +
+          visible.filter((one) => one !== label && contains(box, one.x, one.y)).length * COVER_PX +
           placed.filter((one) => crosses(box, one) || crosses(one, box)).length * CROSSING_PX
         );
       };
@@ -154,8 +158,8 @@ export class LabelPlaces {
   }
 }
 
-/** Short lines, and away from the other parts. */
-function costOfPlace(box: Placed, middle: { x: number; y: number }): number {
+/** Short lines, and distance from the other parts. */
+function costOfPlace(box: PlacedLabel, middle: { x: number; y: number }): number {
   const end = lineEnd(box);
   const length = Math.hypot(end.x - box.x, end.y - box.y);
   const outward = [box.x - middle.x, box.y - middle.y] as const;

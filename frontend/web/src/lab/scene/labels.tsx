@@ -1,17 +1,17 @@
 /**
- * The labels of the 3D view, on the picture: viser's own, which stand at their parts and over each
- * other, are hidden, and each is written where there is room, on a line from its part.
+ * The labels of the 3D view: viser's own labels, which overlap, are hidden, and each is drawn where
+ * there is space, with a line to its part.
  */
 import { useEffect, useRef } from "preact/hooks";
-import { type Box, LabelPlaces, lineEnd, type Placed, type Wanted } from "./labelplaces";
+import { type Box, LabelPlaces, type LabelRequest, lineEnd, type PlacedLabel } from "./labelplaces";
 import {
   findOnPicture,
-  isCovered,
+  isOccluded,
   type SceneObject,
   type SeeingCamera,
   transform,
   type Vector,
-} from "./sight";
+} from "./projection";
 
 interface LabelNode {
   message: { type: string; props: { text?: string } };
@@ -42,7 +42,7 @@ interface Shown {
 const PARTS = "/a";
 const MARGIN_PX = 4;
 const FASTEST_MS = 1000 / 30;
-/** A part that comes before another is noticed within so many pictures. */
+/** Number of pictures after which a change of occlusion is detected. */
 const LOOK_EVERY = 8;
 
 const parentOf = (name: string): string => name.slice(0, name.lastIndexOf("/"));
@@ -72,7 +72,7 @@ function readLabels(viser: LabelledViser, tree: Record<string, LabelNode | undef
   return shown;
 }
 
-/** The spans and lines of one view. */
+/** The label and line elements of one view. */
 class Sheet {
   readonly #spans = new Map<string, HTMLSpanElement>();
   readonly #lines = new Map<string, SVGLineElement>();
@@ -97,17 +97,20 @@ class Sheet {
     const picture = this.#boxOf(frame);
     this.#turn++;
     const labels = readLabels(viser, source.getState());
-    const wanted = labels.flatMap(({ key, text, point }, index): Wanted[] => {
+    const requests = labels.flatMap(({ key, text, point }, index): LabelRequest[] => {
       if (!this.#covered.has(key) || (this.#turn + index) % LOOK_EVERY === 0) {
-        this.#covered.set(key, isCovered(camera, point, parts));
+        this.#covered.set(key, isOccluded(camera, point, parts));
       }
-      const seen = this.#covered.get(key) ? null : findOnPicture(camera, point);
-      if (seen === null) return [];
+      const picturePoint = this.#covered.get(key) ? null : findOnPicture(camera, point);
+      if (picturePoint === null) return [];
       const { offsetWidth: width, offsetHeight: height } = this.#write(key, text);
-      const [x, y] = [picture.left + seen.x * picture.width, picture.top + seen.y * picture.height];
+      const [x, y] = [
+        picture.left + picturePoint.x * picture.width,
+        picture.top + picturePoint.y * picture.height,
+      ];
       return [{ key, x, y, width, height }];
     });
-    this.#show(this.#places.place(wanted, this.#fieldOf(picture), this.#listTaken()));
+    this.#show(this.#places.place(requests, this.#fieldOf(picture), this.#listTaken()));
   }
 
   #boxOf(element: Element): Box {
@@ -125,7 +128,7 @@ class Sheet {
     };
   }
 
-  /** The other things that lie over the picture. */
+  /** The other elements over the picture. */
   #listTaken(): Box[] {
     const parent = this.sheet.parentElement as HTMLElement;
     return [...parent.querySelectorAll("[data-over-picture]")].map((one) => this.#boxOf(one));
@@ -143,7 +146,7 @@ class Sheet {
     return span;
   }
 
-  #show(placed: readonly Placed[]): void {
+  #show(placed: readonly PlacedLabel[]): void {
     const shown = new Map(placed.map((one) => [one.key, one]));
     for (const [key, span] of this.#spans) {
       const one = shown.get(key);
@@ -156,7 +159,7 @@ class Sheet {
     }
   }
 
-  #drawLine(one: Placed): void {
+  #drawLine(one: PlacedLabel): void {
     let line = this.#lines.get(one.key);
     if (!line) {
       line = document.createElementNS("http://www.w3.org/2000/svg", "line");
@@ -169,7 +172,7 @@ class Sheet {
   }
 }
 
-/** Lies over the frame of a view and follows it. */
+/** An overlay on the frame of a view that follows it. */
 export function SceneLabels({ frame }: { frame: () => HTMLIFrameElement | null }) {
   const sheet = useRef<HTMLDivElement>(null);
   const drawing = useRef<SVGSVGElement>(null);

@@ -1,6 +1,6 @@
-/** Where a point of the picture lies on the actuator. */
+/** Intersection of a ray through the picture with the actuator. */
 
-/** A camera as three.js keeps it: column-major matrix to its world, vertical angle in degrees. */
+/** A camera as in three.js: column-major world matrix, vertical field of view in degrees. */
 export interface Camera {
   fov: number;
   aspect: number;
@@ -9,13 +9,15 @@ export interface Camera {
 
 type Vector = readonly [number, number, number];
 
-/** The plane in which the link turns: where its front lies on the axis, in the scene's lengths. */
+/**
+ * The plane in which the link rotates: position of its front on the axis, in the scene's lengths.
+ */
 const LINK_PLANE = 0.85;
 
-/** three.js has y up and looks the other way along the scene's axis. */
+/** In three.js y points up, and the axis of the scene is reversed. */
 const toScene = ([x, y, z]: Vector): Vector => [-z, -x, y];
 
-/** Where a camera is, in the scene's coordinates. */
+/** Position of a camera in the scene's coordinates. */
 export const placeOf = ({ matrixWorld: { elements } }: Camera): Vector =>
   toScene([elements[12] as number, elements[13] as number, elements[14] as number]);
 
@@ -28,8 +30,8 @@ function turn(elements: readonly number[], [x, y, z]: Vector): Vector {
 }
 
 /**
- * The angle, as q counts it, at which the sight through a point of the picture meets the plane of
- * the link. right, up: −1 … 1 from edge to edge. Null where it does not meet it.
+ * The angle, in the convention of q, at which the ray through a point of the picture intersects the
+ * plane of the link. right, up: −1 … 1 from edge to edge. Null without an intersection.
  */
 export function angleSeen(camera: Camera, right: number, up: number): number | null {
   const { elements } = camera.matrixWorld;
@@ -43,13 +45,13 @@ export function angleSeen(camera: Camera, right: number, up: number): number | n
   return Math.atan2(y, -z);
 }
 
-/** An angle brought to −π … π. */
+/** An angle wrapped to −π … π. */
 export const wrap = (angle: number): number => Math.atan2(Math.sin(angle), Math.cos(angle));
 
 const SPRING_NM_PER_RAD = 2.5;
 const MAX_NM = 1.5;
 
-/** What the spring between the pointer and the point where the link was taken pulls with, N·m. */
+/** Torque of the spring between the pointer and the grabbed point of the link, N·m. */
 export function pullOf(pointer: number, link: number, taken: number): number {
   const torque = SPRING_NM_PER_RAD * wrap(pointer - link - taken);
   return Math.max(-MAX_NM, Math.min(MAX_NM, torque));

@@ -1,23 +1,26 @@
-/** The actuator in 2D, from the samples of the stream, where the browser cannot draw it in 3D. */
+/** The actuator in 2D, from the samples of the stream, for browsers that cannot draw it in 3D. */
 import { effect } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import type { SessionState } from "../../core/api/types";
 import { lineStyleOfLane } from "../../core/plots/linestyles";
 import { alsoDrawn } from "../../core/plots/setups";
-import { received, samples } from "../../core/state/session";
+import { receivedCount, samples } from "../../core/state/session";
 import { text } from "../../core/text/en";
 import { toDegrees } from "../../core/units";
 
 const words = text.scene;
 
-/** Seen from the front: at 0 the link hangs straight down, and a positive angle turns it to the right. */
+/** Front view: at 0 the link hangs straight down, and a positive angle turns it to the right. */
 const turnOf = (rad: number): string => `rotate(${-toDegrees(rad)})`;
 
 const LEAST_NM = 0.05;
 const MOST_NM = 20;
 const LONGEST_RAD = 3.6;
 
-/** An arrow about the axis, as long as in 3D: with the root of the torque; counter-clockwise if positive. */
+/**
+ * An arrow about the axis, with the length of the 3D view: proportional to the square root of the
+ * torque; counter-clockwise if positive.
+ */
 function arrowOf(torqueNm: number, radius: number): string {
   const size = Math.min(Math.abs(torqueNm), MOST_NM);
   if (!(size >= LEAST_NM)) return "";
@@ -34,24 +37,24 @@ function arrowOf(torqueNm: number, radius: number): string {
 const LINK_RADIUS = 74;
 const TORQUES = ["disturbance_link_nm", "disturbance_motor1_nm", "disturbance_motor2_nm"] as const;
 
-/** A disturbance torque: of the link from its arm on, of a motor from the top. */
+/** A disturbance torque: drawn at the arm of the link, or at the top of a motor. */
 const Torque = ({ of, radius }: { of: (typeof TORQUES)[number]; radius: number }) => (
   <path class="schematic-torque" data-torque={of} data-radius={radius}>
     <title>{text.channelNames[of]}</title>
   </path>
 );
 
-/** Whether the browser draws WebGL at all: without it the 3D view stays empty. */
+/** Whether the browser supports WebGL: without it the 3D view stays empty. */
 export const hasWebGl = ((): boolean => {
   const context = document.createElement("canvas").getContext("webgl2");
   context?.getExtension("WEBGL_lose_context")?.loseContext();
   return context !== null;
 })();
 
-/** What turns, by `data-channel` and `data-lane`; hidden while there is no sample of it. */
+/** Moving elements, by `data-channel` and `data-lane`; hidden while they have no sample. */
 function keepPoses(picture: SVGSVGElement): () => void {
   return effect(() => {
-    void received.value;
+    void receivedCount.value;
     for (const part of picture.querySelectorAll<SVGPathElement>("[data-torque]")) {
       const { torque = "", radius } = part.dataset;
       part.setAttribute("d", arrowOf(samples.ring.newest(torque, 1), Number(radius)));
@@ -65,7 +68,7 @@ function keepPoses(picture: SVGSVGElement): () => void {
   });
 }
 
-/** Links of all lanes, the reference, the mass that hangs and the torques; as in 3D. */
+/** Links of all lanes, the reference, the hanging mass and the torques, as in 3D. */
 export function Schematic({ state }: { state: SessionState }) {
   const picture = useRef<SVGSVGElement>(null);
   useEffect(() => {

@@ -1,13 +1,15 @@
+import { isArm } from "../../core/state/arm";
 import { session } from "../../core/state/session";
 import { text } from "../../core/text/en";
-import { CAMERA_NAMES } from "./cameras";
+import { cameraNames } from "./cameras";
 import { isPushing, PushLayer } from "./push";
-import { areNamesOn, isLow, setCamera, toggleLow, toggleNames } from "./viewer";
+import { areNamesOn, isLow, sceneKind, setCamera, toggleLow, toggleNames } from "./viewer";
 
 const words = text.scene;
 
+/** The tip of an arm is pushed in the picture of its plane. */
 function PushButton() {
-  if (session.value?.bench !== null) return null;
+  if (session.value?.bench !== null || isArm.value) return null;
   return (
     <button
       type="button"
@@ -26,14 +28,35 @@ function PushButton() {
   );
 }
 
-/** Cameras, pushing and the cost of drawing, at the foot of the 3D view. */
+/** The scene of an arm has no names of parts. */
+function NamesButton() {
+  if (isArm.value) return null;
+  return (
+    <button
+      type="button"
+      class="button tool is-icon"
+      aria-pressed={areNamesOn.value}
+      aria-label={words.names}
+      aria-keyshortcuts="N"
+      title={`${words.names} (N): ${words.namesHint}`}
+      onClick={toggleNames}
+    >
+      <svg viewBox="0 0 12 12" aria-hidden="true">
+        <path d="M1 1h6.5v3.5H1zM2.2 10.2l3-4.6.9.6-3 4.6z" />
+        <circle cx="2.4" cy="10.3" r="1.4" />
+      </svg>
+    </button>
+  );
+}
+
+/** Cameras, pushing and graphics quality, below the 3D view. */
 export function SceneTools({ isBasic }: { isBasic: boolean }) {
   if (isBasic) return null;
   return (
     <>
       {isPushing.value && <PushLayer />}
       <div class="scene-tools" data-over-picture role="toolbar" aria-label={words.tools}>
-        {CAMERA_NAMES.map((name) => (
+        {cameraNames(sceneKind()).map((name) => (
           <button
             key={name}
             type="button"
@@ -46,20 +69,7 @@ export function SceneTools({ isBasic }: { isBasic: boolean }) {
         ))}
         <span class="end scene-tools-end">
           <PushButton />
-          <button
-            type="button"
-            class="button tool is-icon"
-            aria-pressed={areNamesOn.value}
-            aria-label={words.names}
-            aria-keyshortcuts="N"
-            title={`${words.names} (N): ${words.namesHint}`}
-            onClick={toggleNames}
-          >
-            <svg viewBox="0 0 12 12" aria-hidden="true">
-              <path d="M1 1h6.5v3.5H1zM2.2 10.2l3-4.6.9.6-3 4.6z" />
-              <circle cx="2.4" cy="10.3" r="1.4" />
-            </svg>
-          </button>
+          <NamesButton />
           <button
             type="button"
             class="button tool is-icon"

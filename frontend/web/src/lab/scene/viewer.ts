@@ -1,7 +1,8 @@
-/** The way into viser's page, which shares this page's origin: its camera, and how much it draws. */
+/** Access to viser's page, which has the same origin: its camera, and its graphics quality. */
 import { effect, signal } from "@preact/signals";
-import { remember, remembered } from "../../core/state/preferences";
-import { type CameraName, placeCamera, type View } from "./cameras";
+import { isArm } from "../../core/state/arm";
+import { readStored, store } from "../../core/state/preferences";
+import { type CameraName, placeCamera, type SceneKind, type View } from "./cameras";
 import { type Camera, placeOf } from "./ray";
 
 interface Viser {
@@ -14,9 +15,9 @@ interface ViserWindow extends Window {
   __viserMutable?: Viser;
 }
 
-/** What the picture can do without. */
+/** Details that low graphics hides. */
 const DISPENSABLE = ["/ground", "/a/stand", "/a/t1", "/a/t2", "/light/rim"];
-/** The names of the parts, which the scene holds hidden: `svsa_scene/names.py`. */
+/** Names of the parts, which the scene keeps hidden: `svsa_scene/names.py`. */
 const NAMES = ["/a/n1", "/a/n2", "/a/c/s/n3", "/a/c/p/n4", "/a/l/v/n5", "/a/l/n6"];
 const LOW_PERIOD_MS = 1000 / 15;
 const STORE = "svsa.graphics";
@@ -24,35 +25,37 @@ const WAIT_MS = 100;
 const PATIENCE = 300;
 const UNMOVED = 0.01;
 
-export const isLow = signal(remembered(STORE) === "low");
+export const isLow = signal(readStored(STORE) === "low");
 /** Whether this page shows the names of the parts; other pages are not affected. */
 export const areNamesOn = signal(false);
 const viser = signal<Viser | null>(null);
 
 export function toggleLow(): void {
   isLow.value = !isLow.peek();
-  remember(STORE, isLow.peek() ? "low" : "full");
+  store(STORE, isLow.peek() ? "low" : "full");
 }
 
 export function toggleNames(): void {
   areNamesOn.value = !areNamesOn.peek();
 }
 
-/** Waits until viser's page has come up in the frame. */
+/** Wait until viser's page has loaded in the frame. */
 export function enterView(frame: HTMLIFrameElement, tries = PATIENCE): void {
   const found = (frame.contentWindow as ViserWindow | null)?.__viserMutable;
-  if (found?.camera) viser.value = hold(found);
+  if (found?.camera) viser.value = limitFrameRate(found);
   else if (tries > 0 && frame.isConnected) setTimeout(() => enterView(frame, tries - 1), WAIT_MS);
 }
 
 export const cameraNow = (): Camera | null => viser.peek()?.camera ?? null;
 
-/** The preset that the camera was last sent to. */
+export const sceneKind = (): SceneKind => (isArm.value ? "arm" : "actuator");
+
+/** The preset that the camera was last moved to. */
 let sent: { name: CameraName; view: View } | null = null;
 
-/** The view begins with a preset; returns from where that looks. */
+/** The initial preset of a view; returns its camera. */
 export function beginAt(name: CameraName, aspect: number): View {
-  sent = { name, view: placeCamera(name, aspect) };
+  sent = { name, view: placeCamera(name, aspect, sceneKind()) };
   return sent.view;
 }
 
@@ -69,7 +72,7 @@ export function setCamera(name: CameraName): void {
   viser.peek()?.requestRender();
 }
 
-/** Fits the preset to a picture of another shape, unless the user has moved the camera since. */
+/** Fit the preset to a picture of another shape, unless the user has moved the camera since. */
 export function fitCamera(): void {
   const camera = cameraNow();
   if (sent === null || camera === null) return;
@@ -78,8 +81,8 @@ export function fitCamera(): void {
   if (moved < UNMOVED) setCamera(sent.name);
 }
 
-/** Lets through at most 15 wishes for a picture a second while the graphics are low. */
-function hold(found: Viser): Viser {
+/** Limit viser to 15 frames per second with low graphics. */
+function limitFrameRate(found: Viser): Viser {
   const draw = found.requestRender.bind(found);
   let last = 0;
   let isWaiting = false;
@@ -111,7 +114,7 @@ function show(nodes: readonly string[], visible: boolean): void {
   viser.value?.requestRender();
 }
 
-/** Shows or hides what the picture can do without and the names, whenever that or the view changes. */
+/** Show or hide the details and the names, whenever the setting or the view changes. */
 export function watchGraphics(): void {
   effect(() => show(DISPENSABLE, !isLow.value));
   effect(() => show(NAMES, areNamesOn.value));

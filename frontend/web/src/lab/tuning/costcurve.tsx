@@ -6,7 +6,7 @@ import { bestSoFar } from "./tuning";
 
 const words = text.tuning;
 
-/** How the best cost falls, over what each candidate cost. */
+/** The best cost over the candidates, with the cost of each. */
 export function CostCurve({
   candidates,
   budget,

@@ -15,7 +15,7 @@ import {
   findNewest,
   isOpen,
   isStarting,
-  isUnderWay,
+  isTuning,
   problem,
   start,
   stop,
@@ -30,7 +30,7 @@ function close(): void {
   isOpen.value = false;
 }
 
-/** Which law, how long, and start or stop. */
+/** Law, duration, start and stop. */
 function Choice() {
   const [law, setLaw] = useState(session.value?.configuration.law ?? "");
   const [typed, setTyped] = useState(String(BUDGET));
@@ -43,7 +43,7 @@ function Choice() {
         value={law}
         options={usableLaws.value.map(({ name }) => name)}
         name={titleOf}
-        disabled={isUnderWay.value}
+        disabled={isTuning.value}
         onChoose={setLaw}
       />
       <label title={words.budgetHint}>
@@ -54,11 +54,11 @@ function Choice() {
           max={MAX_BUDGET}
           value={typed}
           aria-invalid={!isTaken}
-          disabled={isUnderWay.value}
+          disabled={isTuning.value}
           onInput={(event) => setTyped(event.currentTarget.value)}
         />
       </label>
-      {isUnderWay.value ? (
+      {isTuning.value ? (
         <button type="button" class="button" title={words.stopHint} onClick={() => void stop()}>
           {words.stop}
         </button>
@@ -77,7 +77,7 @@ function Choice() {
   );
 }
 
-function Found() {
+function TuningResult() {
   const state = tuning.value;
   const [used, setUsed] = useState("");
   if (state === null) return null;
@@ -92,7 +92,7 @@ function Found() {
           {words.status[state.status]}
           {state.problem && ` ${state.problem}`}
         </p>
-        {isUnderWay.value && (
+        {isTuning.value && (
           <progress
             max={state.budget + 1}
             value={state.tried}
@@ -101,7 +101,7 @@ function Found() {
         )}
       </div>
       {present === null || best === null ? (
-        isUnderWay.value && <p class="hint">{words.first}</p>
+        isTuning.value && <p class="hint">{words.first}</p>
       ) : (
         <div class="halves">
           <CostCurve candidates={candidates.value} budget={state.budget} />
@@ -119,7 +119,7 @@ function Found() {
         >
           {words.use}
         </button>
-        {!isUnderWay.value && best !== null && (
+        {!isTuning.value && best !== null && (
           <a class="button" href={tunedFileOf(state.id)} download title={words.saveHint}>
             {words.save}
           </a>
@@ -130,14 +130,14 @@ function Found() {
           {used === mark &&
             session.value?.configuration.law !== state.law &&
             ` ${words.otherLaw(titleOf(state.law))}`}
-          {used !== mark && !isUnderWay.value && best !== null && !isBetter && words.notBetter}
+          {used !== mark && !isTuning.value && best !== null && !isBetter && words.notBetter}
         </span>
       </div>
     </>
   );
 }
 
-/** Search a law's parameters while the lab runs. */
+/** Tune a law's parameters while the lab runs. */
 export function TunePanel() {
   return isOpen.value && session.value !== null ? <Tune /> : null;
 }
@@ -150,7 +150,7 @@ function Tune() {
         <p class="hint">{words.about}</p>
         <Choice />
         <ErrorLine>{problem.value === null ? "" : explain(problem.value)}</ErrorLine>
-        <Found />
+        <TuningResult />
         <p class="hint">{words.cost}</p>
       </div>
     </Panel>

@@ -12,7 +12,7 @@ interface FoundProps {
   best: Candidate;
 }
 
-/** Every number that is searched: as it was, the best, and between which ends. */
+/** Every tuned number: initial value, best value, range. */
 export function ValueTable({ tuning, present, best }: FoundProps) {
   return (
     <Table
@@ -39,7 +39,7 @@ export function ValueTable({ tuning, present, best }: FoundProps) {
 
 const write = (value: number | null): string => (value === null ? "–" : formatNumber(value));
 
-/** What the present parameters and the best showed: on validation trials once it has ended. */
+/** Results of the present and of the best parameters: on validation trials once it has ended. */
 export function ResultTable({ tuning, present, best }: FoundProps) {
   const before = tuning.finals.find(({ number }) => number === present.number) ?? present;
   const rows = [

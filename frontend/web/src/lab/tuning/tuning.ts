@@ -1,4 +1,4 @@
-/** A search for a law's parameters on the server, as it is followed here. */
+/** The tuning job that the page follows. */
 import { computed, signal } from "@preact/signals";
 import { putGains, putObserver, putParameters } from "../../core/api/client";
 import {
@@ -10,8 +10,8 @@ import {
   type Tuning,
 } from "../../core/api/jobs";
 import type { Law } from "../../core/api/types";
-import { polling } from "../../core/jobs/poll";
-import { isGoing } from "../../core/jobs/progress";
+import { createPoll } from "../../core/jobs/poll";
+import { isJobRunning } from "../../core/jobs/progress";
 import { perform } from "../../core/state/actions";
 
 export const CONTROL = "tuning.use";
@@ -22,38 +22,38 @@ export const candidates = signal<readonly Candidate[]>([]);
 export const problem = signal<unknown>(null);
 export const isStarting = signal(false);
 
-export const isUnderWay = computed(() => isGoing(tuning.value));
+export const isTuning = computed(() => isJobRunning(tuning.value));
 
-const poll = polling((error) => {
+const poll = createPoll((error) => {
   problem.value = error;
 });
 
-function take(state: Tuning): void {
-  const known = candidates.peek();
-  const fresh = state.candidates.filter(({ number }) => number >= known.length);
-  if (fresh.length > 0) candidates.value = [...known, ...fresh];
+function applyTuning(state: Tuning): void {
+  const existing = candidates.peek();
+  const added = state.candidates.filter(({ number }) => number >= existing.length);
+  if (added.length > 0) candidates.value = [...existing, ...added];
   tuning.value = state;
 }
 
 async function follow(id: string): Promise<void> {
-  const ending = await poll.follow(
+  const pollEnd = await poll.follow(
     () => readTuning(id, candidates.peek().length),
     (state) => {
-      take(state);
-      return !isGoing(state);
+      applyTuning(state);
+      return !isJobRunning(state);
     },
   );
-  if (ending === "refused") tuning.value = null;
+  if (pollEnd === "refused") tuning.value = null;
 }
 
 export async function start(law: Law, budget: number): Promise<void> {
   problem.value = null;
   isStarting.value = true;
   try {
-    const begun = await startTuning(law, budget);
+    const started = await startTuning(law, budget);
     candidates.value = [];
-    take(begun);
-    void follow(begun.id);
+    applyTuning(started);
+    void follow(started.id);
   } catch (error) {
     problem.value = error;
   }
@@ -70,7 +70,7 @@ export async function stop(): Promise<void> {
   }
 }
 
-/** After a reload the page finds the newest search of this lab again. */
+/** After a reload the page follows the newest tuning of this lab again. */
 export async function findNewest(): Promise<void> {
   if (tuning.peek() !== null) return;
   try {
@@ -82,16 +82,16 @@ export async function findNewest(): Promise<void> {
   }
 }
 
-/** Puts the best into the session: parameters of its law, or gains and the observer. */
+/** Apply the best candidate to the session: parameters of its law, or gains and the observer. */
 export async function applyBest(): Promise<boolean> {
   const setting = tuning.peek()?.best_setting;
   if (!setting) return false;
   const { law, parameters, gains } = setting;
   const betas = setting.observer?.bandwidth_rad_per_s;
-  const isSet =
+  const areGainsSet =
     (!parameters || (await perform(CONTROL, () => putParameters({ [law]: parameters })))) &&
     (!gains || (await perform(CONTROL, () => putGains(gains))));
-  return isSet && (!betas || perform(CONTROL, () => putObserver(...betas)));
+  return areGainsSet && (!betas || perform(CONTROL, () => putObserver(...betas)));
 }
 
 /** The best cost so far, after every candidate. */

@@ -3,7 +3,7 @@ import "../../browserless";
 import type { Region, StartOutcome } from "../../../src/core/api/design";
 
 const FIRSTS = [0, 48, 96];
-/** Of each part, which has three starts here, one comes to rest. */
+/** One of the three initial states of each part comes to rest. */
 const OUTCOMES = ["rest", "fault", "fault"].map((outcome) => ({
   outcome,
 })) as unknown as StartOutcome[];
@@ -17,7 +17,7 @@ beforeEach(() => {
     return { outcomes: OUTCOMES, next } as unknown as Region;
   };
   vi.doMock("../../../src/core/api/design", () => ({
-    askRegion: (wanted: { first: number; count: number }) => {
+    requestRegion: (wanted: { first: number; count: number }) => {
       asked.push(wanted);
       return answer(wanted.first);
     },
@@ -27,9 +27,13 @@ beforeEach(() => {
 afterEach(() => vi.doUnmock("../../../src/core/api/design"));
 
 it("a map is asked for part by part, until it is full", async () => {
-  const { outcomes, fillRegion, isFilling, share, shown } = await import(
-    "../../../src/lab/design/region"
-  );
+  const {
+    outcomes,
+    computeRegion: fillRegion,
+    isComputing: isFilling,
+    restShare: share,
+    shownRegion: shown,
+  } = await import("../../../src/lab/design/region");
   const filled = fillRegion("ndobc", "rigid", 10);
   expect([isFilling.value, share.value]).toEqual([true, null]);
   await filled;
@@ -41,9 +45,12 @@ it("a map is asked for part by part, until it is full", async () => {
 });
 
 it("a map that is left asks for nothing more, and takes no answer that comes later", async () => {
-  const { outcomes, fillRegion, isFilling, stopFilling } = await import(
-    "../../../src/lab/design/region"
-  );
+  const {
+    outcomes,
+    computeRegion: fillRegion,
+    isComputing: isFilling,
+    stopComputing: stopFilling,
+  } = await import("../../../src/lab/design/region");
   let give = (_: Region) => {};
   answer = () =>
     new Promise((resolve) => {
@@ -57,7 +64,11 @@ it("a map that is left asks for nothing more, and takes no answer that comes lat
 });
 
 it("reports why it cannot be filled", async () => {
-  const { fillRegion, isFilling, problem } = await import("../../../src/lab/design/region");
+  const {
+    computeRegion: fillRegion,
+    isComputing: isFilling,
+    problem,
+  } = await import("../../../src/lab/design/region");
   answer = () => Promise.reject(new Error("Too busy."));
   await fillRegion("ndobc", "rigid", 10);
   expect(problem.value).toEqual(new Error("Too busy."));

@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
-import { drawCourse, readLevels, writeLevels } from "../../../src/lab/panels/shapes";
+import type { Configuration } from "../../../src/core/api/types";
+import { coursePath, firstSteps, readLevels, writeLevels } from "../../../src/lab/panels/shapes";
 
 describe("steps", () => {
   it("between two levels are a list", () => {
@@ -26,12 +27,25 @@ describe("steps", () => {
   });
 });
 
+describe("the first steps", () => {
+  const limits = { stiffness_min_nm_per_rad: 0.2, stiffness_max_nm_per_rad: 15 };
+  const begin = (stiffness: object) =>
+    firstSteps("stiffness", { stiffness, limits } as unknown as Configuration);
+
+  it("begin at the present stiffness and stay in the actuator's range", () => {
+    const at = (nm: number) => begin({ kind: "constant", stiffness_nm_per_rad: nm });
+    expect(at(4)).toMatchObject({ low: "4", high: "8" });
+    expect(at(9)).toMatchObject({ low: "9", high: "15" });
+    expect(begin({ kind: "sine" })).toMatchObject({ low: "1.73", high: "3.46" });
+  });
+});
+
 describe("the picture before", () => {
   it("has the greatest on top and time to the right", () => {
-    expect(drawCourse([0, 1, 2], [-1, 1, 0], 100, 50)).toBe("0.00,50.00 50.00,0.00 100.00,25.00");
+    expect(coursePath([0, 1, 2], [-1, 1, 0], 100, 50)).toBe("0.00,50.00 50.00,0.00 100.00,25.00");
   });
 
   it("draws what stands still in the middle", () => {
-    expect(drawCourse([0, 1], [3, 3], 10, 10)).toBe("0.00,5.00 10.00,5.00");
+    expect(coursePath([0, 1], [3, 3], 10, 10)).toBe("0.00,5.00 10.00,5.00");
   });
 });

@@ -1,9 +1,9 @@
 import { describe, expect, it } from "vitest";
-import { addressOf, CAMERA_NAMES, placeCamera } from "../../../src/lab/scene/cameras";
+import { addressOf, cameraNames, placeCamera } from "../../../src/lab/scene/cameras";
 import { angleSeen, type Camera, pullOf, wrap } from "../../../src/lab/scene/ray";
 
 describe("the camera from the side", () => {
-  /** Half of what it sees along the axis, at the motor's near side (y = 0.48). */
+  /** Half of the visible height at the near side of the motor (y = 0.48). */
   const halfSeen = (aspect: number) =>
     (placeCamera("side", aspect).position[1] - 0.48) * Math.tan(Math.PI / 12) * aspect;
 
@@ -28,18 +28,18 @@ describe("the first camera", () => {
     expect(Math.hypot(...position)).toBeGreaterThan(1.8 * Math.hypot(...near));
   });
 
-  it.each(CAMERA_NAMES)("%s has an angle that the address tells in rad", (name) => {
+  it.each(cameraNames("actuator"))("%s has an angle that the address contains in rad", (name) => {
     const place = placeCamera(name, 1);
     const fov = Number(new URLSearchParams(addressOf(place)).get("initialCameraFov"));
     expect(fov).toBeCloseTo((place.fov_deg * Math.PI) / 180, 9);
   });
 });
 
-/** At the front of the actuator, on its axis, upright, looking back along it. */
+/** At the front of the actuator, on its axis, upright, looking along the axis. */
 const FRONT: Camera = {
   fov: 30,
   aspect: 1,
-  // Columns: right, up and back of the camera in three.js' axes, then its place.
+  // Columns: right, up and back of the camera in three.js' axes, then its position.
   matrixWorld: { elements: [-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, -10, 1] },
 };
 

@@ -2,18 +2,18 @@ import { describe, expect, it } from "vitest";
 import {
   type Box,
   LabelPlaces,
+  type LabelRequest,
   lineEnd,
-  type Placed,
-  type Wanted,
+  type PlacedLabel,
 } from "../../../src/lab/scene/labelplaces";
 import {
   findOnPicture,
-  isCovered,
+  isOccluded,
   type SceneObject,
   type SeeingCamera,
-} from "../../../src/lab/scene/sight";
+} from "../../../src/lab/scene/projection";
 
-/** The room of the labels over the tools at the windows' sizes that the lab is made for. */
+/** The area of the labels above the tools, for the window sizes that the lab supports. */
 const FIELDS: Box[] = [
   { left: 4, top: 4, width: 362, height: 214 },
   { left: 4, top: 4, width: 360, height: 352 },
@@ -21,7 +21,7 @@ const FIELDS: Box[] = [
 ];
 const WIDTHS = [15, 17, 17, 18, 22, 24, 37, 37, 42, 46, 50, 52, 98, 110, 24, 24, 24, 60, 15, 30];
 
-/** Numbers 0 … 1, the same in every run. */
+/** Pseudo-random numbers 0 … 1, the same in every run. */
 function* count(seed: number): Generator<number> {
   for (let state = seed; ; ) {
     state = (1103515245 * state + 12345) % 2147483648;
@@ -29,8 +29,8 @@ function* count(seed: number): Generator<number> {
   }
 }
 
-/** Parts in the middle of the field, many nearly in one place. */
-function spread(field: Box, seed: number, count_: number): Wanted[] {
+/** Parts in the center of the area, many of them nearly coincident. */
+function spread(field: Box, seed: number, count_: number): LabelRequest[] {
   const numbers = count(seed);
   const next = () => numbers.next().value as number;
   return WIDTHS.slice(0, count_).map((width, index) => {
@@ -47,7 +47,7 @@ function gap(one: Box, other: Box): number {
   return Math.max(across, down);
 }
 
-function expectClear(placed: readonly Placed[], field: Box): void {
+function expectClear(placed: readonly PlacedLabel[], field: Box): void {
   for (const [index, one] of placed.entries()) {
     expect(one.left).toBeGreaterThanOrEqual(field.left);
     expect(one.top).toBeGreaterThanOrEqual(field.top);
@@ -57,7 +57,7 @@ function expectClear(placed: readonly Placed[], field: Box): void {
   }
 }
 
-const lengthOf = (one: Placed): number => {
+const lengthOf = (one: PlacedLabel): number => {
   const end = lineEnd(one);
   return Math.hypot(end.x - one.x, end.y - one.y);
 };
@@ -102,7 +102,7 @@ describe("labels on a picture", () => {
     const [field] = FIELDS as [Box];
     const wanted = { key: "q", x: 150, y: 100, width: 17, height: 16 };
     const [placed] = new LabelPlaces().place([wanted], field);
-    expect(lengthOf(placed as Placed)).toBeLessThan(8);
+    expect(lengthOf(placed as PlacedLabel)).toBeLessThan(8);
   });
 
   it("is not shown of a part outside, nor where no room is left", () => {
@@ -134,7 +134,7 @@ describe("the sight of a part", () => {
     matrixWorld: { elements: identity },
     matrixWorldInverse: { elements: identity },
   };
-  /** A triangle across the sight at a depth, about the axis of the picture. */
+  /** A triangle across the line of sight at a depth, about the axis of the picture. */
   const sheet = (z: number, transparent = false): SceneObject => ({
     matrixWorld: matrixAt(z),
     isMesh: true,
@@ -160,13 +160,13 @@ describe("the sight of a part", () => {
   });
 
   it("ends at a solid before it, and only there", () => {
-    expect(isCovered(EYE, [0, 0, -4], partsOf(sheet(-2)))).toBe(true);
-    expect(isCovered(EYE, [0, 0, -4], partsOf(sheet(-6)))).toBe(false);
-    expect(isCovered(EYE, [3.9, 0, -4], partsOf(sheet(-2)))).toBe(false);
+    expect(isOccluded(EYE, [0, 0, -4], partsOf(sheet(-2)))).toBe(true);
+    expect(isOccluded(EYE, [0, 0, -4], partsOf(sheet(-6)))).toBe(false);
+    expect(isOccluded(EYE, [3.9, 0, -4], partsOf(sheet(-2)))).toBe(false);
   });
 
   it("goes through an outline, and reaches the surface of its own part", () => {
-    expect(isCovered(EYE, [0, 0, -4], partsOf(sheet(-2, true)))).toBe(false);
-    expect(isCovered(EYE, [0, 0, -4], partsOf(sheet(-3.95)))).toBe(false);
+    expect(isOccluded(EYE, [0, 0, -4], partsOf(sheet(-2, true)))).toBe(false);
+    expect(isOccluded(EYE, [0, 0, -4], partsOf(sheet(-3.95)))).toBe(false);
   });
 });

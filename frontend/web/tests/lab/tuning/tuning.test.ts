@@ -2,9 +2,15 @@ import "../../browserless";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import type { Candidate, Tuning } from "../../../src/core/api/jobs";
 
-const { applyBest, bestSoFar, candidates, isUnderWay, problem, start, tuning } = await import(
-  "../../../src/lab/tuning/tuning"
-);
+const {
+  applyBest,
+  bestSoFar,
+  candidates,
+  isTuning: isUnderWay,
+  problem,
+  start,
+  tuning,
+} = await import("../../../src/lab/tuning/tuning");
 
 const trial = (number: number, cost: number): Candidate => ({
   number,
@@ -49,7 +55,7 @@ const state = (
   ...more,
 });
 
-/** A job as the server sends it: what a tuning found is its result. */
+/** A job as the server sends it, with the tuning's result. */
 const sent = ({ id, status, problem: why, ...result }: Tuning) => ({
   id,
   status,

@@ -5,17 +5,18 @@ import {
   handOver,
   isInstructor,
   isObserver,
-  leaveControl,
-  wishControl,
+  releaseControl,
+  requestControl,
 } from "../../core/state/control";
 import { isLive } from "../../core/state/session";
 import { text } from "../../core/text/en";
 import { Banner } from "../../core/widgets/banner";
+import { PrivateSessionButton } from "./privatesession";
 
 const words = text.classroom;
 type Queue = NonNullable<SessionState["queue"]>;
 
-/** Who is in control of a class's session, and one's own place; empty where there is nothing to say. */
+/** The holder of control in a class's session, and the user's own position; otherwise empty. */
 function describeTurn(queue: Queue): { title: string; more: string } | null {
   const now = control.value;
   const [next] = queue.waiting;
@@ -55,19 +56,22 @@ function Act({ queue }: { queue: Queue }) {
   if (isMine || isObserver.value || isInstructor.value) return null;
   const waits = queue.place !== null;
   return (
-    <button
-      type="button"
-      class="button"
-      disabled={!isLive.value}
-      onClick={() => (waits ? void leaveControl() : wishControl())}
-    >
-      {waits ? text.control.leaveQueue : text.control.ask}
-    </button>
+    <>
+      <button
+        type="button"
+        class="button"
+        disabled={!isLive.value}
+        onClick={() => (waits ? void releaseControl() : requestControl())}
+      >
+        {waits ? text.control.leaveQueue : text.control.ask}
+      </button>
+      <PrivateSessionButton />
+    </>
   );
 }
 
-/** Shows who is next in the queue; nothing before the lab has reported the user's identity. */
-export function InTurn({ queue }: { queue: Queue }) {
+/** Shows the next user in the queue; nothing before the lab has reported the user's identity. */
+export function QueueStatus({ queue }: { queue: Queue }) {
   const turn = access.value === null ? null : describeTurn(queue);
   if (turn === null) return null;
   return (

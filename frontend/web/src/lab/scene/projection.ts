@@ -1,4 +1,4 @@
-/** Where a point of viser's scene is seen, and whether a solid part stands before it. */
+/** Projection of a point of viser's scene, and whether a solid part occludes it. */
 import type { Camera } from "./ray";
 
 type Numbers = ArrayLike<number>;
@@ -21,7 +21,7 @@ interface Vector3 {
   z: number;
 }
 
-/** Of three.js' objects what is read here. */
+/** The fields of three.js' objects that are read here. */
 export interface SceneObject {
   matrixWorld: Matrix;
   isMesh?: boolean;
@@ -36,10 +36,10 @@ export interface SeeingCamera extends Camera {
 
 export type Vector = [number, number, number];
 
-/** What lies so near a point, in scene units, is the part that the point is of. */
+/** A part within this distance of a point, in scene units, belongs to the point. */
 const OWN_PART = 0.1;
 
-/** A point of a frame in the coordinates that the frame's matrix leads to. */
+/** A point of a frame in the parent coordinates of the frame's matrix. */
 export function transform({ elements: e }: { elements: readonly number[] }, point: Vector): Vector {
   const row = (index: number) =>
     (e[index] as number) * point[0] +
@@ -57,7 +57,9 @@ const cross = (a: Vector, b: Vector): Vector => [
   a[0] * b[1] - a[1] * b[0],
 ];
 
-/** Where a point is on the picture, 0 … 1 from its left and upper edge; null behind the camera. */
+/**
+ * Position of a point on the picture, 0 … 1 from its left and upper edge; null behind the camera.
+ */
 export function findOnPicture(
   camera: SeeingCamera,
   point: Vector,
@@ -68,8 +70,8 @@ export function findOnPicture(
   return { x: 0.5 + x / (2 * reach * camera.aspect), y: 0.5 - y / (2 * reach) };
 }
 
-/** The share of a way at which it meets a triangle (Möller and Trumbore), or infinity. */
-function meet(from: Vector, way: Vector, a: Vector, b: Vector, c: Vector): number {
+/** Ray parameter of the intersection with a triangle (Möller and Trumbore), or infinity. */
+function intersectTriangle(from: Vector, way: Vector, a: Vector, b: Vector, c: Vector): number {
   const [ab, ac] = [minus(b, a), minus(c, a)];
   const p = cross(way, ac);
   const area = dot(ab, p);
@@ -83,7 +85,7 @@ function meet(from: Vector, way: Vector, a: Vector, b: Vector, c: Vector): numbe
   return share > 0 ? share : Number.POSITIVE_INFINITY;
 }
 
-function isPassed(from: Vector, way: Vector, geometry: Geometry): boolean {
+function missesSphere(from: Vector, way: Vector, geometry: Geometry): boolean {
   if (geometry.boundingSphere === null) geometry.computeBoundingSphere();
   const sphere = geometry.boundingSphere;
   if (sphere === null) return true;
@@ -94,9 +96,9 @@ function isPassed(from: Vector, way: Vector, geometry: Geometry): boolean {
   return dot(nearest, nearest) > sphere.radius ** 2;
 }
 
-function isMet(from: Vector, way: Vector, most: number, geometry: Geometry): boolean {
+function intersectsMesh(from: Vector, way: Vector, most: number, geometry: Geometry): boolean {
   const points = geometry.attributes.position?.array;
-  if (!points || isPassed(from, way, geometry)) return false;
+  if (!points || missesSphere(from, way, geometry)) return false;
   const order = geometry.index?.array;
   const count = order?.length ?? points.length / 3;
   const corner = (index: number): Vector => {
@@ -104,7 +106,8 @@ function isMet(from: Vector, way: Vector, most: number, geometry: Geometry): boo
     return [points[at] as number, points[at + 1] as number, points[at + 2] as number];
   };
   for (let index = 0; index + 2 < count; index += 3) {
-    if (meet(from, way, corner(index), corner(index + 1), corner(index + 2)) < most) return true;
+    if (intersectTriangle(from, way, corner(index), corner(index + 1), corner(index + 2)) < most)
+      return true;
   }
   return false;
 }
@@ -112,8 +115,8 @@ function isMet(from: Vector, way: Vector, most: number, geometry: Geometry): boo
 const isSolid = ({ material }: SceneObject): boolean =>
   ![material].flat().some((one) => one?.transparent ?? true);
 
-/** Whether a solid of the parts is seen in the place of a point. */
-export function isCovered(camera: Camera, point: Vector, parts: SceneObject): boolean {
+/** Whether a solid part occludes the point. */
+export function isOccluded(camera: Camera, point: Vector, parts: SceneObject): boolean {
   const eye = transform(camera.matrixWorld, [0, 0, 0]);
   const sight = minus(point, eye);
   const most = 1 - OWN_PART / Math.hypot(...sight);
@@ -122,7 +125,7 @@ export function isCovered(camera: Camera, point: Vector, parts: SceneObject): bo
     if (isFound || !one.isMesh || !one.geometry || !isSolid(one)) return;
     const inverse = one.matrixWorld.clone().invert();
     const from = transform(inverse, eye);
-    isFound = isMet(from, minus(transform(inverse, point), from), most, one.geometry);
+    isFound = intersectsMesh(from, minus(transform(inverse, point), from), most, one.geometry);
   });
   return isFound;
 }

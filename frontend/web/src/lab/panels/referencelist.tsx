@@ -1,4 +1,4 @@
-/** References that are typed or opened as a list: steps line by line, a time series as CSV. */
+/** References as an edited or opened list: steps line by line, a time series as CSV. */
 import { text } from "../../core/text/en";
 import { MAX_LEVELS } from "./shapes";
 
