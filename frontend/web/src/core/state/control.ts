@@ -1,33 +1,39 @@
-/** The access of this page to the lab, and who is in control of the session. */
+/** Access of this page to the lab, and the control lease of the session. */
 import { computed, signal } from "@preact/signals";
 import { type Access, readAccess } from "../api/access";
-import { giveControlBack, handControlOver, lockControl, takeControl } from "../api/client";
-import { perform } from "./actions";
-import { nameForControl, personName, rememberPerson } from "./preferences";
+import {
+  deleteControl,
+  handControlOver,
+  lockControl,
+  openPrivateSession,
+  takeControl,
+} from "../api/client";
+import { explain, perform, problem } from "./actions";
+import { nameForControl, personName, setPersonName } from "./preferences";
 import { isLive, session } from "./session";
 
-/** Null before the lab has reported it. */
+/** Null until the lab has reported it. */
 export const access = signal<Access | null>(null);
 
 /** Number of logins on this page, by a secret, a code or a token. */
-export const comings = signal(0);
+export const loginCount = signal(0);
 
 export const isClass = computed(() => access.value?.authentication === "class");
 export const isInstructor = computed(() => isClass.value && access.value?.role === "instructor");
 export const isObserver = computed(() => isClass.value && access.value?.role === "observer");
 
-/** Asks the lab; without an answer the previous one stays. */
-export async function learnAccess(): Promise<void> {
+/** Query the lab; without an answer the previous value stays. */
+export async function updateAccess(): Promise<void> {
   try {
     access.value = await readAccess();
   } catch {
-    // The stream says that the lab does not answer.
+    // The stream reports that the lab does not answer.
   }
 }
 
-// Who is in control of the session: every user, this page, or another client.
+// Holder of the control lease: none, this page, or another client.
 
-/** Also the control that shows why it was refused. */
+/** Name of the control that shows why it was rejected. */
 export const CONTROL_OF_SESSION = "control";
 
 export const control = computed(() => session.value?.control ?? null);
@@ -37,10 +43,10 @@ export const otherHolder = computed(() =>
   control.value === null || control.value.mine ? null : control.value.holder,
 );
 
-/** Who waits for control, in a class; null elsewhere. */
+/** The queue for control in a class; null otherwise. */
 export const queue = computed(() => session.value?.queue ?? null);
 
-/** No other client is in control; in a class the user must be the holder, or the instructor. */
+/** No other client is in control; in a class the user must be the holder or the instructor. */
 export const hasControl = computed(() => {
   if (isObserver.value) return false;
   if (queue.value === null || isInstructor.value) return otherHolder.value === null;
@@ -50,34 +56,35 @@ export const hasControl = computed(() => {
 /** Whether the server accepts commands of this page: connected, and no other client in control. */
 export const mayCommand = computed(() => isLive.value && hasControl.value);
 
-/** Whether the session takes a command: the loop of a bench answers to none before it ticks. */
+/** Whether the session accepts commands: the loop of a bench accepts none before its first tick. */
 export const takesCommands = computed(() => {
   const bench = session.value?.bench ?? null;
   return mayCommand.value && (bench === null || bench.loop.state === "ticking");
 });
 
-/** Whether the user is being asked before control is taken: for a name, or for a taking over. */
-export const isAsked = signal(false);
+/** Whether a dialog is open before control is taken: for a name, or to confirm taking over. */
+export const isControlDialogOpen = signal(false);
 
-/** Takes control at once where that needs no question. */
-export function wishControl(): void {
-  if (queue.peek() !== null) void askForControl();
-  else if (personName.peek().trim() === "" || otherHolder.peek() !== null) isAsked.value = true;
+/** Take control at once if no dialog is necessary. */
+export function requestControl(): void {
+  if (queue.peek() !== null) void joinControlQueue();
+  else if (personName.peek().trim() === "" || otherHolder.peek() !== null)
+    isControlDialogOpen.value = true;
   else void confirmControl(personName.peek());
 }
 
 export async function confirmControl(name: string): Promise<void> {
-  const by = nameForControl(name);
+  const clientName = nameForControl(name);
   const isTaken = await perform(CONTROL_OF_SESSION, () =>
-    takeControl(by, otherHolder.peek() !== null),
+    takeControl(clientName, otherHolder.peek() !== null),
   );
   if (!isTaken) return;
-  isAsked.value = false;
-  rememberPerson(by);
+  isControlDialogOpen.value = false;
+  setPersonName(clientName);
 }
 
-/** In a class one is known, and waits for one's turn; the instructor has it at once. */
-const askForControl = (): Promise<boolean> =>
+/** In a class the user's name is known: join the queue; the instructor gets control at once. */
+const joinControlQueue = (): Promise<boolean> =>
   perform(CONTROL_OF_SESSION, () =>
     takeControl(nameForControl(access.peek()?.name ?? ""), isInstructor.peek()),
   );
@@ -88,4 +95,16 @@ export const handOver = (to: string): Promise<boolean> =>
 export const lock = (isLocked: boolean): Promise<boolean> =>
   perform(CONTROL_OF_SESSION, () => lockControl(isLocked));
 
-export const leaveControl = (): Promise<boolean> => perform(CONTROL_OF_SESSION, giveControlBack);
+/** Continues in a session that no other user commands; the page is reloaded with it. */
+export async function openOwnSession(arm = ""): Promise<void> {
+  problem.value = null;
+  try {
+    const search = new URLSearchParams(location.search);
+    search.set("session", await openPrivateSession(arm));
+    location.search = String(search);
+  } catch (error) {
+    problem.value = { control: CONTROL_OF_SESSION, message: explain(error) };
+  }
+}
+
+export const releaseControl = (): Promise<boolean> => perform(CONTROL_OF_SESSION, deleteControl);

@@ -1,7 +1,10 @@
-/** Previous settings, references and loads: one step per change, of any user. */
+/** Undo of settings, references and loads: one step per change, of any user. */
 import { effect, signal } from "@preact/signals";
+import type { ArmPatch, Joint } from "../../core/api/arm";
 import {
   addLoad,
+  forJoint,
+  patchArm,
   putEffects,
   putGains,
   putLane,
@@ -24,6 +27,8 @@ import type {
   SessionState,
 } from "../../core/api/types";
 import { perform } from "../../core/state/actions";
+import { findChanges, isEqual } from "../../core/state/changes";
+import { armOf, settingsOfJoint } from "../../core/state/joints";
 import {
   comparisonLanes,
   comparisonLaws,
@@ -34,61 +39,94 @@ import { isRealBench } from "../../core/state/plant";
 import { session } from "../../core/state/session";
 
 const MAX_STEPS = 50;
+const JOINTS: readonly Joint[] = [1, 2];
 
-/** parameters: by law. comparisons: by the identity of the lane. loads: those that stay, of run `run`. */
-interface Design {
+/** Settings of the single joint, or of a joint of an arm. parameters: by law. */
+interface JointDesign {
   law: Law;
   effects: Effects;
   references: Pick<Configuration, "position" | "stiffness">;
-  run: number;
-  loads: readonly Load[];
   position: readonly number[];
   stiffness: readonly number[];
   observer: readonly [number, number, number];
   parameters: Readonly<Record<string, Record<string, unknown>>>;
+}
+
+/** joint: of an arm; null at its tip, and for a single joint. */
+interface PlacedLoad {
+  load: Load;
+  joint: Joint | null;
+}
+
+/**
+ * joints: one, or two of an arm. arm: its own settings; {} for a single joint. comparisons: by the
+ * identity of the lane. loads: those that act on run `run`.
+ */
+interface Design {
+  joints: readonly JointDesign[];
+  arm: Pick<ArmPatch, "feedforward" | "adaptation" | "tip">;
+  run: number;
+  loads: readonly PlacedLoad[];
   comparisons: Readonly<Record<string, Lane>>;
 }
 
 export const steps = signal<readonly Design[]>([]);
 
-let known: Design | null = null;
+let lastDesign: Design | null = null;
 let isUndoing = false;
 
-/** The loads that software can remove: one on a real bench hangs there, and a pulse ends itself. */
-const stayingLoads = ({ bench, loads }: SessionState): LoadRow[] =>
+/**
+ * Loads that software can remove: a real mass must be removed by hand, and a pulse ends
+ * automatically.
+ */
+const undoableLoads = ({ bench, loads }: SessionState): LoadRow[] =>
   isRealBench(bench) ? [] : loads.filter(({ end_s: endS }) => endS === null);
 
-/** When it came is not part of what it is. */
-const loadOf = ({ load }: LoadRow): Load => ({ ...load, start_s: null });
+/** The onset time is not part of the identity. */
+const loadOf = ({ load, joint }: LoadRow): PlacedLoad => ({
+  load: { ...load, start_s: null },
+  joint: joint as Joint | null,
+});
 
-export function designOf(state: SessionState): Design {
-  const { law, effects, position, stiffness, gains, observer, parameters } = state.configuration;
+function designOfJoint({ configuration }: Pick<SessionState, "configuration">): JointDesign {
+  const { law, effects, position, stiffness, gains, observer, parameters } = configuration;
   return {
     law,
     effects,
     references: { position, stiffness },
-    run: state.run_number,
-    loads: stayingLoads(state).map(loadOf),
     position: gains.position_coefficients,
     stiffness: gains.stiffness_coefficients,
     observer: observer.bandwidth_rad_per_s,
     parameters,
+  };
+}
+
+/** The session with the settings of each joint. */
+const listJoints = (state: SessionState): SessionState[] =>
+  armOf(state) === null ? [state] : JOINTS.map((joint) => settingsOfJoint(state, joint));
+
+export function designOf(state: SessionState): Design {
+  const { feedforward, adaptation, tip } = armOf(state) ?? {};
+  return {
+    joints: listJoints(state).map(designOfJoint),
+    arm: armOf(state) === null ? {} : ({ feedforward, adaptation, tip } as Design["arm"]),
+    run: state.run_number,
+    loads: undoableLoads(state).map(loadOf),
     comparisons: Object.fromEntries(
       comparisonLanes(state).map(({ id, controller }) => [id, controller]),
     ),
   };
 }
 
-const isEqual = (one: unknown, other: unknown): boolean =>
-  JSON.stringify(one) === JSON.stringify(other);
-
-/** The laws that both designs know, and that are set differently. */
-const changedLaws = (one: Design, other: Design): string[] =>
+/** Laws of both designs with different settings. */
+const changedLaws = (one: JointDesign, other: JointDesign): string[] =>
   Object.keys(one.parameters).filter(
     (law) => law in other.parameters && !isEqual(one.parameters[law], other.parameters[law]),
   );
 
-/** The lanes that both designs have, set differently; under another law if settings went. */
+/**
+ * Lanes of both designs with different settings; if the law differs, only if settings were lost.
+ */
 const changedLanes = (one: Design, other: Design): string[] =>
   Object.keys(one.comparisons).filter((id) => {
     const [held, now] = [one.comparisons[id], other.comparisons[id]];
@@ -96,66 +134,79 @@ const changedLanes = (one: Design, other: Design): string[] =>
     return held.law === now.law || hasOwnSettings(held);
   });
 
-/** The lanes with settings of their own that are no more. */
+/** Removed lanes that had their own settings. */
 const lostLanes = (one: Design, other: Design): string[] =>
   Object.keys(one.comparisons).filter(
     (id) => other.comparisons[id] === undefined && hasOwnSettings(one.comparisons[id] as Lane),
   );
 
-/** Those of `some` that are not among `others`, each as often as it is missing. */
-function without<T>(some: readonly T[], others: readonly unknown[], read: (one: T) => unknown) {
-  const left = others.map((one) => JSON.stringify(one));
-  return some.filter((one) => {
-    const at = left.indexOf(JSON.stringify(read(one)));
-    if (at >= 0) left.splice(at, 1);
+/** Elements of `minuend` that `subtrahend` lacks, with multiplicity. */
+function difference<T>(
+  minuend: readonly T[],
+  subtrahend: readonly unknown[],
+  read: (one: T) => unknown,
+) {
+  const unmatched = subtrahend.map((one) => JSON.stringify(one));
+  return minuend.filter((one) => {
+    const at = unmatched.indexOf(JSON.stringify(read(one)));
+    if (at >= 0) unmatched.splice(at, 1);
     return at < 0;
   });
 }
 
-/** A run that begins again begins without its loads: they do not come back with it. */
-const lostLoads = (one: Design, other: Design): Load[] =>
-  one.run === other.run ? without(one.loads, other.loads, (load) => load) : [];
+/** A restarted run has no loads: undo does not restore those of the previous run. */
+const lostLoads = (one: Design, other: Design): PlacedLoad[] =>
+  one.run === other.run ? difference(one.loads, other.loads, (load) => load) : [];
 
 const KEYS = ["law", "effects", "references", "position", "stiffness", "observer"] as const;
 
-const isOther = (key: (typeof KEYS)[number], one: Design, other: Design) =>
+const differs = (key: (typeof KEYS)[number], one: JointDesign, other: JointDesign) =>
   !isEqual(one[key], other[key]);
 
-/** Whether nothing that can be taken back differs: a lane without settings of its own is not. */
+const isSameJoint = (one: JointDesign, other: JointDesign | undefined): boolean =>
+  other !== undefined &&
+  !KEYS.some((key) => differs(key, one, other)) &&
+  changedLaws(one, other).length === 0;
+
+/**
+ * Whether no undoable difference exists: removing a lane without its own settings is not undoable.
+ */
 export const isSame = (one: Design, other: Design): boolean =>
-  !KEYS.some((key) => isOther(key, one, other)) &&
+  one.joints.every((joint, index) => isSameJoint(joint, other.joints[index])) &&
+  isEqual(one.arm, other.arm) &&
   lostLoads(one, other).length === 0 &&
   lostLoads(other, one).length === 0 &&
-  changedLaws(one, other).length === 0 &&
   changedLanes(one, other).length === 0 &&
   lostLanes(one, other).length === 0;
 
-/** The steps after a change to `next`: the one before it is kept. */
-function keepStep(kept: readonly Design[], before: Design): Design[] {
+/** The steps after a change to `next`: the previous state is added. */
+function appendStep(kept: readonly Design[], before: Design): Design[] {
   return [...kept, before].slice(-MAX_STEPS);
 }
 
 export function watchDesign(): void {
   effect(() => {
     const state = session.value;
-    // The excitation brings back automatically what it replaces.
+    // Ending the excitation restores the references that it replaced.
     if (state === null || state.excitation) return;
     const design = designOf(state);
-    if (known !== null && !isSame(known, design) && !isUndoing) {
-      steps.value = keepStep(steps.peek(), known);
+    if (lastDesign !== null && !isSame(lastDesign, design) && !isUndoing) {
+      steps.value = appendStep(steps.peek(), lastDesign);
     }
-    known = design;
+    lastDesign = design;
   });
 }
 
-/** The calls that bring a design back: one for each part that differs from what is there now. */
-export function callsBack(design: Design, state: SessionState): (() => Promise<SessionState>)[] {
-  const now = designOf(state);
-  const calls: (() => Promise<SessionState>)[] = [];
-  if (isOther("law", design, now)) {
+type Request = () => Promise<SessionState>;
+
+/** The requests that restore the settings of a joint, whose settings `state` has. */
+function restoreJoint(design: JointDesign, state: SessionState): Request[] {
+  const now = designOfJoint(state);
+  const calls: Request[] = [];
+  if (differs("law", design, now)) {
     calls.push(() => putLaw(design.law, comparisonLaws(design.law, state)));
   }
-  if (isOther("effects", design, now)) {
+  if (differs("effects", design, now)) {
     calls.push(() => putEffects(design.effects));
   }
   if (!isEqual(design.references.position, now.references.position)) {
@@ -164,50 +215,70 @@ export function callsBack(design: Design, state: SessionState): (() => Promise<S
   if (!isEqual(design.references.stiffness, now.references.stiffness)) {
     calls.push(() => putStiffness(design.references.stiffness));
   }
-  const lost = lostLanes(design, now).map((id) => design.comparisons[id] as Lane);
-  if (lost.length > 0) calls.push(() => putLanes([...comparisonsOf(state), ...lost]));
-  if (isOther("position", design, now) || isOther("stiffness", design, now)) {
+  if (differs("position", design, now) || differs("stiffness", design, now)) {
     const [c0, c1, c2, c3] = design.position as [number, number, number, number];
     const [s0, s1] = design.stiffness as [number, number];
     calls.push(() =>
       putGains({ position_coefficients: [c0, c1, c2, c3], stiffness_coefficients: [s0, s1] }),
     );
   }
-  if (isOther("observer", design, now)) calls.push(() => putObserver(...design.observer));
+  if (differs("observer", design, now)) calls.push(() => putObserver(...design.observer));
   for (const law of changedLaws(design, now)) {
     calls.push(() => putParameters({ [law]: design.parameters[law] ?? {} }));
   }
+  return calls;
+}
+
+/** The requests that restore a design: one for each part that differs from the present one. */
+export function restoringRequests(design: Design, state: SessionState): Request[] {
+  const now = designOf(state);
+  if (design.joints.length !== now.joints.length) return [];
+  const calls = listJoints(state).flatMap((settings, index) => {
+    const joint = armOf(state) === null ? null : (JOINTS[index] as Joint);
+    const ofJoint = restoreJoint(design.joints[index] as JointDesign, settings);
+    return ofJoint.map((call) => () => forJoint(joint, call));
+  });
+  if (!isEqual(design.arm, now.arm)) {
+    const patch = () => patchArm(findChanges(design.arm, now.arm));
+    // Joints accept a reference only while the tip has none.
+    if (design.arm.tip) calls.push(patch);
+    else calls.unshift(patch);
+  }
+  const lost = lostLanes(design, now).map((id) => design.comparisons[id] as Lane);
+  if (lost.length > 0) calls.push(() => putLanes([...comparisonsOf(state), ...lost]));
   for (const id of changedLanes(design, now)) {
     const lane = comparisonLanes(state).find((one) => String(one.id) === id)?.lane;
     if (lane !== undefined) calls.push(() => putLane(lane, design.comparisons[id] as Lane));
   }
   // Last: a load changes the revision that settings are sent with.
-  for (const load of lostLoads(design, now)) calls.push(() => addLoad(load));
+  for (const { load, joint } of lostLoads(design, now)) {
+    calls.push(() => forJoint(joint, () => addLoad(load)));
+  }
   if (design.run === now.run) {
-    for (const { id } of without(stayingLoads(state), design.loads, loadOf)) {
+    for (const { id } of difference(undoableLoads(state), design.loads, loadOf)) {
       calls.push(() => removeLoad(id).then(readState));
     }
   }
   return calls;
 }
 
-async function bringBack(design: Design, state: SessionState): Promise<SessionState> {
+async function restoreDesign(design: Design, state: SessionState): Promise<SessionState> {
   let reached = state;
-  for (const call of callsBack(design, state)) reached = await call();
+  for (const call of restoringRequests(design, state)) reached = await call();
   return reached;
 }
 
-/** Restores design, loads and lanes of a state; the run continues. */
+/** Restore design, loads and lanes of a state; the run continues. */
 export const restoreTo = (before: SessionState): Promise<boolean> =>
   perform("session", async () => {
-    // The page may know less than the server: answers of a session at rest can overtake each other.
+    // The page may be out of date: answers of a paused session can overtake each other.
     const state = await readState();
     const lanes = comparisonsOf(before);
     const reached = isEqual(lanes, comparisonsOf(state)) ? state : await putLanes(lanes);
-    return bringBack({ ...designOf(before), comparisons: {} }, reached);
+    return restoreDesign({ ...designOf(before), comparisons: {} }, reached);
   });
 
-/** A lane that is brought back is another one to the server: earlier steps learn its identity. */
+/** A restored lane has a new identity on the server: earlier steps are updated to it. */
 function renameLanes(design: Design, names: ReadonlyMap<string, string>): Design {
   const comparisons = Object.entries(design.comparisons).map(([id, lane]) => [
     names.get(id) ?? id,
@@ -216,18 +287,18 @@ function renameLanes(design: Design, names: ReadonlyMap<string, string>): Design
   return { ...design, comparisons: Object.fromEntries(comparisons) };
 }
 
-/** Back by one step, past those that have nothing left; resolves false where the server refused. */
+/** Undo one step, skipping those without a difference; resolves false if the server rejected it. */
 export async function undo(): Promise<boolean> {
   const state = session.peek();
   if (state === null || isUndoing) return false;
-  steps.value = steps.peek().filter((step) => callsBack(step, state).length > 0);
+  steps.value = steps.peek().filter((step) => restoringRequests(step, state).length > 0);
   const last = steps.peek().at(-1);
   if (last === undefined) return false;
   const lost = lostLanes(last, designOf(state));
   let back: string[] = [];
   isUndoing = true;
   const isDone = await perform("design.undo", async () => {
-    const reached = await bringBack(last, state);
+    const reached = await restoreDesign(last, state);
     if (lost.length > 0) back = Object.keys(designOf(reached).comparisons).slice(-lost.length);
     return reached;
   });

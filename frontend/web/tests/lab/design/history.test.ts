@@ -9,12 +9,14 @@ const NONE = { friction: null };
 
 interface Row {
   id: number;
+  joint: number | null;
   end_s: number | null;
   load: { kind: string; start_s: number | null };
 }
 
 const row = (id: number, kind: string, endS: number | null = null): Row => ({
   id,
+  joint: null,
   end_s: endS,
   load: { kind, start_s: id },
 });
@@ -53,9 +55,11 @@ beforeEach(() => {
   });
 });
 
-/** What is sent to come back from one state to another. */
+/** The requests that lead back from one state to another. */
 async function back(to: SessionState, from: SessionState) {
-  const { callsBack, designOf } = await import("../../../src/lab/design/history");
+  const { restoringRequests: callsBack, designOf } = await import(
+    "../../../src/lab/design/history"
+  );
   for (const call of callsBack(designOf(to), from)) await call();
   return sent.filter(([method]) => method.toLowerCase() !== "get");
 }
@@ -110,5 +114,45 @@ it("the motion of an identification is no step: it brings back what it replaced"
   session.value = stateOf({});
   expect(steps.value).toEqual([]);
   session.value = stateOf({ law: "fl" });
-  expect(steps.value.map(({ law }) => law)).toEqual(["ndobc"]);
+  expect(steps.value.map(({ joints }) => joints[0]?.law)).toEqual(["ndobc"]);
+});
+
+const MOTION = { kind: "constant", value_rad: 0.1 };
+
+/** A session of an arm. */
+function armOf(second: object, parts: object = {}, loads: Row[] = []): SessionState {
+  const { configuration: joint2 } = stateOf(second);
+  return stateOf(
+    { arm: { feedforward: false, adaptation: null, tip: null, joint2, ...parts } },
+    loads,
+  );
+}
+
+it("each joint of an arm has its settings back, and the loads on it", async () => {
+  const load = {
+    ...row(1, "constant"),
+    joint: 2,
+    load: { kind: "constant", torque_nm: [1, 0, 0] },
+  };
+  const before = armOf({}, {}, [load as unknown as Row]);
+  const after = armOf({ law: "fl", position: MOTION }, { feedforward: true });
+  const calls = await back(before, after);
+  expect(calls.map(([, path, body]) => [path, body])).toEqual([
+    ["/arm", { feedforward: false }],
+    ["/law?joint=2", { law: "ndobc" }],
+    ["/position?joint=2", REFERENCES.position],
+    ["/loads?joint=2", { ...load.load, start_s: null }],
+  ]);
+});
+
+it("a joint has its reference back while the tip has none", async () => {
+  const tip = { kind: "ellipse" };
+  const plain = armOf({});
+  const led = armOf({ position: MOTION }, { tip });
+  const paths = async (to: SessionState, from: SessionState) => {
+    sent = [];
+    return (await back(to, from)).map(([, path]) => path);
+  };
+  expect(await paths(plain, led)).toEqual(["/arm", "/position?joint=2"]);
+  expect(await paths(led, plain)).toEqual(["/position?joint=2", "/arm"]);
 });
